@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "gpu_shading/device.h"
+#include "gpu_shading/scene.h"
+#include "gpu_shading/sun_direction.h"
+
+namespace gpu_shading {
+
+struct RendererOptions {
+  DeviceChoice device;
+  int resolution = 512;  // pixels a side of a receiver's tile, 1 .. DeviceInfo::max_resolution
+};
+
+// What the sun sees of one receiver.
+struct Sunlit {
+  // Projected sunlit surface area (PSSA), m2 normal to the beam: the receiver's exact projected area
+  // times its lit share of its own pixels. 0 where it is turned away from the sun.
+  double projected_area = 0.0;
+  // The same by plain pixel counting, N x Ap (Jones et al. 2012), for comparison.
+  double pixel_counted_area = 0.0;
+};
+
+struct RendererStatistics {
+  std::size_t directions = 0;       // calls of projected_sunlit_areas
+  std::size_t receivers_drawn = 0;  // receiver and direction pairs that had a caster in view
+  std::size_t receivers_clear = 0;  // pairs answered exactly: lit, with nothing in view
+  std::size_t casters_drawn = 0;    // over all drawn pairs
+  double seconds = 0.0;             // wall time spent in the renderer
+};
+
+// An 8-bit image, rows from the top.
+struct Image {
+  int width = 0;
+  int height = 0;
+  int channels = 3;
+  std::vector<std::uint8_t> pixels;
+};
+
+// Draws receivers as the sun sees them. Holds an EGL context of its own: one thread at a time, but any
+// thread. Every function throws DeviceError when the device fails; no answer is ever made up.
+//
+// Method: pixel counting after Jones, Greenberg & Pratt (2012), PSSF = N Ap / At. The receiver's plane
+// is the image plane: casters are clipped at it and slid along the sun's rays onto it, which is the
+// parallel projection of the sun's view followed by an affine map, so that lit shares are the same and
+// the receiver keeps the same pixels at every direction. The pixel lattice is turned against the
+// receiver's longest edge by an angle of golden slope, so that edges parallel to it do not line up with
+// rows of pixels.
+class Renderer {
+ public:
+  // Throws Error when the resolution is out of range, DeviceError when the device cannot be had.
+  Renderer(Scene scene, RendererOptions options);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  Scene const& scene() const;
+  DeviceInfo const& device() const;
+  RendererStatistics const& statistics() const;
+
+  // One answer for each receiver, in order.
+  std::vector<Sunlit> projected_sunlit_areas(SunDirection sun, std::span<SurfaceId const> receivers);
+
+  // Projected areas (m2 normal to the beam) of each of `interiors` that the sun lights through `window`
+  // alone, behind the window's own casters; the nearest interior surface along a ray takes it. In the
+  // order of `interiors`; their sum is at most the window's projected sunlit area.
+  std::vector<double> interior_projected_sunlit_areas(SunDirection sun, SurfaceId window,
+                                                      std::span<SurfaceId const> interiors);
+
+  // What the sun sees of a receiver: lit receiver pixels yellow, shaded ones blue, casters grey by
+  // their tilt to the sun. World-up is up; `size` pixels on the longer side.
+  Image sun_view(SunDirection sun, SurfaceId receiver, int size);
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace gpu_shading

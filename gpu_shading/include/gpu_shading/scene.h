@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace gpu_shading {
+
+// Position of a surface in its scene, counted from 0 in the order of Scene::add.
+using SurfaceId = std::uint32_t;
+
+using Ring = std::vector<glm::dvec3>;
+
+// A planar polygon in metres; world axes, x east, y north, z up. The outline runs counter-clockwise
+// as seen from outside (the side that the sun may light); holes may run either way. Fewer than three
+// distinct vertices, or no area: the polygon neither casts nor receives. Non-convex is allowed; a
+// polygon that is not quite planar is taken at its Newell plane as a receiver and as it stands as a
+// caster.
+struct Polygon {
+  Ring outline;
+  std::vector<Ring> holes;
+};
+
+struct Surface {
+  std::string name;
+  Polygon polygon;
+};
+
+// Whether a caster counts for a receiver. Asked once for each pair, before the first direction.
+using ShadingRule = std::function<bool(SurfaceId receiver, SurfaceId caster)>;
+
+// Every surface that can cast or receive. Each one casts on every other, but where the rule says no;
+// a surface never shades itself.
+class Scene {
+ public:
+  SurfaceId add(Surface surface);
+
+  std::size_t size() const { return surfaces_.size(); }
+  Surface const& operator[](SurfaceId id) const { return surfaces_.at(id); }
+
+  void set_rule(ShadingRule rule) { rule_ = std::move(rule); }
+  bool may_shade(SurfaceId receiver, SurfaceId caster) const;
+
+ private:
+  std::vector<Surface> surfaces_;
+  ShadingRule rule_;
+};
+
+// Area of the outline less its holes (m2), and the outline's unit normal, both by Newell's method
+// (Sutherland, Sproull & Schumacker 1974). The zero vector for a degenerate polygon.
+double area(Polygon const& polygon);
+glm::dvec3 normal(Polygon const& polygon);
+
+}  // namespace gpu_shading
