@@ -1,0 +1,146 @@
+"""Runs EnergyPlus and says how it went."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+
+
+def official_prefix():
+    """The EnergyPlus that scripts/setup has fetched."""
+    return REPOSITORY / ".venv" / "EnergyPlus"
+
+
+def patched_prefix():
+    """The EnergyPlus that the build has made; GPU_SHADING_PREFIX names another."""
+    chosen = os.environ.get("GPU_SHADING_PREFIX")
+    build = os.environ.get("GPU_SHADING_BUILD", "build")
+    return Path(chosen) if chosen else REPOSITORY / build / "EnergyPlus"
+
+
+def models_folder():
+    """Where the collection of other people's models lies; may not exist."""
+    chosen = os.environ.get("GPU_SHADING_MODELS")
+    return Path(chosen) if chosen else REPOSITORY.parent / "shared" / "models"
+
+
+def find_weather(name):
+    """The path of a weather file given by path, or by name among the known folders."""
+    folders = (Path(), models_folder() / "weather", official_prefix() / "WeatherData")
+    for folder in folders:
+        if (folder / name).is_file():
+            return (folder / name).resolve()
+    raise FileNotFoundError(f"weather file {name}: found neither here nor in {folders[1]} nor in {folders[2]}")
+
+
+@dataclass
+class Run:
+    """One finished run. seconds is what EnergyPlus says it took, wall what the clock says."""
+
+    status: int
+    output: str
+    errors: str
+    folder: Path
+    wall: float
+    timed_out: bool = False
+
+    def text(self, name):
+        path = self.folder / name
+        return path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
+
+    @property
+    def completed(self):
+        return self.status == 0 and "Completed Successfully" in self.text("eplusout.end")
+
+    @property
+    def seconds(self):
+        found = re.search(r"Elapsed Time=(\d+)hr +(\d+)min +([\d.]+)sec", self.text("eplusout.end"))
+        if not found:
+            return self.wall
+        return int(found[1]) * 3600 + int(found[2]) * 60 + float(found[3])
+
+    @property
+    def severe(self):
+        """The severe and fatal errors, each with its continuation lines, in order."""
+        messages = []
+        for line in self.text("eplusout.err").splitlines():
+            if re.match(r" *\*\* +(Severe|Fatal) +\*\*", line):
+                messages.append(line.strip())
+            elif messages and line.lstrip().startswith("**   ~~~   **") and messages[-1] is not None:
+                messages[-1] += "\n" + line.strip()
+            elif messages:
+                messages.append(None)
+        return [message for message in messages if message]
+
+    @property
+    def method(self):
+        """The shading method that was in force, as EnergyPlus reports it, '' if it does not."""
+        found = re.search(r"^ *Shadowing/Sun Position Calculations Annual Simulations, *([^,\n]*)",
+                          self.text("eplusout.eio"), re.MULTILINE)  # fmt: skip
+        return found.group(1) if found else ""
+
+    @property
+    def our_lines(self):
+        """What our module had to say."""
+        lines = (self.errors + "\n" + self.text("eplusout.err")).splitlines()
+        found = (re.search(r"gpu_shading: .*", line) for line in lines)
+        return list(dict.fromkeys(match.group().strip() for match in found if match))
+
+    @property
+    def device(self):
+        """The device that rendered, in our module's words, '' if it did not say."""
+        for line in self.our_lines:
+            if re.search(r"render|device", line, re.IGNORECASE):
+                return line.removeprefix("gpu_shading: ")
+        return ""
+
+    def why(self):
+        """A short reason for a run that failed."""
+        if self.timed_out:
+            return f"stopped after {self.wall:.0f} s"
+        for line in [*self.severe, *reversed(self.errors.splitlines())]:
+            if line.strip():
+                return line.strip()
+        return f"exit status {self.status}"
+
+
+def run(program, model, weather, folder, options=(), environment=None, timeout=None, before=()):
+    """Runs `program options -w weather -d folder model`, with no display unless before gives one."""
+    folder = Path(folder)
+    if folder.exists():
+        shutil.rmtree(folder)
+    folder.mkdir(parents=True)
+    command = [*before, str(program), *options, "-w", str(weather), "-d", str(folder.resolve()),
+               str(Path(model).resolve())]  # fmt: skip
+    variables = {key: value for key, value in os.environ.items()
+                 if key != "DISPLAY" and not key.startswith("GPU_SHADING")}  # fmt: skip
+    variables |= environment or {}
+    began = time.monotonic()
+    # A session of its own, so that an X server started with the run ends with it.
+    with subprocess.Popen(command, cwd=folder, env=variables, start_new_session=True, text=True,
+                          errors="replace", stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:  # fmt: skip
+        timed_out = False
+        try:
+            output, errors = process.communicate(timeout=timeout)
+        except subprocess.TimeoutExpired:
+            timed_out = True
+            os.killpg(process.pid, signal.SIGKILL)
+            output, errors = process.communicate()
+        except BaseException:
+            os.killpg(process.pid, signal.SIGKILL)
+            raise
+    return Run(process.returncode, output, errors, folder, time.monotonic() - began, timed_out)
+
+
+def x_server_command():
+    """The words that give a command a virtual display, or None where that cannot be had."""
+    if shutil.which("xvfb-run") and shutil.which("xauth"):
+        return ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24"]
+    return None

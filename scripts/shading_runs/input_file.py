@@ -1,0 +1,184 @@
+"""Reads an IDF or epJSON file, and writes copies of it with a few things changed.
+
+All else is kept as it stands, comments and layout too: a copy has to be the user's model, not our
+reading of it. Class and field names are compared without regard to case, as EnergyPlus does.
+"""
+
+import copy
+import json
+import os
+import re
+from pathlib import Path
+
+# Fields that the scripts change: IDF position (0 is the first after the class name), epJSON name.
+SHADOW_METHOD = (0, "shading_calculation_method")
+SHADOW_UPDATE = (1, "shading_calculation_update_frequency_method")
+SHADOW_RESOLUTION = (5, "pixel_counting_resolution")
+RUN_DESIGN_DAYS = (3, "run_simulation_for_sizing_periods")
+RUN_WEATHER = (4, "run_simulation_for_weather_file_run_periods")
+
+
+def read(path):
+    """An InputFile of the kind that the name's ending tells."""
+    path = Path(path)
+    text = path.read_text(encoding="utf-8", errors="surrogateescape")
+    kind = EpJson if path.suffix.lower() == ".epjson" else Idf
+    return kind(text)
+
+
+class Idf:
+    """An IDF as text, with the places of its objects and fields."""
+
+    def __init__(self, text):
+        self.text = text
+        self._scan()
+
+    def _scan(self):
+        # Comments become blanks of the same length, so that places in both texts agree.
+        bare = re.sub(r"![^\n]*", lambda found: " " * len(found.group()), self.text)
+        self.objects = []  # (class in lower case, [(start, end) of each field], start, end)
+        start = 0
+        for end in (found.start() for found in re.finditer(";", bare)):
+            fields, at = [], start
+            for piece in bare[start:end].split(","):
+                left = at + len(piece) - len(piece.lstrip())
+                fields.append((left, max(left, at + len(piece.rstrip()))))
+                at += len(piece) + 1
+            name = bare[slice(*fields[0])].lower()
+            self.objects.append((name, fields[1:], fields[0][0], end + 1))
+            start = end + 1
+
+    def copy(self):
+        return copy.copy(self)
+
+    def classes(self):
+        return {name for name, _, _, _ in self.objects}
+
+    def field(self, class_name, field, default=""):
+        """A field of the first object of the class."""
+        for name, places, _, _ in self.objects:
+            if name == class_name.lower() and field[0] < len(places):
+                return self.text[slice(*places[field[0]])] or default
+        return default
+
+    def set_field(self, class_name, field, value):
+        """Sets a field of the first object of the class, which is made where there is none."""
+        for name, places, _, end in self.objects:
+            if name != class_name.lower():
+                continue
+            if field[0] < len(places):
+                start, stop = places[field[0]]
+                self._replace([(start, stop, value)])
+            else:
+                blanks = "," * (field[0] - len(places) + 1)
+                self._replace([(end - 1, end - 1, blanks + value)])
+            return
+        self.add(class_name, [""] * field[0] + [value])
+
+    def add(self, class_name, fields):
+        """Appends an object."""
+        self.text = self.text.rstrip("\n") + "\n" + ",".join([class_name, *map(str, fields)]) + ";\n"
+        self._scan()
+
+    def add_unique(self, class_name, fields, _names=()):
+        self.remove(lambda name: name == class_name.lower())
+        self.add(class_name, fields)
+
+    def add_output_variable(self, variable, frequency):
+        self.add("Output:Variable", ["*", variable, frequency])
+
+    def remove(self, is_unwanted):
+        """Takes out the objects whose class, in lower case, is_unwanted accepts."""
+        self._replace([(start, end, "") for name, _, start, end in self.objects if is_unwanted(name)])
+
+    def anchor_paths(self, folder):
+        """Makes fields absolute that name an existing file by a path through '..' from folder."""
+        edits = []
+        for _, places, _, _ in self.objects:
+            for start, end in places:
+                value = self.text[start:end]
+                if ".." in value and (folder / value).exists():
+                    edits.append((start, end, os.path.abspath(folder / value)))
+        self._replace(edits)
+
+    def write(self, path):
+        Path(path).write_text(self.text, encoding="utf-8", errors="surrogateescape")
+
+    def _replace(self, edits):
+        for start, end, value in sorted(edits, reverse=True):
+            self.text = self.text[:start] + value + self.text[end:]
+        self._scan()
+
+
+class EpJson:
+    """The same for epJSON; its layout is not kept, only its content."""
+
+    def __init__(self, text):
+        self.data = json.loads(text)
+
+    def copy(self):
+        other = copy.copy(self)
+        other.data = copy.deepcopy(self.data)
+        return other
+
+    def _key(self, class_name):
+        return next((key for key in self.data if key.lower() == class_name.lower()), None)
+
+    def classes(self):
+        return {name.lower() for name in self.data}
+
+    def field(self, class_name, field, default=""):
+        key = self._key(class_name)
+        first = next(iter(self.data[key].values()), {}) if key else {}
+        return str(first.get(field[1], "")) or default
+
+    def set_field(self, class_name, field, value):
+        key = self._key(class_name) or class_name
+        objects = self.data.setdefault(key, {})
+        if not objects:
+            objects[f"{class_name} 1"] = {}
+        first = next(iter(objects.values()))
+        first[field[1]] = int(value) if re.fullmatch(r"\d+", value) else value
+
+    def add_unique(self, class_name, fields, names=()):
+        self.remove(lambda name: name == class_name.lower())
+        self.data[class_name] = {f"{class_name} 1": dict(zip(names, fields, strict=True))}
+
+    def add_output_variable(self, variable, frequency):
+        objects = self.data.setdefault(self._key("Output:Variable") or "Output:Variable", {})
+        objects[f"compare_shading {len(objects)}"] = {
+            "key_value": "*",
+            "variable_name": variable,
+            "reporting_frequency": frequency,
+        }
+
+    def remove(self, is_unwanted):
+        for key in [key for key in self.data if is_unwanted(key.lower())]:
+            del self.data[key]
+
+    def anchor_paths(self, folder):
+        for objects in self.data.values():
+            for fields in objects.values():
+                for name, value in fields.items():
+                    if isinstance(value, str) and ".." in value and (folder / value).exists():
+                        fields[name] = os.path.abspath(folder / value)
+
+    def write(self, path):
+        Path(path).write_text(json.dumps(self.data, indent=1), encoding="utf-8")
+
+
+def place_copy(model, original, folder):
+    """Writes model into folder under the original's name, with links to all that lies beside the original.
+
+    Relative paths in the model, and a side file MODEL.gpu-shading.idf, are found there as before.
+    """
+    original, folder = Path(original).resolve(), Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    for entry in original.parent.iterdir():
+        target = folder / entry.name
+        if entry != original and not target.is_symlink():
+            target.symlink_to(entry)
+    model = model.copy()
+    model.anchor_paths(original.parent)
+    model.write(folder / original.name)
+    return folder / original.name

@@ -1,0 +1,143 @@
+"""Reads sunlit fractions and transmitted solar radiation out of eplusout.sql, and compares runs."""
+
+import sqlite3
+from array import array
+from dataclasses import dataclass, field
+from pathlib import Path
+
+SUNLIT = "Surface Outside Face Sunlit Fraction"
+COSINE = "Surface Outside Face Beam Solar Incident Angle Cosine Value"
+SOLAR = "Surface Window Transmitted Solar Radiation Energy"
+BEAM = "Surface Window Transmitted Beam Solar Radiation Energy"
+VARIABLES = (SUNLIT, COSINE, SOLAR, BEAM)
+J_PER_KWH = 3.6e6
+
+# Sunlit fractions are compared only where the sun stands higher than this over the receiver's plane:
+# below, an hour's mean mixes steps in front of and behind the plane.
+FACING = 1e-3
+
+
+def instrument(model, frequency="Hourly"):
+    """Adds to an input file the outputs that Results reads."""
+    model.add_unique("Output:SQLite", ["Simple"], ["option_type"])
+    model.remove(lambda name: name == "outputcontrol:files")
+    for variable in VARIABLES:
+        model.add_output_variable(variable, frequency)
+
+
+@dataclass
+class Receiver:
+    """An exterior surface of the building; azimuth and tilt in degrees, area in m2."""
+
+    name: str
+    kind: str
+    area: float
+    azimuth: float
+    tilt: float
+
+
+class Results:
+    """All values of one run: values[variable][receiver name] is an array over times."""
+
+    def __init__(self, folder, frequency="Hourly"):
+        path = Path(folder) / "eplusout.sql"
+        if not path.is_file():
+            raise FileNotFoundError(f"{path} was not written")
+        with sqlite3.connect(f"file:{path}?mode=ro", uri=True) as data:
+            self._read(data, frequency)
+        data.close()
+
+    def _read(self, data, frequency):
+        self.receivers = {
+            name: Receiver(name, kind, area, azimuth, tilt)
+            for name, kind, area, azimuth, tilt in data.execute(
+                "SELECT SurfaceName, ClassName, Area, Azimuth, Tilt FROM Surfaces "
+                "WHERE ExtSolar = 1 AND HeatTransferSurf = 1 AND Area > 0 ORDER BY SurfaceIndex"
+            )
+        }
+        column = {}  # data dictionary index -> (variable, receiver)
+        for index, variable, key in data.execute(
+            "SELECT ReportDataDictionaryIndex, Name, KeyValue FROM ReportDataDictionary "
+            f"WHERE ReportingFrequency = ? AND Name IN ({','.join('?' * len(VARIABLES))}) "
+            "ORDER BY ReportDataDictionaryIndex DESC",
+            (frequency, *VARIABLES),
+        ):
+            column[index] = (variable, key)
+        self.values = {variable: {} for variable in VARIABLES}
+        target = {}
+        for index, (variable, key) in column.items():
+            if key in self.receivers:
+                # A model that asked for the same output has it twice; the later entry replaces the other.
+                target[index] = self.values[variable][key] = array("d")
+        time_indices = {}
+        for time_index, index, value in data.execute(
+            "SELECT TimeIndex, ReportDataDictionaryIndex, Value FROM ReportData ORDER BY ReportDataIndex"
+        ):
+            if index in target:
+                target[index].append(value)
+                time_indices[time_index] = None
+        environments = dict(data.execute("SELECT EnvironmentPeriodIndex, EnvironmentName FROM EnvironmentPeriods"))
+        rows = {row[0]: row[1:] for row in data.execute(
+            "SELECT TimeIndex, EnvironmentPeriodIndex, Month, Day, Hour, Minute, WarmupFlag FROM Time")}  # fmt: skip
+        # A warm-up flag can only be set with Output:Diagnostics, ReportDuringWarmup.
+        self.times = [(environments.get(rows[i][0], "?"), *rows[i][1:5]) for i in time_indices]
+        self.is_warmup = [bool(rows[i][5]) for i in time_indices]
+
+    def sun_up(self, receiver):
+        """Places in time at which the sun stands before the receiver."""
+        cosines = self.values[COSINE].get(receiver, ())
+        return [i for i, cosine in enumerate(cosines) if cosine > FACING and not self.is_warmup[i]]
+
+    def total(self, variable, receiver=None):
+        """The run's sum of an energy in kWh, of one window or of all."""
+        columns = self.values[variable]
+        chosen = columns.values() if receiver is None else [columns.get(receiver, ())]
+        return sum(sum(values) for values in chosen) / J_PER_KWH
+
+
+@dataclass
+class Difference:
+    """Sunlit fraction of a run less that of the reference, for one receiver, where the sun faces it."""
+
+    receiver: Receiver
+    times: list = field(default_factory=list)
+    values: list = field(default_factory=list)
+    reference: list = field(default_factory=list)
+
+    @property
+    def mean(self):
+        return sum(map(abs, self.values)) / len(self.values) if self.values else 0.0
+
+    @property
+    def largest(self):
+        return max(map(abs, self.values), default=0.0)
+
+
+def differences(reference, other):
+    """A Difference for every receiver that has the sun before it at some time."""
+    if reference.times != other.times:
+        raise ValueError(f"the runs do not cover the same times ({len(reference.times)}, {len(other.times)})")
+    found = []
+    for name, receiver in reference.receivers.items():
+        before, after = reference.values[SUNLIT].get(name), other.values[SUNLIT].get(name)
+        if before is None or after is None:
+            continue
+        times = reference.sun_up(name)
+        if times:
+            found.append(Difference(receiver, times, [after[i] - before[i] for i in times],
+                                    [before[i] for i in times]))  # fmt: skip
+    return found
+
+
+def percentile(values, share):
+    """The value below which the share of the values lies, by the nearest rank."""
+    ordered = sorted(values)
+    return ordered[min(len(ordered) - 1, max(0, round(share * len(ordered)) - 1))] if ordered else 0.0
+
+
+def summary(found):
+    """(mean, 99th percentile, max) of |difference| over all receivers and hours."""
+    values = [abs(value) for difference in found for value in difference.values]
+    if not values:
+        return 0.0, 0.0, 0.0
+    return sum(values) / len(values), percentile(values, 0.99), max(values)
