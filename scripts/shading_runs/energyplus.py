@@ -82,7 +82,7 @@ class Run:
     def method(self):
         """The shading method that was in force, as EnergyPlus reports it, '' if it does not."""
         found = re.search(r"^ *Shadowing/Sun Position Calculations Annual Simulations, *([^,\n]*)",
-                          self.text("eplusout.eio"), re.MULTILINE)  # fmt: skip
+                          self.text("eplusout.eio"), re.MULTILINE)
         return found.group(1) if found else ""
 
     @property
@@ -117,15 +117,15 @@ def run(program, model, weather, folder, options=(), environment=None, timeout=N
         shutil.rmtree(folder)
     folder.mkdir(parents=True)
     command = [*before, str(program), *options, "-w", str(weather), "-d", str(folder.resolve()),
-               str(Path(model).resolve())]  # fmt: skip
+               str(Path(model).resolve())]
     variables = {key: value for key, value in os.environ.items()
-                 if key != "DISPLAY" and not key.startswith("GPU_SHADING")}  # fmt: skip
+                 if key != "DISPLAY" and not key.startswith("GPU_SHADING")}
     variables |= environment or {}
     began = time.monotonic()
     # A session of its own, so that an X server started with the run ends with it.
     with subprocess.Popen(command, cwd=folder, env=variables, start_new_session=True, text=True,
                           errors="replace", stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:  # fmt: skip
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         timed_out = False
         try:
             output, errors = process.communicate(timeout=timeout)

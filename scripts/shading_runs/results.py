@@ -78,7 +78,7 @@ class Results:
                 time_indices[time_index] = None
         environments = dict(data.execute("SELECT EnvironmentPeriodIndex, EnvironmentName FROM EnvironmentPeriods"))
         rows = {row[0]: row[1:] for row in data.execute(
-            "SELECT TimeIndex, EnvironmentPeriodIndex, Month, Day, Hour, Minute, WarmupFlag FROM Time")}  # fmt: skip
+            "SELECT TimeIndex, EnvironmentPeriodIndex, Month, Day, Hour, Minute, WarmupFlag FROM Time")}
         # A warm-up flag can only be set with Output:Diagnostics, ReportDuringWarmup.
         self.times = [(environments.get(rows[i][0], "?"), *rows[i][1:5]) for i in time_indices]
         self.is_warmup = [bool(rows[i][5]) for i in time_indices]
@@ -125,7 +125,7 @@ def differences(reference, other):
         times = reference.sun_up(name)
         if times:
             found.append(Difference(receiver, times, [after[i] - before[i] for i in times],
-                                    [before[i] for i in times]))  # fmt: skip
+                                    [before[i] for i in times]))
     return found
 
 
