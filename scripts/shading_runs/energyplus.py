@@ -86,6 +86,11 @@ class Run:
         return found.group(1) if found else ""
 
     @property
+    def gave_up_on_overlaps(self):
+        """True where polygon clipping met more overlapping shadows than it can hold: its answer is wrong then."""
+        return "Too many figures" in self.text("eplusout.err")
+
+    @property
     def our_lines(self):
         """What our module had to say."""
         lines = (self.errors + "\n" + self.text("eplusout.err")).splitlines()

@@ -1,0 +1,80 @@
+#include "binary/symbol_table.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <gelf.h>
+#include <libelf.h>
+#include <unistd.h>
+
+#include <memory>
+
+#include "gpu_shading/error.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+class FileDescriptor {
+ public:
+  explicit FileDescriptor(char const* path) : value_(open(path, O_RDONLY | O_CLOEXEC)) {}
+  ~FileDescriptor() {
+    if (value_ >= 0) close(value_);
+  }
+  FileDescriptor(FileDescriptor const&) = delete;
+  FileDescriptor& operator=(FileDescriptor const&) = delete;
+  int get() const { return value_; }
+
+ private:
+  int value_;
+};
+
+using ElfHandle = std::unique_ptr<Elf, decltype(&elf_end)>;
+
+GElf_Shdr header_of(Elf_Scn* section) {
+  GElf_Shdr header{};
+  gelf_getshdr(section, &header);
+  return header;
+}
+
+Elf_Scn* find_symbol_section(Elf* elf) {
+  for (Elf_Scn* section = nullptr; (section = elf_nextscn(elf, section)) != nullptr;) {
+    if (header_of(section).sh_type == SHT_SYMTAB) return section;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+SymbolTable::SymbolTable(std::filesystem::path library, std::byte* base)
+    : library_(std::move(library)) {
+  elf_version(EV_CURRENT);
+  FileDescriptor const file(library_.c_str());
+  ElfHandle const elf(elf_begin(file.get(), ELF_C_READ_MMAP, nullptr), &elf_end);
+  if (!elf) throw Error(fmt::format("{}: cannot be read as an ELF file", library_.string()));
+  Elf_Scn* const section = find_symbol_section(elf.get());
+  if (section == nullptr) {
+    throw Error(fmt::format("{}: has no symbol table (stripped), so its shading interface cannot be "
+                            "found",
+                            library_.string()));
+  }
+  GElf_Shdr const header = header_of(section);
+  Elf_Data* const data = elf_getdata(section, nullptr);
+  auto const count = static_cast<int>(header.sh_size / header.sh_entsize);
+  for (int i = 0; i < count; ++i) {
+    GElf_Sym symbol{};
+    gelf_getsym(data, i, &symbol);
+    if (GELF_ST_TYPE(symbol.st_info) != STT_FUNC || symbol.st_shndx == SHN_UNDEF) continue;
+    char const* const name = elf_strptr(elf.get(), header.sh_link, symbol.st_name);
+    Elf_Scn* const code = elf_getscn(elf.get(), symbol.st_shndx);
+    if (name == nullptr || code == nullptr) continue;
+    GElf_Shdr const code_header = header_of(code);
+    functions_.emplace(name, Symbol{base + symbol.st_value, symbol.st_size,
+                                    symbol.st_value - code_header.sh_addr + code_header.sh_offset});
+  }
+}
+
+Symbol const* SymbolTable::find(std::string_view name) const {
+  auto const found = functions_.find(std::string(name));
+  return found == functions_.end() ? nullptr : &found->second;
+}
+
+}  // namespace gpu_shading::energyplus

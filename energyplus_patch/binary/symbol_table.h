@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+namespace gpu_shading::energyplus {
+
+// A function of a loaded library.
+struct Symbol {
+  std::byte* address = nullptr;  // in this process
+  std::size_t size = 0;
+  std::uint64_t file_offset = 0;  // of its code in the library's file
+};
+
+// The functions of a loaded shared library by their mangled names, local ones included: read from
+// .symtab of its file, which ELF keeps apart from the .dynsym that dlsym searches.
+class SymbolTable {
+ public:
+  // `base`: where the library is loaded. Throws Error when the file cannot be read or is stripped.
+  SymbolTable(std::filesystem::path library, std::byte* base);
+
+  // Null when there is no such function.
+  Symbol const* find(std::string_view name) const;
+
+  std::filesystem::path const& library() const { return library_; }
+
+ private:
+  std::filesystem::path library_;
+  std::unordered_map<std::string, Symbol> functions_;
+};
+
+}  // namespace gpu_shading::energyplus

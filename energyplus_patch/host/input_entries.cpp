@@ -1,0 +1,147 @@
+#include "host/input_entries.h"
+
+#include <filesystem>
+#include <ios>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "host/run.h"
+#include "input/model_file.h"
+
+namespace gpu_shading::energyplus {
+
+// EnergyPlus's print of its line on shading, watched for the file that it goes to. Its arguments go on
+// untouched, in registers and on the stack, so it is entered by assembly.
+extern "C" {
+__attribute__((visibility("hidden"))) void* gpu_shading_original_print = nullptr;
+__attribute__((visibility("hidden"))) void gpu_shading_note_eio(std::ostream* eio) {
+  this_run().eio = eio;
+}
+__attribute__((naked)) void gpu_shading_watch_print();
+}
+
+__attribute__((naked)) void gpu_shading_watch_print() {
+  asm("push %rdi\n\t"
+      "push %rsi\n\t"
+      "push %rdx\n\t"
+      "push %rcx\n\t"
+      "push %r8\n\t"
+      "push %r9\n\t"
+      "sub $8, %rsp\n\t"
+      "call gpu_shading_note_eio\n\t"
+      "add $8, %rsp\n\t"
+      "pop %r9\n\t"
+      "pop %r8\n\t"
+      "pop %rcx\n\t"
+      "pop %rdx\n\t"
+      "pop %rsi\n\t"
+      "pop %rdi\n\t"
+      "jmp *gpu_shading_original_print(%rip)");
+}
+
+namespace {
+
+using Path = std::filesystem::path;
+
+void (*original_process_input)(void*, State&) = nullptr;
+std::string (*original_read_file)(Path const&, std::ios_base::openmode) = nullptr;
+nlohmann::json (*original_read_json)(Path const&, std::ios_base::openmode) = nullptr;
+void (*original_end)(State&) = nullptr;
+void (*original_abort)(State&) = nullptr;
+
+Rewrite rewrite_for(Options const& options) {
+  return {options.mode == Mode::off ? "PolygonClipping" : "PixelCounting",
+          options.every_timestep ? "Timestep" : ""};
+}
+
+// Understands the model and says what EnergyPlus shall read in its place.
+Rewrite take_model(std::vector<InputObject> objects, Path const& path) {
+  auto& run = this_run();
+  run.model = understand(std::move(objects), path, installation().choices);
+  if (run.model->options.mode != Mode::off) {
+    check_supported(run.model->shading, installation().version);
+  }
+  return rewrite_for(run.model->options);
+}
+
+// The state is handed over here, before the input is read.
+void process_input(void* self, State& state) {
+  this_run() = {};
+  this_run().state = &state;
+  original_process_input(self, state);
+}
+
+bool is_model(bool right_kind) {
+  auto const& run = this_run();
+  return right_kind && run.state != nullptr && !run.model;
+}
+
+std::string read_file(Path const& path, std::ios_base::openmode mode) {
+  auto text = original_read_file(path, mode);
+  if (!is_model(is_idf(path))) return text;
+  return guarded([&] { return rewrite_idf(text, take_model(read_idf(text), path)); });
+}
+
+// EnergyPlus's JSON value has the layout of ours: the library's, whose versions 3.x differ in none of
+// the members.
+nlohmann::json read_json(Path const& path, std::ios_base::openmode mode) {
+  auto json = original_read_json(path, mode);
+  if (!is_model(is_epjson(path))) return json;
+  return guarded([&] {
+    rewrite_epjson(json, take_model(read_epjson(json), path));
+    return std::move(json);
+  });
+}
+
+void finish_run() {
+  auto& run = this_run();
+  if (run.session == nullptr) return;
+  try {
+    run.session->finish();
+  } catch (std::exception const& error) {
+    print_line(std::string("error: ") + error.what());
+    installation().functions.warning(*run.state, std::string("gpu_shading: ") + error.what());
+  }
+  run.session = nullptr;
+}
+
+void end_energyplus(State& state) {
+  finish_run();
+  original_end(state);
+}
+
+void abort_energyplus(State& state) {
+  finish_run();
+  original_abort(state);
+}
+
+template <typename Function>
+Entry watch(char const* name, Function* ours, Function** original) {
+  return {name, reinterpret_cast<void*>(ours), reinterpret_cast<void**>(original)};
+}
+
+constexpr char const* print_shading_line =
+    "_ZN10EnergyPlus6vprintIJNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEES6_iiS6_jS6_S6_S6_S6_"
+    "EEEvRSoSt17basic_string_viewIcS4_EDpRKT_";
+
+}  // namespace
+
+std::vector<Entry> input_entries() {
+  Entry print{print_shading_line, reinterpret_cast<void*>(&gpu_shading_watch_print),
+              &gpu_shading_original_print};
+  print.needed = false;
+  return {
+      watch("_ZN10EnergyPlus14InputProcessor12processInputERNS_14EnergyPlusDataE", &process_input,
+            &original_process_input),
+      watch("_ZN10EnergyPlus10FileSystem8readFileERKNSt10filesystem7__cxx114pathESt13_Ios_Openmode",
+            &read_file, &original_read_file),
+      watch("_ZN10EnergyPlus10FileSystem8readJSONERKNSt10filesystem7__cxx114pathESt13_Ios_Openmode",
+            &read_json, &original_read_json),
+      watch("_ZN10EnergyPlus13EndEnergyPlusERNS_14EnergyPlusDataE", &end_energyplus, &original_end),
+      watch("_ZN10EnergyPlus15AbortEnergyPlusERNS_14EnergyPlusDataE", &abort_energyplus,
+            &original_abort),
+      print,
+  };
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,123 @@
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <link.h>
+
+#include <filesystem>
+#include <iterator>
+#include <mutex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "binary/entry_patch.h"
+#include "binary/symbol_table.h"
+#include "gpu_shading/error.h"
+#include "gpu_shading_energyplus.h"
+#include "host/input_entries.h"
+#include "host/penumbra_entries.h"
+#include "host/run.h"
+#include "host/version.h"
+
+#define EXPORTED __attribute__((visibility("default")))
+
+namespace gpu_shading::energyplus {
+namespace {
+
+// Where a library is in this process.
+struct Loaded {
+  std::filesystem::path path;
+  std::byte* base = nullptr;
+};
+
+Loaded find_loaded(char const* wanted) {
+  struct Search {
+    std::filesystem::path wanted;
+    Loaded found;
+  } search;
+  if (wanted != nullptr) search.wanted = std::filesystem::weakly_canonical(wanted);
+  dl_iterate_phdr(
+      [](dl_phdr_info* info, std::size_t, void* context) {
+        auto& s = *static_cast<Search*>(context);
+        if (info->dlpi_name == nullptr || *info->dlpi_name == '\0') return 0;
+        auto const path = std::filesystem::weakly_canonical(info->dlpi_name);
+        bool const match = s.wanted.empty()
+                               ? path.filename().string().starts_with("libenergyplusapi")
+                               : path == s.wanted;
+        if (!match) return 0;
+        // NOLINTNEXTLINE(performance-no-int-to-ptr)
+        s.found = {path, reinterpret_cast<std::byte*>(info->dlpi_addr)};
+        return 1;
+      },
+      &search);
+  if (search.found.path.empty()) {
+    throw Error(fmt::format("{}: EnergyPlus's library must be loaded before GPU shading is installed",
+                            wanted == nullptr ? "libenergyplusapi" : wanted));
+  }
+  return search.found;
+}
+
+// Lines where there are any (their flags may hold blanks), else words.
+std::vector<std::string> split(std::string const& options) {
+  std::istringstream text(options);
+  if (options.find('\n') == std::string::npos) {
+    return {std::istream_iterator<std::string>(text), {}};
+  }
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) {
+    if (!line.empty()) lines.push_back(line);
+  }
+  return lines;
+}
+
+Choices read_choices(char const* options) {
+  auto arguments = split(options == nullptr ? "" : options);
+  auto choices = take_flags(arguments);
+  if (!arguments.empty()) throw Error(fmt::format("{}: no such flag", arguments.front()));
+  choices.fill_from(read_environment());
+  return choices;
+}
+
+void install(char const* library, char const* options) {
+  static std::mutex mutex;
+  std::scoped_lock const lock(mutex);
+  auto choices = read_choices(options);
+  auto const loaded = find_loaded(library);
+  auto& installed = installation();
+  if (installed.library.empty()) {
+    SymbolTable const symbols(loaded.path, loaded.base);
+    EnergyPlusFunctions const functions(symbols);
+    auto const version = read_version(loaded.path.parent_path());
+    auto entries = penumbra_entries();
+    auto const input = input_entries();
+    entries.insert(entries.end(), input.begin(), input.end());
+    patch_entries(symbols, entries);
+    installed.library = loaded.path;
+    installed.version = version;
+    installed.functions = functions;
+  } else if (installed.library != loaded.path) {
+    throw Error(fmt::format("{}: GPU shading is installed for {} already", loaded.path.string(),
+                            installed.library.string()));
+  }
+  installed.choices = std::move(choices);
+}
+
+thread_local std::string message;
+
+}  // namespace
+}  // namespace gpu_shading::energyplus
+
+extern "C" EXPORTED int gpu_shading_install(char const* energyplus_library, char const* options) {
+  using gpu_shading::energyplus::message;
+  try {
+    gpu_shading::energyplus::install(energyplus_library, options);
+    message.clear();
+    return 0;
+  } catch (std::exception const& error) {
+    message = error.what();
+    return 1;
+  }
+}
+
+extern "C" EXPORTED char const* gpu_shading_message(void) {
+  return gpu_shading::energyplus::message.c_str();
+}

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace gpu_shading::energyplus {
+
+// The version of the EnergyPlus in a folder, e.g. "25.2.0", from the first line of its Energy+.idd.
+// Throws Error.
+std::string read_version(std::filesystem::path const& folder);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,58 @@
+#include "input/idf_text.h"
+
+#include <fmt/format.h>
+
+namespace gpu_shading::energyplus {
+namespace {
+
+std::string trimmed(std::string_view text) {
+  auto const first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return {};
+  return std::string(text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1));
+}
+
+}  // namespace
+
+std::vector<IdfObject> parse_idf(std::string_view text) {
+  std::vector<IdfObject> objects;
+  IdfObject current;
+  std::string token;
+  bool inside = false;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    char const c = text[at];
+    if (c == '!') {
+      at = text.find('\n', at);
+      if (at == std::string_view::npos) break;
+      continue;
+    }
+    if (c == ',' || c == ';') {
+      if (current.type.empty() && current.fields.empty()) {
+        current.type = trimmed(token);
+      } else {
+        current.fields.push_back(trimmed(token));
+      }
+      token.clear();
+      if (c == ';') {
+        current.end = at + 1;
+        if (!current.type.empty()) objects.push_back(std::move(current));
+        current = {};
+        inside = false;
+      }
+      continue;
+    }
+    if (!inside && c != ' ' && c != '\t' && c != '\r' && c != '\n') {
+      inside = true;
+      current.begin = at;
+    }
+    if (inside) token += c;
+  }
+  return objects;
+}
+
+std::string format_idf(std::string_view type, std::vector<std::string> const& fields) {
+  std::string text(type);
+  for (auto const& field : fields) text += fmt::format(",\n  {}", field);
+  return text + ";\n";
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,99 @@
+#include "input/input_object.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace gpu_shading::energyplus {
+namespace {
+
+char upper(char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); }
+
+}  // namespace
+
+std::string upper(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(), [](char c) { return upper(c); });
+  return result;
+}
+
+bool same_name(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return upper(x) == upper(y); });
+}
+
+std::string const& InputObject::operator[](std::string const& field) const {
+  static std::string const blank;
+  auto const found = fields.find(field);
+  return found == fields.end() ? blank : found->second;
+}
+
+std::vector<ObjectType> const& known_types() {
+  // Field names and their order: the Energy+.schema.epJSON of EnergyPlus 25.2.0.
+  static std::vector<ObjectType> const types{
+      {"Version", {"version_identifier"}},
+      {"Building",
+       {"name", "north_axis", "terrain", "loads_convergence_tolerance_value",
+        "temperature_convergence_tolerance_value", "solar_distribution"}},
+      {"ShadowCalculation",
+       {"shading_calculation_method", "shading_calculation_update_frequency_method",
+        "shading_calculation_update_frequency", "maximum_figures_in_shadow_overlap_calculations",
+        "polygon_clipping_algorithm", "pixel_counting_resolution", "sky_diffuse_modeling_algorithm",
+        "output_external_shading_calculation_results",
+        "disable_self_shading_within_shading_zone_groups",
+        "disable_self_shading_from_shading_zone_groups_to_other_zones"},
+       "shading_zone_groups",
+       "shading_zone_group_zonelist_name"},
+      {"ZoneList", {"name"}, "zones", "zone_name"},
+      {"BuildingSurface:Detailed",
+       {"name", "surface_type", "construction_name", "zone_name", "space_name",
+        "outside_boundary_condition"}},
+      {"Wall:Detailed",
+       {"name", "construction_name", "zone_name", "space_name", "outside_boundary_condition"}},
+      {"RoofCeiling:Detailed",
+       {"name", "construction_name", "zone_name", "space_name", "outside_boundary_condition"}},
+      {"Floor:Detailed",
+       {"name", "construction_name", "zone_name", "space_name", "outside_boundary_condition"}},
+      {"Wall:Exterior", {"name", "construction_name", "zone_name"}},
+      {"Roof", {"name", "construction_name", "zone_name"}},
+      {"FenestrationSurface:Detailed",
+       {"name", "surface_type", "construction_name", "building_surface_name"}},
+      {"Window", {"name", "construction_name", "building_surface_name"}},
+      {"GlazedDoor", {"name", "construction_name", "building_surface_name"}},
+      {"Door", {"name", "construction_name", "building_surface_name"}},
+      {"Shading:Site", {"name"}},
+      {"Shading:Building", {"name"}},
+      {"Shading:Site:Detailed", {"name", "transmittance_schedule_name"}},
+      {"Shading:Building:Detailed", {"name", "transmittance_schedule_name"}},
+      {"Shading:Overhang", {"name", "window_or_door_name"}},
+      {"Shading:Overhang:Projection", {"name", "window_or_door_name"}},
+      {"Shading:Fin", {"name", "window_or_door_name"}},
+      {"Shading:Fin:Projection", {"name", "window_or_door_name"}},
+      {"Shading:Zone:Detailed", {"name", "base_surface_name", "transmittance_schedule_name"}},
+      {"Generator:Photovoltaic", {"name", "surface_name"}},
+      {"SolarCollector:FlatPlate:Water",
+       {"name", "solarcollectorperformance_name", "surface_name"}},
+      {"SolarCollector:FlatPlate:PhotovoltaicThermal", {"name", "surface_name"}},
+      {"SolarCollector:IntegralCollectorStorage",
+       {"name", "integralcollectorstorageparameters_name", "surface_name"}},
+      {"Output:Variable", {"key_value", "variable_name"}},
+      {"EnergyManagementSystem:Sensor",
+       {"name", "output_variable_or_output_meter_index_key_name",
+        "output_variable_or_output_meter_name"}},
+      {"GPUShading:Settings", {"resolution", "update_frequency", "device"}},
+  };
+  return types;
+}
+
+ObjectType const* find_type(std::string_view type) {
+  for (auto const& known : known_types()) {
+    if (same_name(known.type, type)) return &known;
+  }
+  return nullptr;
+}
+
+bool is_extension(std::string_view type) {
+  return type.size() > extension_prefix.size() &&
+         same_name(type.substr(0, extension_prefix.size()), extension_prefix);
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,75 @@
+#include "input/model_reader.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "gpu_shading/error.h"
+#include "input/model_file.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+std::string read_text(std::filesystem::path const& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file) throw Error(fmt::format("{}: cannot be read", path.string()));
+  return text;
+}
+
+std::vector<InputObject> read_objects(std::filesystem::path const& path) {
+  auto const text = read_text(path);
+  if (!is_epjson(path)) return read_idf(text);
+  try {
+    return read_epjson(nlohmann::json::parse(text));
+  } catch (nlohmann::json::exception const& error) {
+    throw Error(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+
+void add_side_file(std::filesystem::path const& path, std::vector<InputObject>& objects) {
+  for (auto& object : read_objects(path)) {
+    if (!is_extension(object.type)) {
+      throw Error(fmt::format("{}: {}: only {}... objects belong in this file", path.string(),
+                              object.type, extension_prefix));
+    }
+    objects.push_back(std::move(object));
+  }
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> find_side_file(std::filesystem::path const& model,
+                                                    Choices const& choices) {
+  if (choices.file) return choices.file;
+  auto beside = model;
+  beside.replace_extension(".gpu-shading.idf");
+  return std::filesystem::exists(beside) ? std::optional(beside) : std::nullopt;
+}
+
+bool is_epjson(std::filesystem::path const& path) {
+  return same_name(path.extension().string(), ".epJSON") ||
+         same_name(path.extension().string(), ".json");
+}
+
+bool is_idf(std::filesystem::path const& path) {
+  return same_name(path.extension().string(), ".idf") ||
+         same_name(path.extension().string(), ".imf");
+}
+
+Model understand(std::vector<InputObject> objects, std::filesystem::path const& path,
+                 Choices const& choices) {
+  if (auto const side = find_side_file(path, choices)) add_side_file(*side, objects);
+  Model model{std::move(objects), {}, {}};
+  model.shading = read_shading_input(model.objects);
+  model.options = resolve(choices, read_settings(model.objects), model.shading);
+  return model;
+}
+
+Model read_model(std::filesystem::path const& path, Choices const& choices) {
+  return understand(read_objects(path), path, choices);
+}
+
+}  // namespace gpu_shading::energyplus

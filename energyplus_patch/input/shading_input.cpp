@@ -1,0 +1,127 @@
+#include "input/shading_input.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "gpu_shading/error.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+bool is_shading(std::string_view type) {
+  return type.starts_with("Shading:") && !type.starts_with("ShadingProperty");
+}
+
+bool yes(InputObject const& object, std::string const& field) {
+  return same_name(object[field], "Yes");
+}
+
+// The leading "major.minor" of a version.
+std::string release(std::string_view version) {
+  auto const dot = version.find('.');
+  if (dot == std::string_view::npos) return std::string(version);
+  auto const second = version.find_first_not_of("0123456789", dot + 1);
+  return std::string(version.substr(0, second));
+}
+
+void read_shadow_calculation(InputObject const& object, ShadingInput& input) {
+  input.shading_method = object["shading_calculation_method"];
+  if (auto const& text = object["pixel_counting_resolution"]; !text.empty()) {
+    double value = 0.0;
+    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) {
+      throw Error(fmt::format("ShadowCalculation: Pixel Counting Resolution is \"{}\", not a number",
+                              text));
+    }
+    input.pixel_counting_resolution = static_cast<int>(value);
+  }
+  input.disable_within_groups = yes(object, "disable_self_shading_within_shading_zone_groups");
+  input.disable_between_groups =
+      yes(object, "disable_self_shading_from_shading_zone_groups_to_other_zones");
+  if (yes(object, "output_external_shading_calculation_results")) input.all_shading_wanted = true;
+  for (auto const& group : object.list) {
+    if (!group.empty()) input.shading_zone_groups.push_back(upper(group));
+  }
+}
+
+void read_shading_surface(InputObject const& object, ShadingInput& input) {
+  ShadingInput::ShadingSurface surface{object.type, upper(object["base_surface_name"]),
+                                       upper(object["transmittance_schedule_name"])};
+  auto const name = upper(object.name);
+  if (object.type.starts_with("Shading:Fin")) {
+    // EnergyPlus makes two surfaces of one object.
+    surface.base = upper(object["window_or_door_name"]);
+    input.shading_surfaces[name + " LEFT"] = surface;
+    input.shading_surfaces[name + " RIGHT"] = surface;
+    return;
+  }
+  if (object.type.starts_with("Shading:Overhang")) {
+    surface.base = upper(object["window_or_door_name"]);
+  }
+  input.shading_surfaces[name] = surface;
+}
+
+}  // namespace
+
+ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
+  ShadingInput input;
+  std::set<std::string> named;
+  bool shadow_calculation_read = false;
+  for (auto const& object : objects) {
+    if (object.type == "Version") {
+      input.version = object["version_identifier"];
+    } else if (object.type == "Building") {
+      auto const distribution = upper(object["solar_distribution"]);
+      input.minimal_shadowing = distribution == "MINIMALSHADOWING";
+      input.reflections = distribution.ends_with("WITHREFLECTIONS");
+    } else if (object.type == "ShadowCalculation") {
+      // EnergyPlus takes the first and warns of the others.
+      if (!shadow_calculation_read) read_shadow_calculation(object, input);
+      shadow_calculation_read = true;
+    } else if (object.type == "ZoneList") {
+      auto& zones = input.zone_lists[upper(object.name)];
+      for (auto const& zone : object.list) {
+        if (!zone.empty()) zones.insert(upper(zone));
+      }
+    } else if (is_shading(object.type)) {
+      read_shading_surface(object, input);
+    } else if (object.fields.contains("zone_name")) {
+      input.zone_of[upper(object.name)] = upper(object["zone_name"]);
+    } else if (object.fields.contains("building_surface_name")) {
+      input.base_of[upper(object.name)] = upper(object["building_surface_name"]);
+    } else if (object.fields.contains("surface_name")) {
+      named.insert(upper(object["surface_name"]));
+    } else if (object.type == "Output:Variable") {
+      named.insert(upper(object["key_value"]));
+    } else if (object.type == "EnergyManagementSystem:Sensor") {
+      named.insert(upper(object["output_variable_or_output_meter_index_key_name"]));
+    }
+  }
+  if (input.reflections) input.all_shading_wanted = true;
+  for (auto& [name, surface] : input.shading_surfaces) {
+    if (named.contains(name)) input.wanted_shading.insert(name);
+    // Overhangs and fins name a window; EnergyPlus attaches them to the wall around it.
+    if (auto const base = input.base_of.find(surface.base); base != input.base_of.end()) {
+      surface.base = base->second;
+    }
+  }
+  return input;
+}
+
+void check_supported(ShadingInput const& input, std::string_view version) {
+  if (!input.version.empty() && release(input.version) != release(version)) {
+    throw Error(fmt::format(
+        "Version: Version Identifier is {}, this EnergyPlus is {}: bring the model up to date first "
+        "(IDFVersionUpdater)",
+        input.version, release(version)));
+  }
+  if (same_name(input.shading_method, "Scheduled") || same_name(input.shading_method, "Imported")) {
+    throw Error(fmt::format(
+        "ShadowCalculation: Shading Calculation Method is {}: this model brings its own sunlit "
+        "fractions, which --gpu-shading would replace; run it without the flag",
+        input.shading_method));
+  }
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "input/input_object.h"
+
+namespace gpu_shading::energyplus {
+
+// What the shading calculation must know of a model beyond the polygons that EnergyPlus hands over.
+// Names are upper case throughout, as EnergyPlus has them.
+struct ShadingInput {
+  struct ShadingSurface {
+    std::string type;
+    std::string base;                    // the heat transfer surface it is attached to, or ""
+    std::string transmittance_schedule;  // or ""
+  };
+
+  std::string version;         // of the input, e.g. "25.2"
+  std::string shading_method;  // as written, or ""
+  std::optional<int> pixel_counting_resolution;
+
+  bool minimal_shadowing = false;         // Building: Solar Distribution
+  bool reflections = false;               // ... WithReflections
+  bool disable_within_groups = false;     // ShadowCalculation: Disable Self-Shading ...
+  bool disable_between_groups = false;    //
+  std::vector<std::string> shading_zone_groups;
+  std::map<std::string, std::set<std::string>> zone_lists;
+
+  std::map<std::string, std::string> zone_of;  // exterior base surface -> zone
+  std::map<std::string, std::string> base_of;  // window or door -> base surface
+  std::map<std::string, ShadingSurface> shading_surfaces;  // by the names that EnergyPlus gives them
+
+  // Shading surfaces whose own sunlit fraction has a use: named by an output, an EMS sensor,
+  // photovoltaics or a collector; all of them with reflections or with the external shading file.
+  std::set<std::string> wanted_shading;
+  bool all_shading_wanted = false;
+
+  bool wants(std::string const& shading_surface) const {
+    return all_shading_wanted || wanted_shading.contains(shading_surface);
+  }
+};
+
+// Throws Error where a value cannot be understood.
+ShadingInput read_shading_input(std::vector<InputObject> const& objects);
+
+// Refuses what this module must not touch: another version of the input, user-given fractions
+// (Scheduled, Imported). `version` is EnergyPlus's own, e.g. "25.2.0". Throws Error.
+void check_supported(ShadingInput const& input, std::string_view version);
+
+}  // namespace gpu_shading::energyplus

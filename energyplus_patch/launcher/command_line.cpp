@@ -1,0 +1,36 @@
+#include "launcher/command_line.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace gpu_shading::energyplus {
+
+CommandLine read_command_line(std::vector<std::string> const& arguments) {
+  // EnergyPlus 25.2 --help
+  constexpr std::array<std::string_view, 12> with_value{
+      "-d", "--output-directory", "-i", "--idd",     "-p", "--output-prefix",
+      "-s", "--output-suffix",    "-w", "--weather", "-j", "--jobs"};
+  CommandLine line;
+  bool preprocessed = false;
+  bool no_run = false;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    auto const& argument = arguments[i];
+    if (std::find(with_value.begin(), with_value.end(), argument) != with_value.end()) {
+      ++i;
+    } else if (argument == "-h" || argument == "--help") {
+      line.help = true;
+    } else if (argument == "-v" || argument == "--version" || argument == "auxiliary") {
+      no_run = true;
+    } else if (argument == "-m" || argument == "--epmacro") {
+      preprocessed = true;
+    } else if (!argument.starts_with("-")) {
+      line.model = argument;
+    }
+  }
+  if (!line.model) line.model = "in.idf";
+  if (preprocessed || no_run || line.help) line.model.reset();
+  return line;
+}
+
+}  // namespace gpu_shading::energyplus

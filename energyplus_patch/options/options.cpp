@@ -1,0 +1,227 @@
+#include "options/options.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <functional>
+
+#include "gpu_shading/error.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+Mode parse_mode(std::string const& text) {
+  if (same_name(text, "auto")) return Mode::automatic;
+  if (same_name(text, "require")) return Mode::require;
+  if (same_name(text, "off")) return Mode::off;
+  throw Error(fmt::format("is \"{}\", expected auto, require or off", text));
+}
+
+std::string name_of(Mode mode) {
+  switch (mode) {
+    case Mode::require:
+      return "require";
+    case Mode::off:
+      return "off";
+    case Mode::automatic:
+      break;
+  }
+  return "auto";
+}
+
+std::string name_of(DeviceChoice const& device) {
+  switch (device.kind) {
+    case DeviceChoice::Kind::software:
+      return "software";
+    case DeviceChoice::Kind::index:
+      return std::to_string(device.index);
+    case DeviceChoice::Kind::automatic:
+      break;
+  }
+  return "auto";
+}
+
+int parse_resolution(std::string const& text) {
+  int value = 0;
+  auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || value < 1) {
+    throw Error(fmt::format("is \"{}\", expected a number of pixels from 1", text));
+  }
+  return value;
+}
+
+bool parse_update(std::string const& text) {
+  if (same_name(text, "idf")) return false;
+  if (same_name(text, "timestep")) return true;
+  throw Error(fmt::format("is \"{}\", expected idf or timestep", text));
+}
+
+DeviceChoice parse_device(std::string const& text) {
+  try {
+    return parse_device_choice(text);
+  } catch (Error const&) {
+    throw Error(fmt::format("is \"{}\", expected auto, software or a device's number (see "
+                            "gpu_shading devices)",
+                            text));
+  }
+}
+
+// One choice, by all the names that it goes by.
+struct Choice {
+  std::string_view flag;
+  char const* variable;
+  std::string_view field;  // of GPUShading:Settings, or ""
+  std::string_view title;  // the field's name as the user writes it
+  std::function<void(Choices&, std::string const&)> set;
+};
+
+std::array<Choice, 6> const& all_choices() {
+  static std::array<Choice, 6> const choices{{
+      {"--gpu-shading", "GPU_SHADING", "", "",
+       [](Choices& c, std::string const& v) { c.mode = parse_mode(v); }},
+      {"--gpu-shading-resolution", "GPU_SHADING_RESOLUTION", "resolution", "Resolution",
+       [](Choices& c, std::string const& v) { c.resolution = parse_resolution(v); }},
+      {"--gpu-shading-update", "GPU_SHADING_UPDATE", "update_frequency", "Update Frequency",
+       [](Choices& c, std::string const& v) { c.every_timestep = parse_update(v); }},
+      {"--gpu-shading-device", "GPU_SHADING_DEVICE", "device", "Device",
+       [](Choices& c, std::string const& v) { c.device = parse_device(v); }},
+      {"--gpu-shading-file", "GPU_SHADING_FILE", "", "",
+       [](Choices& c, std::string const& v) { c.file = std::filesystem::absolute(v); }},
+      {"--gpu-shading-report", "GPU_SHADING_REPORT", "", "",
+       [](Choices& c, std::string const& v) { c.report = std::filesystem::absolute(v); }},
+  }};
+  return choices;
+}
+
+void set(Choice const& choice, Choices& choices, std::string_view source, std::string const& value) {
+  try {
+    choice.set(choices, value);
+  } catch (Error const& error) {
+    throw Error(fmt::format("{} {}", source, error.what()));
+  }
+}
+
+template <typename T>
+void fill(std::optional<T>& value, std::optional<T> const& lower) {
+  if (!value) value = lower;
+}
+
+}  // namespace
+
+void Choices::fill_from(Choices const& lower) {
+  fill(mode, lower.mode);
+  fill(resolution, lower.resolution);
+  fill(every_timestep, lower.every_timestep);
+  fill(device, lower.device);
+  fill(file, lower.file);
+  fill(report, lower.report);
+}
+
+bool Choices::any() const {
+  return mode || resolution || every_timestep || device || file || report;
+}
+
+Choices take_flags(std::vector<std::string>& arguments) {
+  Choices choices;
+  std::vector<std::string> rest;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    std::string const argument = arguments[i];
+    if (!argument.starts_with("--gpu-shading")) {
+      rest.push_back(argument);
+      continue;
+    }
+    auto const equals = argument.find('=');
+    auto const flag = argument.substr(0, equals);
+    Choice const* found = nullptr;
+    for (auto const& choice : all_choices()) {
+      if (choice.flag == flag) found = &choice;
+    }
+    if (found == nullptr) {
+      throw Error(fmt::format("{}: no such flag; see energyplus --gpu-shading --help", flag));
+    }
+    std::string value;
+    if (equals != std::string::npos) {
+      value = argument.substr(equals + 1);
+    } else if (flag == "--gpu-shading") {
+      value = "auto";
+    } else if (i + 1 < arguments.size()) {
+      value = arguments[++i];
+    } else {
+      throw Error(fmt::format("{}: a value is missing", flag));
+    }
+    set(*found, choices, flag, value);
+  }
+  arguments = std::move(rest);
+  return choices;
+}
+
+std::string to_flags(Choices const& choices) {
+  std::string flags;
+  auto const add = [&](std::string_view flag, std::string const& value) {
+    flags += fmt::format("{}={}\n", flag, value);
+  };
+  if (choices.mode) add("--gpu-shading", name_of(*choices.mode));
+  if (choices.resolution) add("--gpu-shading-resolution", std::to_string(*choices.resolution));
+  if (choices.every_timestep) add("--gpu-shading-update", *choices.every_timestep ? "timestep" : "idf");
+  if (choices.device) add("--gpu-shading-device", name_of(*choices.device));
+  if (choices.file) add("--gpu-shading-file", choices.file->string());
+  if (choices.report) add("--gpu-shading-report", choices.report->string());
+  return flags;
+}
+
+Choices read_environment() {
+  Choices choices;
+  for (auto const& choice : all_choices()) {
+    char const* value = std::getenv(choice.variable);
+    if (value != nullptr && *value != '\0') set(choice, choices, choice.variable, value);
+  }
+  return choices;
+}
+
+Choices read_settings(std::vector<InputObject> const& objects) {
+  constexpr std::string_view type = "GPUShading:Settings";
+  Choices choices;
+  bool found = false;
+  for (auto const& object : objects) {
+    if (object.type != type) continue;
+    if (found) throw Error(fmt::format("{}: given twice, expected once at most", type));
+    found = true;
+    for (auto const& choice : all_choices()) {
+      if (choice.field.empty()) continue;
+      auto const& value = object[std::string(choice.field)];
+      if (!value.empty()) set(choice, choices, fmt::format("{}: {}", type, choice.title), value);
+    }
+  }
+  return choices;
+}
+
+Options resolve(Choices choices, Choices const& settings, ShadingInput const& input) {
+  choices.fill_from(settings);
+  Options options;
+  options.mode = choices.mode.value_or(Mode::automatic);
+  options.resolution = choices.resolution.value_or(
+      input.pixel_counting_resolution.value_or(Options::default_resolution));
+  options.every_timestep = choices.every_timestep.value_or(false);
+  options.device = choices.device.value_or(DeviceChoice{});
+  options.report = choices.report;
+  return options;
+}
+
+std::string_view flags_help() {
+  return R"(GPU shading (each also as an environment variable: GPU_SHADING, GPU_SHADING_RESOLUTION, ...):
+  --gpu-shading[=auto|require|off]     Shade by rendering. auto (the bare flag): in software, with a
+                                       warning, where there is no GPU; require: no GPU is an error;
+                                       off: stock PolygonClipping, for comparison
+  --gpu-shading-resolution N           Pixels a side of a receiver's tile (default: the model's Pixel
+                                       Counting Resolution, else 512)
+  --gpu-shading-update idf|timestep    How often shading is calculated (default: idf, as the model asks)
+  --gpu-shading-device auto|N|software Which device renders (default: auto; see gpu_shading devices)
+  --gpu-shading-file F                 Extension objects in a file of their own
+                                       (default: MODEL.gpu-shading.idf, where it is)
+  --gpu-shading-report DIR             Write pictures of what the sun sees, and counts, to DIR
+)";
+}
+
+}  // namespace gpu_shading::energyplus

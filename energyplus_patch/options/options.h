@@ -1,0 +1,66 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gpu_shading/device.h"
+#include "input/input_object.h"
+#include "input/shading_input.h"
+
+namespace gpu_shading::energyplus {
+
+enum class Mode {
+  automatic,  // GPU where there is one, else software with a warning
+  require,    // no GPU is an error
+  off,        // stock PolygonClipping, extension objects taken out
+};
+
+// The user's choices from one source; what it does not say is empty.
+struct Choices {
+  std::optional<Mode> mode;
+  std::optional<int> resolution;
+  std::optional<bool> every_timestep;
+  std::optional<DeviceChoice> device;
+  std::optional<std::filesystem::path> file;
+  std::optional<std::filesystem::path> report;
+
+  // Fills what is empty from a source of lower rank.
+  void fill_from(Choices const& lower);
+  bool any() const;
+};
+
+// Takes our flags out of `arguments` (both "--flag=value" and "--flag value", but for --gpu-shading,
+// whose value needs the equals sign). Throws Error on an unknown flag of ours or a bad value.
+Choices take_flags(std::vector<std::string>& arguments);
+
+// The inverse, one flag a line.
+std::string to_flags(Choices const& choices);
+
+// GPU_SHADING, GPU_SHADING_RESOLUTION, ... ; unset and empty say nothing.
+Choices read_environment();
+
+// GPUShading:Settings. Throws Error when it is given twice or has a bad value.
+Choices read_settings(std::vector<InputObject> const& objects);
+
+// What a run does, every question answered.
+struct Options {
+  static constexpr int default_resolution = 512;
+
+  Mode mode = Mode::automatic;
+  int resolution = default_resolution;
+  bool every_timestep = false;  // else as often as the model asks
+  DeviceChoice device;
+  std::optional<std::filesystem::path> report;
+};
+
+// Precedence: `choices` (command line, then environment), GPUShading:Settings, the model's Pixel
+// Counting Resolution, built in.
+Options resolve(Choices choices, Choices const& settings, ShadingInput const& input);
+
+// One line a flag, for --help.
+std::string_view flags_help();
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <unordered_map>
+#include <vector>
+
+#include "gpu_shading/renderer.h"
+
+namespace gpu_shading::energyplus {
+
+// Answers kept by direction: warm-up days, sizing periods and the sky's patches come back to the same
+// ones. Bounded: when full, everything is forgotten and collected anew.
+class Answers {
+ public:
+  static constexpr std::size_t max_bytes = std::size_t{512} << 20U;
+
+  struct Direction {
+    SunDirection sun;
+    std::vector<float> projected_area;  // by surface; not a number where not asked yet
+    std::unordered_map<std::uint64_t, std::vector<float>> interior;  // by window and list of surfaces
+  };
+
+  explicit Answers(std::size_t surfaces = 0) : surfaces_(surfaces) {}
+
+  // The entry of a direction, made where there is none. Valid until the next call.
+  Direction& at(SunDirection sun);
+
+  static bool known(float answer) { return answer == answer; }
+
+  template <typename Visit>
+  void for_each(Visit const& visit) const {
+    for (auto const& [key, direction] : directions_) visit(direction);
+  }
+
+ private:
+  struct Hash {
+    std::size_t operator()(SunDirection const& sun) const {
+      std::hash<double> const hash;
+      constexpr std::size_t odd = 0x9e3779b97f4a7c15;
+      return hash(sun.azimuth) * odd ^ hash(sun.altitude);
+    }
+  };
+
+  std::size_t surfaces_;
+  std::unordered_map<SunDirection, Direction, Hash> directions_;
+};
+
+}  // namespace gpu_shading::energyplus

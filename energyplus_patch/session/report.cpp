@@ -1,0 +1,127 @@
+#include "session/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "gpu_shading/error.h"
+#include "images/image_file.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+constexpr char const* table_name = "sunlit.csv";
+constexpr int picture_size = 800;
+constexpr std::size_t max_pictures = 300;
+
+struct Row {
+  SurfaceId receiver;
+  SunDirection sun;
+  double projected_area;
+  double fraction;
+};
+
+std::vector<Row> collect(Renderer const& renderer, SurfaceId receiver, Answers const& answers) {
+  auto const& polygon = renderer.scene()[receiver].polygon;
+  double const full = area(polygon);
+  auto const facing = normal(polygon);
+  std::vector<Row> rows;
+  answers.for_each([&](Answers::Direction const& direction) {
+    float const answer = direction.projected_area[receiver];
+    double const cosine = glm::dot(facing, to_vector(direction.sun));
+    if (!Answers::known(answer) || cosine <= 0.0 || full <= 0.0) return;
+    rows.push_back({receiver, direction.sun, answer, std::min(1.0, answer / (full * cosine))});
+  });
+  std::sort(rows.begin(), rows.end(), [](Row const& a, Row const& b) {
+    return std::pair(a.sun.azimuth, a.sun.altitude) < std::pair(b.sun.azimuth, b.sun.altitude);
+  });
+  return rows;
+}
+
+std::vector<Row> choose(std::vector<Row> const& rows) {
+  std::vector<Row> shaded;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(shaded),
+               [](Row const& row) { return row.fraction < 1.0; });
+  if (shaded.empty()) return {};
+  auto const least = [&](auto const& measure) {
+    return *std::min_element(shaded.begin(), shaded.end(), [&](Row const& a, Row const& b) {
+      return measure(a) < measure(b);
+    });
+  };
+  std::vector<Row> chosen{
+      least([](Row const& row) { return row.fraction > 0.0 ? row.fraction : 2.0; }),
+      least([](Row const& row) { return std::abs(row.fraction - 0.5); }),
+      least([](Row const& row) { return -row.sun.altitude; }),
+  };
+  auto const last = std::unique(chosen.begin(), chosen.end(),
+                                [](Row const& a, Row const& b) { return a.sun == b.sun; });
+  chosen.erase(last, chosen.end());
+  return chosen;
+}
+
+double azimuth_degrees(SunDirection sun) {
+  double const degrees = glm::degrees(sun.azimuth);
+  return degrees < 0.0 ? degrees + 360.0 : degrees;
+}
+
+std::string file_name(std::string const& surface, SunDirection sun) {
+  std::string name = surface;
+  std::replace_if(
+      name.begin(), name.end(),
+      [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-'; }, '_');
+  return fmt::format("{}_{:05.1f}_{:04.1f}.png", name, azimuth_degrees(sun),
+                     glm::degrees(sun.altitude));
+}
+
+// CSV's own quoting: names of surfaces may hold commas.
+std::string quoted(std::string const& text) {
+  std::string result = "\"";
+  for (char const c : text) {
+    if (c == '"') result += '"';
+    result += c;
+  }
+  return result + '"';
+}
+
+}  // namespace
+
+void prepare_report(std::filesystem::path const& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (!std::ofstream(folder / table_name)) {
+    throw Error(fmt::format("--gpu-shading-report: {}: cannot be written to", folder.string()));
+  }
+}
+
+void write_report(std::filesystem::path const& folder, Renderer& renderer,
+                  std::vector<SurfaceId> const& receivers, Answers const& answers) {
+  auto const table = folder / table_name;
+  std::ofstream csv(table);
+  csv << "receiver,sun azimuth [deg],sun altitude [deg],projected sunlit area [m2],sunlit fraction\n";
+  std::vector<Row> pictures;
+  for (auto const receiver : receivers) {
+    auto const rows = collect(renderer, receiver, answers);
+    for (auto const& row : rows) {
+      csv << fmt::format("{},{:.4f},{:.4f},{:.7g},{:.6f}\n",
+                         quoted(renderer.scene()[receiver].name), azimuth_degrees(row.sun),
+                         glm::degrees(row.sun.altitude), row.projected_area, row.fraction);
+    }
+    auto const chosen = choose(rows);
+    pictures.insert(pictures.end(), chosen.begin(), chosen.end());
+  }
+  csv.close();
+  if (!csv) throw Error(fmt::format("--gpu-shading-report: {}: cannot be written", table.string()));
+
+  if (pictures.size() > max_pictures) pictures.resize(max_pictures);
+  for (auto const& picture : pictures) {
+    auto const path = folder / file_name(renderer.scene()[picture.receiver].name, picture.sun);
+    write_image(path, renderer.sun_view(picture.sun, picture.receiver, picture_size));
+  }
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "gpu_shading/renderer.h"
+#include "session/answers.h"
+
+namespace gpu_shading::energyplus {
+
+// Makes the folder where it is missing. Throws Error when nothing can be written to it.
+void prepare_report(std::filesystem::path const& folder);
+
+// What a user needs to check a surprising number by eye, into `folder`:
+//   sunlit.csv       receiver, sun azimuth and altitude (degrees), projected sunlit area (m2), sunlit
+//                    fraction: every answer of the run
+//   NAME_AZ_ALT.png  what the sun sees of a receiver, at up to three of its directions: the one most
+//                    shaded but lit, the one nearest to half sunlit, and the one at the highest sun
+// Throws Error when the folder cannot be written.
+void write_report(std::filesystem::path const& folder, Renderer& renderer,
+                  std::vector<SurfaceId> const& receivers, Answers const& answers);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gpu_shading/renderer.h"
+#include "input/model_reader.h"
+#include "session/answers.h"
+
+namespace gpu_shading::energyplus {
+
+// The shading calculation of one EnergyPlus run, from the surfaces it adds to the areas it asks for.
+// Every function throws gpu_shading::Error.
+class Session {
+ public:
+  // Where lines for the user go.
+  struct Messages {
+    std::function<void(std::string const&)> warning;  // to EnergyPlus's .err
+    std::function<void(std::string const&)> remark;   // to EnergyPlus's .err, plain
+    std::function<void(std::string const&)> eio;      // to EnergyPlus's .eio
+  };
+
+  // EnergyPlus's WindowComplexManager keeps this many lit back surfaces a window; more would overrun.
+  static constexpr std::size_t max_back_surfaces = 20;
+
+  explicit Session(Model model) : model_(std::move(model)) {}
+
+  SurfaceId add(Surface surface) { return scene_.add(std::move(surface)); }
+  std::size_t size() const { return renderer_ ? surfaces_ : scene_.size(); }
+
+  // All surfaces are there: opens the device.
+  void start(Messages messages);
+
+  void set_sun(SunDirection sun) { sun_ = sun; }
+
+  // m2 normal to the beam. The first call for a direction renders for every receiver that was asked for
+  // before, in one go.
+  float projected_sunlit_area(SurfaceId receiver);
+
+  // The same of interior surfaces that the sun reaches through a window, in order; at most
+  // max_back_surfaces of them are not 0 (the largest).
+  std::vector<float> interior_areas(SurfaceId window, std::vector<SurfaceId> const& interiors);
+
+  // The run is over: says what rendered, writes the report.
+  void finish();
+
+ private:
+  bool is_wanted(SurfaceId receiver) const { return wanted_[receiver]; }
+  void render(Answers::Direction& direction, SurfaceId asked);
+  void describe_surfaces();
+
+  Model model_;
+  Messages messages_;
+  Scene scene_;
+  std::size_t surfaces_ = 0;
+  std::optional<Renderer> renderer_;
+  std::vector<bool> wanted_;         // by surface: whether its own fraction has a use
+  std::vector<SurfaceId> receivers_; // asked for so far
+  std::vector<bool> is_receiver_;
+  SunDirection sun_;
+  Answers answers_;
+  bool finished_ = false;
+};
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,94 @@
+#include "session/shading_rule.h"
+
+#include <algorithm>
+#include <set>
+#include <unordered_map>
+
+namespace gpu_shading::energyplus {
+namespace {
+
+// The window that a reveal belongs to, or "".
+std::string reveal_owner(std::string const& name) {
+  auto const at = name.rfind(" reveal ");
+  return at == std::string::npos ? std::string{} : name.substr(0, at);
+}
+
+template <typename Map>
+std::string value_or_blank(Map const& map, std::string const& key) {
+  auto const found = map.find(key);
+  return found == map.end() ? std::string{} : found->second;
+}
+
+// What the rule needs of each surface.
+struct Place {
+  std::string base;         // the base surface that it lies in; itself for a base surface
+  std::string zone;         // "" for shading surfaces
+  std::string attached_to;  // of an attached shading surface
+  bool reveal = false;
+};
+
+std::vector<Place> find_places(ShadingInput const& input, std::vector<std::string> const& names) {
+  std::vector<Place> places;
+  places.reserve(names.size());
+  for (auto const& name : names) {
+    Place place;
+    auto const owner = reveal_owner(name);
+    place.reveal = !owner.empty();
+    auto const& surface = place.reveal ? owner : name;
+    place.base = value_or_blank(input.base_of, surface);
+    if (place.base.empty()) place.base = surface;
+    place.zone = value_or_blank(input.zone_of, place.base);
+    if (auto const found = input.shading_surfaces.find(name);
+        found != input.shading_surfaces.end()) {
+      place.attached_to = found->second.base;
+    }
+    places.push_back(std::move(place));
+  }
+  return places;
+}
+
+// For each zone of a group, the zones whose surfaces do not shade it. A zone in several groups counts
+// for the last, as in EnergyPlus.
+std::unordered_map<std::string, std::set<std::string>> find_disabled(ShadingInput const& input) {
+  std::unordered_map<std::string, std::string> group_of;
+  for (auto const& group : input.shading_zone_groups) {
+    auto const zones = input.zone_lists.find(group);
+    if (zones == input.zone_lists.end()) continue;
+    for (auto const& zone : zones->second) group_of[zone] = group;
+  }
+  std::unordered_map<std::string, std::set<std::string>> disabled;
+  for (auto const& [zone, own] : group_of) {
+    for (auto const& group : input.shading_zone_groups) {
+      bool const off = group == own ? input.disable_within_groups : input.disable_between_groups;
+      auto const zones = input.zone_lists.find(group);
+      if (!off || zones == input.zone_lists.end()) continue;
+      disabled[zone].insert(zones->second.begin(), zones->second.end());
+    }
+  }
+  return disabled;
+}
+
+}  // namespace
+
+ShadingRule make_shading_rule(ShadingInput const& input, std::vector<std::string> const& names) {
+  bool const all_disabled = input.disable_within_groups && input.disable_between_groups;
+  bool const some_disabled = input.disable_within_groups || input.disable_between_groups;
+  if (!some_disabled && !input.minimal_shadowing) return nullptr;
+
+  auto const places = std::make_shared<std::vector<Place> const>(find_places(input, names));
+  auto const disabled = find_disabled(input);
+  return [places, disabled, all_disabled, minimal = input.minimal_shadowing](SurfaceId receiver,
+                                                                             SurfaceId caster) {
+    Place const& r = (*places)[receiver];
+    Place const& c = (*places)[caster];
+    // A set-back window lies behind its own wall and reveals whatever the rules say.
+    if (c.base == r.base) return true;
+    if (minimal) return c.attached_to == r.base;
+    if (c.zone.empty()) return true;
+    if (all_disabled) return false;
+    auto const zones = disabled.find(r.zone);
+    return zones == disabled.end() || !zones->second.contains(c.zone);
+  };
+}
+
+}  // namespace gpu_shading::energyplus
