@@ -30,8 +30,8 @@ struct DeviceInfo {
 };
 
 // Every EGL device that gives an OpenGL 4.5 core context without a display, in EGL's order, then
-// Mesa's surfaceless platform if that is another way. Devices that fail are left out; `failures`, if
-// given, gets one line for each: the function, the decoded error, a hint.
+// Mesa's surfaceless platform if that is another way. Devices that fail are left out; `failures`,
+// if given, gets one line for each: the function, the decoded error, a hint.
 std::vector<DeviceInfo> list_devices(std::vector<std::string>* failures = nullptr);
 
 }  // namespace gpu_shading

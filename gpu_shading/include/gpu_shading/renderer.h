@@ -19,8 +19,8 @@ struct RendererOptions {
 
 // What the sun sees of one receiver.
 struct Sunlit {
-  // Projected sunlit surface area (PSSA), m2 normal to the beam: the receiver's exact projected area
-  // times its lit share of its own pixels. 0 where it is turned away from the sun.
+  // Projected sunlit surface area (PSSA), m2 normal to the beam: the receiver's exact projected
+  // area times its lit share of its own pixels. 0 where it is turned away from the sun.
   double projected_area = 0.0;
   // The same by plain pixel counting, N x Ap (Jones et al. 2012), for comparison.
   double pixel_counted_area = 0.0;
@@ -42,15 +42,15 @@ struct Image {
   std::vector<std::uint8_t> pixels;
 };
 
-// Draws receivers as the sun sees them. Holds an EGL context of its own: one thread at a time, but any
-// thread. Every function throws DeviceError when the device fails; no answer is ever made up.
+// Draws receivers as the sun sees them. Holds an EGL context of its own: one thread at a time, but
+// any thread. Every function throws DeviceError when the device fails; no answer is ever made up.
 //
-// Method: pixel counting after Jones, Greenberg & Pratt (2012), PSSF = N Ap / At. The receiver's plane
-// is the image plane: casters are clipped at it and slid along the sun's rays onto it, which is the
-// parallel projection of the sun's view followed by an affine map, so that lit shares are the same and
-// the receiver keeps the same pixels at every direction. The pixel lattice is turned against the
-// receiver's longest edge by an angle of golden slope, so that edges parallel to it do not line up with
-// rows of pixels.
+// Method: pixel counting after Jones, Greenberg & Pratt (2012), PSSF = N Ap / At. The receiver's
+// plane is the image plane: casters are clipped at it and slid along the sun's rays onto it, which
+// is the parallel projection of the sun's view followed by an affine map, so that lit shares are
+// the same and the receiver keeps the same pixels at every direction. The pixel lattice is turned
+// against the receiver's longest edge by an angle of golden slope, so that edges parallel to it do
+// not line up with rows of pixels.
 class Renderer {
  public:
   // Throws Error when the resolution is out of range, DeviceError when the device cannot be had.
@@ -64,11 +64,12 @@ class Renderer {
   RendererStatistics const& statistics() const;
 
   // One answer for each receiver, in order.
-  std::vector<Sunlit> projected_sunlit_areas(SunDirection sun, std::span<SurfaceId const> receivers);
+  std::vector<Sunlit> projected_sunlit_areas(SunDirection sun,
+                                             std::span<SurfaceId const> receivers);
 
-  // Projected areas (m2 normal to the beam) of each of `interiors` that the sun lights through `window`
-  // alone, behind the window's own casters; the nearest interior surface along a ray takes it. In the
-  // order of `interiors`; their sum is at most the window's projected sunlit area.
+  // Projected areas (m2 normal to the beam) of each of `interiors` that the sun lights through
+  // `window` alone, behind the window's own casters; the nearest interior surface along a ray takes
+  // it. In the order of `interiors`; their sum is at most the window's projected sunlit area.
   std::vector<double> interior_projected_sunlit_areas(SunDirection sun, SurfaceId window,
                                                       std::span<SurfaceId const> interiors);
 

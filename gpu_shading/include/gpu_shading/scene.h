@@ -15,10 +15,10 @@ using SurfaceId = std::uint32_t;
 using Ring = std::vector<glm::dvec3>;
 
 // A planar polygon in metres; world axes, x east, y north, z up. The outline runs counter-clockwise
-// as seen from outside (the side that the sun may light); holes may run either way. Fewer than three
-// distinct vertices, or no area: the polygon neither casts nor receives. Non-convex is allowed; a
-// polygon that is not quite planar is taken at its Newell plane as a receiver and as it stands as a
-// caster.
+// as seen from outside (the side that the sun may light); holes may run either way. Fewer than
+// three distinct vertices, or no area: the polygon neither casts nor receives. Non-convex is
+// allowed; a polygon that is not quite planar is taken at its Newell plane as a receiver and as it
+// stands as a caster.
 struct Polygon {
   Ring outline;
   std::vector<Ring> holes;
@@ -32,8 +32,8 @@ struct Surface {
 // Whether a caster counts for a receiver. Asked once for each pair, before the first direction.
 using ShadingRule = std::function<bool(SurfaceId receiver, SurfaceId caster)>;
 
-// Every surface that can cast or receive. Each one casts on every other, but where the rule says no;
-// a surface never shades itself.
+// Every surface that can cast or receive. Each one casts on every other, but where the rule says
+// no; a surface never shades itself.
 class Scene {
  public:
   SurfaceId add(Surface surface);

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "egl/display.h"
+
+namespace gpu_shading::egl {
+
+// Puts back, at the end of its scope, the context that this thread had before.
+class Current {
+ public:
+  Current(Current const&) = delete;
+  Current& operator=(Current const&) = delete;
+  ~Current();
+
+ private:
+  friend class Context;
+  Current(void* display, void* context);
+
+  unsigned previous_api_ = 0;
+  void* previous_display_ = nullptr;
+  void* previous_draw_ = nullptr;
+  void* previous_read_ = nullptr;
+  void* previous_context_ = nullptr;
+  void* display_ = nullptr;
+};
+
+// An OpenGL 4.5 core context without a surface. Empty when moved from.
+class Context {
+ public:
+  // Throws DeviceError naming the display, the function, the decoded error and what to try.
+  explicit Context(Display const& display);
+  ~Context();
+  Context(Context&& other) noexcept;
+  Context& operator=(Context&& other) noexcept;
+
+  // Makes it this thread's context as long as the result lives. Throws DeviceError.
+  [[nodiscard]] Current make_current() const;
+
+ private:
+  void* display_ = nullptr;
+  void* context_ = nullptr;
+};
+
+}  // namespace gpu_shading::egl

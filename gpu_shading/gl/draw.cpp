@@ -1,0 +1,81 @@
+#include "gl/draw.h"
+
+#include <epoxy/gl.h>
+
+namespace gpu_shading::gl {
+namespace {
+
+GLenum function_of(Test test) {
+  switch (test) {
+    case Test::equal:
+      return GL_EQUAL;
+    case Test::not_equal:
+      return GL_NOTEQUAL;
+    case Test::less:
+      return GL_LESS;
+    case Test::always:
+      break;
+  }
+  return GL_ALWAYS;
+}
+
+GLenum operation_of(OnPass on_pass) {
+  switch (on_pass) {
+    case OnPass::replace:
+      return GL_REPLACE;
+    case OnPass::invert:
+      return GL_INVERT;
+    case OnPass::zero:
+      return GL_ZERO;
+    case OnPass::keep:
+      break;
+  }
+  return GL_KEEP;
+}
+
+}  // namespace
+
+void stencil(Test test, std::uint8_t reference, OnPass on_pass) {
+  glEnable(GL_STENCIL_TEST);
+  glStencilFunc(function_of(test), reference, 0xFF);
+  glStencilOp(GL_KEEP, GL_KEEP, operation_of(on_pass));
+}
+
+void no_stencil() { glDisable(GL_STENCIL_TEST); }
+
+void depth(Test test, bool write) {
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(function_of(test));
+  glDepthMask(write ? GL_TRUE : GL_FALSE);
+}
+
+void no_depth() { glDisable(GL_DEPTH_TEST); }
+
+void write_colour(bool on) {
+  GLboolean const mask = on ? GL_TRUE : GL_FALSE;
+  glColorMask(mask, mask, mask, mask);
+}
+
+void cut_at_plane(bool on) {
+  if (on) {
+    glEnable(GL_CLIP_DISTANCE0);
+  } else {
+    glDisable(GL_CLIP_DISTANCE0);
+  }
+}
+
+void set_depth_convention() {
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glEnable(GL_DEPTH_CLAMP);
+}
+
+void draw_indexed(std::size_t first, std::size_t count) {
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                 reinterpret_cast<void const*>(first * sizeof(std::uint32_t)));
+}
+
+void draw_vertices(std::size_t first, std::size_t count) {
+  glDrawArrays(GL_TRIANGLES, static_cast<GLint>(first), static_cast<GLsizei>(count));
+}
+
+}  // namespace gpu_shading::gl

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace gpu_shading::gl {
+
+// Draws of the bound vertex array, and the few pieces of state that they need. Every pass sets what
+// it uses; nothing is left to the pass before.
+
+enum class Test { always, equal, not_equal, less };
+enum class OnPass { keep, replace, invert, zero };
+
+// What passes `test` of `reference` against the stencil (and the depth test) does `on_pass` to it.
+void stencil(Test test, std::uint8_t reference, OnPass on_pass);
+void no_stencil();
+
+void depth(Test test, bool write);
+void no_depth();
+
+void write_colour(bool on);
+
+void cut_at_plane(bool on);  // by gl_ClipDistance[0]
+
+// Depth 0 is nearest and clip space z runs from 0 to 1; z outside is not cut.
+void set_depth_convention();
+
+void draw_indexed(std::size_t first, std::size_t count);
+void draw_vertices(std::size_t first, std::size_t count);
+
+}  // namespace gpu_shading::gl

@@ -1,0 +1,105 @@
+#include "gl/framebuffer.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "gl/check.h"
+#include "gpu_shading/error.h"
+
+namespace gpu_shading::gl {
+namespace {
+
+GLenum internal_format(Format format) {
+  switch (format) {
+    case Format::stencil:
+      return GL_STENCIL_INDEX8;
+    case Format::depth_stencil:
+      return GL_DEPTH32F_STENCIL8;
+    case Format::colour:
+      break;
+  }
+  return GL_RGBA8;
+}
+
+GLenum attachment(Format format) {
+  switch (format) {
+    case Format::stencil:
+      return GL_STENCIL_ATTACHMENT;
+    case Format::depth_stencil:
+      return GL_DEPTH_STENCIL_ATTACHMENT;
+    case Format::colour:
+      break;
+  }
+  return GL_COLOR_ATTACHMENT0;
+}
+
+}  // namespace
+
+void destroy_renderbuffer(std::uint32_t name) { glDeleteRenderbuffers(1, &name); }
+void destroy_framebuffer(std::uint32_t name) { glDeleteFramebuffers(1, &name); }
+
+Renderbuffer Renderbuffer::create(Format format, int width, int height) {
+  GLuint name = 0;
+  glCreateRenderbuffers(1, &name);
+  glNamedRenderbufferStorage(name, internal_format(format), width, height);
+  return Renderbuffer(name);
+}
+
+Framebuffer Framebuffer::create(std::vector<Format> const& formats, int width, int height) {
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  Framebuffer target(name);
+  target.width_ = width;
+  target.height_ = height;
+  for (Format const format : formats) {
+    Renderbuffer const& buffer =
+        target.attachments_.emplace_back(Renderbuffer::create(format, width, height));
+    glNamedFramebufferRenderbuffer(name, attachment(format), GL_RENDERBUFFER, buffer.name());
+  }
+  if (std::find(formats.begin(), formats.end(), Format::colour) == formats.end()) {
+    glNamedFramebufferDrawBuffer(name, GL_NONE);
+    glNamedFramebufferReadBuffer(name, GL_NONE);
+  }
+  check("making an offscreen target");
+  GLenum const status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE) {
+    throw DeviceError(fmt::format(
+        "the driver cannot draw to an offscreen target of {} x {} pixels (status {:#06x}); lower "
+        "the resolution or choose the device 'software'",
+        width, height, status));
+  }
+  return target;
+}
+
+void Framebuffer::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, name());
+  glViewport(0, 0, width_, height_);
+}
+
+void Framebuffer::clear_stencil() const {
+  GLint const zero = 0;
+  glClearNamedFramebufferiv(name(), GL_STENCIL, 0, &zero);
+}
+
+void Framebuffer::clear_depth() const {
+  GLfloat const far = 1.0F;
+  glClearNamedFramebufferfv(name(), GL_DEPTH, 0, &far);
+}
+
+void Framebuffer::clear_colour(glm::vec4 const& colour) const {
+  glClearNamedFramebufferfv(name(), GL_COLOR, 0, &colour.x);
+}
+
+std::vector<std::uint8_t> Framebuffer::read_colour() const {
+  std::vector<std::uint8_t> pixels(4 * static_cast<std::size_t>(width_) *
+                                   static_cast<std::size_t>(height_));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, name());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  check("reading a picture back");
+  return pixels;
+}
+
+}  // namespace gpu_shading::gl

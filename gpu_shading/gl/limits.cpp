@@ -1,0 +1,41 @@
+#include "gl/limits.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+
+#include "gl/check.h"
+
+namespace gpu_shading::gl {
+namespace {
+
+std::string text(GLenum which) {
+  auto const* const found = reinterpret_cast<char const*>(glGetString(which));
+  return found == nullptr ? "" : found;
+}
+
+int integer(GLenum which) {
+  GLint value = 0;
+  glGetIntegerv(which, &value);
+  return value;
+}
+
+}  // namespace
+
+Limits query_limits() {
+  Limits limits;
+  limits.renderer = text(GL_RENDERER);
+  limits.vendor = text(GL_VENDOR);
+  limits.version = text(GL_VERSION);
+  std::array<GLint, 2> viewport{};
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+  limits.max_target_size =
+      std::min({viewport[0], viewport[1], integer(GL_MAX_RENDERBUFFER_SIZE),
+                integer(GL_MAX_FRAMEBUFFER_WIDTH), integer(GL_MAX_FRAMEBUFFER_HEIGHT)});
+  limits.uniform_offset_alignment = std::max(1, integer(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT));
+  check("asking for the device's limits");
+  return limits;
+}
+
+}  // namespace gpu_shading::gl

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec4.hpp>
+
+#include "gl/object.h"
+
+namespace gpu_shading::gl {
+
+void destroy_program(std::uint32_t name);
+
+class Program : public Object<destroy_program> {
+ public:
+  Program() = default;
+  // Throws Error with the driver's log when it does not compile or link; `label` names it there.
+  static Program link(char const* label, char const* vertex, char const* fragment);
+
+  void use() const;
+  void set(int location, glm::vec4 const& value);
+
+ private:
+  using Object::Object;
+};
+
+}  // namespace gpu_shading::gl

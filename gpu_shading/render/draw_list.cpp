@@ -1,0 +1,30 @@
+#include "render/draw_list.h"
+
+#include "render/twice_float.h"
+
+namespace gpu_shading {
+
+void DrawList::clear() {
+  indices_.clear();
+  tile_vertices_.clear();
+  views_.clear();
+}
+
+void DrawList::add_triangles(std::span<std::uint32_t const> indices) {
+  indices_.insert(indices_.end(), indices.begin(), indices.end());
+}
+
+Range DrawList::add_tile(std::span<glm::vec2 const> triangles) {
+  Range const range{tile_vertices_.size(), triangles.size()};
+  tile_vertices_.insert(tile_vertices_.end(), triangles.begin(), triangles.end());
+  return range;
+}
+
+std::size_t DrawList::add_view(View const& view, glm::dvec3 const& scene_origin) {
+  TwiceFloat const origin(view.origin - scene_origin);
+  views_.push_back({glm::vec4(view.x), glm::vec4(view.y), glm::vec4(view.z), glm::vec4(view.cut),
+                    glm::vec4(origin.high, 0.0F), glm::vec4(origin.low, 0.0F)});
+  return views_.size() - 1;
+}
+
+}  // namespace gpu_shading

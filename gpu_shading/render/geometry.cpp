@@ -1,0 +1,101 @@
+#include "render/geometry.h"
+
+#include <cstddef>
+#include <cstring>
+#include <limits>
+
+#include "gl/check.h"
+#include "gl/draw.h"
+#include "gl/limits.h"
+#include "gpu_shading/error.h"
+#include "render/twice_float.h"
+#include "scene/triangulation.h"
+#include "shaders/sources.h"
+
+namespace gpu_shading {
+namespace {
+
+// Any point near the model will do: the halves of TwiceFloat take care of the rest.
+glm::dvec3 some_point(Scene const& scene) {
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    if (!scene[id].polygon.outline.empty()) return scene[id].polygon.outline.front();
+  }
+  return glm::dvec3(0.0);
+}
+
+}  // namespace
+
+Geometry::Geometry(Scene const& scene) : scene_origin_(some_point(scene)) {
+  std::vector<TwiceFloat> vertices;
+  ranges_.reserve(scene.size());
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    Mesh const mesh = triangulate(scene[id].polygon);
+    if (vertices.size() + mesh.vertices.size() > std::numeric_limits<std::uint32_t>::max()) {
+      throw Error("the scene has more vertices than can be numbered with 32 bits");
+    }
+    auto const base = static_cast<std::uint32_t>(vertices.size());
+    ranges_.push_back({indices_.size(), mesh.indices.size()});
+    for (std::uint32_t const index : mesh.indices) indices_.push_back(base + index);
+    for (glm::dvec3 const& vertex : mesh.vertices) vertices.emplace_back(vertex - scene_origin_);
+  }
+
+  surface_program_ = gl::Program::link("surfaces", shaders::slide_vert, shaders::nothing_frag);
+  tile_program_ = gl::Program::link("tiles", shaders::tile_vert, shaders::nothing_frag);
+
+  surface_vertices_ = gl::Buffer::create();
+  surface_vertices_.set(std::span<TwiceFloat const>(vertices));
+  surface_indices_ = gl::Buffer::create();
+  tile_vertices_ = gl::Buffer::create();
+  views_ = gl::Buffer::create();
+
+  surfaces_ = gl::VertexArray::create();
+  surfaces_.set_vertices(surface_vertices_, sizeof(TwiceFloat));
+  surfaces_.add_attribute(0, 3, offsetof(TwiceFloat, high));
+  surfaces_.add_attribute(1, 3, offsetof(TwiceFloat, low));
+  surfaces_.set_indices(surface_indices_);
+  tiles_ = gl::VertexArray::create();
+  tiles_.set_vertices(tile_vertices_, sizeof(glm::vec2));
+  tiles_.add_attribute(0, 2, 0);
+
+  auto const alignment = static_cast<std::size_t>(gl::query_limits().uniform_offset_alignment);
+  view_stride_ = (sizeof(ViewBlock) + alignment - 1) / alignment * alignment;
+  gl::set_depth_convention();
+  gl::check("uploading the scene");
+}
+
+std::span<std::uint32_t const> Geometry::triangles(SurfaceId id) const {
+  Range const range = ranges_.at(id);
+  return {indices_.data() + range.first, range.count};
+}
+
+void Geometry::upload(DrawList const& list) {
+  surface_indices_.set(list.indices());
+  tile_vertices_.set(list.tile_vertices());
+  std::vector<std::byte> blocks(view_stride_ * list.views().size());
+  for (std::size_t i = 0; i < list.views().size(); ++i) {
+    std::memcpy(blocks.data() + i * view_stride_, &list.views()[i], sizeof(ViewBlock));
+  }
+  views_.set(std::span<std::byte const>(blocks));
+}
+
+void Geometry::use_surfaces(gl::Program const& program) const {
+  program.use();
+  surfaces_.bind();
+}
+
+void Geometry::use_tiles() const {
+  tile_program_.use();
+  tiles_.bind();
+}
+
+void Geometry::draw_surfaces(std::size_t view, Range indices) const {
+  constexpr std::uint32_t view_binding = 0;
+  views_.bind_uniform(view_binding, view * view_stride_, sizeof(ViewBlock));
+  gl::draw_indexed(indices.first, indices.count);
+}
+
+void Geometry::draw_tile(Range vertices) const {
+  gl::draw_vertices(vertices.first, vertices.count);
+}
+
+}  // namespace gpu_shading

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "gl/vertex_array.h"
+#include "gpu_shading/scene.h"
+#include "render/draw_list.h"
+
+namespace gpu_shading {
+
+// The scene's triangles on the device, and the two ways of drawing: surfaces through a view, and a
+// receiver on its tile.
+class Geometry {
+ public:
+  explicit Geometry(Scene const& scene);
+
+  // Triangles of a surface, to be added to a DrawList. Empty for a degenerate one.
+  std::span<std::uint32_t const> triangles(SurfaceId id) const;
+  glm::dvec3 const& scene_origin() const { return scene_origin_; }
+
+  void upload(DrawList const& list);
+
+  // Each sets program and vertices up; draws follow. The program's vertex stage is slide.vert.
+  void use_surfaces(gl::Program const& program) const;
+  void use_tiles() const;
+
+  void draw_surfaces(std::size_t view, Range indices) const;
+  void draw_tile(Range vertices) const;
+
+  // slide.vert with no colour.
+  gl::Program const& surface_program() const { return surface_program_; }
+
+ private:
+  glm::dvec3 scene_origin_{0.0};
+  std::vector<std::uint32_t> indices_;
+  std::vector<Range> ranges_;
+
+  gl::Program surface_program_;
+  gl::Program tile_program_;
+  gl::Buffer surface_vertices_;
+  gl::Buffer surface_indices_;
+  gl::Buffer tile_vertices_;
+  gl::Buffer views_;
+  gl::VertexArray surfaces_;
+  gl::VertexArray tiles_;
+  std::size_t view_stride_ = 0;
+};
+
+}  // namespace gpu_shading

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gl/framebuffer.h"
+#include "gl/query.h"
+#include "render/draw_list.h"
+#include "render/geometry.h"
+
+namespace gpu_shading {
+
+// Counts the pixels in which the sun reaches each interior surface through a window: the window's
+// lit pixels are marked, the surfaces behind drawn twice, once to find the nearest depth and once
+// to count who has it.
+class Interior {
+ public:
+  explicit Interior(int resolution);
+
+  struct Job {
+    std::size_t casters_view = 0;
+    Range casters;
+    Range window;
+    std::size_t behind_view = 0;
+    std::vector<Range> surfaces;
+  };
+  struct Counts {
+    std::uint64_t window = 0;             // its own pixels, lit or not
+    std::vector<std::uint64_t> surfaces;  // in the order of the job
+  };
+
+  Counts count(Geometry const& geometry, Job const& job);
+
+ private:
+  gl::Framebuffer target_;
+  std::vector<gl::Query> queries_;
+};
+
+}  // namespace gpu_shading

@@ -1,0 +1,171 @@
+#include "render/picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "gl/check.h"
+#include "gl/draw.h"
+#include "gl/framebuffer.h"
+#include "scene/casters.h"
+#include "shaders/sources.h"
+
+namespace gpu_shading {
+namespace {
+
+constexpr glm::vec4 sky{1.0F, 1.0F, 1.0F, 1.0F};
+constexpr glm::vec4 yellow{1.0F, 1.0F, 0.0F, 1.0F};
+constexpr glm::vec4 blue{0.0F, 0.0F, 1.0F, 1.0F};
+
+// Around the receiver, as a share of its longer side in the picture.
+constexpr double border = 0.15;
+
+// As the sun sees it with its head up: right and up across the rays. A sun in the zenith has north
+// up.
+struct SunAxes {
+  glm::dvec3 right;
+  glm::dvec3 up;
+
+  explicit SunAxes(glm::dvec3 const& towards_sun) {
+    glm::dvec3 const sideways = glm::cross(glm::dvec3(0.0, 0.0, 1.0), towards_sun);
+    constexpr double zenith = 1e-9;
+    right = glm::length(sideways) > zenith ? glm::normalize(sideways) : glm::dvec3(1.0, 0.0, 0.0);
+    up = glm::cross(towards_sun, right);
+  }
+};
+
+struct Frame {
+  glm::dvec2 low{std::numeric_limits<double>::infinity()};
+  glm::dvec2 high{-std::numeric_limits<double>::infinity()};
+
+  void include(glm::dvec2 const& place) {
+    low = glm::dvec2(std::min(low.x, place.x), std::min(low.y, place.y));
+    high = glm::dvec2(std::max(high.x, place.x), std::max(high.y, place.y));
+  }
+  void widen() {
+    double const by = border * std::max(high.x - low.x, high.y - low.y);
+    low -= by;
+    high += by;
+  }
+};
+
+int side(double length, double longest, int size) {
+  return std::clamp(static_cast<int>(std::lround(size * length / longest)), 1, size);
+}
+
+glm::dvec4 row(glm::dvec3 const& axis, double low, double high) {
+  double const scale = 2.0 / (high - low);
+  return {axis * scale, -scale * 0.5 * (low + high)};
+}
+
+// How far the scene reaches from the origin, for the depth range along the rays.
+double reach_of(Scene const& scene, glm::dvec3 const& origin) {
+  double reach = 1.0;
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    for (glm::dvec3 const& vertex : scene[id].polygon.outline) {
+      reach = std::max(reach, glm::distance(vertex, origin));
+    }
+  }
+  return reach;
+}
+
+Image from_rows_below(std::vector<std::uint8_t> const& rgba, int width, int height) {
+  Image image{width, height, 3, {}};
+  auto const columns = static_cast<std::size_t>(width);
+  image.pixels.reserve(3 * columns * static_cast<std::size_t>(height));
+  for (int y = height - 1; y >= 0; --y) {
+    for (std::size_t x = 0; x < columns; ++x) {
+      auto const at = rgba.begin() +
+                      static_cast<std::ptrdiff_t>(4 * (static_cast<std::size_t>(y) * columns + x));
+      image.pixels.insert(image.pixels.end(), at, at + 3);
+    }
+  }
+  return image;
+}
+
+}  // namespace
+
+Picture::Picture()
+    : tilt_(gl::Program::link("tilt", shaders::slide_vert, shaders::tilt_frag)),
+      plain_(gl::Program::link("plain", shaders::slide_vert, shaders::plain_frag)) {}
+
+Image Picture::draw(Geometry& geometry, Scene const& scene, SurfaceId receiver,
+                    PlaneFrame const& frame, std::span<SurfaceId const> casters,
+                    glm::dvec3 const& towards_sun, int size) {
+  SunAxes const axes(towards_sun);
+  Frame seen;
+  for (glm::dvec3 const& vertex : scene[receiver].polygon.outline) {
+    glm::dvec3 const p = vertex - frame.origin;
+    seen.include({glm::dot(axes.right, p), glm::dot(axes.up, p)});
+  }
+  seen.widen();
+  double const wide = seen.high.x - seen.low.x;
+  double const tall = seen.high.y - seen.low.y;
+  int const width = side(wide, std::max(wide, tall), size);
+  int const height = side(tall, std::max(wide, tall), size);
+
+  View all;
+  all.origin = frame.origin;
+  all.x = row(axes.right, seen.low.x, seen.high.x);
+  all.y = row(axes.up, seen.low.y, seen.high.y);
+  all.z = glm::dvec4(-0.5 * towards_sun / reach_of(scene, frame.origin), 0.5);
+  View in_front = all;
+  in_front.cut = glm::dvec4(frame.normal, -clearance);
+
+  DrawList list;
+  std::size_t const whole_view = list.add_view(all, geometry.scene_origin());
+  std::size_t const front_view = list.add_view(in_front, geometry.scene_origin());
+  std::size_t begin = list.begin_surfaces();
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    if (id != receiver) list.add_triangles(geometry.triangles(id));
+  }
+  Range const others = list.end_surfaces(begin);
+  begin = list.begin_surfaces();
+  for (SurfaceId const id : casters) list.add_triangles(geometry.triangles(id));
+  Range const shading = list.end_surfaces(begin);
+  begin = list.begin_surfaces();
+  list.add_triangles(geometry.triangles(receiver));
+  Range const itself = list.end_surfaces(begin);
+  geometry.upload(list);
+
+  auto const target =
+      gl::Framebuffer::create({gl::Format::colour, gl::Format::depth_stencil}, width, height);
+  target.bind();
+  gl::depth(gl::Test::less, true);
+  target.clear_colour(sky);
+  target.clear_depth();
+  target.clear_stencil();
+
+  gl::cut_at_plane(false);
+  gl::no_stencil();
+  tilt_.set(0, glm::vec4(glm::vec3(towards_sun), 0.0F));
+  geometry.use_surfaces(tilt_);
+  geometry.draw_surfaces(whole_view, others);
+
+  // Marks what the casters cover; depth and colour stay as they are.
+  gl::no_depth();
+  gl::stencil(gl::Test::always, 1, gl::OnPass::replace);
+  gl::cut_at_plane(true);
+  gl::write_colour(false);
+  geometry.use_surfaces(geometry.surface_program());
+  geometry.draw_surfaces(front_view, shading);
+  gl::write_colour(true);
+
+  // The receiver over all of it: what hides it from the sun shows as blue.
+  gl::cut_at_plane(false);
+  geometry.use_surfaces(plain_);
+  if (glm::dot(frame.normal, towards_sun) > edge_on) {
+    plain_.set(0, yellow);
+    gl::stencil(gl::Test::equal, 0, gl::OnPass::keep);
+    geometry.draw_surfaces(whole_view, itself);
+  }
+  plain_.set(0, blue);
+  gl::stencil(gl::Test::equal, 1, gl::OnPass::keep);
+  geometry.draw_surfaces(whole_view, itself);
+
+  gl::check("drawing a sun's view");
+  return from_rows_below(target.read_colour(), width, height);
+}
+
+}  // namespace gpu_shading

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "gpu_shading/scene.h"
+#include "scene/plane_frame.h"
+
+namespace gpu_shading {
+
+// A caster must stand this far in front of a receiver's plane, in metres, to shade it; so that
+// neighbours that touch the plane or lie in it do not. Input is in double, so this need only cover
+// coordinates rounded in the model (surfaces meant to be coplanar) and float32 on the GPU within a
+// building (0.01 mm at 100 m). What it lets through is a strip of clearance x tan(incidence).
+inline constexpr double clearance = 1e-4;
+
+// Below this cosine of incidence a receiver is edge-on and gets nothing.
+inline constexpr double edge_on = 1e-6;
+
+// The scene's surfaces as casters, for culling in double precision. Conservative: a caster whose
+// shadow touches the receiver is never lost.
+class Casters {
+ public:
+  explicit Casters(Scene const& scene);
+
+  // Those of any direction: some part in front of the receiver's plane, and the rule allows it.
+  // Asks the rule once for each caster in front.
+  std::vector<SurfaceId> in_front(Scene const& scene, SurfaceId receiver,
+                                  PlaneFrame const& frame) const;
+
+  // Those of `candidates` whose part in front of the plane, slid along the sun's rays onto it,
+  // overlaps the receiver's bounding rectangle. `towards_sun` must be in front of the plane.
+  std::vector<SurfaceId> in_view(std::span<SurfaceId const> candidates, PlaneFrame const& frame,
+                                 glm::dvec3 const& towards_sun) const;
+
+ private:
+  struct Caster {
+    std::size_t first = 0;  // of points_
+    std::size_t count = 0;  // 0 for a degenerate surface
+    glm::dvec3 centre{0.0};
+    double radius = 0.0;
+    bool planar = true;
+  };
+
+  std::span<glm::dvec3 const> points(Caster const& caster) const {
+    return {points_.data() + caster.first, caster.count};
+  }
+
+  std::vector<Caster> casters_;
+  std::vector<glm::dvec3> points_;
+};
+
+}  // namespace gpu_shading
