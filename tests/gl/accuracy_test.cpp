@@ -1,0 +1,95 @@
+// Pixel counting against exact polygon clipping, over random scenes.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "exact.h"
+#include "gpu_shading/renderer.h"
+#include "random_scene.h"
+
+namespace gpu_shading {
+namespace {
+
+constexpr std::uint32_t scenes = 200;
+
+struct Errors {
+  double mean = 0.0;
+  double most = 0.0;
+  double signed_mean = 0.0;
+};
+
+// Of the projected sunlit surface fraction, As/At cos(theta).
+Errors errors_at(int resolution) {
+  Errors errors;
+  for (std::uint32_t seed = 1; seed <= scenes; ++seed) {
+    RandomScene const random = random_scene(seed);
+    Renderer renderer(random.scene, {{DeviceChoice::Kind::automatic}, resolution});
+    SurfaceId const receiver = 0;
+    double const got =
+        renderer.projected_sunlit_areas(random.sun, {&receiver, 1})[0].projected_area;
+    double const error = (got - exact::projected_sunlit_area(random.scene, random.sun, receiver)) /
+                         area(random.scene[receiver].polygon);
+    errors.mean += std::abs(error) / scenes;
+    errors.signed_mean += error / scenes;
+    errors.most = std::max(errors.most, std::abs(error));
+  }
+  std::printf("%4d pixels: PSSF error mean %.2e, signed mean %+.2e, most %.2e\n", resolution,
+              errors.mean, errors.signed_mean, errors.most);
+  return errors;
+}
+
+// Least squares through (log resolution, log error).
+double slope(std::vector<int> const& resolutions, std::vector<double> const& errors) {
+  double sx = 0.0;
+  double sy = 0.0;
+  double sxx = 0.0;
+  double sxy = 0.0;
+  auto const n = static_cast<double>(errors.size());
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    double const x = std::log(resolutions[i]);
+    double const y = std::log(errors[i]);
+    sx += x;
+    sy += y;
+    sxx += x * x;
+    sxy += x * y;
+  }
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+TEST(Accuracy, MostScenesAreShaded) {
+  int shaded = 0;
+  for (std::uint32_t seed = 1; seed <= scenes; ++seed) {
+    RandomScene const random = random_scene(seed);
+    double const whole = exact::projected_area(random.scene, random.sun, 0);
+    double const lit = exact::projected_sunlit_area(random.scene, random.sun, 0);
+    EXPECT_GE(lit, 0.0);
+    EXPECT_LE(lit, whole * (1.0 + 1e-9));
+    if (lit < 0.95 * whole) ++shaded;
+  }
+  EXPECT_GT(shaded, 150);
+}
+
+TEST(Accuracy, PssfOfRandomScenesAt512PixelsIsWithinHalfAPerMil) {
+  Errors const errors = errors_at(512);
+  EXPECT_LT(errors.mean, 5e-4);
+  EXPECT_LT(errors.most, 5e-3);
+  // Rounding up and down equally often.
+  EXPECT_LT(std::abs(errors.signed_mean), 1e-4);
+}
+
+TEST(Accuracy, ErrorFallsWithResolution) {
+  std::vector<int> const resolutions{256, 512, 1024, 2048};
+  std::vector<double> means;
+  for (int const resolution : resolutions) means.push_back(errors_at(resolution).mean);
+  double const falls = slope(resolutions, means);
+  std::printf("mean error ~ resolution^%.2f\n", falls);
+  // A pixel's error at the edges alone gives -1, errors that cancel along an edge -1.5.
+  EXPECT_LT(falls, -0.7);
+}
+
+}  // namespace
+}  // namespace gpu_shading

@@ -1,0 +1,187 @@
+#include "exact.h"
+
+#include <clipper.hpp>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <limits>
+
+namespace gpu_shading::exact {
+namespace {
+
+using ClipperLib::Clipper;
+using ClipperLib::IntPoint;
+using ClipperLib::Path;
+using ClipperLib::Paths;
+
+constexpr double units_per_metre = 1e8;
+
+glm::dvec3 unit_normal(Ring const& ring) {
+  glm::dvec3 sum(0.0);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    sum += glm::cross(ring[i] - ring[0], ring[(i + 1) % ring.size()] - ring[0]);
+  }
+  return glm::normalize(sum);
+}
+
+struct Plane {
+  glm::dvec3 point;
+  glm::dvec3 normal;
+
+  double height(glm::dvec3 const& p) const { return glm::dot(normal, p - point); }
+};
+
+Plane plane_of(Polygon const& polygon) {
+  return {polygon.outline[0], unit_normal(polygon.outline)};
+}
+
+// Sutherland & Hodgman: what the plane's front side keeps. Pieces of a non-convex ring stay joined
+// by edges in the plane, which enclose nothing.
+Ring in_front(Ring const& ring, Plane const& plane) {
+  Ring kept;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    glm::dvec3 const& a = ring[i];
+    glm::dvec3 const& b = ring[(i + 1) % ring.size()];
+    double const height_a = plane.height(a);
+    double const height_b = plane.height(b);
+    if (height_a > 0.0) kept.push_back(a);
+    if ((height_a > 0.0) != (height_b > 0.0)) {
+      kept.push_back(a + (b - a) * (height_a / (height_a - height_b)));
+    }
+  }
+  return kept;
+}
+
+// The plane across the sun's rays, about a point near the model.
+struct Screen {
+  glm::dvec3 origin;
+  glm::dvec3 right;
+  glm::dvec3 up;
+
+  Screen(glm::dvec3 const& towards_sun, glm::dvec3 const& about) : origin(about) {
+    glm::dvec3 const any =
+        std::abs(towards_sun.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    right = glm::normalize(glm::cross(any, towards_sun));
+    up = glm::cross(towards_sun, right);
+  }
+
+  Path project(Ring const& ring) const {
+    Path path;
+    for (glm::dvec3 const& p : ring) {
+      path.emplace_back(
+          static_cast<ClipperLib::cInt>(
+              std::llround(glm::dot(right, p - origin) * units_per_metre)),
+          static_cast<ClipperLib::cInt>(std::llround(glm::dot(up, p - origin) * units_per_metre)));
+    }
+    return path;
+  }
+
+  Paths project(Polygon const& polygon) const {
+    Paths paths{project(polygon.outline)};
+    for (Ring const& hole : polygon.holes) paths.push_back(project(hole));
+    return paths;
+  }
+};
+
+Polygon cut(Polygon const& polygon, Plane const& plane) {
+  Polygon kept{in_front(polygon.outline, plane), {}};
+  for (Ring const& hole : polygon.holes) kept.holes.push_back(in_front(hole, plane));
+  return kept;
+}
+
+Paths combine(Paths const& a, Paths const& b, ClipperLib::ClipType how) {
+  Clipper clipper;
+  clipper.AddPaths(a, ClipperLib::ptSubject, true);
+  clipper.AddPaths(b, ClipperLib::ptClip, true);
+  Paths result;
+  clipper.Execute(how, result, ClipperLib::pftEvenOdd, ClipperLib::pftEvenOdd);
+  return result;
+}
+
+double area_of(Paths const& paths) {
+  double sum = 0.0;
+  for (Path const& path : paths) sum += ClipperLib::Area(path);
+  return std::abs(sum) / (units_per_metre * units_per_metre);
+}
+
+bool is_empty(Polygon const& polygon) { return polygon.outline.size() < 3; }
+
+Paths lit_part(Scene const& scene, SunDirection sun, SurfaceId receiver, Screen const& screen) {
+  Plane const plane = plane_of(scene[receiver].polygon);
+  if (glm::dot(plane.normal, to_vector(sun)) <= 0.0) return {};
+  Paths lit = combine(screen.project(scene[receiver].polygon), {}, ClipperLib::ctUnion);
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    if (!scene.may_shade(receiver, id) || is_empty(scene[id].polygon)) continue;
+    Polygon const front = cut(scene[id].polygon, plane);
+    if (is_empty(front)) continue;
+    lit = combine(lit, screen.project(front), ClipperLib::ctDifference);
+  }
+  return lit;
+}
+
+}  // namespace
+
+double projected_sunlit_area(Scene const& scene, SunDirection sun, SurfaceId receiver) {
+  Screen const screen(to_vector(sun), scene[receiver].polygon.outline[0]);
+  return area_of(lit_part(scene, sun, receiver, screen));
+}
+
+double projected_area(Scene const& scene, SunDirection sun, SurfaceId receiver) {
+  Polygon const& polygon = scene[receiver].polygon;
+  if (glm::dot(unit_normal(polygon.outline), to_vector(sun)) <= 0.0) return 0.0;
+  Screen const screen(to_vector(sun), polygon.outline[0]);
+  return area_of(combine(screen.project(polygon), {}, ClipperLib::ctUnion));
+}
+
+std::vector<double> interior_areas(Scene const& scene, SunDirection sun, SurfaceId window,
+                                   std::vector<SurfaceId> const& interiors) {
+  Screen const screen(to_vector(sun), scene[window].polygon.outline[0]);
+  Plane behind = plane_of(scene[window].polygon);
+  behind.normal = -behind.normal;
+  Paths left = lit_part(scene, sun, window, screen);
+  std::vector<double> areas;
+  for (SurfaceId const id : interiors) {
+    Polygon const seen = cut(scene[id].polygon, behind);
+    if (is_empty(seen)) {
+      areas.push_back(0.0);
+      continue;
+    }
+    Paths const projected = screen.project(seen);
+    areas.push_back(area_of(combine(left, projected, ClipperLib::ctIntersection)));
+    left = combine(left, projected, ClipperLib::ctDifference);
+  }
+  return areas;
+}
+
+double overlap_with_bounds(Scene const& scene, SunDirection sun, SurfaceId receiver,
+                           SurfaceId caster) {
+  Polygon const& polygon = scene[receiver].polygon;
+  Plane const plane = plane_of(polygon);
+  Polygon const front = cut(scene[caster].polygon, plane);
+  if (is_empty(front)) return 0.0;
+
+  glm::dvec3 u(0.0);
+  for (std::size_t i = 0; i < polygon.outline.size(); ++i) {
+    glm::dvec3 const edge = polygon.outline[(i + 1) % polygon.outline.size()] - polygon.outline[i];
+    if (glm::length(edge) > glm::length(u)) u = edge;
+  }
+  u = glm::normalize(u);
+  glm::dvec3 const v = glm::cross(plane.normal, u);
+  glm::dvec2 low(std::numeric_limits<double>::infinity());
+  glm::dvec2 high(-low);
+  for (glm::dvec3 const& p : polygon.outline) {
+    glm::dvec2 const place(glm::dot(u, p - plane.point), glm::dot(v, p - plane.point));
+    low = glm::dvec2(std::fmin(low.x, place.x), std::fmin(low.y, place.y));
+    high = glm::dvec2(std::fmax(high.x, place.x), std::fmax(high.y, place.y));
+  }
+  auto const corner = [&](double along_u, double along_v) {
+    return plane.point + u * along_u + v * along_v;
+  };
+  Ring const rectangle{corner(low.x, low.y), corner(high.x, low.y), corner(high.x, high.y),
+                       corner(low.x, high.y)};
+  Screen const screen(to_vector(sun), plane.point);
+  return area_of(
+      combine({screen.project(rectangle)}, screen.project(front), ClipperLib::ctIntersection));
+}
+
+}  // namespace gpu_shading::exact

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "gpu_shading/scene.h"
+#include "gpu_shading/sun_direction.h"
+
+// Sunlit areas by exact polygon clipping (polyclipping, a Vatti clipper on 64-bit integers of 10
+// nm), written apart from the library: polygons are cut at the receiver's plane, projected along
+// the sun in double precision and combined there.
+namespace gpu_shading::exact {
+
+// m2 normal to the beam of the receiver that no other surface of the scene hides.
+double projected_sunlit_area(Scene const& scene, SunDirection sun, SurfaceId receiver);
+
+// The same of a receiver before anything shades it: 0 where it is turned away.
+double projected_area(Scene const& scene, SunDirection sun, SurfaceId receiver);
+
+// m2 normal to the beam that each of `interiors` gets through the window. They come nearest first:
+// no one may stand in front of one before it. Surfaces behind the window's plane cast nothing on
+// it.
+std::vector<double> interior_areas(Scene const& scene, SunDirection sun, SurfaceId window,
+                                   std::vector<SurfaceId> const& interiors);
+
+// m2 normal to the beam of the part of the caster's shadow that falls on the receiver's rectangle
+// along its longest edge.
+double overlap_with_bounds(Scene const& scene, SunDirection sun, SurfaceId receiver,
+                           SurfaceId caster);
+
+}  // namespace gpu_shading::exact

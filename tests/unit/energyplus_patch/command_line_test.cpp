@@ -1,0 +1,24 @@
+#include "launcher/command_line.h"
+
+#include <gtest/gtest.h>
+
+namespace gpu_shading::energyplus {
+namespace {
+
+TEST(CommandLine, ModelIsWhatIsNoOptionAndNoOptionsValue) {
+  auto const line = read_command_line({"-w", "a.epw", "-r", "model.idf", "-d", "out"});
+  EXPECT_EQ(line.model, "model.idf");
+}
+
+TEST(CommandLine, DefaultModel) { EXPECT_EQ(read_command_line({"-D"}).model, "in.idf"); }
+
+TEST(CommandLine, NoModelToCheck) {
+  EXPECT_FALSE(read_command_line({"--version"}).model);
+  EXPECT_FALSE(read_command_line({"-m", "model.imf"}).model);
+  auto const help = read_command_line({"-h"});
+  EXPECT_TRUE(help.help);
+  EXPECT_FALSE(help.model);
+}
+
+}  // namespace
+}  // namespace gpu_shading::energyplus

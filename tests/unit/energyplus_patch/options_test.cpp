@@ -1,0 +1,104 @@
+#include "options/options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "gpu_shading/error.h"
+#include "input/model_file.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using testing::HasSubstr;
+
+Choices take(std::vector<std::string> arguments) { return take_flags(arguments); }
+
+// The one-line message of a refused command line.
+std::string refusal(std::vector<std::string> const& arguments) {
+  try {
+    take(arguments);
+  } catch (Error const& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Options, OurFlagsAreTakenAndEnergyPlusKeepsItsOwn) {
+  std::vector<std::string> arguments{"-w",
+                                     "a.epw",
+                                     "--gpu-shading",
+                                     "--gpu-shading-update",
+                                     "timestep",
+                                     "--gpu-shading-device=3",
+                                     "model.idf"};
+  auto const choices = take_flags(arguments);
+  EXPECT_EQ(arguments, (std::vector<std::string>{"-w", "a.epw", "model.idf"}));
+  EXPECT_EQ(choices.mode, Mode::automatic);
+  EXPECT_EQ(choices.every_timestep, true);
+  ASSERT_TRUE(choices.device);
+  EXPECT_EQ(choices.device->index, 3);
+}
+
+TEST(Options, BareFlagDoesNotSwallowTheModel) {
+  std::vector<std::string> arguments{"--gpu-shading", "off"};
+  EXPECT_EQ(take_flags(arguments).mode, Mode::automatic);
+  EXPECT_EQ(arguments, (std::vector<std::string>{"off"}));
+}
+
+TEST(Options, BadValuesAreNamedWithWhatWasExpected) {
+  EXPECT_THAT(refusal({"--gpu-shading=maybe"}), HasSubstr("expected auto, require or off"));
+  EXPECT_THAT(refusal({"--gpu-shading-resolution", "0"}), HasSubstr("is \"0\""));
+  EXPECT_THAT(refusal({"--gpu-shading-resolution=12x"}), HasSubstr("is \"12x\""));
+  EXPECT_THAT(refusal({"--gpu-shading-resolution"}), HasSubstr("missing"));
+  EXPECT_THAT(refusal({"--gpu-shading-update=hourly"}), HasSubstr("expected idf or timestep"));
+  EXPECT_THAT(refusal({"--gpu-shading-device=-1"}), HasSubstr("--gpu-shading-device"));
+  EXPECT_THAT(refusal({"--gpu-shading-colour=red"}), HasSubstr("no such flag"));
+}
+
+TEST(Options, FlagsAreWrittenAsTheyAreRead) {
+  std::string const flags =
+      "--gpu-shading=require\n--gpu-shading-resolution=1024\n--gpu-shading-update=timestep\n"
+      "--gpu-shading-device=software\n--gpu-shading-file=/a b/c.idf\n--gpu-shading-report=/r\n";
+  EXPECT_EQ(to_flags(take({"--gpu-shading=require", "--gpu-shading-resolution=1024",
+                           "--gpu-shading-update=timestep", "--gpu-shading-device=software",
+                           "--gpu-shading-file=/a b/c.idf", "--gpu-shading-report=/r"})),
+            flags);
+}
+
+// Command line, environment, GPUShading:Settings, Pixel Counting Resolution, built in: each source
+// is taken away in turn.
+TEST(Options, Precedence) {
+  auto const resolution = [](bool flag, bool environment, bool settings, bool model) {
+    Choices choices;
+    if (flag) choices = take({"--gpu-shading-resolution=1"});
+    if (environment) setenv("GPU_SHADING_RESOLUTION", "2", 1);
+    choices.fill_from(read_environment());
+    unsetenv("GPU_SHADING_RESOLUTION");
+    ShadingInput input;
+    if (model) input.pixel_counting_resolution = 4;
+    return resolve(choices,
+                   settings ? read_settings(read_idf("GPUShading:Settings,3;")) : Choices{}, input)
+        .resolution;
+  };
+  EXPECT_EQ(resolution(true, true, true, true), 1);
+  EXPECT_EQ(resolution(false, true, true, true), 2);
+  EXPECT_EQ(resolution(false, false, true, true), 3);
+  EXPECT_EQ(resolution(false, false, false, true), 4);
+  EXPECT_EQ(resolution(false, false, false, false), 512);
+}
+
+TEST(Options, SettingsNameTheirField) {
+  try {
+    read_settings(read_idf("GPUShading:Settings,,hourly;"));
+    FAIL();
+  } catch (Error const& error) {
+    EXPECT_STREQ(error.what(),
+                 "GPUShading:Settings: Update Frequency is \"hourly\", expected idf or timestep");
+  }
+  EXPECT_THROW(read_settings(read_idf("GPUShading:Settings,1;GPUShading:Settings,2;")), Error);
+}
+
+}  // namespace
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,64 @@
+#include "input/shading_input.h"
+
+#include <gtest/gtest.h>
+
+#include "gpu_shading/error.h"
+#include "input/model_file.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+ShadingInput read(std::string const& idf) { return read_shading_input(read_idf(idf)); }
+
+TEST(ShadingInput, ShadingSurfacesGetTheNamesThatEnergyPlusGivesThem) {
+  auto const input = read(
+      "Shading:Site:Detailed,Tree,Leaves,3,0,0,0,1,0,0,1,1,0;"
+      "Window,W 1,Glass,South Wall;"
+      "Shading:Overhang,Hood,w 1,0.1,90,0,0,0.6;"
+      "Shading:Fin,Blade,W 1;");
+  ASSERT_EQ(input.shading_surfaces.size(), 4U);
+  EXPECT_EQ(input.shading_surfaces.at("TREE").transmittance_schedule, "LEAVES");
+  EXPECT_EQ(input.shading_surfaces.at("HOOD").base, "SOUTH WALL");
+  EXPECT_EQ(input.shading_surfaces.at("BLADE LEFT").base, "SOUTH WALL");
+  EXPECT_EQ(input.shading_surfaces.at("BLADE RIGHT").base, "SOUTH WALL");
+}
+
+TEST(ShadingInput, ShadingFractionsAreWantedOnlyWhereTheyAreUsed) {
+  std::string const surfaces =
+      "Shading:Building:Detailed,A;Shading:Building:Detailed,B;Shading:Building:Detailed,C;";
+  auto const plain = read(surfaces + "Output:Variable,*,Surface Outside Face Sunlit Fraction;");
+  EXPECT_FALSE(plain.wants("A"));
+  auto const named = read(surfaces +
+                          "Output:Variable,a,Surface Outside Face Sunlit Fraction;"
+                          "Generator:Photovoltaic,PV,b;");
+  EXPECT_TRUE(named.wants("A"));
+  EXPECT_TRUE(named.wants("B"));
+  EXPECT_FALSE(named.wants("C"));
+  EXPECT_TRUE(
+      read(surfaces + "Building,X,0,City,0.04,0.4,FullExteriorWithReflections;").wants("C"));
+  EXPECT_TRUE(read(surfaces + "ShadowCalculation,PolygonClipping,,,,,,,Yes;").wants("C"));
+}
+
+TEST(ShadingInput, ShadowCalculation) {
+  auto const input = read(
+      "ShadowCalculation,PixelCounting,Periodic,20,15000,,1024,,No,Yes,No,Lower,Upper;"
+      "ZoneList,Lower,Z1,z2;");
+  EXPECT_EQ(input.pixel_counting_resolution, 1024);
+  EXPECT_TRUE(input.disable_within_groups);
+  EXPECT_FALSE(input.disable_between_groups);
+  EXPECT_EQ(input.shading_zone_groups, (std::vector<std::string>{"LOWER", "UPPER"}));
+  EXPECT_EQ(input.zone_lists.at("LOWER"), (std::set<std::string>{"Z1", "Z2"}));
+  EXPECT_THROW(read("ShadowCalculation,PixelCounting,,,,,many;"), Error);
+}
+
+TEST(ShadingInput, OtherVersionsAndUserGivenFractionsAreRefused) {
+  EXPECT_NO_THROW(check_supported(read("Version,25.2;"), "25.2.0"));
+  EXPECT_NO_THROW(check_supported(read("Version,25.2.0;"), "25.2.0"));
+  EXPECT_THROW(check_supported(read("Version,24.2;"), "25.2.0"), Error);
+  EXPECT_THROW(check_supported(read("Version,9.1;"), "25.2.0"), Error);
+  EXPECT_THROW(check_supported(read("ShadowCalculation,scheduled;"), "25.2.0"), Error);
+  EXPECT_THROW(check_supported(read("ShadowCalculation,Imported;"), "25.2.0"), Error);
+}
+
+}  // namespace
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,74 @@
+#include "session/shading_rule.h"
+
+#include <gtest/gtest.h>
+
+#include "input/model_file.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+// Two zones with a wall each, a set-back window in the first, a fin on it and a tree outside.
+constexpr char const* building =
+    "BuildingSurface:Detailed,Wall 1,Wall,C,Zone 1,,Outdoors;"
+    "BuildingSurface:Detailed,Wall 2,Wall,C,Zone 2,,Outdoors;"
+    "FenestrationSurface:Detailed,Window 1,Window,G,Wall 1;"
+    "Shading:Zone:Detailed,Fin,Wall 1;"
+    "Shading:Site:Detailed,Tree;"
+    "ZoneList,First,Zone 1;ZoneList,Second,Zone 2;";
+
+enum Id : SurfaceId { wall_1, wall_2, window_1, reveal, fin, tree };
+std::vector<std::string> const names{"WALL 1", "WALL 2", "WINDOW 1", "WINDOW 1 reveal 1",
+                                     "FIN",    "TREE"};
+
+ShadingRule rule_for(std::string const& objects) {
+  return make_shading_rule(read_shading_input(read_idf(building + objects)), names);
+}
+
+TEST(ShadingRule, NoneWhereEverythingCasts) {
+  EXPECT_FALSE(rule_for("ShadowCalculation,PixelCounting;"));
+}
+
+TEST(ShadingRule, DisabledWithinAndBetweenGroupsOnlyShadingSurfacesCast) {
+  auto const rule = rule_for("ShadowCalculation,PixelCounting,,,,,,,,Yes,Yes,First,Second;");
+  EXPECT_FALSE(rule(wall_1, wall_2));
+  EXPECT_FALSE(rule(wall_2, window_1));
+  EXPECT_TRUE(rule(wall_1, tree));
+  EXPECT_TRUE(rule(wall_2, fin));
+}
+
+TEST(ShadingRule, SetBackWindowStaysInItsWall) {
+  auto const rule = rule_for("ShadowCalculation,PixelCounting,,,,,,,,Yes,Yes,First,Second;");
+  EXPECT_TRUE(rule(window_1, wall_1));
+  EXPECT_TRUE(rule(window_1, reveal));
+  EXPECT_FALSE(rule(wall_2, reveal));
+}
+
+TEST(ShadingRule, DisabledBetweenGroups) {
+  auto const rule = rule_for("ShadowCalculation,PixelCounting,,,,,,,,No,Yes,First,Second;");
+  EXPECT_FALSE(rule(window_1, wall_2));
+  EXPECT_TRUE(rule(window_1, fin));
+}
+
+TEST(ShadingRule, DisabledWithinOneGroupOfBothZones) {
+  auto const rule =
+      rule_for("ZoneList,Both,Zone 1,Zone 2;ShadowCalculation,PixelCounting,,,,,,,,Yes,No,Both;");
+  EXPECT_FALSE(rule(wall_1, wall_2));
+  EXPECT_TRUE(rule(wall_1, tree));
+}
+
+TEST(ShadingRule, DisabledWithinSeparateGroupsLeavesThemShadingEachOther) {
+  auto const rule = rule_for("ShadowCalculation,PixelCounting,,,,,,,,Yes,No,First,Second;");
+  EXPECT_TRUE(rule(wall_1, wall_2));
+}
+
+TEST(ShadingRule, MinimalShadowingKnowsAttachedSurfacesAlone) {
+  auto const rule = rule_for("Building,B,0,City,0.04,0.4,MinimalShadowing;");
+  EXPECT_TRUE(rule(window_1, fin));
+  EXPECT_TRUE(rule(window_1, reveal));
+  EXPECT_FALSE(rule(window_1, tree));
+  EXPECT_FALSE(rule(wall_2, fin));
+  EXPECT_FALSE(rule(wall_1, wall_2));
+}
+
+}  // namespace
+}  // namespace gpu_shading::energyplus
