@@ -1,0 +1,145 @@
+"""The maker of patched prefixes, with stand-ins for what the build makes."""
+
+import importlib.util
+import os
+import stat
+import subprocess
+from importlib.machinery import SourceFileLoader
+from pathlib import Path
+
+import pytest
+from shading_runs import energyplus
+
+SCRIPT = energyplus.REPOSITORY / "scripts" / "patch_energyplus"
+
+
+def load_script():
+    loader = SourceFileLoader("patch_energyplus", str(SCRIPT))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+    loader.exec_module(module)
+    return module
+
+
+@pytest.fixture
+def build(tmp_path):
+    folder = tmp_path / "build" / "energyplus_patch"
+    folder.mkdir(parents=True)
+    (folder / "energyplus").write_text("#!/bin/sh\necho launcher\n")
+    (folder / "libgpu_shading_energyplus.so").write_bytes(b"library")
+    return folder.parent
+
+
+@pytest.fixture
+def prefix(tmp_path):
+    """An installation in miniature, with helpers that lack the run bit."""
+    folder = tmp_path / "EnergyPlus-25-2-0"
+    (folder / "PostProcess" / "convert").mkdir(parents=True)
+    (folder / "DataSets").mkdir()
+    files = {
+        "energyplus": b"#!/bin/sh\necho official\n",
+        "libenergyplusapi.so": b"\x7fELF...\0libenergyplusapi.so.25.2.0\0...",
+        "Energy+.idd": b"!IDD_Version 25.2.0\n",
+        "runreadvars": b"#!/bin/sh\n",
+        "DataSets/Schedules.idf": b"",
+        "PostProcess/ReadVarsESO": b"\x7fELF" + bytes(12) + b"\x02\0",
+        "PostProcess/convert/notes.txt": b"notes",
+    }
+    for name, content in files.items():
+        (folder / name).write_bytes(content)
+    (folder / "energyplus").chmod(0o755)
+    return folder
+
+
+def patch(*arguments):
+    return subprocess.run([SCRIPT, *arguments], capture_output=True, text=True)
+
+
+def tree(folder):
+    """Every path below a folder with its kind, mode, content and time of change."""
+    state = {}
+    for path in sorted(folder.rglob("*")):
+        status = path.lstat()
+        content = path.read_bytes() if path.is_file() else b""
+        state[path] = (status.st_mode, status.st_mtime_ns, content)
+    return state
+
+
+def test_makes_a_prefix_and_leaves_the_original_alone(prefix, build, tmp_path):
+    before = tree(prefix)
+    dest = tmp_path / "patched"
+    done = patch(prefix, dest, "--build", build)
+    assert done.returncode == 0, done.stderr
+    assert tree(prefix) == before
+    assert not (dest / "energyplus").is_symlink()
+    assert subprocess.run([dest / "energyplus"], capture_output=True, text=True).stdout == "launcher\n"
+    assert subprocess.run([dest / "energyplus-official"], capture_output=True, text=True).stdout == "official\n"
+    assert Path(os.readlink(dest / "Energy+.idd")) == prefix / "Energy+.idd"
+    assert (dest / "DataSets").is_symlink()
+    for helper in ("runreadvars", "PostProcess/ReadVarsESO"):
+        assert (dest / helper).stat().st_mode & stat.S_IXUSR
+        assert not (dest / helper).is_symlink()
+    assert (dest / "PostProcess" / "convert").is_symlink()
+
+
+def test_again_makes_the_same_anew(prefix, build, tmp_path):
+    dest = tmp_path / "patched"
+    assert patch(prefix, dest, "--build", build).returncode == 0
+    first = sorted(path.name for path in dest.iterdir())
+    (prefix / "Energy+.schema.epJSON").write_text("{}")
+    (build / "energyplus_patch" / "energyplus").write_text("#!/bin/sh\necho newer\n")
+    assert patch(prefix, dest, "--build", build).returncode == 0
+    assert sorted(path.name for path in dest.iterdir()) == sorted([*first, "Energy+.schema.epJSON"])
+    assert subprocess.run([dest / "energyplus"], capture_output=True, text=True).stdout == "newer\n"
+    assert [path.name for path in tmp_path.iterdir() if ".new-" in path.name] == []
+
+
+@pytest.mark.parametrize(
+    "case", ["dest in prefix", "dest is prefix", "not an installation", "foreign dest", "other version", "patched prefix",
+             "no build"]
+)
+def test_refuses(case, prefix, build, tmp_path):
+    dest = tmp_path / "patched"
+    if case == "dest in prefix":
+        dest = prefix / "patched"
+    elif case == "dest is prefix":
+        dest = prefix
+    elif case == "not an installation":
+        (prefix / "libenergyplusapi.so").unlink()
+    elif case == "foreign dest":
+        dest.mkdir()
+        (dest / "mine").write_text("")
+    elif case == "other version":
+        (prefix / "libenergyplusapi.so").write_bytes(b"\x7fELF\0libenergyplusapi.so.25.1.0\0")
+    elif case == "patched prefix":
+        assert patch(prefix, dest, "--build", build).returncode == 0
+        prefix, dest = dest, tmp_path / "second"
+    elif case == "no build":
+        build = tmp_path
+    before = tree(tmp_path)
+    done = patch(prefix, dest, "--build", build)
+    assert done.returncode == 1
+    assert done.stderr.startswith("patch_energyplus: ") and done.stderr.count("\n") == 1
+    assert tree(tmp_path) == before
+
+
+def test_force_accepts_another_version(prefix, build, tmp_path):
+    (prefix / "libenergyplusapi.so").write_bytes(b"\x7fELF\0libenergyplusapi.so.25.1.0\0")
+    assert patch(prefix, tmp_path / "patched", "--build", build, "--force").returncode == 0
+
+
+def test_a_failure_leaves_the_former_prefix(prefix, build, tmp_path, monkeypatch):
+    script = load_script()
+    dest = script.patch(prefix, tmp_path / "patched", build=build)
+    before = tree(dest)
+    monkeypatch.setattr(script, "exchange", lambda *_: (_ for _ in ()).throw(OSError("no space")))
+    with pytest.raises(OSError, match="no space"):
+        script.patch(prefix, dest, build=build)
+    assert tree(dest) == before
+    assert [path.name for path in tmp_path.iterdir() if ".new-" in path.name] == []
+
+
+def test_the_official_wheel_is_accepted(official, build, tmp_path):
+    dest = tmp_path / "patched"
+    assert patch(official.parent, dest, "--build", build).returncode == 0
+    answer = subprocess.run([dest / "energyplus-official", "--version"], capture_output=True, text=True)
+    assert "25.2.0" in answer.stdout
