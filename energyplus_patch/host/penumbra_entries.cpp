@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "gpu_shading/error.h"
 #include "host/run.h"
 
 // Functions that stand in for the member functions of Penumbra::Penumbra and Penumbra::Surface: same

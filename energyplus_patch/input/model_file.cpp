@@ -24,6 +24,10 @@ constexpr std::size_t frequency_field = 1;
 
 InputObject from_idf(ObjectType const& type, std::vector<std::string> const& values) {
   InputObject object{std::string(type.type), {}, {}, {}};
+  if (is_extension(type.type) && values.size() > type.fields.size()) {
+    throw Error(fmt::format("{}: {} fields, expected {} at most", type.type, values.size(),
+                            type.fields.size()));
+  }
   std::size_t const own = std::min(values.size(), type.fields.size());
   for (std::size_t i = 0; i < own; ++i) {
     object.fields.emplace(type.fields[i], values[i]);
@@ -43,6 +47,10 @@ InputObject from_epjson(ObjectType const& type, std::string const& name,
                         nlohmann::json const& fields) {
   InputObject object{std::string(type.type), {}, {}, {}};
   for (auto const& [field, value] : fields.items()) {
+    if (is_extension(type.type) &&
+        std::find(type.fields.begin(), type.fields.end(), field) == type.fields.end()) {
+      throw Error(fmt::format("{}: {}: no such field", type.type, field));
+    }
     if (value.is_primitive()) object.fields[field] = text_of(value);
   }
   if (!type.fields.empty() && type.fields.front() == "name") {
