@@ -19,30 +19,6 @@ Mode parse_mode(std::string const& text) {
   throw Error(fmt::format("is \"{}\", expected auto, require or off", text));
 }
 
-std::string name_of(Mode mode) {
-  switch (mode) {
-    case Mode::require:
-      return "require";
-    case Mode::off:
-      return "off";
-    case Mode::automatic:
-      break;
-  }
-  return "auto";
-}
-
-std::string name_of(DeviceChoice const& device) {
-  switch (device.kind) {
-    case DeviceChoice::Kind::software:
-      return "software";
-    case DeviceChoice::Kind::index:
-      return std::to_string(device.index);
-    case DeviceChoice::Kind::automatic:
-      break;
-  }
-  return "auto";
-}
-
 int parse_resolution(std::string const& text) {
   int value = 0;
   auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -109,6 +85,30 @@ void fill(std::optional<T>& value, std::optional<T> const& lower) {
 }
 
 }  // namespace
+
+std::string name_of(Mode mode) {
+  switch (mode) {
+    case Mode::require:
+      return "require";
+    case Mode::off:
+      return "off";
+    case Mode::automatic:
+      break;
+  }
+  return "auto";
+}
+
+std::string name_of(DeviceChoice const& device) {
+  switch (device.kind) {
+    case DeviceChoice::Kind::software:
+      return "software";
+    case DeviceChoice::Kind::index:
+      return std::to_string(device.index);
+    case DeviceChoice::Kind::automatic:
+      break;
+  }
+  return "auto";
+}
 
 void Choices::fill_from(Choices const& lower) {
   fill(mode, lower.mode);

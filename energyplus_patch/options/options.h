@@ -36,6 +36,10 @@ struct Choices {
 // whose value needs the equals sign). Throws Error on an unknown flag of ours or a bad value.
 Choices take_flags(std::vector<std::string>& arguments);
 
+// As the flag's value has it.
+std::string name_of(Mode mode);
+std::string name_of(DeviceChoice const& device);
+
 // The inverse, one flag a line.
 std::string to_flags(Choices const& choices);
 

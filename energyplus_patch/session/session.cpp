@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <numeric>
 
 #include "gpu_shading/error.h"
+#include "session/listing.h"
 #include "session/report.h"
 #include "session/shading_rule.h"
 
@@ -50,6 +53,10 @@ void Session::start(Messages messages) {
   for (SurfaceId id = 0; id < surfaces_; ++id) {
     wanted_[id] = !input.shading_surfaces.contains(names[id]) || input.wants(names[id]);
   }
+  if (char const* const listing = std::getenv(listing_variable)) {
+    std::ofstream(listing) << list_surfaces(scene_, input, wanted_);
+    std::_Exit(EXIT_SUCCESS);
+  }
   if (auto rule = make_shading_rule(input, names)) scene_.set_rule(std::move(rule));
   answers_ = Answers(surfaces_);
 
@@ -74,12 +81,13 @@ void Session::start(Messages messages) {
 }
 
 void Session::describe_surfaces() {
-  messages_.eio(
-      "! <GPU Shading Surface>, Surface Name, Caster Type, Transmittance Schedule Name\n");
   std::size_t scheduled = 0;
   for (auto const& [name, surface] : model_.shading.shading_surfaces) {
     if (surface.transmittance_schedule.empty()) continue;
-    ++scheduled;
+    if (scheduled++ == 0) {
+      messages_.eio(
+          "! <GPU Shading Surface>, Surface Name, Caster Type, Transmittance Schedule Name\n");
+    }
     messages_.eio(fmt::format("GPU Shading Surface,{},Opaque (schedule not applied),{}\n", name,
                               surface.transmittance_schedule));
   }

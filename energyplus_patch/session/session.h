@@ -26,6 +26,10 @@ class Session {
   // EnergyPlus's WindowComplexManager keeps this many lit back surfaces a window; more would overrun.
   static constexpr std::size_t max_back_surfaces = 20;
 
+  // Set by `gpu_shading check` alone: start() writes the listing of surfaces to this file and ends the
+  // process.
+  static constexpr char const* listing_variable = "GPU_SHADING_CHECK";
+
   explicit Session(Model model) : model_(std::move(model)) {}
 
   SurfaceId add(Surface surface) { return scene_.add(std::move(surface)); }

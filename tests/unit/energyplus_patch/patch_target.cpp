@@ -22,8 +22,9 @@ extern "C" __attribute__((naked, noinline, used, visibility("hidden"))) int read
       "addl $0, %eax\n\t"
       "ret");
 }
-extern "C" __attribute__((used, visibility("hidden"))) int volatile patch_target_number = 42;
-int volatile patch_target_number = 42;
+extern "C" {
+__attribute__((used, visibility("hidden"))) int volatile patch_target_number = 42;
+}
 
 // Its first instruction is a relative jump.
 extern "C" __attribute__((naked, noinline, used, visibility("hidden"))) int jumps_first() {

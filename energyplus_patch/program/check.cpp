@@ -1,0 +1,93 @@
+#include "program/check.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+
+#include "gpu_shading/error.h"
+#include "host/version.h"
+#include "input/model_reader.h"
+#include "program/process.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using Path = std::filesystem::path;
+
+Path own_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path(); }
+
+Path find_launcher() {
+  auto const launcher = own_folder() / "energyplus";
+  if (!std::filesystem::exists(own_folder() / "Energy+.idd")) {
+    throw Error(fmt::format("{}: is not a patched EnergyPlus; run the gpu_shading of a prefix made by "
+                            "patch_energyplus",
+                            own_folder().string()));
+  }
+  return launcher;
+}
+
+// Any will do: only the geometry is wanted.
+Path some_weather() {
+  auto const folder = own_folder() / "WeatherData";
+  if (std::filesystem::exists(folder)) {
+    for (auto const& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().extension() == ".epw") return entry.path();
+    }
+  }
+  throw Error(fmt::format("{}: no weather file; name one with -w", folder.string()));
+}
+
+std::string read_text(Path const& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+// The lines of EnergyPlus's .err that say why it stopped.
+std::string reasons(Path const& folder) {
+  std::ifstream file(folder / "eplusout.err");
+  std::string found;
+  bool severe = false;
+  for (std::string line; std::getline(file, line);) {
+    bool const continued = line.find("**   ~~~   **") != std::string::npos;
+    bool const starts = line.find("** Severe") != std::string::npos ||
+                        line.find("**  Fatal") != std::string::npos;
+    severe = starts || (continued && severe);
+    if (severe) found += "\n" + line;
+  }
+  return found;
+}
+
+}  // namespace
+
+void check(Path const& model, std::optional<Path> const& weather, Choices const& choices) {
+  if (!std::filesystem::exists(model)) {
+    throw Error(fmt::format("{}: no such file", model.string()));
+  }
+  if (!is_idf(model) && !is_epjson(model)) {
+    throw Error(fmt::format("{}: expected an .idf or .epJSON file", model.string()));
+  }
+  check_supported(read_model(model, choices).shading, read_version(own_folder()));
+
+  TemporaryFolder const folder;
+  auto const listing = folder.path() / "surfaces.txt";
+  auto const log = folder.path() / "log.txt";
+  std::vector<std::string> command{find_launcher().string(), "--gpu-shading", "-d",
+                                   folder.path().string(), "-w",
+                                   weather.value_or(some_weather()).string()};
+  if (choices.device) command.push_back("--gpu-shading-device=" + name_of(*choices.device));
+  if (choices.file) command.push_back("--gpu-shading-file=" + choices.file->string());
+  if (is_idf(model) && read_text(model).find("HVACTemplate:") != std::string::npos) {
+    command.emplace_back("-x");
+  }
+  command.push_back(model.string());
+  run_process(command, {"GPU_SHADING_CHECK=" + std::filesystem::absolute(listing).string()}, log);
+  if (!std::filesystem::exists(listing)) {
+    throw Error(fmt::format("{}: EnergyPlus does not get as far as its shading calculation:{}",
+                            model.string(), reasons(folder.path())));
+  }
+  std::fputs(read_text(listing).c_str(), stdout);
+}
+
+}  // namespace gpu_shading::energyplus
