@@ -101,9 +101,15 @@ class Run:
     def device(self):
         """The device that rendered, in our module's words, '' if it did not say."""
         for line in self.our_lines:
-            if re.search(r"render|device", line, re.IGNORECASE):
-                return line.removeprefix("gpu_shading: ")
+            found = re.search(r"rendered by ([^:]*)", line)
+            if found:
+                return found.group(1).strip()
         return ""
+
+    @property
+    def rendering(self):
+        """What was rendered, in our module's words: device, resolution, counts, seconds."""
+        return next((line.removeprefix("gpu_shading: ") for line in self.our_lines if "rendered by" in line), "")
 
     def why(self):
         """A short reason for a run that failed."""
@@ -121,7 +127,7 @@ def run(program, model, weather, folder, options=(), environment=None, timeout=N
     if folder.exists():
         shutil.rmtree(folder)
     folder.mkdir(parents=True)
-    command = [*before, str(program), *options, "-w", str(weather), "-d", str(folder.resolve()),
+    command = [*before, os.path.abspath(program), *options, "-w", str(weather), "-d", str(folder.resolve()),
                str(Path(model).resolve())]
     variables = {key: value for key, value in os.environ.items()
                  if key != "DISPLAY" and not key.startswith("GPU_SHADING")}

@@ -94,8 +94,9 @@ def test_again_makes_the_same_anew(prefix, build, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "case", ["dest in prefix", "dest is prefix", "not an installation", "foreign dest", "other version", "patched prefix",
-             "no build"]
+    "case",
+    ["dest in prefix", "dest is prefix", "not an installation", "foreign dest", "other version", "patched prefix",
+     "no build"],
 )
 def test_refuses(case, prefix, build, tmp_path):
     dest = tmp_path / "patched"
