@@ -155,11 +155,10 @@ Image Picture::draw(Geometry& geometry, Scene const& scene, SurfaceId receiver,
   // The receiver over all of it: what hides it from the sun shows as blue.
   gl::cut_at_plane(false);
   geometry.use_surfaces(plain_);
-  if (glm::dot(frame.normal, towards_sun) > edge_on) {
-    plain_.set(0, yellow);
-    gl::stencil(gl::Test::equal, 0, gl::OnPass::keep);
-    geometry.draw_surfaces(whole_view, itself);
-  }
+  bool const faces_sun = glm::dot(frame.normal, towards_sun) > edge_on;
+  plain_.set(0, faces_sun ? yellow : blue);
+  gl::stencil(gl::Test::not_equal, 1, gl::OnPass::keep);
+  geometry.draw_surfaces(whole_view, itself);
   plain_.set(0, blue);
   gl::stencil(gl::Test::equal, 1, gl::OnPass::keep);
   geometry.draw_surfaces(whole_view, itself);

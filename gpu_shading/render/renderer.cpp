@@ -65,6 +65,7 @@ class Renderer::Implementation {
     std::optional<Picture> picture;
   };
 
+  Surface const& surface(SurfaceId id) const;  // throws Error when there is none
   Receiver& receiver(SurfaceId id);
   Range add_surfaces(std::span<SurfaceId const> surfaces);
   double share(SurfaceId id, std::uint64_t part, std::uint64_t whole) const;
@@ -104,25 +105,27 @@ Renderer::Implementation::~Implementation() {
   }
 }
 
+Surface const& Renderer::Implementation::surface(SurfaceId id) const {
+  if (id < scene_.size()) return scene_[id];
+  throw Error(fmt::format("there is no surface {}: the scene has {}", id, scene_.size()));
+}
+
 Receiver& Renderer::Implementation::receiver(SurfaceId id) {
-  auto const [found, is_new] = receivers_.try_emplace(id);
-  Receiver& receiver = found->second;
-  if (!is_new) return receiver;
-  if (id >= scene_.size()) {
-    receivers_.erase(found);
-    throw Error(fmt::format("there is no surface {}: the scene has {}", id, scene_.size()));
-  }
-  Polygon const& polygon = scene_[id].polygon;
+  auto const known = receivers_.find(id);
+  if (known != receivers_.end()) return known->second;
+  Polygon const& polygon = surface(id).polygon;
+  Receiver receiver;
   receiver.area = area(polygon);
   if (receiver.area > 0.0) receiver.frame = plane_frame(polygon);
-  if (!receiver.frame) return receiver;
-  receiver.map = fit_tile(*receiver.frame, polygon.outline, options_.resolution);
-  Mesh const mesh = triangulate(polygon);
-  for (std::uint32_t const index : mesh.indices) {
-    receiver.tile.emplace_back(receiver.map(*receiver.frame, mesh.vertices[index]));
+  if (receiver.frame) {
+    receiver.map = fit_tile(*receiver.frame, polygon.outline, options_.resolution);
+    Mesh const mesh = triangulate(polygon);
+    for (std::uint32_t const index : mesh.indices) {
+      receiver.tile.emplace_back(receiver.map(*receiver.frame, mesh.vertices[index]));
+    }
+    receiver.in_front = casters_.in_front(scene_, id, *receiver.frame);
   }
-  receiver.in_front = casters_.in_front(scene_, id, *receiver.frame);
-  return receiver;
+  return receivers_.emplace(id, std::move(receiver)).first->second;
 }
 
 Range Renderer::Implementation::add_surfaces(std::span<SurfaceId const> surfaces) {
@@ -138,7 +141,7 @@ double Renderer::Implementation::share(SurfaceId id, std::uint64_t part,
   if (whole == 0) {
     throw Error(fmt::format(
         "surface '{}' is too thin for a single pixel at resolution {}; raise the resolution",
-        scene_[id].name, options_.resolution));
+        surface(id).name, options_.resolution));
   }
   return static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -206,7 +209,7 @@ std::vector<double> Renderer::Implementation::interior_projected_sunlit_areas(
 
   double reach = clearance;
   for (SurfaceId const id : interiors) {
-    for (glm::dvec3 const& vertex : scene_[id].polygon.outline) {
+    for (glm::dvec3 const& vertex : surface(id).polygon.outline) {
       reach = std::max(reach, -glm::dot(seen.frame->normal, vertex - seen.frame->origin));
     }
   }
@@ -239,7 +242,7 @@ Image Renderer::Implementation::sun_view(SunDirection sun, SurfaceId id, int siz
   }
   Receiver const& seen = receiver(id);
   if (!seen.frame) {
-    throw Error(fmt::format("surface '{}' has no area: there is no view of it", scene_[id].name));
+    throw Error(fmt::format("surface '{}' has no area: there is no view of it", surface(id).name));
   }
   glm::dvec3 const towards_sun = to_vector(sun);
   bool const faces_sun = glm::dot(seen.frame->normal, towards_sun) > edge_on;

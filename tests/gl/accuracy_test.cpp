@@ -67,7 +67,7 @@ TEST(Accuracy, MostScenesAreShaded) {
     double const whole = exact::projected_area(random.scene, random.sun, 0);
     double const lit = exact::projected_sunlit_area(random.scene, random.sun, 0);
     EXPECT_GE(lit, 0.0);
-    EXPECT_LE(lit, whole * (1.0 + 1e-9));
+    EXPECT_LE(lit, whole + 1e-6);  // polyclipping rounds to 10 nm
     if (lit < 0.95 * whole) ++shaded;
   }
   EXPECT_GT(shaded, 150);

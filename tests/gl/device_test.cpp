@@ -1,1 +1,90 @@
+#include "gpu_shading/device.h"
+
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "gpu_shading/error.h"
+#include "shapes.h"
+
+namespace gpu_shading {
+namespace {
+
+Scene some_scene() {
+  Scene scene;
+  scene.add({"wall", south_facing(0, 0, 0, 4, 3)});
+  return scene;
+}
+
+std::string message_of(RendererOptions const& options) {
+  try {
+    Renderer const renderer(some_scene(), options);
+  } catch (Error const& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Devices, AreNumberedFromZeroAndSayWhatTheyAre) {
+  std::vector<std::string> failures;
+  auto const devices = list_devices(&failures);
+  ASSERT_FALSE(devices.empty()) << testing::PrintToString(failures);
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    EXPECT_EQ(devices[i].index, static_cast<int>(i));
+    EXPECT_FALSE(devices[i].renderer.empty());
+    EXPECT_FALSE(devices[i].version.empty());
+    EXPECT_GE(devices[i].max_resolution, 4096);
+    std::printf("%zu: %s, %s%s\n", i, devices[i].renderer.c_str(), devices[i].version.c_str(),
+                devices[i].software ? " (software)" : "");
+  }
+}
+
+TEST(Devices, NeedNoDisplay) {
+  // What a user over ssh may have: a display that is not there.
+  setenv("DISPLAY", ":987", 1);
+  EXPECT_FALSE(list_devices().empty());
+  unsetenv("DISPLAY");
+  EXPECT_FALSE(list_devices().empty());
+}
+
+TEST(Devices, EachByItsIndex) {
+  for (DeviceInfo const& info : list_devices()) {
+    Renderer const renderer(some_scene(), {{DeviceChoice::Kind::index, info.index}});
+    EXPECT_EQ(renderer.device().renderer, info.renderer);
+    EXPECT_EQ(renderer.device().index, info.index);
+  }
+}
+
+TEST(Devices, AnIndexTooHighIsNamedWithHowManyThereAre) {
+  auto const found = list_devices().size();
+  RendererOptions const options{{DeviceChoice::Kind::index, 77}};
+  EXPECT_THROW(Renderer(some_scene(), options), DeviceError);
+  std::string const message = message_of(options);
+  EXPECT_NE(message.find("77"), std::string::npos) << message;
+  EXPECT_NE(message.find(std::to_string(found)), std::string::npos) << message;
+}
+
+TEST(Devices, SoftwareIsSoftware) {
+  auto const devices = list_devices();
+  if (std::none_of(devices.begin(), devices.end(),
+                   [](DeviceInfo const& device) { return device.software; })) {
+    GTEST_SKIP() << "no software renderer here: install Mesa's";
+  }
+  Renderer const renderer(some_scene(), {{DeviceChoice::Kind::software}});
+  EXPECT_TRUE(renderer.device().software);
+}
+
+TEST(Resolution, OutOfRangeIsNamedWithTheRange) {
+  int const most = renderer_of(some_scene()).device().max_resolution;
+  for (int const resolution : {0, -1, most + 1}) {
+    RendererOptions options;
+    options.resolution = resolution;
+    std::string const message = message_of(options);
+    EXPECT_NE(message.find(std::to_string(resolution)), std::string::npos) << message;
+    EXPECT_NE(message.find(std::to_string(most)), std::string::npos) << message;
+  }
+}
+
+}  // namespace
+}  // namespace gpu_shading

@@ -1,10 +1,9 @@
 #include "exact.h"
 
+#include <algorithm>
 #include <clipper.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
-#include <limits>
 
 namespace gpu_shading::exact {
 namespace {
@@ -16,12 +15,12 @@ using ClipperLib::Paths;
 
 constexpr double units_per_metre = 1e8;
 
-glm::dvec3 unit_normal(Ring const& ring) {
+glm::dvec3 newell(Ring const& ring) {
   glm::dvec3 sum(0.0);
   for (std::size_t i = 0; i < ring.size(); ++i) {
     sum += glm::cross(ring[i] - ring[0], ring[(i + 1) % ring.size()] - ring[0]);
   }
-  return glm::normalize(sum);
+  return sum;
 }
 
 struct Plane {
@@ -32,7 +31,7 @@ struct Plane {
 };
 
 Plane plane_of(Polygon const& polygon) {
-  return {polygon.outline[0], unit_normal(polygon.outline)};
+  return {polygon.outline[0], glm::normalize(newell(polygon.outline))};
 }
 
 // Sutherland & Hodgman: what the plane's front side keeps. Pieces of a non-convex ring stay joined
@@ -128,9 +127,9 @@ double projected_sunlit_area(Scene const& scene, SunDirection sun, SurfaceId rec
 
 double projected_area(Scene const& scene, SunDirection sun, SurfaceId receiver) {
   Polygon const& polygon = scene[receiver].polygon;
-  if (glm::dot(unit_normal(polygon.outline), to_vector(sun)) <= 0.0) return 0.0;
-  Screen const screen(to_vector(sun), polygon.outline[0]);
-  return area_of(combine(screen.project(polygon), {}, ClipperLib::ctUnion));
+  double twice = glm::length(newell(polygon.outline));
+  for (Ring const& hole : polygon.holes) twice -= glm::length(newell(hole));
+  return 0.5 * twice * std::max(0.0, glm::dot(plane_of(polygon).normal, to_vector(sun)));
 }
 
 std::vector<double> interior_areas(Scene const& scene, SunDirection sun, SurfaceId window,
@@ -153,35 +152,13 @@ std::vector<double> interior_areas(Scene const& scene, SunDirection sun, Surface
   return areas;
 }
 
-double overlap_with_bounds(Scene const& scene, SunDirection sun, SurfaceId receiver,
-                           SurfaceId caster) {
+double shadow_area(Scene const& scene, SunDirection sun, SurfaceId receiver, SurfaceId caster) {
   Polygon const& polygon = scene[receiver].polygon;
-  Plane const plane = plane_of(polygon);
-  Polygon const front = cut(scene[caster].polygon, plane);
+  Polygon const front = cut(scene[caster].polygon, plane_of(polygon));
   if (is_empty(front)) return 0.0;
-
-  glm::dvec3 u(0.0);
-  for (std::size_t i = 0; i < polygon.outline.size(); ++i) {
-    glm::dvec3 const edge = polygon.outline[(i + 1) % polygon.outline.size()] - polygon.outline[i];
-    if (glm::length(edge) > glm::length(u)) u = edge;
-  }
-  u = glm::normalize(u);
-  glm::dvec3 const v = glm::cross(plane.normal, u);
-  glm::dvec2 low(std::numeric_limits<double>::infinity());
-  glm::dvec2 high(-low);
-  for (glm::dvec3 const& p : polygon.outline) {
-    glm::dvec2 const place(glm::dot(u, p - plane.point), glm::dot(v, p - plane.point));
-    low = glm::dvec2(std::fmin(low.x, place.x), std::fmin(low.y, place.y));
-    high = glm::dvec2(std::fmax(high.x, place.x), std::fmax(high.y, place.y));
-  }
-  auto const corner = [&](double along_u, double along_v) {
-    return plane.point + u * along_u + v * along_v;
-  };
-  Ring const rectangle{corner(low.x, low.y), corner(high.x, low.y), corner(high.x, high.y),
-                       corner(low.x, high.y)};
-  Screen const screen(to_vector(sun), plane.point);
+  Screen const screen(to_vector(sun), polygon.outline[0]);
   return area_of(
-      combine({screen.project(rectangle)}, screen.project(front), ClipperLib::ctIntersection));
+      combine(screen.project(polygon), screen.project(front), ClipperLib::ctIntersection));
 }
 
 }  // namespace gpu_shading::exact

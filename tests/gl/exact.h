@@ -13,7 +13,7 @@ namespace gpu_shading::exact {
 // m2 normal to the beam of the receiver that no other surface of the scene hides.
 double projected_sunlit_area(Scene const& scene, SunDirection sun, SurfaceId receiver);
 
-// The same of a receiver before anything shades it: 0 where it is turned away.
+// The same before anything shades it, from its area: 0 where it is turned away.
 double projected_area(Scene const& scene, SunDirection sun, SurfaceId receiver);
 
 // m2 normal to the beam that each of `interiors` gets through the window. They come nearest first:
@@ -22,9 +22,7 @@ double projected_area(Scene const& scene, SunDirection sun, SurfaceId receiver);
 std::vector<double> interior_areas(Scene const& scene, SunDirection sun, SurfaceId window,
                                    std::vector<SurfaceId> const& interiors);
 
-// m2 normal to the beam of the part of the caster's shadow that falls on the receiver's rectangle
-// along its longest edge.
-double overlap_with_bounds(Scene const& scene, SunDirection sun, SurfaceId receiver,
-                           SurfaceId caster);
+// m2 normal to the beam of the shadow that one caster throws on the receiver.
+double shadow_area(Scene const& scene, SunDirection sun, SurfaceId receiver, SurfaceId caster);
 
 }  // namespace gpu_shading::exact

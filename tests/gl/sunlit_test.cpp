@@ -1,1 +1,333 @@
 #include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <thread>
+
+#include "exact.h"
+#include "gpu_shading/error.h"
+#include "random_scene.h"
+#include "shapes.h"
+
+namespace gpu_shading {
+namespace {
+
+double share_of_window(Scene const& scene, SunDirection sun, int resolution = 512) {
+  Renderer renderer = renderer_of(scene, resolution);
+  return sunlit(renderer, sun, 0).projected_area / exact::projected_area(scene, sun, 0);
+}
+
+TEST(Sunlit, NothingWhenTurnedAwayOrEdgeOn) {
+  Scene scene;
+  SurfaceId const wall = scene.add({"wall", south_facing(0, 0, 0, 4, 3)});
+  SurfaceId const roof = scene.add({"roof", level(0, 0, 3, 4, 4)});
+  Renderer renderer = renderer_of(scene);
+  EXPECT_EQ(sunlit(renderer, sun_at(0, 30), wall).projected_area, 0.0);
+  EXPECT_EQ(sunlit(renderer, sun_at(0, 30), wall).pixel_counted_area, 0.0);
+  EXPECT_EQ(sunlit(renderer, sun_at(90, 30), wall).projected_area, 0.0);
+  EXPECT_EQ(sunlit(renderer, sun_at(180, 0), roof).projected_area, 0.0);
+  EXPECT_EQ(sunlit(renderer, sun_at(180, -20), roof).projected_area, 0.0);
+}
+
+TEST(Sunlit, NothingOfDegenerateAndEmptyPolygons) {
+  Scene scene;
+  std::vector<SurfaceId> const all{
+      scene.add({"empty", {}}),
+      scene.add({"line", {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {}}}),
+      scene.add({"two vertices", {{{0, 0, 0}, {1, 0, 0}}, {}}}),
+      scene.add({"a point", {{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {}}}),
+  };
+  Renderer renderer = renderer_of(scene);
+  for (Sunlit const& answer : renderer.projected_sunlit_areas(sun_at(180, 45), all)) {
+    EXPECT_EQ(answer.projected_area, 0.0);
+  }
+}
+
+TEST(Sunlit, NoReceiversNoAnswers) {
+  Scene scene;
+  scene.add({"wall", south_facing(0, 0, 0, 4, 3)});
+  Renderer renderer = renderer_of(scene);
+  EXPECT_TRUE(renderer.projected_sunlit_areas(sun_at(180, 45), {}).empty());
+  Renderer empty = renderer_of(Scene());
+  EXPECT_TRUE(empty.projected_sunlit_areas(sun_at(180, 45), {}).empty());
+}
+
+TEST(Sunlit, AnUnknownSurfaceIsAnErrorThatNamesIt) {
+  Scene scene;
+  scene.add({"wall", south_facing(0, 0, 0, 4, 3)});
+  Renderer renderer = renderer_of(scene);
+  try {
+    sunlit(renderer, sun_at(180, 45), 7);
+    ADD_FAILURE();
+  } catch (Error const& error) {
+    EXPECT_NE(std::string(error.what()).find('7'), std::string::npos) << error.what();
+  }
+}
+
+TEST(Sunlit, ExactWithNothingInView) {
+  Scene scene;
+  scene.add({"wall", south_facing(0, 0, 0, 4, 3)});
+  scene.add({"far to the east", south_facing(100, -1, 0, 4, 3)});
+  Renderer renderer = renderer_of(scene);
+  SunDirection const sun = sun_at(200, 37);
+  EXPECT_NEAR(sunlit(renderer, sun, 0).projected_area,
+              12.0 * std::cos(20 * degree) * std::cos(37 * degree), 1e-12);
+  EXPECT_EQ(renderer.statistics().receivers_clear, 1U);
+  EXPECT_EQ(renderer.statistics().receivers_drawn, 0U);
+}
+
+TEST(Sunlit, AllOrNothingUnderABigCaster) {
+  Scene scene;
+  scene.add({"table", level(0, 0, 0, 2, 2)});
+  scene.add({"roof", level(-5, -5, 3, 12, 12)});
+  Renderer renderer = renderer_of(scene);
+  EXPECT_EQ(sunlit(renderer, sun_at(180, 80), 0).projected_area, 0.0);
+  EXPECT_EQ(renderer.statistics().receivers_drawn, 1U);
+  EXPECT_EQ(renderer.statistics().casters_drawn, 1U);
+}
+
+TEST(Sunlit, ZenithSun) {
+  Scene scene;
+  scene.add({"terrace", level(0, 0, 0, 4, 4)});
+  scene.add({"canopy", level(-1, -1, 3, 2, 6)});
+  EXPECT_NEAR(share_of_window(scene, {}), 0.75, 5e-4);
+}
+
+TEST(Sunlit, GrazingSunLosesLessThanTheCosine) {
+  Scene scene;
+  scene.add({"terrace", level(0, 0, 0, 4, 4)});
+  scene.add({"parapet", parallelogram({0, 0, 0}, {4, 0, 0}, {0, 0, 0.01})});
+  for (double const altitude : {0.1, 0.5, 2.0}) {
+    SunDirection const sun = sun_at(180, altitude);
+    Renderer renderer = renderer_of(scene);
+    double const shadow = std::min(4.0, 0.01 / std::tan(altitude * degree));
+    double const exact = 4.0 * (4.0 - shadow) * std::sin(altitude * degree);
+    // The clearance lets 1 % of this parapet through.
+    EXPECT_NEAR(sunlit(renderer, sun, 0).projected_area, exact,
+                4.0 * 1.1e-4 * std::cos(altitude * degree) + 1e-3 * std::sin(altitude * degree));
+  }
+}
+
+TEST(Sunlit, CastersThatTouchThePlaneOrLieInItDoNotCast) {
+  Scene scene;
+  scene.add({"window", south_facing(0, 0, 0, 2, 2)});
+  scene.add({"the same again", south_facing(0, 0, 0, 2, 2)});
+  scene.add({"frame over its edge", south_facing(-0.1, 0, 0, 0.3, 2)});
+  scene.add({"ceiling behind", level(0, 0, 2, 2, 4)});
+  scene.add({"partition behind", parallelogram({1, 0, 0}, {0, 4, 0}, {0, 0, 2})});
+  Renderer renderer = renderer_of(scene);
+  SunDirection const sun = sun_at(150, 40);
+  EXPECT_NEAR(sunlit(renderer, sun, 0).projected_area, exact::projected_area(scene, sun, 0), 1e-12);
+}
+
+// A slab through the window's plane: only its outer half is an overhang.
+TEST(Sunlit, CasterThroughThePlaneCastsWithItsOuterPart) {
+  Scene scene;
+  scene.add({"window", south_facing(0, 0, 0, 2, 2)});
+  scene.add({"slab", level(-9, -0.5, 2, 20, 40)});
+  double const shadow = 0.5 * std::tan(45 * degree);
+  EXPECT_NEAR(share_of_window(scene, sun_at(180, 45)), 1.0 - shadow / 2.0, 5e-4);
+}
+
+TEST(Sunlit, SetBackWindowInItsReveal) {
+  Scene scene;
+  constexpr double back = 0.2;
+  scene.add({"window", south_facing(1, back, 1, 1.2, 1.5)});
+  SurfaceId const wall = scene.add({"wall", south_facing(0, 0, 0, 4, 3)});
+  Scene whole;
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    Surface surface = scene[id];
+    if (id == wall) surface.polygon.holes = {{{1, 0, 1}, {2.2, 0, 1}, {2.2, 0, 2.5}, {1, 0, 2.5}}};
+    whole.add(surface);
+  }
+  whole.add({"head", level(1, 0, 2.5, 1.2, back)});
+  whole.add({"sill", level(1, 0, 1, 1.2, back)});
+  whole.add({"jamb", parallelogram({1, 0, 1}, {0, back, 0}, {0, 0, 1.5})});
+  whole.add({"other jamb", parallelogram({2.2, 0, 1}, {0, back, 0}, {0, 0, 1.5})});
+  for (double const g : {0.0, 30.0, 60.0}) {
+    double const wide = 1.2 - back * std::tan(g * degree);
+    double const tall = 1.5 - back * std::tan(40 * degree) / std::cos(g * degree);
+    EXPECT_NEAR(share_of_window(whole, sun_at(180 + g, 40)), wide * tall / (1.2 * 1.5), 1e-3) << g;
+  }
+}
+
+// The wall around the window: its hole neither casts nor receives.
+TEST(Sunlit, AreaOfAWallIsNetOfItsWindow) {
+  Scene scene;
+  Polygon wall = south_facing(0, 0, 0, 4, 3);
+  wall.holes = {{{1, 0, 1}, {3, 0, 1}, {3, 0, 2}, {1, 0, 2}}};
+  scene.add({"wall", wall});
+  // Its shadow ends at mid height, 1.5 m: half of the wall's net area by symmetry.
+  scene.add({"overhang", level(-9, -1.5, 3, 22, 1.5)});
+  Renderer renderer = renderer_of(scene);
+  SunDirection const sun = sun_at(180, 45);
+  EXPECT_NEAR(sunlit(renderer, sun, 0).projected_area, 5.0 * std::cos(45 * degree), 10 * 5e-4);
+}
+
+TEST(Sunlit, TheRuleSaysWhoShadesWhom) {
+  Scene scene;
+  scene.add({"table", level(0, 0, 0, 2, 2)});
+  scene.add({"roof", level(-5, -5, 3, 12, 12)});
+  scene.set_rule([](SurfaceId receiver, SurfaceId caster) { return receiver == 1 && caster == 0; });
+  EXPECT_NEAR(share_of_window(scene, sun_at(180, 80)), 1.0, 1e-12);
+}
+
+// What the golden slope of the lattice is for: edges along the receiver's own, many of them.
+TEST(Sunlit, FiftySlatsAlongTheWindow) {
+  Scene scene;
+  constexpr int slats = 50;
+  constexpr double pitch = 3.0 / slats;
+  constexpr double depth = 0.02;
+  scene.add({"window", south_facing(0, 0, 0, 3, 3)});
+  for (int i = 0; i < slats; ++i) {
+    scene.add({"slat", level(-9, -0.5 - depth, (i + 0.5) * pitch + 0.5, 21, depth)});
+  }
+  for (double const altitude : {20.0, 33.0, 45.0, 50.0}) {
+    SunDirection const sun = sun_at(180, altitude);
+    double const exact = exact::projected_sunlit_area(scene, sun, 0) / 9.0;
+    Renderer renderer = renderer_of(scene);
+    EXPECT_NEAR(sunlit(renderer, sun, 0).projected_area / 9.0, exact, 1e-3) << altitude;
+  }
+}
+
+// A reveal 5 cm deep and 30 m long, a shadow across one third of it.
+TEST(Sunlit, LongThinReceiver) {
+  Scene scene;
+  scene.add({"sill", level(0, 0, 0, 30, 0.05)});
+  scene.add({"wing", level(20, -1, 2, 15, 2)});
+  EXPECT_NEAR(share_of_window(scene, {}), 2.0 / 3.0, 1e-3);
+  Scene across;
+  across.add({"sill", level(0, 0, 0, 30, 0.05)});
+  across.add({"eaves", level(-1, 0.02, 2, 40, 1)});
+  EXPECT_NEAR(share_of_window(across, {}), 0.4, 1e-3);
+}
+
+TEST(Sunlit, PixelCountAgreesWithTheRatio) {
+  RandomScene const random = random_scene(3);
+  Renderer renderer = renderer_of(random.scene);
+  Sunlit const answer = sunlit(renderer, random.sun, 0);
+  EXPECT_GT(answer.projected_area, 0.0);
+  EXPECT_NEAR(answer.pixel_counted_area / answer.projected_area, 1.0, 2e-3);
+}
+
+TEST(Sunlit, SmallTilesStillAnswer) {
+  Scene scene;
+  scene.add({"terrace", level(0, 0, 0, 4, 4)});
+  scene.add({"canopy", level(-1, -1, 3, 3, 6)});
+  EXPECT_NEAR(share_of_window(scene, {}, 16), 0.5, 0.05);
+  double const coarsest = share_of_window(scene, {}, 1);
+  EXPECT_TRUE(coarsest == 0.0 || coarsest == 1.0);
+}
+
+// A street: houses that shade each other, asked for in one call.
+Scene street() {
+  Scene scene;
+  for (int house = 0; house < 30; ++house) {
+    double const x = 7.0 * house;
+    double const tall = 3.0 + house % 5;
+    scene.add({"front", south_facing(x, 0, 0, 6, tall)});
+    scene.add({"roof", level(x, 0, tall, 6, 8)});
+    scene.add({"opposite", parallelogram({x + 6, -9, 0}, {-6, 0, 0}, {0, 0, 6 + house % 3})});
+    scene.add({"side", parallelogram({x + 6, 0, 0}, {0, 8, 0}, {0, 0, tall})});
+  }
+  return scene;
+}
+
+std::vector<SurfaceId> all_of(Scene const& scene) {
+  std::vector<SurfaceId> ids(scene.size());
+  for (SurfaceId id = 0; id < scene.size(); ++id) ids[id] = id;
+  return ids;
+}
+
+std::vector<double> areas(std::vector<Sunlit> const& answers) {
+  std::vector<double> found;
+  for (Sunlit const& answer : answers) found.push_back(answer.projected_area);
+  return found;
+}
+
+TEST(Sunlit, ManyReceiversInOneCallAgainstExact) {
+  Scene const scene = street();
+  Renderer renderer = renderer_of(scene);
+  for (SunDirection const sun : {sun_at(160, 25), sun_at(120, 40), sun_at(240, 12)}) {
+    auto const answers = renderer.projected_sunlit_areas(sun, all_of(scene));
+    for (SurfaceId id = 0; id < scene.size(); ++id) {
+      EXPECT_NEAR(answers[id].projected_area, exact::projected_sunlit_area(scene, sun, id),
+                  1e-3 * area(scene[id].polygon))
+          << scene[id].name << ' ' << id;
+    }
+  }
+}
+
+// More than the 255 marks between two clears.
+TEST(Sunlit, FourHundredReceiversInOneCall) {
+  Scene const scene = street();
+  Renderer renderer = renderer_of(scene, 64);
+  std::vector<SurfaceId> repeated;
+  for (int i = 0; i < 13; ++i) {
+    auto const ids = all_of(scene);
+    repeated.insert(repeated.end(), ids.begin(), ids.end());
+  }
+  auto const once = areas(renderer.projected_sunlit_areas(sun_at(160, 25), all_of(scene)));
+  auto const often = areas(renderer.projected_sunlit_areas(sun_at(160, 25), repeated));
+  EXPECT_GT(renderer.statistics().receivers_drawn, 13U * 40U);
+  for (std::size_t i = 0; i < often.size(); ++i) EXPECT_EQ(often[i], once[i % once.size()]) << i;
+}
+
+TEST(Sunlit, TheSameTwiceToTheBit) {
+  Scene const scene = street();
+  Renderer one = renderer_of(scene);
+  Renderer other = renderer_of(scene);
+  SunDirection const sun = sun_at(200, 30);
+  auto const first = areas(one.projected_sunlit_areas(sun, all_of(scene)));
+  one.projected_sunlit_areas(sun_at(100, 10), all_of(scene));
+  EXPECT_EQ(first, areas(one.projected_sunlit_areas(sun, all_of(scene))));
+  EXPECT_EQ(first, areas(other.projected_sunlit_areas(sun, all_of(scene))));
+}
+
+TEST(Sunlit, WhateverTheOrderOfReceivers) {
+  Scene const scene = street();
+  Renderer renderer = renderer_of(scene);
+  SunDirection const sun = sun_at(200, 30);
+  std::vector<SurfaceId> const forth = all_of(scene);
+  std::vector<SurfaceId> const back(forth.rbegin(), forth.rend());
+  auto const forward = areas(renderer.projected_sunlit_areas(sun, forth));
+  auto const backward = areas(renderer.projected_sunlit_areas(sun, back));
+  EXPECT_EQ(forward, std::vector<double>(backward.rbegin(), backward.rend()));
+  EXPECT_EQ(forward[4], sunlit(renderer, sun, 4).projected_area);
+}
+
+TEST(Sunlit, TwoRenderersOnTwoThreads) {
+  Scene const scene = street();
+  Renderer alone = renderer_of(scene);
+  std::array<SunDirection, 2> const suns{sun_at(150, 20), sun_at(220, 35)};
+  std::array<std::vector<double>, 2> expected;
+  for (std::size_t i = 0; i < 2; ++i) {
+    expected[i] = areas(alone.projected_sunlit_areas(suns[i], all_of(scene)));
+  }
+  auto const work = [&](std::size_t which) {
+    Renderer own = renderer_of(scene);
+    for (int times = 0; times < 20; ++times) {
+      EXPECT_EQ(areas(own.projected_sunlit_areas(suns[which], all_of(scene))), expected[which]);
+    }
+  };
+  std::thread first(work, 0);
+  std::thread second(work, 1);
+  first.join();
+  second.join();
+}
+
+// A renderer made on one thread and used on another.
+TEST(Sunlit, ARendererMayChangeThreads) {
+  Scene const scene = street();
+  Renderer renderer = renderer_of(scene);
+  SunDirection const sun = sun_at(150, 20);
+  auto const here = areas(renderer.projected_sunlit_areas(sun, all_of(scene)));
+  std::vector<double> there;
+  std::thread([&] { there = areas(renderer.projected_sunlit_areas(sun, all_of(scene))); }).join();
+  EXPECT_EQ(here, there);
+}
+
+}  // namespace
+}  // namespace gpu_shading
