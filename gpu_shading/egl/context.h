@@ -29,6 +29,8 @@ class Context {
   // Throws DeviceError naming the display, the function, the decoded error and what to try.
   explicit Context(Display const& display);
   ~Context();
+  Context(Context const&) = delete;
+  Context& operator=(Context const&) = delete;
   Context(Context&& other) noexcept;
   Context& operator=(Context&& other) noexcept;
 

@@ -70,8 +70,10 @@ void set_depth_convention() {
 }
 
 void draw_indexed(std::size_t first, std::size_t count) {
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
-                 reinterpret_cast<void const*>(first * sizeof(std::uint32_t)));
+  // GL takes the offset into the index buffer as a pointer.
+  // NOLINTNEXTLINE(performance-no-int-to-ptr)
+  auto const* const offset = reinterpret_cast<void const*>(first * sizeof(std::uint32_t));
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT, offset);
 }
 
 void draw_vertices(std::size_t first, std::size_t count) {

@@ -10,7 +10,7 @@ SurfaceId Scene::add(Surface surface) {
 }
 
 bool Scene::may_shade(SurfaceId receiver, SurfaceId caster) const {
-  return receiver != caster && (!rule_ || rule_(receiver, caster));
+  return receiver != caster && surfaces_[caster].casts && (!rule_ || rule_(receiver, caster));
 }
 
 }  // namespace gpu_shading

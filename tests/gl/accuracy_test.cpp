@@ -83,8 +83,9 @@ TEST(Accuracy, PssfOfRandomScenesAt512PixelsIsWithinHalfAPerMil) {
 
 TEST(Accuracy, ErrorFallsWithResolution) {
   std::vector<int> const resolutions{256, 512, 1024, 2048};
-  std::vector<double> means;
-  for (int const resolution : resolutions) means.push_back(errors_at(resolution).mean);
+  std::vector<double> means(resolutions.size());
+  std::transform(resolutions.begin(), resolutions.end(), means.begin(),
+                 [](int resolution) { return errors_at(resolution).mean; });
   double const falls = slope(resolutions, means);
   std::printf("mean error ~ resolution^%.2f\n", falls);
   // A pixel's error at the edges alone gives -1, errors that cancel along an edge -1.5.

@@ -9,7 +9,6 @@ namespace gpu_shading::exact {
 namespace {
 
 using ClipperLib::Clipper;
-using ClipperLib::IntPoint;
 using ClipperLib::Path;
 using ClipperLib::Paths;
 

@@ -16,7 +16,8 @@ constexpr Colour yellow{255, 255, 0};
 constexpr Colour blue{0, 0, 255};
 
 Colour colour_at(Image const& image, int column, int row) {
-  auto const at = static_cast<std::size_t>(3 * (row * image.width + column));
+  auto const at = 3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+                       static_cast<std::size_t>(column));
   return {image.pixels.at(at), image.pixels.at(at + 1), image.pixels.at(at + 2)};
 }
 

@@ -221,6 +221,33 @@ TEST(Sunlit, SmallTilesStillAnswer) {
   EXPECT_TRUE(coarsest == 0.0 || coarsest == 1.0);
 }
 
+// A ridge 30 km away, in triangles of kilometres, whose shadow's edge crosses a window at sunrise.
+TEST(Sunlit, TerrainThirtyKilometresAway) {
+  constexpr double away = 3e4;
+  double const altitude = 2.0 * degree;
+  double const ridge = away * std::tan(altitude) + 1.25;  // its shadow ends 1.25 m up the window
+  Scene scene;
+  scene.add({"window", south_facing(0, 0, 0, 2, 2)});
+  scene.add({"ridge", south_facing(-5e3, -away, -500, 1e4, ridge + 500)});
+  Renderer renderer = renderer_of(scene);
+  EXPECT_NEAR(sunlit(renderer, sun_at(180, 2), 0).projected_area / 4.0,
+              0.75 / 2.0 * std::cos(altitude), 2e-3);
+}
+
+// Faces of kilometres through the receiver's plane, the sun grazing it.
+TEST(Sunlit, HugeCasterThroughThePlaneAtGrazingSun) {
+  Scene scene;
+  scene.add({"window", south_facing(0, 0, 0, 2, 2)});
+  scene.add({"hillside", parallelogram({-0.7, -9e3, -9e3}, {0, 18e3, 0}, {0, 0, 18e3})});
+  for (double const g : {45.0, 80.0, 89.0, 89.9}) {
+    SunDirection const sun = sun_at(180 + g, 0.5);
+    double const cosine = std::cos(g * degree) * std::cos(0.5 * degree);
+    double const exact = exact::projected_sunlit_area(scene, sun, 0) / 4.0;
+    Renderer renderer = renderer_of(scene);
+    EXPECT_NEAR(sunlit(renderer, sun, 0).projected_area / 4.0, exact, 2e-3 * cosine) << g;
+  }
+}
+
 // A street: houses that shade each other, asked for in one call.
 Scene street() {
   Scene scene;
@@ -243,6 +270,7 @@ std::vector<SurfaceId> all_of(Scene const& scene) {
 
 std::vector<double> areas(std::vector<Sunlit> const& answers) {
   std::vector<double> found;
+  found.reserve(answers.size());
   for (Sunlit const& answer : answers) found.push_back(answer.projected_area);
   return found;
 }

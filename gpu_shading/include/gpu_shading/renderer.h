@@ -56,6 +56,8 @@ class Renderer {
   // Throws Error when the resolution is out of range, DeviceError when the device cannot be had.
   Renderer(Scene scene, RendererOptions options);
   ~Renderer();
+  Renderer(Renderer const&) = delete;
+  Renderer& operator=(Renderer const&) = delete;
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 

@@ -27,6 +27,7 @@ struct Polygon {
 struct Surface {
   std::string name;
   Polygon polygon;
+  bool casts = true;  // else it only receives
 };
 
 // Whether a caster counts for a receiver. Asked once for each pair, before the first direction.
