@@ -77,6 +77,14 @@ Choices read_choices(char const* options) {
   return choices;
 }
 
+std::optional<StoredResult> find_surface_ids(SymbolTable const& symbols) {
+  Symbol const* const caller = symbols.find(
+      "_ZN10EnergyPlus12SolarShading30DetermineShadowingCombinationsERNS_14EnergyPlusDataE");
+  Symbol const* const callee = symbols.find("_ZN8Penumbra8Penumbra11add_surfaceERKNS_7SurfaceE");
+  if (caller == nullptr || callee == nullptr) return std::nullopt;
+  return find_stored_result(*caller, *callee);
+}
+
 void install(char const* library, char const* options) {
   static std::mutex mutex;
   std::scoped_lock const lock(mutex);
@@ -90,6 +98,8 @@ void install(char const* library, char const* options) {
     auto entries = penumbra_entries();
     auto const input = input_entries();
     entries.insert(entries.end(), input.begin(), input.end());
+    // Before the entries change: it reads the code that calls them.
+    installed.surface_ids = find_surface_ids(symbols);
     patch_entries(symbols, entries);
     installed.library = loaded.path;
     installed.version = version;

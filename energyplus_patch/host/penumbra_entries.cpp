@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gpu_shading/error.h"
+#include "host/mirrored_surfaces.h"
 #include "host/run.h"
 
 // Functions that stand in for the member functions of Penumbra::Penumbra and Penumbra::Surface: same
@@ -82,8 +83,23 @@ unsigned get_number_of_surfaces(PenumbraObject* self) {
   return static_cast<unsigned>(self->session->size());
 }
 
+// Needed only where what shading surfaces reflect counts.
+void add_mirrored_surfaces(Session& session, Session::Messages const& messages) {
+  auto const& ids = installation().surface_ids;
+  if (!session.input().reflections || session.shading_surfaces().empty()) return;
+  if (!ids || !hand_over_mirrored_surfaces(*this_run().state, session, *ids)) {
+    messages.warning(
+        "this EnergyPlus does not let mirrored shading surfaces be handed over: solar radiation that "
+        "the back of a shading surface reflects is lost");
+  }
+}
+
 void set_model(PenumbraObject* self) {
-  guarded([&] { self->session->start(messages_of(this_run())); });
+  guarded([&] {
+    auto const messages = messages_of(this_run());
+    add_mirrored_surfaces(*self->session, messages);
+    self->session->start(messages);
+  });
 }
 
 void set_sun_position(PenumbraObject* self, float azimuth, float altitude) {

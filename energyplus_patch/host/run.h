@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "binary/stored_result.h"
 #include "host/energyplus.h"
 #include "session/session.h"
 
@@ -16,7 +17,8 @@ struct Installation {
   std::filesystem::path library;
   std::string version;  // of EnergyPlus, e.g. "25.2.0"
   EnergyPlusFunctions functions;
-  Choices choices;  // command line over environment
+  std::optional<StoredResult> surface_ids;  // where EnergyPlus keeps what add_surface returned
+  Choices choices;                          // command line over environment
 };
 Installation& installation();
 

@@ -75,6 +75,8 @@ std::vector<ObjectType> const& known_types() {
       {"SolarCollector:FlatPlate:PhotovoltaicThermal", {"name", "surface_name"}},
       {"SolarCollector:IntegralCollectorStorage",
        {"name", "integralcollectorstorageparameters_name", "surface_name"}},
+      {"DaylightingDevice:Shelf",
+       {"name", "window_name", "inside_shelf_name", "outside_shelf_name"}},
       {"Output:Variable", {"key_value", "variable_name"}},
       {"EnergyManagementSystem:Sensor",
        {"name", "output_variable_or_output_meter_index_key_name",

@@ -56,7 +56,8 @@ bool is_epjson(std::filesystem::path const& path) {
 
 bool is_idf(std::filesystem::path const& path) {
   return same_name(path.extension().string(), ".idf") ||
-         same_name(path.extension().string(), ".imf");
+         same_name(path.extension().string(), ".imf") ||
+         same_name(path.extension().string(), ".expidf");  // from ExpandObjects
 }
 
 Model understand(std::vector<InputObject> objects, std::filesystem::path const& path,

@@ -92,6 +92,8 @@ ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
       input.base_of[upper(object.name)] = upper(object["building_surface_name"]);
     } else if (object.fields.contains("surface_name")) {
       named.insert(upper(object["surface_name"]));
+    } else if (object.type == "DaylightingDevice:Shelf") {
+      named.insert(upper(object["outside_shelf_name"]));
     } else if (object.type == "Output:Variable") {
       named.insert(upper(object["key_value"]));
     } else if (object.type == "EnergyManagementSystem:Sensor") {

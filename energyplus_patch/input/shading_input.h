@@ -36,7 +36,7 @@ struct ShadingInput {
   std::map<std::string, ShadingSurface> shading_surfaces;  // by the names that EnergyPlus gives them
 
   // Shading surfaces whose own sunlit fraction has a use: named by an output, an EMS sensor,
-  // photovoltaics or a collector; all of them with reflections or with the external shading file.
+  // photovoltaics, a collector or a daylighting shelf; all of them with reflections or with the external shading file.
   std::set<std::string> wanted_shading;
   bool all_shading_wanted = false;
 

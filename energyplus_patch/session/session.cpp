@@ -40,6 +40,14 @@ void keep_largest(std::vector<float>& areas, std::size_t limit) {
 
 }  // namespace
 
+std::vector<SurfaceId> Session::shading_surfaces() const {
+  std::vector<SurfaceId> ids;
+  for (SurfaceId id = 0; id < scene_.size(); ++id) {
+    if (model_.shading.shading_surfaces.contains(scene_[id].name)) ids.push_back(id);
+  }
+  return ids;
+}
+
 void Session::start(Messages messages) {
   messages_ = std::move(messages);
   surfaces_ = scene_.size();

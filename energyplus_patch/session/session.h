@@ -35,6 +35,12 @@ class Session {
   SurfaceId add(Surface surface) { return scene_.add(std::move(surface)); }
   std::size_t size() const { return renderer_ ? surfaces_ : scene_.size(); }
 
+  Surface const& surface(SurfaceId id) const { return scene_[id]; }
+  ShadingInput const& input() const { return model_.shading; }
+
+  // Ids of the model's shading surfaces, in order. Before start().
+  std::vector<SurfaceId> shading_surfaces() const;
+
   // All surfaces are there: opens the device.
   void start(Messages messages);
 

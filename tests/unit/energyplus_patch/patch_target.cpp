@@ -40,6 +40,22 @@ extern "C" __attribute__((naked, noinline, used, visibility("hidden"))) int too_
       "ret");
 }
 
+// Stores the result of its second call, of gives_number, in an array two pointers away.
+extern "C" __attribute__((naked, noinline, used, visibility("hidden"))) int gives_number() {
+  asm("movl $11, %eax\n\t"
+      "ret");
+}
+extern "C" __attribute__((naked, noinline, used, visibility("hidden"))) int stores_number() {
+  asm("call gives_number\n\t"
+      "movl %eax, (%rsp)\n\t"
+      "call gives_number\n\t"
+      "movq 0x148(%rbx), %rdx\n\t"
+      "movq 0x30(%rsp), %rcx\n\t"
+      "movq 0x28(%rdx), %rdx\n\t"
+      "movl %eax, (%rdx,%rcx,1)\n\t"
+      "ret");
+}
+
 extern "C" EXPORTED int call_twice(int value) { return twice(value); }
 extern "C" EXPORTED int call_reads_memory_first() { return reads_memory_first(); }
 extern "C" EXPORTED int call_jumps_first() { return jumps_first(); }

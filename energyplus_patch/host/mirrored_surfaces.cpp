@@ -1,0 +1,58 @@
+#include "host/mirrored_surfaces.h"
+
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+namespace gpu_shading::energyplus {
+namespace {
+
+// Reads this process's own memory; false, not a fault, where there is none.
+bool read_memory(std::byte const* from, void* to, std::size_t size) {
+  iovec const local{to, size};
+  iovec const remote{const_cast<std::byte*>(from), size};
+  return process_vm_readv(getpid(), &local, 1, &remote, 1, 0) == static_cast<ssize_t>(size);
+}
+
+std::byte* read_pointer(std::byte const* from) {
+  std::byte* pointer = nullptr;
+  return read_memory(from, &pointer, sizeof pointer) ? pointer : nullptr;
+}
+
+Surface mirrored(Surface const& surface) {
+  Surface copy{"Mir-" + surface.name, surface.polygon, false};
+  std::reverse(copy.polygon.outline.begin(), copy.polygon.outline.end());
+  return copy;
+}
+
+}  // namespace
+
+std::optional<std::size_t> hand_over_mirrored_surfaces(State& state, Session& session,
+                                                       StoredResult const& ids) {
+  auto* const holder = read_pointer(reinterpret_cast<std::byte*>(&state) + ids.outer);
+  auto* const origin = holder == nullptr ? nullptr : read_pointer(holder + ids.inner);
+  if (origin == nullptr) return std::nullopt;
+  // EnergyPlus counts surfaces from 1.
+  auto* const array = origin + sizeof(std::int32_t);
+
+  // Shading surfaces come first, each followed by its copy, if it has one, with id -1.
+  auto const shading = session.shading_surfaces();
+  std::vector<std::int32_t> kept(2 * shading.size());
+  if (!read_memory(array, kept.data(), kept.size() * sizeof(std::int32_t))) return std::nullopt;
+  std::vector<std::pair<std::size_t, SurfaceId>> copies;  // place in the array, original
+  std::size_t at = 0;
+  for (auto const id : shading) {
+    if (kept[at++] != static_cast<std::int32_t>(id)) return std::nullopt;
+    if (at < kept.size() && kept[at] == -1) copies.emplace_back(at++, id);
+  }
+  for (auto const& [place, original] : copies) {
+    auto const id = static_cast<std::int32_t>(session.add(mirrored(session.surface(original))));
+    std::memcpy(array + place * sizeof id, &id, sizeof id);
+  }
+  return copies.size();
+}
+
+}  // namespace gpu_shading::energyplus
