@@ -16,6 +16,10 @@ J_PER_KWH = 3.6e6
 # below, an hour's mean mixes steps in front of and behind the plane.
 FACING = 1e-3
 
+# A wall of which its windows leave less than this share is no receiver: a few square millimetres' sunlit
+# fraction is noise under every method, and moves nothing.
+SLIVER = 1e-3
+
 
 def instrument(model, frequency="Hourly"):
     """Adds to an input file the outputs that Results reads."""
@@ -52,7 +56,8 @@ class Results:
             name: Receiver(name, kind, area, azimuth, tilt)
             for name, kind, area, azimuth, tilt in data.execute(
                 "SELECT SurfaceName, ClassName, Area, Azimuth, Tilt FROM Surfaces "
-                "WHERE ExtSolar = 1 AND HeatTransferSurf = 1 AND Area > 0 ORDER BY SurfaceIndex"
+                "WHERE ExtSolar = 1 AND HeatTransferSurf = 1 AND Area > ? * GrossArea ORDER BY SurfaceIndex",
+                (SLIVER,),
             )
         }
         column = {}  # data dictionary index -> (variable, receiver)

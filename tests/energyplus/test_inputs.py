@@ -1,0 +1,73 @@
+"""Every form of input that the official program takes: epJSON, relative paths, preprocessing, other folders."""
+
+import subprocess
+
+import pytest
+from shading_runs import energyplus, input_file, results
+
+
+def sunlit(run):
+    assert run.completed, run.why()
+    assert run.method == "PixelCounting"
+    return results.Results(run.folder).values[results.SUNLIT]
+
+
+@pytest.fixture
+def model(courtyard, tmp_path):
+    model = input_file.read(courtyard)
+    results.instrument(model)
+    return input_file.place_copy(model, courtyard, tmp_path / "input")
+
+
+@pytest.fixture
+def shade(patched, weather, tmp_path):
+    def call(model, *options, folder="out"):
+        return energyplus.run(patched, model, weather, tmp_path / folder, ["--gpu-shading", "-D", *options])
+
+    return call
+
+
+def test_epjson_gives_the_same_as_idf(shade, official, model, tmp_path):
+    subprocess.run([official, "--convert-only", "-d", tmp_path, model], cwd=tmp_path, check=True, capture_output=True)
+    converted = next(tmp_path.glob("*.epJSON"))
+    from_idf, from_epjson = sunlit(shade(model, folder="idf")), sunlit(shade(converted, folder="epjson"))
+    assert from_idf.keys() == from_epjson.keys()
+    for name, values in from_idf.items():
+        # Written with fewer digits, the vertices differ by less than a pixel.
+        assert values == pytest.approx(from_epjson[name], abs=1e-3), name
+
+
+def test_relative_schedule_file_is_found_beside_the_input(shade, official, weather, model, tmp_path):
+    (model.parent / "schedules").mkdir()
+    (model.parent / "schedules" / "gains.csv").write_text("value\n" + "1\n" * 8760)
+    text = model.read_text() + (
+        "ScheduleTypeLimits,Any;\n"
+        "Schedule:File,Gains,Any,schedules/gains.csv,1,1,8760,Comma;\n"
+        "OtherEquipment,Gain,None,West,Gains,EquipmentLevel,10;\n"
+    )
+    model.write_text(text)
+    stock = energyplus.run(official, model, weather, tmp_path / "stock", ["-D"])
+    assert stock.completed, stock.why()
+    sunlit(shade(model))
+
+
+def test_preprocessed_input_is_shaded_too(shade, model):
+    plain = sunlit(shade(model, folder="plain"))
+    model.write_text(model.read_text() + "HVACTemplate:Thermostat,Unused,,20,,26;\n")
+    assert sunlit(shade(model, "-x", folder="expanded")) == plain
+
+
+def test_output_names_do_not_matter(shade, model, tmp_path):
+    run = shade(model, "-p", "model", "-s", "C")
+    assert run.status == 0, run.why()
+    assert "PixelCounting" in next((tmp_path / "out").glob("model*.eio")).read_text()
+
+
+def test_compare_shading_prints_a_table(official, patched, courtyard, weather, tmp_path):
+    done = subprocess.run(
+        [energyplus.REPOSITORY / "scripts" / "compare_shading", courtyard, "-w", weather, "-o", tmp_path, "--", "-D"],
+        capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert "EAST END WINDOW" in done.stdout
+    assert "PolygonClipping" in done.stdout and "rendered by" in done.stdout
+    assert (tmp_path / "receivers.csv").is_file() and (tmp_path / "hourly.csv").is_file()
