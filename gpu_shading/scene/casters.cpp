@@ -63,8 +63,12 @@ class Shadow {
   double high_v_ = 0.0;
 };
 
+double height_above(PlaneFrame const& frame, glm::dvec3 const& point) {
+  return glm::dot(frame.normal, point - frame.origin);
+}
+
 double depth(PlaneFrame const& frame, glm::dvec3 const& point) {
-  return glm::dot(frame.normal, point - frame.origin) - clearance;
+  return height_above(frame, point) - clearance;
 }
 
 void include_crossing(Shadow& shadow, PlaneFrame const& frame, glm::dvec3 const& a,
@@ -86,7 +90,9 @@ Casters::Casters(Scene const& scene) {
     Caster& caster = casters_[id];
     caster.first = points_.size();
     caster.count = ring.size();
-    caster.planar = is_planar(ring, glm::normalize(vector));
+    caster.normal = glm::normalize(vector);
+    caster.planar = is_planar(ring, caster.normal);
+    caster.only_turned_away = scene[id].casting == Casting::turned_away;
     for (glm::dvec3 const& vertex : ring) {
       caster.centre += (vertex - ring[0]) / static_cast<double>(ring.size());
     }
@@ -103,10 +109,11 @@ std::vector<SurfaceId> Casters::in_front(Scene const& scene, SurfaceId receiver,
   std::vector<SurfaceId> found;
   for (SurfaceId id = 0; id < casters_.size(); ++id) {
     Caster const& caster = casters_[id];
-    if (caster.count == 0 || depth(frame, caster.centre) + caster.radius <= 0.0) continue;
+    if (caster.count == 0) continue;
+    if (height_above(frame, caster.centre) + caster.radius <= coplanar) continue;
     auto const ring = points(caster);
     bool const in_front = std::any_of(ring.begin(), ring.end(), [&](glm::dvec3 const& vertex) {
-      return depth(frame, vertex) > 0.0;
+      return height_above(frame, vertex) > coplanar;
     });
     if (in_front && scene.may_shade(receiver, id)) found.push_back(id);
   }
@@ -121,6 +128,7 @@ std::vector<SurfaceId> Casters::in_view(std::span<SurfaceId const> candidates,
   double const radius = 0.5 * std::hypot(frame.width, frame.height);
   for (SurfaceId const id : candidates) {
     Caster const& caster = casters_[id];
+    if (caster.only_turned_away && glm::dot(caster.normal, towards_sun) > in_the_sun) continue;
     // The bounding spheres as the sun sees them.
     glm::dvec3 const apart = caster.centre - frame.origin;
     double const along = glm::dot(apart, towards_sun);

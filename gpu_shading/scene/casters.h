@@ -9,11 +9,17 @@
 
 namespace gpu_shading {
 
-// A caster must stand this far in front of a receiver's plane, in metres, to shade it; so that
-// neighbours that touch the plane or lie in it do not. Input is in double, so this need only cover
-// coordinates rounded in the model (surfaces meant to be coplanar) and float32 on the GPU within a
-// building (0.01 mm at 100 m). What it lets through is a strip of clearance x tan(incidence).
-inline constexpr double clearance = 1e-4;
+// A surface none of whose vertices stands this far in front of a receiver's plane, in metres, lies in
+// that plane or behind it, and does not shade: neighbours meant to be coplanar differ by the rounding of
+// a model's coordinates.
+inline constexpr double coplanar = 1e-4;
+
+// Casters are cut this far in front of the plane, in metres: the noise of float32 within a building.
+// What it lets through is a strip of clearance x tan(incidence).
+inline constexpr double clearance = 1e-6;
+
+// A surface is in the sun from this cosine of incidence on, as in EnergyPlus (its SunIsUpValue).
+inline constexpr double in_the_sun = 1e-3;
 
 // Below this cosine of incidence a receiver is edge-on and gets nothing.
 inline constexpr double edge_on = 1e-6;
@@ -40,7 +46,9 @@ class Casters {
     std::size_t count = 0;  // 0 for a degenerate surface
     glm::dvec3 centre{0.0};
     double radius = 0.0;
+    glm::dvec3 normal{0.0};
     bool planar = true;
+    bool only_turned_away = false;
   };
 
   std::span<glm::dvec3 const> points(Caster const& caster) const {

@@ -10,7 +10,8 @@ SurfaceId Scene::add(Surface surface) {
 }
 
 bool Scene::may_shade(SurfaceId receiver, SurfaceId caster) const {
-  return receiver != caster && surfaces_[caster].casts && (!rule_ || rule_(receiver, caster));
+  return receiver != caster && surfaces_[caster].casting != Casting::never &&
+         (!rule_ || rule_(receiver, caster));
 }
 
 }  // namespace gpu_shading

@@ -24,10 +24,18 @@ struct Polygon {
   std::vector<Ring> holes;
 };
 
+// When a surface shades others.
+enum class Casting {
+  always,         // a sheet: both its faces stop the sun
+  turned_away,    // only while its outside is not in the sun: enough for each face of a closed body,
+                  // and what EnergyPlus's PolygonClipping takes of walls, roofs and windows
+  never,          // it only receives
+};
+
 struct Surface {
   std::string name;
   Polygon polygon;
-  bool casts = true;  // else it only receives
+  Casting casting = Casting::always;
 };
 
 // Whether a caster counts for a receiver. Asked once for each pair, before the first direction.

@@ -39,6 +39,22 @@ TEST(ShadingInput, ShadingFractionsAreWantedOnlyWhereTheyAreUsed) {
   EXPECT_TRUE(read(surfaces + "ShadowCalculation,PolygonClipping,,,,,,,Yes;").wants("C"));
 }
 
+TEST(ShadingInput, OnlyExteriorSurfacesCast) {
+  auto const input = read(
+      "BuildingSurface:Detailed,Out,Wall,C,Z,,Outdoors;BuildingSurface:Detailed,In,Wall,C,Z,,Surface;"
+      "Floor:Detailed,Slab,C,Z,,Ground;Wall:Adiabatic,Party,C,Z;Roof,Top,C,Z;"
+      "FenestrationSurface:Detailed,Door,Door,C,In;Window,Pane,G,Out;Shading:Site:Detailed,Tree;");
+  for (auto const* name : {"OUT", "TOP", "PANE"}) {
+    EXPECT_EQ(input.casting(name), Casting::turned_away) << name;
+  }
+  for (auto const* name : {"IN", "SLAB", "PARTY", "DOOR"}) {
+    EXPECT_EQ(input.casting(name), Casting::never) << name;
+  }
+  for (auto const* name : {"TREE", "PANE reveal 1"}) {
+    EXPECT_EQ(input.casting(name), Casting::always) << name;
+  }
+}
+
 TEST(ShadingInput, ShadowCalculation) {
   auto const input = read(
       "ShadowCalculation,PixelCounting,Periodic,20,15000,,1024,,No,Yes,No,Lower,Upper;"

@@ -24,8 +24,14 @@ ShadingRule rule_for(std::string const& objects) {
   return make_shading_rule(read_shading_input(read_idf(building + objects)), names);
 }
 
-TEST(ShadingRule, NoneWhereEverythingCasts) {
-  EXPECT_FALSE(rule_for("ShadowCalculation,PixelCounting;"));
+TEST(ShadingRule, EverythingCastsButRevealsOnOthersThanTheirWindow) {
+  auto const rule = rule_for("ShadowCalculation,PixelCounting;");
+  for (auto const receiver : {wall_1, wall_2, window_1}) {
+    for (auto const caster : {wall_1, wall_2, window_1, fin, tree}) {
+      EXPECT_TRUE(rule(receiver, caster)) << names[receiver] << " " << names[caster];
+    }
+    EXPECT_EQ(rule(receiver, reveal), receiver == window_1) << names[receiver];
+  }
 }
 
 TEST(ShadingRule, DisabledWithinAndBetweenGroupsOnlyShadingSurfacesCast) {
