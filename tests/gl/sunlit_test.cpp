@@ -244,7 +244,7 @@ TEST(Sunlit, HugeCasterThroughThePlaneAtGrazingSun) {
     double const cosine = std::cos(g * degree) * std::cos(0.5 * degree);
     double const exact = exact::projected_sunlit_area(scene, sun, 0) / 4.0;
     Renderer renderer = renderer_of(scene);
-    // The clearance of 0.1 mm lets a strip of 0.1 mm x tan(incidence) through, here of 2 m.
+    // What is cut off before the plane lets a strip of at most 0.1 mm x tan(incidence) through.
     EXPECT_NEAR(sunlit(renderer, sun, 0).projected_area / 4.0, exact, 2e-3 * cosine + 0.5e-4) << g;
   }
 }

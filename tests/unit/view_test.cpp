@@ -8,6 +8,7 @@
 
 #include "gpu_shading/sun_direction.h"
 #include "random_scene.h"
+#include "scene/casters.h"
 
 namespace gpu_shading {
 namespace {
@@ -59,7 +60,7 @@ TEST(View, EdgesCrossThePixelLatticeAtTheGoldenSlope) {
   EXPECT_NEAR(edge.y / edge.x, (std::sqrt(5.0) - 1.0) / 2.0, 1e-12);
 }
 
-TEST(View, CutsATenthOfAMillimetreBeforeThePlane) {
+TEST(View, CutsAtTheClearanceBeforeThePlane) {
   Polygon const square{{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, {}};
   PlaneFrame const frame = *plane_frame(square);
   TileMap const map = fit_tile(frame, square.outline, 512);
@@ -67,11 +68,11 @@ TEST(View, CutsATenthOfAMillimetreBeforeThePlane) {
     return glm::dot(view.cut, glm::dvec4(point - view.origin, 1.0)) >= 0.0;
   };
   View const front = view_in_front(frame, map, {0, 0, 1});
-  EXPECT_TRUE(kept(front, {1, 1, 1.1e-4}));
-  EXPECT_FALSE(kept(front, {1, 1, 0.9e-4}));
+  EXPECT_TRUE(kept(front, {1, 1, 1.1 * clearance}));
+  EXPECT_FALSE(kept(front, {1, 1, 0.9 * clearance}));
   View const behind = view_behind(frame, map, {0, 0, 1}, 3.0);
-  EXPECT_TRUE(kept(behind, {1, 1, -1.1e-4}));
-  EXPECT_FALSE(kept(behind, {1, 1, -0.9e-4}));
+  EXPECT_TRUE(kept(behind, {1, 1, -1.1 * clearance}));
+  EXPECT_FALSE(kept(behind, {1, 1, -0.9 * clearance}));
   EXPECT_NEAR(glm::dot(behind.z, glm::dvec4(glm::dvec3(1, 1, -3) - behind.origin, 1.0)), 1.0,
               1e-12);
 }
