@@ -10,16 +10,16 @@ namespace gpu_shading::energyplus {
 
 // One function whose entry is to be led to ours.
 struct Entry {
-  char const* name;              // mangled
-  void* ours;                    // same signature
-  void** original = nullptr;     // where the way to the original is to be stored, if it still runs
-  bool needed = true;            // else left alone where the library lacks it
+  char const* name;           // mangled
+  void* ours;                 // same signature
+  void** original = nullptr;  // where the way to the original is to be stored, if it still runs
+  bool needed = true;         // else left alone where the library lacks it
 };
 
-// Leads every entry to ours, or none: all of them are checked first (present, long enough, unchanged
-// in memory, its first instructions movable where the original still runs). No page is writable and
-// executable at once; nothing of the library may run meanwhile. Throws Error with a line for each entry
-// that fails.
+// Leads every entry to ours, or none: all of them are checked first (present, long enough,
+// unchanged in memory, its first instructions movable where the original still runs). No page is
+// writable and executable at once; nothing of the library may run meanwhile. Throws Error with a
+// line for each entry that fails.
 void patch_entries(SymbolTable const& symbols, std::vector<Entry> const& entries);
 
 }  // namespace gpu_shading::energyplus

@@ -14,8 +14,8 @@ std::optional<RelocatedCode> take_instructions(std::byte const* code, std::size_
     std::size_t const at = taken.bytes.size();
     ZydisDecodedInstruction instruction;
     ZydisDecodedOperand operands[ZYDIS_MAX_OPERAND_COUNT];
-    if (!ZYAN_SUCCESS(ZydisDecoderDecodeFull(&decoder, code + at, available - at, &instruction,
-                                             operands))) {
+    if (!ZYAN_SUCCESS(
+            ZydisDecoderDecodeFull(&decoder, code + at, available - at, &instruction, operands))) {
       problem = fmt::format("no instruction at byte {}", at);
       return std::nullopt;
     }

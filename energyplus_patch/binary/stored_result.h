@@ -7,8 +7,8 @@
 
 namespace gpu_shading::energyplus {
 
-// Where a function keeps the results of another in an array, as a path of pointers from an object that
-// it holds in a register: element i lies at  *(*(object + outer) + inner) + 4 i.
+// Where a function keeps the results of another in an array, as a path of pointers from an object
+// that it holds in a register: element i lies at  *(*(object + outer) + inner) + 4 i.
 struct StoredResult {
   std::int64_t outer = 0;
   std::int64_t inner = 0;

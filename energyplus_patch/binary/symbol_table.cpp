@@ -52,9 +52,10 @@ SymbolTable::SymbolTable(std::filesystem::path library, std::byte* base)
   if (!elf) throw Error(fmt::format("{}: cannot be read as an ELF file", library_.string()));
   Elf_Scn* const section = find_symbol_section(elf.get());
   if (section == nullptr) {
-    throw Error(fmt::format("{}: has no symbol table (stripped), so its shading interface cannot be "
-                            "found",
-                            library_.string()));
+    throw Error(
+        fmt::format("{}: has no symbol table (stripped), so its shading interface cannot be "
+                    "found",
+                    library_.string()));
   }
   GElf_Shdr const header = header_of(section);
   Elf_Data* const data = elf_getdata(section, nullptr);

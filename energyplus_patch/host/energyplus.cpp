@@ -31,8 +31,8 @@ EnergyPlusFunctions::EnergyPlusFunctions(SymbolTable const& symbols) {
   issue_warning_ = find<Issue>(symbols, "issueWarning", missing);
   issue_text_ = find<Issue>(symbols, "issueText", missing);
   if (!missing.empty()) {
-    throw Error(fmt::format("{}: functions are not in this build:{}", symbols.library().string(),
-                            missing));
+    throw Error(
+        fmt::format("{}: functions are not in this build:{}", symbols.library().string(), missing));
   }
 }
 

@@ -10,8 +10,8 @@
 
 namespace gpu_shading::energyplus {
 
-// EnergyPlus's print of its line on shading, watched for the file that it goes to. Its arguments go on
-// untouched, in registers and on the stack, so it is entered by assembly.
+// EnergyPlus's print of its line on shading, watched for the file that it goes to. Its arguments go
+// on untouched, in registers and on the stack, so it is entered by assembly.
 extern "C" {
 __attribute__((visibility("hidden"))) void* gpu_shading_original_print = nullptr;
 __attribute__((visibility("hidden"))) void gpu_shading_note_eio(std::ostream* eio) {
@@ -82,8 +82,8 @@ std::string read_file(Path const& path, std::ios_base::openmode mode) {
   return guarded([&] { return rewrite_idf(text, take_model(read_idf(text), path)); });
 }
 
-// EnergyPlus's JSON value has the layout of ours: the library's, whose versions 3.x differ in none of
-// the members.
+// EnergyPlus's JSON value has the layout of ours: the library's, whose versions 3.x differ in none
+// of the members.
 nlohmann::json read_json(Path const& path, std::ios_base::openmode mode) {
   auto json = original_read_json(path, mode);
   if (!is_model(is_epjson(path))) return json;
@@ -121,7 +121,8 @@ Entry watch(char const* name, Function* ours, Function** original) {
 }
 
 constexpr char const* print_shading_line =
-    "_ZN10EnergyPlus6vprintIJNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEES6_iiS6_jS6_S6_S6_S6_"
+    "_ZN10EnergyPlus6vprintIJNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEES6_iiS6_jS6_S6_S6_"
+    "S6_"
     "EEEvRSoSt17basic_string_viewIcS4_EDpRKT_";
 
 }  // namespace

@@ -50,8 +50,9 @@ Loaded find_loaded(char const* wanted) {
       },
       &search);
   if (search.found.path.empty()) {
-    throw Error(fmt::format("{}: EnergyPlus's library must be loaded before GPU shading is installed",
-                            wanted == nullptr ? "libenergyplusapi" : wanted));
+    throw Error(
+        fmt::format("{}: EnergyPlus's library must be loaded before GPU shading is installed",
+                    wanted == nullptr ? "libenergyplusapi" : wanted));
   }
   return search.found;
 }

@@ -23,7 +23,7 @@ std::byte* read_pointer(std::byte const* from) {
 }
 
 Surface mirrored(Surface const& surface) {
-  Surface copy{"Mir-" + surface.name, surface.polygon, false};
+  Surface copy{"Mir-" + surface.name, surface.polygon, Casting::never};
   std::reverse(copy.polygon.outline.begin(), copy.polygon.outline.end());
   return copy;
 }

@@ -9,8 +9,8 @@
 #include "host/mirrored_surfaces.h"
 #include "host/run.h"
 
-// Functions that stand in for the member functions of Penumbra::Penumbra and Penumbra::Surface: same
-// arguments in the same registers (`this` first), same objects by size. What they do is ours.
+// Functions that stand in for the member functions of Penumbra::Penumbra and Penumbra::Surface:
+// same arguments in the same registers (`this` first), same objects by size. What they do is ours.
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -89,7 +89,8 @@ void add_mirrored_surfaces(Session& session, Session::Messages const& messages) 
   if (!session.input().reflections || session.shading_surfaces().empty()) return;
   if (!ids || !hand_over_mirrored_surfaces(*this_run().state, session, *ids)) {
     messages.warning(
-        "this EnergyPlus does not let mirrored shading surfaces be handed over: solar radiation that "
+        "this EnergyPlus does not let mirrored shading surfaces be handed over: solar radiation "
+        "that "
         "the back of a shading surface reflects is lost");
   }
 }

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 #include <iosfwd>
-#include <optional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "binary/stored_result.h"
@@ -22,13 +22,13 @@ struct Installation {
 };
 Installation& installation();
 
-// One EnergyPlus run. EnergyPlus runs a state on one thread from its input to its end, and none of its
-// shading functions is handed the state; so this is the thread's.
+// One EnergyPlus run. EnergyPlus runs a state on one thread from its input to its end, and none of
+// its shading functions is handed the state; so this is the thread's.
 struct Run {
   State* state = nullptr;
-  std::optional<Model> model;    // once the input is read
-  std::ostream* eio = nullptr;   // once EnergyPlus has written its own line on shading
-  Session* session = nullptr;    // while EnergyPlus has one
+  std::optional<Model> model;   // once the input is read
+  std::ostream* eio = nullptr;  // once EnergyPlus has written its own line on shading
+  Session* session = nullptr;   // while EnergyPlus has one
 };
 Run& this_run();
 

@@ -1,7 +1,8 @@
 #pragma once
 
-// What libgpu_shading_images.so exports: OpenImageIO behind a C interface, so that its many libraries are
-// loaded only when a picture or a texture is wanted. No exception leaves these functions.
+// What libgpu_shading_images.so exports: OpenImageIO behind a C interface, so that its many
+// libraries are loaded only when a picture or a texture is wanted. No exception leaves these
+// functions.
 
 #include <cstddef>
 

@@ -15,9 +15,9 @@ struct IdfObject {
   std::size_t end = 0;              // offset past the closing semicolon
 };
 
-// Every object of an IDF, in order. The syntax is EnergyPlus's own: commas between fields, a semicolon
-// at the end, comments from ! to the end of the line. An object that the text ends in the middle of is
-// left out: EnergyPlus itself complains about it.
+// Every object of an IDF, in order. The syntax is EnergyPlus's own: commas between fields, a
+// semicolon at the end, comments from ! to the end of the line. An object that the text ends in the
+// middle of is left out: EnergyPlus itself complains about it.
 std::vector<IdfObject> parse_idf(std::string_view text);
 
 // The text of an object, one field a line.

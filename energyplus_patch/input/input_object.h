@@ -11,13 +11,14 @@ namespace gpu_shading::energyplus {
 std::string upper(std::string_view text);
 bool same_name(std::string_view a, std::string_view b);
 
-// One object of a model, whichever file format it came in: fields by the names that the epJSON schema
-// gives them. Only the types and fields that shading depends on are known here; see known_fields.
+// One object of a model, whichever file format it came in: fields by the names that the epJSON
+// schema gives them. Only the types and fields that shading depends on are known here; see
+// known_fields.
 struct InputObject {
   std::string type;                           // as known_types() spells it
   std::string name;                           // "" for types without one
   std::map<std::string, std::string> fields;  // numbers as text
-  std::vector<std::string> list;              // the extensible part of ZoneList, ShadowCalculation, ...
+  std::vector<std::string> list;  // the extensible part of ZoneList, ShadowCalculation, ...
 
   // The field's text, "" where it is blank or absent.
   std::string const& operator[](std::string const& field) const;

@@ -9,8 +9,8 @@
 
 namespace gpu_shading::energyplus {
 
-// Objects of the known types and every extension object, in the model's order. Throws Error where an
-// extension object is of a type that does not exist.
+// Objects of the known types and every extension object, in the model's order. Throws Error where
+// an extension object is of a type that does not exist.
 std::vector<InputObject> read_idf(std::string_view text);
 std::vector<InputObject> read_epjson(nlohmann::json const& model);
 
@@ -20,8 +20,8 @@ struct Rewrite {
   std::string update_frequency;  // Periodic or Timestep; "" keeps the model's
 };
 
-// ShadowCalculation changed, or added where there is none, all its other fields kept; extension objects
-// taken out. Everything else stays as it is, to the byte in the case of an IDF.
+// ShadowCalculation changed, or added where there is none, all its other fields kept; extension
+// objects taken out. Everything else stays as it is, to the byte in the case of an IDF.
 std::string rewrite_idf(std::string_view text, Rewrite const& rewrite);
 void rewrite_epjson(nlohmann::json& model, Rewrite const& rewrite);
 

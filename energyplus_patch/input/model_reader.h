@@ -18,15 +18,16 @@ struct Model {
 };
 
 // Reads a model's objects together with those of its side file, and answers every option.
-// `choices`: command line over environment. Side file: choices.file, else MODEL.gpu-shading.idf where
-// that exists. Throws Error: one line naming object, field and value.
+// `choices`: command line over environment. Side file: choices.file, else MODEL.gpu-shading.idf
+// where that exists. Throws Error: one line naming object, field and value.
 Model understand(std::vector<InputObject> objects, std::filesystem::path const& path,
                  Choices const& choices);
 
 // The same from the model's file (.idf, .imf or .epJSON).
 Model read_model(std::filesystem::path const& path, Choices const& choices);
 
-// The file of extension objects that goes with a model: choices.file, else the one beside it, else none.
+// The file of extension objects that goes with a model: choices.file, else the one beside it, else
+// none.
 std::optional<std::filesystem::path> find_side_file(std::filesystem::path const& model,
                                                     Choices const& choices);
 

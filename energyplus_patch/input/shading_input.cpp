@@ -17,6 +17,16 @@ bool yes(InputObject const& object, std::string const& field) {
   return same_name(object[field], "Yes");
 }
 
+bool is_exterior(InputObject const& object) {
+  for (std::string_view const kind :
+       {":Adiabatic", ":Underground", ":Interzone", ":GroundContact"}) {
+    if (object.type.ends_with(kind)) return false;
+  }
+  auto const& boundary = object["outside_boundary_condition"];
+  return boundary.empty() || same_name(boundary, "Outdoors") ||
+         same_name(boundary, "OtherSideConditionsModel");
+}
+
 // The leading "major.minor" of a version.
 std::string release(std::string_view version) {
   auto const dot = version.find('.');
@@ -31,8 +41,8 @@ void read_shadow_calculation(InputObject const& object, ShadingInput& input) {
     double value = 0.0;
     auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size()) {
-      throw Error(fmt::format("ShadowCalculation: Pixel Counting Resolution is \"{}\", not a number",
-                              text));
+      throw Error(fmt::format(
+          "ShadowCalculation: Pixel Counting Resolution is \"{}\", not a number", text));
     }
     input.pixel_counting_resolution = static_cast<int>(value);
   }
@@ -64,6 +74,11 @@ void read_shading_surface(InputObject const& object, ShadingInput& input) {
 
 }  // namespace
 
+Casting ShadingInput::casting(std::string const& surface) const {
+  if (base_of.contains(surface) || not_exterior.contains(surface)) return Casting::never;
+  return zone_of.contains(surface) ? Casting::turned_away : Casting::always;
+}
+
 ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
   ShadingInput input;
   std::set<std::string> named;
@@ -88,6 +103,7 @@ ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
       read_shading_surface(object, input);
     } else if (object.fields.contains("zone_name")) {
       input.zone_of[upper(object.name)] = upper(object["zone_name"]);
+      if (!is_exterior(object)) input.not_exterior.insert(upper(object.name));
     } else if (object.fields.contains("building_surface_name")) {
       input.base_of[upper(object.name)] = upper(object["building_surface_name"]);
     } else if (object.fields.contains("surface_name")) {
@@ -113,10 +129,11 @@ ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
 
 void check_supported(ShadingInput const& input, std::string_view version) {
   if (!input.version.empty() && release(input.version) != release(version)) {
-    throw Error(fmt::format(
-        "Version: Version Identifier is {}, this EnergyPlus is {}: bring the model up to date first "
-        "(IDFVersionUpdater)",
-        input.version, release(version)));
+    throw Error(
+        fmt::format("Version: Version Identifier is {}, this EnergyPlus is {}: bring the model up "
+                    "to date first "
+                    "(IDFVersionUpdater)",
+                    input.version, release(version)));
   }
   if (same_name(input.shading_method, "Scheduled") || same_name(input.shading_method, "Imported")) {
     throw Error(fmt::format(

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gpu_shading/scene.h"
 #include "input/input_object.h"
 
 namespace gpu_shading::energyplus {
@@ -24,21 +25,29 @@ struct ShadingInput {
   std::string shading_method;  // as written, or ""
   std::optional<int> pixel_counting_resolution;
 
-  bool minimal_shadowing = false;         // Building: Solar Distribution
-  bool reflections = false;               // ... WithReflections
-  bool disable_within_groups = false;     // ShadowCalculation: Disable Self-Shading ...
-  bool disable_between_groups = false;    //
+  bool minimal_shadowing = false;       // Building: Solar Distribution
+  bool reflections = false;             // ... WithReflections
+  bool disable_within_groups = false;   // ShadowCalculation: Disable Self-Shading ...
+  bool disable_between_groups = false;  //
   std::vector<std::string> shading_zone_groups;
   std::map<std::string, std::set<std::string>> zone_lists;
 
-  std::map<std::string, std::string> zone_of;  // exterior base surface -> zone
+  std::map<std::string, std::string> zone_of;  // base surface -> zone
   std::map<std::string, std::string> base_of;  // window or door -> base surface
-  std::map<std::string, ShadingSurface> shading_surfaces;  // by the names that EnergyPlus gives them
+  std::set<std::string> not_exterior;          // base surfaces with no outdoors outside
+  std::map<std::string, ShadingSurface>
+      shading_surfaces;  // by the names that EnergyPlus gives them
 
   // Shading surfaces whose own sunlit fraction has a use: named by an output, an EMS sensor,
-  // photovoltaics, a collector or a daylighting shelf; all of them with reflections or with the external shading file.
+  // photovoltaics, a collector or a daylighting shelf; all of them with reflections or with the
+  // external shading file.
   std::set<std::string> wanted_shading;
   bool all_shading_wanted = false;
+
+  // As PolygonClipping has it: shading surfaces and reveals always; walls and roofs with outdoors
+  // outside while turned away from the sun; others (between zones, adiabatic, in the ground),
+  // windows and doors never.
+  Casting casting(std::string const& surface) const;
 
   bool wants(std::string const& shading_surface) const {
     return all_shading_wanted || wanted_shading.contains(shading_surface);

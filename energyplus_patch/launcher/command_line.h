@@ -9,7 +9,8 @@ namespace gpu_shading::energyplus {
 
 // What the launcher must know of EnergyPlus's own command line.
 struct CommandLine {
-  std::optional<std::filesystem::path> model;  // none where it is made by a preprocessor, or not run
+  std::optional<std::filesystem::path>
+      model;  // none where it is made by a preprocessor, or not run
   bool help = false;
 };
 

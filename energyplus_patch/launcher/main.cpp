@@ -1,5 +1,5 @@
-// energyplus: the official program where --gpu-shading is not asked for, else EnergyPlus's own library
-// with its shading calculation taken over.
+// energyplus: the official program where --gpu-shading is not asked for, else EnergyPlus's own
+// library with its shading calculation taken over.
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -45,16 +45,17 @@ Path find_energyplus_library(Path const& folder) {
     }
   }
   if (found.empty()) {
-    throw Error(fmt::format("{}: has no libenergyplusapi.so; make this prefix again with "
-                            "patch_energyplus",
-                            folder.string()));
+    throw Error(
+        fmt::format("{}: has no libenergyplusapi.so; make this prefix again with "
+                    "patch_energyplus",
+                    folder.string()));
   }
   return std::filesystem::canonical(found);
 }
 
 void* load(Path const& library) {
-  // Local: what one library exports must not be taken for another's (EnergyPlus's carries an old expat
-  // and sqlite, which Mesa would bind to).
+  // Local: what one library exports must not be taken for another's (EnergyPlus's carries an old
+  // expat and sqlite, which Mesa would bind to).
   void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) throw Error(dlerror());
   return handle;
@@ -87,7 +88,8 @@ int run_patched(std::vector<std::string> const& arguments, std::string const& fl
 
   auto* const run = find<int(std::vector<std::string> const&, std::string const&)>(
       library,
-      "_Z13EnergyPlusPgmRKSt6vectorINSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEESaIS5_EERKS5_");
+      "_Z13EnergyPlusPgmRKSt6vectorINSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEESaIS5_"
+      "EERKS5_");
   return run(arguments, {});
 }
 

@@ -38,9 +38,10 @@ DeviceChoice parse_device(std::string const& text) {
   try {
     return parse_device_choice(text);
   } catch (Error const&) {
-    throw Error(fmt::format("is \"{}\", expected auto, software or a device's number (see "
-                            "gpu_shading devices)",
-                            text));
+    throw Error(
+        fmt::format("is \"{}\", expected auto, software or a device's number (see "
+                    "gpu_shading devices)",
+                    text));
   }
 }
 
@@ -71,7 +72,8 @@ std::array<Choice, 6> const& all_choices() {
   return choices;
 }
 
-void set(Choice const& choice, Choices& choices, std::string_view source, std::string const& value) {
+void set(Choice const& choice, Choices& choices, std::string_view source,
+         std::string const& value) {
   try {
     choice.set(choices, value);
   } catch (Error const& error) {
@@ -164,7 +166,8 @@ std::string to_flags(Choices const& choices) {
   };
   if (choices.mode) add("--gpu-shading", name_of(*choices.mode));
   if (choices.resolution) add("--gpu-shading-resolution", std::to_string(*choices.resolution));
-  if (choices.every_timestep) add("--gpu-shading-update", *choices.every_timestep ? "timestep" : "idf");
+  if (choices.every_timestep)
+    add("--gpu-shading-update", *choices.every_timestep ? "timestep" : "idf");
   if (choices.device) add("--gpu-shading-device", name_of(*choices.device));
   if (choices.file) add("--gpu-shading-file", choices.file->string());
   if (choices.report) add("--gpu-shading-report", choices.report->string());

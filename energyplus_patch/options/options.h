@@ -32,8 +32,9 @@ struct Choices {
   bool any() const;
 };
 
-// Takes our flags out of `arguments` (both "--flag=value" and "--flag value", but for --gpu-shading,
-// whose value needs the equals sign). Throws Error on an unknown flag of ours or a bad value.
+// Takes our flags out of `arguments` (both "--flag=value" and "--flag value", but for
+// --gpu-shading, whose value needs the equals sign). Throws Error on an unknown flag of ours or a
+// bad value.
 Choices take_flags(std::vector<std::string>& arguments);
 
 // As the flag's value has it.

@@ -21,9 +21,10 @@ Path own_folder() { return std::filesystem::read_symlink("/proc/self/exe").paren
 Path find_launcher() {
   auto const launcher = own_folder() / "energyplus";
   if (!std::filesystem::exists(own_folder() / "Energy+.idd")) {
-    throw Error(fmt::format("{}: is not a patched EnergyPlus; run the gpu_shading of a prefix made by "
-                            "patch_energyplus",
-                            own_folder().string()));
+    throw Error(
+        fmt::format("{}: is not a patched EnergyPlus; run the gpu_shading of a prefix made by "
+                    "patch_energyplus",
+                    own_folder().string()));
   }
   return launcher;
 }
@@ -51,8 +52,8 @@ std::string reasons(Path const& folder) {
   bool severe = false;
   for (std::string line; std::getline(file, line);) {
     bool const continued = line.find("**   ~~~   **") != std::string::npos;
-    bool const starts = line.find("** Severe") != std::string::npos ||
-                        line.find("**  Fatal") != std::string::npos;
+    bool const starts =
+        line.find("** Severe") != std::string::npos || line.find("**  Fatal") != std::string::npos;
     severe = starts || (continued && severe);
     if (severe) found += "\n" + line;
   }
@@ -73,8 +74,11 @@ void check(Path const& model, std::optional<Path> const& weather, Choices const&
   TemporaryFolder const folder;
   auto const listing = folder.path() / "surfaces.txt";
   auto const log = folder.path() / "log.txt";
-  std::vector<std::string> command{find_launcher().string(), "--gpu-shading", "-d",
-                                   folder.path().string(), "-w",
+  std::vector<std::string> command{find_launcher().string(),
+                                   "--gpu-shading",
+                                   "-d",
+                                   folder.path().string(),
+                                   "-w",
                                    weather.value_or(some_weather()).string()};
   if (choices.device) command.push_back("--gpu-shading-device=" + name_of(*choices.device));
   if (choices.file) command.push_back("--gpu-shading-file=" + choices.file->string());

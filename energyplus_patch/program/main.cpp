@@ -25,21 +25,24 @@ void print_devices() {
   }
   for (auto const& failure : failures) fmt::print(stderr, "gpu_shading: {}\n", failure);
   if (devices.empty()) {
-    throw DeviceError("no EGL device gives an OpenGL 4.5 core context; for rendering in software "
-                      "install Mesa (Debian: libegl-mesa0, libgl1-mesa-dri)");
+    throw DeviceError(
+        "no EGL device gives an OpenGL 4.5 core context; for rendering in software "
+        "install Mesa (Debian: libegl-mesa0, libgl1-mesa-dri)");
   }
 }
 
 int run(int argc, char** argv) {
   CLI::App app{"Devices and checks for EnergyPlus with GPU shading", "gpu_shading"};
   app.require_subcommand(1);
-  app.add_subcommand("devices", "List the devices that can render; the number is what "
-                                "--gpu-shading-device takes")
+  app.add_subcommand("devices",
+                     "List the devices that can render; the number is what "
+                     "--gpu-shading-device takes")
       ->callback(print_devices);
 
   auto* const check_command = app.add_subcommand(
-      "check", "Read a model and its extension objects; print what each surface will be to the "
-               "shading calculation, or every error");
+      "check",
+      "Read a model and its extension objects; print what each surface will be to the "
+      "shading calculation, or every error");
   std::string model;
   std::string weather;
   std::string file;

@@ -36,11 +36,12 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-int run_process(std::vector<std::string> const& command, std::vector<std::string> const& environment,
-                std::filesystem::path const& output) {
+int run_process(std::vector<std::string> const& command,
+                std::vector<std::string> const& environment, std::filesystem::path const& output) {
   auto words = command;
   auto variables = environment;
-  for (char** variable = environ; *variable != nullptr; ++variable) variables.emplace_back(*variable);
+  for (char** variable = environ; *variable != nullptr; ++variable)
+    variables.emplace_back(*variable);
   auto const argv = pointers(words);
   auto const envp = pointers(variables);
 

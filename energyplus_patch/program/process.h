@@ -21,8 +21,9 @@ class TemporaryFolder {
 };
 
 // Runs a program to its end, its output into a file; `environment` ("NAME=value") is added to ours.
-// Returns its exit status, 128 + the signal where one ended it. Throws Error when it cannot be started.
-int run_process(std::vector<std::string> const& command, std::vector<std::string> const& environment,
-                std::filesystem::path const& output);
+// Returns its exit status, 128 + the signal where one ended it. Throws Error when it cannot be
+// started.
+int run_process(std::vector<std::string> const& command,
+                std::vector<std::string> const& environment, std::filesystem::path const& output);
 
 }  // namespace gpu_shading::energyplus

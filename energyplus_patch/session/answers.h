@@ -11,8 +11,8 @@
 
 namespace gpu_shading::energyplus {
 
-// Answers kept by direction: warm-up days, sizing periods and the sky's patches come back to the same
-// ones. Bounded: when full, everything is forgotten and collected anew.
+// Answers kept by direction: warm-up days, sizing periods and the sky's patches come back to the
+// same ones. Bounded: when full, everything is forgotten and collected anew.
 class Answers {
  public:
   static constexpr std::size_t max_bytes = std::size_t{512} << 20U;
@@ -20,7 +20,8 @@ class Answers {
   struct Direction {
     SunDirection sun;
     std::vector<float> projected_area;  // by surface; not a number where not asked yet
-    std::unordered_map<std::uint64_t, std::vector<float>> interior;  // by window and list of surfaces
+    std::unordered_map<std::uint64_t, std::vector<float>>
+        interior;  // by window and list of surfaces
   };
 
   explicit Answers(std::size_t surfaces = 0) : surfaces_(surfaces) {}

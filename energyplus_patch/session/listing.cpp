@@ -29,13 +29,13 @@ std::string list_surfaces(Scene const& scene, ShadingInput const& input,
                           std::vector<bool> const& wanted) {
   std::size_t width = 0;
   std::size_t kind_width = 0;
-  for (SurfaceId id = 0; id < scene.size(); ++id) {
+  for (SurfaceId id = 0; id < wanted.size(); ++id) {
     width = std::max(width, scene[id].name.size());
     kind_width = std::max(kind_width, kind_of(scene[id].name, input).size());
   }
   auto text = fmt::format("{:{}}  {:{}}  {:>12}  {:8}  {}\n", "surface", width, "kind", kind_width,
                           "area [m2]", "receives", "casts");
-  for (SurfaceId id = 0; id < scene.size(); ++id) {
+  for (SurfaceId id = 0; id < wanted.size(); ++id) {
     auto const& surface = scene[id];
     auto const size = area(surface.polygon);
     bool const empty = size <= 0.0;
@@ -43,9 +43,11 @@ std::string list_surfaces(Scene const& scene, ShadingInput const& input,
     text += fmt::format("{:{}}  {:{}}  {:12.3f}  {:8}  {}\n", surface.name, width,
                         kind_of(surface.name, input), kind_width, size,
                         empty || reveal || !wanted[id] ? "no" : "yes",
-                        empty ? "not (no area)" : casting_of(surface.name, input));
+                        empty                               ? "not (no area)"
+                        : surface.casting != Casting::never ? casting_of(surface.name, input)
+                                                            : "not");
   }
-  text += fmt::format("{} surfaces\n", scene.size());
+  text += fmt::format("{} surfaces\n", wanted.size());
   return text;
 }
 

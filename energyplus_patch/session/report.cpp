@@ -49,9 +49,8 @@ std::vector<Row> choose(std::vector<Row> const& rows) {
                [](Row const& row) { return row.fraction < 1.0; });
   if (shaded.empty()) return {};
   auto const least = [&](auto const& measure) {
-    return *std::min_element(shaded.begin(), shaded.end(), [&](Row const& a, Row const& b) {
-      return measure(a) < measure(b);
-    });
+    return *std::min_element(shaded.begin(), shaded.end(),
+                             [&](Row const& a, Row const& b) { return measure(a) < measure(b); });
   };
   std::vector<Row> chosen{
       least([](Row const& row) { return row.fraction > 0.0 ? row.fraction : 2.0; }),
@@ -102,7 +101,8 @@ void write_report(std::filesystem::path const& folder, Renderer& renderer,
                   std::vector<SurfaceId> const& receivers, Answers const& answers) {
   auto const table = folder / table_name;
   std::ofstream csv(table);
-  csv << "receiver,sun azimuth [deg],sun altitude [deg],projected sunlit area [m2],sunlit fraction\n";
+  csv << "receiver,sun azimuth [deg],sun altitude [deg],projected sunlit area [m2],sunlit "
+         "fraction\n";
   std::vector<Row> pictures;
   for (auto const receiver : receivers) {
     auto const rows = collect(renderer, receiver, answers);

@@ -12,9 +12,11 @@ namespace gpu_shading::energyplus {
 void prepare_report(std::filesystem::path const& folder);
 
 // What a user needs to check a surprising number by eye, into `folder`:
-//   sunlit.csv       receiver, sun azimuth and altitude (degrees), projected sunlit area (m2), sunlit
+//   sunlit.csv       receiver, sun azimuth and altitude (degrees), projected sunlit area (m2),
+//   sunlit
 //                    fraction: every answer of the run
-//   NAME_AZ_ALT.png  what the sun sees of a receiver, at up to three of its directions: the one most
+//   NAME_AZ_ALT.png  what the sun sees of a receiver, at up to three of its directions: the one
+//   most
 //                    shaded but lit, the one nearest to half sunlit, and the one at the highest sun
 // Throws Error when the folder cannot be written.
 void write_report(std::filesystem::path const& folder, Renderer& renderer,

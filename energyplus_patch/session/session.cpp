@@ -40,6 +40,11 @@ void keep_largest(std::vector<float>& areas, std::size_t limit) {
 
 }  // namespace
 
+SurfaceId Session::add(Surface surface) {
+  if (surface.casting != Casting::never) surface.casting = model_.shading.casting(surface.name);
+  return scene_.add(std::move(surface));
+}
+
 std::vector<SurfaceId> Session::shading_surfaces() const {
   std::vector<SurfaceId> ids;
   for (SurfaceId id = 0; id < scene_.size(); ++id) {
@@ -51,9 +56,10 @@ std::vector<SurfaceId> Session::shading_surfaces() const {
 void Session::start(Messages messages) {
   messages_ = std::move(messages);
   surfaces_ = scene_.size();
+  add_walls_without_openings();
   std::vector<std::string> names;
-  names.reserve(surfaces_);
-  for (SurfaceId id = 0; id < surfaces_; ++id) names.push_back(scene_[id].name);
+  names.reserve(scene_.size());
+  for (SurfaceId id = 0; id < scene_.size(); ++id) names.push_back(scene_[id].name);
 
   auto const& input = model_.shading;
   wanted_.assign(surfaces_, true);
@@ -65,7 +71,7 @@ void Session::start(Messages messages) {
     std::ofstream(listing) << list_surfaces(scene_, input, wanted_);
     std::_Exit(EXIT_SUCCESS);
   }
-  if (auto rule = make_shading_rule(input, names)) scene_.set_rule(std::move(rule));
+  scene_.set_rule(make_shading_rule(input, names));
   answers_ = Answers(surfaces_);
 
   auto const& options = model_.options;
@@ -73,9 +79,9 @@ void Session::start(Messages messages) {
   renderer_.emplace(std::move(scene_), RendererOptions{options.device, options.resolution});
   if (renderer_->device().software && options.device.kind == DeviceChoice::Kind::automatic) {
     if (options.mode == Mode::require) {
-      throw DeviceError(fmt::format(
-          "--gpu-shading=require: no GPU can be had, only {}; see gpu_shading devices",
-          renderer_->device().renderer));
+      throw DeviceError(
+          fmt::format("--gpu-shading=require: no GPU can be had, only {}; see gpu_shading devices",
+                      renderer_->device().renderer));
     }
     messages_.warning(
         fmt::format("no GPU can be had, shading is rendered in software ({}); see gpu_shading "
@@ -86,6 +92,14 @@ void Session::start(Messages messages) {
                                   renderer_->device().renderer));
   }
   describe_surfaces();
+}
+
+void Session::add_walls_without_openings() {
+  for (SurfaceId id = 0; id < surfaces_; ++id) {
+    auto const& wall = scene_[id];
+    if (wall.polygon.holes.empty() || wall.casting == Casting::never) continue;
+    scene_.add({without_openings(wall.name), {wall.polygon.outline, {}}, wall.casting});
+  }
 }
 
 void Session::describe_surfaces() {
@@ -139,7 +153,8 @@ float Session::projected_sunlit_area(SurfaceId receiver) {
 
 std::vector<float> Session::interior_areas(SurfaceId window,
                                            std::vector<SurfaceId> const& interiors) {
-  if (!renderer_) throw Error("EnergyPlus asks for interior areas before its surfaces are complete");
+  if (!renderer_)
+    throw Error("EnergyPlus asks for interior areas before its surfaces are complete");
   auto& kept = answers_.at(sun_).interior[hash_of(window, interiors)];
   if (kept.size() != interiors.size()) {
     auto const areas = renderer_->interior_projected_sunlit_areas(sun_, window, interiors);

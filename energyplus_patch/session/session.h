@@ -12,8 +12,8 @@
 
 namespace gpu_shading::energyplus {
 
-// The shading calculation of one EnergyPlus run, from the surfaces it adds to the areas it asks for.
-// Every function throws gpu_shading::Error.
+// The shading calculation of one EnergyPlus run, from the surfaces it adds to the areas it asks
+// for. Every function throws gpu_shading::Error.
 class Session {
  public:
   // Where lines for the user go.
@@ -23,16 +23,17 @@ class Session {
     std::function<void(std::string const&)> eio;      // to EnergyPlus's .eio
   };
 
-  // EnergyPlus's WindowComplexManager keeps this many lit back surfaces a window; more would overrun.
+  // EnergyPlus's WindowComplexManager keeps this many lit back surfaces a window; more would
+  // overrun.
   static constexpr std::size_t max_back_surfaces = 20;
 
-  // Set by `gpu_shading check` alone: start() writes the listing of surfaces to this file and ends the
-  // process.
+  // Set by `gpu_shading check` alone: start() writes the listing of surfaces to this file and ends
+  // the process.
   static constexpr char const* listing_variable = "GPU_SHADING_CHECK";
 
   explicit Session(Model model) : model_(std::move(model)) {}
 
-  SurfaceId add(Surface surface) { return scene_.add(std::move(surface)); }
+  SurfaceId add(Surface surface);
   std::size_t size() const { return renderer_ ? surfaces_ : scene_.size(); }
 
   Surface const& surface(SurfaceId id) const { return scene_[id]; }
@@ -46,8 +47,8 @@ class Session {
 
   void set_sun(SunDirection sun) { sun_ = sun; }
 
-  // m2 normal to the beam. The first call for a direction renders for every receiver that was asked for
-  // before, in one go.
+  // m2 normal to the beam. The first call for a direction renders for every receiver that was asked
+  // for before, in one go.
   float projected_sunlit_area(SurfaceId receiver);
 
   // The same of interior surfaces that the sun reaches through a window, in order; at most
@@ -61,14 +62,15 @@ class Session {
   bool is_wanted(SurfaceId receiver) const { return wanted_[receiver]; }
   void render(Answers::Direction& direction, SurfaceId asked);
   void describe_surfaces();
+  void add_walls_without_openings();
 
   Model model_;
   Messages messages_;
   Scene scene_;
   std::size_t surfaces_ = 0;
   std::optional<Renderer> renderer_;
-  std::vector<bool> wanted_;         // by surface: whether its own fraction has a use
-  std::vector<SurfaceId> receivers_; // asked for so far
+  std::vector<bool> wanted_;          // by surface: whether its own fraction has a use
+  std::vector<SurfaceId> receivers_;  // asked for so far
   std::vector<bool> is_receiver_;
   SunDirection sun_;
   Answers answers_;

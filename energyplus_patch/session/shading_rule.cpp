@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 #include <unordered_map>
 
 namespace gpu_shading::energyplus {
 namespace {
+
+constexpr std::string_view no_openings = " without openings";
 
 // The window that a reveal belongs to, or "".
 std::string reveal_owner(std::string const& name) {
@@ -21,34 +24,42 @@ std::string value_or_blank(Map const& map, std::string const& key) {
 
 // What the rule needs of each surface.
 struct Place {
+  std::string name;
+  std::string window;       // that this is a reveal of, or ""
   std::string base;         // the base surface that it lies in; itself for a base surface
   std::string zone;         // "" for shading surfaces
   std::string attached_to;  // of an attached shading surface
-  bool reveal = false;
+  bool closed = false;      // a wall's copy without openings
+  bool open = false;        // a wall that has such a copy
 };
 
+Place find_place(ShadingInput const& input, std::set<std::string_view> const& names,
+                 std::string const& name) {
+  Place place;
+  place.name = name;
+  place.window = reveal_owner(name);
+  place.closed = name.ends_with(no_openings);
+  place.open = names.contains(without_openings(name));
+  std::string surface = place.window.empty() ? name : place.window;
+  if (place.closed) surface.resize(surface.size() - no_openings.size());
+  place.base = value_or_blank(input.base_of, surface);
+  if (place.base.empty()) place.base = surface;
+  place.zone = value_or_blank(input.zone_of, place.base);
+  auto const shading = input.shading_surfaces.find(name);
+  if (shading != input.shading_surfaces.end()) place.attached_to = shading->second.base;
+  return place;
+}
+
 std::vector<Place> find_places(ShadingInput const& input, std::vector<std::string> const& names) {
+  std::set<std::string_view> const all(names.begin(), names.end());
   std::vector<Place> places;
   places.reserve(names.size());
-  for (auto const& name : names) {
-    Place place;
-    auto const owner = reveal_owner(name);
-    place.reveal = !owner.empty();
-    auto const& surface = place.reveal ? owner : name;
-    place.base = value_or_blank(input.base_of, surface);
-    if (place.base.empty()) place.base = surface;
-    place.zone = value_or_blank(input.zone_of, place.base);
-    if (auto const found = input.shading_surfaces.find(name);
-        found != input.shading_surfaces.end()) {
-      place.attached_to = found->second.base;
-    }
-    places.push_back(std::move(place));
-  }
+  for (auto const& name : names) places.push_back(find_place(input, all, name));
   return places;
 }
 
-// For each zone of a group, the zones whose surfaces do not shade it. A zone in several groups counts
-// for the last, as in EnergyPlus.
+// For each zone of a group, the zones whose surfaces do not shade it. A zone in several groups
+// counts for the last, as in EnergyPlus.
 std::unordered_map<std::string, std::set<std::string>> find_disabled(ShadingInput const& input) {
   std::unordered_map<std::string, std::string> group_of;
   for (auto const& group : input.shading_zone_groups) {
@@ -70,19 +81,21 @@ std::unordered_map<std::string, std::set<std::string>> find_disabled(ShadingInpu
 
 }  // namespace
 
+std::string without_openings(std::string const& wall) { return wall + std::string(no_openings); }
+
 ShadingRule make_shading_rule(ShadingInput const& input, std::vector<std::string> const& names) {
   bool const all_disabled = input.disable_within_groups && input.disable_between_groups;
-  bool const some_disabled = input.disable_within_groups || input.disable_between_groups;
-  if (!some_disabled && !input.minimal_shadowing) return nullptr;
-
   auto const places = std::make_shared<std::vector<Place> const>(find_places(input, names));
   auto const disabled = find_disabled(input);
   return [places, disabled, all_disabled, minimal = input.minimal_shadowing](SurfaceId receiver,
                                                                              SurfaceId caster) {
     Place const& r = (*places)[receiver];
     Place const& c = (*places)[caster];
-    // A set-back window lies behind its own wall and reveals whatever the rules say.
-    if (c.base == r.base) return true;
+    // What is in one wall: whatever the model's rules say, a set-back window lies behind its
+    // openings.
+    if (!c.window.empty()) return c.window == r.name;
+    if (c.base == r.base) return !c.closed;
+    if (c.open) return false;
     if (minimal) return c.attached_to == r.base;
     if (c.zone.empty()) return true;
     if (all_disabled) return false;

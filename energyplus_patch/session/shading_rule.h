@@ -9,9 +9,15 @@
 
 namespace gpu_shading::energyplus {
 
-// Which casters EnergyPlus's PolygonClipping leaves out, from the model: Disable Self-Shading Within
-// and From Shading Zone Groups, and MinimalShadowing. `names`: of every surface, by id; a reveal is
-// named "WINDOW reveal N". Null where everything casts on everything.
+// A wall shades the windows in it through its own openings, and everything else as if it had none,
+// as in EnergyPlus's PolygonClipping: set-back windows and their reveals then cast on nothing
+// outside. Such a wall has a second surface in the scene, without openings, by this name.
+std::string without_openings(std::string const& wall);
+
+// Which casters EnergyPlus's PolygonClipping leaves out: walls with openings, their copies without,
+// and reveals, where the other is meant; and, as the model asks, Disable Self-Shading Within and
+// From Shading Zone Groups, and MinimalShadowing. `names`: of every surface, by id; a reveal is
+// named "WINDOW reveal N".
 ShadingRule make_shading_rule(ShadingInput const& input, std::vector<std::string> const& names);
 
 }  // namespace gpu_shading::energyplus

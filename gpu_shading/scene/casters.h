@@ -9,13 +9,13 @@
 
 namespace gpu_shading {
 
-// A surface none of whose vertices stands this far in front of a receiver's plane, in metres, lies in
-// that plane or behind it, and does not shade: neighbours meant to be coplanar differ by the rounding of
-// a model's coordinates.
+// A surface none of whose vertices stands this far in front of a receiver's plane, in metres, lies
+// in that plane or behind it, and does not shade: neighbours meant to be coplanar differ by the
+// rounding of a model's coordinates.
 inline constexpr double coplanar = 1e-4;
 
-// Casters are cut this far in front of the plane, in metres: the noise of float32 within a building.
-// What it lets through is a strip of clearance x tan(incidence).
+// Casters are cut this far in front of the plane, in metres: the noise of float32 within a
+// building. What it lets through is a strip of clearance x tan(incidence).
 inline constexpr double clearance = 1e-6;
 
 // A surface is in the sun from this cosine of incidence on, as in EnergyPlus (its SunIsUpValue).

@@ -26,10 +26,10 @@ struct Polygon {
 
 // When a surface shades others.
 enum class Casting {
-  always,         // a sheet: both its faces stop the sun
-  turned_away,    // only while its outside is not in the sun: enough for each face of a closed body,
-                  // and what EnergyPlus's PolygonClipping takes of walls, roofs and windows
-  never,          // it only receives
+  always,       // a sheet: both its faces stop the sun
+  turned_away,  // only while its outside is not in the sun: enough for each face of a closed body,
+                // and what EnergyPlus's PolygonClipping takes of walls, roofs and windows
+  never,        // it only receives
 };
 
 struct Surface {

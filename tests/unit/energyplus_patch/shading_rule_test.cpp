@@ -16,22 +16,31 @@ constexpr char const* building =
     "Shading:Site:Detailed,Tree;"
     "ZoneList,First,Zone 1;ZoneList,Second,Zone 2;";
 
-enum Id : SurfaceId { wall_1, wall_2, window_1, reveal, fin, tree };
-std::vector<std::string> const names{"WALL 1", "WALL 2", "WINDOW 1", "WINDOW 1 reveal 1",
-                                     "FIN",    "TREE"};
+enum Id : SurfaceId { wall_1, wall_2, window_1, reveal, fin, tree, wall_1_closed };
+std::vector<std::string> const names{
+    "WALL 1", "WALL 2", "WINDOW 1", "WINDOW 1 reveal 1", "FIN", "TREE", without_openings("WALL 1")};
 
 ShadingRule rule_for(std::string const& objects) {
   return make_shading_rule(read_shading_input(read_idf(building + objects)), names);
 }
 
-TEST(ShadingRule, EverythingCastsButRevealsOnOthersThanTheirWindow) {
+TEST(ShadingRule, EverythingCasts) {
   auto const rule = rule_for("ShadowCalculation,PixelCounting;");
   for (auto const receiver : {wall_1, wall_2, window_1}) {
-    for (auto const caster : {wall_1, wall_2, window_1, fin, tree}) {
+    for (auto const caster : {wall_2, fin, tree}) {
       EXPECT_TRUE(rule(receiver, caster)) << names[receiver] << " " << names[caster];
     }
-    EXPECT_EQ(rule(receiver, reveal), receiver == window_1) << names[receiver];
   }
+}
+
+TEST(ShadingRule, WallCastsThroughItsOpeningsOnItsWindowsAndWithoutThemOnOthers) {
+  auto const rule = rule_for("ShadowCalculation,PixelCounting;");
+  EXPECT_TRUE(rule(window_1, wall_1));
+  EXPECT_TRUE(rule(window_1, reveal));
+  EXPECT_FALSE(rule(window_1, wall_1_closed));
+  EXPECT_FALSE(rule(wall_2, wall_1));
+  EXPECT_FALSE(rule(wall_2, reveal));
+  EXPECT_TRUE(rule(wall_2, wall_1_closed));
 }
 
 TEST(ShadingRule, DisabledWithinAndBetweenGroupsOnlyShadingSurfacesCast) {
