@@ -101,7 +101,7 @@ class Run:
     def device(self):
         """The device that rendered, in our module's words, '' if it did not say."""
         for line in self.our_lines:
-            found = re.search(r"rendered by ([^:]*)", line)
+            found = re.search(r"rendered by (.*?), \d+ x \d+ pixels", line)
             if found:
                 return found.group(1).strip()
         return ""
