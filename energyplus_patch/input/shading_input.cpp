@@ -56,20 +56,16 @@ void read_shadow_calculation(InputObject const& object, ShadingInput& input) {
 }
 
 void read_shading_surface(InputObject const& object, ShadingInput& input) {
-  ShadingInput::ShadingSurface surface{object.type, upper(object["base_surface_name"]),
-                                       upper(object["transmittance_schedule_name"])};
+  ShadingInput::ShadingSurface const surface{object.type,
+                                             upper(object["transmittance_schedule_name"])};
   auto const name = upper(object.name);
   if (object.type.starts_with("Shading:Fin")) {
     // EnergyPlus makes two surfaces of one object.
-    surface.base = upper(object["window_or_door_name"]);
     input.shading_surfaces[name + " LEFT"] = surface;
     input.shading_surfaces[name + " RIGHT"] = surface;
-    return;
+  } else {
+    input.shading_surfaces[name] = surface;
   }
-  if (object.type.starts_with("Shading:Overhang")) {
-    surface.base = upper(object["window_or_door_name"]);
-  }
-  input.shading_surfaces[name] = surface;
 }
 
 }  // namespace
@@ -117,12 +113,8 @@ ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
     }
   }
   if (input.reflections) input.all_shading_wanted = true;
-  for (auto& [name, surface] : input.shading_surfaces) {
+  for (auto const& [name, surface] : input.shading_surfaces) {
     if (named.contains(name)) input.wanted_shading.insert(name);
-    // Overhangs and fins name a window; EnergyPlus attaches them to the wall around it.
-    if (auto const base = input.base_of.find(surface.base); base != input.base_of.end()) {
-      surface.base = base->second;
-    }
   }
   return input;
 }

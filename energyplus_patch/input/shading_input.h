@@ -17,7 +17,6 @@ namespace gpu_shading::energyplus {
 struct ShadingInput {
   struct ShadingSurface {
     std::string type;
-    std::string base;                    // the heat transfer surface it is attached to, or ""
     std::string transmittance_schedule;  // or ""
   };
 

@@ -28,7 +28,6 @@ struct Place {
   std::string window;       // that this is a reveal of, or ""
   std::string base;         // the base surface that it lies in; itself for a base surface
   std::string zone;         // "" for shading surfaces
-  std::string attached_to;  // of an attached shading surface
   bool closed = false;      // a wall's copy without openings
   bool open = false;        // a wall that has such a copy
 };
@@ -45,8 +44,6 @@ Place find_place(ShadingInput const& input, std::set<std::string_view> const& na
   place.base = value_or_blank(input.base_of, surface);
   if (place.base.empty()) place.base = surface;
   place.zone = value_or_blank(input.zone_of, place.base);
-  auto const shading = input.shading_surfaces.find(name);
-  if (shading != input.shading_surfaces.end()) place.attached_to = shading->second.base;
   return place;
 }
 
@@ -96,7 +93,7 @@ ShadingRule make_shading_rule(ShadingInput const& input, std::vector<std::string
     if (!c.window.empty()) return c.window == r.name;
     if (c.base == r.base) return !c.closed;
     if (c.open) return false;
-    if (minimal) return c.attached_to == r.base;
+    if (minimal) return false;  // no shadows but of reveals
     if (c.zone.empty()) return true;
     if (all_disabled) return false;
     auto const zones = disabled.find(r.zone);

@@ -76,10 +76,11 @@ TEST(ShadingRule, DisabledWithinSeparateGroupsLeavesThemShadingEachOther) {
   EXPECT_TRUE(rule(wall_1, wall_2));
 }
 
-TEST(ShadingRule, MinimalShadowingKnowsAttachedSurfacesAlone) {
+TEST(ShadingRule, MinimalShadowingKnowsRevealsAlone) {
   auto const rule = rule_for("Building,B,0,City,0.04,0.4,MinimalShadowing;");
-  EXPECT_TRUE(rule(window_1, fin));
   EXPECT_TRUE(rule(window_1, reveal));
+  EXPECT_TRUE(rule(window_1, wall_1));
+  EXPECT_FALSE(rule(window_1, fin));
   EXPECT_FALSE(rule(window_1, tree));
   EXPECT_FALSE(rule(wall_2, fin));
   EXPECT_FALSE(rule(wall_1, wall_2));

@@ -1,0 +1,36 @@
+"""Symbols stay where they belong: EnergyPlus's library carries old copies of expat, zlib and sqlite."""
+
+import re
+
+from shading_runs import energyplus
+
+BINDING = re.compile(r"binding file (\S+) \[\d+\] to (\S+) \[\d+\]: \w+ symbol `([^']+)'")
+# Statics of the C++ library's inline functions: one of a kind in a process by the ABI's own rule.
+UNIQUE = re.compile(r"_ZG?V?Z+N?K?S")
+
+
+def bindings(folder):
+    for log in folder.glob("bindings.*"):
+        with open(log, encoding="utf-8", errors="replace") as lines:
+            for line in lines:
+                if found := BINDING.search(line):
+                    yield found.groups()
+
+
+def test_no_library_takes_another_ones_symbols(patched, courtyard, weather, tmp_path):
+    # With pictures, so that OpenImageIO's libraries are there as well as Mesa's.
+    run = energyplus.run(patched, courtyard, weather, tmp_path / "run",
+                         ["--gpu-shading", f"--gpu-shading-report={tmp_path / 'report'}", "-D"],
+                         {"LD_DEBUG": "bindings", "LD_DEBUG_OUTPUT": str(tmp_path / "bindings")})
+    assert run.completed, run.why()
+    assert list((tmp_path / "report").glob("*.png")), "no pictures: OpenImageIO was not loaded"
+    seen = 0
+    for user, owner, symbol in bindings(tmp_path):
+        seen += 1
+        if "libenergyplusapi" in owner and "libenergyplusapi" not in user:
+            assert UNIQUE.match(symbol), f"{user} uses EnergyPlus's {symbol}"
+        if "libgpu_shading" in owner:
+            assert "libgpu_shading" in user, f"{user} uses our {symbol}"
+        if "libenergyplusapi" in user:
+            assert not re.search(r"swrast|gallium|expat|libpng|libtiff|sqlite", owner), f"{symbol} of {owner}"
+    assert seen > 1000, "the loader's log was not read"
