@@ -5,21 +5,25 @@
 
 namespace gpu_shading {
 
-Coverage::Coverage(int resolution)
-    : target_(gl::Framebuffer::create({gl::Format::stencil}, resolution, resolution)) {}
+Coverage::Coverage(int side)
+    : target_(gl::Framebuffer::create({gl::Format::stencil}, side, side)) {}
 
-gl::Query const& Coverage::query(std::size_t index) {
-  while (queries_.size() <= index) queries_.push_back(gl::Query::create());
-  return queries_[index];
+void Coverage::count_tile(Geometry const& geometry, Range tile) {
+  if (queries_.size() == used_) queries_.push_back(gl::Query::create());
+  gl::Query const& passed = queries_[used_++];
+  geometry.use_tiles();
+  passed.begin();
+  geometry.draw_tile(tile);
+  passed.end();
 }
 
-std::vector<Coverage::Count> Coverage::count(Geometry const& geometry, std::span<Job const> jobs) {
+void Coverage::draw(Geometry const& geometry, std::span<Job const> jobs) {
   target_.bind();
   gl::no_depth();
+  used_ = 0;
   // Each job marks what is covered with a value of its own, so that the marks of those before need
   // no clearing.
   constexpr std::size_t marks = 255;
-  std::size_t used = 0;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     Job const& job = jobs[i];
     if (i % marks == 0) target_.clear_stencil();
@@ -32,27 +36,26 @@ std::vector<Coverage::Count> Coverage::count(Geometry const& geometry, std::span
 
     gl::cut_at_plane(false);
     gl::stencil(gl::Test::not_equal, mark, gl::OnPass::keep);
-    geometry.use_tiles();
-    gl::Query const& lit = query(used++);
-    lit.begin();
-    geometry.draw_tile(job.tile);
-    lit.end();
-    if (job.count_receiver) {
-      gl::no_stencil();
-      gl::Query const& all = query(used++);
-      all.begin();
-      geometry.draw_tile(job.tile);
-      all.end();
-    }
-  }
-
-  std::vector<Count> counts(jobs.size());
-  used = 0;
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    counts[i].lit = query(used++).wait_for_result();
-    if (jobs[i].count_receiver) counts[i].receiver = query(used++).wait_for_result();
+    count_tile(geometry, job.tile);
   }
   gl::check("drawing what the sun sees");
+}
+
+void Coverage::draw_clear(Geometry const& geometry, std::span<Range const> tiles) {
+  target_.bind();
+  gl::no_depth();
+  gl::no_stencil();
+  gl::cut_at_plane(false);
+  used_ = 0;
+  for (Range const& tile : tiles) count_tile(geometry, tile);
+  gl::check("drawing receivers");
+}
+
+std::vector<std::uint64_t> Coverage::counts() const {
+  std::vector<std::uint64_t> counts;
+  counts.reserve(used_);
+  for (std::size_t i = 0; i < used_; ++i) counts.push_back(queries_[i].wait_for_result());
+  gl::check("counting what the sun sees");
   return counts;
 }
 

@@ -12,30 +12,31 @@
 namespace gpu_shading {
 
 // Counts the pixels of receivers that opaque casters leave lit, by stencil and sample queries: one
-// clear for every 255 receivers, nothing read back before the last is drawn.
+// clear for every 255 receivers, nothing read back before it is asked for. For tiles of one side.
 class Coverage {
  public:
-  explicit Coverage(int resolution);
+  explicit Coverage(int side);
 
   struct Job {
     std::size_t view = 0;
     Range casters;
     Range tile;
-    bool count_receiver = false;  // its own pixels, too
-  };
-  struct Count {
-    std::uint64_t lit = 0;
-    std::uint64_t receiver = 0;  // 0 where not asked for
   };
 
-  // One count for each job, in order. `geometry` holds the uploaded draw list.
-  std::vector<Count> count(Geometry const& geometry, std::span<Job const> jobs);
+  // Draws from the draw list that `geometry` holds.
+  void draw(Geometry const& geometry, std::span<Job const> jobs);
+  // The same of tiles that nothing shades.
+  void draw_clear(Geometry const& geometry, std::span<Range const> tiles);
+
+  // What was last drawn, a count of pixels for each job or tile in order. Waits for it.
+  std::vector<std::uint64_t> counts() const;
 
  private:
-  gl::Query const& query(std::size_t index);
+  void count_tile(Geometry const& geometry, Range tile);
 
   gl::Framebuffer target_;
   std::vector<gl::Query> queries_;
+  std::size_t used_ = 0;  // of the queries
 };
 
 }  // namespace gpu_shading

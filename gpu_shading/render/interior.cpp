@@ -5,12 +5,11 @@
 
 namespace gpu_shading {
 
-Interior::Interior(int resolution)
-    : target_(gl::Framebuffer::create({gl::Format::depth_stencil}, resolution, resolution)) {}
+Interior::Interior(int side)
+    : target_(gl::Framebuffer::create({gl::Format::depth_stencil}, side, side)) {}
 
-Interior::Counts Interior::count(Geometry const& geometry, Job const& job) {
-  while (queries_.size() <= job.surfaces.size()) queries_.push_back(gl::Query::create());
-  gl::Query const& window = queries_.back();
+std::vector<std::uint64_t> Interior::count(Geometry const& geometry, Job const& job) {
+  while (queries_.size() < job.surfaces.size()) queries_.push_back(gl::Query::create());
 
   target_.bind();
   gl::depth(gl::Test::less, true);
@@ -28,10 +27,6 @@ Interior::Counts Interior::count(Geometry const& geometry, Job const& job) {
 
   gl::cut_at_plane(false);
   geometry.use_tiles();
-  gl::no_stencil();
-  window.begin();
-  geometry.draw_tile(job.window);
-  window.end();
   gl::stencil(gl::Test::equal, untouched, gl::OnPass::invert);
   geometry.draw_tile(job.window);
 
@@ -50,10 +45,9 @@ Interior::Counts Interior::count(Geometry const& geometry, Job const& job) {
     queries_[i].end();
   }
 
-  Counts counts;
-  counts.window = window.wait_for_result();
+  std::vector<std::uint64_t> counts;
   for (std::size_t i = 0; i < job.surfaces.size(); ++i) {
-    counts.surfaces.push_back(queries_[i].wait_for_result());
+    counts.push_back(queries_[i].wait_for_result());
   }
   gl::check("drawing what the sun sees through a window");
   return counts;

@@ -13,10 +13,10 @@ namespace gpu_shading {
 
 // Counts the pixels in which the sun reaches each interior surface through a window: the window's
 // lit pixels are marked, the surfaces behind drawn twice, once to find the nearest depth and once
-// to count who has it.
+// to count who has it. For tiles of one side.
 class Interior {
  public:
-  explicit Interior(int resolution);
+  explicit Interior(int side);
 
   struct Job {
     std::size_t casters_view = 0;
@@ -25,12 +25,9 @@ class Interior {
     std::size_t behind_view = 0;
     std::vector<Range> surfaces;
   };
-  struct Counts {
-    std::uint64_t window = 0;             // its own pixels, lit or not
-    std::vector<std::uint64_t> surfaces;  // in the order of the job
-  };
 
-  Counts count(Geometry const& geometry, Job const& job);
+  // One count for each surface of the job, in order.
+  std::vector<std::uint64_t> count(Geometry const& geometry, Job const& job);
 
  private:
   gl::Framebuffer target_;

@@ -5,19 +5,39 @@
 #include <optional>
 #include <vector>
 
+#include "gpu_shading/scene.h"
 #include "render/view.h"
 #include "scene/plane_frame.h"
 
 namespace gpu_shading {
 
+// A receiver laid out in pixels.
+struct Tile {
+  int side = 0;  // pixels
+  TileMap map;
+  std::vector<glm::vec2> triangles;  // in clip coordinates
+  double pixel_area = 0.0;           // m2 of the receiver's plane
+};
+
+// `resolution` pixels a side, doubled while a receiver that fills little of its bounding rectangle,
+// such as the ring of wall around a large window, is left with fewer than resolution^2 / 64 of them
+// or than 16; up to 4096 or `most`, or `resolution` where that is more.
+Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, int most);
+
+// For receivers too thin even so: all of the bounding rectangle, in whose middle there is always a
+// pixel.
+Tile bounding_tile(Polygon const& polygon, PlaneFrame const& frame, int side);
+
+// Pixels expected of less than this leave the share that is lit to chance.
+inline constexpr double fewest_pixels = 16.0;
+
 // What is known of a receiver whatever the sun's direction.
 struct Receiver {
   std::optional<PlaneFrame> frame;  // nothing when it has no area
   double area = 0.0;                // exact, m2
-  TileMap map;
-  std::vector<glm::vec2> tile;          // its triangles, in clip coordinates
+  Tile tile;
   std::vector<SurfaceId> in_front;      // casters of any direction
-  std::optional<std::uint64_t> pixels;  // on its tile, once counted
+  std::optional<std::uint64_t> pixels;  // on its tile, once counted; never 0
 };
 
 }  // namespace gpu_shading

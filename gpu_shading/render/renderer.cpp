@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <glm/geometric.hpp>
+#include <map>
 #include <unordered_map>
 #include <utility>
 
@@ -16,7 +17,6 @@
 #include "render/picture.h"
 #include "render/receiver.h"
 #include "scene/casters.h"
-#include "scene/triangulation.h"
 
 namespace gpu_shading {
 namespace {
@@ -57,18 +57,22 @@ class Renderer::Implementation {
  private:
   // What lives on the device, made and ended with its context current.
   struct OnDevice {
-    OnDevice(Scene const& scene, int resolution) : geometry(scene), coverage(resolution) {}
+    OnDevice(Scene const& scene, int resolution) : geometry(scene) {
+      coverage.try_emplace(resolution, resolution);
+    }
 
     Geometry geometry;
-    Coverage coverage;
-    std::optional<Interior> interior;
+    // By the side of their tiles.
+    std::map<int, Coverage> coverage;
+    std::map<int, Interior> interior;
     std::optional<Picture> picture;
   };
 
   Surface const& surface(SurfaceId id) const;  // throws Error when there is none
   Receiver& receiver(SurfaceId id);
   Range add_surfaces(std::span<SurfaceId const> surfaces);
-  double share(SurfaceId id, std::uint64_t part, std::uint64_t whole) const;
+  // Counts the pixels of those receivers that are not known yet.
+  void measure(std::span<SurfaceId const> receivers);
 
   Scene scene_;
   RendererOptions options_;
@@ -118,11 +122,8 @@ Receiver& Renderer::Implementation::receiver(SurfaceId id) {
   receiver.area = area(polygon);
   if (receiver.area > 0.0) receiver.frame = plane_frame(polygon);
   if (receiver.frame) {
-    receiver.map = fit_tile(*receiver.frame, polygon.outline, options_.resolution);
-    Mesh const mesh = triangulate(polygon);
-    for (std::uint32_t const index : mesh.indices) {
-      receiver.tile.emplace_back(receiver.map(*receiver.frame, mesh.vertices[index]));
-    }
+    receiver.tile =
+        make_tile(polygon, *receiver.frame, options_.resolution, device_.info.max_resolution);
     receiver.in_front = casters_.in_front(scene_, id, *receiver.frame);
   }
   return receivers_.emplace(id, std::move(receiver)).first->second;
@@ -136,14 +137,34 @@ Range Renderer::Implementation::add_surfaces(std::span<SurfaceId const> surfaces
   return draw_list_.end_surfaces(begin);
 }
 
-double Renderer::Implementation::share(SurfaceId id, std::uint64_t part,
-                                       std::uint64_t whole) const {
-  if (whole == 0) {
-    throw Error(fmt::format(
-        "surface '{}' is too thin for a single pixel at resolution {}; raise the resolution",
-        surface(id).name, options_.resolution));
+void Renderer::Implementation::measure(std::span<SurfaceId const> receivers) {
+  std::map<int, std::vector<SurfaceId>> by_side;
+  for (SurfaceId const id : receivers) {
+    Receiver const& seen = receiver(id);
+    if (!seen.pixels) by_side[seen.tile.side].push_back(id);
   }
-  return static_cast<double>(part) / static_cast<double>(whole);
+  if (by_side.empty()) return;
+  egl::Current const current = device_.context.make_current();
+  std::vector<SurfaceId> missed;
+  for (auto const& [side, ids] : by_side) {
+    DrawList list;
+    std::vector<Range> tiles;
+    for (SurfaceId const id : ids) tiles.push_back(list.add_tile(receiver(id).tile.triangles));
+    on_device_->geometry.upload(list);
+    Coverage& coverage = on_device_->coverage.try_emplace(side, side).first->second;
+    coverage.draw_clear(on_device_->geometry, tiles);
+    std::vector<std::uint64_t> const counts = coverage.counts();
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      Receiver& seen = receiver(ids[i]);
+      if (counts[i] > 0) {
+        seen.pixels = counts[i];
+      } else {
+        seen.tile = bounding_tile(surface(ids[i]).polygon, *seen.frame, side);
+        missed.push_back(ids[i]);
+      }
+    }
+  }
+  measure(missed);
 }
 
 std::vector<Sunlit> Renderer::Implementation::projected_sunlit_areas(
@@ -152,47 +173,59 @@ std::vector<Sunlit> Renderer::Implementation::projected_sunlit_areas(
   ++statistics_.directions;
   glm::dvec3 const towards_sun = to_vector(sun);
   std::vector<Sunlit> answers(receivers.size());
-  std::vector<Coverage::Job> jobs;
-  std::vector<std::size_t> places;  // of the jobs' answers
-  draw_list_.clear();
+  struct Asked {
+    std::size_t place;  // of the answer
+    std::vector<SurfaceId> casters;
+  };
+  std::map<int, std::vector<Asked>> by_side;
+  std::vector<SurfaceId> drawn;
   for (std::size_t i = 0; i < receivers.size(); ++i) {
     Receiver const& seen = receiver(receivers[i]);
     if (!seen.frame) continue;
     double const cosine = glm::dot(seen.frame->normal, towards_sun);
     if (cosine <= edge_on) continue;
     answers[i].projected_area = answers[i].pixel_counted_area = seen.area * cosine;
-    std::vector<SurfaceId> const casters =
-        casters_.in_view(seen.in_front, *seen.frame, towards_sun);
+    std::vector<SurfaceId> casters = casters_.in_view(seen.in_front, *seen.frame, towards_sun);
     if (casters.empty()) {
       ++statistics_.receivers_clear;
       continue;
     }
     ++statistics_.receivers_drawn;
     statistics_.casters_drawn += casters.size();
-    Coverage::Job job;
-    job.view = draw_list_.add_view(view_in_front(*seen.frame, seen.map, towards_sun),
-                                   on_device_->geometry.scene_origin());
-    job.casters = add_surfaces(casters);
-    job.tile = draw_list_.add_tile(seen.tile);
-    job.count_receiver = !seen.pixels;
-    jobs.push_back(job);
-    places.push_back(i);
+    by_side[seen.tile.side].push_back({i, std::move(casters)});
+    drawn.push_back(receivers[i]);
   }
-  if (jobs.empty()) return answers;
+  if (drawn.empty()) return answers;
+  measure(drawn);
 
+  draw_list_.clear();
+  std::map<int, std::vector<Coverage::Job>> jobs;
+  for (auto const& [side, asked] : by_side) {
+    for (Asked const& one : asked) {
+      Receiver const& seen = receiver(receivers[one.place]);
+      Coverage::Job job;
+      job.view = draw_list_.add_view(view_in_front(*seen.frame, seen.tile.map, towards_sun),
+                                     on_device_->geometry.scene_origin());
+      job.casters = add_surfaces(one.casters);
+      job.tile = draw_list_.add_tile(seen.tile.triangles);
+      jobs[side].push_back(job);
+    }
+  }
   egl::Current const current = device_.context.make_current();
   on_device_->geometry.upload(draw_list_);
-  std::vector<Coverage::Count> const counts =
-      on_device_->coverage.count(on_device_->geometry, jobs);
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    SurfaceId const id = receivers[places[i]];
-    Receiver& seen = receiver(id);
-    if (jobs[i].count_receiver) seen.pixels = counts[i].receiver;
-    Sunlit& answer = answers[places[i]];
-    double const cosine = glm::dot(seen.frame->normal, towards_sun);
-    answer.projected_area *= share(id, counts[i].lit, *seen.pixels);
-    answer.pixel_counted_area =
-        static_cast<double>(counts[i].lit) * seen.map.pixel_area(options_.resolution) * cosine;
+  for (auto const& [side, of_side] : jobs) {
+    on_device_->coverage.try_emplace(side, side).first->second.draw(on_device_->geometry, of_side);
+  }
+  for (auto const& [side, asked] : by_side) {
+    std::vector<std::uint64_t> const lit = on_device_->coverage.at(side).counts();
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      Receiver const& seen = receiver(receivers[asked[i].place]);
+      Sunlit& answer = answers[asked[i].place];
+      double const cosine = glm::dot(seen.frame->normal, towards_sun);
+      auto const count = static_cast<double>(lit[i]);
+      answer.projected_area *= count / static_cast<double>(*seen.pixels);
+      answer.pixel_counted_area = count * seen.tile.pixel_area * cosine;
+    }
   }
   return answers;
 }
@@ -206,6 +239,7 @@ std::vector<double> Renderer::Implementation::interior_projected_sunlit_areas(
   if (!seen.frame) return answers;
   double const cosine = glm::dot(seen.frame->normal, towards_sun);
   if (cosine <= edge_on) return answers;
+  measure({&window, 1});
 
   double reach = clearance;
   for (SurfaceId const id : interiors) {
@@ -217,19 +251,21 @@ std::vector<double> Renderer::Implementation::interior_projected_sunlit_areas(
   glm::dvec3 const& scene_origin = on_device_->geometry.scene_origin();
   Interior::Job job;
   job.casters_view =
-      draw_list_.add_view(view_in_front(*seen.frame, seen.map, towards_sun), scene_origin);
+      draw_list_.add_view(view_in_front(*seen.frame, seen.tile.map, towards_sun), scene_origin);
   job.casters = add_surfaces(casters_.in_view(seen.in_front, *seen.frame, towards_sun));
-  job.window = draw_list_.add_tile(seen.tile);
-  job.behind_view =
-      draw_list_.add_view(view_behind(*seen.frame, seen.map, towards_sun, reach), scene_origin);
+  job.window = draw_list_.add_tile(seen.tile.triangles);
+  job.behind_view = draw_list_.add_view(view_behind(*seen.frame, seen.tile.map, towards_sun, reach),
+                                        scene_origin);
   for (SurfaceId const id : interiors) job.surfaces.push_back(add_surfaces({&id, 1}));
 
   egl::Current const current = device_.context.make_current();
-  if (!on_device_->interior) on_device_->interior.emplace(options_.resolution);
   on_device_->geometry.upload(draw_list_);
-  Interior::Counts const counts = on_device_->interior->count(on_device_->geometry, job);
+  Interior& interior =
+      on_device_->interior.try_emplace(seen.tile.side, seen.tile.side).first->second;
+  std::vector<std::uint64_t> const counts = interior.count(on_device_->geometry, job);
   for (std::size_t i = 0; i < interiors.size(); ++i) {
-    answers[i] = seen.area * cosine * share(window, counts.surfaces[i], counts.window);
+    answers[i] =
+        seen.area * cosine * static_cast<double>(counts[i]) / static_cast<double>(*seen.pixels);
   }
   return answers;
 }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -217,8 +218,119 @@ TEST(Sunlit, SmallTilesStillAnswer) {
   scene.add({"terrace", level(0, 0, 0, 4, 4)});
   scene.add({"canopy", level(-1, -1, 3, 3, 6)});
   EXPECT_NEAR(share_of_window(scene, {}, 16), 0.5, 0.05);
-  double const coarsest = share_of_window(scene, {}, 1);
-  EXPECT_TRUE(coarsest == 0.0 || coarsest == 1.0);
+  // No receiver is left with fewer than 16 pixels.
+  EXPECT_NEAR(share_of_window(scene, {}, 1), 0.5, 0.1);
+}
+
+// What is left of a 3 x 3 m wall around a window of `opening` x `opening`, below an overhang.
+Scene ring_of_wall(double opening) {
+  Polygon wall = south_facing(0, 0, 0, 3, 3);
+  double const at = 0.5 * (3 - opening);
+  wall.holes = {south_facing(at, 0, at, opening, opening).outline};
+  Scene scene;
+  scene.add({"wall", wall});
+  scene.add({"overhang", level(0.7, -0.8, 3, 1.9, 0.8)});
+  return scene;
+}
+
+TEST(Sunlit, ThinRingOfWallAroundAWindow) {
+  Scene const scene = ring_of_wall(2.9995);
+  for (SunDirection const sun : {sun_at(180, 40), sun_at(160, 25), sun_at(215, 60)}) {
+    double const exact =
+        exact::projected_sunlit_area(scene, sun, 0) / exact::projected_area(scene, sun, 0);
+    EXPECT_NEAR(share_of_window(scene, sun), exact, 2e-3);
+  }
+}
+
+// Where it has no pixels of its own, the bounding rectangle's.
+TEST(Sunlit, NoReceiverIsTooThin) {
+  for (double const opening : {2.999999, 2.9999999999}) {
+    Scene const scene = ring_of_wall(opening);
+    for (int const resolution : {1, 2, 64, 512}) {
+      double const lit = share_of_window(scene, sun_at(180, 45), resolution);
+      EXPECT_NEAR(lit, 1.0 - 1.9 * 0.8 / 9.0, resolution < 64 ? 0.1 : 2e-3);
+    }
+  }
+  // A sliver across rows of pixels as wide as a hair.
+  Scene scene;
+  scene.add({"sliver", {{{0, 0, 0}, {3, 0, 3}, {3, 0, 3 - 1e-7}}, {}}});
+  scene.add({"roof", level(-5, -5, 3, 12, 12)});
+  Renderer renderer = renderer_of(scene);
+  EXPECT_EQ(sunlit(renderer, sun_at(180, 89), 0).projected_area, 0.0);
+}
+
+TEST(Sunlit, TilesOfSeveralSidesInOneCall) {
+  Scene scene = ring_of_wall(2.9995);
+  scene.add({"wide wall", south_facing(0.2, 0, 0, 3, 3)});
+  Renderer renderer = renderer_of(scene);
+  SunDirection const sun = sun_at(170, 40);
+  std::vector<SurfaceId> const both{0, 2};
+  auto const answers = renderer.projected_sunlit_areas(sun, both);
+  EXPECT_EQ(answers[0].projected_area, sunlit(renderer, sun, 0).projected_area);
+  EXPECT_EQ(answers[1].projected_area, sunlit(renderer, sun, 2).projected_area);
+  EXPECT_NEAR(answers[1].projected_area, exact::projected_sunlit_area(scene, sun, 2), 1e-3 * 9);
+}
+
+// A cube of 1 m over a terrace, its faces turned outwards.
+std::vector<Polygon> cube() {
+  return {level(0, 0, 2, 1, 1),
+          parallelogram({0, 0, 1}, {0, 1, 0}, {1, 0, 0}),
+          south_facing(0, 0, 1, 1, 1),
+          parallelogram({1, 1, 1}, {-1, 0, 0}, {0, 0, 1}),
+          parallelogram({1, 0, 1}, {0, 1, 0}, {0, 0, 1}),
+          parallelogram({0, 1, 1}, {0, -1, 0}, {0, 0, 1})};
+}
+
+Scene under_a_cube(Casting casting, std::vector<std::size_t> const& left_out = {}) {
+  Scene scene;
+  scene.add({"terrace", level(-4, -4, 0, 9, 9)});
+  std::vector<Polygon> const faces = cube();
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (std::find(left_out.begin(), left_out.end(), i) != left_out.end()) continue;
+    scene.add({"face", faces[i], casting});
+  }
+  return scene;
+}
+
+std::vector<SunDirection> const around{sun_at(10, 35),  sun_at(75, 60),  sun_at(180, 45),
+                                       sun_at(230, 50), sun_at(300, 40), {}};
+
+TEST(Casting, ClosedBodyOfFacesTurnedAwayShadesLikeSheets) {
+  Renderer sheets = renderer_of(under_a_cube(Casting::always));
+  Renderer faces = renderer_of(under_a_cube(Casting::turned_away));
+  for (SunDirection const sun : around) {
+    double const exact = exact::projected_sunlit_area(under_a_cube(Casting::always), sun, 0);
+    EXPECT_NEAR(sunlit(sheets, sun, 0).projected_area, exact, 1e-3 * 81);
+    EXPECT_NEAR(sunlit(faces, sun, 0).projected_area, sunlit(sheets, sun, 0).projected_area,
+                1e-4 * 81);
+  }
+  EXPECT_LT(faces.statistics().casters_drawn, sheets.statistics().casters_drawn);
+}
+
+TEST(Casting, OpenBodyLetsTheSunThroughItsLitFaces) {
+  // Without its bottom, a roof in the sun and two lit walls cast nothing; the two walls turned away
+  // do.
+  Scene const open = under_a_cube(Casting::turned_away, {1});
+  SunDirection const sun = sun_at(225, 45);
+  Scene turned_away;
+  turned_away.add(open[0]);
+  for (std::size_t const face : {3U, 4U}) turned_away.add({"face", cube()[face]});
+  Renderer renderer = renderer_of(open);
+  EXPECT_NEAR(sunlit(renderer, sun, 0).projected_area,
+              exact::projected_sunlit_area(turned_away, sun, 0), 1e-3 * 81);
+  // Right under the sun nothing is left.
+  EXPECT_NEAR(sunlit(renderer, {}, 0).projected_area, 81.0, 1e-9);
+  Scene roof = under_a_cube(Casting::turned_away, {1, 2, 3, 4, 5});
+  EXPECT_NEAR(share_of_window(roof, sun), 1.0, 1e-12);
+}
+
+TEST(Casting, NeverOnlyReceives) {
+  Scene const scene = under_a_cube(Casting::never);
+  Renderer renderer = renderer_of(scene);
+  SunDirection const sun = sun_at(225, 45);
+  EXPECT_NEAR(sunlit(renderer, sun, 0).projected_area, exact::projected_area(scene, sun, 0), 1e-9);
+  EXPECT_EQ(renderer.statistics().receivers_clear, 1U);
+  EXPECT_NEAR(sunlit(renderer, sun, 1).projected_area, std::sin(45 * degree), 1e-12);
 }
 
 // A ridge 30 km away, in triangles of kilometres, whose shadow's edge crosses a window at sunrise.

@@ -14,7 +14,9 @@ namespace gpu_shading {
 
 struct RendererOptions {
   DeviceChoice device;
-  int resolution = 512;  // pixels a side of a receiver's tile, 1 .. DeviceInfo::max_resolution
+  // Pixels a side of a receiver's tile, 1 .. DeviceInfo::max_resolution. A receiver that fills less
+  // than 1/64 of its tile, or 16 pixels, gets a tile of twice the side, again and again up to 4096.
+  int resolution = 512;
 };
 
 // What the sun sees of one receiver.
@@ -50,7 +52,8 @@ struct Image {
 // is the parallel projection of the sun's view followed by an affine map, so that lit shares are
 // the same and the receiver keeps the same pixels at every direction. The pixel lattice is turned
 // against the receiver's longest edge by an angle of golden slope, so that edges parallel to it do
-// not line up with rows of pixels.
+// not line up with rows of pixels. A receiver too thin for 16 pixels of its finest tile gets the
+// lit share of its bounding rectangle.
 class Renderer {
  public:
   // Throws Error when the resolution is out of range, DeviceError when the device cannot be had.
