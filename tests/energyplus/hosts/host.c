@@ -2,8 +2,8 @@
  *
  *   host PREFIX OPTIONS RUNS [EnergyPlus's arguments ...]
  *
- * PREFIX is a patched EnergyPlus; OPTIONS are the launcher's flags, "" for none; RUNS is how many times
- * to run, each with a state of its own. Build it with: cc host.c -ldl
+ * PREFIX is a patched EnergyPlus; OPTIONS are the launcher's flags, "" for none; RUNS is how many
+ * times to run, each with a state of its own. Build it with: cc host.c -ldl
  */
 #include <dlfcn.h>
 #include <stdio.h>
