@@ -1,0 +1,110 @@
+// After the EnergyPlus Engineering Reference, "Window Calculation Module", "Calculation of Angular
+// Properties". The reference averages the interface's reflectivity over the polarisations before it
+// goes through the pane; EnergyPlus and we take each polarisation through and average then.
+#include "optics/pane.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "optics/polynomial.h"
+
+namespace gpu_shading {
+namespace {
+
+// "Angular Properties for Coated Glass".
+constexpr Quartic clear_transmittance{-0.0015, 3.355, -3.840, 1.460, 0.0288};
+constexpr Quartic clear_both{0.999, -0.563, 2.043, -2.532, 1.054};
+constexpr Quartic bronze_transmittance{-0.002, 2.813, -2.341, -0.05725, 0.599};
+constexpr Quartic bronze_both{0.997, -1.868, 6.513, -7.862, 3.225};
+constexpr double clear_above = 0.645;
+
+double square(double x) { return x * x; }
+
+// Reflectivity of one interface at normal incidence, from the pane's transmittance and reflectance.
+double interface_reflectivity(double t, double r) {
+  double const beta = square(t) - square(r) + 2.0 * r + 1.0;
+  double const twice = 2.0 - r;
+  double const rho =
+      (beta - std::sqrt(std::max(0.0, square(beta) - 4.0 * twice * r))) / (2.0 * twice);
+  return std::clamp(rho, 0.0, 1.0 - 1e-12);  // a mirror's refractive index is infinite
+}
+
+// exp(-alpha d), the positive root of T = (1 - rho)^2 x / (1 - rho^2 x^2): the same as the
+// reference's logarithm of (R - rho) / (rho T), but for its 0 / 0 at rho = 0.
+double straight_passage(double t, double rho) {
+  double const b = square(1.0 - rho);
+  return std::min(1.0, 2.0 * t / (b + std::hypot(b, 2.0 * rho * t)));
+}
+
+// Squared, 1 where both are 0: light that grazes glass of index 1.
+double fresnel(double difference, double sum) { return sum > 0.0 ? square(difference / sum) : 1.0; }
+
+}  // namespace
+
+double normalised(Quartic const& curve, double cosine) {
+  double const from = std::cos(std::numbers::pi / 18.0);
+  if (cosine <= from) return polynomial(curve, cosine);
+  double const value = polynomial(curve, from);
+  double slope = 0.0;
+  for (std::size_t k = curve.size() - 1; k > 0; --k) {
+    slope = slope * from + static_cast<double>(k) * curve[k];
+  }
+  double const width = 1.0 - from;
+  double const x = (cosine - from) / width;
+  return value + x * (slope * width + x * (1.0 - value - slope * width));
+}
+
+Pane::Pane(GlassLayer const& layer) : normal_(layer) {
+  if (layer.transmittance <= 0.0) return;
+  double const front = interface_reflectivity(layer.transmittance, layer.front_reflectance);
+  double const back = interface_reflectivity(layer.transmittance, layer.back_reflectance);
+  constexpr double alike = 0.001;
+  if (front == back || std::abs(front - back) < alike * (front + back)) {
+    double const root = std::sqrt(front);
+    kind_ = Uncoated{(1.0 + root) / (1.0 - root), straight_passage(layer.transmittance, front)};
+  } else if (layer.transmittance > clear_above) {
+    kind_ = Coated{&clear_transmittance, &clear_both};
+  } else {
+    kind_ = Coated{&bronze_transmittance, &bronze_both};
+  }
+}
+
+PaneProperties Pane::at(double cosine) const {
+  return std::visit([&](auto const& kind) { return properties(kind, cosine); }, kind_);
+}
+
+// "Angular Properties for Uncoated Glass".
+PaneProperties Pane::properties(Uncoated const& glass, double cosine) const {
+  double const n = glass.index;
+  double const inside = std::sqrt(std::max(0.0, 1.0 - (1.0 - square(cosine)) / square(n)));
+  double const passage = std::pow(glass.passage, 1.0 / inside);
+  double transmittance = 0.0;
+  double reflectance = 0.0;
+  for (double const rho : {fresnel(n * cosine - inside, n * cosine + inside),
+                           fresnel(n * inside - cosine, n * inside + cosine)}) {
+    double const t = rho < 1.0 ? square(1.0 - rho) * passage / (1.0 - square(rho * passage)) : 0.0;
+    transmittance += 0.5 * t;
+    reflectance += 0.5 * rho * (1.0 + t * passage);
+  }
+  return {transmittance, reflectance, reflectance};
+}
+
+PaneProperties Pane::properties(Coated const& glass, double cosine) const {
+  double const t =
+      std::clamp(normalised(*glass.transmittance, cosine), 0.0, 1.0 / normal_.transmittance);
+  double const r = std::clamp(normalised(*glass.reflectance, cosine) - t, 0.0, 1.0);
+  double const transmittance = normal_.transmittance * t;
+  auto const reflectance = [&](double at_normal) {
+    return std::min(std::lerp(at_normal, 1.0, r), 1.0 - transmittance);
+  };
+  return {transmittance, reflectance(normal_.front_reflectance),
+          reflectance(normal_.back_reflectance)};
+}
+
+PaneProperties Pane::properties(Opaque /*glass*/, double /*cosine*/) const {
+  return {0.0, normal_.front_reflectance, normal_.back_reflectance};
+}
+
+}  // namespace gpu_shading
