@@ -13,7 +13,7 @@
 namespace gpu_shading {
 namespace {
 
-// "Angular Properties for Coated Glass".
+// Normalised to 1 at normal incidence; the second of each pair is transmittance plus reflectance.
 constexpr Quartic clear_transmittance{-0.0015, 3.355, -3.840, 1.460, 0.0288};
 constexpr Quartic clear_both{0.999, -0.563, 2.043, -2.532, 1.054};
 constexpr Quartic bronze_transmittance{-0.002, 2.813, -2.341, -0.05725, 0.599};
@@ -91,13 +91,13 @@ PaneProperties Pane::properties(Uncoated const& glass, double cosine) const {
   return {transmittance, reflectance, reflectance};
 }
 
+// "Angular Properties for Coated Glass".
 PaneProperties Pane::properties(Coated const& glass, double cosine) const {
-  double const t =
-      std::clamp(normalised(*glass.transmittance, cosine), 0.0, 1.0 / normal_.transmittance);
-  double const r = std::clamp(normalised(*glass.reflectance, cosine) - t, 0.0, 1.0);
-  double const transmittance = normal_.transmittance * t;
+  double const t = normalised(*glass.transmittance, cosine);
+  double const r = normalised(*glass.reflectance, cosine) - t;
+  double const transmittance = std::clamp(normal_.transmittance * t, 0.0, 1.0);
   auto const reflectance = [&](double at_normal) {
-    return std::min(std::lerp(at_normal, 1.0, r), 1.0 - transmittance);
+    return std::clamp(std::lerp(at_normal, 1.0, r), 0.0, 1.0 - transmittance);
   };
   return {transmittance, reflectance(normal_.front_reflectance),
           reflectance(normal_.back_reflectance)};
