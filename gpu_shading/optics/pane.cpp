@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 
 #include "optics/polynomial.h"
@@ -43,17 +42,13 @@ double fresnel(double difference, double sum) { return sum > 0.0 ? square(differ
 
 }  // namespace
 
-double normalised(Quartic const& curve, double cosine) {
-  double const from = std::cos(std::numbers::pi / 18.0);
-  if (cosine <= from) return polynomial(curve, cosine);
-  double const value = polynomial(curve, from);
-  double slope = 0.0;
-  for (std::size_t k = curve.size() - 1; k > 0; --k) {
-    slope = slope * from + static_cast<double>(k) * curve[k];
-  }
-  double const width = 1.0 - from;
-  double const x = (cosine - from) / width;
-  return value + x * (slope * width + x * (1.0 - value - slope * width));
+double normalised(Quartic const& curve, double cosine, double at_grazing) {
+  double const ten = std::cos(std::numbers::pi / 18.0);
+  double const eighty = std::sin(std::numbers::pi / 18.0);
+  double const to_normal = std::max(0.0, (cosine - ten) / (1.0 - ten));
+  double const to_grazing = std::max(0.0, 1.0 - cosine / eighty);
+  return polynomial(curve, cosine) + square(to_normal) * (1.0 - polynomial(curve, 1.0)) +
+         square(to_grazing) * (at_grazing - polynomial(curve, 0.0));
 }
 
 Pane::Pane(GlassLayer const& layer) : normal_(layer) {
@@ -93,8 +88,8 @@ PaneProperties Pane::properties(Uncoated const& glass, double cosine) const {
 
 // "Angular Properties for Coated Glass".
 PaneProperties Pane::properties(Coated const& glass, double cosine) const {
-  double const t = normalised(*glass.transmittance, cosine);
-  double const r = normalised(*glass.reflectance, cosine) - t;
+  double const t = normalised(*glass.transmittance, cosine, 0.0);
+  double const r = normalised(*glass.reflectance, cosine, 1.0) - t;
   double const transmittance = std::clamp(normal_.transmittance * t, 0.0, 1.0);
   auto const reflectance = [&](double at_normal) {
     return std::clamp(std::lerp(at_normal, 1.0, r), 0.0, 1.0 - transmittance);

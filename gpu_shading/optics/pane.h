@@ -10,11 +10,11 @@ namespace gpu_shading {
 // Coefficients over the cosine of the angle of incidence, from its power 0.
 using Quartic = std::array<double, 5>;
 
-// The value of an angular regression that is normalised to 1 at normal incidence. EnergyPlus
-// evaluates regressions at steps of 10 degrees and puts 1 for the first, which they miss by up to
-// 0.02. Here they serve from 10 degrees on; from there to 1 at normal incidence goes a parabola in
-// the cosine, without a kink.
-double normalised(Quartic const& curve, double cosine);
+// The value of an angular regression, made to meet 1 at normal incidence and `at_grazing`, both of
+// which it misses by up to 0.02. EnergyPlus evaluates regressions at steps of 10 degrees and puts
+// these ends for the first and the last; here what is missing comes in over the last 10 degrees to
+// either end, with the square of the cosine's way there, so that there is no kink.
+double normalised(Quartic const& curve, double cosine, double at_grazing);
 
 // What one pane does at an angle.
 struct PaneProperties {

@@ -82,8 +82,10 @@ Transmittance Transmittance::glazing(SimpleGlazing const& window) {
   if (!(window.shgc > 0.0 && window.shgc < 1.0)) {
     throw Error(fmt::format("SHGC is {:.9g}, expected between 0 and 1", window.shgc));
   }
-  return Transmittance([curve = angular_curve(window), normal = normal_transmittance(window)](
-                           double angle) { return normal * normalised(curve, std::cos(angle)); });
+  return Transmittance(
+      [curve = angular_curve(window), normal = normal_transmittance(window)](double angle) {
+        return normal * normalised(curve, std::cos(angle), 0.0);
+      });
 }
 
 }  // namespace gpu_shading

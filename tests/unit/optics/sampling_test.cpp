@@ -21,6 +21,7 @@ std::vector<Transmittance> models() {
       Transmittance::glazing(panes.first(2)),
       Transmittance::glazing(panes),
       Transmittance::glazing(coated),
+      Transmittance::glazing(std::span(coated).first(1)),
       Transmittance::glazing(SimpleGlazing{2.0, 0.4}),
       Transmittance::glazing(SimpleGlazing{5.8, 0.8}),
       Transmittance::polynomial_in_degrees({0.8, -0.008}),
