@@ -56,6 +56,20 @@ void write_colour(bool on) {
   glColorMask(mask, mask, mask, mask);
 }
 
+void blend(Blend how) {
+  if (how == Blend::replace) {
+    glDisable(GL_BLEND);
+    return;
+  }
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_FUNC_ADD);
+  if (how == Blend::multiply) {
+    glBlendFunc(GL_ZERO, GL_SRC_ALPHA);
+  } else {
+    glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_SRC_ALPHA);
+  }
+}
+
 void cut_at_plane(bool on) {
   if (on) {
     glEnable(GL_CLIP_DISTANCE0);
@@ -79,5 +93,7 @@ void draw_indexed(std::size_t first, std::size_t count) {
 void draw_vertices(std::size_t first, std::size_t count) {
   glDrawArrays(GL_TRIANGLES, static_cast<GLint>(first), static_cast<GLsizei>(count));
 }
+
+void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) { glDispatchCompute(x, y, z); }
 
 }  // namespace gpu_shading::gl

@@ -20,6 +20,14 @@ void no_depth();
 
 void write_colour(bool on);
 
+// What a fragment (R, G, B, A) does to the colour (r, g, b, a) that is there.
+enum class Blend {
+  replace,
+  multiply,          // by A, all of them
+  multiply_and_add,  // a by A; R, G and B are added to theirs
+};
+void blend(Blend how);
+
 void cut_at_plane(bool on);  // by gl_ClipDistance[0]
 
 // Depth 0 is nearest and clip space z runs from 0 to 1; z outside is not cut.
@@ -27,5 +35,7 @@ void set_depth_convention();
 
 void draw_indexed(std::size_t first, std::size_t count);
 void draw_vertices(std::size_t first, std::size_t count);
+
+void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z);  // groups of a compute program
 
 }  // namespace gpu_shading::gl

@@ -17,6 +17,10 @@ GLenum internal_format(Format format) {
       return GL_STENCIL_INDEX8;
     case Format::depth_stencil:
       return GL_DEPTH32F_STENCIL8;
+    case Format::precise_colour:
+      return GL_RGBA32F;
+    case Format::identity:
+      return GL_R32UI;
     case Format::colour:
       break;
   }
@@ -30,6 +34,8 @@ GLenum attachment(Format format) {
     case Format::depth_stencil:
       return GL_DEPTH_STENCIL_ATTACHMENT;
     case Format::colour:
+    case Format::precise_colour:
+    case Format::identity:
       break;
   }
   return GL_COLOR_ATTACHMENT0;
@@ -58,19 +64,36 @@ Framebuffer Framebuffer::create(std::vector<Format> const& formats, int width, i
         target.attachments_.emplace_back(Renderbuffer::create(format, width, height));
     glNamedFramebufferRenderbuffer(name, attachment(format), GL_RENDERBUFFER, buffer.name());
   }
-  if (std::find(formats.begin(), formats.end(), Format::colour) == formats.end()) {
+  bool const coloured = std::any_of(formats.begin(), formats.end(), [](Format format) {
+    return attachment(format) == GL_COLOR_ATTACHMENT0;
+  });
+  if (!coloured) {
     glNamedFramebufferDrawBuffer(name, GL_NONE);
     glNamedFramebufferReadBuffer(name, GL_NONE);
   }
+  target.check_complete();
+  return target;
+}
+
+Framebuffer Framebuffer::of_layer(LayeredTexture const& texture, int layer) {
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  Framebuffer target(name);
+  target.width_ = target.height_ = texture.side();
+  glNamedFramebufferTextureLayer(name, GL_COLOR_ATTACHMENT0, texture.name(), 0, layer);
+  target.check_complete();
+  return target;
+}
+
+void Framebuffer::check_complete() const {
   check("making an offscreen target");
-  GLenum const status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
+  GLenum const status = glCheckNamedFramebufferStatus(name(), GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
     throw DeviceError(fmt::format(
         "the driver cannot draw to an offscreen target of {} x {} pixels (status {:#06x}); lower "
         "the resolution or choose the device 'software'",
-        width, height, status));
+        width_, height_, status));
   }
-  return target;
 }
 
 void Framebuffer::bind() const {
@@ -92,14 +115,42 @@ void Framebuffer::clear_colour(glm::vec4 const& colour) const {
   glClearNamedFramebufferfv(name(), GL_COLOR, 0, &colour.x);
 }
 
-std::vector<std::uint8_t> Framebuffer::read_colour() const {
-  std::vector<std::uint8_t> pixels(4 * static_cast<std::size_t>(width_) *
-                                   static_cast<std::size_t>(height_));
+void Framebuffer::clear_identity() const {
+  GLuint const none[4] = {0, 0, 0, 0};
+  glClearNamedFramebufferuiv(name(), GL_COLOR, 0, none);
+}
+
+std::size_t Framebuffer::pixels() const {
+  return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+}
+
+void Framebuffer::start_reading() const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, name());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+}
+
+std::vector<std::uint8_t> Framebuffer::read_colour() const {
+  std::vector<std::uint8_t> colours(4 * pixels());
+  start_reading();
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
   check("reading a picture back");
-  return pixels;
+  return colours;
+}
+
+std::vector<glm::vec4> Framebuffer::read_precise_colour() const {
+  std::vector<glm::vec4> colours(pixels());
+  start_reading();
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, colours.data());
+  check("reading luminance back");
+  return colours;
+}
+
+std::vector<std::uint32_t> Framebuffer::read_identity() const {
+  std::vector<std::uint32_t> identities(pixels());
+  start_reading();
+  glReadPixels(0, 0, width_, height_, GL_RED_INTEGER, GL_UNSIGNED_INT, identities.data());
+  check("reading surfaces back");
+  return identities;
 }
 
 }  // namespace gpu_shading::gl

@@ -3,6 +3,8 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <array>
+#include <span>
 #include <string>
 
 #include "gpu_shading/error.h"
@@ -36,26 +38,36 @@ std::string program_log(GLuint program) {
   return text;
 }
 
+void link_stages(char const* label, GLuint program, std::span<Shader const> stages) {
+  for (Shader const& stage : stages) glAttachShader(program, stage.name());
+  glLinkProgram(program);
+  GLint linked = GL_FALSE;
+  glGetProgramiv(program, GL_LINK_STATUS, &linked);
+  if (linked != GL_TRUE) {
+    std::string logs;
+    for (Shader const& stage : stages) logs += stage.log();
+    throw Error(fmt::format("the driver cannot build the shader program '{}': {}{}", label, logs,
+                            program_log(program)));
+  }
+  for (Shader const& stage : stages) glDetachShader(program, stage.name());
+}
+
 }  // namespace
 
 void destroy_program(std::uint32_t name) { glDeleteProgram(name); }
 
 Program Program::link(char const* label, char const* vertex, char const* fragment) {
-  Shader const vertex_shader(GL_VERTEX_SHADER, vertex);
-  Shader const fragment_shader(GL_FRAGMENT_SHADER, fragment);
+  std::array<Shader, 2> const stages{Shader(GL_VERTEX_SHADER, vertex),
+                                     Shader(GL_FRAGMENT_SHADER, fragment)};
   Program program(glCreateProgram());
-  glAttachShader(program.name(), vertex_shader.name());
-  glAttachShader(program.name(), fragment_shader.name());
-  glLinkProgram(program.name());
-  GLint linked = GL_FALSE;
-  glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
-  if (linked != GL_TRUE) {
-    throw Error(fmt::format("the driver cannot build the shader program '{}': {}{}{}", label,
-                            vertex_shader.log(), fragment_shader.log(),
-                            program_log(program.name())));
-  }
-  glDetachShader(program.name(), vertex_shader.name());
-  glDetachShader(program.name(), fragment_shader.name());
+  link_stages(label, program.name(), stages);
+  return program;
+}
+
+Program Program::link_compute(char const* label, char const* source) {
+  std::array<Shader, 1> const stage{Shader(GL_COMPUTE_SHADER, source)};
+  Program program(glCreateProgram());
+  link_stages(label, program.name(), stage);
   return program;
 }
 
@@ -63,6 +75,12 @@ void Program::use() const { glUseProgram(name()); }
 
 void Program::set(int location, glm::vec4 const& value) {
   glProgramUniform4f(name(), location, value.x, value.y, value.z, value.w);
+}
+
+void Program::set(int location, std::int32_t value) { glProgramUniform1i(name(), location, value); }
+
+void Program::set(int location, std::uint32_t value) {
+  glProgramUniform1ui(name(), location, value);
 }
 
 }  // namespace gpu_shading::gl

@@ -15,8 +15,12 @@ class Program : public Object<destroy_program> {
   // Throws Error with the driver's log when it does not compile or link; `label` names it there.
   static Program link(char const* label, char const* vertex, char const* fragment);
 
+  static Program link_compute(char const* label, char const* source);
+
   void use() const;
   void set(int location, glm::vec4 const& value);
+  void set(int location, std::int32_t value);
+  void set(int location, std::uint32_t value);
 
  private:
   using Object::Object;

@@ -23,6 +23,12 @@ void VertexArray::add_attribute(std::uint32_t location, int components, std::siz
   glVertexArrayAttribBinding(name(), location, 0);
 }
 
+void VertexArray::add_identity(std::uint32_t location, std::size_t offset) {
+  glEnableVertexArrayAttrib(name(), location);
+  glVertexArrayAttribIFormat(name(), location, 1, GL_UNSIGNED_INT, static_cast<GLuint>(offset));
+  glVertexArrayAttribBinding(name(), location, 0);
+}
+
 void VertexArray::set_indices(Buffer const& buffer) {
   glVertexArrayElementBuffer(name(), buffer.name());
 }

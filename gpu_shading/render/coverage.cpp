@@ -17,7 +17,7 @@ void Coverage::count_tile(Geometry const& geometry, Range tile) {
   passed.end();
 }
 
-void Coverage::draw(Geometry const& geometry, std::span<Job const> jobs) {
+void Coverage::draw(Geometry const& geometry, std::span<ReceiverJob const> jobs) {
   target_.bind();
   gl::no_depth();
   used_ = 0;
@@ -25,7 +25,7 @@ void Coverage::draw(Geometry const& geometry, std::span<Job const> jobs) {
   // no clearing.
   constexpr std::size_t marks = 255;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    Job const& job = jobs[i];
+    ReceiverJob const& job = jobs[i];
     if (i % marks == 0) target_.clear_stencil();
     auto const mark = static_cast<std::uint8_t>(1 + i % marks);
 

@@ -17,14 +17,8 @@ class Coverage {
  public:
   explicit Coverage(int side);
 
-  struct Job {
-    std::size_t view = 0;
-    Range casters;
-    Range tile;
-  };
-
   // Draws from the draw list that `geometry` holds.
-  void draw(Geometry const& geometry, std::span<Job const> jobs);
+  void draw(Geometry const& geometry, std::span<ReceiverJob const> jobs);
   // The same of tiles that nothing shades.
   void draw_clear(Geometry const& geometry, std::span<Range const> tiles);
 

@@ -8,6 +8,8 @@ void DrawList::clear() {
   indices_.clear();
   tile_vertices_.clear();
   views_.clear();
+  shades_.clear();
+  keys_.clear();
 }
 
 void DrawList::add_triangles(std::span<std::uint32_t const> indices) {
@@ -18,6 +20,12 @@ Range DrawList::add_tile(std::span<glm::vec2 const> triangles) {
   Range const range{tile_vertices_.size(), triangles.size()};
   tile_vertices_.insert(tile_vertices_.end(), triangles.begin(), triangles.end());
   return range;
+}
+
+std::int32_t DrawList::add_keys(std::span<glm::vec4 const> keys) {
+  auto const first = static_cast<std::int32_t>(keys_.size());
+  keys_.insert(keys_.end(), keys.begin(), keys.end());
+  return first;
 }
 
 std::size_t DrawList::add_view(View const& view, glm::dvec3 const& scene_origin) {

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "render/view.h"
@@ -26,6 +27,27 @@ struct ViewBlock {
   glm::vec4 origin_low;
 };
 
+// A surface to transmit.vert, std430.
+struct Shade {
+  float transmittance = 0.0F;
+  std::int32_t schedule = -1;
+};
+
+// A receiver on its tile and the casters before it.
+struct ReceiverJob {
+  std::size_t view = 0;
+  Range casters;
+  Range tile;
+  std::int32_t first_key = -1;  // where schedules are told apart: their keys' place
+};
+
+// A window and the surfaces behind it, in another view.
+struct InteriorJob {
+  ReceiverJob window;
+  std::size_t behind_view = 0;
+  std::vector<Range> surfaces;
+};
+
 // What the draws of one submission read, gathered here to be uploaded at once.
 class DrawList {
  public:
@@ -39,14 +61,24 @@ class DrawList {
   Range add_tile(std::span<glm::vec2 const> triangles);
   std::size_t add_view(View const& view, glm::dvec3 const& scene_origin);
 
+  // For all surfaces of the scene, at this submission's direction of the sun. Needed where some
+  // transmit.
+  void set_shades(std::vector<Shade> shades) { shades_ = std::move(shades); }
+  // Returns the place of the first.
+  std::int32_t add_keys(std::span<glm::vec4 const> keys);
+
   std::span<std::uint32_t const> indices() const { return indices_; }
   std::span<glm::vec2 const> tile_vertices() const { return tile_vertices_; }
   std::span<ViewBlock const> views() const { return views_; }
+  std::span<Shade const> shades() const { return shades_; }
+  std::span<glm::vec4 const> keys() const { return keys_; }
 
  private:
   std::vector<std::uint32_t> indices_;
   std::vector<glm::vec2> tile_vertices_;
   std::vector<ViewBlock> views_;
+  std::vector<Shade> shades_;
+  std::vector<glm::vec4> keys_;
 };
 
 }  // namespace gpu_shading

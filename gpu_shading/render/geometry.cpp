@@ -15,6 +15,12 @@
 namespace gpu_shading {
 namespace {
 
+struct Vertex {
+  TwiceFloat place;
+  SurfaceId surface;
+};
+static_assert(sizeof(Vertex) == sizeof(TwiceFloat) + sizeof(SurfaceId));
+
 // Any point near the model will do: the halves of TwiceFloat take care of the rest.
 glm::dvec3 some_point(Scene const& scene) {
   for (SurfaceId id = 0; id < scene.size(); ++id) {
@@ -26,7 +32,7 @@ glm::dvec3 some_point(Scene const& scene) {
 }  // namespace
 
 Geometry::Geometry(Scene const& scene) : scene_origin_(some_point(scene)) {
-  std::vector<TwiceFloat> vertices;
+  std::vector<Vertex> vertices;
   ranges_.reserve(scene.size());
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     Mesh const mesh = triangulate(scene[id].polygon);
@@ -36,22 +42,31 @@ Geometry::Geometry(Scene const& scene) : scene_origin_(some_point(scene)) {
     auto const base = static_cast<std::uint32_t>(vertices.size());
     ranges_.push_back({indices_.size(), mesh.indices.size()});
     for (std::uint32_t const index : mesh.indices) indices_.push_back(base + index);
-    for (glm::dvec3 const& vertex : mesh.vertices) vertices.emplace_back(vertex - scene_origin_);
+    for (glm::dvec3 const& vertex : mesh.vertices) {
+      vertices.push_back({TwiceFloat(vertex - scene_origin_), id});
+    }
   }
 
   surface_program_ = gl::Program::link("surfaces", shaders::slide_vert, shaders::nothing_frag);
   tile_program_ = gl::Program::link("tiles", shaders::tile_vert, shaders::nothing_frag);
 
+  shade_program_ = gl::Program::link("shades", shaders::transmit_vert, shaders::transmit_frag);
+  coloured_tile_program_ =
+      gl::Program::link("coloured tiles", shaders::tile_vert, shaders::plain_frag);
+
   surface_vertices_ = gl::Buffer::create();
-  surface_vertices_.set(std::span<TwiceFloat const>(vertices));
+  surface_vertices_.set(std::span<Vertex const>(vertices));
   surface_indices_ = gl::Buffer::create();
   tile_vertices_ = gl::Buffer::create();
   views_ = gl::Buffer::create();
+  shades_ = gl::Buffer::create();
+  keys_ = gl::Buffer::create();
 
   surfaces_ = gl::VertexArray::create();
-  surfaces_.set_vertices(surface_vertices_, sizeof(TwiceFloat));
+  surfaces_.set_vertices(surface_vertices_, sizeof(Vertex));
   surfaces_.add_attribute(0, 3, offsetof(TwiceFloat, high));
   surfaces_.add_attribute(1, 3, offsetof(TwiceFloat, low));
+  surfaces_.add_identity(2, offsetof(Vertex, surface));
   surfaces_.set_indices(surface_indices_);
   tiles_ = gl::VertexArray::create();
   tiles_.set_vertices(tile_vertices_, sizeof(glm::vec2));
@@ -76,6 +91,11 @@ void Geometry::upload(DrawList const& list) {
     std::memcpy(blocks.data() + i * view_stride_, &list.views()[i], sizeof(ViewBlock));
   }
   views_.set(std::span<std::byte const>(blocks));
+  if (list.shades().empty()) return;
+  shades_.set(list.shades());
+  // A block without storage is an error even where no one reads it.
+  glm::vec4 const none(0.0F);
+  keys_.set(list.keys().empty() ? std::span(&none, 1) : list.keys());
 }
 
 void Geometry::use_surfaces(gl::Program const& program) const {
@@ -85,6 +105,22 @@ void Geometry::use_surfaces(gl::Program const& program) const {
 
 void Geometry::use_tiles() const {
   tile_program_.use();
+  tiles_.bind();
+}
+
+void Geometry::use_shades(std::int32_t first_key) {
+  constexpr std::uint32_t shades_binding = 0;
+  constexpr std::uint32_t keys_binding = 1;
+  shade_program_.set(0, first_key);
+  shade_program_.use();
+  surfaces_.bind();
+  shades_.bind_storage(shades_binding);
+  keys_.bind_storage(keys_binding);
+}
+
+void Geometry::use_tiles_in(glm::vec4 const& colour) {
+  coloured_tile_program_.set(0, colour);
+  coloured_tile_program_.use();
   tiles_.bind();
 }
 

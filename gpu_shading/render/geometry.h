@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <span>
 #include <vector>
 
@@ -14,8 +15,8 @@
 
 namespace gpu_shading {
 
-// The scene's triangles on the device, and the two ways of drawing: surfaces through a view, and a
-// receiver on its tile.
+// The scene's triangles on the device, and the ways of drawing: surfaces through a view, plainly or
+// with what they let through, and a receiver on its tile.
 class Geometry {
  public:
   explicit Geometry(Scene const& scene);
@@ -29,6 +30,11 @@ class Geometry {
   // Each sets program and vertices up; draws follow. The program's vertex stage is slide.vert.
   void use_surfaces(gl::Program const& program) const;
   void use_tiles() const;
+  // Surfaces with what they transmit, by the shades of the draw list, and with the keys of their
+  // schedules from `first_key` on; -1: none.
+  void use_shades(std::int32_t first_key);
+  // A receiver in this colour.
+  void use_tiles_in(glm::vec4 const& colour);
 
   void draw_surfaces(std::size_t view, Range indices) const;
   void draw_tile(Range vertices) const;
@@ -43,10 +49,14 @@ class Geometry {
 
   gl::Program surface_program_;
   gl::Program tile_program_;
+  gl::Program shade_program_;
+  gl::Program coloured_tile_program_;
   gl::Buffer surface_vertices_;
   gl::Buffer surface_indices_;
   gl::Buffer tile_vertices_;
   gl::Buffer views_;
+  gl::Buffer shades_;
+  gl::Buffer keys_;
   gl::VertexArray surfaces_;
   gl::VertexArray tiles_;
   std::size_t view_stride_ = 0;

@@ -8,7 +8,7 @@ namespace gpu_shading {
 Interior::Interior(int side)
     : target_(gl::Framebuffer::create({gl::Format::depth_stencil}, side, side)) {}
 
-std::vector<std::uint64_t> Interior::count(Geometry const& geometry, Job const& job) {
+std::vector<std::uint64_t> Interior::count(Geometry const& geometry, InteriorJob const& job) {
   while (queries_.size() < job.surfaces.size()) queries_.push_back(gl::Query::create());
 
   target_.bind();
@@ -23,12 +23,12 @@ std::vector<std::uint64_t> Interior::count(Geometry const& geometry, Job const& 
   gl::cut_at_plane(true);
   gl::stencil(gl::Test::always, covered, gl::OnPass::replace);
   geometry.use_surfaces(geometry.surface_program());
-  geometry.draw_surfaces(job.casters_view, job.casters);
+  geometry.draw_surfaces(job.window.view, job.window.casters);
 
   gl::cut_at_plane(false);
   geometry.use_tiles();
   gl::stencil(gl::Test::equal, untouched, gl::OnPass::invert);
-  geometry.draw_tile(job.window);
+  geometry.draw_tile(job.window.tile);
 
   gl::cut_at_plane(true);
   geometry.use_surfaces(geometry.surface_program());

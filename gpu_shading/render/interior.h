@@ -18,16 +18,8 @@ class Interior {
  public:
   explicit Interior(int side);
 
-  struct Job {
-    std::size_t casters_view = 0;
-    Range casters;
-    Range window;
-    std::size_t behind_view = 0;
-    std::vector<Range> surfaces;
-  };
-
   // One count for each surface of the job, in order.
-  std::vector<std::uint64_t> count(Geometry const& geometry, Job const& job);
+  std::vector<std::uint64_t> count(Geometry const& geometry, InteriorJob const& job);
 
  private:
   gl::Framebuffer target_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "gl/check.h"
 #include "gl/draw.h"
@@ -14,7 +15,9 @@
 namespace gpu_shading {
 namespace {
 
-constexpr glm::vec4 sky{1.0F, 1.0F, 1.0F, 1.0F};
+constexpr glm::vec4 white{1.0F, 1.0F, 1.0F, 1.0F};
+constexpr glm::vec4 black{0.0F, 0.0F, 0.0F, 1.0F};
+constexpr glm::vec4 sky = white;
 constexpr glm::vec4 yellow{1.0F, 1.0F, 0.0F, 1.0F};
 constexpr glm::vec4 blue{0.0F, 0.0F, 1.0F, 1.0F};
 
@@ -92,7 +95,7 @@ Picture::Picture()
 
 Image Picture::draw(Geometry& geometry, Scene const& scene, SurfaceId receiver,
                     PlaneFrame const& frame, std::span<SurfaceId const> casters,
-                    glm::dvec3 const& towards_sun, int size) {
+                    std::vector<Shade> shades, glm::dvec3 const& towards_sun, int size) {
   SunAxes const axes(towards_sun);
   Frame seen;
   for (glm::dvec3 const& vertex : scene[receiver].polygon.outline) {
@@ -127,11 +130,14 @@ Image Picture::draw(Geometry& geometry, Scene const& scene, SurfaceId receiver,
   begin = list.begin_surfaces();
   list.add_triangles(geometry.triangles(receiver));
   Range const itself = list.end_surfaces(begin);
+  bool const transmits = !shades.empty();
+  list.set_shades(std::move(shades));
   geometry.upload(list);
 
   auto const target =
       gl::Framebuffer::create({gl::Format::colour, gl::Format::depth_stencil}, width, height);
   target.bind();
+  gl::blend(gl::Blend::replace);
   gl::depth(gl::Test::less, true);
   target.clear_colour(sky);
   target.clear_depth();
@@ -143,8 +149,24 @@ Image Picture::draw(Geometry& geometry, Scene const& scene, SurfaceId receiver,
   geometry.use_surfaces(tilt_);
   geometry.draw_surfaces(whole_view, others);
 
-  // Marks what the casters cover; depth and colour stay as they are.
+  bool const faces_sun = glm::dot(frame.normal, towards_sun) > edge_on;
   gl::no_depth();
+  if (transmits) {
+    gl::stencil(gl::Test::always, 1, gl::OnPass::replace);
+    geometry.use_surfaces(plain_);
+    plain_.set(0, faces_sun ? white : black);
+    geometry.draw_surfaces(whole_view, itself);
+    gl::stencil(gl::Test::equal, 1, gl::OnPass::keep);
+    gl::cut_at_plane(true);
+    gl::blend(gl::Blend::multiply);
+    geometry.use_shades(-1);
+    geometry.draw_surfaces(front_view, shading);
+    gl::blend(gl::Blend::replace);
+    gl::check("drawing a sun's view through shades");
+    return from_rows_below(target.read_colour(), width, height);
+  }
+
+  // Marks what the casters cover; depth and colour stay as they are.
   gl::stencil(gl::Test::always, 1, gl::OnPass::replace);
   gl::cut_at_plane(true);
   gl::write_colour(false);
@@ -155,7 +177,6 @@ Image Picture::draw(Geometry& geometry, Scene const& scene, SurfaceId receiver,
   // The receiver over all of it: what hides it from the sun shows as blue.
   gl::cut_at_plane(false);
   geometry.use_surfaces(plain_);
-  bool const faces_sun = glm::dot(frame.normal, towards_sun) > edge_on;
   plain_.set(0, faces_sun ? yellow : blue);
   gl::stencil(gl::Test::not_equal, 1, gl::OnPass::keep);
   geometry.draw_surfaces(whole_view, itself);

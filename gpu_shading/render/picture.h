@@ -16,9 +16,11 @@ class Picture {
  public:
   Picture();
 
-  // `casters` are those in view; everything else of the scene is drawn around the receiver.
+  // `casters` are those in view; everything else of the scene is drawn around the receiver, in grey
+  // by its luminance where there are `shades`.
   Image draw(Geometry& geometry, Scene const& scene, SurfaceId receiver, PlaneFrame const& frame,
-             std::span<SurfaceId const> casters, glm::dvec3 const& towards_sun, int size);
+             std::span<SurfaceId const> casters, std::vector<Shade> shades,
+             glm::dvec3 const& towards_sun, int size);
 
  private:
   gl::Program tilt_;

@@ -14,9 +14,13 @@
 #include "render/coverage.h"
 #include "render/geometry.h"
 #include "render/interior.h"
+#include "render/luminance.h"
 #include "render/picture.h"
 #include "render/receiver.h"
+#include "render/schedule_keys.h"
+#include "render/scheduled_luminance.h"
 #include "scene/casters.h"
+#include "scene/shades.h"
 
 namespace gpu_shading {
 namespace {
@@ -46,9 +50,9 @@ class Renderer::Implementation {
 
   std::vector<Sunlit> projected_sunlit_areas(SunDirection sun,
                                              std::span<SurfaceId const> receivers);
-  std::vector<double> interior_projected_sunlit_areas(SunDirection sun, SurfaceId window,
-                                                      std::span<SurfaceId const> interiors);
-  Image sun_view(SunDirection sun, SurfaceId receiver, int size);
+  std::vector<Sunlit> interior_sunlit_areas(SunDirection sun, SurfaceId window,
+                                            std::span<SurfaceId const> interiors);
+  Image sun_view(SunDirection sun, SurfaceId receiver, int size, std::span<double const> factors);
 
   Scene const& scene() const { return scene_; }
   DeviceInfo const& device() const { return device_.info; }
@@ -64,7 +68,10 @@ class Renderer::Implementation {
     Geometry geometry;
     // By the side of their tiles.
     std::map<int, Coverage> coverage;
+    std::map<int, Luminance> luminance;
+    std::map<int, ScheduledLuminance> scheduled;
     std::map<int, Interior> interior;
+    std::map<int, InteriorLuminance> interior_luminance;
     std::optional<Picture> picture;
   };
 
@@ -74,9 +81,21 @@ class Renderer::Implementation {
   // Counts the pixels of those receivers that are not known yet.
   void measure(std::span<SurfaceId const> receivers);
 
+  bool any_transmits(std::span<SurfaceId const> casters) const;
+  // Of the whole scene, right for these casters.
+  std::vector<Shade> shades_of(std::span<SurfaceId const> casters,
+                               glm::dvec3 const& towards_sun) const;
+  // Nothing when none of the casters has a schedule.
+  std::optional<ScheduleKeys> keys_of(SurfaceId id, std::span<SurfaceId const> casters) const;
+  ReceiverJob add_view(Receiver const& seen, std::span<SurfaceId const> casters,
+                       glm::dvec3 const& towards_sun);
+  Sunlit sunlit_of(LuminanceByKey const& sums, ScheduleKeys const* keys, Receiver const& seen,
+                   double cosine) const;
+
   Scene scene_;
   RendererOptions options_;
   Casters casters_;
+  Shades shades_;
   egl::Device device_;
   std::unique_ptr<OnDevice> on_device_;
   std::unordered_map<SurfaceId, Receiver> receivers_;
@@ -88,6 +107,7 @@ Renderer::Implementation::Implementation(Scene scene, RendererOptions options)
     : scene_(std::move(scene)),
       options_(options),
       casters_(scene_),
+      shades_(scene_),
       device_(egl::open_device(options.device)) {
   Stopwatch const watch(statistics_.seconds);
   if (options_.resolution < 1 || options_.resolution > device_.info.max_resolution) {
@@ -167,18 +187,84 @@ void Renderer::Implementation::measure(std::span<SurfaceId const> receivers) {
   measure(missed);
 }
 
+std::vector<Shade> Renderer::Implementation::shades_of(std::span<SurfaceId const> casters,
+                                                       glm::dvec3 const& towards_sun) const {
+  std::vector<Shade> shades(scene_.size());
+  for (SurfaceId const id : casters) {
+    if (!shades_.transmits(id)) continue;
+    shades[id].transmittance = static_cast<float>(shades_.transmittance(scene_, id, towards_sun));
+    shades[id].schedule = shades_.schedule(id);
+  }
+  return shades;
+}
+
+bool Renderer::Implementation::any_transmits(std::span<SurfaceId const> casters) const {
+  return std::any_of(casters.begin(), casters.end(),
+                     [&](SurfaceId id) { return shades_.transmits(id); });
+}
+
+std::optional<ScheduleKeys> Renderer::Implementation::keys_of(
+    SurfaceId id, std::span<SurfaceId const> casters) const {
+  std::vector<int> passed;
+  for (SurfaceId const caster : casters) {
+    if (shades_.schedule(caster) != Shades::unscheduled) passed.push_back(shades_.schedule(caster));
+  }
+  if (passed.empty()) return std::nullopt;
+  auto keys = ScheduleKeys::make(passed, static_cast<int>(shades_.schedules().size()));
+  if (!keys) {
+    std::sort(passed.begin(), passed.end());
+    auto const distinct = std::unique(passed.begin(), passed.end()) - passed.begin();
+    throw Error(fmt::format(
+        "surface '{}' sees the sun through {} shades with {} different transmittance schedules, "
+        "too many to be told apart; let shades share schedules",
+        surface(id).name, passed.size(), distinct));
+  }
+  return keys;
+}
+
+Sunlit Renderer::Implementation::sunlit_of(LuminanceByKey const& sums, ScheduleKeys const* keys,
+                                           Receiver const& seen, double cosine) const {
+  double const share = seen.area * cosine / static_cast<double>(*seen.pixels);
+  Sunlit answer;
+  for (auto const& [key, sum] : sums) {
+    std::vector<std::pair<int, int>> powers;
+    if (keys != nullptr) powers = keys->powers(key);
+    if (powers.empty()) {
+      answer.projected_area = sum * share;
+      answer.pixel_counted_area = sum * seen.tile.pixel_area * cosine;
+      continue;
+    }
+    for (auto& [schedule, power] : powers) {
+      schedule = shades_.schedules()[static_cast<std::size_t>(schedule)];
+    }
+    answer.scheduled.push_back({std::move(powers), sum * share});
+  }
+  return answer;
+}
+
+ReceiverJob Renderer::Implementation::add_view(Receiver const& seen,
+                                               std::span<SurfaceId const> casters,
+                                               glm::dvec3 const& towards_sun) {
+  ReceiverJob job;
+  job.view = draw_list_.add_view(view_in_front(*seen.frame, seen.tile.map, towards_sun),
+                                 on_device_->geometry.scene_origin());
+  job.casters = add_surfaces(casters);
+  job.tile = draw_list_.add_tile(seen.tile.triangles);
+  return job;
+}
+
 std::vector<Sunlit> Renderer::Implementation::projected_sunlit_areas(
     SunDirection sun, std::span<SurfaceId const> receivers) {
   Stopwatch const watch(statistics_.seconds);
   ++statistics_.directions;
   glm::dvec3 const towards_sun = to_vector(sun);
   std::vector<Sunlit> answers(receivers.size());
-  struct Asked {
+  struct Drawn {
     std::size_t place;  // of the answer
     std::vector<SurfaceId> casters;
   };
-  std::map<int, std::vector<Asked>> by_side;
-  std::vector<SurfaceId> drawn;
+  std::vector<Drawn> drawn;
+  std::vector<SurfaceId> ids;
   for (std::size_t i = 0; i < receivers.size(); ++i) {
     Receiver const& seen = receiver(receivers[i]);
     if (!seen.frame) continue;
@@ -192,54 +278,101 @@ std::vector<Sunlit> Renderer::Implementation::projected_sunlit_areas(
     }
     ++statistics_.receivers_drawn;
     statistics_.casters_drawn += casters.size();
-    by_side[seen.tile.side].push_back({i, std::move(casters)});
-    drawn.push_back(receivers[i]);
+    drawn.push_back({i, std::move(casters)});
+    ids.push_back(receivers[i]);
   }
   if (drawn.empty()) return answers;
-  measure(drawn);
+  measure(ids);
 
+  // By the side of their tiles and the cheapest way that will do.
+  struct Views {
+    std::vector<ReceiverJob> jobs;
+    std::vector<std::size_t> places;
+    std::vector<ScheduleKeys> keys;
+  };
+  struct Ways {
+    Views opaque;
+    Views unscheduled;
+    Views scheduled;
+  };
+  std::map<int, Ways> by_side;
   draw_list_.clear();
-  std::map<int, std::vector<Coverage::Job>> jobs;
-  for (auto const& [side, asked] : by_side) {
-    for (Asked const& one : asked) {
-      Receiver const& seen = receiver(receivers[one.place]);
-      Coverage::Job job;
-      job.view = draw_list_.add_view(view_in_front(*seen.frame, seen.tile.map, towards_sun),
-                                     on_device_->geometry.scene_origin());
-      job.casters = add_surfaces(one.casters);
-      job.tile = draw_list_.add_tile(seen.tile.triangles);
-      jobs[side].push_back(job);
+  std::vector<SurfaceId> transmitting;
+  for (Drawn const& one : drawn) {
+    SurfaceId const id = receivers[one.place];
+    Receiver const& seen = receiver(id);
+    Ways& ways = by_side[seen.tile.side];
+    Views* views = &ways.opaque;
+    ReceiverJob job = add_view(seen, one.casters, towards_sun);
+    if (any_transmits(one.casters)) {
+      ++statistics_.luminance_views;
+      transmitting.insert(transmitting.end(), one.casters.begin(), one.casters.end());
+      views = &ways.unscheduled;
+      if (auto keys = keys_of(id, one.casters)) {
+        views = &ways.scheduled;
+        job.first_key = draw_list_.add_keys(keys->keys());
+        views->keys.push_back(std::move(*keys));
+      }
     }
+    views->jobs.push_back(job);
+    views->places.push_back(one.place);
   }
+  if (!transmitting.empty()) {
+    std::sort(transmitting.begin(), transmitting.end());
+    transmitting.erase(std::unique(transmitting.begin(), transmitting.end()), transmitting.end());
+    draw_list_.set_shades(shades_of(transmitting, towards_sun));
+  }
+
   egl::Current const current = device_.context.make_current();
   on_device_->geometry.upload(draw_list_);
-  for (auto const& [side, of_side] : jobs) {
-    on_device_->coverage.try_emplace(side, side).first->second.draw(on_device_->geometry, of_side);
+  for (auto const& [side, ways] : by_side) {
+    if (!ways.opaque.jobs.empty()) {
+      on_device_->coverage.try_emplace(side, side)
+          .first->second.draw(on_device_->geometry, ways.opaque.jobs);
+    }
+    if (!ways.unscheduled.jobs.empty()) {
+      on_device_->luminance.try_emplace(side, side, options_.luminance_sum)
+          .first->second.draw(on_device_->geometry, ways.unscheduled.jobs);
+    }
   }
-  for (auto const& [side, asked] : by_side) {
-    std::vector<std::uint64_t> const lit = on_device_->coverage.at(side).counts();
-    for (std::size_t i = 0; i < asked.size(); ++i) {
-      Receiver const& seen = receiver(receivers[asked[i].place]);
-      Sunlit& answer = answers[asked[i].place];
-      double const cosine = glm::dot(seen.frame->normal, towards_sun);
-      auto const count = static_cast<double>(lit[i]);
-      answer.projected_area *= count / static_cast<double>(*seen.pixels);
-      answer.pixel_counted_area = count * seen.tile.pixel_area * cosine;
+  auto const set = [&](std::size_t place, LuminanceByKey const& sums, ScheduleKeys const* keys) {
+    Receiver const& seen = receiver(receivers[place]);
+    answers[place] = sunlit_of(sums, keys, seen, glm::dot(seen.frame->normal, towards_sun));
+  };
+  for (auto const& [side, ways] : by_side) {
+    if (!ways.opaque.jobs.empty()) {
+      std::vector<std::uint64_t> const lit = on_device_->coverage.at(side).counts();
+      for (std::size_t i = 0; i < lit.size(); ++i) {
+        set(ways.opaque.places[i], {{{}, static_cast<double>(lit[i])}}, nullptr);
+      }
+    }
+    if (!ways.unscheduled.jobs.empty()) {
+      std::vector<double> const sums = on_device_->luminance.at(side).sums();
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        set(ways.unscheduled.places[i], {{{}, sums[i]}}, nullptr);
+      }
+    }
+    if (!ways.scheduled.jobs.empty()) {
+      std::vector<LuminanceByKey> const sums =
+          on_device_->scheduled.try_emplace(side, side)
+              .first->second.sum(on_device_->geometry, ways.scheduled.jobs);
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        set(ways.scheduled.places[i], sums[i], &ways.scheduled.keys[i]);
+      }
     }
   }
   return answers;
 }
 
-std::vector<double> Renderer::Implementation::interior_projected_sunlit_areas(
+std::vector<Sunlit> Renderer::Implementation::interior_sunlit_areas(
     SunDirection sun, SurfaceId window, std::span<SurfaceId const> interiors) {
   Stopwatch const watch(statistics_.seconds);
   glm::dvec3 const towards_sun = to_vector(sun);
-  std::vector<double> answers(interiors.size(), 0.0);
+  std::vector<Sunlit> answers(interiors.size());
   Receiver const& seen = receiver(window);
   if (!seen.frame) return answers;
   double const cosine = glm::dot(seen.frame->normal, towards_sun);
   if (cosine <= edge_on) return answers;
-  measure({&window, 1});
 
   double reach = clearance;
   for (SurfaceId const id : interiors) {
@@ -247,30 +380,45 @@ std::vector<double> Renderer::Implementation::interior_projected_sunlit_areas(
       reach = std::max(reach, -glm::dot(seen.frame->normal, vertex - seen.frame->origin));
     }
   }
+  reach *= 1.01;  // what lies at the far end is not nearer than nothing
+  measure({&window, 1});
+  std::vector<SurfaceId> const casters = casters_.in_view(seen.in_front, *seen.frame, towards_sun);
   draw_list_.clear();
-  glm::dvec3 const& scene_origin = on_device_->geometry.scene_origin();
-  Interior::Job job;
-  job.casters_view =
-      draw_list_.add_view(view_in_front(*seen.frame, seen.tile.map, towards_sun), scene_origin);
-  job.casters = add_surfaces(casters_.in_view(seen.in_front, *seen.frame, towards_sun));
-  job.window = draw_list_.add_tile(seen.tile.triangles);
-  job.behind_view = draw_list_.add_view(view_behind(*seen.frame, seen.tile.map, towards_sun, reach),
-                                        scene_origin);
-  for (SurfaceId const id : interiors) job.surfaces.push_back(add_surfaces({&id, 1}));
+  ReceiverJob in_front = add_view(seen, casters, towards_sun);
+  std::size_t const behind_view =
+      draw_list_.add_view(view_behind(*seen.frame, seen.tile.map, towards_sun, reach),
+                          on_device_->geometry.scene_origin());
+  std::vector<Range> surfaces;
+  for (SurfaceId const id : interiors) surfaces.push_back(add_surfaces({&id, 1}));
+  bool const transmits = any_transmits(casters);
+  std::optional<ScheduleKeys> const keys = keys_of(window, casters);
+  if (transmits) draw_list_.set_shades(shades_of(casters, towards_sun));
+  if (keys) in_front.first_key = draw_list_.add_keys(keys->keys());
 
   egl::Current const current = device_.context.make_current();
   on_device_->geometry.upload(draw_list_);
-  Interior& interior =
-      on_device_->interior.try_emplace(seen.tile.side, seen.tile.side).first->second;
-  std::vector<std::uint64_t> const counts = interior.count(on_device_->geometry, job);
-  for (std::size_t i = 0; i < interiors.size(); ++i) {
-    answers[i] =
-        seen.area * cosine * static_cast<double>(counts[i]) / static_cast<double>(*seen.pixels);
+  int const side = seen.tile.side;
+  if (transmits) {
+    InteriorLuminance& interior =
+        on_device_->interior_luminance.try_emplace(side, side).first->second;
+    std::vector<LuminanceByKey> const sums =
+        interior.sum(on_device_->geometry, {in_front, behind_view, surfaces});
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      answers[i] = sunlit_of(sums[i], keys ? &*keys : nullptr, seen, cosine);
+    }
+  } else {
+    Interior& interior = on_device_->interior.try_emplace(side, side).first->second;
+    std::vector<std::uint64_t> const counts =
+        interior.count(on_device_->geometry, {in_front, behind_view, surfaces});
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      answers[i] = sunlit_of({{{}, static_cast<double>(counts[i])}}, nullptr, seen, cosine);
+    }
   }
   return answers;
 }
 
-Image Renderer::Implementation::sun_view(SunDirection sun, SurfaceId id, int size) {
+Image Renderer::Implementation::sun_view(SunDirection sun, SurfaceId id, int size,
+                                         std::span<double const> factors) {
   Stopwatch const watch(statistics_.seconds);
   if (size < 1 || size > device_.info.max_resolution) {
     throw Error(fmt::format("size {} of a sun's view: expected 1 to {} pixels", size,
@@ -285,10 +433,19 @@ Image Renderer::Implementation::sun_view(SunDirection sun, SurfaceId id, int siz
   std::vector<SurfaceId> const casters =
       faces_sun ? casters_.in_view(seen.in_front, *seen.frame, towards_sun)
                 : std::vector<SurfaceId>();
+  std::vector<Shade> shades;
+  if (any_transmits(casters)) {
+    shades = shades_of(casters, towards_sun);
+    for (SurfaceId const caster : casters) {
+      auto const schedule = static_cast<std::size_t>(std::max(0, scene_[caster].schedule));
+      if (scene_[caster].schedule < 0 || schedule >= factors.size()) continue;
+      shades[caster].transmittance *= static_cast<float>(factors[schedule]);
+    }
+  }
   egl::Current const current = device_.context.make_current();
   if (!on_device_->picture) on_device_->picture.emplace();
   return on_device_->picture->draw(on_device_->geometry, scene_, id, *seen.frame, casters,
-                                   towards_sun, size);
+                                   std::move(shades), towards_sun, size);
 }
 
 Renderer::Renderer(Scene scene, RendererOptions options)
@@ -306,13 +463,23 @@ std::vector<Sunlit> Renderer::projected_sunlit_areas(SunDirection sun,
   return implementation_->projected_sunlit_areas(sun, receivers);
 }
 
-std::vector<double> Renderer::interior_projected_sunlit_areas(
-    SunDirection sun, SurfaceId window, std::span<SurfaceId const> interiors) {
-  return implementation_->interior_projected_sunlit_areas(sun, window, interiors);
+std::vector<Sunlit> Renderer::interior_sunlit_areas(SunDirection sun, SurfaceId window,
+                                                    std::span<SurfaceId const> interiors) {
+  return implementation_->interior_sunlit_areas(sun, window, interiors);
 }
 
-Image Renderer::sun_view(SunDirection sun, SurfaceId receiver, int size) {
-  return implementation_->sun_view(sun, receiver, size);
+std::vector<double> Renderer::interior_projected_sunlit_areas(
+    SunDirection sun, SurfaceId window, std::span<SurfaceId const> interiors) {
+  std::vector<double> areas;
+  for (Sunlit const& answer : interior_sunlit_areas(sun, window, interiors)) {
+    areas.push_back(answer.projected_area);
+  }
+  return areas;
+}
+
+Image Renderer::sun_view(SunDirection sun, SurfaceId receiver, int size,
+                         std::span<double const> factors) {
+  return implementation_->sun_view(sun, receiver, size, factors);
 }
 
 }  // namespace gpu_shading

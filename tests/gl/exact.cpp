@@ -4,6 +4,9 @@
 #include <clipper.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
+
+#include "gpu_shading/transmittance.h"
 
 namespace gpu_shading::exact {
 namespace {
@@ -104,24 +107,60 @@ double area_of(Paths const& paths) {
 
 bool is_empty(Polygon const& polygon) { return polygon.outline.size() < 3; }
 
-Paths lit_part(Scene const& scene, SunDirection sun, SurfaceId receiver, Screen const& screen) {
+// What the sun lights, by how much of it.
+struct Part {
+  Paths paths;
+  double luminance = 1.0;
+};
+
+double let_through(Surface const& surface, SunDirection sun, std::span<double const> factors) {
+  if (!surface.transmittance && surface.schedule < 0) return 0.0;
+  double through = 1.0;
+  if (surface.transmittance) {
+    double const cosine = glm::dot(glm::normalize(newell(surface.polygon.outline)), to_vector(sun));
+    through *= (*surface.transmittance)(std::acos(std::min(1.0, std::abs(cosine))));
+  }
+  if (surface.schedule >= 0) through *= factors[static_cast<std::size_t>(surface.schedule)];
+  return through;
+}
+
+std::vector<Part> lit_parts(Scene const& scene, SunDirection sun, SurfaceId receiver,
+                            Screen const& screen, std::span<double const> factors) {
   Plane const plane = plane_of(scene[receiver].polygon);
   if (glm::dot(plane.normal, to_vector(sun)) <= 0.0) return {};
-  Paths lit = combine(screen.project(scene[receiver].polygon), {}, ClipperLib::ctUnion);
+  std::vector<Part> parts{
+      {combine(screen.project(scene[receiver].polygon), {}, ClipperLib::ctUnion), 1.0}};
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     if (!scene.may_shade(receiver, id) || is_empty(scene[id].polygon)) continue;
     Polygon const front = cut(scene[id].polygon, plane);
     if (is_empty(front)) continue;
-    lit = combine(lit, screen.project(front), ClipperLib::ctDifference);
+    Paths const shadow = screen.project(front);
+    double const through = let_through(scene[id], sun, factors);
+    std::vector<Part> left;
+    for (Part const& part : parts) {
+      Paths const shaded = combine(part.paths, shadow, ClipperLib::ctIntersection);
+      if (shaded.empty()) {
+        left.push_back(part);
+        continue;
+      }
+      left.push_back({combine(part.paths, shadow, ClipperLib::ctDifference), part.luminance});
+      if (through > 0.0) left.push_back({shaded, part.luminance * through});
+    }
+    parts = std::move(left);
   }
-  return lit;
+  return parts;
 }
 
 }  // namespace
 
-double projected_sunlit_area(Scene const& scene, SunDirection sun, SurfaceId receiver) {
+double projected_sunlit_area(Scene const& scene, SunDirection sun, SurfaceId receiver,
+                             std::span<double const> factors) {
   Screen const screen(to_vector(sun), scene[receiver].polygon.outline[0]);
-  return area_of(lit_part(scene, sun, receiver, screen));
+  double sum = 0.0;
+  for (Part const& part : lit_parts(scene, sun, receiver, screen, factors)) {
+    sum += part.luminance * area_of(part.paths);
+  }
+  return sum;
 }
 
 double projected_area(Scene const& scene, SunDirection sun, SurfaceId receiver) {
@@ -132,21 +171,21 @@ double projected_area(Scene const& scene, SunDirection sun, SurfaceId receiver) 
 }
 
 std::vector<double> interior_areas(Scene const& scene, SunDirection sun, SurfaceId window,
-                                   std::vector<SurfaceId> const& interiors) {
+                                   std::vector<SurfaceId> const& interiors,
+                                   std::span<double const> factors) {
   Screen const screen(to_vector(sun), scene[window].polygon.outline[0]);
   Plane behind = plane_of(scene[window].polygon);
   behind.normal = -behind.normal;
-  Paths left = lit_part(scene, sun, window, screen);
-  std::vector<double> areas;
-  for (SurfaceId const id : interiors) {
-    Polygon const seen = cut(scene[id].polygon, behind);
-    if (is_empty(seen)) {
-      areas.push_back(0.0);
-      continue;
+  std::vector<double> areas(interiors.size(), 0.0);
+  for (Part const& part : lit_parts(scene, sun, window, screen, factors)) {
+    Paths left = part.paths;
+    for (std::size_t i = 0; i < interiors.size(); ++i) {
+      Polygon const seen = cut(scene[interiors[i]].polygon, behind);
+      if (is_empty(seen)) continue;
+      Paths const projected = screen.project(seen);
+      areas[i] += part.luminance * area_of(combine(left, projected, ClipperLib::ctIntersection));
+      left = combine(left, projected, ClipperLib::ctDifference);
     }
-    Paths const projected = screen.project(seen);
-    areas.push_back(area_of(combine(left, projected, ClipperLib::ctIntersection)));
-    left = combine(left, projected, ClipperLib::ctDifference);
   }
   return areas;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "gpu_shading/scene.h"
@@ -10,8 +11,10 @@
 // the sun in double precision and combined there.
 namespace gpu_shading::exact {
 
-// m2 normal to the beam of the receiver that no other surface of the scene hides.
-double projected_sunlit_area(Scene const& scene, SunDirection sun, SurfaceId receiver);
+// m2 normal to the beam of the receiver that no other surface of the scene hides, each part of it
+// times what the shades over it let through, schedules by their factors: an overlay of them all.
+double projected_sunlit_area(Scene const& scene, SunDirection sun, SurfaceId receiver,
+                             std::span<double const> factors = {});
 
 // The same before anything shades it, from its area: 0 where it is turned away.
 double projected_area(Scene const& scene, SunDirection sun, SurfaceId receiver);
@@ -20,7 +23,8 @@ double projected_area(Scene const& scene, SunDirection sun, SurfaceId receiver);
 // no one may stand in front of one before it. Surfaces behind the window's plane cast nothing on
 // it.
 std::vector<double> interior_areas(Scene const& scene, SunDirection sun, SurfaceId window,
-                                   std::vector<SurfaceId> const& interiors);
+                                   std::vector<SurfaceId> const& interiors,
+                                   std::span<double const> factors = {});
 
 // m2 normal to the beam of the shadow that one caster throws on the receiver.
 double shadow_area(Scene const& scene, SunDirection sun, SurfaceId receiver, SurfaceId caster);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "gpu_shading/device.h"
@@ -12,20 +13,42 @@
 
 namespace gpu_shading {
 
+// How the luminance of pixels is summed; but for rounding they agree.
+enum class LuminanceSum {
+  compute,   // by a compute shader, in a fixed order
+  mipmaps,   // from the coarsest mipmap, as Jones & Greenberg do
+  readback,  // on the CPU
+};
+
 struct RendererOptions {
   DeviceChoice device;
   // Pixels a side of a receiver's tile, 1 .. DeviceInfo::max_resolution. A receiver that fills less
   // than 1/64 of its tile, or 16 pixels, gets a tile of twice the side, again and again up to 4096.
   int resolution = 512;
+  LuminanceSum luminance_sum = LuminanceSum::compute;
+};
+
+// What the sun lights through scheduled shades: as much as projected_area, where all the factors
+// are 1.
+struct ScheduledPart {
+  std::vector<std::pair<int, int>> powers;  // schedule, and how many of its shades; by schedule
+  double projected_area = 0.0;              // m2; transmittances included, factors not
 };
 
 // What the sun sees of one receiver.
 struct Sunlit {
   // Projected sunlit surface area (PSSA), m2 normal to the beam: the receiver's exact projected
-  // area times its lit share of its own pixels. 0 where it is turned away from the sun.
+  // area times its lit share of its own pixels, each by what unscheduled shades before it let
+  // through. 0 where it is turned away from the sun. What passes scheduled shades comes on top.
   double projected_area = 0.0;
   // The same by plain pixel counting, N x Ap (Jones et al. 2012), for comparison.
   double pixel_counted_area = 0.0;
+  // Each combination of schedules once.
+  std::vector<ScheduledPart> scheduled;
+
+  // All of it, with factors[schedule]: projected_area and the parts, each times the factors of what
+  // it passes to their powers. Throws Error when there are too few.
+  double at(std::span<double const> factors) const;
 };
 
 struct RendererStatistics {
@@ -33,6 +56,7 @@ struct RendererStatistics {
   std::size_t receivers_drawn = 0;  // receiver and direction pairs that had a caster in view
   std::size_t receivers_clear = 0;  // pairs answered exactly: lit, with nothing in view
   std::size_t casters_drawn = 0;    // over all drawn pairs
+  std::size_t luminance_views = 0;  // of the drawn pairs, those with a shade that transmits in view
   double seconds = 0.0;             // wall time spent in the renderer
 };
 
@@ -46,6 +70,8 @@ struct Image {
 
 // Draws receivers as the sun sees them. Holds an EGL context of its own: one thread at a time, but
 // any thread. Every function throws DeviceError when the device fails; no answer is ever made up.
+// Error when too many scheduled shades are in one view to be told apart: the binary digits of how
+// many there are of each schedule have to fit three times 24.
 //
 // Method: pixel counting after Jones, Greenberg & Pratt (2012), PSSF = N Ap / At. The receiver's
 // plane is the image plane: casters are clipped at it and slid along the sun's rays onto it, which
@@ -54,6 +80,10 @@ struct Image {
 // against the receiver's longest edge by an angle of golden slope, so that edges parallel to it do
 // not line up with rows of pixels. A receiver too thin for 16 pixels of its finest tile gets the
 // lit share of its bounding rectangle.
+// Views with shades that transmit in them keep a luminance of 32 bits for each pixel, 1 where the
+// receiver is, which every caster multiplies by what it lets through (the second method of Jones &
+// Greenberg); opaque ones by 0. Its mean over the receiver's pixels takes the place of their lit
+// share, and equals it where all are opaque.
 class Renderer {
  public:
   // Throws Error when the resolution is out of range, DeviceError when the device cannot be had.
@@ -75,12 +105,19 @@ class Renderer {
   // Projected areas (m2 normal to the beam) of each of `interiors` that the sun lights through
   // `window` alone, behind the window's own casters; the nearest interior surface along a ray takes
   // it. In the order of `interiors`; their sum is at most the window's projected sunlit area.
+  std::vector<Sunlit> interior_sunlit_areas(SunDirection sun, SurfaceId window,
+                                            std::span<SurfaceId const> interiors);
+
+  // Their projected_area alone: without what passes scheduled shades.
   std::vector<double> interior_projected_sunlit_areas(SunDirection sun, SurfaceId window,
                                                       std::span<SurfaceId const> interiors);
 
   // What the sun sees of a receiver: lit receiver pixels yellow, shaded ones blue, casters grey by
-  // their tilt to the sun. World-up is up; `size` pixels on the longer side.
-  Image sun_view(SunDirection sun, SurfaceId receiver, int size);
+  // their tilt to the sun. Where a caster in view transmits, the receiver is grey by its luminance,
+  // schedules by `factors`, 1 where those are too few. World-up is up; `size` pixels on the longer
+  // side.
+  Image sun_view(SunDirection sun, SurfaceId receiver, int size,
+                 std::span<double const> factors = {});
 
  private:
   class Implementation;

@@ -4,10 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace gpu_shading {
+
+class Transmittance;  // gpu_shading/transmittance.h
 
 // Position of a surface in its scene, counted from 0 in the order of Scene::add.
 using SurfaceId = std::uint32_t;
@@ -32,10 +35,19 @@ enum class Casting {
   never,        // it only receives
 };
 
+// As a caster a surface is opaque, unless it has a transmittance, a schedule or both, which
+// multiply: then it is a flat sheet that lets the beam through, straight on. Both faces do alike.
+// The angle of incidence is taken from the Newell normal of the outline. The sun's rays are
+// parallel, so that it is one number for each surface and direction: it is computed in double
+// precision for those in view, with no table between the model and the answer.
 struct Surface {
   std::string name;
   Polygon polygon;
   Casting casting = Casting::always;
+  std::shared_ptr<Transmittance const> transmittance = nullptr;
+  // Number of a factor, 0 .. 1, that varies with time; -1: none. Surfaces may share one. Answers
+  // keep what passed each schedule apart (Sunlit), so that they hold whatever the factors are.
+  int schedule = -1;
 };
 
 // Whether a caster counts for a receiver. Asked once for each pair, before the first direction.

@@ -1,0 +1,7 @@
+#version 450 core
+
+layout(location = 0) uniform uint identity;
+
+out uint fragment;
+
+void main() { fragment = identity; }
