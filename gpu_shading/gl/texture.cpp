@@ -42,4 +42,10 @@ void LayeredTexture::copy_level(int level, int layers, Buffer const& buffer,
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
+void LayeredTexture::read(int layers, std::span<float> pixels) const {
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glGetTextureSubImage(name(), 0, 0, 0, 0, side_, side_, layers, GL_RED, GL_FLOAT,
+                       static_cast<GLsizei>(pixels.size_bytes()), pixels.data());
+}
+
 }  // namespace gpu_shading::gl

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "gl/buffer.h"
 #include "gl/object.h"
@@ -28,6 +29,8 @@ class LayeredTexture : public Object<destroy_texture> {
   void make_mipmaps() const;
   // The first `layers` layers of a level into a buffer, from `offset` bytes on.
   void copy_level(int level, int layers, Buffer const& buffer, std::size_t offset) const;
+  // All pixels of the first `layers` layers. Waits for the draws.
+  void read(int layers, std::span<float> pixels) const;
 
  private:
   using Object::Object;

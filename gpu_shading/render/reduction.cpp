@@ -1,7 +1,9 @@
 #include "render/reduction.h"
 
+#include <array>
 #include <cstdint>
 #include <numeric>
+#include <span>
 
 #include "gl/buffer.h"
 #include "gl/check.h"
@@ -62,15 +64,16 @@ std::size_t square(int side) {
 class ByCompute : public PartialSums {
  public:
   explicit ByCompute(int side)
-      : PartialSums(square(groups_across(side))),
+      : PartialSums(square(squares_across(side))),
         program_(gl::Program::link_compute("sums", shaders::sum_comp)) {}
 
   gl::LayeredTexture::Levels levels() const override { return gl::LayeredTexture::Levels::one; }
 
  private:
-  static int groups_across(int side) {
-    constexpr int block = 64;  // of sum.comp
-    return (side + block - 1) / block;
+  // As in sum.comp.
+  static int squares_across(int side) {
+    constexpr int square_side = 16;
+    return (side + square_side - 1) / square_side;
   }
 
   void write(gl::LayeredTexture const& luminance, int layers, std::size_t first) override {
@@ -78,8 +81,10 @@ class ByCompute : public PartialSums {
     program_.use();
     luminance.bind(0);
     buffer().bind_storage(0);
-    auto const across = static_cast<std::uint32_t>(groups_across(luminance.side()));
-    gl::dispatch(across, across, static_cast<std::uint32_t>(layers));
+    constexpr int group_side = 8;
+    auto const groups = static_cast<std::uint32_t>(
+        (squares_across(luminance.side()) + group_side - 1) / group_side);
+    gl::dispatch(groups, groups, static_cast<std::uint32_t>(layers));
   }
 
   gl::Program program_;
@@ -111,16 +116,43 @@ class ByMipmaps : public PartialSums {
   double weight_;
 };
 
-class ByReadback : public PartialSums {
+// Where device memory is the CPU's own.
+class ByReadback : public Reduction {
  public:
-  explicit ByReadback(int side) : PartialSums(square(side)) {}
-
   gl::LayeredTexture::Levels levels() const override { return gl::LayeredTexture::Levels::one; }
 
- private:
-  void write(gl::LayeredTexture const& luminance, int layers, std::size_t first) override {
-    luminance.copy_level(0, layers, buffer(), first * sizeof(float));
+  void begin(std::size_t) override { sums_.clear(); }
+
+  void add(gl::LayeredTexture const& luminance, int layers) override {
+    std::size_t const pixels = square(luminance.side());
+    pixels_.resize(pixels * static_cast<std::size_t>(layers));
+    luminance.read(layers, pixels_);
+    for (std::size_t first = 0; first < pixels_.size(); first += pixels) {
+      sums_.push_back(sum({pixels_.data() + first, pixels}));
+    }
   }
+
+  std::vector<double> sums() const override {
+    gl::check("summing luminance");
+    return sums_;
+  }
+
+ private:
+  static double sum(std::span<float const> pixels) {
+    // Lanes that do not wait for each other.
+    std::array<double, 8> lanes{};
+    std::size_t i = 0;
+    for (; i + lanes.size() <= pixels.size(); i += lanes.size()) {
+      for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+        lanes[lane] += static_cast<double>(pixels[i + lane]);
+      }
+    }
+    for (; i < pixels.size(); ++i) lanes[0] += static_cast<double>(pixels[i]);
+    return std::accumulate(lanes.begin(), lanes.end(), 0.0);
+  }
+
+  std::vector<float> pixels_;
+  std::vector<double> sums_;
 };
 
 }  // namespace
@@ -130,7 +162,8 @@ std::unique_ptr<Reduction> make_reduction(LuminanceSum how, int side) {
     case LuminanceSum::mipmaps:
       return std::make_unique<ByMipmaps>(side);
     case LuminanceSum::readback:
-      return std::make_unique<ByReadback>(side);
+      return std::make_unique<ByReadback>();
+    case LuminanceSum::automatic:
     case LuminanceSum::compute:
       break;
   }

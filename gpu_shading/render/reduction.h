@@ -9,7 +9,8 @@
 
 namespace gpu_shading {
 
-// Sums the pixels of each layer of textures of one side. Nothing waits before sums().
+// Sums the pixels of each layer of textures of one side. Nothing waits before sums(), but for sums
+// on the CPU, which take a texture at a time.
 class Reduction {
  public:
   virtual ~Reduction() = default;

@@ -115,6 +115,9 @@ Renderer::Implementation::Implementation(Scene scene, RendererOptions options)
                             options_.resolution, device_.info.max_resolution,
                             device_.info.renderer));
   }
+  if (options_.luminance_sum == LuminanceSum::automatic) {
+    options_.luminance_sum = device_.info.software ? LuminanceSum::readback : LuminanceSum::compute;
+  }
   egl::Current const current = device_.context.make_current();
   on_device_ = std::make_unique<OnDevice>(scene_, options_.resolution);
 }

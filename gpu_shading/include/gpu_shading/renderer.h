@@ -15,9 +15,10 @@ namespace gpu_shading {
 
 // How the luminance of pixels is summed; but for rounding they agree.
 enum class LuminanceSum {
-  compute,   // by a compute shader, in a fixed order
-  mipmaps,   // from the coarsest mipmap, as Jones & Greenberg do
-  readback,  // on the CPU
+  automatic,  // readback in software, where it is the fastest of these; compute on a GPU
+  compute,    // by a compute shader, in a fixed order
+  mipmaps,    // from the coarsest mipmap, as Jones & Greenberg do
+  readback,   // on the CPU
 };
 
 struct RendererOptions {
@@ -25,7 +26,7 @@ struct RendererOptions {
   // Pixels a side of a receiver's tile, 1 .. DeviceInfo::max_resolution. A receiver that fills less
   // than 1/64 of its tile, or 16 pixels, gets a tile of twice the side, again and again up to 4096.
   int resolution = 512;
-  LuminanceSum luminance_sum = LuminanceSum::compute;
+  LuminanceSum luminance_sum = LuminanceSum::automatic;
 };
 
 // What the sun lights through scheduled shades: as much as projected_area, where all the factors
