@@ -137,12 +137,11 @@ std::vector<std::uint8_t> Framebuffer::read_colour() const {
   return colours;
 }
 
-std::vector<glm::vec4> Framebuffer::read_precise_colour() const {
-  std::vector<glm::vec4> colours(pixels());
+void Framebuffer::read_precise_colour(std::vector<glm::vec4>& colours) const {
+  colours.resize(pixels());
   start_reading();
   glReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, colours.data());
   check("reading luminance back");
-  return colours;
 }
 
 std::vector<std::uint32_t> Framebuffer::read_identity() const {

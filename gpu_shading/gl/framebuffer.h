@@ -50,7 +50,7 @@ class Framebuffer : public Object<destroy_framebuffer> {
 
   // RGBA, 8 bits a channel, rows from the bottom. Waits for the draws.
   std::vector<std::uint8_t> read_colour() const;
-  std::vector<glm::vec4> read_precise_colour() const;
+  void read_precise_colour(std::vector<glm::vec4>& colours) const;
   std::vector<std::uint32_t> read_identity() const;
 
  private:

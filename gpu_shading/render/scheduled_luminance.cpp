@@ -1,7 +1,6 @@
 #include "render/scheduled_luminance.h"
 
 #include <algorithm>
-#include <glm/vec4.hpp>
 
 #include "gl/check.h"
 #include "gl/draw.h"
@@ -12,27 +11,25 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t{64} << 20U;
 
-// Neighbouring pixels mostly have the same key: the last is tried first.
+// Neighbouring pixels mostly have the same key: it is looked up where it changes.
 class Sorter {
  public:
   explicit Sorter(LuminanceByKey& sums) : sums_(sums) {}
 
   void add(glm::vec4 const& pixel) {
     if (pixel.a == 0.0F) return;
-    ScheduleKeys::Sum const key{static_cast<std::uint32_t>(pixel.r),
-                                static_cast<std::uint32_t>(pixel.g),
-                                static_cast<std::uint32_t>(pixel.b)};
-    if (last_ == nullptr || key != last_key_) {
-      last_ = &sums_[key];
-      last_key_ = key;
+    if (sum_ == nullptr || pixel.r != last_.r || pixel.g != last_.g || pixel.b != last_.b) {
+      sum_ = &sums_[{static_cast<std::uint32_t>(pixel.r), static_cast<std::uint32_t>(pixel.g),
+                     static_cast<std::uint32_t>(pixel.b)}];
+      last_ = pixel;
     }
-    *last_ += static_cast<double>(pixel.a);
+    *sum_ += static_cast<double>(pixel.a);
   }
 
  private:
   LuminanceByKey& sums_;
-  ScheduleKeys::Sum last_key_{};
-  double* last_ = nullptr;
+  glm::vec4 last_{0.0F};
+  double* sum_ = nullptr;
 };
 
 void draw_keyed(Geometry& geometry, gl::Framebuffer const& target, ReceiverJob const& job) {
@@ -47,8 +44,9 @@ ScheduledLuminance::ScheduledLuminance(int side) : side_(side) {}
 
 std::vector<LuminanceByKey> ScheduledLuminance::sum(Geometry& geometry,
                                                     std::span<ReceiverJob const> jobs) {
-  auto const pixels = static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_);
-  std::size_t const most = std::max<std::size_t>(1, most_bytes / (pixels * sizeof(glm::vec4)));
+  auto const across = static_cast<std::size_t>(side_);
+  std::size_t const most =
+      std::max<std::size_t>(1, most_bytes / (across * across * sizeof(glm::vec4)));
   while (targets_.size() < std::min(most, jobs.size())) {
     targets_.push_back(gl::Framebuffer::create({gl::Format::precise_colour}, side_, side_));
   }
@@ -58,7 +56,8 @@ std::vector<LuminanceByKey> ScheduledLuminance::sum(Geometry& geometry,
     for (std::size_t i = 0; i < count; ++i) draw_keyed(geometry, targets_[i], jobs[begin + i]);
     for (std::size_t i = 0; i < count; ++i) {
       Sorter sorter(sums[begin + i]);
-      for (glm::vec4 const& pixel : targets_[i].read_precise_colour()) sorter.add(pixel);
+      targets_[i].read_precise_colour(pixels_);
+      for (glm::vec4 const& pixel : pixels_) sorter.add(pixel);
     }
   }
   gl::check("drawing what the sun sees through scheduled shades");
@@ -87,7 +86,8 @@ std::vector<LuminanceByKey> InteriorLuminance::sum(Geometry& geometry, InteriorJ
   }
   gl::no_depth();
 
-  std::vector<glm::vec4> const luminance = luminance_.read_precise_colour();
+  std::vector<glm::vec4> luminance;
+  luminance_.read_precise_colour(luminance);
   std::vector<std::uint32_t> const nearest = nearest_.read_identity();
   std::vector<LuminanceByKey> sums(job.surfaces.size());
   std::vector<Sorter> sorters(sums.begin(), sums.end());

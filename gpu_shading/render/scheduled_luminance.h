@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec4.hpp>
 #include <map>
 #include <span>
 #include <vector>
@@ -29,6 +30,7 @@ class ScheduledLuminance {
  private:
   int side_;
   std::vector<gl::Framebuffer> targets_;
+  std::vector<glm::vec4> pixels_;
 };
 
 // The same of a window, apart for each interior surface that the sun reaches first behind it. Of
