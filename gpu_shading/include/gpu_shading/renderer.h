@@ -23,17 +23,16 @@ enum class LuminanceSum {
 
 struct RendererOptions {
   DeviceChoice device;
-  // Pixels a side of a receiver's tile, 1 .. DeviceInfo::max_resolution. A receiver that fills less
-  // than 1/64 of its tile, or 16 pixels, gets a tile of twice the side, again and again up to 4096.
+  // Pixels a side of a receiver's tile, 1 .. DeviceInfo::max_resolution. The side is doubled for a
+  // receiver that would have fewer than resolution^2 / 64 pixels or 16, until it has, up to 4096.
   int resolution = 512;
   LuminanceSum luminance_sum = LuminanceSum::automatic;
 };
 
-// What the sun lights through scheduled shades: as much as projected_area, where all the factors
-// are 1.
+// What the sun lights through one combination of scheduled shades.
 struct ScheduledPart {
   std::vector<std::pair<int, int>> powers;  // schedule, and how many of its shades; by schedule
-  double projected_area = 0.0;              // m2; transmittances included, factors not
+  double projected_area = 0.0;              // m2 at factors of 1; transmittances are in it
 };
 
 // What the sun sees of one receiver.
@@ -109,7 +108,7 @@ class Renderer {
   std::vector<Sunlit> interior_sunlit_areas(SunDirection sun, SurfaceId window,
                                             std::span<SurfaceId const> interiors);
 
-  // Their projected_area alone: without what passes scheduled shades.
+  // Their projected_area alone, which lacks what passes scheduled shades.
   std::vector<double> interior_projected_sunlit_areas(SunDirection sun, SurfaceId window,
                                                       std::span<SurfaceId const> interiors);
 
