@@ -83,6 +83,13 @@ Transmittance Transmittance::constant(double value) {
   return Transmittance([value](double) { return value; });
 }
 
+Transmittance Transmittance::product(Transmittance const& model, double factor) {
+  if (!(factor >= 0.0 && factor <= 1.0)) {
+    throw Error(fmt::format("factor is {:.9g}, expected 0 to 1", factor));
+  }
+  return Transmittance([model, factor](double angle) { return factor * model(angle); });
+}
+
 Transmittance Transmittance::polynomial_in_degrees(std::vector<double> coefficients) {
   check_terms(coefficients);
   check_everywhere([&](double degrees) { return polynomial(coefficients, degrees); });

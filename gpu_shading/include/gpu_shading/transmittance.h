@@ -38,6 +38,9 @@ class Transmittance {
 
   static Transmittance constant(double value);
 
+  // `model` times a factor, 0 .. 1, at every angle: dirt, or a fixed share of holes.
+  static Transmittance product(Transmittance const& model, double factor);
+
   // c[0] + c[1] x + ... + c[8] x^8 at most, x the angle in degrees, or its cosine. Has to lie in
   // 0 .. 1 at every tenth of a degree, within 1e-9.
   static Transmittance polynomial_in_degrees(std::vector<double> coefficients);
