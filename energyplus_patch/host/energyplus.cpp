@@ -9,12 +9,16 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-constexpr char const* show_fatal_name =
-    "_ZN10EnergyPlus14ShowFatalErrorERNS_14EnergyPlusDataERKNSt7__cxx1112basic_stringIcSt11char_"
-    "traitsIcESaIcEEESt8optionalISt17reference_wrapperINS_15InputOutputFileEEESE_";
+// Of a function that writes a message, by its own name with its length before it.
+std::string show_name(char const* function) {
+  return fmt::format(
+      "_ZN10EnergyPlus{}ERNS_14EnergyPlusDataERKNSt7__cxx1112basic_stringIcSt11char_"
+      "traitsIcESaIcEEESt8optionalISt17reference_wrapperINS_15InputOutputFileEEESE_",
+      function);
+}
 
 template <typename Function>
-Function* find(SymbolTable const& symbols, char const* name, std::string& missing) {
+Function* find(SymbolTable const& symbols, std::string const& name, std::string& missing) {
   Symbol const* const symbol = symbols.find(name);
   if (symbol == nullptr) {
     missing += fmt::format("\n  {}", name);
@@ -27,9 +31,9 @@ Function* find(SymbolTable const& symbols, char const* name, std::string& missin
 
 EnergyPlusFunctions::EnergyPlusFunctions(SymbolTable const& symbols) {
   std::string missing;
-  show_fatal_ = find<ShowFatalError>(symbols, show_fatal_name, missing);
-  issue_warning_ = find<Issue>(symbols, "issueWarning", missing);
-  issue_text_ = find<Issue>(symbols, "issueText", missing);
+  show_fatal_ = find<ShowFunction>(symbols, show_name("14ShowFatalError"), missing);
+  show_message_ = find<ShowFunction>(symbols, show_name("11ShowMessage"), missing);
+  issue_warning_ = find<void(State*, char const*)>(symbols, "issueWarning", missing);
   if (!missing.empty()) {
     throw Error(
         fmt::format("{}: functions are not in this build:{}", symbols.library().string(), missing));
@@ -46,7 +50,7 @@ void EnergyPlusFunctions::warning(State& state, std::string const& message) cons
 }
 
 void EnergyPlusFunctions::text(State& state, std::string const& message) const {
-  issue_text_(&state, message.c_str());
+  show_message_(state, message, std::nullopt, std::nullopt);
 }
 
 }  // namespace gpu_shading::energyplus

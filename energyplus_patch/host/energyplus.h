@@ -16,6 +16,11 @@ namespace gpu_shading::energyplus {
 
 using State = EnergyPlus::EnergyPlusData;
 
+// The shape of EnergyPlus's functions that write a message to its .err, and to up to two other
+// files.
+using OtherFile = std::optional<std::reference_wrapper<EnergyPlus::InputOutputFile>>;
+using ShowFunction = void(State&, std::string const&, OtherFile, OtherFile);
+
 // The functions of EnergyPlus that we call, found by name.
 class EnergyPlusFunctions {
  public:
@@ -29,13 +34,9 @@ class EnergyPlusFunctions {
   void text(State& state, std::string const& message) const;
 
  private:
-  using File = std::optional<std::reference_wrapper<EnergyPlus::InputOutputFile>>;
-  using ShowFatalError = void(State&, std::string const&, File, File);
-  using Issue = void(State*, char const*);
-
-  ShowFatalError* show_fatal_ = nullptr;
-  Issue* issue_warning_ = nullptr;
-  Issue* issue_text_ = nullptr;
+  ShowFunction* show_fatal_ = nullptr;
+  ShowFunction* show_message_ = nullptr;
+  void (*issue_warning_)(State*, char const*) = nullptr;
 };
 
 }  // namespace gpu_shading::energyplus

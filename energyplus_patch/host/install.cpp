@@ -16,6 +16,7 @@
 #include "host/input_entries.h"
 #include "host/penumbra_entries.h"
 #include "host/run.h"
+#include "host/shading_entries.h"
 #include "host/version.h"
 
 #define EXPORTED __attribute__((visibility("default")))
@@ -95,16 +96,19 @@ void install(char const* library, char const* options) {
   if (installed.library.empty()) {
     SymbolTable const symbols(loaded.path, loaded.base);
     EnergyPlusFunctions const functions(symbols);
+    ScheduleFunctions const schedules(symbols);
     auto const version = read_version(loaded.path.parent_path());
     auto entries = penumbra_entries();
-    auto const input = input_entries();
-    entries.insert(entries.end(), input.begin(), input.end());
+    for (auto const& more : {input_entries(), shading_entries()}) {
+      entries.insert(entries.end(), more.begin(), more.end());
+    }
     // Before the entries change: it reads the code that calls them.
     installed.surface_ids = find_surface_ids(symbols);
     patch_entries(symbols, entries);
     installed.library = loaded.path;
     installed.version = version;
     installed.functions = functions;
+    installed.schedules = schedules;
   } else if (installed.library != loaded.path) {
     throw Error(fmt::format("{}: GPU shading is installed for {} already", loaded.path.string(),
                             installed.library.string()));

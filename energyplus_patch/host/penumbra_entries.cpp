@@ -99,7 +99,7 @@ void set_model(PenumbraObject* self) {
   guarded([&] {
     auto const messages = messages_of(this_run());
     add_mirrored_surfaces(*self->session, messages);
-    self->session->start(messages);
+    self->session->start(messages, installation().schedules.of(*this_run().state));
   });
 }
 

@@ -8,6 +8,7 @@
 
 #include "binary/stored_result.h"
 #include "host/energyplus.h"
+#include "host/schedules.h"
 #include "session/session.h"
 
 namespace gpu_shading::energyplus {
@@ -17,6 +18,7 @@ struct Installation {
   std::filesystem::path library;
   std::string version;  // of EnergyPlus, e.g. "25.2.0"
   EnergyPlusFunctions functions;
+  ScheduleFunctions schedules;
   std::optional<StoredResult> surface_ids;  // where EnergyPlus keeps what add_surface returned
   Choices choices;                          // command line over environment
 };

@@ -24,7 +24,7 @@ constexpr std::size_t frequency_field = 1;
 
 InputObject from_idf(ObjectType const& type, std::vector<std::string> const& values) {
   InputObject object{std::string(type.type), {}, {}, {}};
-  if (is_extension(type.type) && values.size() > type.fields.size()) {
+  if (is_extension(type.type) && type.list.empty() && values.size() > type.fields.size()) {
     throw Error(fmt::format("{}: {} fields, expected {} at most", type.type, values.size(),
                             type.fields.size()));
   }
@@ -47,7 +47,7 @@ InputObject from_epjson(ObjectType const& type, std::string const& name,
                         nlohmann::json const& fields) {
   InputObject object{std::string(type.type), {}, {}, {}};
   for (auto const& [field, value] : fields.items()) {
-    if (is_extension(type.type) &&
+    if (is_extension(type.type) && field != type.list &&
         std::find(type.fields.begin(), type.fields.end(), field) == type.fields.end()) {
       throw Error(fmt::format("{}: {}: no such field", type.type, field));
     }
@@ -60,6 +60,14 @@ InputObject from_epjson(ObjectType const& type, std::string const& name,
   if (!type.list.empty() && fields.contains(type.list)) {
     for (auto const& item : fields.at(std::string(type.list))) {
       object.list.push_back(text_of(item.at(std::string(type.list_field))));
+    }
+  }
+  // The layers of a construction are fields of their own there.
+  if (type.type == "Construction") {
+    constexpr int most_layers = 10;
+    for (int layer = 1; layer <= most_layers; ++layer) {
+      auto const field = layer == 1 ? "outside_layer" : fmt::format("layer_{}", layer);
+      if (fields.contains(field)) object.list.push_back(text_of(fields.at(field)));
     }
   }
   return object;

@@ -6,6 +6,7 @@
 
 #include "input/input_object.h"
 #include "input/shading_input.h"
+#include "input/transparent_shades.h"
 #include "options/options.h"
 
 namespace gpu_shading::energyplus {
@@ -14,6 +15,7 @@ namespace gpu_shading::energyplus {
 struct Model {
   std::vector<InputObject> objects;
   ShadingInput shading;
+  TransparentShades shades;
   Options options;
 };
 

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include "gpu_shading/error.h"
+#include "input/number.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -38,13 +37,12 @@ std::string release(std::string_view version) {
 void read_shadow_calculation(InputObject const& object, ShadingInput& input) {
   input.shading_method = object["shading_calculation_method"];
   if (auto const& text = object["pixel_counting_resolution"]; !text.empty()) {
-    double value = 0.0;
-    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) {
+    auto const value = parse_number(text);
+    if (!value) {
       throw Error(fmt::format(
           "ShadowCalculation: Pixel Counting Resolution is \"{}\", not a number", text));
     }
-    input.pixel_counting_resolution = static_cast<int>(value);
+    input.pixel_counting_resolution = static_cast<int>(*value);
   }
   input.disable_within_groups = yes(object, "disable_self_shading_within_shading_zone_groups");
   input.disable_between_groups =

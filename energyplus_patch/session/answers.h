@@ -12,7 +12,8 @@
 namespace gpu_shading::energyplus {
 
 // Answers kept by direction: warm-up days, sizing periods and the sky's patches come back to the
-// same ones. Bounded: when full, everything is forgotten and collected anew.
+// same ones. They hold whatever the transmittance schedules say, which are applied to them
+// afterwards. Bounded: when full, everything is forgotten and collected anew.
 class Answers {
  public:
   static constexpr std::size_t max_bytes = std::size_t{512} << 20U;
@@ -20,8 +21,9 @@ class Answers {
   struct Direction {
     SunDirection sun;
     std::vector<float> projected_area;  // by surface; not a number where not asked yet
-    std::unordered_map<std::uint64_t, std::vector<float>>
-        interior;  // by window and list of surfaces
+    // What passes scheduled shades, of the surfaces that have such in view.
+    std::unordered_map<SurfaceId, std::vector<ScheduledPart>> scheduled;
+    std::unordered_map<std::uint64_t, std::vector<Sunlit>> interior;  // by window and list
   };
 
   explicit Answers(std::size_t surfaces = 0) : surfaces_(surfaces) {}

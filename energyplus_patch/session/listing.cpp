@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "session/shade_optics.h"
+
 namespace gpu_shading::energyplus {
 namespace {
 
@@ -15,18 +17,10 @@ std::string kind_of(std::string const& name, ShadingInput const& input) {
   return input.base_of.contains(name) ? "window or door" : "heat transfer surface";
 }
 
-std::string casting_of(std::string const& name, ShadingInput const& input) {
-  auto const found = input.shading_surfaces.find(name);
-  if (found == input.shading_surfaces.end() || found->second.transmittance_schedule.empty()) {
-    return "opaque";
-  }
-  return fmt::format("opaque (schedule {} not applied)", found->second.transmittance_schedule);
-}
-
 }  // namespace
 
-std::string list_surfaces(Scene const& scene, ShadingInput const& input,
-                          std::vector<bool> const& wanted) {
+std::string list_surfaces(Scene const& scene, Model const& model, std::vector<bool> const& wanted) {
+  auto const& input = model.shading;
   std::size_t width = 0;
   std::size_t kind_width = 0;
   for (SurfaceId id = 0; id < wanted.size(); ++id) {
@@ -44,7 +38,7 @@ std::string list_surfaces(Scene const& scene, ShadingInput const& input,
                         kind_of(surface.name, input), kind_width, size,
                         empty || reveal || !wanted[id] ? "no" : "yes",
                         empty                               ? "not (no area)"
-                        : surface.casting != Casting::never ? casting_of(surface.name, input)
+                        : surface.casting != Casting::never ? describe_optics(model, surface.name)
                                                             : "not");
   }
   text += fmt::format("{} surfaces\n", wanted.size());

@@ -26,15 +26,20 @@ struct Row {
   double fraction;
 };
 
-std::vector<Row> collect(Renderer const& renderer, SurfaceId receiver, Answers const& answers) {
+std::vector<Row> collect(Renderer const& renderer, SurfaceId receiver, Answers const& answers,
+                         std::vector<double> const& factors) {
   auto const& polygon = renderer.scene()[receiver].polygon;
   double const full = area(polygon);
   auto const facing = normal(polygon);
   std::vector<Row> rows;
   answers.for_each([&](Answers::Direction const& direction) {
-    float const answer = direction.projected_area[receiver];
+    float const unscheduled = direction.projected_area[receiver];
     double const cosine = glm::dot(facing, to_vector(direction.sun));
-    if (!Answers::known(answer) || cosine <= 0.0 || full <= 0.0) return;
+    if (!Answers::known(unscheduled) || cosine <= 0.0 || full <= 0.0) return;
+    auto const parts = direction.scheduled.find(receiver);
+    double const answer = parts == direction.scheduled.end()
+                              ? unscheduled
+                              : Sunlit{unscheduled, 0.0, parts->second}.at(factors);
     rows.push_back({receiver, direction.sun, answer, std::min(1.0, answer / (full * cosine))});
   });
   std::sort(rows.begin(), rows.end(), [](Row const& a, Row const& b) {
@@ -98,14 +103,15 @@ void prepare_report(std::filesystem::path const& folder) {
 }
 
 void write_report(std::filesystem::path const& folder, Renderer& renderer,
-                  std::vector<SurfaceId> const& receivers, Answers const& answers) {
+                  std::vector<SurfaceId> const& receivers, Answers const& answers,
+                  std::vector<double> const& factors) {
   auto const table = folder / table_name;
   std::ofstream csv(table);
   csv << "receiver,sun azimuth [deg],sun altitude [deg],projected sunlit area [m2],sunlit "
          "fraction\n";
   std::vector<Row> pictures;
   for (auto const receiver : receivers) {
-    auto const rows = collect(renderer, receiver, answers);
+    auto const rows = collect(renderer, receiver, answers, factors);
     for (auto const& row : rows) {
       csv << fmt::format("{},{:.4f},{:.4f},{:.7g},{:.6f}\n",
                          quoted(renderer.scene()[receiver].name), azimuth_degrees(row.sun),
@@ -120,7 +126,7 @@ void write_report(std::filesystem::path const& folder, Renderer& renderer,
   if (pictures.size() > max_pictures) pictures.resize(max_pictures);
   for (auto const& picture : pictures) {
     auto const path = folder / file_name(renderer.scene()[picture.receiver].name, picture.sun);
-    write_image(path, renderer.sun_view(picture.sun, picture.receiver, picture_size));
+    write_image(path, renderer.sun_view(picture.sun, picture.receiver, picture_size, factors));
   }
 }
 

@@ -20,6 +20,7 @@ void prepare_report(std::filesystem::path const& folder);
 //                    shaded but lit, the one nearest to half sunlit, and the one at the highest sun
 // Throws Error when the folder cannot be written.
 void write_report(std::filesystem::path const& folder, Renderer& renderer,
-                  std::vector<SurfaceId> const& receivers, Answers const& answers);
+                  std::vector<SurfaceId> const& receivers, Answers const& answers,
+                  std::vector<double> const& factors);
 
 }  // namespace gpu_shading::energyplus

@@ -25,6 +25,16 @@ std::uint64_t hash_of(SurfaceId window, std::vector<SurfaceId> const& interiors)
   return hash;
 }
 
+RendererStatistics sum(RendererStatistics a, RendererStatistics const& b) {
+  a.directions += b.directions;
+  a.receivers_drawn += b.receivers_drawn;
+  a.receivers_clear += b.receivers_clear;
+  a.casters_drawn += b.casters_drawn;
+  a.luminance_views += b.luminance_views;
+  a.seconds += b.seconds;
+  return a;
+}
+
 // Leaves the `limit` largest as they are and sets the others to 0; EnergyPlus spreads the beam that
 // no surface takes as diffuse.
 void keep_largest(std::vector<float>& areas, std::size_t limit) {
@@ -53,71 +63,95 @@ std::vector<SurfaceId> Session::shading_surfaces() const {
   return ids;
 }
 
-void Session::start(Messages messages) {
+void Session::start(Messages messages, Schedules schedules) {
   messages_ = std::move(messages);
   surfaces_ = scene_.size();
-  add_walls_without_openings();
-  std::vector<std::string> names;
-  names.reserve(scene_.size());
-  for (SurfaceId id = 0; id < scene_.size(); ++id) names.push_back(scene_[id].name);
-
   auto const& input = model_.shading;
   wanted_.assign(surfaces_, true);
   is_receiver_.assign(surfaces_, false);
   for (SurfaceId id = 0; id < surfaces_; ++id) {
-    wanted_[id] = !input.shading_surfaces.contains(names[id]) || input.wants(names[id]);
+    auto const& name = scene_[id].name;
+    wanted_[id] = !input.shading_surfaces.contains(name) || input.wants(name);
   }
   if (char const* const listing = std::getenv(listing_variable)) {
-    std::ofstream(listing) << list_surfaces(scene_, input, wanted_);
+    std::ofstream(listing) << list_surfaces(scene_, model_, wanted_);
     std::_Exit(EXIT_SUCCESS);
   }
-  scene_.set_rule(make_shading_rule(input, names));
-  answers_ = Answers(surfaces_);
+  if (model_.options.report) prepare_report(*model_.options.report);
+  optics_ = ShadeOptics(model_, std::move(schedules));
+  add_walls_without_openings();
+  open_renderer();
+  check_device();
+  describe_surfaces();
+}
 
+void Session::open_renderer() {
+  std::vector<std::string> names;
+  names.reserve(scene_.size());
+  Scene scene;
+  for (SurfaceId id = 0; id < scene_.size(); ++id) {
+    auto surface = scene_[id];
+    names.push_back(surface.name);
+    optics_.apply(surface);
+    scene.add(std::move(surface));
+  }
+  scene.set_rule(make_shading_rule(model_.shading, names));
+  if (renderer_) earlier_ = sum(earlier_, renderer_->statistics());
+  RendererOptions options;
+  options.device = model_.options.device;
+  options.resolution = model_.options.resolution;
+  renderer_.emplace(std::move(scene), options);
+  answers_ = Answers(surfaces_);
+}
+
+void Session::check_device() const {
   auto const& options = model_.options;
-  if (options.report) prepare_report(*options.report);
-  renderer_.emplace(std::move(scene_), RendererOptions{options.device, options.resolution});
-  if (renderer_->device().software && options.device.kind == DeviceChoice::Kind::automatic) {
-    if (options.mode == Mode::require) {
-      throw DeviceError(
-          fmt::format("--gpu-shading=require: no GPU can be had, only {}; see gpu_shading devices",
-                      renderer_->device().renderer));
-    }
+  auto const& device = renderer_->device();
+  if (!device.software) return;
+  if (options.mode == Mode::require) {
+    throw DeviceError(fmt::format(
+        "--gpu-shading=require: only {} can be had, which is no GPU; see gpu_shading devices",
+        device.renderer));
+  }
+  if (options.device.kind == DeviceChoice::Kind::automatic) {
     messages_.warning(
         fmt::format("no GPU can be had, shading is rendered in software ({}); see gpu_shading "
                     "devices",
-                    renderer_->device().renderer));
-  } else if (renderer_->device().software && options.mode == Mode::require) {
-    throw DeviceError(fmt::format("--gpu-shading=require: the device chosen, {}, is not a GPU",
-                                  renderer_->device().renderer));
+                    device.renderer));
   }
-  describe_surfaces();
 }
 
 void Session::add_walls_without_openings() {
   for (SurfaceId id = 0; id < surfaces_; ++id) {
     auto const& wall = scene_[id];
     if (wall.polygon.holes.empty() || wall.casting == Casting::never) continue;
-    scene_.add({without_openings(wall.name), {wall.polygon.outline, {}}, wall.casting});
+    Surface closed;
+    closed.name = without_openings(wall.name);
+    closed.polygon.outline = wall.polygon.outline;
+    closed.casting = wall.casting;
+    scene_.add(std::move(closed));
   }
 }
 
 void Session::describe_surfaces() {
-  std::size_t scheduled = 0;
+  for (auto const& warning : model_.shades.warnings) messages_.warning(warning);
+  bool first = true;
   for (auto const& [name, surface] : model_.shading.shading_surfaces) {
-    if (surface.transmittance_schedule.empty()) continue;
-    if (scheduled++ == 0) {
-      messages_.eio(
-          "! <GPU Shading Surface>, Surface Name, Caster Type, Transmittance Schedule Name\n");
-    }
-    messages_.eio(fmt::format("GPU Shading Surface,{},Opaque (schedule not applied),{}\n", name,
-                              surface.transmittance_schedule));
+    auto const optics = describe_optics(model_, name);
+    if (optics == "opaque") continue;
+    if (first) messages_.eio("! <GPU Shading Surface>, Surface Name, Transmittance\n");
+    first = false;
+    messages_.eio(fmt::format("GPU Shading Surface,{},{}\n", name, optics));
   }
-  if (scheduled > 0) {
+}
+
+void Session::set_time(Moment moment) {
+  if (renderer_ && optics_.update(moment)) {
     messages_.warning(
-        fmt::format("{} shading surfaces have a Transmittance Schedule Name, which is not applied "
-                    "yet: they are opaque",
-                    scheduled));
+        "a Transmittance Schedule that had one value all the time has another now (overridden by "
+        "an "
+        "EMS or a program): it is followed from here on");
+    open_renderer();
   }
 }
 
@@ -127,9 +161,12 @@ void Session::render(Answers::Direction& direction, SurfaceId asked) {
     if (!Answers::known(direction.projected_area[id])) batch.push_back(id);
   }
   if (std::find(batch.begin(), batch.end(), asked) == batch.end()) batch.push_back(asked);
-  auto const sunlit = renderer_->projected_sunlit_areas(direction.sun, batch);
+  auto sunlit = renderer_->projected_sunlit_areas(direction.sun, batch);
   for (std::size_t i = 0; i < batch.size(); ++i) {
     direction.projected_area[batch[i]] = static_cast<float>(sunlit[i].projected_area);
+    if (!sunlit[i].scheduled.empty()) {
+      direction.scheduled[batch[i]] = std::move(sunlit[i].scheduled);
+    }
   }
 }
 
@@ -138,7 +175,7 @@ float Session::projected_sunlit_area(SurfaceId receiver) {
     throw Error(fmt::format("EnergyPlus asks for surface {} of {}", receiver, surfaces_));
   }
   if (!is_wanted(receiver)) {
-    auto const& polygon = renderer_->scene()[receiver].polygon;
+    auto const& polygon = scene_[receiver].polygon;
     double const cosine = glm::dot(normal(polygon), to_vector(sun_));
     return static_cast<float>(area(polygon) * std::max(cosine, 0.0));
   }
@@ -148,34 +185,44 @@ float Session::projected_sunlit_area(SurfaceId receiver) {
     is_receiver_[receiver] = true;
     receivers_.push_back(receiver);
   }
-  return direction.projected_area[receiver];
+  float const unscheduled = direction.projected_area[receiver];
+  if (direction.scheduled.empty()) return unscheduled;
+  auto const parts = direction.scheduled.find(receiver);
+  if (parts == direction.scheduled.end()) return unscheduled;
+  return static_cast<float>(Sunlit{unscheduled, 0.0, parts->second}.at(optics_.factors()));
 }
 
 std::vector<float> Session::interior_areas(SurfaceId window,
                                            std::vector<SurfaceId> const& interiors) {
-  if (!renderer_)
+  if (!renderer_) {
     throw Error("EnergyPlus asks for interior areas before its surfaces are complete");
+  }
   auto& kept = answers_.at(sun_).interior[hash_of(window, interiors)];
   if (kept.size() != interiors.size()) {
-    auto const areas = renderer_->interior_projected_sunlit_areas(sun_, window, interiors);
-    kept.assign(areas.begin(), areas.end());
-    keep_largest(kept, max_back_surfaces);
+    kept = renderer_->interior_sunlit_areas(sun_, window, interiors);
   }
-  return kept;
+  std::vector<float> areas;
+  areas.reserve(kept.size());
+  for (auto const& sunlit : kept) {
+    areas.push_back(static_cast<float>(sunlit.at(optics_.factors())));
+  }
+  keep_largest(areas, max_back_surfaces);
+  return areas;
 }
 
 void Session::finish() {
   if (finished_ || !renderer_) return;
   finished_ = true;
   auto const& device = renderer_->device();
-  auto const& did = renderer_->statistics();
+  auto const did = sum(earlier_, renderer_->statistics());
   messages_.remark(fmt::format(
       "shading rendered by {} ({}), {} x {} pixels: {} receivers, {} casters, {} directions, {} "
       "views drawn, {} clear, {:.2f} s",
       device.renderer, device.version, model_.options.resolution, model_.options.resolution,
       receivers_.size(), surfaces_, did.directions, did.receivers_drawn, did.receivers_clear,
       did.seconds));
-  if (model_.options.report) write_report(*model_.options.report, *renderer_, receivers_, answers_);
+  if (model_.options.report)
+    write_report(*model_.options.report, *renderer_, receivers_, answers_, optics_.factors());
 }
 
 }  // namespace gpu_shading::energyplus

@@ -9,6 +9,8 @@
 #include "gpu_shading/renderer.h"
 #include "input/model_reader.h"
 #include "session/answers.h"
+#include "session/schedules.h"
+#include "session/shade_optics.h"
 
 namespace gpu_shading::energyplus {
 
@@ -42,9 +44,11 @@ class Session {
   // Ids of the model's shading surfaces, in order. Before start().
   std::vector<SurfaceId> shading_surfaces() const;
 
-  // All surfaces are there: opens the device.
-  void start(Messages messages);
+  // All surfaces are there: reads what they let through and opens the device.
+  void start(Messages messages, Schedules schedules);
 
+  // The time whose transmittance schedules count from here on.
+  void set_time(Moment moment);
   void set_sun(SunDirection sun) { sun_ = sun; }
 
   // m2 normal to the beam. The first call for a direction renders for every receiver that was asked
@@ -63,12 +67,16 @@ class Session {
   void render(Answers::Direction& direction, SurfaceId asked);
   void describe_surfaces();
   void add_walls_without_openings();
+  void open_renderer();
+  void check_device() const;
 
   Model model_;
   Messages messages_;
-  Scene scene_;
+  Scene scene_;  // as EnergyPlus gave it; the renderer's has optics as well
+  ShadeOptics optics_;
   std::size_t surfaces_ = 0;
   std::optional<Renderer> renderer_;
+  RendererStatistics earlier_;        // of renderers before it
   std::vector<bool> wanted_;          // by surface: whether its own fraction has a use
   std::vector<SurfaceId> receivers_;  // asked for so far
   std::vector<bool> is_receiver_;

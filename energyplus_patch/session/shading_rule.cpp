@@ -25,11 +25,11 @@ std::string value_or_blank(Map const& map, std::string const& key) {
 // What the rule needs of each surface.
 struct Place {
   std::string name;
-  std::string window;       // that this is a reveal of, or ""
-  std::string base;         // the base surface that it lies in; itself for a base surface
-  std::string zone;         // "" for shading surfaces
-  bool closed = false;      // a wall's copy without openings
-  bool open = false;        // a wall that has such a copy
+  std::string window;   // that this is a reveal of, or ""
+  std::string base;     // the base surface that it lies in; itself for a base surface
+  std::string zone;     // "" for shading surfaces
+  bool closed = false;  // a wall's copy without openings
+  bool open = false;    // a wall that has such a copy
 };
 
 Place find_place(ShadingInput const& input, std::set<std::string_view> const& names,

@@ -26,7 +26,7 @@ struct Said {
 };
 
 Model model_of(std::string const& idf, Mode mode = Mode::automatic) {
-  Model model{read_idf(idf), {}, {}};
+  Model model{read_idf(idf), {}, {}, {}};
   model.shading = read_shading_input(model.objects);
   model.options.mode = mode;
   return model;
@@ -36,23 +36,32 @@ Polygon rectangle(glm::dvec3 const& corner, glm::dvec3 const& a, glm::dvec3 cons
   return {{corner, corner + a, corner + a + b, corner + b}, {}};
 }
 
+Surface surface_of(std::string name, Polygon polygon) {
+  Surface surface;
+  surface.name = std::move(name);
+  surface.polygon = std::move(polygon);
+  return surface;
+}
+
 SunDirection const zenith{};
 
 TEST(Session, NoMoreBackSurfacesAreLitThanEnergyPlusHasRoomFor) {
   // A skylight of 3 x 1 m over a floor of 30 strips, each a little wider than the one before.
   constexpr std::size_t strips = 30;
   Session session(model_of(""));
-  auto const skylight = session.add({"SKYLIGHT", rectangle({0, 0, 3}, {3, 0, 0}, {0, 1, 0})});
+  auto const skylight =
+      session.add(surface_of("SKYLIGHT", rectangle({0, 0, 3}, {3, 0, 0}, {0, 1, 0})));
   std::vector<SurfaceId> floor;
   double x = 0.0;
   for (std::size_t i = 0; i < strips; ++i) {
     double const width = 0.05 + 0.1 / 29.0 * static_cast<double>(i);
-    floor.push_back(session.add({"STRIP", rectangle({x, 0, 0}, {0, 1, 0}, {width, 0, 0})}));
+    floor.push_back(
+        session.add(surface_of("STRIP", rectangle({x, 0, 0}, {0, 1, 0}, {width, 0, 0}))));
     x += width;
   }
   ASSERT_NEAR(x, 3.0, 1e-9);
   Said said;
-  session.start(said.messages());
+  session.start(said.messages(), {});
   session.set_sun(zenith);
   auto const areas = session.interior_areas(skylight, floor);
   ASSERT_EQ(areas.size(), strips);
@@ -63,13 +72,14 @@ TEST(Session, NoMoreBackSurfacesAreLitThanEnergyPlusHasRoomFor) {
 }
 
 TEST(Session, ShadingSurfaceNobodyAsksAfterCostsNothing) {
-  Session session(model_of("Shading:Site:Detailed,Plate;Shading:Site:Detailed,Named;"
-                           "Output:Variable,Named,Surface Outside Face Sunlit Fraction;"));
-  auto const plate = session.add({"PLATE", rectangle({0, 0, 1}, {2, 0, 0}, {0, 2, 0})});
-  auto const named = session.add({"NAMED", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})});
-  session.add({"ROOF", rectangle({0, 0, 2}, {1, 0, 0}, {0, 2, 0})});
+  Session session(
+      model_of("Shading:Site:Detailed,Plate;Shading:Site:Detailed,Named;"
+               "Output:Variable,Named,Surface Outside Face Sunlit Fraction;"));
+  auto const plate = session.add(surface_of("PLATE", rectangle({0, 0, 1}, {2, 0, 0}, {0, 2, 0})));
+  auto const named = session.add(surface_of("NAMED", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
+  session.add(surface_of("ROOF", rectangle({0, 0, 2}, {1, 0, 0}, {0, 2, 0})));
   Said said;
-  session.start(said.messages());
+  session.start(said.messages(), {});
   session.set_sun({0.0, std::asin(0.5)});
   EXPECT_NEAR(session.projected_sunlit_area(plate), 4.0 * 0.5, 1e-6);
   session.set_sun(zenith);
@@ -78,10 +88,10 @@ TEST(Session, ShadingSurfaceNobodyAsksAfterCostsNothing) {
 
 TEST(Session, SameDirectionIsRenderedOnce) {
   Session session(model_of(""));
-  auto const floor = session.add({"FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})});
-  session.add({"PLATE", rectangle({0, 0, 1}, {1, 0, 0}, {0, 2, 0})});
+  auto const floor = session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
+  session.add(surface_of("PLATE", rectangle({0, 0, 1}, {1, 0, 0}, {0, 2, 0})));
   Said said;
-  session.start(said.messages());
+  session.start(said.messages(), {});
   for (int day = 0; day < 5; ++day) {
     session.set_sun(zenith);
     EXPECT_NEAR(session.projected_sunlit_area(floor), 2.0, 5e-3);
@@ -100,13 +110,15 @@ TEST(Session, ReportHoldsEveryAnswerAndPictures) {
   auto model = model_of("");
   model.options.report = folder;
   Session session(std::move(model));
-  auto const floor = session.add({"FLOOR, \"A\"", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})});
-  session.add({"PLATE", rectangle({0, 0, 1}, {1, 0, 0}, {0, 2, 0})});
+  auto const floor =
+      session.add(surface_of("FLOOR, \"A\"", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
+  session.add(surface_of("PLATE", rectangle({0, 0, 1}, {1, 0, 0}, {0, 2, 0})));
   Said said;
-  session.start(said.messages());
+  session.start(said.messages(), {});
   session.set_sun(zenith);
   session.projected_sunlit_area(floor);
-  // The pictures' library lies beside the module, not beside this test; the table comes before them.
+  // The pictures' library lies beside the module, not beside this test; the table comes before
+  // them.
   EXPECT_THROW(session.finish(), Error);
   std::ifstream table(folder / "sunlit.csv");
   std::string header;
@@ -121,29 +133,29 @@ TEST(Session, ReportThatCannotBeWrittenIsSaidAtTheStart) {
   auto model = model_of("");
   model.options.report = "/proc/nothing/here";
   Session session(std::move(model));
-  session.add({"FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})});
+  session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
   Said said;
-  EXPECT_THROW(session.start(said.messages()), Error);
+  EXPECT_THROW(session.start(said.messages(), {}), Error);
 }
 
 TEST(Session, SoftwareIsWarnedOfAndRefusedWhereAGpuIsRequired) {
   Said said;
   Session session(model_of(""));
-  session.add({"FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})});
-  session.start(said.messages());
+  session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
+  session.start(said.messages(), {});
   if (said.warnings.empty()) GTEST_SKIP() << "a GPU renders here";
   EXPECT_NE(said.warnings[0].find("no GPU can be had"), std::string::npos);
   Session strict(model_of("", Mode::require));
-  strict.add({"FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})});
-  EXPECT_THROW(strict.start(said.messages()), DeviceError);
+  strict.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
+  EXPECT_THROW(strict.start(said.messages(), {}), DeviceError);
 }
 
 TEST(Session, QuestionsBeforeTheStartAndOfNoSurfaceAreErrors) {
   Session session(model_of(""));
-  session.add({"FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})});
+  session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
   EXPECT_THROW(session.projected_sunlit_area(0), Error);
   Said said;
-  session.start(said.messages());
+  session.start(said.messages(), {});
   EXPECT_THROW(session.projected_sunlit_area(7), Error);
 }
 

@@ -1,0 +1,87 @@
+#include "host/shading_entries.h"
+
+#include <string>
+#include <string_view>
+
+#include "host/run.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+void (*original_shadow)(State&, int, int) = nullptr;
+void (*original_sky_shading)(State&) = nullptr;
+void (*original_process_shadowing_input)(State&) = nullptr;
+ShowFunction* original_show_severe = nullptr;
+ShowFunction* original_show_continue = nullptr;
+
+void set_time(Moment moment) {
+  if (auto* const session = this_run().session) guarded([&] { session->set_time(moment); });
+}
+
+void shadow(State& state, int hour, int timestep) {
+  set_time({hour, timestep});
+  original_shadow(state, hour, timestep);
+}
+
+// Shadows of the sky for the whole simulation; its call of SHADOW is compiled in line.
+void sky_shading(State& state) {
+  set_time({});
+  original_sky_shading(state);
+}
+
+// EnergyPlus says there of its own pixel counting that shades are opaque to it.
+struct Silence {
+  bool allowed = false;  // within the function that says so, in a run that we shade
+  bool active = false;   // the message has begun
+};
+
+Silence& silence() {
+  thread_local Silence instance;
+  return instance;
+}
+
+void process_shadowing_input(State& state) {
+  auto const& model = this_run().model;
+  silence() = {model && model->options.mode != Mode::off, false};
+  original_process_shadowing_input(state);
+  silence() = {};
+}
+
+void show_severe(State& state, std::string const& message, OtherFile first, OtherFile second) {
+  constexpr std::string_view start =
+      "The Shading Calculation Method of choice is \"PixelCounting\"";
+  silence().active = silence().allowed && message.starts_with(start);
+  if (!silence().active) original_show_severe(state, message, first, second);
+}
+
+void show_continue(State& state, std::string const& message, OtherFile first, OtherFile second) {
+  if (!silence().active) original_show_continue(state, message, first, second);
+}
+
+template <typename Function>
+Entry watch(char const* name, Function* ours, Function** original) {
+  return {name, reinterpret_cast<void*>(ours), reinterpret_cast<void**>(original)};
+}
+
+}  // namespace
+
+std::vector<Entry> shading_entries() {
+  return {
+      watch("_ZN10EnergyPlus12SolarShading6SHADOWERNS_14EnergyPlusDataEii", &shadow,
+            &original_shadow),
+      watch("_ZN10EnergyPlus12SolarShading18SkyDifSolarShadingERNS_14EnergyPlusDataE", &sky_shading,
+            &original_sky_shading),
+      watch("_ZN10EnergyPlus12SolarShading21processShadowingInputERNS_14EnergyPlusDataE",
+            &process_shadowing_input, &original_process_shadowing_input),
+      watch("_ZN10EnergyPlus15ShowSevereErrorERNS_14EnergyPlusDataERKNSt7__cxx1112basic_"
+            "stringIcSt11char_traitsIcESaIcEEESt8optionalISt17reference_wrapperINS_"
+            "15InputOutputFileEEESE_",
+            &show_severe, &original_show_severe),
+      watch("_ZN10EnergyPlus17ShowContinueErrorERNS_14EnergyPlusDataERKNSt7__cxx1112basic_"
+            "stringIcSt11char_traitsIcESaIcEEESt8optionalISt17reference_wrapperINS_"
+            "15InputOutputFileEEESE_",
+            &show_continue, &original_show_continue),
+  };
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,95 @@
+#include "input/glazing_construction.h"
+
+#include <fmt/format.h>
+
+#include "gpu_shading/error.h"
+#include "input/number.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+InputObject const* find(std::vector<InputObject> const& objects, std::string_view type_prefix,
+                        std::string const& name) {
+  for (auto const& object : objects) {
+    if (std::string_view(object.type).starts_with(type_prefix) && same_name(object.name, name)) {
+      return &object;
+    }
+  }
+  return nullptr;
+}
+
+double number(InputObject const& object, std::string const& field, std::string_view title,
+              double low, double high) {
+  auto const value = parse_number(object[field]);
+  if (!value || *value < low || *value > high) {
+    throw Error(fmt::format("{} {}: {} is \"{}\", expected {} to {}", object.type, object.name,
+                            title, object[field], low, high));
+  }
+  return *value;
+}
+
+// Adds what a layer lets through to the panes; gases let everything through.
+void add_layer(InputObject const& material, std::vector<GlassLayer>& panes, double& dirt,
+               std::vector<std::string>& warnings) {
+  if (!same_name(material["optical_data_type"], "SpectralAverage")) {
+    throw Error(
+        fmt::format("{} {}: Optical Data Type is \"{}\": only SpectralAverage can be used for a "
+                    "shade; give its "
+                    "angular transmittance as a table",
+                    material.type, material.name, material["optical_data_type"]));
+  }
+  auto const& field = [&](std::string const& name, std::string_view title) {
+    return number(material, name, title, 0.0, 1.0);
+  };
+  panes.push_back(
+      {field("solar_transmittance_at_normal_incidence", "Solar Transmittance at Normal Incidence"),
+       field("front_side_solar_reflectance_at_normal_incidence",
+             "Front Side Solar Reflectance at Normal Incidence"),
+       field("back_side_solar_reflectance_at_normal_incidence",
+             "Back Side Solar Reflectance at Normal Incidence")});
+  std::string const dirt_field = "dirt_correction_factor_for_solar_and_visible_transmittance";
+  if (!material[dirt_field].empty()) {
+    dirt *= field(dirt_field, "Dirt Correction Factor for Solar and Visible Transmittance");
+  }
+  if (same_name(material["solar_diffusing"], "Yes")) {
+    warnings.push_back(
+        fmt::format("{} {}: Solar Diffusing is Yes: as a shade it passes its beam undeviated, "
+                    "scattering is not "
+                    "modelled",
+                    material.type, material.name));
+  }
+}
+
+}  // namespace
+
+Transmittance construction_transmittance(std::vector<InputObject> const& objects,
+                                         std::string const& name,
+                                         std::vector<std::string>& warnings) {
+  auto const* const construction = find(objects, "Construction", name);
+  if (construction == nullptr) throw Error(fmt::format("there is no Construction \"{}\"", name));
+  std::vector<GlassLayer> panes;
+  double dirt = 1.0;
+  for (auto const& layer : construction->list) {
+    if (layer.empty()) continue;
+    auto const* const material = find(objects, "WindowMaterial:", layer);
+    if (material == nullptr) {
+      throw Error(fmt::format(
+          "Construction {}: layer \"{}\" cannot be used for a shade, expected "
+          "WindowMaterial:Glazing, WindowMaterial:Gas or WindowMaterial:SimpleGlazingSystem",
+          construction->name, layer));
+    }
+    if (material->type == "WindowMaterial:SimpleGlazingSystem") {
+      return Transmittance::glazing(
+          SimpleGlazing{number(*material, "u_factor", "U-Factor", 1e-6, 7.0),
+                        number(*material, "solar_heat_gain_coefficient",
+                               "Solar Heat Gain Coefficient", 1e-6, 0.999999)});
+    }
+    if (material->type == "WindowMaterial:Glazing") add_layer(*material, panes, dirt, warnings);
+  }
+  if (panes.empty()) {
+    throw Error(fmt::format("Construction {}: has no glazing layer", construction->name));
+  }
+  return Transmittance::product(Transmittance::glazing(panes), dirt);
+}
+
+}  // namespace gpu_shading::energyplus

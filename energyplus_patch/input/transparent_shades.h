@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gpu_shading/transmittance.h"
+#include "input/input_object.h"
+#include "input/shading_input.h"
+
+namespace gpu_shading::energyplus {
+
+// What GPUShading:TransparentShade says of a surface.
+struct TransparentShade {
+  std::string object;       // its name
+  std::string description;  // of the model, e.g. "construction Double Clear"
+  std::shared_ptr<Transmittance const> transmittance;
+};
+
+struct TransparentShades {
+  std::map<std::string, TransparentShade> by_surface;  // upper-case names
+  std::vector<std::string> warnings;
+};
+
+// Reads every GPUShading:TransparentShade of a model. `folder`: where relative file names start.
+// Throws Error, naming object, field and value: a pattern that matches no shading surface, a
+// surface named twice, a model that cannot be understood or leaves 0 .. 1, a construction or
+// material that cannot be used.
+TransparentShades read_transparent_shades(std::vector<InputObject> const& objects,
+                                          ShadingInput const& input,
+                                          std::filesystem::path const& folder);
+
+}  // namespace gpu_shading::energyplus

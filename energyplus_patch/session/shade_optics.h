@@ -1,0 +1,53 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gpu_shading/scene.h"
+#include "input/model_reader.h"
+#include "session/schedules.h"
+
+namespace gpu_shading::energyplus {
+
+// What shading surfaces let through: GPUShading:TransparentShade times the surface's own
+// Transmittance Schedule. A schedule of one value all the simulation long is taken for a number, so
+// that the renderer has less to keep apart; where an EMS or a program overrides it all the same, it
+// becomes a factor.
+class ShadeOptics {
+ public:
+  ShadeOptics() = default;
+  // Throws Error where EnergyPlus lacks a schedule.
+  ShadeOptics(Model const& model, Schedules schedules);
+
+  // Sets a surface's casting, transmittance and schedule.
+  void apply(Surface& surface) const;
+
+  // Reads the schedules. True where one that was taken for a number has another value: optics have
+  // to be applied anew.
+  bool update(Moment moment);
+
+  // By the numbers that apply() gives out.
+  std::vector<double> const& factors() const { return factors_; }
+
+ private:
+  struct Schedule {
+    std::optional<double> held;  // the number it is taken for
+    int factor = -1;             // else
+  };
+
+  void make_factor(std::string const& name, Schedule& schedule);
+
+  Model const* model_ = nullptr;
+  Schedules schedules_;
+  std::map<std::string, Schedule> by_name_;
+  std::vector<std::string> factor_names_;
+  std::vector<double> factors_;
+};
+
+// "transparent (construction Double)", "opaque", ...: for listings.
+std::string describe_optics(Model const& model, std::string const& surface);
+
+}  // namespace gpu_shading::energyplus
