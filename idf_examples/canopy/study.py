@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""Runs the canopy's variants for a year and prints what reaches each room, as Markdown.
+
+    study.py [-o DIR]
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parents[1] / "scripts")]
+
+import generate  # noqa: E402
+from shading_runs import energyplus, results  # noqa: E402
+
+WEATHER = "USA_CO_Golden-NREL.724666_TMY3.epw"
+VARIANTS = {
+    "no canopy": None,
+    "single glass, in the surface": ("single", 0),
+    "single glass, panes turned 20 degrees": ("single", 20),
+    "single glass, panes turned 90 degrees": ("single", 90),
+    "triple glass, in the surface": ("triple", 0),
+    "triple glass, panes turned 20 degrees": ("triple", 20),
+}
+
+
+def text_of(variant):
+    if variant is None:
+        # Neither panes nor what is said of them.
+        head = "".join(generate.model()).split("\nShading:Building:Detailed")[0]
+        return head.replace("GPUShading:TransparentShade,Canopy,Canopy *,Construction,Canopy Glass;\n", "")
+    return "".join(generate.model(*variant))
+
+
+def run(name, variant, folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / "canopy.idf"
+    path.write_text(text_of(variant))
+    done = energyplus.run(energyplus.patched_prefix() / "energyplus", path, energyplus.find_weather(WEATHER),
+                          folder / "run", ["--gpu-shading"])
+    if not done.completed:
+        sys.exit(f"{name}: {done.why()}")
+    values = results.Results(done.folder, "Monthly")
+    rooms = {}
+    for window in values.receivers:
+        for room in generate.ROOMS:
+            if window.startswith(room.upper()) and values.receivers[window].kind == "Window":
+                beam, total = rooms.get(room, (0.0, 0.0))
+                rooms[room] = (beam + values.total(results.BEAM, window), total + values.total(results.SOLAR, window))
+    return rooms, done.seconds
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Compares glass canopies by the sun in the rooms below.")
+    parser.add_argument("-o", "--output", type=Path, default=Path("out/canopy"), metavar="DIR", help="for the runs")
+    arguments = parser.parse_args()
+    print("| canopy | west room, beam kWh | all kWh | east room, beam kWh | all kWh | of no canopy | seconds |")
+    print("|---|---:|---:|---:|---:|---:|---:|")
+    whole = None
+    for number, (name, variant) in enumerate(VARIANTS.items()):
+        rooms, seconds = run(name, variant, arguments.output / str(number))
+        total = sum(all_ for _, all_ in rooms.values())
+        whole = whole or total
+        cells = " | ".join(f"{value:,.0f}" for room in generate.ROOMS for value in rooms[room])
+        print(f"| {name} | {cells} | {100 * total / whole:.1f} % | {seconds:.1f} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
