@@ -58,9 +58,9 @@ void read_shading_surface(InputObject const& object, ShadingInput& input) {
                                              upper(object["transmittance_schedule_name"])};
   auto const name = upper(object.name);
   if (object.type.starts_with("Shading:Fin")) {
-    // EnergyPlus makes two surfaces of one object.
-    input.shading_surfaces[name + " LEFT"] = surface;
-    input.shading_surfaces[name + " RIGHT"] = surface;
+    // EnergyPlus makes two surfaces of one object, and names them so.
+    input.shading_surfaces[name + " Left"] = surface;
+    input.shading_surfaces[name + " Right"] = surface;
   } else {
     input.shading_surfaces[name] = surface;
   }
@@ -112,7 +112,7 @@ ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
   }
   if (input.reflections) input.all_shading_wanted = true;
   for (auto const& [name, surface] : input.shading_surfaces) {
-    if (named.contains(name)) input.wanted_shading.insert(name);
+    if (named.contains(upper(name))) input.wanted_shading.insert(name);
   }
   return input;
 }

@@ -13,7 +13,7 @@
 namespace gpu_shading::energyplus {
 
 // What the shading calculation must know of a model beyond the polygons that EnergyPlus hands over.
-// Names are upper case throughout, as EnergyPlus has them.
+// Names are upper case, as EnergyPlus has them, but for the ends of those that it makes itself.
 struct ShadingInput {
   struct ShadingSurface {
     std::string type;

@@ -19,7 +19,7 @@ using Path = std::filesystem::path;
 Path own_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path(); }
 
 Path find_launcher() {
-  auto const launcher = own_folder() / "energyplus";
+  auto launcher = own_folder() / "energyplus";
   if (!std::filesystem::exists(own_folder() / "Energy+.idd")) {
     throw Error(
         fmt::format("{}: is not a patched EnergyPlus; run the gpu_shading of a prefix made by "

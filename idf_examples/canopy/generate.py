@@ -109,9 +109,9 @@ def pane(column, row, turn):
     north = (normal[1] * east[2] - normal[2] * east[1], normal[2] * east[0] - normal[0] * east[2],
              normal[0] * east[1] - normal[1] * east[0])  # fmt: skip
     c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
-    across = [c * n + s * up for n, up in zip(north, normal)]
+    across = [c * n + s * up for n, up in zip(north, normal, strict=True)]
     half = PANE * CELL / 2
-    return [tuple(m + half * (a * e + b * n) for m, e, n in zip((x, y, z), east, across))
+    return [tuple(m + half * (a * e + b * n) for m, e, n in zip((x, y, z), east, across, strict=True))
             for a, b in ((-1, 1), (-1, -1), (1, -1), (1, 1))]  # fmt: skip
 
 

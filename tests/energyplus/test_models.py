@@ -17,17 +17,6 @@ PERCENTILE_99 = 3e-3
 BEAM = 3e-3
 BEAM_OF_LARGEST = 5e-4
 
-# Why a model is run but not compared.
-PARTLY_TRANSPARENT = "its shades have transmittance schedules above 0, which are not honoured yet"
-EXCLUDED = {
-    "SolarShadingTest.idf": PARTLY_TRANSPARENT,
-    "SolarShadingTest.epJSON": PARTLY_TRANSPARENT,
-    "SolarShadingTestGPU.idf": PARTLY_TRANSPARENT,
-    "SolarShadingTest_DisableSelfShadingGroup.idf": PARTLY_TRANSPARENT,
-    "SurfaceTest.idf": PARTLY_TRANSPARENT,
-    "ShadingSuite_South-HorVer-Trans5.idf": PARTLY_TRANSPARENT,
-}
-
 # (model, receiver): why our answer and that of polygon clipping differ there by more than the bound.
 NAMED_DIFFERENCES = {}
 
@@ -85,8 +74,6 @@ def test_agrees_with_polygon_clipping(row, official, patched, tmp_path):
     assert ours.completed, ours.why()
     assert ours.method == "PixelCounting"
     assert ours.device, "the run did not say which device rendered"
-    if name in EXCLUDED:
-        pytest.skip(f"ran, but not compared: {EXCLUDED[name]}")
     assert [message for message in ours.severe if message not in stock.severe] == []
 
     reference, answer = results.Results(stock.folder), results.Results(ours.folder)

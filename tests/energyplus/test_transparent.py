@@ -1,5 +1,7 @@
 """Transparent shades: the model's own transmittance schedules, and GPUShading:TransparentShade."""
 
+import sys
+
 import pytest
 from shading_runs import energyplus, input_file, results
 
@@ -123,7 +125,7 @@ def test_actuated_schedule_takes_effect(official, patched, box, weather, tmp_pat
     assert idle.completed, idle.why()
     window = next(name for name, receiver in answer.receivers.items() if receiver.kind == "Window")
     by_itself = results.Results(idle.folder).values[results.SUNLIT][window]
-    assert max(abs(a - b) for a, b in zip(answer.values[results.SUNLIT][window], by_itself)) > 0.1
+    assert max(abs(a - b) for a, b in zip(answer.values[results.SUNLIT][window], by_itself, strict=True)) > 0.1
 
 
 def test_side_file_holds_shades(patched, box, weather, tmp_path):
@@ -146,3 +148,29 @@ def test_bad_shade_stops_before_energyplus_starts(patched, box, weather, tmp_pat
     assert run.status == 1
     assert "GPUShading:TransparentShade Glass: Surface Name is \"tree *\"" in run.errors
     assert not run.text("eplusout.err")
+
+
+def test_canopy_of_many_panes_dims_by_its_glass(patched, weather, tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(str(energyplus.REPOSITORY / "idf_examples" / "canopy"))
+    monkeypatch.delitem(sys.modules, "generate", raising=False)
+    import generate
+
+    def skylights(glass):
+        text = "".join(generate.model(glass))
+        run = energyplus.run(patched, write(text, tmp_path / f"{glass}.idf"), weather, tmp_path / glass,
+                             ["--gpu-shading", "-D"])
+        assert run.completed, run.why()
+        assert run.severe == []
+        panes_listed = run.text("eplusout.eio").count("GPU Shading Surface,CANOPY ")
+        assert panes_listed == generate.COLUMNS * generate.ROWS
+        answer = results.Results(run.folder)
+        noon = 11  # the hour before it
+        return {name: answer.values[results.SUNLIT][name][noon] for name in answer.receivers if "SKYLIGHT" in name}
+
+    monkeypatch.delitem(sys.modules, "generate", raising=False)
+    single, triple = skylights("single"), skylights("triple")
+    assert len(single) == 2
+    for name in single:
+        # At noon the canopy covers a skylight whole, but for the gaps.
+        assert 0.60 < single[name] < 0.75
+        assert 0.25 < triple[name] < 0.40

@@ -18,7 +18,7 @@ TEST(ShadingInput, ShadingSurfacesGetTheNamesThatEnergyPlusGivesThem) {
       "Shading:Fin,Blade,W 1;");
   ASSERT_EQ(input.shading_surfaces.size(), 4U);
   EXPECT_EQ(input.shading_surfaces.at("TREE").transmittance_schedule, "LEAVES");
-  for (auto const* name : {"HOOD", "BLADE LEFT", "BLADE RIGHT"}) {
+  for (auto const* name : {"HOOD", "BLADE Left", "BLADE Right"}) {
     EXPECT_TRUE(input.shading_surfaces.contains(name)) << name;
   }
 }
