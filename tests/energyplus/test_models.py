@@ -25,7 +25,12 @@ SHORT_RUN_PERIODS = {"10x_incr_100zones1win10overhangsFullExIn.idf": (4, 20, 4, 
 RUN_PERIOD_FIELDS = ((1, "begin_month"), (2, "begin_day_of_month"), (4, "end_month"), (5, "end_day_of_month"))
 
 
-def index():
+# Models compared in Timestep frequency as well.
+EVERY_TIMESTEP = ("4ZoneWithShading_Simple_2.idf", "SurfaceTest.idf", "RefBldgSmallOfficeNew2004_Chicago.idf")
+FREQUENCY_METHOD = (1, "shading_calculation_update_frequency_method")
+
+
+def index(only=None):
     """The rows of INDEX.tsv, or one that is skipped with the reason."""
     table = MODELS / "INDEX.tsv"
     if not table.is_file():
@@ -35,7 +40,8 @@ def index():
         rows = [(row + [""] * 4)[:4] for row in csv.reader(file, delimiter="\t") if row]
     # The same models again as epJSON, where they are.
     rows += [[f"{Path(row[0]).stem}.epJSON", *row[1:]] for row in rows]
-    return [pytest.param(row, id=row[0]) for row in rows if (MODELS / row[0]).is_file()]
+    return [pytest.param(row, id=row[0]) for row in rows
+            if (MODELS / row[0]).is_file() and (only is None or row[0] in only)]
 
 
 def prepare(model, name):
@@ -55,8 +61,8 @@ def offenders(found, model_name):
     return "\n".join(lines)
 
 
-@pytest.mark.parametrize("row", index())
-def test_agrees_with_polygon_clipping(row, official, patched, tmp_path):
+def run_both(row, official, patched, folder, every_timestep=False):
+    """A model under both methods: the runs of polygon clipping and of ours."""
     name, weather_name, period, flags = row
     weather = energyplus.find_weather(weather_name)
     options = flags.split() + (["-D"] if period == "dd" else [])
@@ -64,18 +70,24 @@ def test_agrees_with_polygon_clipping(row, official, patched, tmp_path):
     prepare(model, name)
     stock_model = model.copy()
     stock_model.set_field("ShadowCalculation", input_file.SHADOW_METHOD, "PolygonClipping")
+    ours_options = ["--gpu-shading", f"--gpu-shading-resolution={RESOLUTION}", *options]
+    if every_timestep:
+        stock_model.set_field("ShadowCalculation", FREQUENCY_METHOD, "Timestep")
+        ours_options.append("--gpu-shading-update=timestep")
 
-    stock = energyplus.run(official, input_file.place_copy(stock_model, MODELS / name, tmp_path / "stock_input"),
-                           weather, tmp_path / "stock", options)
-    ours = energyplus.run(patched, input_file.place_copy(model, MODELS / name, tmp_path / "input"), weather,
-                          tmp_path / "ours",
-                          ["--gpu-shading", f"--gpu-shading-resolution={RESOLUTION}", *options])
+    stock = energyplus.run(official, input_file.place_copy(stock_model, MODELS / name, folder / "stock_input"),
+                           weather, folder / "stock", options)
+    ours = energyplus.run(patched, input_file.place_copy(model, MODELS / name, folder / "input"), weather,
+                          folder / "ours", ours_options)
     assert stock.completed, stock.why()
     assert ours.completed, ours.why()
     assert ours.method == "PixelCounting"
     assert ours.device, "the run did not say which device rendered"
     assert [message for message in ours.severe if message not in stock.severe] == []
+    return stock, ours
 
+
+def assert_agree(name, stock, ours):
     reference, answer = results.Results(stock.folder), results.Results(ours.folder)
     found = [each for each in results.differences(reference, answer)
              if (name, each.receiver.name) not in NAMED_DIFFERENCES]
@@ -92,6 +104,18 @@ def test_agrees_with_polygon_clipping(row, official, patched, tmp_path):
                  if (name, window) not in NAMED_DIFFERENCES
                  and abs(answer.total(results.BEAM, window) - beam) > max(BEAM * beam, bound)}
     assert differing == {}, "transmitted beam in kWh, polygon clipping and ours"
+
+
+@pytest.mark.parametrize("row", index())
+def test_agrees_with_polygon_clipping(row, official, patched, tmp_path):
+    assert_agree(row[0], *run_both(row, official, patched, tmp_path))
+
+
+@pytest.mark.parametrize("row", index(only=EVERY_TIMESTEP))
+def test_agrees_at_every_timestep(row, official, patched, tmp_path):
+    stock, ours = run_both(row, official, patched, tmp_path, every_timestep=True)
+    assert ",Timestep," in ours.text("eplusout.eio")
+    assert_agree(row[0], stock, ours)
 
 
 @pytest.mark.parametrize("options", [["-D"], []], ids=["design day", "year"])
