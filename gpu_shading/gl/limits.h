@@ -11,6 +11,7 @@ struct Limits {
   std::string version;
   int max_target_size = 0;           // pixels a side of a framebuffer
   int uniform_offset_alignment = 1;  // bytes
+  int vertex_storage_blocks = 0;     // OpenGL promises none
 };
 
 Limits query_limits();

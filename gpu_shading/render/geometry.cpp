@@ -50,7 +50,11 @@ Geometry::Geometry(Scene const& scene) : scene_origin_(some_point(scene)) {
   surface_program_ = gl::Program::link("surfaces", shaders::slide_vert, shaders::nothing_frag);
   tile_program_ = gl::Program::link("tiles", shaders::tile_vert, shaders::nothing_frag);
 
-  shade_program_ = gl::Program::link("shades", shaders::transmit_vert, shaders::transmit_frag);
+  // Opaque scenes need none of it.
+  constexpr int shade_blocks = 2;
+  if (gl::query_limits().vertex_storage_blocks >= shade_blocks) {
+    shade_program_ = gl::Program::link("shades", shaders::transmit_vert, shaders::transmit_frag);
+  }
   coloured_tile_program_ =
       gl::Program::link("coloured tiles", shaders::tile_vert, shaders::plain_frag);
 
@@ -111,6 +115,11 @@ void Geometry::use_tiles() const {
 void Geometry::use_shades(std::int32_t first_key) {
   constexpr std::uint32_t shades_binding = 0;
   constexpr std::uint32_t keys_binding = 1;
+  if (shade_program_.empty()) {
+    throw DeviceError(
+        "the device has no storage buffers in its vertex stage, which transparent shades need; "
+        "choose another (gpu_shading devices), or software");
+  }
   shade_program_.set(0, first_key);
   shade_program_.use();
   surfaces_.bind();
