@@ -37,8 +37,7 @@ static void* run(void* argument) {
   char const* arguments[] = {"host", "-D", "-w", job->weather, "-d", job->folder, job->model};
   State const state = new_state();
   set_root(state, job->prefix);
-  job->status = energyplus(state, (int)(sizeof arguments / sizeof *arguments),
-                           arguments);
+  job->status = energyplus(state, (int)(sizeof arguments / sizeof *arguments), arguments);
   return NULL;
 }
 
