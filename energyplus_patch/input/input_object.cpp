@@ -86,6 +86,7 @@ std::vector<ObjectType> const& known_types() {
       {"DaylightingDevice:Shelf",
        {"name", "window_name", "inside_shelf_name", "outside_shelf_name"}},
       {"Output:Variable", {"key_value", "variable_name"}},
+      {"EnergyManagementSystem:Actuator", {"name", "actuated_component_unique_name"}},
       {"EnergyManagementSystem:Sensor",
        {"name", "output_variable_or_output_meter_index_key_name",
         "output_variable_or_output_meter_name"}},

@@ -44,6 +44,8 @@ void read_shadow_calculation(InputObject const& object, ShadingInput& input) {
     }
     input.pixel_counting_resolution = static_cast<int>(*value);
   }
+  input.every_timestep =
+      same_name(object["shading_calculation_update_frequency_method"], "Timestep");
   input.disable_within_groups = yes(object, "disable_self_shading_within_shading_zone_groups");
   input.disable_between_groups =
       yes(object, "disable_self_shading_from_shading_zone_groups_to_other_zones");
@@ -106,6 +108,8 @@ ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
       named.insert(upper(object["outside_shelf_name"]));
     } else if (object.type == "Output:Variable") {
       named.insert(upper(object["key_value"]));
+    } else if (object.type == "EnergyManagementSystem:Actuator") {
+      input.actuated.insert(upper(object["actuated_component_unique_name"]));
     } else if (object.type == "EnergyManagementSystem:Sensor") {
       named.insert(upper(object["output_variable_or_output_meter_index_key_name"]));
     }

@@ -23,6 +23,7 @@ struct ShadingInput {
   std::string version;         // of the input, e.g. "25.2"
   std::string shading_method;  // as written, or ""
   std::optional<int> pixel_counting_resolution;
+  bool every_timestep = false;  // Shading Calculation Update Frequency Method
 
   bool minimal_shadowing = false;       // Building: Solar Distribution
   bool reflections = false;             // ... WithReflections
@@ -36,6 +37,8 @@ struct ShadingInput {
   std::set<std::string> not_exterior;          // base surfaces with no outdoors outside
   std::map<std::string, ShadingSurface>
       shading_surfaces;  // by the names that EnergyPlus gives them
+
+  std::set<std::string> actuated;  // what EMS actuators name, schedules among them
 
   // Shading surfaces whose own sunlit fraction has a use: named by an output, an EMS sensor,
   // photovoltaics, a collector or a daylighting shelf; all of them with reflections or with the

@@ -89,10 +89,12 @@ void Session::open_renderer() {
   std::vector<std::string> names;
   names.reserve(scene_.size());
   Scene scene;
+  casters_ = 0;
   for (SurfaceId id = 0; id < scene_.size(); ++id) {
     auto surface = scene_[id];
     names.push_back(surface.name);
     optics_.apply(surface);
+    if (surface.casting != Casting::never) ++casters_;
     scene.add(std::move(surface));
   }
   scene.set_rule(make_shading_rule(model_.shading, names));
@@ -135,6 +137,18 @@ void Session::add_walls_without_openings() {
 
 void Session::describe_surfaces() {
   for (auto const& warning : model_.shades.warnings) messages_.warning(warning);
+  auto const& input = model_.shading;
+  auto const actuated = std::find_if(
+      input.shading_surfaces.begin(), input.shading_surfaces.end(), [&](auto const& surface) {
+        return input.actuated.contains(surface.second.transmittance_schedule);
+      });
+  if (actuated != input.shading_surfaces.end() && !input.every_timestep &&
+      !model_.options.every_timestep) {
+    messages_.warning(fmt::format(
+        "Transmittance Schedule {} is overridden by an EMS actuator, but shading is calculated for "
+        "whole periods: the value at the time counts for all of it; see --gpu-shading-update",
+        actuated->second.transmittance_schedule));
+  }
   bool first = true;
   for (auto const& [name, surface] : model_.shading.shading_surfaces) {
     auto const optics = describe_optics(model_, name);
@@ -215,11 +229,12 @@ void Session::finish() {
   finished_ = true;
   auto const& device = renderer_->device();
   auto const did = sum(earlier_, renderer_->statistics());
+  if (receivers_.empty() && did.directions == 0) return;  // ended before the first question
   messages_.remark(fmt::format(
       "shading rendered by {} ({}), {} x {} pixels: {} receivers, {} casters, {} directions, {} "
       "views drawn, {} clear, {:.2f} s",
       device.renderer, device.version, model_.options.resolution, model_.options.resolution,
-      receivers_.size(), surfaces_, did.directions, did.receivers_drawn, did.receivers_clear,
+      receivers_.size(), casters_, did.directions, did.receivers_drawn, did.receivers_clear,
       did.seconds));
   if (model_.options.report)
     write_report(*model_.options.report, *renderer_, receivers_, answers_, optics_.factors());

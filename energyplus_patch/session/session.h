@@ -75,6 +75,7 @@ class Session {
   Scene scene_;  // as EnergyPlus gave it; the renderer's has optics as well
   ShadeOptics optics_;
   std::size_t surfaces_ = 0;
+  std::size_t casters_ = 0;
   std::optional<Renderer> renderer_;
   RendererStatistics earlier_;        // of renderers before it
   std::vector<bool> wanted_;          // by surface: whether its own fraction has a use

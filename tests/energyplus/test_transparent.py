@@ -128,6 +128,17 @@ def test_actuated_schedule_takes_effect(official, patched, box, weather, tmp_pat
     assert max(abs(a - b) for a, b in zip(answer.values[results.SUNLIT][window], by_itself, strict=True)) > 0.1
 
 
+def test_actuated_schedule_is_warned_of_once_in_periodic_frequency(patched, box, weather, tmp_path):
+    path = write(box + VARYING + panes("Leaves") + EMS, tmp_path / "model.idf")
+    run = energyplus.run(patched, path, weather, tmp_path / "run", ["--gpu-shading", "-D"])
+    assert run.completed, run.why()
+    assert run.text("eplusout.err").count("overridden by an EMS actuator") == 1
+    often = energyplus.run(patched, path, weather, tmp_path / "often",
+                           ["--gpu-shading", "--gpu-shading-update=timestep", "-D"])
+    assert often.completed, often.why()
+    assert "overridden by an EMS actuator" not in often.text("eplusout.err")
+
+
 def test_side_file_holds_shades(patched, box, weather, tmp_path):
     shade = "GPUShading:TransparentShade,Glass,pane *,Constant,0.5;\n"
     inside = energyplus.run(patched, write(box + panes("") + shade, tmp_path / "inside.idf"), weather,
