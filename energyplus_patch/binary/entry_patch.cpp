@@ -108,14 +108,13 @@ bool unchanged(std::ifstream& file, Symbol const& symbol) {
   return file && std::memcmp(code.data(), symbol.address, code.size()) == 0;
 }
 
-}  // namespace
+struct Checked {
+  Entry const* entry;
+  Symbol const* symbol;
+  RelocatedCode start;
+};
 
-void patch_entries(SymbolTable const& symbols, std::vector<Entry> const& entries) {
-  struct Checked {
-    Entry const* entry;
-    Symbol const* symbol;
-    RelocatedCode start;
-  };
+std::vector<Checked> check(SymbolTable const& symbols, std::vector<Entry> const& entries) {
   std::vector<Checked> checked;
   std::string problems;
   std::ifstream file(symbols.library(), std::ios::binary);
@@ -152,6 +151,17 @@ void patch_entries(SymbolTable const& symbols, std::vector<Entry> const& entries
     throw Error(fmt::format("{}: its shading interface cannot be taken over:{}",
                             symbols.library().string(), problems));
   }
+  return checked;
+}
+
+}  // namespace
+
+void check_entries(SymbolTable const& symbols, std::vector<Entry> const& entries) {
+  check(symbols, entries);
+}
+
+void patch_entries(SymbolTable const& symbols, std::vector<Entry> const& entries) {
+  auto const checked = check(symbols, entries);
   if (checked.empty()) return;
 
   TrampolinePage trampolines(checked.front().symbol->address);

@@ -16,6 +16,9 @@ struct Entry {
   bool needed = true;         // else left alone where the library lacks it
 };
 
+// Whether patch_entries can do its work; throws Error as it does.
+void check_entries(SymbolTable const& symbols, std::vector<Entry> const& entries);
+
 // Leads every entry to ours, or none: all of them are checked first (present, long enough,
 // unchanged in memory, its first instructions movable where the original still runs). No page is
 // writable and executable at once; nothing of the library may run meanwhile. Throws Error with a

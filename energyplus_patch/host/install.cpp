@@ -95,13 +95,14 @@ void install(char const* library, char const* options) {
   auto& installed = installation();
   if (installed.library.empty()) {
     SymbolTable const symbols(loaded.path, loaded.base);
-    EnergyPlusFunctions const functions(symbols);
-    ScheduleFunctions const schedules(symbols);
-    auto const version = read_version(loaded.path.parent_path());
     auto entries = penumbra_entries();
     for (auto const& more : {input_entries(), shading_entries()}) {
       entries.insert(entries.end(), more.begin(), more.end());
     }
+    check_entries(symbols, entries);
+    EnergyPlusFunctions const functions(symbols);
+    ScheduleFunctions const schedules(symbols);
+    auto const version = read_version(loaded.path.parent_path());
     // Before the entries change: it reads the code that calls them.
     installed.surface_ids = find_surface_ids(symbols);
     patch_entries(symbols, entries);
