@@ -16,6 +16,12 @@ struct Entry {
   bool needed = true;         // else left alone where the library lacks it
 };
 
+// An entry whose original still runs, through `original`.
+template <typename Function>
+Entry watch(char const* name, Function* ours, Function** original) {
+  return {name, reinterpret_cast<void*>(ours), reinterpret_cast<void**>(original)};
+}
+
 // Whether patch_entries can do its work; throws Error as it does.
 void check_entries(SymbolTable const& symbols, std::vector<Entry> const& entries);
 

@@ -115,11 +115,6 @@ void abort_energyplus(State& state) {
   original_abort(state);
 }
 
-template <typename Function>
-Entry watch(char const* name, Function* ours, Function** original) {
-  return {name, reinterpret_cast<void*>(ours), reinterpret_cast<void**>(original)};
-}
-
 constexpr char const* print_shading_line =
     "_ZN10EnergyPlus6vprintIJNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEES6_iiS6_jS6_S6_S6_"
     "S6_"

@@ -58,11 +58,6 @@ void show_continue(State& state, std::string const& message, OtherFile first, Ot
   if (!silence().active) original_show_continue(state, message, first, second);
 }
 
-template <typename Function>
-Entry watch(char const* name, Function* ours, Function** original) {
-  return {name, reinterpret_cast<void*>(ours), reinterpret_cast<void**>(original)};
-}
-
 }  // namespace
 
 std::vector<Entry> shading_entries() {

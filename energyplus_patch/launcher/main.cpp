@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "gpu_shading/error.h"
+#include "host/own_folder.h"
 #include "host/version.h"
 #include "input/model_reader.h"
 #include "launcher/command_line.h"
@@ -25,8 +26,6 @@ using Path = std::filesystem::path;
 
 constexpr char const* official_program = "energyplus-official";
 constexpr char const* patch_library = "libgpu_shading_energyplus.so";
-
-Path own_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path(); }
 
 [[noreturn]] void run_official(char** argv) {
   auto const program = std::filesystem::weakly_canonical(own_folder() / official_program);

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "gpu_shading/error.h"
+#include "host/own_folder.h"
 #include "host/version.h"
 #include "input/model_reader.h"
 #include "program/process.h"
@@ -15,8 +16,6 @@ namespace gpu_shading::energyplus {
 namespace {
 
 using Path = std::filesystem::path;
-
-Path own_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path(); }
 
 Path find_launcher() {
   auto launcher = own_folder() / "energyplus";
