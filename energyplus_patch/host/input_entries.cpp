@@ -71,14 +71,16 @@ void process_input(void* self, State& state) {
   original_process_input(self, state);
 }
 
-bool is_model(bool right_kind) {
+// The first file that EnergyPlus reads in a run is its model, whatever a preprocessor calls it
+// (.expidf, .epmidf); schedules and the like come later.
+bool is_model() {
   auto const& run = this_run();
-  return right_kind && run.state != nullptr && !run.model;
+  return run.state != nullptr && !run.model;
 }
 
 std::string read_file(Path const& path, std::ios_base::openmode mode) {
   auto text = original_read_file(path, mode);
-  if (!is_model(is_idf(path))) return text;
+  if (!is_model()) return text;
   return guarded([&] { return rewrite_idf(text, take_model(read_idf(text), path)); });
 }
 
@@ -86,7 +88,7 @@ std::string read_file(Path const& path, std::ios_base::openmode mode) {
 // of the members.
 nlohmann::json read_json(Path const& path, std::ios_base::openmode mode) {
   auto json = original_read_json(path, mode);
-  if (!is_model(is_epjson(path))) return json;
+  if (!is_model()) return json;
   return guarded([&] {
     rewrite_epjson(json, take_model(read_epjson(json), path));
     return std::move(json);

@@ -56,8 +56,7 @@ bool is_epjson(std::filesystem::path const& path) {
 
 bool is_idf(std::filesystem::path const& path) {
   return same_name(path.extension().string(), ".idf") ||
-         same_name(path.extension().string(), ".imf") ||
-         same_name(path.extension().string(), ".expidf");  // from ExpandObjects
+         same_name(path.extension().string(), ".imf");
 }
 
 Model understand(std::vector<InputObject> objects, std::filesystem::path const& path,

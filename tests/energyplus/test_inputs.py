@@ -57,6 +57,13 @@ def test_preprocessed_input_is_shaded_too(shade, model):
     assert sunlit(shade(model, "-x", folder="expanded")) == plain
 
 
+def test_macro_input_is_shaded_too(shade, model, tmp_path):
+    plain = sunlit(shade(model, folder="plain"))
+    macro = tmp_path / "model.imf"
+    macro.write_text("##set1 unused[] 1\n" + model.read_text())
+    assert sunlit(shade(macro, "-m", folder="macro")) == plain
+
+
 def test_output_names_do_not_matter(shade, model, tmp_path):
     run = shade(model, "-p", "model", "-s", "C")
     assert run.status == 0, run.why()
