@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/vec3.hpp>
+#include <numeric>
 #include <random>
 
 namespace gpu_shading {
@@ -14,9 +15,9 @@ TEST(ScheduleKeys, SumsSayHowOftenEachWasPassed) {
   std::mt19937 engine(7);
   for (int round = 0; round < 200; ++round) {
     int const schedules = 1 + static_cast<int>(engine() % 12U);
-    std::vector<int> shades;
-    for (int i = 0; i < 40; ++i) {
-      shades.push_back(static_cast<int>(engine() % static_cast<unsigned>(schedules)));
+    std::vector<int> shades(40);
+    for (int& shade : shades) {
+      shade = static_cast<int>(engine() % static_cast<unsigned>(schedules));
     }
     auto const keys = ScheduleKeys::make(shades, schedules);
     ASSERT_TRUE(keys);
@@ -40,8 +41,8 @@ TEST(ScheduleKeys, SumsSayHowOftenEachWasPassed) {
 }
 
 TEST(ScheduleKeys, SeventyTwoDigitsAreAsManyAsThereAre) {
-  std::vector<int> shades;
-  for (int schedule = 0; schedule < 72; ++schedule) shades.push_back(schedule);
+  std::vector<int> shades(72);
+  std::iota(shades.begin(), shades.end(), 0);
   EXPECT_TRUE(ScheduleKeys::make(shades, 72));
   shades.push_back(72);
   EXPECT_FALSE(ScheduleKeys::make(shades, 73));
