@@ -23,8 +23,10 @@ Scene canopy(Panes panes) {
   auto const glass = std::make_shared<Transmittance const>(
       Transmittance::polynomial_in_cosine({0.0, 2.4, -2.4, 0.8}));
   Scene scene;
-  for (int i = 0; i < 20; ++i) {
-    scene.add({"receiver", level(1 + 4.5 * (i % 5), 1 + 4.5 * (i / 5), 0, 4, 4)});
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 5; ++column) {
+      scene.add({"receiver", level(1 + 4.5 * column, 1 + 4.5 * row, 0, 4, 4)});
+    }
   }
   auto const node = [](int i, int j) {
     double const x = 24.0 * i / across;
