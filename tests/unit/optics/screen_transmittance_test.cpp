@@ -1,0 +1,253 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "gpu_shading/perforated_screen.h"
+#include "helpers.h"
+
+namespace gpu_shading {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double mm = 1e-3;
+
+// Hole, pitch and thickness in millimetres: thin, middling and thick sheets.
+struct Sheet {
+  double size;
+  double pitch;
+  double thickness;
+};
+void PrintTo(Sheet const& sheet, std::ostream* out) {
+  *out << sheet.size << " of " << sheet.pitch << ", " << sheet.thickness << " thick";
+}
+
+constexpr Sheet sheets[] = {{5, 8, 3}, {5, 8, 0.5}, {5, 8, 10}, {6.35, 8.5521, 6.35}, {2, 3, 1}};
+
+struct Case {
+  std::string name;
+  Hole hole;
+  Arrangement arrangement;
+};
+Case const cases[] = {
+    {"round 60", Hole::Round, Arrangement::Staggered60},
+    {"round 45", Hole::Round, Arrangement::Staggered45},
+    {"square", Hole::Square, Arrangement::Straight},
+    {"hexagonal", Hole::Hexagonal, Arrangement::Staggered60},
+};
+
+HolePattern pattern(Case const& which, Sheet const& sheet) {
+  return HolePattern({.hole = which.hole,
+                      .arrangement = which.arrangement,
+                      .size = sheet.size * mm,
+                      .pitch = sheet.pitch * mm});
+}
+
+struct Difference {
+  double mean = 0.0;
+  double largest = 0.0;
+};
+
+// From the closed form, over theta 0 .. 85 and a quarter turn of phi, which holds every symmetry,
+// at angles that tables lack.
+template <typename Model>
+Difference difference(HolePattern const& holes, double thickness, double step, Model const& model) {
+  Difference found;
+  int count = 0;
+  for (int i = 0; i * step <= 85.0; ++i) {
+    double const theta = i * step;
+    for (int j = 0; j <= 10; ++j) {
+      double const phi = 8.7 * j;
+      double const shift = thickness * std::tan(degrees(theta));
+      double const exact =
+          holes.transmittance(shift * std::cos(degrees(phi)), shift * std::sin(degrees(phi)));
+      double const error = std::abs(model(degrees(theta), degrees(phi)) - exact);
+      found.mean += error;
+      found.largest = std::max(found.largest, error);
+      ++count;
+    }
+  }
+  found.mean /= count;
+  return found;
+}
+
+void record(std::string const& what, Difference const& found) {
+  testing::Test::RecordProperty(
+      what, std::to_string(found.mean) + " mean, " + std::to_string(found.largest) + " most");
+}
+
+class Screens : public testing::TestWithParam<Sheet> {};
+
+TEST_P(Screens, OfAutoLayersAreTheClosedForm) {
+  for (Case const& which : cases) {
+    HolePattern const holes = pattern(which, GetParam());
+    OpacityTile const tile(holes, GetParam().size * mm / 64);
+    double const web = tile.web();
+    Difference const found =
+        difference(holes, GetParam().thickness * mm, 2.5, [&](double theta, double phi) {
+          double const shift = GetParam().thickness * mm * std::tan(theta);
+          int const layers = layers_for(shift, web, holes.longest_chord());
+          return layered_transmittance(tile, layers, shift, phi);
+        });
+    record(which.name, found);
+    EXPECT_LT(found.mean, 1e-3) << which.name;
+    EXPECT_LT(found.largest, 5e-3) << which.name;
+  }
+}
+
+TEST_P(Screens, TabulatedFromARasterAreTheClosedForm) {
+  for (Case const& which : cases) {
+    HolePattern const holes = pattern(which, GetParam());
+    ScreenTransmittance const table(OpacityTile(holes, GetParam().size * mm / 48),
+                                    GetParam().thickness * mm);
+    Difference const found = difference(holes, GetParam().thickness * mm, 0.5, table);
+    record(which.name, found);
+    EXPECT_LT(found.mean, 1e-3) << which.name;
+    EXPECT_LT(found.largest, 5e-3) << which.name;
+    EXPECT_NEAR(table.longest_chord() / holes.longest_chord(), 1.0, 0.04) << which.name;
+  }
+}
+
+TEST_P(Screens, TabulatedFromAPatternAreTheClosedForm) {
+  for (Case const& which : cases) {
+    HolePattern const holes = pattern(which, GetParam());
+    ScreenTransmittance const table(holes, GetParam().thickness * mm);
+    Difference const found = difference(holes, GetParam().thickness * mm, 0.3, table);
+    record(which.name, found);
+    EXPECT_LT(found.mean, 1e-4) << which.name;
+    EXPECT_LT(found.largest, 1e-3) << which.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sheets, Screens, testing::ValuesIn(sheets));
+
+TEST(ScreenTransmittance, IsTheSameForABeamAndItsReverse) {
+  HolePattern const holes({.hole = Hole::Slotted,
+                           .arrangement = Arrangement::Staggered60,
+                           .size = 4 * mm,
+                           .length = 20 * mm,
+                           .pitch = 25 * mm,
+                           .row_pitch = 7 * mm});
+  ScreenTransmittance const table(OpacityTile(holes, 0.1 * mm), 2 * mm);
+  for (int i = 0; i < 63; ++i) {
+    double const phi = 0.1 * i - pi;
+    for (double const theta : {0.3, 0.9, 1.2}) {
+      EXPECT_NEAR(table(theta, phi), table(theta, phi + pi), 1e-6);
+      double const shift = 2 * mm * std::tan(theta);
+      EXPECT_NEAR(table(theta, phi),
+                  holes.transmittance(shift * std::cos(phi), shift * std::sin(phi)), 5e-3);
+    }
+  }
+}
+
+TEST(ScreenTransmittance, IsNoneFromTheCutOff) {
+  HolePattern const holes({.size = 5 * mm, .pitch = 8 * mm});
+  ScreenTransmittance const table(holes, 5 * mm);
+  EXPECT_NEAR(table.cut_off(), degrees(45.0), 1e-12);
+  EXPECT_GT(table(degrees(44.5), 1.0), 0.0);
+  EXPECT_EQ(table(degrees(45.1), 1.0), 0.0);
+  EXPECT_EQ(table(degrees(90.0), 1.0), 0.0);
+  EXPECT_EQ(table(degrees(91.0), 1.0), 0.0);
+  EXPECT_EQ(layers_for(5 * mm, 3 * mm, 5 * mm), 0);
+}
+
+TEST(ScreenTransmittance, NeedsLayersBetweenAgainstRaysIntoTheNextHole) {
+  HolePattern const holes({.size = 5 * mm, .pitch = 8 * mm});
+  OpacityTile const tile(holes, 0.1 * mm);
+  double const shift = holes.width();
+  EXPECT_NEAR(layered_transmittance(tile, 2, shift, 0.0), holes.open_fraction(), 2e-3);
+  EXPECT_EQ(layered_transmittance(tile, 1 + 3, shift, 0.0), 0.0);
+  EXPECT_EQ(layered_transmittance(tile, 0, 0.0, 0.0), 0.0);
+}
+
+TEST(LayersFor, AreNoFartherApartThanAWeb) {
+  EXPECT_EQ(layers_for(0.0, 3 * mm, 5 * mm), 1);
+  EXPECT_EQ(layers_for(2.9 * mm, 3 * mm, 5 * mm), 2);
+  EXPECT_EQ(layers_for(4.9 * mm, 3 * mm, 5 * mm), 3);
+  EXPECT_EQ(layers_for(4.9 * mm, 0.01 * mm, 5 * mm), 64);
+  EXPECT_EQ(layers_for(4.9 * mm, 0.01 * mm, 5 * mm, 20), 20);
+}
+
+TEST(ScreenTransmittance, OfNoThicknessIsTheOpenFraction) {
+  HolePattern const holes({.size = 5 * mm, .pitch = 8 * mm});
+  ScreenTransmittance const table(holes, 0.0);
+  for (double const theta : {0.0, 45.0, 90.0}) {
+    EXPECT_NEAR(table(degrees(theta), 0.5), holes.open_fraction(), 1e-6);
+  }
+  EXPECT_EQ(error_of([&] { ScreenTransmittance(holes, -0.001); }),
+            "thickness is -0.001 m, expected 0 or more");
+}
+
+// Rows 0 to 2 of four open.
+TEST(ScreenTransmittance, OfSlatsHasNoCutOffAlongThem) {
+  std::vector<float> opacity(std::size_t{64} * 64, 0.0F);
+  std::fill(opacity.begin() + std::ptrdiff_t{48} * 64, opacity.end(), 1.0F);
+  ScreenTransmittance const table(OpacityTile(0.04, 0.04, 64, 64, opacity), 0.03);
+  EXPECT_EQ(table.longest_chord(), std::numeric_limits<double>::infinity());
+  for (double const theta : {0.0, 45.0, 80.0, 89.0})
+    EXPECT_NEAR(table(degrees(theta), 0), 0.75, 0.01);
+  EXPECT_NEAR(table(std::atan(0.5), pi / 2), 0.375, 0.01);
+  EXPECT_EQ(table(degrees(60.0), pi / 2), 0.0);
+}
+
+TEST(ScreenTransmittance, OfFractionalOpacityCountsItOnce) {
+  OpacityTile const mesh(0.01, 0.01, 8, 8, std::vector<float>(64, 0.3F), std::nullopt);
+  EXPECT_NEAR(layered_transmittance(mesh, 10, 0.02, 0.7), 0.7, 1e-6);
+  EXPECT_NEAR(ScreenTransmittance(mesh, 0.001)(1.0, 0.7), 0.7, 1e-6);
+  OpacityTile const thresholded(0.01, 0.01, 8, 8, std::vector<float>(64, 0.3F));
+  EXPECT_EQ(layered_transmittance(thresholded, 10, 0.02, 0.7), 1.0);
+}
+
+TEST(ScreenTransmittance, OfSolidAndOpenTexelsIsNoneAndAll) {
+  EXPECT_EQ(ScreenTransmittance(OpacityTile(0.01, 0.01, 1, 1, {1.0F}), 0.001)(0.0, 0.0), 0.0);
+  EXPECT_EQ(ScreenTransmittance(OpacityTile(0.01, 0.01, 1, 1, {0.0F}), 0.001)(1.0, 0.5), 1.0);
+}
+
+TEST(OpacityTile, FindsTheWebAndTheOpenFractionOfAPattern) {
+  for (Sheet const& sheet : sheets) {
+    for (Case const& which : cases) {
+      HolePattern const holes = pattern(which, sheet);
+      for (auto const threshold : {std::optional<double>(0.5), std::optional<double>()}) {
+        OpacityTile const tile(holes, sheet.size * mm / 64, threshold);
+        EXPECT_NEAR(tile.open_fraction(), holes.open_fraction(), threshold ? 8e-3 : 2e-3)
+            << which.name;
+        EXPECT_LT(tile.web(), holes.web() + tile.texel_height()) << which.name;
+        EXPECT_GT(tile.web(), 0.85 * holes.web() - tile.texel_height()) << which.name;
+      }
+    }
+  }
+}
+
+TEST(OpacityTile, HasAWebOfTwoTexelsAtLeast) {
+  std::vector<float> opacity(128, 0.0F);
+  opacity[5] = 1.0F;
+  EXPECT_DOUBLE_EQ(OpacityTile(0.016, 0.008, 16, 8, opacity).web(), 0.002);
+}
+
+TEST(OpacityTile, NamesWhatIsWrong) {
+  EXPECT_EQ(error_of([] { OpacityTile(0.0, 0.01, 1, 1, {0.0F}); }),
+            "tile width is 0 m, expected more than 0");
+  EXPECT_EQ(error_of([] { OpacityTile(0.01, -1.0, 1, 1, {0.0F}); }),
+            "tile height is -1 m, expected more than 0");
+  EXPECT_EQ(error_of([] { OpacityTile(0.01, 0.01, 2, 2, {0.0F}); }),
+            "texture has 1 texels, expected 2 x 2");
+  EXPECT_EQ(error_of([] { OpacityTile(0.01, 0.01, 1, 1, {1.5F}); }),
+            "opacity is 1.5, expected 0 to 1");
+  EXPECT_EQ(error_of([] { OpacityTile(0.01, 0.01, 1, 1, {0.0F}, 1.0); }),
+            "opacity threshold is 1, expected 0 to below 1");
+  HolePattern const holes({.size = 5 * mm, .pitch = 8 * mm});
+  EXPECT_EQ(error_of([&] { OpacityTile(holes, 0.0); }), "texel is 0 m, expected more than 0");
+  EXPECT_EQ(error_of([&] { OpacityTile(holes, 1e-9); }),
+            "texel is 1e-09 m, too small for a tile of 0.008 x 0.0138564065 m");
+}
+
+}  // namespace
+}  // namespace gpu_shading
