@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "gpu_shading/error.h"
+#include "binary/function_finder.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -17,27 +17,14 @@ std::string show_name(char const* function) {
       function);
 }
 
-template <typename Function>
-Function* find(SymbolTable const& symbols, std::string const& name, std::string& missing) {
-  Symbol const* const symbol = symbols.find(name);
-  if (symbol == nullptr) {
-    missing += fmt::format("\n  {}", name);
-    return nullptr;
-  }
-  return reinterpret_cast<Function*>(symbol->address);
-}
-
 }  // namespace
 
 EnergyPlusFunctions::EnergyPlusFunctions(SymbolTable const& symbols) {
-  std::string missing;
-  show_fatal_ = find<ShowFunction>(symbols, show_name("14ShowFatalError"), missing);
-  show_message_ = find<ShowFunction>(symbols, show_name("11ShowMessage"), missing);
-  issue_warning_ = find<void(State*, char const*)>(symbols, "issueWarning", missing);
-  if (!missing.empty()) {
-    throw Error(
-        fmt::format("{}: functions are not in this build:{}", symbols.library().string(), missing));
-  }
+  FunctionFinder finder(symbols);
+  finder.find(show_name("14ShowFatalError"), show_fatal_);
+  finder.find(show_name("11ShowMessage"), show_message_);
+  finder.find("issueWarning", issue_warning_);
+  finder.check();
 }
 
 void EnergyPlusFunctions::fatal(State& state, std::string const& message) const {

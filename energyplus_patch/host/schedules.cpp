@@ -5,34 +5,24 @@
 #include <algorithm>
 #include <memory>
 
+#include "binary/function_finder.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
 
 ScheduleFunctions::ScheduleFunctions(SymbolTable const& symbols) {
-  std::string missing;
-  auto const find = [&](char const* name, auto*& function) {
-    Symbol const* const symbol = symbols.find(name);
-    if (symbol == nullptr) {
-      missing += fmt::format("\n  {}", name);
-    } else {
-      function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(symbol->address);
-    }
-  };
-  find(
+  FunctionFinder finder(symbols);
+  finder.find(
       "_ZN10EnergyPlus5Sched11GetScheduleERNS_14EnergyPlusDataERKNSt7__cxx1112basic_"
       "stringIcSt11char_traitsIcESaIcEEE",
       get_);
-  find("_ZN10EnergyPlus5Sched12ScheduleBase9getMinValERNS_14EnergyPlusDataE", minimum_);
-  find("_ZN10EnergyPlus5Sched12ScheduleBase9getMaxValERNS_14EnergyPlusDataE", maximum_);
-  find("_ZNK10EnergyPlus5Sched16ScheduleConstant10getHrTsValERNS_14EnergyPlusDataEii",
-       constant_at_hour_);
-  find("_ZNK10EnergyPlus5Sched16ScheduleDetailed10getHrTsValERNS_14EnergyPlusDataEii",
-       detailed_at_hour_);
-  if (!missing.empty()) {
-    throw Error(
-        fmt::format("{}: functions are not in this build:{}", symbols.library().string(), missing));
-  }
+  finder.find("_ZN10EnergyPlus5Sched12ScheduleBase9getMinValERNS_14EnergyPlusDataE", minimum_);
+  finder.find("_ZN10EnergyPlus5Sched12ScheduleBase9getMaxValERNS_14EnergyPlusDataE", maximum_);
+  finder.find("_ZNK10EnergyPlus5Sched16ScheduleConstant10getHrTsValERNS_14EnergyPlusDataEii",
+              constant_at_hour_);
+  finder.find("_ZNK10EnergyPlus5Sched16ScheduleDetailed10getHrTsValERNS_14EnergyPlusDataEii",
+              detailed_at_hour_);
+  finder.check();
 }
 
 ScheduleFunctions::Schedule* ScheduleFunctions::find(State& state, std::string const& name) const {

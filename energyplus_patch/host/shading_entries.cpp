@@ -8,7 +8,7 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-void (*original_shadow)(State&, int, int) = nullptr;
+void (*original_solar_beam)(State&, int, int) = nullptr;
 void (*original_sky_shading)(State&) = nullptr;
 void (*original_process_shadowing_input)(State&) = nullptr;
 ShowFunction* original_show_severe = nullptr;
@@ -18,12 +18,13 @@ void set_time(Moment moment) {
   if (auto* const session = this_run().session) guarded([&] { session->set_time(moment); });
 }
 
-void shadow(State& state, int hour, int timestep) {
+// Shadows of the beam at a timestep and, with varying schedules, of every patch of the sky.
+void solar_beam(State& state, int hour, int timestep) {
   set_time({hour, timestep});
-  original_shadow(state, hour, timestep);
+  original_solar_beam(state, hour, timestep);
 }
 
-// Shadows of the sky for the whole simulation; its call of SHADOW is compiled in line.
+// Shadows of the sky for the whole simulation.
 void sky_shading(State& state) {
   set_time({});
   original_sky_shading(state);
@@ -62,8 +63,8 @@ void show_continue(State& state, std::string const& message, OtherFile first, Ot
 
 std::vector<Entry> shading_entries() {
   return {
-      watch("_ZN10EnergyPlus12SolarShading6SHADOWERNS_14EnergyPlusDataEii", &shadow,
-            &original_shadow),
+      watch("_ZN10EnergyPlus12SolarShading25FigureSolarBeamAtTimestepERNS_14EnergyPlusDataEii",
+            &solar_beam, &original_solar_beam),
       watch("_ZN10EnergyPlus12SolarShading18SkyDifSolarShadingERNS_14EnergyPlusDataE", &sky_shading,
             &original_sky_shading),
       watch("_ZN10EnergyPlus12SolarShading21processShadowingInputERNS_14EnergyPlusDataE",

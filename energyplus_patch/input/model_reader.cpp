@@ -62,10 +62,10 @@ bool is_idf(std::filesystem::path const& path) {
 Model understand(std::vector<InputObject> objects, std::filesystem::path const& path,
                  Choices const& choices) {
   if (auto const side = find_side_file(path, choices)) add_side_file(*side, objects);
-  Model model{std::move(objects), {}, {}, {}};
-  model.shading = read_shading_input(model.objects);
-  model.shades = read_transparent_shades(model.objects, model.shading, path.parent_path());
-  model.options = resolve(choices, read_settings(model.objects), model.shading);
+  Model model;
+  model.shading = read_shading_input(objects);
+  model.shades = read_transparent_shades(objects, model.shading, path.parent_path());
+  model.options = resolve(choices, read_settings(objects), model.shading);
   return model;
 }
 

@@ -13,7 +13,6 @@ namespace gpu_shading::energyplus {
 
 // A model as this module understands it.
 struct Model {
-  std::vector<InputObject> objects;
   ShadingInput shading;
   TransparentShades shades;
   Options options;

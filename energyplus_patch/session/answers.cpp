@@ -2,6 +2,13 @@
 
 namespace gpu_shading::energyplus {
 
+double Answers::Direction::area(SurfaceId surface, std::span<double const> factors) const {
+  double const unscheduled = projected_area[surface];
+  auto const parts = scheduled.find(surface);
+  return parts == scheduled.end() ? unscheduled
+                                  : unscheduled + through_schedules(parts->second, factors);
+}
+
 Answers::Direction& Answers::at(SunDirection sun) {
   auto const found = directions_.find(sun);
   if (found != directions_.end()) return found->second;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -24,6 +25,9 @@ class Answers {
     // What passes scheduled shades, of the surfaces that have such in view.
     std::unordered_map<SurfaceId, std::vector<ScheduledPart>> scheduled;
     std::unordered_map<std::uint64_t, std::vector<Sunlit>> interior;  // by window and list
+
+    // A known answer with the schedules' values.
+    double area(SurfaceId surface, std::span<double const> factors) const;
   };
 
   explicit Answers(std::size_t surfaces = 0) : surfaces_(surfaces) {}

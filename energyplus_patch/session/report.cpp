@@ -33,13 +33,9 @@ std::vector<Row> collect(Renderer const& renderer, SurfaceId receiver, Answers c
   auto const facing = normal(polygon);
   std::vector<Row> rows;
   answers.for_each([&](Answers::Direction const& direction) {
-    float const unscheduled = direction.projected_area[receiver];
     double const cosine = glm::dot(facing, to_vector(direction.sun));
-    if (!Answers::known(unscheduled) || cosine <= 0.0 || full <= 0.0) return;
-    auto const parts = direction.scheduled.find(receiver);
-    double const answer = parts == direction.scheduled.end()
-                              ? unscheduled
-                              : Sunlit{unscheduled, 0.0, parts->second}.at(factors);
+    if (!Answers::known(direction.projected_area[receiver]) || cosine <= 0.0 || full <= 0.0) return;
+    double const answer = direction.area(receiver, factors);
     rows.push_back({receiver, direction.sun, answer, std::min(1.0, answer / (full * cosine))});
   });
   std::sort(rows.begin(), rows.end(), [](Row const& a, Row const& b) {

@@ -25,16 +25,6 @@ std::uint64_t hash_of(SurfaceId window, std::vector<SurfaceId> const& interiors)
   return hash;
 }
 
-RendererStatistics sum(RendererStatistics a, RendererStatistics const& b) {
-  a.directions += b.directions;
-  a.receivers_drawn += b.receivers_drawn;
-  a.receivers_clear += b.receivers_clear;
-  a.casters_drawn += b.casters_drawn;
-  a.luminance_views += b.luminance_views;
-  a.seconds += b.seconds;
-  return a;
-}
-
 // Leaves the `limit` largest as they are and sets the others to 0; EnergyPlus spreads the beam that
 // no surface takes as diffuse.
 void keep_largest(std::vector<float>& areas, std::size_t limit) {
@@ -67,14 +57,17 @@ void Session::start(Messages messages, Schedules schedules) {
   messages_ = std::move(messages);
   surfaces_ = scene_.size();
   auto const& input = model_.shading;
-  wanted_.assign(surfaces_, true);
+  unshaded_.assign(surfaces_, std::nullopt);
   is_receiver_.assign(surfaces_, false);
+  std::vector<bool> wanted(surfaces_, true);
   for (SurfaceId id = 0; id < surfaces_; ++id) {
     auto const& name = scene_[id].name;
-    wanted_[id] = !input.shading_surfaces.contains(name) || input.wants(name);
+    auto const& polygon = scene_[id].polygon;
+    wanted[id] = !input.shading_surfaces.contains(name) || input.wants(name);
+    if (!wanted[id]) unshaded_[id] = area(polygon) * normal(polygon);
   }
   if (char const* const listing = std::getenv(listing_variable)) {
-    std::ofstream(listing) << list_surfaces(scene_, model_, wanted_);
+    std::ofstream(listing) << list_surfaces(scene_, model_, wanted);
     std::_Exit(EXIT_SUCCESS);
   }
   if (model_.options.report) prepare_report(*model_.options.report);
@@ -98,7 +91,7 @@ void Session::open_renderer() {
     scene.add(std::move(surface));
   }
   scene.set_rule(make_shading_rule(model_.shading, names));
-  if (renderer_) earlier_ = sum(earlier_, renderer_->statistics());
+  if (renderer_) earlier_ += renderer_->statistics();
   RendererOptions options;
   options.device = model_.options.device;
   options.resolution = model_.options.resolution;
@@ -159,6 +152,11 @@ void Session::describe_surfaces() {
   }
 }
 
+void Session::set_sun(SunDirection sun) {
+  sun_ = sun;
+  towards_sun_ = to_vector(sun);
+}
+
 void Session::set_time(Moment moment) {
   if (renderer_ && optics_.update(moment)) {
     messages_.warning(
@@ -188,10 +186,8 @@ float Session::projected_sunlit_area(SurfaceId receiver) {
   if (!renderer_ || receiver >= surfaces_) {
     throw Error(fmt::format("EnergyPlus asks for surface {} of {}", receiver, surfaces_));
   }
-  if (!is_wanted(receiver)) {
-    auto const& polygon = scene_[receiver].polygon;
-    double const cosine = glm::dot(normal(polygon), to_vector(sun_));
-    return static_cast<float>(area(polygon) * std::max(cosine, 0.0));
+  if (unshaded_[receiver]) {
+    return static_cast<float>(std::max(glm::dot(*unshaded_[receiver], towards_sun_), 0.0));
   }
   auto& direction = answers_.at(sun_);
   if (!Answers::known(direction.projected_area[receiver])) render(direction, receiver);
@@ -199,11 +195,7 @@ float Session::projected_sunlit_area(SurfaceId receiver) {
     is_receiver_[receiver] = true;
     receivers_.push_back(receiver);
   }
-  float const unscheduled = direction.projected_area[receiver];
-  if (direction.scheduled.empty()) return unscheduled;
-  auto const parts = direction.scheduled.find(receiver);
-  if (parts == direction.scheduled.end()) return unscheduled;
-  return static_cast<float>(Sunlit{unscheduled, 0.0, parts->second}.at(optics_.factors()));
+  return static_cast<float>(direction.area(receiver, optics_.factors()));
 }
 
 std::vector<float> Session::interior_areas(SurfaceId window,
@@ -225,10 +217,10 @@ std::vector<float> Session::interior_areas(SurfaceId window,
 }
 
 void Session::finish() {
-  if (finished_ || !renderer_) return;
-  finished_ = true;
+  if (!renderer_) return;
   auto const& device = renderer_->device();
-  auto const did = sum(earlier_, renderer_->statistics());
+  auto did = earlier_;
+  did += renderer_->statistics();
   if (receivers_.empty() && did.directions == 0) return;  // ended before the first question
   messages_.remark(fmt::format(
       "shading rendered by {} ({}), {} x {} pixels: {} receivers, {} casters, {} directions, {} "

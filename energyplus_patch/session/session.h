@@ -49,7 +49,7 @@ class Session {
 
   // The time whose transmittance schedules count from here on.
   void set_time(Moment moment);
-  void set_sun(SunDirection sun) { sun_ = sun; }
+  void set_sun(SunDirection sun);
 
   // m2 normal to the beam. The first call for a direction renders for every receiver that was asked
   // for before, in one go.
@@ -63,7 +63,6 @@ class Session {
   void finish();
 
  private:
-  bool is_wanted(SurfaceId receiver) const { return wanted_[receiver]; }
   void render(Answers::Direction& direction, SurfaceId asked);
   void describe_surfaces();
   void add_walls_without_openings();
@@ -77,13 +76,14 @@ class Session {
   std::size_t surfaces_ = 0;
   std::size_t casters_ = 0;
   std::optional<Renderer> renderer_;
-  RendererStatistics earlier_;        // of renderers before it
-  std::vector<bool> wanted_;          // by surface: whether its own fraction has a use
+  RendererStatistics earlier_;  // of renderers before it
+  // By surface, where its own fraction has no use: normal x area, for an answer without shadows.
+  std::vector<std::optional<glm::dvec3>> unshaded_;
   std::vector<SurfaceId> receivers_;  // asked for so far
   std::vector<bool> is_receiver_;
   SunDirection sun_;
+  glm::dvec3 towards_sun_{0.0, 0.0, 1.0};
   Answers answers_;
-  bool finished_ = false;
 };
 
 }  // namespace gpu_shading::energyplus

@@ -41,6 +41,16 @@ class Stopwatch {
 
 }  // namespace
 
+RendererStatistics& RendererStatistics::operator+=(RendererStatistics const& other) {
+  directions += other.directions;
+  receivers_drawn += other.receivers_drawn;
+  receivers_clear += other.receivers_clear;
+  casters_drawn += other.casters_drawn;
+  luminance_views += other.luminance_views;
+  seconds += other.seconds;
+  return *this;
+}
+
 class Renderer::Implementation {
  public:
   Implementation(Scene scene, RendererOptions options);
@@ -469,15 +479,6 @@ std::vector<Sunlit> Renderer::projected_sunlit_areas(SunDirection sun,
 std::vector<Sunlit> Renderer::interior_sunlit_areas(SunDirection sun, SurfaceId window,
                                                     std::span<SurfaceId const> interiors) {
   return implementation_->interior_sunlit_areas(sun, window, interiors);
-}
-
-std::vector<double> Renderer::interior_projected_sunlit_areas(
-    SunDirection sun, SurfaceId window, std::span<SurfaceId const> interiors) {
-  std::vector<double> areas;
-  for (Sunlit const& answer : interior_sunlit_areas(sun, window, interiors)) {
-    areas.push_back(answer.projected_area);
-  }
-  return areas;
 }
 
 Image Renderer::sun_view(SunDirection sun, SurfaceId receiver, int size,

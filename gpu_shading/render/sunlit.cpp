@@ -7,9 +7,9 @@
 
 namespace gpu_shading {
 
-double Sunlit::at(std::span<double const> factors) const {
-  double sum = projected_area;
-  for (ScheduledPart const& part : scheduled) {
+double through_schedules(std::span<ScheduledPart const> parts, std::span<double const> factors) {
+  double sum = 0.0;
+  for (ScheduledPart const& part : parts) {
     double area = part.projected_area;
     for (auto const& [schedule, power] : part.powers) {
       if (static_cast<std::size_t>(schedule) >= factors.size()) {

@@ -185,8 +185,9 @@ def test_order_of_precedence(shade, box, tmp_path):
 def test_interrupt_ends_the_run(patched, courtyard, weather, tmp_path):
     command = [patched, "--gpu-shading", "--gpu-shading-update=timestep", "-w", weather, "-d", tmp_path, courtyard]
     environment = {key: value for key, value in energyplus.os.environ.items() if key != "DISPLAY"}
-    with subprocess.Popen(command, cwd=tmp_path, env=environment, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT) as process:
+    # What runs in the background of a shell begins with interrupts ignored.
+    with subprocess.Popen(command, cwd=tmp_path, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)) as process:
         deadline = time.monotonic() + 60
         while not (tmp_path / "eplusout.eso").exists() and process.poll() is None and time.monotonic() < deadline:
             time.sleep(0.1)

@@ -37,8 +37,8 @@ TEST(HostContext, IsCurrentAgainAfterEveryCall) {
     renderer.sun_view({}, 0, 64);
     expect_host("sun_view");
     SurfaceId const canopy = 1;
-    renderer.interior_projected_sunlit_areas({}, 0, {&canopy, 1});
-    expect_host("interior_projected_sunlit_areas");
+    renderer.interior_sunlit_areas({}, 0, {&canopy, 1});
+    expect_host("interior_sunlit_areas");
   }
   expect_host("destruction");
   eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);

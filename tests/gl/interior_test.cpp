@@ -6,30 +6,19 @@
 
 #include "exact.h"
 #include "gpu_shading/error.h"
-#include "shapes.h"
+#include "room.h"
 
 namespace gpu_shading {
 namespace {
 
-// A room 4 m wide, 5 m deep, 3 m high, with a window in the south wall and an overhang above it.
-struct BoxRoom {
-  Scene scene;
-  SurfaceId window;
+// With the wall around the window, and an overhang above it.
+struct BoxRoom : Room {
   SurfaceId wall;
-  std::vector<SurfaceId> surfaces;
 
   BoxRoom() {
-    window = scene.add({"window", south_facing(1, 0, 0.8, 2, 1.6)});
     Polygon around = south_facing(0, 0, 0, 4, 3);
     around.holes = {scene[window].polygon.outline};
     wall = scene.add({"south wall", around});
-    surfaces = {
-        scene.add({"floor", level(0, 0, 0, 4, 5)}),
-        scene.add({"ceiling", level(0, 0, 3, 4, 5)}),
-        scene.add({"north wall", south_facing(0, 5, 0, 4, 3)}),
-        scene.add({"west wall", parallelogram({0, 0, 0}, {0, 5, 0}, {0, 0, 3})}),
-        scene.add({"east wall", parallelogram({4, 0, 0}, {0, 5, 0}, {0, 0, 3})}),
-    };
     scene.add({"overhang", level(0.5, -0.5, 2.6, 3, 0.5)});
   }
 };
@@ -45,7 +34,7 @@ TEST(Interior, BoxRoomAgainstPolygonClipping) {
   BoxRoom const room;
   Renderer renderer = renderer_of(room.scene);
   for (SunDirection const sun : suns) {
-    auto const got = renderer.interior_projected_sunlit_areas(sun, room.window, room.surfaces);
+    auto const got = interior_areas(renderer, sun, room.window, room.surfaces);
     // The box is convex: no surface hides another.
     auto const exact = exact::interior_areas(room.scene, sun, room.window, room.surfaces);
     for (std::size_t i = 0; i < got.size(); ++i) {
@@ -60,8 +49,7 @@ TEST(Interior, TheSumIsWhatTheWindowGets) {
   Renderer renderer = renderer_of(room.scene);
   for (SunDirection const sun : suns) {
     double const window = sunlit(renderer, sun, room.window).projected_area;
-    double const inside =
-        sum(renderer.interior_projected_sunlit_areas(sun, room.window, room.surfaces));
+    double const inside = sum(interior_areas(renderer, sun, room.window, room.surfaces));
     EXPECT_LE(inside, window * (1.0 + 1e-12));
     // The room is closed: only what passes within the clearance of the window's plane is lost.
     EXPECT_NEAR(inside, window, 1e-3 * 2 * 1.6);
@@ -76,7 +64,7 @@ TEST(Interior, TheNearestSurfaceTakesTheRay) {
   SunDirection const sun = sun_at(190, 50);
   for (auto const& order :
        {std::vector<SurfaceId>{table, floor}, std::vector<SurfaceId>{floor, table}}) {
-    auto const got = renderer.interior_projected_sunlit_areas(sun, room.window, order);
+    auto const got = interior_areas(renderer, sun, room.window, order);
     auto const exact = exact::interior_areas(room.scene, sun, room.window, {table, floor});
     std::size_t const at = order[0] == table ? 0 : 1;
     EXPECT_NEAR(got[at], exact[0], 1e-3 * 2 * 1.6);
@@ -94,7 +82,7 @@ TEST(Interior, RaysGoOnThroughAWindowInTheBackWall) {
   std::vector<SurfaceId> const nearest_first{partition, room.surfaces[0], room.surfaces[2]};
   Renderer renderer = renderer_of(room.scene);
   SunDirection const sun = sun_at(175, 22);
-  auto const got = renderer.interior_projected_sunlit_areas(sun, room.window, nearest_first);
+  auto const got = interior_areas(renderer, sun, room.window, nearest_first);
   auto const exact = exact::interior_areas(room.scene, sun, room.window, nearest_first);
   for (std::size_t i = 0; i < got.size(); ++i) EXPECT_NEAR(got[i], exact[i], 1e-3 * 2 * 1.6);
   EXPECT_GT(got[0], 0.1);
@@ -107,8 +95,8 @@ TEST(Interior, WhatLiesInTheSamePlaceIsCountedOnce) {
   SunDirection const sun = sun_at(180, 45);
   SurfaceId const floor = room.surfaces[0];
   std::vector<SurfaceId> const twice{floor, floor};
-  auto const got = renderer.interior_projected_sunlit_areas(sun, room.window, twice);
-  auto const once = renderer.interior_projected_sunlit_areas(sun, room.window, {&floor, 1});
+  auto const got = interior_areas(renderer, sun, room.window, twice);
+  auto const once = interior_areas(renderer, sun, room.window, {&floor, 1});
   EXPECT_GT(once[0], 0.1);
   EXPECT_EQ(got[0] + got[1], once[0]);
 }
@@ -119,8 +107,7 @@ TEST(Interior, SurfacesWithoutAreaOrBeforeTheWindowGetNothing) {
   SurfaceId const outside = room.scene.add({"terrace", level(0, -9, -0.1, 4, 9)});
   std::vector<SurfaceId> const asked{line, outside, room.wall, room.window};
   Renderer renderer = renderer_of(room.scene);
-  for (double const got :
-       renderer.interior_projected_sunlit_areas(sun_at(180, 45), room.window, asked)) {
+  for (double const got : interior_areas(renderer, sun_at(180, 45), room.window, asked)) {
     EXPECT_EQ(got, 0.0);
   }
 }
@@ -128,21 +115,18 @@ TEST(Interior, SurfacesWithoutAreaOrBeforeTheWindowGetNothing) {
 TEST(Interior, NothingWhenTheWindowFacesAwayAndNoAnswersForNoQuestions) {
   BoxRoom const room;
   Renderer renderer = renderer_of(room.scene);
-  for (double const got :
-       renderer.interior_projected_sunlit_areas(sun_at(0, 45), room.window, room.surfaces)) {
+  for (double const got : interior_areas(renderer, sun_at(0, 45), room.window, room.surfaces)) {
     EXPECT_EQ(got, 0.0);
   }
-  EXPECT_TRUE(renderer.interior_projected_sunlit_areas(sun_at(180, 45), room.window, {}).empty());
+  EXPECT_TRUE(interior_areas(renderer, sun_at(180, 45), room.window, {}).empty());
 }
 
 TEST(Interior, AnUnknownSurfaceIsAnError) {
   BoxRoom const room;
   Renderer renderer = renderer_of(room.scene);
   SurfaceId const unknown = 99;
-  EXPECT_THROW(
-      renderer.interior_projected_sunlit_areas(sun_at(180, 45), room.window, {&unknown, 1}), Error);
-  EXPECT_THROW(renderer.interior_projected_sunlit_areas(sun_at(180, 45), unknown, room.surfaces),
-               Error);
+  EXPECT_THROW(interior_areas(renderer, sun_at(180, 45), room.window, {&unknown, 1}), Error);
+  EXPECT_THROW(interior_areas(renderer, sun_at(180, 45), unknown, room.surfaces), Error);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 #include "gpu_shading/error.h"
 #include "gpu_shading/transmittance.h"
 #include "random_scene.h"
-#include "shapes.h"
+#include "room.h"
 #include "transparent_case.h"
 
 namespace gpu_shading {
@@ -395,21 +395,9 @@ TEST(Schedules, TooManyToTellApartIsAnErrorThatNamesTheReceiver) {
   }
 }
 
-// A room behind a window, a glass overhang and a scheduled screen before it.
-struct Room {
-  Scene scene;
-  SurfaceId window;
-  std::vector<SurfaceId> surfaces;
-
-  explicit Room(bool scheduled) {
-    window = scene.add({"window", south_facing(1, 0, 0.8, 2, 1.6)});
-    surfaces = {
-        scene.add({"floor", level(0, 0, 0, 4, 5)}),
-        scene.add({"ceiling", level(0, 0, 3, 4, 5)}),
-        scene.add({"north wall", south_facing(0, 5, 0, 4, 3)}),
-        scene.add({"west wall", parallelogram({0, 0, 0}, {0, 5, 0}, {0, 0, 3})}),
-        scene.add({"east wall", parallelogram({4, 0, 0}, {0, 5, 0}, {0, 0, 3})}),
-    };
+// With a glass overhang and a screen before the window.
+struct ShadedRoom : Room {
+  explicit ShadedRoom(bool scheduled) {
     scene.add({"overhang", level(0.5, -0.5, 2.6, 3, 0.5), Casting::always, glass()});
     scene.add({"screen", south_facing(1.4, -0.3, 0.5, 1.1, 1.2), Casting::always, nullptr,
                scheduled ? 2 : -1});
@@ -419,7 +407,7 @@ struct Room {
 TEST(Luminance, InteriorBehindShades) {
   std::vector<double> const factors{0, 0, 0.37};
   for (bool const scheduled : {false, true}) {
-    Room const room(scheduled);
+    ShadedRoom const room(scheduled);
     Renderer renderer = renderer_of(room.scene);
     for (SunDirection const sun :
          {sun_at(180, 10), sun_at(180, 45), sun_at(140, 20), sun_at(230, 35)}) {
@@ -438,7 +426,7 @@ TEST(Luminance, InteriorBehindShades) {
 
 // The two interior paths take the same pixels.
 TEST(Luminance, InteriorOfOpaqueShadesIsTheirCount) {
-  Room const room(false);
+  ShadedRoom const room(false);
   Scene counted;
   Scene summed;
   for (SurfaceId id = 0; id < room.scene.size(); ++id) {
@@ -451,8 +439,8 @@ TEST(Luminance, InteriorOfOpaqueShadesIsTheirCount) {
   Renderer counting = renderer_of(counted);
   Renderer summing = renderer_of(summed);
   for (SunDirection const sun : {sun_at(180, 45), sun_at(140, 20), sun_at(230, 35)}) {
-    auto const a = counting.interior_projected_sunlit_areas(sun, room.window, room.surfaces);
-    auto const b = summing.interior_projected_sunlit_areas(sun, room.window, room.surfaces);
+    auto const a = interior_areas(counting, sun, room.window, room.surfaces);
+    auto const b = interior_areas(summing, sun, room.window, room.surfaces);
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-6);
   }
 }

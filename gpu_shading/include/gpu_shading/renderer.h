@@ -35,6 +35,10 @@ struct ScheduledPart {
   double projected_area = 0.0;              // m2 at factors of 1; transmittances are in it
 };
 
+// All that passes, with factors[schedule]: each part times the factors of what it passes to their
+// powers. Throws Error when there are too few.
+double through_schedules(std::span<ScheduledPart const> parts, std::span<double const> factors);
+
 // What the sun sees of one receiver.
 struct Sunlit {
   // Projected sunlit surface area (PSSA), m2 normal to the beam: the receiver's exact projected
@@ -46,9 +50,10 @@ struct Sunlit {
   // Each combination of schedules once.
   std::vector<ScheduledPart> scheduled;
 
-  // All of it, with factors[schedule]: projected_area and the parts, each times the factors of what
-  // it passes to their powers. Throws Error when there are too few.
-  double at(std::span<double const> factors) const;
+  // All of it, with factors[schedule]. Throws Error when there are too few.
+  double at(std::span<double const> factors) const {
+    return projected_area + through_schedules(scheduled, factors);
+  }
 };
 
 struct RendererStatistics {
@@ -58,6 +63,8 @@ struct RendererStatistics {
   std::size_t casters_drawn = 0;    // over all drawn pairs
   std::size_t luminance_views = 0;  // of the drawn pairs, those with a shade that transmits in view
   double seconds = 0.0;             // wall time spent in the renderer
+
+  RendererStatistics& operator+=(RendererStatistics const& other);
 };
 
 // An 8-bit image, rows from the top.
@@ -107,10 +114,6 @@ class Renderer {
   // it. In the order of `interiors`; their sum is at most the window's projected sunlit area.
   std::vector<Sunlit> interior_sunlit_areas(SunDirection sun, SurfaceId window,
                                             std::span<SurfaceId const> interiors);
-
-  // Their projected_area alone, which lacks what passes scheduled shades.
-  std::vector<double> interior_projected_sunlit_areas(SunDirection sun, SurfaceId window,
-                                                      std::span<SurfaceId const> interiors);
 
   // What the sun sees of a receiver: lit receiver pixels yellow, shaded ones blue, casters grey by
   // their tilt to the sun. Where a caster in view transmits, the receiver is grey by its luminance,

@@ -26,8 +26,8 @@ struct Said {
 };
 
 Model model_of(std::string const& idf, Mode mode = Mode::automatic) {
-  Model model{read_idf(idf), {}, {}, {}};
-  model.shading = read_shading_input(model.objects);
+  Model model;
+  model.shading = read_shading_input(read_idf(idf));
   model.options.mode = mode;
   return model;
 }

@@ -22,9 +22,10 @@ struct Values {
 };
 
 Model model_of(std::string const& idf) {
-  Model model{read_idf(idf), {}, {}, {}};
-  model.shading = read_shading_input(model.objects);
-  model.shades = read_transparent_shades(model.objects, model.shading, {});
+  auto const objects = read_idf(idf);
+  Model model;
+  model.shading = read_shading_input(objects);
+  model.shades = read_transparent_shades(objects, model.shading, {});
   return model;
 }
 
