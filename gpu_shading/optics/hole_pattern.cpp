@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "gpu_shading/error.h"
-#include "gpu_shading/perforated_screen.h"
+#include "gpu_shading/perforation.h"
 
 namespace gpu_shading {
 namespace {

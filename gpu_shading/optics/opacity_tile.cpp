@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "gpu_shading/error.h"
-#include "gpu_shading/perforated_screen.h"
+#include "gpu_shading/perforation.h"
 
 namespace gpu_shading {
 namespace {
@@ -155,6 +155,24 @@ double OpacityTile::web() const {
   }
   constexpr double cos_eighth = 0.92387953251128674;  // cos(pi / 8)
   return std::max(cos_eighth * narrowest, 2.0 * std::max(texel_width(), texel_height()));
+}
+
+double OpacityTile::hole() const {
+  double const limit = threshold_.value_or(0.5);
+  auto const open = [&](int column, int row) {
+    return static_cast<double>(opacity_[index(column, row, columns_)]) <= limit;
+  };
+  double length = 0.0;
+  std::size_t edges = 0;
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      if (!open(column, row)) continue;
+      length += texel_width() + texel_height();
+      if (!open(around(column + 1, columns_), row)) ++edges;
+      if (!open(column, around(row + 1, rows_))) ++edges;
+    }
+  }
+  return edges == 0 ? std::numeric_limits<double>::infinity() : length / static_cast<double>(edges);
 }
 
 }  // namespace gpu_shading

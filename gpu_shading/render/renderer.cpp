@@ -64,6 +64,8 @@ class Renderer::Implementation {
                                             std::span<SurfaceId const> interiors);
   Image sun_view(SunDirection sun, SurfaceId receiver, int size, std::span<double const> factors);
 
+  void set_deployments(std::vector<double> shares) { deployments_ = std::move(shares); }
+
   Scene const& scene() const { return scene_; }
   DeviceInfo const& device() const { return device_.info; }
   RendererStatistics const& statistics() const { return statistics_; }
@@ -109,6 +111,7 @@ class Renderer::Implementation {
   egl::Device device_;
   std::unique_ptr<OnDevice> on_device_;
   std::unordered_map<SurfaceId, Receiver> receivers_;
+  std::vector<double> deployments_;
   DrawList draw_list_;
   RendererStatistics statistics_;
 };
@@ -470,6 +473,10 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Scene const& Renderer::scene() const { return implementation_->scene(); }
 DeviceInfo const& Renderer::device() const { return implementation_->device(); }
 RendererStatistics const& Renderer::statistics() const { return implementation_->statistics(); }
+
+void Renderer::set_deployments(std::vector<double> shares) {
+  implementation_->set_deployments(std::move(shares));
+}
 
 std::vector<Sunlit> Renderer::projected_sunlit_areas(SunDirection sun,
                                                      std::span<SurfaceId const> receivers) {

@@ -1,129 +1,26 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "gpu_shading/perforation.h"
+
 // The optics of a perforated sheet: what of the beam passes it, edges of the sheet aside.
 //
-// Lengths are in metres. A place in the sheet's plane is (u, v): u along its tile's width, v along
-// its height, counter-clockwise from u to v as the front face is seen. The tile repeats both ways
-// from (0, 0). Directions are theta, the angle of incidence from the normal, 0 .. pi/2, and phi,
-// the angle in the plane from u towards v of the beam's projection, both in radians. A beam and its
-// reverse pass alike, so that phi and phi + pi are one and both faces have the same transmittance.
+// Lengths and places in the sheet's plane are as in perforation.h. Directions are theta, the angle
+// of incidence from the normal, 0 .. pi/2, and phi, the angle in the plane from u towards v of the
+// beam's projection, both in radians. A beam and its reverse pass alike, so that phi and phi + pi
+// are one and both faces have the same transmittance.
 //
 // Walls are straight and black: a ray passes where every point of its way, (u, v) to (u, v) +
 // thickness tan(theta) (cos(phi), sin(phi)), is open. That length is the shift.
 //
 // Constructors and functions throw Error where what they are given makes no screen; the message
-// begins with the field, as in "pitch is 0 m, expected more than 0".
+// begins with the field, as in "thickness is -1 m, expected 0 or more".
 
 namespace gpu_shading {
-
-enum class Hole {
-  Round,
-  Square,     // sides along u and v
-  Slotted,    // long in u, with round ends
-  Hexagonal,  // regular, two of its sides along v, so that at 60 degrees webs are even
-};
-
-enum class Arrangement {
-  Straight,
-  Staggered45,  // nearest neighbours at 45 degrees to the rows
-  Staggered60,
-};
-
-// What makers publish of a perforation. Rows run along u.
-struct Perforation {
-  Hole hole = Hole::Round;
-  Arrangement arrangement = Arrangement::Staggered60;
-  double size = 0.0;    // diameter, side, width of a slot, width across a hexagon's flats
-  double length = 0.0;  // of a slot from end to end, more than its width; not of other holes
-  double pitch = 0.0;   // between the centres of nearest neighbours, along the stagger where there
-                        // is one
-  double row_pitch = 0.0;  // Where above 0, rows are this far apart, `pitch` is along a row, and
-                           // staggered rows are half a pitch apart, whatever the angle; as slots
-                           // are given.
-};
-
-// Convex holes on a lattice, one of them with its centre at (0, 0). Everything is in closed form.
-class HolePattern {
- public:
-  // Holes have to lie apart.
-  explicit HolePattern(Perforation const& perforation);
-
-  double width() const { return width_; }  // of the tile: one hole, or two where staggered
-  double height() const { return height_; }
-
-  bool is_open(double u, double v) const;
-
-  // Open share of the area. Round: pi/4 (D/P)^2 straight and at 45 degrees, 0.9069 (D/P)^2 at 60.
-  double open_fraction() const;
-
-  // The narrowest web between two holes.
-  double web() const { return web_; }
-
-  // Length of the longest straight line in a hole: a longer shift lets nothing pass.
-  double longest_chord() const;
-
-  // Transmittance for a shift: the area of a hole's outline that its own, shifted, has in common
-  // with it (two circles' lens, and so on), over the area of the sheet for each hole.
-  double transmittance(double shift_u, double shift_v) const;
-
- private:
-  // Of a hole at (0, 0).
-  double overlap(double shift_u, double shift_v) const;
-  double distance_to_neighbour(double u, double v) const;
-
-  Perforation perforation_;
-  double width_ = 0.0;
-  double height_ = 0.0;
-  int holes_ = 1;
-  double web_ = 0.0;
-};
-
-// A raster of a tile: row after row along u, the first at v = 0, each texel the opacity of its
-// area, 0 open .. 1 solid. Between texels' centres it is interpolated bilinearly, across the
-// tile's edges too. A thresholded tile is 1 where that is above its threshold and 0 elsewhere, as a
-// shader does it; one that is not has fractional opacity, which counts once on a ray's way: its
-// largest does.
-class OpacityTile {
- public:
-  OpacityTile(double width, double height, int columns, int rows, std::vector<float> opacity,
-              std::optional<double> threshold = 0.5);
-
-  // Each texel the share of it that is solid or, where there is a threshold, of an area twice as
-  // wide and high about its centre, since only then an edge interpolated lies where the hole's
-  // does: from 256 points in a texel. Texels are as near to `texel` in size as a whole number of
-  // them in the tile makes them.
-  OpacityTile(HolePattern const& pattern, double texel, std::optional<double> threshold = 0.5);
-
-  double width() const { return width_; }
-  double height() const { return height_; }
-  int columns() const { return columns_; }
-  int rows() const { return rows_; }
-  double texel_width() const { return width_ / columns_; }
-  double texel_height() const { return height_ / rows_; }
-  std::span<float const> opacity() const { return opacity_; }
-  std::optional<double> threshold() const { return threshold_; }
-
-  // Mean openness of the texels, each taken against the threshold where there is one.
-  double open_fraction() const;
-
-  // The narrowest web, between holes or parts of one: the shortest run of solid texels (above the
-  // threshold, or above 0.5 where there is none) between open ones, along rows, columns and
-  // diagonals, times cos(22.5 degrees) for webs that lie between those directions. At least two
-  // texels; infinite where there is none.
-  double web() const;
-
- private:
-  double width_ = 0.0;
-  double height_ = 0.0;
-  int columns_ = 0;
-  int rows_ = 0;
-  std::vector<float> opacity_;
-  std::optional<double> threshold_;
-};
 
 // Layers that stand for a sheet at a shift, front and back counted: 1 + ceil(shift / web), so that
 // no ray steps over a web, `most` at most; 0 past the longest way through a hole, where the sheet
@@ -182,6 +79,68 @@ class ScreenTransmittance {
   int steps_ = 0;
   double longest_chord_ = 0.0;
   std::vector<float> values_;
+};
+
+// Where in a sheet the polygon of its surface lies. The outside is the side that the polygon's
+// normal points to.
+enum class SheetPlane { centre, outside, inside };
+
+// How a screen is drawn.
+enum class ScreenDetail {
+  automatic,  // holes where pixels are small beside them, else effective; between, a blend
+  holes,      // hole by hole, whatever the size of pixels
+  effective,  // by tau(theta, phi)
+};
+
+struct Sheet {
+  double thickness = 0.0;  // m, 0 allowed
+  SheetPlane plane = SheetPlane::centre;
+  // Copies of the sheet's holes over its thickness that a ray has to pass, front and back counted,
+  // 1 .. 64. Nothing: as many as are needed. Of a pattern that is none: a ray passes where it is in
+  // the same hole at both faces, which is exact, since holes are convex. Of a raster: layers_for.
+  std::optional<int> layers;
+  ScreenDetail detail = ScreenDetail::automatic;
+};
+
+// A perforated sheet of any extent, repeated over the surfaces that it is on. Safe to share between
+// threads.
+class PerforatedScreen {
+ public:
+  PerforatedScreen(HolePattern const& pattern, Sheet const& sheet);
+  PerforatedScreen(OpacityTile tile, Sheet const& sheet);
+
+  Sheet const& sheet() const { return sheet_; }
+  // One of them is there.
+  std::optional<HolePattern> const& pattern() const { return pattern_; }
+  std::optional<OpacityTile> const& tile() const { return tile_; }
+
+  double open_fraction() const;
+  double hole() const { return hole_; }  // the size of a typical hole, m
+  double web() const { return web_; }
+
+  // Made at the first call, of a raster in a second or so.
+  ScreenTransmittance const& transmittance() const;
+
+ private:
+  Sheet sheet_;
+  std::optional<HolePattern> pattern_;
+  std::optional<OpacityTile> tile_;
+  double hole_ = 0.0;
+  double web_ = 0.0;
+  struct Lazy;
+  std::shared_ptr<Lazy> lazy_;
+};
+
+// Where a screen's tile lies on a surface. Axes before `rotation`: u from the outline's second
+// vertex to its third, v counter-clockwise from it as seen from outside. (0, 0) of the tile is at
+// `origin` along these from the second vertex, and the tile is turned about it by `rotation`,
+// radians, counter-clockwise as seen from outside. A surface that is EnergyPlus's has its lower
+// left corner and its lower edge there. Seen from inside it is the mirror image, being the same
+// sheet.
+struct ScreenPlacement {
+  double origin_u = 0.0;  // m
+  double origin_v = 0.0;
+  double rotation = 0.0;
 };
 
 }  // namespace gpu_shading

@@ -105,6 +105,11 @@ class Renderer {
   DeviceInfo const& device() const;
   RendererStatistics const& statistics() const;
 
+  // From here on, of screens that slide or fold away, the share that is in place: by
+  // Surface::deployment, 0 .. 1, all of it where there are too few. The rest of such a screen lets
+  // everything pass.
+  void set_deployments(std::vector<double> shares);
+
   // One answer for each receiver, in order.
   std::vector<Sunlit> projected_sunlit_areas(SunDirection sun,
                                              std::span<SurfaceId const> receivers);

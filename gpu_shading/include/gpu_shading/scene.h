@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "gpu_shading/perforated_screen.h"
+
 namespace gpu_shading {
 
 class Transmittance;  // gpu_shading/transmittance.h
@@ -48,6 +50,12 @@ struct Surface {
   // Number of a factor, 0 .. 1, that varies with time; -1: none. Surfaces may share one. Answers
   // keep what passed each schedule apart (Sunlit), so that they hold whatever the factors are.
   int schedule = -1;
+  // A perforated sheet: what passes its holes, as the transmittance and the schedule have it.
+  std::shared_ptr<PerforatedScreen const> screen = nullptr;
+  ScreenPlacement placement = {};
+  // Number of the share of the screen that is in place (Renderer::set_deployments); -1: all of it,
+  // always.
+  int deployment = -1;
 };
 
 // Whether a caster counts for a receiver. Asked once for each pair, before the first direction.
