@@ -33,6 +33,13 @@ GLenum operation_of(OnPass on_pass) {
   return GL_KEEP;
 }
 
+void draw_elements(GLenum mode, std::size_t first, std::size_t count) {
+  // GL takes the offset into the index buffer as a pointer.
+  // NOLINTNEXTLINE(performance-no-int-to-ptr)
+  auto const* const offset = reinterpret_cast<void const*>(first * sizeof(std::uint32_t));
+  glDrawElements(mode, static_cast<GLsizei>(count), GL_UNSIGNED_INT, offset);
+}
+
 }  // namespace
 
 void stencil(Test test, std::uint8_t reference, OnPass on_pass) {
@@ -84,10 +91,11 @@ void set_depth_convention() {
 }
 
 void draw_indexed(std::size_t first, std::size_t count) {
-  // GL takes the offset into the index buffer as a pointer.
-  // NOLINTNEXTLINE(performance-no-int-to-ptr)
-  auto const* const offset = reinterpret_cast<void const*>(first * sizeof(std::uint32_t));
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT, offset);
+  draw_elements(GL_TRIANGLES, first, count);
+}
+
+void draw_indexed_fours(std::size_t first, std::size_t count) {
+  draw_elements(GL_LINES_ADJACENCY, first, count);
 }
 
 void draw_vertices(std::size_t first, std::size_t count) {

@@ -34,6 +34,7 @@ void cut_at_plane(bool on);  // by gl_ClipDistance[0]
 void set_depth_convention();
 
 void draw_indexed(std::size_t first, std::size_t count);
+void draw_indexed_fours(std::size_t first, std::size_t count);  // for a geometry stage
 void draw_vertices(std::size_t first, std::size_t count);
 
 void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z);  // groups of a compute program

@@ -33,6 +33,7 @@ Limits query_limits() {
   limits.max_target_size =
       std::min({viewport[0], viewport[1], integer(GL_MAX_RENDERBUFFER_SIZE),
                 integer(GL_MAX_FRAMEBUFFER_WIDTH), integer(GL_MAX_FRAMEBUFFER_HEIGHT)});
+  limits.max_texture_size = integer(GL_MAX_TEXTURE_SIZE);
   limits.uniform_offset_alignment = std::max(1, integer(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT));
   limits.vertex_storage_blocks = integer(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS);
   check("asking for the device's limits");

@@ -64,6 +64,16 @@ Program Program::link(char const* label, char const* vertex, char const* fragmen
   return program;
 }
 
+Program Program::link(char const* label, char const* vertex, char const* geometry,
+                      char const* fragment) {
+  std::array<Shader, 3> const stages{Shader(GL_VERTEX_SHADER, vertex),
+                                     Shader(GL_GEOMETRY_SHADER, geometry),
+                                     Shader(GL_FRAGMENT_SHADER, fragment)};
+  Program program(glCreateProgram());
+  link_stages(label, program.name(), stages);
+  return program;
+}
+
 Program Program::link_compute(char const* label, char const* source) {
   std::array<Shader, 1> const stage{Shader(GL_COMPUTE_SHADER, source)};
   Program program(glCreateProgram());

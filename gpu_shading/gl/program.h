@@ -14,6 +14,8 @@ class Program : public Object<destroy_program> {
   Program() = default;
   // Throws Error with the driver's log when it does not compile or link; `label` names it there.
   static Program link(char const* label, char const* vertex, char const* fragment);
+  static Program link(char const* label, char const* vertex, char const* geometry,
+                      char const* fragment);
 
   static Program link_compute(char const* label, char const* source);
 

@@ -48,4 +48,28 @@ void LayeredTexture::read(int layers, std::span<float> pixels) const {
                        static_cast<GLsizei>(pixels.size_bytes()), pixels.data());
 }
 
+ValueTexture ValueTexture::create(int width, int height, int layers) {
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name);
+  ValueTexture texture(name);
+  texture.width_ = width;
+  texture.height_ = height;
+  glTextureStorage3D(name, 1, GL_R16, width, height, layers);
+  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  check("making textures of screens");
+  return texture;
+}
+
+void ValueTexture::set(int layer, std::span<std::uint16_t const> texels) {
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 2);
+  glTextureSubImage3D(name(), 0, 0, 0, layer, width_, height_, 1, GL_RED, GL_UNSIGNED_SHORT,
+                      texels.data());
+  check("filling textures of screens");
+}
+
+void ValueTexture::bind(std::uint32_t unit) const { glBindTextureUnit(unit, name()); }
+
 }  // namespace gpu_shading::gl

@@ -40,4 +40,22 @@ class LayeredTexture : public Object<destroy_texture> {
   int levels_ = 1;
 };
 
+// Layers of one 16-bit value each texel, 0 .. 1, interpolated bilinearly.
+class ValueTexture : public Object<destroy_texture> {
+ public:
+  ValueTexture() = default;
+  // Throws DeviceError when there is no memory for it.
+  static ValueTexture create(int width, int height, int layers);
+
+  // All texels of a layer, row after row.
+  void set(int layer, std::span<std::uint16_t const> texels);
+  void bind(std::uint32_t unit) const;
+
+ private:
+  using Object::Object;
+
+  int width_ = 0;
+  int height_ = 0;
+};
+
 }  // namespace gpu_shading::gl

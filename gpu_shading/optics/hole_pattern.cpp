@@ -80,17 +80,19 @@ class SlotOverlap {
     if (sv_ >= 2.0 * r_ || height(sv_ / 2.0) <= 0.0) return 0.0;
     double const from = sv_ / 2.0;
     // From where the shifted slot's end lies beyond ours, if it does.
-    if (su_ <= q(r_ - sv_)) {
+    if (su_ <= at_top()) {
       double const turn = crossing(su_);
       return 2.0 * (both(from, turn) + straight_ * (r_ - turn) + 2.0 * under(turn, r_));
     }
     // To where the two ends meet, if they do.
-    bool const closes = height(r_) < 0.0;
+    bool const closes = straight_ - su_ + at_top() < 0.0;
     return 2.0 * both(from, closes ? crossing(su_ - straight_) : r_);
   }
 
  private:
   double q(double v) const { return std::sqrt(std::max(0.0, r_ * r_ - v * v)); }
+  // q(r - sv), also where sv is lost beside r.
+  double at_top() const { return std::sqrt(std::max(0.0, sv_ * (2.0 * r_ - sv_))); }
   double height(double v) const { return straight_ - su_ + q(v) + q(v - sv_); }
 
   // The upper crossing of two circles of radius r, one `offset` beside and sv above the other.

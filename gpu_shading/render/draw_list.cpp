@@ -10,6 +10,9 @@ void DrawList::clear() {
   views_.clear();
   shades_.clear();
   keys_.clear();
+  screen_indices_.clear();
+  screen_draws_.clear();
+  screen_view_ = {};
 }
 
 void DrawList::add_triangles(std::span<std::uint32_t const> indices) {
@@ -20,6 +23,14 @@ Range DrawList::add_tile(std::span<glm::vec2 const> triangles) {
   Range const range{tile_vertices_.size(), triangles.size()};
   tile_vertices_.insert(tile_vertices_.end(), triangles.begin(), triangles.end());
   return range;
+}
+
+void DrawList::add_quadrilaterals(std::span<std::uint32_t const> indices) {
+  screen_indices_.insert(screen_indices_.end(), indices.begin(), indices.end());
+}
+
+void DrawList::end_screens(std::size_t begin, int texture) {
+  screen_draws_.push_back({texture, {begin, screen_indices_.size() - begin}});
 }
 
 std::int32_t DrawList::add_keys(std::span<glm::vec4 const> keys) {

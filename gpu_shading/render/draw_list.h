@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/screen_view.h"
 #include "render/view.h"
 
 namespace gpu_shading {
@@ -33,10 +34,17 @@ struct Shade {
   std::int32_t schedule = -1;
 };
 
+// Screens that share a texture.
+struct ScreenDraw {
+  int texture = -1;  // none
+  Range indices;
+};
+
 // A receiver on its tile and the casters before it.
 struct ReceiverJob {
   std::size_t view = 0;
   Range casters;
+  Range screens;  // of the list's screen draws
   Range tile;
   std::int32_t first_key = -1;  // where schedules are told apart: their keys' place
 };
@@ -67,11 +75,21 @@ class DrawList {
   // Returns the place of the first.
   std::int32_t add_keys(std::span<glm::vec4 const> keys);
 
+  // All screens added to one draw share a texture.
+  std::size_t begin_screens() const { return screen_indices_.size(); }
+  void add_quadrilaterals(std::span<std::uint32_t const> indices);
+  void end_screens(std::size_t begin, int texture);
+  // Needed where there are screens.
+  void set_screen_view(ScreenView view) { screen_view_ = std::move(view); }
+
   std::span<std::uint32_t const> indices() const { return indices_; }
   std::span<glm::vec2 const> tile_vertices() const { return tile_vertices_; }
   std::span<ViewBlock const> views() const { return views_; }
   std::span<Shade const> shades() const { return shades_; }
   std::span<glm::vec4 const> keys() const { return keys_; }
+  std::span<std::uint32_t const> screen_indices() const { return screen_indices_; }
+  std::span<ScreenDraw const> screen_draws() const { return screen_draws_; }
+  ScreenView const& screen_view() const { return screen_view_; }
 
  private:
   std::vector<std::uint32_t> indices_;
@@ -79,6 +97,9 @@ class DrawList {
   std::vector<ViewBlock> views_;
   std::vector<Shade> shades_;
   std::vector<glm::vec4> keys_;
+  std::vector<std::uint32_t> screen_indices_;
+  std::vector<ScreenDraw> screen_draws_;
+  ScreenView screen_view_;
 };
 
 }  // namespace gpu_shading

@@ -31,7 +31,8 @@ glm::dvec3 some_point(Scene const& scene) {
 
 }  // namespace
 
-Geometry::Geometry(Scene const& scene) : scene_origin_(some_point(scene)) {
+Geometry::Geometry(Scene const& scene, Screens const& screens)
+    : scene_origin_(some_point(scene)), screens_(screens, scene_origin_) {
   std::vector<Vertex> vertices;
   ranges_.reserve(scene.size());
   for (SurfaceId id = 0; id < scene.size(); ++id) {
@@ -95,6 +96,7 @@ void Geometry::upload(DrawList const& list) {
     std::memcpy(blocks.data() + i * view_stride_, &list.views()[i], sizeof(ViewBlock));
   }
   views_.set(std::span<std::byte const>(blocks));
+  screens_.upload(list);
   if (list.shades().empty()) return;
   shades_.set(list.shades());
   // A block without storage is an error even where no one reads it.
@@ -133,9 +135,19 @@ void Geometry::use_tiles_in(glm::vec4 const& colour) {
   tiles_.bind();
 }
 
-void Geometry::draw_surfaces(std::size_t view, Range indices) const {
+void Geometry::bind_view(std::size_t view) const {
   constexpr std::uint32_t view_binding = 0;
   views_.bind_uniform(view_binding, view * view_stride_, sizeof(ViewBlock));
+}
+
+void Geometry::draw_screens(std::size_t view, Range draws) const {
+  if (draws.count == 0) return;
+  bind_view(view);
+  screens_.draw(draws);
+}
+
+void Geometry::draw_surfaces(std::size_t view, Range indices) const {
+  bind_view(view);
   gl::draw_indexed(indices.first, indices.count);
 }
 

@@ -12,6 +12,8 @@
 #include "gl/vertex_array.h"
 #include "gpu_shading/scene.h"
 #include "render/draw_list.h"
+#include "render/screen_geometry.h"
+#include "scene/screens.h"
 
 namespace gpu_shading {
 
@@ -19,11 +21,13 @@ namespace gpu_shading {
 // with what they let through, and a receiver on its tile.
 class Geometry {
  public:
-  explicit Geometry(Scene const& scene);
+  Geometry(Scene const& scene, Screens const& screens);
 
   // Triangles of a surface, to be added to a DrawList. Empty for a degenerate one.
   std::span<std::uint32_t const> triangles(SurfaceId id) const;
   glm::dvec3 const& scene_origin() const { return scene_origin_; }
+
+  ScreenGeometry const& screens() const { return screens_; }
 
   void upload(DrawList const& list);
 
@@ -37,12 +41,16 @@ class Geometry {
   void use_tiles_in(glm::vec4 const& colour);
 
   void draw_surfaces(std::size_t view, Range indices) const;
+  // Sets the program up too.
+  void draw_screens(std::size_t view, Range draws) const;
   void draw_tile(Range vertices) const;
 
   // slide.vert with no colour.
   gl::Program const& surface_program() const { return surface_program_; }
 
  private:
+  void bind_view(std::size_t view) const;
+
   glm::dvec3 scene_origin_{0.0};
   std::vector<std::uint32_t> indices_;
   std::vector<Range> ranges_;
@@ -51,6 +59,7 @@ class Geometry {
   gl::Program tile_program_;
   gl::Program shade_program_;
   gl::Program coloured_tile_program_;
+  ScreenGeometry screens_;
   gl::Buffer surface_vertices_;
   gl::Buffer surface_indices_;
   gl::Buffer tile_vertices_;

@@ -25,6 +25,7 @@ void draw_luminance(Geometry& geometry, ReceiverJob const& job, gl::Blend how) {
   gl::blend(how);
   geometry.use_shades(job.first_key);
   geometry.draw_surfaces(job.view, job.casters);
+  geometry.draw_screens(job.view, job.screens);
   gl::blend(gl::Blend::replace);
 }
 

@@ -20,6 +20,7 @@
 #include "render/schedule_keys.h"
 #include "render/scheduled_luminance.h"
 #include "scene/casters.h"
+#include "scene/screens.h"
 #include "scene/shades.h"
 
 namespace gpu_shading {
@@ -73,7 +74,8 @@ class Renderer::Implementation {
  private:
   // What lives on the device, made and ended with its context current.
   struct OnDevice {
-    OnDevice(Scene const& scene, int resolution) : geometry(scene) {
+    OnDevice(Scene const& scene, Screens const& screens, int resolution)
+        : geometry(scene, screens) {
       coverage.try_emplace(resolution, resolution);
     }
 
@@ -97,6 +99,9 @@ class Renderer::Implementation {
   // Of the whole scene, right for these casters.
   std::vector<Shade> shades_of(std::span<SurfaceId const> casters,
                                glm::dvec3 const& towards_sun) const;
+  // Gives the list what these casters let through.
+  void see_through(DrawList& list, std::span<SurfaceId const> casters,
+                   glm::dvec3 const& towards_sun) const;
   // Nothing when none of the casters has a schedule.
   std::optional<ScheduleKeys> keys_of(SurfaceId id, std::span<SurfaceId const> casters) const;
   ReceiverJob add_view(Receiver const& seen, std::span<SurfaceId const> casters,
@@ -108,6 +113,7 @@ class Renderer::Implementation {
   RendererOptions options_;
   Casters casters_;
   Shades shades_;
+  Screens screens_;
   egl::Device device_;
   std::unique_ptr<OnDevice> on_device_;
   std::unordered_map<SurfaceId, Receiver> receivers_;
@@ -121,6 +127,7 @@ Renderer::Implementation::Implementation(Scene scene, RendererOptions options)
       options_(options),
       casters_(scene_),
       shades_(scene_),
+      screens_(scene_),
       device_(egl::open_device(options.device)) {
   Stopwatch const watch(statistics_.seconds);
   if (options_.resolution < 1 || options_.resolution > device_.info.max_resolution) {
@@ -132,7 +139,7 @@ Renderer::Implementation::Implementation(Scene scene, RendererOptions options)
     options_.luminance_sum = device_.info.software ? LuminanceSum::readback : LuminanceSum::compute;
   }
   egl::Current const current = device_.context.make_current();
-  on_device_ = std::make_unique<OnDevice>(scene_, options_.resolution);
+  on_device_ = std::make_unique<OnDevice>(scene_, screens_, options_.resolution);
 }
 
 Renderer::Implementation::~Implementation() {
@@ -214,6 +221,18 @@ std::vector<Shade> Renderer::Implementation::shades_of(std::span<SurfaceId const
   return shades;
 }
 
+void Renderer::Implementation::see_through(DrawList& list, std::span<SurfaceId const> casters,
+                                           glm::dvec3 const& towards_sun) const {
+  list.set_shades(shades_of(casters, towards_sun));
+  std::vector<int> numbers;
+  for (SurfaceId const id : casters) {
+    if (screens_.number(id) != Screens::none) numbers.push_back(screens_.number(id));
+  }
+  if (numbers.empty()) return;
+  list.set_screen_view(see_screens(screens_, numbers, towards_sun, deployments_,
+                                   on_device_->geometry.screens().most_texels()));
+}
+
 bool Renderer::Implementation::any_transmits(std::span<SurfaceId const> casters) const {
   return std::any_of(casters.begin(), casters.end(),
                      [&](SurfaceId id) { return shades_.transmits(id); });
@@ -264,7 +283,14 @@ ReceiverJob Renderer::Implementation::add_view(Receiver const& seen,
   ReceiverJob job;
   job.view = draw_list_.add_view(view_in_front(*seen.frame, seen.tile.map, towards_sun),
                                  on_device_->geometry.scene_origin());
-  job.casters = add_surfaces(casters);
+  std::vector<SurfaceId> plain;
+  std::vector<int> screens;
+  for (SurfaceId const id : casters) {
+    if (shades_.dims(id)) plain.push_back(id);
+    if (screens_.number(id) != Screens::none) screens.push_back(screens_.number(id));
+  }
+  job.casters = add_surfaces(plain);
+  job.screens = on_device_->geometry.screens().add_to(draw_list_, screens);
   job.tile = draw_list_.add_tile(seen.tile.triangles);
   return job;
 }
@@ -336,7 +362,7 @@ std::vector<Sunlit> Renderer::Implementation::projected_sunlit_areas(
   if (!transmitting.empty()) {
     std::sort(transmitting.begin(), transmitting.end());
     transmitting.erase(std::unique(transmitting.begin(), transmitting.end()), transmitting.end());
-    draw_list_.set_shades(shades_of(transmitting, towards_sun));
+    see_through(draw_list_, transmitting, towards_sun);
   }
 
   egl::Current const current = device_.context.make_current();
@@ -408,7 +434,7 @@ std::vector<Sunlit> Renderer::Implementation::interior_sunlit_areas(
   for (SurfaceId const id : interiors) surfaces.push_back(add_surfaces({&id, 1}));
   bool const transmits = any_transmits(casters);
   std::optional<ScheduleKeys> const keys = keys_of(window, casters);
-  if (transmits) draw_list_.set_shades(shades_of(casters, towards_sun));
+  if (transmits) see_through(draw_list_, casters, towards_sun);
   if (keys) in_front.first_key = draw_list_.add_keys(keys->keys());
 
   egl::Current const current = device_.context.make_current();

@@ -92,6 +92,7 @@ Casters::Casters(Scene const& scene) {
     caster.count = ring.size();
     caster.normal = glm::normalize(vector);
     caster.planar = is_planar(ring, caster.normal);
+    caster.faces = sheet_faces(scene[id]);
     caster.only_turned_away = scene[id].casting == Casting::turned_away;
     for (glm::dvec3 const& vertex : ring) {
       caster.centre += (vertex - ring[0]) / static_cast<double>(ring.size());
@@ -132,7 +133,9 @@ std::vector<SurfaceId> Casters::in_view(std::span<SurfaceId const> candidates,
     // The bounding spheres as the sun sees them.
     glm::dvec3 const apart = caster.centre - frame.origin;
     double const along = glm::dot(apart, towards_sun);
-    double const reach = radius + caster.radius;
+    bool const thick = caster.faces.inside != caster.faces.outside;
+    double const reach = radius + caster.radius +
+                         std::max(std::abs(caster.faces.inside), std::abs(caster.faces.outside));
     double const rounding = 1e-12 * glm::dot(apart, apart);
     if (glm::dot(apart, apart) - along * along > reach * reach + rounding) continue;
 
@@ -141,7 +144,8 @@ std::vector<SurfaceId> Casters::in_view(std::span<SurfaceId const> candidates,
     bool cut = false;
     for (glm::dvec3 const& vertex : ring) {
       if (depth(frame, vertex) > 0.0) {
-        shadow.include(vertex);
+        shadow.include(vertex + caster.faces.inside * caster.normal);
+        shadow.include(vertex + caster.faces.outside * caster.normal);
       } else {
         cut = true;
       }
@@ -156,7 +160,7 @@ std::vector<SurfaceId> Casters::in_view(std::span<SurfaceId const> candidates,
         for (std::size_t j = 0; j < i; ++j) include_crossing(shadow, frame, ring[i], ring[j]);
       }
     }
-    if (shadow.overlaps()) found.push_back(id);
+    if (shadow.overlaps() || (cut && thick)) found.push_back(id);
   }
   return found;
 }

@@ -6,6 +6,7 @@
 
 #include "gpu_shading/scene.h"
 #include "scene/plane_frame.h"
+#include "scene/screens.h"
 
 namespace gpu_shading {
 
@@ -47,6 +48,7 @@ class Casters {
     glm::dvec3 centre{0.0};
     double radius = 0.0;
     glm::dvec3 normal{0.0};
+    SheetFaces faces;  // of a screen
     bool planar = true;
     bool only_turned_away = false;
   };

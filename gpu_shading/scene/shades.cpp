@@ -18,7 +18,9 @@ Shades::Shades(Scene const& scene) : entries_(scene.size()) {
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     Surface const& surface = scene[id];
     Entry& entry = entries_[id];
-    entry.transmits = surface.transmittance != nullptr || surface.schedule >= 0;
+    bool const is_shade = surface.transmittance != nullptr || surface.schedule >= 0;
+    entry.transmits = is_shade || surface.screen != nullptr;
+    entry.dims = is_shade || surface.screen == nullptr;
     if (!entry.transmits) continue;
     any_ = true;
     entry.normal = normal(surface.polygon);

@@ -14,8 +14,11 @@ class Shades {
 
   bool any() const { return any_; }
   bool transmits(SurfaceId id) const { return entries_[id].transmits; }
+  // Whether more than its screen's holes dims what passes it.
+  bool dims(SurfaceId id) const { return entries_[id].dims; }
 
-  // 1 for a surface that only has a schedule, 0 for an opaque one. `towards_sun` of unit length.
+  // 1 for a surface that only has a schedule or a screen, 0 for an opaque one. `towards_sun` of
+  // unit length.
   double transmittance(Scene const& scene, SurfaceId id, glm::dvec3 const& towards_sun) const;
 
   static constexpr int unscheduled = -1;
@@ -25,6 +28,7 @@ class Shades {
  private:
   struct Entry {
     bool transmits = false;
+    bool dims = true;
     int schedule = unscheduled;
     glm::dvec3 normal{0.0};
   };

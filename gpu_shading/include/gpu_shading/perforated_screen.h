@@ -98,7 +98,7 @@ struct Sheet {
   // Copies of the sheet's holes over its thickness that a ray has to pass, front and back counted,
   // 1 .. 64. Nothing: as many as are needed. Of a pattern that is none: a ray passes where it is in
   // the same hole at both faces, which is exact, since holes are convex. Of a raster: layers_for.
-  std::optional<int> layers;
+  std::optional<int> layers = std::nullopt;
   ScreenDetail detail = ScreenDetail::automatic;
 };
 

@@ -153,6 +153,24 @@ TEST(HolePattern, LetsALensThroughRoundHoles) {
   EXPECT_EQ(holes.transmittance(-3 * mm, 5 * mm), 0.0);
 }
 
+// The sun in a sheet's normal is there but for rounding: shifts of 1e-18 m.
+TEST(HolePattern, LetsItsOpenFractionThroughAtNextToNormalIncidence) {
+  for (Hole const hole : {Hole::Round, Hole::Slotted, Hole::Square, Hole::Hexagonal}) {
+    HolePattern const holes({.hole = hole,
+                             .arrangement = Arrangement::Straight,
+                             .size = 5 * mm,
+                             .length = hole == Hole::Slotted ? 7 * mm : 0.0,
+                             .pitch = 8 * mm});
+    for (double const shift : {1e-20, 1e-18, 1e-16, 1e-12}) {
+      for (double const phi : {0.0, 0.3, 1.0, 1.57, 2.0}) {
+        EXPECT_NEAR(holes.transmittance(shift * std::cos(phi), shift * std::sin(phi)),
+                    holes.open_fraction(), 1e-9)
+            << static_cast<int>(hole) << " " << shift << " " << phi;
+      }
+    }
+  }
+}
+
 TEST(HolePattern, LetsAHexagonThroughHexagonalHoles) {
   HolePattern const holes = pattern(Hole::Hexagonal, Arrangement::Straight, 5, 8);
   // Half-way from side to side: the hexagon loses the parallelogram and the two triangles that

@@ -1,0 +1,156 @@
+#include "render/screen_geometry.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+
+#include "gl/check.h"
+#include "gl/draw.h"
+#include "gl/limits.h"
+#include "gpu_shading/error.h"
+#include "render/screen_view.h"
+#include "render/twice_float.h"
+#include "shaders/sources.h"
+
+namespace gpu_shading {
+namespace {
+
+struct Vertex {
+  TwiceFloat place;
+  glm::vec2 corner;
+  std::uint32_t screen;
+};
+static_assert(sizeof(Vertex) == sizeof(TwiceFloat) + sizeof(glm::vec2) + sizeof(std::uint32_t));
+
+// Memory of a texture comes in pieces of this size.
+constexpr int largest_texture = 4096;
+
+gl::ValueTexture make_texture(OpacityTile const& tile, TextureCells const& cells) {
+  auto texture =
+      gl::ValueTexture::create(cells.columns + 2, cells.rows + 2, cells.across * cells.up);
+  std::vector<std::uint16_t> texels;
+  auto const columns = static_cast<std::size_t>(tile.columns());
+  for (int layer = 0; layer < cells.across * cells.up; ++layer) {
+    texels.clear();
+    int const left = layer % cells.across * cells.columns;
+    int const bottom = layer / cells.across * cells.rows;
+    for (int row = bottom - 1; row <= bottom + cells.rows; ++row) {
+      auto const around = static_cast<std::size_t>((row + tile.rows()) % tile.rows());
+      for (int column = left - 1; column <= left + cells.columns; ++column) {
+        auto const along = static_cast<std::size_t>((column + tile.columns()) % tile.columns());
+        texels.push_back(
+            static_cast<std::uint16_t>(65535.0F * tile.opacity()[around * columns + along] + 0.5F));
+      }
+    }
+    texture.set(layer, texels);
+  }
+  return texture;
+}
+
+}  // namespace
+
+ScreenGeometry::ScreenGeometry(Screens const& screens, glm::dvec3 const& scene_origin)
+    : most_texels_(std::min(largest_texture, gl::query_limits().max_texture_size)) {
+  if (screens.entries().empty()) return;
+  if (gl::query_limits().vertex_storage_blocks < 1) {
+    throw DeviceError(
+        "the device has no storage buffers in its vertex stage, which perforated screens need; "
+        "choose another (gpu_shading devices), or software");
+  }
+  program_ = gl::Program::link("screens", shaders::screen_vert, shaders::screen_geom,
+                               shaders::screen_frag);
+  vertices_ = gl::Buffer::create();
+  draw_indices_ = gl::Buffer::create();
+  faces_ = gl::Buffer::create();
+  optics_ = gl::Buffer::create();
+  effective_ = gl::Buffer::create();
+  add_quadrilaterals(screens, scene_origin);
+  add_textures(screens);
+  quadrilaterals_ = gl::VertexArray::create();
+  quadrilaterals_.set_vertices(vertices_, sizeof(Vertex));
+  quadrilaterals_.add_attribute(0, 3, offsetof(TwiceFloat, high));
+  quadrilaterals_.add_attribute(1, 3, offsetof(TwiceFloat, low));
+  quadrilaterals_.add_attribute(2, 2, offsetof(Vertex, corner));
+  quadrilaterals_.add_identity(3, offsetof(Vertex, screen));
+  quadrilaterals_.set_indices(draw_indices_);
+  gl::check("uploading screens");
+}
+
+void ScreenGeometry::add_quadrilaterals(Screens const& screens, glm::dvec3 const& scene_origin) {
+  std::vector<Vertex> vertices;
+  for (std::size_t screen = 0; screen < screens.entries().size(); ++screen) {
+    std::size_t const first = indices_.size();
+    for (Screens::Quadrilateral const& part : screens.entries()[screen].parts) {
+      for (std::size_t i = 0; i < part.corners.size(); ++i) {
+        indices_.push_back(static_cast<std::uint32_t>(vertices.size()));
+        vertices.push_back({TwiceFloat(part.corners[i] - scene_origin), glm::vec2(part.places[i]),
+                            static_cast<std::uint32_t>(screen)});
+      }
+    }
+    ranges_.push_back({first, indices_.size() - first});
+  }
+  vertices_.set(std::span<Vertex const>(vertices));
+}
+
+void ScreenGeometry::add_textures(Screens const& screens) {
+  std::map<PerforatedScreen const*, int> known;
+  for (Screens::Entry const& entry : screens.entries()) {
+    PerforatedScreen const& screen = *entry.screen;
+    if (!screen.tile()) {
+      textures_of_.push_back(no_texture);
+      continue;
+    }
+    auto const [place, added] = known.try_emplace(&screen, static_cast<int>(textures_.size()));
+    if (added) {
+      textures_.push_back(
+          make_texture(*screen.tile(), texture_cells(*screen.tile(), most_texels_)));
+    }
+    textures_of_.push_back(place->second);
+  }
+}
+
+Range ScreenGeometry::add_to(DrawList& list, std::span<int const> numbers) const {
+  std::map<int, std::vector<int>> by_texture;
+  for (int const number : numbers) {
+    by_texture[textures_of_[static_cast<std::size_t>(number)]].push_back(number);
+  }
+  std::size_t const first = list.screen_draws().size();
+  for (auto const& [texture, some] : by_texture) {
+    std::size_t const begin = list.begin_screens();
+    for (int const number : some) {
+      Range const range = ranges_[static_cast<std::size_t>(number)];
+      list.add_quadrilaterals({indices_.data() + range.first, range.count});
+    }
+    list.end_screens(begin, texture);
+  }
+  return {first, list.screen_draws().size() - first};
+}
+
+void ScreenGeometry::upload(DrawList const& list) {
+  draws_.assign(list.screen_draws().begin(), list.screen_draws().end());
+  if (list.screen_draws().empty()) return;
+  ScreenView const& seen = list.screen_view();
+  draw_indices_.set(list.screen_indices());
+  faces_.set(std::span<ScreenFace const>(seen.faces));
+  optics_.set(std::span<ScreenOptics const>(seen.optics));
+  effective_.set(std::span<float const>(seen.effective));
+}
+
+void ScreenGeometry::draw(Range draws) const {
+  if (draws.count == 0) return;
+  constexpr std::uint32_t faces_binding = 2;
+  constexpr std::uint32_t optics_binding = 3;
+  constexpr std::uint32_t effective_binding = 4;
+  program_.use();
+  quadrilaterals_.bind();
+  faces_.bind_storage(faces_binding);
+  optics_.bind_storage(optics_binding);
+  effective_.bind_storage(effective_binding);
+  for (std::size_t i = draws.first; i < draws.first + draws.count; ++i) {
+    ScreenDraw const& draw = draws_[i];
+    if (draw.texture != no_texture) textures_[static_cast<std::size_t>(draw.texture)].bind(0);
+    gl::draw_indexed_fours(draw.indices.first, draw.indices.count);
+  }
+}
+
+}  // namespace gpu_shading

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "gl/vertex_array.h"
+#include "render/draw_list.h"
+#include "scene/screens.h"
+
+namespace gpu_shading {
+
+// The scene's screens on the device: their quadrilaterals, the textures of those that have one, and
+// the way of drawing them.
+class ScreenGeometry {
+ public:
+  // Throws DeviceError where the device cannot.
+  ScreenGeometry(Screens const& screens, glm::dvec3 const& scene_origin);
+
+  // Texels a side of a texture.
+  int most_texels() const { return most_texels_; }
+
+  // Screens before one receiver, by their numbers, as draws of a list.
+  Range add_to(DrawList& list, std::span<int const> numbers) const;
+
+  void upload(DrawList const& list);
+
+  // Through the view that is bound. Gives 0 and what is kept of the luminance, as transmit.frag.
+  void draw(Range draws) const;
+
+ private:
+  static constexpr int no_texture = -1;
+
+  void add_quadrilaterals(Screens const& screens, glm::dvec3 const& scene_origin);
+  void add_textures(Screens const& screens);
+
+  int most_texels_ = 0;
+  std::vector<std::uint32_t> indices_;
+  std::vector<Range> ranges_;     // of the indices, by screen
+  std::vector<int> textures_of_;  // by screen
+  std::vector<gl::ValueTexture> textures_;
+  std::vector<ScreenDraw> draws_;  // as uploaded
+  gl::Program program_;
+  gl::Buffer vertices_;
+  gl::Buffer draw_indices_;
+  gl::Buffer faces_;
+  gl::Buffer optics_;
+  gl::Buffer effective_;
+  gl::VertexArray quadrilaterals_;
+};
+
+}  // namespace gpu_shading

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+#include "scene/screens.h"
+
+namespace gpu_shading {
+
+// Of screen.vert, std430.
+struct ScreenFace {
+  glm::vec4 normal_inside{0.0F};
+  glm::vec4 shift_outside_unused{0.0F};
+};
+
+// Of screen.frag, std430.
+struct ScreenOptics {
+  glm::vec4 shift_deployed_threshold{0.0F};
+  glm::vec4 tile_blend{0.0F};
+  glm::vec4 hole{0.0F};
+  glm::ivec4 kind_layers_effective{0};
+  glm::ivec4 regions_texture{0};
+  glm::vec4 texels{0.0F};
+};
+
+// How the image of a tile is cut into layers of a texture: alike but for those at the ends, and
+// each with a border of one texel.
+struct TextureCells {
+  int columns = 0;  // of a layer, without the border
+  int rows = 0;
+  int across = 0;  // layers
+  int up = 0;
+};
+TextureCells texture_cells(OpacityTile const& tile, int most_texels);
+
+// What the screens of a scene are to the sun at one direction: each entry right for those asked
+// for, nothing for the others.
+struct ScreenView {
+  std::vector<ScreenFace> faces;
+  std::vector<ScreenOptics> optics;
+  std::vector<float> effective;
+};
+
+// `numbers`: of the screens in view. `deployments`: shares in place, 1 where too few.
+ScreenView see_screens(Screens const& screens, std::span<int const> numbers,
+                       glm::dvec3 const& towards_sun, std::span<double const> deployments,
+                       int most_texels);
+
+}  // namespace gpu_shading

@@ -1,0 +1,94 @@
+#include "scene/screens.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "scene/ring.h"
+#include "scene/triangulation.h"
+
+namespace gpu_shading {
+namespace {
+
+struct TileAxes {
+  glm::dvec3 origin;
+  glm::dvec3 u;
+  glm::dvec3 v;
+
+  glm::dvec2 operator()(glm::dvec3 const& point) const {
+    return {glm::dot(point - origin, u), glm::dot(point - origin, v)};
+  }
+};
+
+TileAxes tile_axes(Ring const& ring, glm::dvec3 const& normal, ScreenPlacement const& placement) {
+  glm::dvec3 const edge = ring[2] - ring[1];
+  glm::dvec3 const u = glm::normalize(edge - normal * glm::dot(normal, edge));
+  glm::dvec3 const v = glm::cross(normal, u);
+  double const c = std::cos(placement.rotation);
+  double const s = std::sin(placement.rotation);
+  return {ring[1] + placement.origin_u * u + placement.origin_v * v, c * u + s * v, c * v - s * u};
+}
+
+bool is_convex_quadrilateral(Polygon const& polygon, Ring const& ring, glm::dvec3 const& normal) {
+  if (!polygon.holes.empty() || ring.size() != 4) return false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    glm::dvec3 const in = ring[(i + 1) % 4] - ring[i];
+    glm::dvec3 const out = ring[(i + 2) % 4] - ring[(i + 1) % 4];
+    if (glm::dot(glm::cross(in, out), normal) <= 0.0) return false;
+  }
+  return true;
+}
+
+std::vector<Screens::Quadrilateral> parts_of(Polygon const& polygon, Ring const& ring,
+                                             glm::dvec3 const& normal, TileAxes const& axes) {
+  std::vector<Screens::Quadrilateral> parts;
+  auto const add = [&](std::array<glm::dvec3, 4> const& corners) {
+    parts.push_back(
+        {corners, {axes(corners[0]), axes(corners[1]), axes(corners[2]), axes(corners[3])}});
+  };
+  if (is_convex_quadrilateral(polygon, ring, normal)) {
+    add({ring[0], ring[1], ring[2], ring[3]});
+    return parts;
+  }
+  Mesh const mesh = triangulate(polygon);
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    glm::dvec3 const& a = mesh.vertices[mesh.indices[i]];
+    glm::dvec3 const& b = mesh.vertices[mesh.indices[i + 1]];
+    glm::dvec3 const& c = mesh.vertices[mesh.indices[i + 2]];
+    add({a, b, c, c});
+  }
+  return parts;
+}
+
+}  // namespace
+
+SheetFaces sheet_faces(Surface const& surface) {
+  if (!surface.screen) return {};
+  double const thickness = surface.screen->sheet().thickness;
+  switch (surface.screen->sheet().plane) {
+    case SheetPlane::outside:
+      return {-thickness, 0.0};
+    case SheetPlane::inside:
+      return {0.0, thickness};
+    case SheetPlane::centre:
+      break;
+  }
+  return {-thickness / 2.0, thickness / 2.0};
+}
+
+Screens::Screens(Scene const& scene) : numbers_(scene.size(), none) {
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    Surface const& surface = scene[id];
+    if (!surface.screen) continue;
+    Ring const ring = without_repeats(surface.polygon.outline);
+    glm::dvec3 const vector = newell(ring);
+    if (ring.size() < 3 || is_degenerate(ring, vector)) continue;
+    glm::dvec3 const normal = glm::normalize(vector);
+    TileAxes const axes = tile_axes(ring, normal, surface.placement);
+    SheetFaces const faces = sheet_faces(surface);
+    numbers_[id] = static_cast<int>(entries_.size());
+    entries_.push_back({surface.screen, normal, axes.u, axes.v, faces.inside, faces.outside,
+                        surface.deployment, parts_of(surface.polygon, ring, normal, axes)});
+  }
+}
+
+}  // namespace gpu_shading

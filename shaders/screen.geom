@@ -1,0 +1,69 @@
+#version 450 core
+// Of a convex quadrilateral of a sheet, all that its thickness covers as the sun sees it: the
+// inside face, and from each of its edges that looks that way the strip to the outside face. These
+// do not overlap, so that every ray meets one fragment, which looks for its way through the layers.
+
+layout(lines_adjacency) in;
+layout(triangle_strip, max_vertices = 20) out;
+
+in Corner {
+  vec4 inside;
+  vec4 outside;
+  vec2 place;
+  vec2 shift;
+  float kept;
+  flat uint screen;
+}
+corners[];
+
+out vec2 place;             // where the ray passes the inside face, m in the sheet's plane
+out vec4 within;            // there, its distance from each edge times the edge's length
+flat out vec4 within_step;  // how that changes from face to face
+flat out uint screen;
+
+float crossed(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
+
+vec2 edge(int i) { return corners[(i + 1) % 4].place - corners[i].place; }
+
+// Twice the area of the four corners' places.
+float turn(vec2 a, vec2 b, vec2 c, vec2 d) { return crossed(c - a, d - b); }
+
+float handed;  // 1 where the corners run counter-clockwise in the sheet's plane, else -1
+
+void send(int i, bool outside) {
+  vec2 shift = corners[i].shift;
+  place = outside ? corners[i].place - shift : corners[i].place;
+  for (int k = 0; k < 4; ++k) {
+    within[k] = handed * crossed(edge(k), place - corners[k].place);
+    within_step[k] = handed * crossed(edge(k), shift);
+  }
+  screen = corners[i].screen;
+  gl_Position = outside ? corners[i].outside : corners[i].inside;
+  gl_ClipDistance[0] = corners[i].kept;
+  EmitVertex();
+}
+
+void main() {
+  handed = turn(corners[0].place, corners[1].place, corners[2].place, corners[3].place) < 0.0
+               ? -1.0
+               : 1.0;
+  send(0, false);
+  send(1, false);
+  send(3, false);
+  send(2, false);
+  EndPrimitive();
+
+  vec2 slide = corners[0].outside.xy - corners[0].inside.xy;
+  float seen = turn(corners[0].inside.xy, corners[1].inside.xy, corners[2].inside.xy,
+                    corners[3].inside.xy);
+  for (int i = 0; i < 4; ++i) {
+    int next = (i + 1) % 4;
+    vec2 along = corners[next].inside.xy - corners[i].inside.xy;
+    if (crossed(along, slide) * (seen < 0.0 ? -1.0 : 1.0) >= 0.0) continue;
+    send(i, false);
+    send(next, false);
+    send(i, true);
+    send(next, true);
+    EndPrimitive();
+  }
+}
