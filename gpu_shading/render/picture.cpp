@@ -94,8 +94,8 @@ Picture::Picture()
       plain_(gl::Program::link("plain", shaders::slide_vert, shaders::plain_frag)) {}
 
 Image Picture::draw(Geometry& geometry, Scene const& scene, SurfaceId receiver,
-                    PlaneFrame const& frame, std::span<SurfaceId const> casters,
-                    std::vector<Shade> shades, glm::dvec3 const& towards_sun, int size) {
+                    PlaneFrame const& frame, Shading const& shading, glm::dvec3 const& towards_sun,
+                    int size) {
   SunAxes const axes(towards_sun);
   Frame seen;
   for (glm::dvec3 const& vertex : scene[receiver].polygon.outline) {
@@ -117,21 +117,23 @@ Image Picture::draw(Geometry& geometry, Scene const& scene, SurfaceId receiver,
   in_front.cut = glm::dvec4(frame.normal, -clearance);
 
   DrawList list;
+  list.set_shades(shading.shades);
+  list.set_screen_view(shading.screens);
   std::size_t const whole_view = list.add_view(all, geometry.scene_origin());
   std::size_t const front_view = list.add_view(in_front, geometry.scene_origin());
   std::size_t begin = list.begin_surfaces();
   for (SurfaceId id = 0; id < scene.size(); ++id) {
-    if (id != receiver) list.add_triangles(geometry.triangles(id));
+    if (id != receiver && !scene[id].screen) list.add_triangles(geometry.triangles(id));
   }
   Range const others = list.end_surfaces(begin);
   begin = list.begin_surfaces();
-  for (SurfaceId const id : casters) list.add_triangles(geometry.triangles(id));
-  Range const shading = list.end_surfaces(begin);
+  for (SurfaceId const id : shading.plain) list.add_triangles(geometry.triangles(id));
+  Range const plain = list.end_surfaces(begin);
+  Range const screens = geometry.screens().add_to(list, shading.screens_in_view);
+  Range const all_screens = geometry.screens().add_to(list, shading.all_screens);
   begin = list.begin_surfaces();
   list.add_triangles(geometry.triangles(receiver));
   Range const itself = list.end_surfaces(begin);
-  bool const transmits = !shades.empty();
-  list.set_shades(std::move(shades));
   geometry.upload(list);
 
   auto const target =
@@ -148,10 +150,15 @@ Image Picture::draw(Geometry& geometry, Scene const& scene, SurfaceId receiver,
   tilt_.set(0, glm::vec4(glm::vec3(towards_sun), 0.0F));
   geometry.use_surfaces(tilt_);
   geometry.draw_surfaces(whole_view, others);
+  // With their holes, over what lies behind them.
+  gl::depth(gl::Test::less, false);
+  gl::blend(gl::Blend::multiply);
+  geometry.draw_screens(whole_view, all_screens);
+  gl::blend(gl::Blend::replace);
 
   bool const faces_sun = glm::dot(frame.normal, towards_sun) > edge_on;
   gl::no_depth();
-  if (transmits) {
+  if (!shading.shades.empty()) {
     gl::stencil(gl::Test::always, 1, gl::OnPass::replace);
     geometry.use_surfaces(plain_);
     plain_.set(0, faces_sun ? white : black);
@@ -160,7 +167,8 @@ Image Picture::draw(Geometry& geometry, Scene const& scene, SurfaceId receiver,
     gl::cut_at_plane(true);
     gl::blend(gl::Blend::multiply);
     geometry.use_shades(-1);
-    geometry.draw_surfaces(front_view, shading);
+    geometry.draw_surfaces(front_view, plain);
+    geometry.draw_screens(front_view, screens);
     gl::blend(gl::Blend::replace);
     gl::check("drawing a sun's view through shades");
     return from_rows_below(target.read_colour(), width, height);
@@ -171,7 +179,7 @@ Image Picture::draw(Geometry& geometry, Scene const& scene, SurfaceId receiver,
   gl::cut_at_plane(true);
   gl::write_colour(false);
   geometry.use_surfaces(geometry.surface_program());
-  geometry.draw_surfaces(front_view, shading);
+  geometry.draw_surfaces(front_view, plain);
   gl::write_colour(true);
 
   // The receiver over all of it: what hides it from the sun shows as blue.

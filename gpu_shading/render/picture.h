@@ -16,11 +16,19 @@ class Picture {
  public:
   Picture();
 
-  // `casters` are those in view; everything else of the scene is drawn around the receiver, in grey
-  // by its luminance where there are `shades`.
+  // What shades the receiver, and how.
+  struct Shading {
+    std::vector<SurfaceId> plain;      // casters in view that are more than screens
+    std::vector<int> screens_in_view;  // by their numbers
+    std::vector<int> all_screens;
+    std::vector<Shade> shades;  // empty: all casters in view are opaque
+    ScreenView screens;         // right for all screens
+  };
+
+  // Everything else of the scene is drawn around the receiver, which is grey by its luminance where
+  // there are shades.
   Image draw(Geometry& geometry, Scene const& scene, SurfaceId receiver, PlaneFrame const& frame,
-             std::span<SurfaceId const> casters, std::vector<Shade> shades,
-             glm::dvec3 const& towards_sun, int size);
+             Shading const& shading, glm::dvec3 const& towards_sun, int size);
 
  private:
   gl::Program tilt_;

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <map>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -99,6 +101,8 @@ class Renderer::Implementation {
   // Of the whole scene, right for these casters.
   std::vector<Shade> shades_of(std::span<SurfaceId const> casters,
                                glm::dvec3 const& towards_sun) const;
+  std::vector<SurfaceId> plain_among(std::span<SurfaceId const> casters) const;
+  std::vector<int> screens_among(std::span<SurfaceId const> casters) const;
   // Gives the list what these casters let through.
   void see_through(DrawList& list, std::span<SurfaceId const> casters,
                    glm::dvec3 const& towards_sun) const;
@@ -221,13 +225,26 @@ std::vector<Shade> Renderer::Implementation::shades_of(std::span<SurfaceId const
   return shades;
 }
 
-void Renderer::Implementation::see_through(DrawList& list, std::span<SurfaceId const> casters,
-                                           glm::dvec3 const& towards_sun) const {
-  list.set_shades(shades_of(casters, towards_sun));
+std::vector<SurfaceId> Renderer::Implementation::plain_among(
+    std::span<SurfaceId const> casters) const {
+  std::vector<SurfaceId> plain;
+  std::copy_if(casters.begin(), casters.end(), std::back_inserter(plain),
+               [&](SurfaceId id) { return shades_.dims(id); });
+  return plain;
+}
+
+std::vector<int> Renderer::Implementation::screens_among(std::span<SurfaceId const> casters) const {
   std::vector<int> numbers;
   for (SurfaceId const id : casters) {
     if (screens_.number(id) != Screens::none) numbers.push_back(screens_.number(id));
   }
+  return numbers;
+}
+
+void Renderer::Implementation::see_through(DrawList& list, std::span<SurfaceId const> casters,
+                                           glm::dvec3 const& towards_sun) const {
+  list.set_shades(shades_of(casters, towards_sun));
+  std::vector<int> const numbers = screens_among(casters);
   if (numbers.empty()) return;
   list.set_screen_view(see_screens(screens_, numbers, towards_sun, deployments_,
                                    on_device_->geometry.screens().most_texels()));
@@ -283,14 +300,8 @@ ReceiverJob Renderer::Implementation::add_view(Receiver const& seen,
   ReceiverJob job;
   job.view = draw_list_.add_view(view_in_front(*seen.frame, seen.tile.map, towards_sun),
                                  on_device_->geometry.scene_origin());
-  std::vector<SurfaceId> plain;
-  std::vector<int> screens;
-  for (SurfaceId const id : casters) {
-    if (shades_.dims(id)) plain.push_back(id);
-    if (screens_.number(id) != Screens::none) screens.push_back(screens_.number(id));
-  }
-  job.casters = add_surfaces(plain);
-  job.screens = on_device_->geometry.screens().add_to(draw_list_, screens);
+  job.casters = add_surfaces(plain_among(casters));
+  job.screens = on_device_->geometry.screens().add_to(draw_list_, screens_among(casters));
   job.tile = draw_list_.add_tile(seen.tile.triangles);
   return job;
 }
@@ -475,19 +486,25 @@ Image Renderer::Implementation::sun_view(SunDirection sun, SurfaceId id, int siz
   std::vector<SurfaceId> const casters =
       faces_sun ? casters_.in_view(seen.in_front, *seen.frame, towards_sun)
                 : std::vector<SurfaceId>();
-  std::vector<Shade> shades;
+  Picture::Shading shading;
+  shading.plain = plain_among(casters);
+  shading.screens_in_view = screens_among(casters);
+  shading.all_screens.resize(screens_.entries().size());
+  std::iota(shading.all_screens.begin(), shading.all_screens.end(), 0);
+  shading.screens = see_screens(screens_, shading.all_screens, towards_sun, deployments_,
+                                on_device_->geometry.screens().most_texels());
   if (any_transmits(casters)) {
-    shades = shades_of(casters, towards_sun);
+    shading.shades = shades_of(casters, towards_sun);
     for (SurfaceId const caster : casters) {
       auto const schedule = static_cast<std::size_t>(std::max(0, scene_[caster].schedule));
       if (scene_[caster].schedule < 0 || schedule >= factors.size()) continue;
-      shades[caster].transmittance *= static_cast<float>(factors[schedule]);
+      shading.shades[caster].transmittance *= static_cast<float>(factors[schedule]);
     }
   }
   egl::Current const current = device_.context.make_current();
   if (!on_device_->picture) on_device_->picture.emplace();
-  return on_device_->picture->draw(on_device_->geometry, scene_, id, *seen.frame, casters,
-                                   std::move(shades), towards_sun, size);
+  return on_device_->picture->draw(on_device_->geometry, scene_, id, *seen.frame, shading,
+                                   towards_sun, size);
 }
 
 Renderer::Renderer(Scene scene, RendererOptions options)

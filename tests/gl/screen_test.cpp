@@ -1,9 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <memory>
+#include <numeric>
+#include <string>
 
 #include "gpu_shading/perforated_screen.h"
+#include "gpu_shading/transmittance.h"
+#include "room.h"
 #include "shapes.h"
 
 // Perforated sheets as the renderer draws them, against what is known of them in closed form.
@@ -12,40 +18,352 @@ namespace {
 
 constexpr double mm = 1e-3;
 
+using Screen = std::shared_ptr<PerforatedScreen const>;
+
 HolePattern round_holes(double size, double pitch) {
   return HolePattern(
       {.hole = Hole::Round, .arrangement = Arrangement::Staggered60, .size = size, .pitch = pitch});
 }
 
-// A level receiver of 7 x 12 tiles below a sheet that covers the sun's way to all of it. The
-// sheet's second edge, along which is u, runs north.
-Scene covered(HolePattern const& holes, std::shared_ptr<PerforatedScreen const> screen) {
+HolePattern square_holes(double size, double pitch) {
+  return HolePattern(
+      {.hole = Hole::Square, .arrangement = Arrangement::Straight, .size = size, .pitch = pitch});
+}
+
+Screen sheet_of(HolePattern const& holes, double thickness,
+                ScreenDetail detail = ScreenDetail::holes) {
+  Sheet sheet{.thickness = thickness};
+  sheet.detail = detail;
+  return std::make_shared<PerforatedScreen const>(holes, sheet);
+}
+
+Screen sheet_of(OpacityTile tile, double thickness, ScreenDetail detail = ScreenDetail::holes) {
+  Sheet sheet{.thickness = thickness};
+  sheet.detail = detail;
+  return std::make_shared<PerforatedScreen const>(std::move(tile), sheet);
+}
+
+Surface screened(std::string name, Polygon polygon, Screen screen, ScreenPlacement placement = {}) {
+  Surface surface{std::move(name), std::move(polygon)};
+  surface.screen = std::move(screen);
+  surface.placement = placement;
+  return surface;
+}
+
+// A level receiver of 7 x 12 tiles, over which the mean is the tile's wherever it begins, below a
+// sheet that covers the sun's way to all of it. The sheet's second edge, along which is u, runs
+// north.
+Scene covered(double tile_width, double tile_height, Screen screen) {
   Scene scene;
-  scene.add({"receiver", level(0, 0, 0, 7 * holes.height(), 12 * holes.width())});
-  Surface sheet{"screen", level(-2, -2, 0.1, 5, 5)};
-  sheet.screen = std::move(screen);
-  scene.add(sheet);
+  scene.add({"receiver", level(0, 0, 0, 7 * tile_height, 12 * tile_width)});
+  scene.add(screened("screen", level(-2, -2, 0.1, 5, 5), std::move(screen)));
   return scene;
 }
 
+double passed(Renderer& renderer, SunDirection sun, SurfaceId receiver = 0) {
+  double const whole = area(renderer.scene()[receiver].polygon) *
+                       glm::dot(normal(renderer.scene()[receiver].polygon), to_vector(sun));
+  return sunlit(renderer, sun, receiver).projected_area / whole;
+}
+
+double closed_form(HolePattern const& holes, double thickness, SunDirection sun) {
+  glm::dvec3 const s = to_vector(sun);
+  return holes.transmittance(thickness * s.y / s.z, -thickness * s.x / s.z);
+}
+
+constexpr double altitudes[] = {90.0, 75.0, 60.0, 45.0, 35.0};
+
 TEST(Screen, OfHolesLetsTheClosedFormThrough) {
+  double const thickness = 30 * mm;
+  for (Hole const hole : {Hole::Round, Hole::Square, Hole::Hexagonal}) {
+    HolePattern const holes({.hole = hole, .size = 50 * mm, .pitch = 80 * mm});
+    for (auto const detail : {ScreenDetail::holes, ScreenDetail::effective}) {
+      Renderer renderer = renderer_of(
+          covered(holes.width(), holes.height(), sheet_of(holes, thickness, detail)), 1024);
+      for (double const altitude : altitudes) {
+        SunDirection const sun = sun_at(33.0, altitude);
+        EXPECT_NEAR(passed(renderer, sun), closed_form(holes, thickness, sun),
+                    detail == ScreenDetail::holes ? 2e-4 : 1e-6)
+            << static_cast<int>(hole) << " altitude " << altitude;
+      }
+    }
+  }
+}
+
+TEST(Screen, OfARasterLetsWhatItsHolesDoThrough) {
+  double const thickness = 30 * mm;
   HolePattern const holes = round_holes(50 * mm, 80 * mm);
   for (auto const detail : {ScreenDetail::holes, ScreenDetail::effective}) {
-    Sheet sheet{.thickness = 30 * mm};
-    sheet.detail = detail;
     Renderer renderer =
-        renderer_of(covered(holes, std::make_shared<PerforatedScreen const>(holes, sheet)), 1024);
-    for (double const altitude : {90.0, 75.0, 60.0, 45.0, 35.0}) {
+        renderer_of(covered(holes.width(), holes.height(),
+                            sheet_of(OpacityTile(holes, 1 * mm), thickness, detail)),
+                    1024);
+    for (double const altitude : altitudes) {
       SunDirection const sun = sun_at(33.0, altitude);
-      glm::dvec3 const s = to_vector(sun);
-      double const slope = 30 * mm / s.z;
-      double const exact = holes.transmittance(slope * s.y, -slope * s.x);
-      double const got =
-          sunlit(renderer, sun, 0).projected_area / (s.z * area(renderer.scene()[0].polygon));
-      EXPECT_NEAR(got, exact, detail == ScreenDetail::holes ? 2e-4 : 1e-6)
+      EXPECT_NEAR(passed(renderer, sun), closed_form(holes, thickness, sun), 4e-3)
           << static_cast<int>(detail) << " altitude " << altitude;
     }
   }
+}
+
+// Ten layers of a thick sheet leave gaps under low sun, which its walls close.
+TEST(Screen, OfFewLayersLeaksWhereASheetDoesNot) {
+  HolePattern const holes = round_holes(50 * mm, 52 * mm);
+  SunDirection const sun = sun_at(33.0, 15.0);
+  Sheet sheet{.thickness = 100 * mm};
+  Renderer exact = renderer_of(covered(holes.width(), holes.height(), sheet_of(holes, 100 * mm)));
+  EXPECT_EQ(passed(exact, sun), 0.0);
+  sheet.layers = 3;
+  sheet.detail = ScreenDetail::holes;
+  Renderer leaking = renderer_of(covered(holes.width(), holes.height(),
+                                         std::make_shared<PerforatedScreen const>(holes, sheet)));
+  EXPECT_GT(passed(leaking, sun), 0.1);
+  sheet.layers = 64;
+  Renderer closed = renderer_of(covered(holes.width(), holes.height(),
+                                        std::make_shared<PerforatedScreen const>(holes, sheet)));
+  EXPECT_EQ(passed(closed, sun), 0.0);
+}
+
+// Wider than a layer of a texture may be, so that it is cut into two: a bar of open texels at the
+// seam and one at the image's ends.
+TEST(Screen, OfALargeImageIsWhole) {
+  constexpr int columns = 6000;
+  std::vector<float> opacity(columns, 1.0F);
+  for (int i = 4000; i < 4200; ++i) opacity[static_cast<std::size_t>(i)] = 0.0F;
+  for (int i = 0; i < 100; ++i) opacity[static_cast<std::size_t>(i)] = 0.0F;
+  for (int i = 5900; i < 6000; ++i) opacity[static_cast<std::size_t>(i)] = 0.0F;
+  Scene scene;
+  // u runs north from the sheet's south-east corner.
+  for (double const y : {0.0, 3.0, 4.0, 4.1, 4.15, 4.2, 5.8, 5.92}) {
+    scene.add({"strip", level(1, y, 0, 1, 0.05)});
+  }
+  scene.add(screened("screen", level(0, 0, 1, 3, 6),
+                     sheet_of(OpacityTile(6.0, 1.0, columns, 1, opacity), 0.0)));
+  Renderer renderer = renderer_of(scene, 64);
+  std::vector<double> shares;
+  for (SurfaceId id = 0; id < 8; ++id) {
+    shares.push_back(std::round(passed(renderer, sun_at(0, 90), id) * 100) / 100);
+  }
+  EXPECT_EQ(shares, (std::vector<double>{1, 0, 1, 1, 1, 0, 0, 1}));
+}
+
+// One slot, 0.2 m wide and 1 m long, and small receivers below where it should be and where not.
+struct Slot {
+  Polygon sheet;
+  ScreenPlacement placement;
+  glm::dvec2 lit;
+  glm::dvec2 dark;
+};
+
+TEST(Screen, LiesWhereItIsPlaced) {
+  HolePattern const slot({.hole = Hole::Slotted,
+                          .arrangement = Arrangement::Straight,
+                          .size = 0.2,
+                          .length = 1.0,
+                          .pitch = 20.0});
+  // Its second vertex is (4, 0), from which u runs north and v west.
+  Polygon const up = level(0, 0, 1, 4, 3);
+  // And of its mirror image (4, 3), from which u runs south and v west: it looks down, so that the
+  // receiver sees its outside.
+  Polygon const down{{{0, 3, 1}, {4, 3, 1}, {4, 0, 1}, {0, 0, 1}}, {}};
+  double const turn = 45 * degree;
+  Slot const cases[] = {
+      {up, {0.5, 1.0, 0.0}, {3.0, 0.9}, {2.6, 0.5}},
+      {up, {0.5, 1.0, 90 * degree}, {2.6, 0.5}, {3.0, 0.9}},
+      {up, {0.5, 1.0, turn}, {2.75, 0.75}, {3.25, 0.75}},
+      {down, {0.5, 1.0, 0.0}, {3.0, 2.1}, {2.6, 2.5}},
+      {down, {0.5, 1.0, turn}, {2.75, 2.25}, {3.25, 2.25}},
+  };
+  for (Slot const& one : cases) {
+    Scene scene;
+    scene.add({"lit", level(one.lit.x - 0.03, one.lit.y - 0.03, 0, 0.06, 0.06)});
+    scene.add({"dark", level(one.dark.x - 0.03, one.dark.y - 0.03, 0, 0.06, 0.06)});
+    scene.add(screened("screen", one.sheet, sheet_of(slot, 0.01), one.placement));
+    Renderer renderer = renderer_of(scene, 64);
+    EXPECT_EQ(passed(renderer, sun_at(0, 90), 0), 1.0) << &one - cases;
+    EXPECT_EQ(passed(renderer, sun_at(0, 90), 1), 0.0) << &one - cases;
+  }
+}
+
+// A solid sheet is a block: from the side it covers its height times its length, and more than its
+// polygon from everywhere else, above or below it as its plane is.
+TEST(Screen, HasTheThicknessOfItsSides) {
+  HolePattern const far_apart = square_holes(0.01, 50.0);
+  for (SheetPlane const plane : {SheetPlane::centre, SheetPlane::outside, SheetPlane::inside}) {
+    Sheet sheet{.thickness = 0.2, .plane = plane};
+    auto const screen = std::make_shared<PerforatedScreen const>(far_apart, sheet);
+    double const bottom = plane == SheetPlane::inside    ? 1.0
+                          : plane == SheetPlane::outside ? 0.8
+                                                         : 0.9;
+    Scene scene;
+    scene.add({"wall", south_facing(0, 2, 0, 4, 4), Casting::never});
+    scene.add({"ground", level(0, -10, 0, 4, 30)});
+    // Its hole lies outside it.
+    scene.add(screened("sheet", level(1, 0, 1, 2, 1), screen, {20.0, 20.0, 0.0}));
+    Renderer renderer = renderer_of(scene);
+    EXPECT_NEAR(passed(renderer, sun_at(180, 0), 0), 1.0 - 0.2 * 2.0 / 16.0, 1e-3);
+    // At 45 degrees from the south the block's shadow on the ground is 1 m deep, and its height.
+    EXPECT_NEAR(passed(renderer, sun_at(180, 45), 1), 1.0 - 2.0 * 1.2 / 120.0, 1e-3);
+    // Of the wall, 2 m behind its front, it covers what lies below the ray over its upper edge.
+    Scene low = scene;
+    low.add({"band", south_facing(1.5, 2, bottom - 0.05, 1, 0.04)});
+    low.add({"block", south_facing(1.5, 2, bottom + 0.01, 1, 0.18)});
+    Renderer close = renderer_of(low, 64);
+    EXPECT_EQ(passed(close, sun_at(180, 0), 3), 1.0);
+    EXPECT_EQ(passed(close, sun_at(180, 0), 4), 0.0);
+  }
+}
+
+// Rays from one piece into its neighbour pass both.
+TEST(Screen, IsTheSameInPieces) {
+  Screen const screen = sheet_of(round_holes(0.3, 0.4), 0.2);
+  Screen const raster = sheet_of(OpacityTile(round_holes(0.3, 0.4), 0.01), 0.2);
+  Polygon const ell{{{3, 0, 1}, {3, 1, 1}, {1, 1, 1}, {1, 3, 1}, {0, 3, 1}, {0, 0, 1}},
+                    {}};  // u west, v south
+  for (Screen const& one : {screen, raster}) {
+    Scene whole;
+    whole.add({"receiver", level(-1, -1, 0, 5, 5)});
+    whole.add(screened("ell", ell, one));
+    Scene parts;
+    parts.add({"receiver", level(-1, -1, 0, 5, 5)});
+    // Each begins with the corner before the ell's second vertex, or is placed as if it did.
+    parts.add(screened("east", {{{3, 0, 1}, {3, 1, 1}, {1, 1, 1}, {1, 0, 1}}, {}}, one));
+    parts.add(screened("west", {{{1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0, 0, 1}}, {}}, one,
+                       {-2.0, 0.0, 0.0}));
+    parts.add(screened("north", {{{1, 1, 1}, {1, 3, 1}, {0, 3, 1}, {0, 1, 1}}, {}}, one,
+                       {-2.0, 2.0, 0.0}));
+    Renderer in_one = renderer_of(whole);
+    Renderer in_three = renderer_of(parts);
+    for (SunDirection const sun : {sun_at(0, 90), sun_at(33, 60), sun_at(200, 35)}) {
+      EXPECT_NEAR(passed(in_one, sun), passed(in_three, sun), 1e-4);
+      EXPECT_LT(passed(in_one, sun), 0.95);
+    }
+  }
+}
+
+struct Mixed {
+  HolePattern holes = square_holes(40 * mm, 80 * mm);
+  Scene scene;
+  SunDirection sun = sun_at(0, 90);
+
+  Mixed() { scene.add({"receiver", level(0, 0, 0, 0.96, 0.96)}); }
+  Polygon sheet(double height) const { return level(-2, -2, height, 5, 5); }
+};
+
+TEST(Screen, MixesWithAllOtherCasters) {
+  Mixed mixed;
+  mixed.scene.add(screened("screen", mixed.sheet(0.3), sheet_of(mixed.holes, 1 * mm)));
+  double const quarter = 0.25;
+  {
+    Renderer renderer = renderer_of(mixed.scene, 1024);
+    EXPECT_NEAR(passed(renderer, mixed.sun), quarter, 3e-4);
+  }
+  // Half of it behind an opaque sheet, above or below the screen.
+  for (double const height : {0.2, 0.4}) {
+    Scene scene = mixed.scene;
+    scene.add({"opaque", level(-2, -2, height, 2.48, 5)});
+    Renderer renderer = renderer_of(scene, 1024);
+    EXPECT_NEAR(passed(renderer, mixed.sun), quarter / 2, 3e-4);
+  }
+  // Glass before it and glass behind it.
+  Scene glazed = mixed.scene;
+  auto const glass = std::make_shared<Transmittance const>(Transmittance::constant(0.5));
+  glazed.add({"above", mixed.sheet(0.4), Casting::always, glass});
+  glazed.add({"below", mixed.sheet(0.2), Casting::always, glass});
+  Renderer through_glass = renderer_of(glazed, 1024);
+  EXPECT_NEAR(passed(through_glass, mixed.sun), quarter / 4, 1e-4);
+  // A second screen, hole over hole, and displaced by a hole.
+  for (double const origin : {0.0, 40 * mm}) {
+    Scene scene = mixed.scene;
+    scene.add(
+        screened("second", mixed.sheet(0.5), sheet_of(mixed.holes, 1 * mm), {origin, origin, 0.0}));
+    Renderer renderer = renderer_of(scene, 1024);
+    EXPECT_NEAR(passed(renderer, mixed.sun), origin == 0.0 ? quarter : 0.0, 3e-4);
+  }
+  // And as textures, two different ones.
+  Scene textures = mixed.scene;
+  textures.add(screened("stripes", mixed.sheet(0.5),
+                        sheet_of(OpacityTile(0.01, 0.01, 2, 1, {0.0F, 1.0F}), 0.0)));
+  textures.add(screened("grey", mixed.sheet(0.6),
+                        sheet_of(OpacityTile(1, 1, 1, 1, {0.4F}, std::nullopt), 0.0)));
+  Renderer through_textures = renderer_of(textures, 1024);
+  EXPECT_NEAR(passed(through_textures, mixed.sun), quarter * 0.5 * 0.6, 1e-3);
+}
+
+// The fraction counts once, whatever the layers.
+TEST(Screen, OfFractionalOpacityMultiplies) {
+  Scene scene;
+  scene.add({"receiver", level(0, 0, 0, 1, 1)});
+  scene.add(screened("screen", level(-2, -2, 0.3, 5, 5),
+                     sheet_of(OpacityTile(1, 1, 1, 1, {0.4F}, std::nullopt), 0.05)));
+  Renderer renderer = renderer_of(scene);
+  for (double const altitude : altitudes) {
+    EXPECT_NEAR(passed(renderer, sun_at(20, altitude)), 0.6, 1e-4);
+  }
+}
+
+TEST(Screen, WithAScheduleIsKeptApart) {
+  Mixed mixed;
+  Surface scheduled = screened("screen", mixed.sheet(0.3), sheet_of(mixed.holes, 1 * mm));
+  scheduled.schedule = 0;
+  mixed.scene.add(scheduled);
+  Renderer renderer = renderer_of(mixed.scene, 1024);
+  Sunlit const got = sunlit(renderer, mixed.sun, 0);
+  double const whole = 0.96 * 0.96;
+  EXPECT_NEAR(got.projected_area, 0.0, 1e-9);
+  EXPECT_NEAR(got.at(std::vector<double>{1.0}) / whole, 0.25, 3e-4);
+  EXPECT_NEAR(got.at(std::vector<double>{0.2}) / whole, 0.05, 3e-4);
+}
+
+TEST(Screen, ThatSlidesAwayLetsTheRestPass) {
+  Mixed mixed;
+  Surface sliding = screened("screen", mixed.sheet(0.3), sheet_of(mixed.holes, 1 * mm));
+  sliding.deployment = 1;
+  mixed.scene.add(sliding);
+  Renderer renderer = renderer_of(mixed.scene, 1024);
+  EXPECT_NEAR(passed(renderer, mixed.sun), 0.25, 3e-4);
+  for (double const share : {0.0, 0.4, 1.0}) {
+    renderer.set_deployments({0.5, share});
+    EXPECT_NEAR(passed(renderer, mixed.sun), 1.0 - 0.75 * share, 3e-4);
+  }
+}
+
+TEST(Screen, ShadesWhatLiesBehindAWindow) {
+  Room room;
+  std::vector<SurfaceId> const inside = room.surfaces;
+  Renderer bare = renderer_of(room.scene, 1024);
+  SunDirection const sun = sun_at(170, 40);
+  std::vector<double> const before = interior_areas(bare, sun, room.window, inside);
+  Scene scene = room.scene;
+  HolePattern const holes = square_holes(20 * mm, 40 * mm);
+  scene.add(screened("screen", south_facing(-5, -1, -5, 15, 15), sheet_of(holes, 0.0)));
+  Renderer renderer = renderer_of(scene, 1024);
+  std::vector<double> const after = interior_areas(renderer, sun, room.window, inside);
+  double const sum = std::accumulate(before.begin(), before.end(), 0.0);
+  ASSERT_GT(sum, 0.1);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_NEAR(after[i], before[i] / 4, 0.01 * sum) << i;
+  }
+}
+
+TEST(Screen, ShowsItsHolesInThePicture) {
+  Scene scene;
+  scene.add({"receiver", level(0, 0, 0, 1, 1)});
+  HolePattern const holes = square_holes(0.25, 0.5);
+  scene.add(screened("screen", level(0, 0, 0.3, 1, 1), sheet_of(holes, 1 * mm), {0.25, 0.25, 0}));
+  Renderer renderer = renderer_of(scene);
+  // The sun in the zenith has north up; around the receiver is a border of 0.15 m.
+  Image const image = renderer.sun_view(sun_at(0, 90), 0, 650);
+  auto const grey = [&](double x, double y) {
+    auto const column = static_cast<std::size_t>((x + 0.15) / 1.3 * image.width);
+    auto const row = static_cast<std::size_t>((1.15 - y) / 1.3 * image.height);
+    return static_cast<int>(
+        image.pixels.at(3 * (row * static_cast<std::size_t>(image.width) + column)));
+  };
+  for (double const x : {0.25, 0.75}) {
+    for (double const y : {0.25, 0.75}) EXPECT_EQ(grey(x, y), 255) << x << " " << y;
+  }
+  for (double const place : {0.05, 0.5, 0.95}) EXPECT_EQ(grey(place, 0.5), 0) << place;
 }
 
 }  // namespace
