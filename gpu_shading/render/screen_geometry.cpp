@@ -38,8 +38,7 @@ gl::ValueTexture make_texture(OpacityTile const& tile, TextureCells const& cells
       auto const around = static_cast<std::size_t>((row + tile.rows()) % tile.rows());
       for (int column = left - 1; column <= left + cells.columns; ++column) {
         auto const along = static_cast<std::size_t>((column + tile.columns()) % tile.columns());
-        texels.push_back(
-            static_cast<std::uint16_t>(65535.0F * tile.opacity()[around * columns + along] + 0.5F));
+        texels.push_back(tile.opacity()[around * columns + along]);
       }
     }
     texture.set(layer, texels);
