@@ -282,10 +282,12 @@ TEST(Screen, MixesWithAllOtherCasters) {
   }
   // And as textures, two different ones.
   Scene textures = mixed.scene;
-  textures.add(screened("stripes", mixed.sheet(0.5),
-                        sheet_of(OpacityTile(0.01, 0.01, 2, 1, {0.0F, 1.0F}), 0.0)));
-  textures.add(screened("grey", mixed.sheet(0.6),
-                        sheet_of(OpacityTile(1, 1, 1, 1, {0.4F}, std::nullopt), 0.0)));
+  textures.add(
+      screened("stripes", mixed.sheet(0.5),
+               sheet_of(OpacityTile(0.01, 0.01, 2, 1, std::vector<float>{0.0F, 1.0F}), 0.0)));
+  textures.add(
+      screened("grey", mixed.sheet(0.6),
+               sheet_of(OpacityTile(1, 1, 1, 1, std::vector<float>{0.4F}, std::nullopt), 0.0)));
   Renderer through_textures = renderer_of(textures, 1024);
   EXPECT_NEAR(passed(through_textures, mixed.sun), quarter * 0.5 * 0.6, 1e-3);
 }
@@ -294,8 +296,9 @@ TEST(Screen, MixesWithAllOtherCasters) {
 TEST(Screen, OfFractionalOpacityMultiplies) {
   Scene scene;
   scene.add({"receiver", level(0, 0, 0, 1, 1)});
-  scene.add(screened("screen", level(-2, -2, 0.3, 5, 5),
-                     sheet_of(OpacityTile(1, 1, 1, 1, {0.4F}, std::nullopt), 0.05)));
+  scene.add(
+      screened("screen", level(-2, -2, 0.3, 5, 5),
+               sheet_of(OpacityTile(1, 1, 1, 1, std::vector<float>{0.4F}, std::nullopt), 0.05)));
   Renderer renderer = renderer_of(scene);
   for (double const altitude : altitudes) {
     EXPECT_NEAR(passed(renderer, sun_at(20, altitude)), 0.6, 1e-4);
