@@ -10,16 +10,29 @@ in Corner {
   vec4 inside;
   vec4 outside;
   vec2 place;
-  vec2 shift;
   float kept;
-  flat uint screen;
+  vec4 ray;
+  vec4 tile;
+  vec4 hole;
+  vec4 effective;
+  ivec4 kind;
+  ivec4 image;
+  vec4 texels;
 }
 corners[];
+
+// As screen.vert has them: for fragments to read one value each.
+flat out vec4 ray;
+flat out vec4 tile;
+flat out vec4 hole;
+flat out vec4 effective;
+flat out ivec4 kind;
+flat out ivec4 image;
+flat out vec4 texels;
 
 out vec2 place;             // where the ray passes the inside face, m in the sheet's plane
 out vec4 within;            // there, its distance from each edge times the edge's length
 flat out vec4 within_step;  // how that changes from face to face
-flat out uint screen;
 
 float crossed(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
@@ -31,13 +44,19 @@ float turn(vec2 a, vec2 b, vec2 c, vec2 d) { return crossed(c - a, d - b); }
 float handed;  // 1 where the corners run counter-clockwise in the sheet's plane, else -1
 
 void send(int i, bool outside) {
-  vec2 shift = corners[i].shift;
+  vec2 shift = corners[i].ray.xy;
   place = outside ? corners[i].place - shift : corners[i].place;
   for (int k = 0; k < 4; ++k) {
     within[k] = handed * crossed(edge(k), place - corners[k].place);
     within_step[k] = handed * crossed(edge(k), shift);
   }
-  screen = corners[i].screen;
+  ray = corners[i].ray;
+  tile = corners[i].tile;
+  hole = corners[i].hole;
+  effective = corners[i].effective;
+  kind = corners[i].kind;
+  image = corners[i].image;
+  texels = corners[i].texels;
   gl_Position = outside ? corners[i].outside : corners[i].inside;
   gl_ClipDistance[0] = corners[i].kept;
   EmitVertex();

@@ -15,20 +15,33 @@ layout(std140, binding = 0) uniform View {
   vec4 origin_low;
 };
 
-struct Face {
-  vec4 normal_inside;         // unit normal; the inside face along it from the polygon, m
-  vec4 shift_outside_unused;  // the way of a ray towards the sun from the inside face to the
-                              // outside, m in the sheet's plane; the outside face
+struct Sheet {
+  vec4 normal;     // unit normal; the inside face along it from the polygon, m
+  vec4 ray;        // its way towards the sun from the inside face to the outside, m in the sheet's
+                   // plane; the outside face along the normal, m; share of the screen in place
+  vec4 tile;       // width and height, m; pixels' size in the sheet, m, up to which holes are drawn
+                   // one by one, and from which on only their effect is
+  vec4 hole;       // half of its size, half of a slot's straight part, m; 1 where staggered; opacity
+                   // above which a texture is solid, -1: it multiplies
+  vec4 effective;  // transmittance for no, one, two and three thirds of the way
+  ivec4 kind;      // shape; layers, 0 solid, -1 exactly; first region, regions along u
+  ivec4 image;     // regions along v; columns and rows of a layer of the texture, layers along u
+  vec4 texels;     // of the image along u and v
 };
-layout(std430, binding = 2) readonly buffer Faces { Face faces[]; };
+layout(std430, binding = 2) readonly buffer Sheets { Sheet sheets[]; };
 
 out Corner {
   vec4 inside;
   vec4 outside;
   vec2 place;  // m in the sheet's plane
-  vec2 shift;
   float kept;
-  flat uint screen;
+  vec4 ray;
+  vec4 tile;
+  vec4 hole;
+  vec4 effective;
+  ivec4 kind;
+  ivec4 image;
+  vec4 texels;
 }
 result;
 
@@ -39,14 +52,18 @@ vec4 slid(vec3 p) {
 
 void main() {
   precise vec3 p = (high - origin_high.xyz) + (low - origin_low.xyz);
-  Face face = faces[screen];
-  vec3 normal = face.normal_inside.xyz;
-  result.inside = slid(p + face.normal_inside.w * normal);
-  result.outside = slid(p + face.shift_outside_unused.z * normal);
+  Sheet sheet = sheets[screen];
+  result.inside = slid(p + sheet.normal.w * sheet.normal.xyz);
+  result.outside = slid(p + sheet.ray.z * sheet.normal.xyz);
   result.place = corner;
-  result.shift = face.shift_outside_unused.xy;
   // The sheet is cut where its polygon is.
   result.kept = dot(cut.xyz, p) + cut.w;
-  result.screen = screen;
+  result.ray = sheet.ray;
+  result.tile = sheet.tile;
+  result.hole = sheet.hole;
+  result.effective = sheet.effective;
+  result.kind = sheet.kind;
+  result.image = sheet.image;
+  result.texels = sheet.texels;
   gl_Position = result.inside;
 }

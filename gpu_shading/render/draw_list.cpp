@@ -29,8 +29,8 @@ void DrawList::add_quadrilaterals(std::span<std::uint32_t const> indices) {
   screen_indices_.insert(screen_indices_.end(), indices.begin(), indices.end());
 }
 
-void DrawList::end_screens(std::size_t begin, int texture) {
-  screen_draws_.push_back({texture, {begin, screen_indices_.size() - begin}});
+void DrawList::end_screens(std::size_t begin, ScreenLook look) {
+  screen_draws_.push_back({look, {begin, screen_indices_.size() - begin}});
 }
 
 std::int32_t DrawList::add_keys(std::span<glm::vec4 const> keys) {

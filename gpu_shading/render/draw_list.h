@@ -34,9 +34,16 @@ struct Shade {
   std::int32_t schedule = -1;
 };
 
-// Screens that share a texture.
-struct ScreenDraw {
+// What screens have to have in common to be drawn at once.
+struct ScreenLook {
+  int program = 0;
   int texture = -1;  // none
+
+  auto operator<=>(ScreenLook const&) const = default;
+};
+
+struct ScreenDraw {
+  ScreenLook look;
   Range indices;
 };
 
@@ -75,10 +82,10 @@ class DrawList {
   // Returns the place of the first.
   std::int32_t add_keys(std::span<glm::vec4 const> keys);
 
-  // All screens added to one draw share a texture.
+  // All screens added to one draw look alike.
   std::size_t begin_screens() const { return screen_indices_.size(); }
   void add_quadrilaterals(std::span<std::uint32_t const> indices);
-  void end_screens(std::size_t begin, int texture);
+  void end_screens(std::size_t begin, ScreenLook look);
   // Needed where there are screens.
   void set_screen_view(ScreenView view) { screen_view_ = std::move(view); }
 

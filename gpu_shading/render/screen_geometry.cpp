@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <string>
 
 #include "gl/check.h"
 #include "gl/draw.h"
@@ -21,6 +22,11 @@ struct Vertex {
   std::uint32_t screen;
 };
 static_assert(sizeof(Vertex) == sizeof(TwiceFloat) + sizeof(glm::vec2) + sizeof(std::uint32_t));
+
+// Numbers of programs, and what each defines in screen.frag.
+enum { of_pattern, of_texture, of_regions };
+constexpr std::array<char const*, 3> definitions{"#define PATTERN\n", "#define TEXTURE\n",
+                                                 "#define TEXTURE\n#define REGIONS\n"};
 
 // Memory of a texture comes in pieces of this size.
 constexpr int largest_texture = 4096;
@@ -56,15 +62,12 @@ ScreenGeometry::ScreenGeometry(Screens const& screens, glm::dvec3 const& scene_o
         "the device has no storage buffers in its vertex stage, which perforated screens need; "
         "choose another (gpu_shading devices), or software");
   }
-  program_ = gl::Program::link("screens", shaders::screen_vert, shaders::screen_geom,
-                               shaders::screen_frag);
   vertices_ = gl::Buffer::create();
   draw_indices_ = gl::Buffer::create();
-  faces_ = gl::Buffer::create();
-  optics_ = gl::Buffer::create();
-  effective_ = gl::Buffer::create();
+  sheets_ = gl::Buffer::create();
+  regions_ = gl::Buffer::create();
   add_quadrilaterals(screens, scene_origin);
-  add_textures(screens);
+  add_looks(screens);
   quadrilaterals_ = gl::VertexArray::create();
   quadrilaterals_.set_vertices(vertices_, sizeof(Vertex));
   quadrilaterals_.add_attribute(0, 3, offsetof(TwiceFloat, high));
@@ -91,64 +94,69 @@ void ScreenGeometry::add_quadrilaterals(Screens const& screens, glm::dvec3 const
   vertices_.set(std::span<Vertex const>(vertices));
 }
 
-void ScreenGeometry::add_textures(Screens const& screens) {
-  std::map<PerforatedScreen const*, int> known;
+void ScreenGeometry::add_looks(Screens const& screens) {
+  std::map<PerforatedScreen const*, ScreenLook> known;
   for (Screens::Entry const& entry : screens.entries()) {
     PerforatedScreen const& screen = *entry.screen;
-    if (!screen.tile()) {
-      textures_of_.push_back(no_texture);
-      continue;
-    }
-    auto const [place, added] = known.try_emplace(&screen, static_cast<int>(textures_.size()));
-    if (added) {
+    auto const [place, added] = known.try_emplace(&screen);
+    if (added && screen.tile()) {
+      place->second = {varies(screen) ? of_regions : of_texture,
+                       static_cast<int>(textures_.size())};
       textures_.push_back(
           make_texture(*screen.tile(), texture_cells(*screen.tile(), most_texels_)));
     }
-    textures_of_.push_back(place->second);
+    link_program(place->second);
+    looks_.push_back(place->second);
   }
 }
 
+void ScreenGeometry::link_program(ScreenLook const& look) {
+  gl::Program& program = programs_.at(static_cast<std::size_t>(look.program));
+  if (!program.empty()) return;
+  std::string fragment = shaders::screen_frag;
+  fragment.insert(fragment.find('\n') + 1, definitions.at(static_cast<std::size_t>(look.program)));
+  program =
+      gl::Program::link("screens", shaders::screen_vert, shaders::screen_geom, fragment.c_str());
+}
+
 Range ScreenGeometry::add_to(DrawList& list, std::span<int const> numbers) const {
-  std::map<int, std::vector<int>> by_texture;
+  std::map<ScreenLook, std::vector<int>> by_look;
   for (int const number : numbers) {
-    by_texture[textures_of_[static_cast<std::size_t>(number)]].push_back(number);
+    by_look[looks_[static_cast<std::size_t>(number)]].push_back(number);
   }
   std::size_t const first = list.screen_draws().size();
-  for (auto const& [texture, some] : by_texture) {
+  for (auto const& [look, some] : by_look) {
     std::size_t const begin = list.begin_screens();
     for (int const number : some) {
       Range const range = ranges_[static_cast<std::size_t>(number)];
       list.add_quadrilaterals({indices_.data() + range.first, range.count});
     }
-    list.end_screens(begin, texture);
+    list.end_screens(begin, look);
   }
   return {first, list.screen_draws().size() - first};
 }
 
 void ScreenGeometry::upload(DrawList const& list) {
   draws_.assign(list.screen_draws().begin(), list.screen_draws().end());
-  if (list.screen_draws().empty()) return;
+  if (draws_.empty()) return;
   ScreenView const& seen = list.screen_view();
   draw_indices_.set(list.screen_indices());
-  faces_.set(std::span<ScreenFace const>(seen.faces));
-  optics_.set(std::span<ScreenOptics const>(seen.optics));
-  effective_.set(std::span<float const>(seen.effective));
+  sheets_.set(std::span<SheetBlock const>(seen.sheets));
+  if (!seen.regions.empty()) regions_.set(std::span<glm::vec4 const>(seen.regions));
 }
 
 void ScreenGeometry::draw(Range draws) const {
   if (draws.count == 0) return;
-  constexpr std::uint32_t faces_binding = 2;
-  constexpr std::uint32_t optics_binding = 3;
-  constexpr std::uint32_t effective_binding = 4;
-  program_.use();
+  constexpr std::uint32_t sheets_binding = 2;
+  constexpr std::uint32_t regions_binding = 3;
   quadrilaterals_.bind();
-  faces_.bind_storage(faces_binding);
-  optics_.bind_storage(optics_binding);
-  effective_.bind_storage(effective_binding);
+  sheets_.bind_storage(sheets_binding);
   for (std::size_t i = draws.first; i < draws.first + draws.count; ++i) {
-    ScreenDraw const& draw = draws_[i];
-    if (draw.texture != no_texture) textures_[static_cast<std::size_t>(draw.texture)].bind(0);
-    gl::draw_indexed_fours(draw.indices.first, draw.indices.count);
+    auto const& [look, indices] = draws_[i];
+    programs_.at(static_cast<std::size_t>(look.program)).use();
+    if (look.program == of_regions) regions_.bind_storage(regions_binding);
+    if (look.texture >= 0) textures_[static_cast<std::size_t>(look.texture)].bind(0);
+    gl::draw_indexed_fours(indices.first, indices.count);
   }
 }
 

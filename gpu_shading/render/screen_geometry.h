@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -34,23 +35,21 @@ class ScreenGeometry {
   void draw(Range draws) const;
 
  private:
-  static constexpr int no_texture = -1;
-
   void add_quadrilaterals(Screens const& screens, glm::dvec3 const& scene_origin);
-  void add_textures(Screens const& screens);
+  void add_looks(Screens const& screens);
+  void link_program(ScreenLook const& look);
 
   int most_texels_ = 0;
   std::vector<std::uint32_t> indices_;
-  std::vector<Range> ranges_;     // of the indices, by screen
-  std::vector<int> textures_of_;  // by screen
+  std::vector<Range> ranges_;      // of the indices, by screen
+  std::vector<ScreenLook> looks_;  // by screen
   std::vector<gl::ValueTexture> textures_;
-  std::vector<ScreenDraw> draws_;  // as uploaded
-  gl::Program program_;
+  std::vector<ScreenDraw> draws_;        // as uploaded
+  std::array<gl::Program, 3> programs_;  // by ScreenLook::program
   gl::Buffer vertices_;
   gl::Buffer draw_indices_;
-  gl::Buffer faces_;
-  gl::Buffer optics_;
-  gl::Buffer effective_;
+  gl::Buffer sheets_;
+  gl::Buffer regions_;
   gl::VertexArray quadrilaterals_;
 };
 

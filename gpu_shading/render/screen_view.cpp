@@ -9,8 +9,7 @@ namespace gpu_shading {
 namespace {
 
 // As in screen.frag.
-enum Shape { shape_texture, shape_round, shape_square, shape_hexagonal };
-constexpr int effective_steps = 8;
+enum Shape { texture, round_hole, square_hole, hexagonal_hole };
 constexpr int solid = 0;
 constexpr int exactly = -1;
 
@@ -30,14 +29,14 @@ double deployed(Screens::Entry const& entry, std::span<double const> shares) {
 Shape shape_of(Hole hole) {
   switch (hole) {
     case Hole::Square:
-      return shape_square;
+      return square_hole;
     case Hole::Hexagonal:
-      return shape_hexagonal;
+      return hexagonal_hole;
     case Hole::Round:
     case Hole::Slotted:
       break;
   }
-  return shape_round;
+  return round_hole;
 }
 
 int layers_of(PerforatedScreen const& screen, double shift) {
@@ -66,44 +65,51 @@ glm::vec2 blend_of(PerforatedScreen const& screen) {
   return {blend_from * screen.hole(), blend_to * screen.hole()};
 }
 
-void add_effective(PerforatedScreen const& screen, glm::dvec2 const& shift, ScreenOptics& optics,
-                   std::vector<float>& effective) {
-  optics.kind_layers_effective.z = static_cast<int>(effective.size());
-  optics.kind_layers_effective.w = 1;
-  optics.regions_texture.x = 1;
-  for (int i = 0; i <= effective_steps; ++i) {
-    glm::dvec2 const part = shift * (static_cast<double>(i) / effective_steps);
-    if (screen.pattern()) {
-      effective.push_back(static_cast<float>(screen.pattern()->transmittance(part.x, part.y)));
-    } else {
-      double const theta = std::atan2(glm::length(part), screen.sheet().thickness);
-      effective.push_back(
-          static_cast<float>(screen.transmittance()(theta, std::atan2(part.y, part.x))));
+// For no, one, two and three thirds of the way; one value for each region of the screen.
+std::vector<glm::vec4> effective(PerforatedScreen const& screen, glm::dvec2 const& shift) {
+  if (screen.pattern()) {
+    glm::vec4 thirds(0.0F);
+    for (int i = 0; i < 4; ++i) {
+      glm::dvec2 const part = shift * (i / 3.0);
+      thirds[i] = static_cast<float>(screen.pattern()->transmittance(part.x, part.y));
     }
+    return {thirds};
   }
+  double const phi = std::atan2(shift.y, shift.x);
+  std::vector<glm::vec4> regions;
+  for (int i = 0; i < 4; ++i) {
+    std::vector<float> const values = {static_cast<float>(screen.transmittance()(
+        std::atan2(glm::length(shift) * (i / 3.0), screen.sheet().thickness), phi))};
+    regions.resize(values.size(), glm::vec4(0.0F));
+    for (std::size_t at = 0; at < values.size(); ++at) regions[at][i] = values[at];
+  }
+  return regions;
 }
 
-void describe(PerforatedScreen const& screen, int most_texels, ScreenOptics& optics) {
-  if (screen.pattern()) {
-    Perforation const& given = screen.pattern()->perforation();
-    optics.kind_layers_effective.x = shape_of(given.hole);
-    optics.tile_blend.x = static_cast<float>(screen.pattern()->width());
-    optics.tile_blend.y = static_cast<float>(screen.pattern()->height());
-    double const straight = given.hole == Hole::Slotted ? given.length - given.size : 0.0;
-    bool const staggered = given.arrangement != Arrangement::Straight;
-    optics.hole = {given.size / 2.0, straight / 2.0, staggered ? 1.0 : 0.0, 0.0};
-    return;
-  }
-  OpacityTile const& tile = *screen.tile();
+void describe_pattern(HolePattern const& pattern, SheetBlock& sheet) {
+  Perforation const& given = pattern.perforation();
+  double const straight = given.hole == Hole::Slotted ? given.length - given.size : 0.0;
+  bool const staggered = given.arrangement != Arrangement::Straight;
+  sheet.kind.x = shape_of(given.hole);
+  sheet.tile.x = static_cast<float>(pattern.width());
+  sheet.tile.y = static_cast<float>(pattern.height());
+  sheet.hole = {given.size / 2.0, straight / 2.0, staggered ? 1.0 : 0.0, 0.0};
+}
+
+void describe_tile(OpacityTile const& tile, int most_texels, SheetBlock& sheet) {
   TextureCells const cells = texture_cells(tile, most_texels);
-  optics.kind_layers_effective.x = shape_texture;
-  optics.tile_blend.x = static_cast<float>(tile.width());
-  optics.tile_blend.y = static_cast<float>(tile.height());
-  optics.regions_texture.y = cells.columns;
-  optics.regions_texture.z = cells.rows;
-  optics.regions_texture.w = cells.across;
-  optics.texels = {tile.columns(), tile.rows(), 0.0, 0.0};
-  optics.shift_deployed_threshold.w = static_cast<float>(tile.threshold().value_or(-1.0));
+  sheet.kind.x = texture;
+  sheet.tile.x = static_cast<float>(tile.width());
+  sheet.tile.y = static_cast<float>(tile.height());
+  sheet.hole.w = static_cast<float>(tile.threshold().value_or(-1.0));
+  sheet.image = {0, cells.columns, cells.rows, cells.across};
+  sheet.texels = {tile.columns(), tile.rows(), 0.0, 0.0};
+}
+
+// The way of a ray in the sheet's plane from its inside face to its outside.
+glm::dvec2 shift_of(Screens::Entry const& entry, glm::dvec3 const& towards_sun, double cosine) {
+  return glm::dvec2(glm::dot(entry.u, towards_sun), glm::dot(entry.v, towards_sun)) *
+         (entry.screen->sheet().thickness / cosine);
 }
 
 }  // namespace
@@ -118,35 +124,42 @@ TextureCells texture_cells(OpacityTile const& tile, int most_texels) {
   return cells;
 }
 
+bool varies(PerforatedScreen const& screen) {
+  if (screen.pattern() || screen.sheet().detail == ScreenDetail::holes) return false;
+  return 1 * 1 > 1;
+}
+
 ScreenView see_screens(Screens const& screens, std::span<int const> numbers,
                        glm::dvec3 const& towards_sun, std::span<double const> deployments,
                        int most_texels) {
   ScreenView view;
-  view.faces.resize(screens.entries().size());
-  view.optics.resize(screens.entries().size());
+  view.sheets.resize(screens.entries().size());
   for (int const number : numbers) {
     Screens::Entry const& entry = screens[number];
     PerforatedScreen const& screen = *entry.screen;
-    ScreenFace& face = view.faces[static_cast<std::size_t>(number)];
-    ScreenOptics& optics = view.optics[static_cast<std::size_t>(number)];
+    SheetBlock& sheet = view.sheets[static_cast<std::size_t>(number)];
     double const cosine = glm::dot(entry.normal, towards_sun);
     bool const aside = std::abs(cosine) < from_the_side;
-    glm::dvec2 shift(0.0);
-    if (!aside) {
-      shift = glm::dvec2(glm::dot(entry.u, towards_sun), glm::dot(entry.v, towards_sun)) *
-              (screen.sheet().thickness / cosine);
+    glm::dvec2 const shift = aside ? glm::dvec2(0.0) : shift_of(entry, towards_sun, cosine);
+    if (screen.pattern()) {
+      describe_pattern(*screen.pattern(), sheet);
+    } else {
+      describe_tile(*screen.tile(), most_texels, sheet);
     }
-    face.normal_inside = glm::vec4(entry.normal, entry.inside);
-    face.shift_outside_unused = glm::vec4(shift, entry.outside, 0.0);
-    describe(screen, most_texels, optics);
-    optics.shift_deployed_threshold.x = static_cast<float>(shift.x);
-    optics.shift_deployed_threshold.y = static_cast<float>(shift.y);
-    optics.shift_deployed_threshold.z = static_cast<float>(deployed(entry, deployments));
-    optics.kind_layers_effective.y = aside ? solid : layers_of(screen, glm::length(shift));
+    sheet.normal = glm::vec4(entry.normal, entry.inside);
+    sheet.ray = glm::vec4(shift, entry.outside, deployed(entry, deployments));
     glm::vec2 const blend = blend_of(screen);
-    optics.tile_blend.z = blend.x;
-    optics.tile_blend.w = blend.y;
-    add_effective(screen, shift, optics, view.effective);
+    sheet.tile.z = blend.x;
+    sheet.tile.w = blend.y;
+    sheet.kind.y = aside ? solid : layers_of(screen, glm::length(shift));
+    if (screen.sheet().detail == ScreenDetail::holes) continue;
+    std::vector<glm::vec4> const thirds = effective(screen, shift);
+    sheet.effective = thirds.front();
+    if (!varies(screen)) continue;
+    sheet.kind.z = static_cast<int>(view.regions.size());
+    sheet.kind.w = 1;
+    sheet.image.x = 1;
+    view.regions.insert(view.regions.end(), thirds.begin(), thirds.end());
   }
   return view;
 }

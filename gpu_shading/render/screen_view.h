@@ -10,19 +10,15 @@
 
 namespace gpu_shading {
 
-// Of screen.vert, std430.
-struct ScreenFace {
-  glm::vec4 normal_inside{0.0F};
-  glm::vec4 shift_outside_unused{0.0F};
-};
-
-// Of screen.frag, std430.
-struct ScreenOptics {
-  glm::vec4 shift_deployed_threshold{0.0F};
-  glm::vec4 tile_blend{0.0F};
+// A screen at one direction of the sun: Sheet of screen.vert, std430.
+struct SheetBlock {
+  glm::vec4 normal{0.0F};
+  glm::vec4 ray{0.0F};
+  glm::vec4 tile{0.0F};
   glm::vec4 hole{0.0F};
-  glm::ivec4 kind_layers_effective{0};
-  glm::ivec4 regions_texture{0};
+  glm::vec4 effective{0.0F};
+  glm::ivec4 kind{0};
+  glm::ivec4 image{0};
   glm::vec4 texels{0.0F};
 };
 
@@ -36,12 +32,14 @@ struct TextureCells {
 };
 TextureCells texture_cells(OpacityTile const& tile, int most_texels);
 
+// Whether the effective transmittance is another from region to region.
+bool varies(PerforatedScreen const& screen);
+
 // What the screens of a scene are to the sun at one direction: each entry right for those asked
 // for, nothing for the others.
 struct ScreenView {
-  std::vector<ScreenFace> faces;
-  std::vector<ScreenOptics> optics;
-  std::vector<float> effective;
+  std::vector<SheetBlock> sheets;
+  std::vector<glm::vec4> regions;  // of those whose effective transmittance varies
 };
 
 // `numbers`: of the screens in view. `deployments`: shares in place, 1 where too few.
