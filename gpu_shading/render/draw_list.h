@@ -39,7 +39,9 @@ struct ScreenLook {
   int program = 0;
   int texture = -1;  // none
 
-  auto operator<=>(ScreenLook const&) const = default;
+  bool operator<(ScreenLook const& other) const {
+    return program != other.program ? program < other.program : texture < other.texture;
+  }
 };
 
 struct ScreenDraw {
