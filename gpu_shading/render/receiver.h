@@ -36,7 +36,6 @@ struct Receiver {
   std::optional<PlaneFrame> frame;  // nothing when it has no area
   double area = 0.0;                // exact, m2
   Tile tile;
-  std::vector<SurfaceId> in_front;      // casters of any direction
   std::optional<std::uint64_t> pixels;  // on its tile, once counted; never 0
 };
 

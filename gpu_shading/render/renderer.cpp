@@ -171,7 +171,6 @@ Receiver& Renderer::Implementation::receiver(SurfaceId id) {
   if (receiver.frame) {
     receiver.tile =
         make_tile(polygon, *receiver.frame, options_.resolution, device_.info.max_resolution);
-    receiver.in_front = casters_.in_front(scene_, id, *receiver.frame);
   }
   return receivers_.emplace(id, std::move(receiver)).first->second;
 }
@@ -324,7 +323,8 @@ std::vector<Sunlit> Renderer::Implementation::projected_sunlit_areas(
     double const cosine = glm::dot(seen.frame->normal, towards_sun);
     if (cosine <= edge_on) continue;
     answers[i].projected_area = answers[i].pixel_counted_area = seen.area * cosine;
-    std::vector<SurfaceId> casters = casters_.in_view(seen.in_front, *seen.frame, towards_sun);
+    std::vector<SurfaceId> casters =
+        casters_.in_view(scene_, receivers[i], *seen.frame, towards_sun);
     if (casters.empty()) {
       ++statistics_.receivers_clear;
       continue;
@@ -435,7 +435,7 @@ std::vector<Sunlit> Renderer::Implementation::interior_sunlit_areas(
   }
   reach *= 1.01;  // what lies at the far end is not nearer than nothing
   measure({&window, 1});
-  std::vector<SurfaceId> const casters = casters_.in_view(seen.in_front, *seen.frame, towards_sun);
+  std::vector<SurfaceId> const casters = casters_.in_view(scene_, window, *seen.frame, towards_sun);
   draw_list_.clear();
   ReceiverJob in_front = add_view(seen, casters, towards_sun);
   std::size_t const behind_view =
@@ -484,8 +484,7 @@ Image Renderer::Implementation::sun_view(SunDirection sun, SurfaceId id, int siz
   glm::dvec3 const towards_sun = to_vector(sun);
   bool const faces_sun = glm::dot(seen.frame->normal, towards_sun) > edge_on;
   std::vector<SurfaceId> const casters =
-      faces_sun ? casters_.in_view(seen.in_front, *seen.frame, towards_sun)
-                : std::vector<SurfaceId>();
+      faces_sun ? casters_.in_view(scene_, id, *seen.frame, towards_sun) : std::vector<SurfaceId>();
   Picture::Shading shading;
   shading.plain = plain_among(casters);
   shading.screens_in_view = screens_among(casters);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -17,9 +18,19 @@ bool is_planar(Ring const& ring, glm::dvec3 const& unit_normal) {
   });
 }
 
+double height_above(PlaneFrame const& frame, glm::dvec3 const& point) {
+  return glm::dot(frame.normal, point - frame.origin);
+}
+
+double depth(PlaneFrame const& frame, glm::dvec3 const& point) {
+  return height_above(frame, point) - clearance;
+}
+
+}  // namespace
+
 // Bounds of a slid caster in the receiver's plane, against the receiver's rectangle about the
 // origin.
-class Shadow {
+class Casters::Shadow {
  public:
   Shadow(PlaneFrame const& frame, glm::dvec3 const& towards_sun)
       : half_width_(0.5 * frame.width), half_height_(0.5 * frame.height) {
@@ -44,14 +55,36 @@ class Shadow {
     high_v_ = std::max(high_v_, v);
   }
 
+  // Where the line from a to b crosses the plane, if it does.
+  void include_crossing(PlaneFrame const& frame, glm::dvec3 const& a, glm::dvec3 const& b) {
+    double const depth_a = depth(frame, a);
+    double const depth_b = depth(frame, b);
+    if ((depth_a > 0.0) == (depth_b > 0.0)) return;
+    include(a + (b - a) * (depth_a / (depth_a - depth_b)));
+  }
+
+  // Whether a box may throw one on the rectangle: all of it is taken, in front of the plane or not.
+  bool may_come_from(Box const& box) const {
+    glm::dvec3 const c = box.centre() - origin_;
+    glm::dvec3 const r = box.reach();
+    double const room = 1e-9 * (glm::length(c) + glm::length(r)) + 2.0 * slack();
+    auto const misses = [&](glm::dvec3 const& slide, double half) {
+      return std::abs(glm::dot(slide, c)) >
+             glm::dot(glm::abs(slide), r) + half + room * (1.0 + glm::length(slide));
+    };
+    return !misses(slide_u_, half_width_) && !misses(slide_v_, half_height_);
+  }
+
   bool overlaps() const {
-    // Against rounding, here and in the float32 of the GPU.
-    double const slack = 1e-6 * (half_width_ + half_height_);
-    return high_u_ >= -half_width_ - slack && low_u_ <= half_width_ + slack &&
-           high_v_ >= -half_height_ - slack && low_v_ <= half_height_ + slack;
+    double const over = slack();
+    return high_u_ >= -half_width_ - over && low_u_ <= half_width_ + over &&
+           high_v_ >= -half_height_ - over && low_v_ <= half_height_ + over;
   }
 
  private:
+  // Against rounding, here and in the float32 of the GPU.
+  double slack() const { return 1e-6 * (half_width_ + half_height_); }
+
   double half_width_;
   double half_height_;
   glm::dvec3 origin_;
@@ -63,27 +96,11 @@ class Shadow {
   double high_v_ = 0.0;
 };
 
-double height_above(PlaneFrame const& frame, glm::dvec3 const& point) {
-  return glm::dot(frame.normal, point - frame.origin);
-}
-
-double depth(PlaneFrame const& frame, glm::dvec3 const& point) {
-  return height_above(frame, point) - clearance;
-}
-
-void include_crossing(Shadow& shadow, PlaneFrame const& frame, glm::dvec3 const& a,
-                      glm::dvec3 const& b) {
-  double const depth_a = depth(frame, a);
-  double const depth_b = depth(frame, b);
-  if ((depth_a > 0.0) == (depth_b > 0.0)) return;
-  shadow.include(a + (b - a) * (depth_a / (depth_a - depth_b)));
-}
-
-}  // namespace
-
 Casters::Casters(Scene const& scene) {
   casters_.resize(scene.size());
+  std::vector<Box> boxes(scene.size());
   for (SurfaceId id = 0; id < scene.size(); ++id) {
+    if (scene[id].casting == Casting::never) continue;
     Ring const ring = without_repeats(scene[id].polygon.outline);
     glm::dvec3 const vector = newell(ring);
     if (ring.size() < 3 || is_degenerate(ring, vector)) continue;
@@ -95,74 +112,64 @@ Casters::Casters(Scene const& scene) {
     caster.faces = sheet_faces(scene[id]);
     caster.only_turned_away = scene[id].casting == Casting::turned_away;
     for (glm::dvec3 const& vertex : ring) {
-      caster.centre += (vertex - ring[0]) / static_cast<double>(ring.size());
-    }
-    caster.centre += ring[0];
-    for (glm::dvec3 const& vertex : ring) {
-      caster.radius = std::max(caster.radius, glm::distance(vertex, caster.centre));
+      boxes[id].include(vertex + caster.faces.inside * caster.normal);
+      boxes[id].include(vertex + caster.faces.outside * caster.normal);
     }
     points_.insert(points_.end(), ring.begin(), ring.end());
   }
+  tree_ = BoxTree(boxes);
 }
 
-std::vector<SurfaceId> Casters::in_front(Scene const& scene, SurfaceId receiver,
-                                         PlaneFrame const& frame) const {
-  std::vector<SurfaceId> found;
-  for (SurfaceId id = 0; id < casters_.size(); ++id) {
-    Caster const& caster = casters_[id];
-    if (caster.count == 0) continue;
-    if (height_above(frame, caster.centre) + caster.radius <= coplanar) continue;
-    auto const ring = points(caster);
-    bool const in_front = std::any_of(ring.begin(), ring.end(), [&](glm::dvec3 const& vertex) {
-      return height_above(frame, vertex) > coplanar;
-    });
-    if (in_front && scene.may_shade(receiver, id)) found.push_back(id);
-  }
-  return found;
-}
-
-std::vector<SurfaceId> Casters::in_view(std::span<SurfaceId const> candidates,
+std::vector<SurfaceId> Casters::in_view(Scene const& scene, SurfaceId receiver,
                                         PlaneFrame const& frame,
                                         glm::dvec3 const& towards_sun) const {
   std::vector<SurfaceId> found;
   Shadow shadow(frame, towards_sun);
-  double const radius = 0.5 * std::hypot(frame.width, frame.height);
-  for (SurfaceId const id : candidates) {
-    Caster const& caster = casters_[id];
-    if (caster.only_turned_away && glm::dot(caster.normal, towards_sun) > in_the_sun) continue;
-    // The bounding spheres as the sun sees them.
-    glm::dvec3 const apart = caster.centre - frame.origin;
-    double const along = glm::dot(apart, towards_sun);
-    bool const thick = caster.faces.inside != caster.faces.outside;
-    double const reach = radius + caster.radius +
-                         std::max(std::abs(caster.faces.inside), std::abs(caster.faces.outside));
-    double const rounding = 1e-12 * glm::dot(apart, apart);
-    if (glm::dot(apart, apart) - along * along > reach * reach + rounding) continue;
-
-    auto const ring = points(caster);
-    shadow.clear();
-    bool cut = false;
-    for (glm::dvec3 const& vertex : ring) {
-      if (depth(frame, vertex) > 0.0) {
-        shadow.include(vertex + caster.faces.inside * caster.normal);
-        shadow.include(vertex + caster.faces.outside * caster.normal);
-      } else {
-        cut = true;
-      }
+  auto const wanted = [&](Box const& box) {
+    glm::dvec3 const c = box.centre() - frame.origin;
+    double const highest =
+        glm::dot(frame.normal, c) + glm::dot(glm::abs(frame.normal), box.reach());
+    return highest > coplanar - 1e-12 * glm::length(c) && shadow.may_come_from(box);
+  };
+  tree_.search(wanted, [&](SurfaceId id) {
+    if (is_in_view(casters_[id], frame, towards_sun, shadow) && scene.may_shade(receiver, id)) {
+      found.push_back(id);
     }
-    if (cut && caster.planar) {
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        include_crossing(shadow, frame, ring[i], ring[(i + 1) % ring.size()]);
-      }
-    } else if (cut) {
-      // The triangles' inner edges reach outside the outline's own crossings.
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        for (std::size_t j = 0; j < i; ++j) include_crossing(shadow, frame, ring[i], ring[j]);
-      }
-    }
-    if (shadow.overlaps() || (cut && thick)) found.push_back(id);
-  }
+  });
+  std::sort(found.begin(), found.end());
   return found;
+}
+
+bool Casters::is_in_view(Caster const& caster, PlaneFrame const& frame,
+                         glm::dvec3 const& towards_sun, Shadow& shadow) const {
+  if (caster.only_turned_away && glm::dot(caster.normal, towards_sun) > in_the_sun) return false;
+  auto const ring = points(caster);
+  shadow.clear();
+  bool clearly_in_front = false;
+  bool cut = false;
+  for (glm::dvec3 const& vertex : ring) {
+    clearly_in_front = clearly_in_front || height_above(frame, vertex) > coplanar;
+    if (depth(frame, vertex) > 0.0) {
+      shadow.include(vertex + caster.faces.inside * caster.normal);
+      shadow.include(vertex + caster.faces.outside * caster.normal);
+    } else {
+      cut = true;
+    }
+  }
+  if (!clearly_in_front) return false;
+  bool const thick = caster.faces.inside != caster.faces.outside;
+  if (cut && thick) return true;
+  if (cut && caster.planar) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      shadow.include_crossing(frame, ring[i], ring[(i + 1) % ring.size()]);
+    }
+  } else if (cut) {
+    // The triangles' inner edges reach outside the outline's own crossings.
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) shadow.include_crossing(frame, ring[i], ring[j]);
+    }
+  }
+  return shadow.overlaps();
 }
 
 }  // namespace gpu_shading

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gpu_shading/scene.h"
+#include "scene/box_tree.h"
 #include "scene/plane_frame.h"
 #include "scene/screens.h"
 
@@ -25,40 +26,39 @@ inline constexpr double in_the_sun = 1e-3;
 // Below this cosine of incidence a receiver is edge-on and gets nothing.
 inline constexpr double edge_on = 1e-6;
 
-// The scene's surfaces as casters, for culling in double precision. Conservative: a caster whose
-// shadow touches the receiver is never lost.
+// The scene's surfaces as casters, for culling in double precision, at a cost that follows those in
+// view. Conservative: a caster whose shadow touches the receiver is never lost.
 class Casters {
  public:
   explicit Casters(Scene const& scene);
 
-  // Those of any direction: some part in front of the receiver's plane, and the rule allows it.
-  // Asks the rule once for each caster in front.
-  std::vector<SurfaceId> in_front(Scene const& scene, SurfaceId receiver,
-                                  PlaneFrame const& frame) const;
-
-  // Those of `candidates` whose part in front of the plane, slid along the sun's rays onto it,
-  // overlaps the receiver's bounding rectangle. `towards_sun` must be in front of the plane.
-  std::vector<SurfaceId> in_view(std::span<SurfaceId const> candidates, PlaneFrame const& frame,
+  // Those that may shade the receiver: some part clearly in front of its plane, that part, slid
+  // along the sun's rays onto the plane, overlapping its bounding rectangle, and the rule allowing
+  // it. In the order of their ids. `towards_sun` must be in front of the plane.
+  std::vector<SurfaceId> in_view(Scene const& scene, SurfaceId receiver, PlaneFrame const& frame,
                                  glm::dvec3 const& towards_sun) const;
 
  private:
   struct Caster {
     std::size_t first = 0;  // of points_
     std::size_t count = 0;  // 0 for a degenerate surface
-    glm::dvec3 centre{0.0};
-    double radius = 0.0;
     glm::dvec3 normal{0.0};
     SheetFaces faces;  // of a screen
     bool planar = true;
     bool only_turned_away = false;
   };
+  class Shadow;
 
   std::span<glm::dvec3 const> points(Caster const& caster) const {
     return {points_.data() + caster.first, caster.count};
   }
 
+  bool is_in_view(Caster const& caster, PlaneFrame const& frame, glm::dvec3 const& towards_sun,
+                  Shadow& shadow) const;
+
   std::vector<Caster> casters_;
   std::vector<glm::dvec3> points_;
+  BoxTree tree_;
 };
 
 }  // namespace gpu_shading

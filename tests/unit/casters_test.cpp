@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "exact.h"
 #include "gpu_shading/sun_direction.h"
@@ -22,22 +23,24 @@ Polygon horizontal(double x, double y, double z, double width, double depth) {
   return {{{x, y, z}, {x + width, y, z}, {x + width, y + depth, z}, {x, y + depth, z}}, {}};
 }
 
-std::vector<SurfaceId> in_front_of_first(Scene const& scene) {
-  return Casters(scene).in_front(scene, 0, *plane_frame(scene[0].polygon));
+std::vector<SurfaceId> in_view_of_first(Scene const& scene, SunDirection sun) {
+  return Casters(scene).in_view(scene, 0, *plane_frame(scene[0].polygon), to_vector(sun));
 }
 
-TEST(CastersInFront, OnlyWhatReachesClearlyBeforeThePlane) {
+constexpr SunDirection from_the_south{3.14159, 0.785};
+
+TEST(CastersInView, OnlyWhatReachesClearlyBeforeThePlane) {
   Scene scene;
   scene.add({"window", window});
   SurfaceId const overhang = scene.add({"overhang", horizontal(0, -1, 2, 2, 1)});
   scene.add({"roof behind", horizontal(0, 0, 3, 2, 5)});
-  scene.add({"neighbour in the plane", {{{3, 0, 0}, {5, 0, 0}, {5, 0, 2}, {3, 0, 2}}, {}}});
-  scene.add({"rounded", {{{3, -5e-5, 0}, {5, 5e-5, 0}, {5, 0, 2}, {3, 0, 2}}, {}}});
+  scene.add({"in the plane", {{{1, 0, 0}, {5, 0, 0}, {5, 0, 2}, {1, 0, 2}}, {}}});
+  scene.add({"rounded", {{{1, -5e-5, 0}, {5, 5e-5, 0}, {5, 0, 2}, {1, 0, 2}}, {}}});
   SurfaceId const crossing = scene.add({"crossing", horizontal(0, -1, 1, 2, 9)});
-  EXPECT_EQ(in_front_of_first(scene), (std::vector<SurfaceId>{overhang, crossing}));
+  EXPECT_EQ(in_view_of_first(scene, from_the_south), (std::vector<SurfaceId>{overhang, crossing}));
 }
 
-TEST(CastersInFront, TheRuleIsAskedAndDegenerateSurfacesAreNot) {
+TEST(CastersInView, TheRuleIsAskedAndDegenerateSurfacesAreNot) {
   Scene scene;
   scene.add({"window", window});
   SurfaceId const allowed = scene.add({"allowed", horizontal(0, -1, 2, 2, 1)});
@@ -48,7 +51,7 @@ TEST(CastersInFront, TheRuleIsAskedAndDegenerateSurfacesAreNot) {
     EXPECT_NE(caster, degenerate);
     return caster != barred;
   });
-  EXPECT_EQ(in_front_of_first(scene), std::vector<SurfaceId>{allowed});
+  EXPECT_EQ(in_view_of_first(scene, from_the_south), std::vector<SurfaceId>{allowed});
 }
 
 TEST(CastersInView, FollowTheSun) {
@@ -56,15 +59,12 @@ TEST(CastersInView, FollowTheSun) {
   scene.add({"window", window});
   SurfaceId const overhang = scene.add({"overhang", horizontal(0, -1, 2, 2, 1)});
   SurfaceId const to_the_east = scene.add({"fin", {{{9, -9, 0}, {9, 0, 0}, {9, 0, 9}}, {}}});
-  Casters const casters(scene);
-  PlaneFrame const frame = *plane_frame(window);
-  std::vector<SurfaceId> const both{overhang, to_the_east};
   // From the south, 45 degrees up: the overhang's shadow falls down to the middle.
-  auto const noon = casters.in_view(both, frame, to_vector({3.14159, 0.785}));
+  auto const noon = in_view_of_first(scene, from_the_south);
   EXPECT_TRUE(contains(noon, overhang));
   EXPECT_FALSE(contains(noon, to_the_east));
   // From the south-east, low: past the overhang's edge, through the fin.
-  auto const morning = casters.in_view(both, frame, to_vector({1.8, 0.1}));
+  auto const morning = in_view_of_first(scene, {1.8, 0.1});
   EXPECT_TRUE(contains(morning, to_the_east));
 }
 
@@ -76,10 +76,7 @@ TEST(CastersInView, NeverLoseOneThatTouches) {
   for (std::uint32_t seed = 1; seed <= 1000; ++seed) {
     RandomScene const random = random_scene(seed);
     Scene const& scene = random.scene;
-    Casters const casters(scene);
-    PlaneFrame const frame = *plane_frame(scene[0].polygon);
-    auto const in_front = casters.in_front(scene, 0, frame);
-    auto const in_view = casters.in_view(in_front, frame, to_vector(random.sun));
+    auto const in_view = in_view_of_first(scene, random.sun);
     for (SurfaceId id = 1; id < scene.size(); ++id) {
       ++all;
       if (contains(in_view, id)) ++kept;
@@ -94,6 +91,49 @@ TEST(CastersInView, NeverLoseOneThatTouches) {
   // And culling does cull: what does not touch is mostly gone.
   EXPECT_LT(kept, all);
   EXPECT_LT(kept, touching * 1.15);
+}
+
+// A screen's faces lie beside its polygon.
+TEST(CastersInView, ReachAsFarAsTheirSheets) {
+  for (double const thickness : {0.0, 0.2}) {
+    Scene scene;
+    scene.add({"window", window});
+    Surface sheet{"sheet", horizontal(0, -1, 2.05, 2, 1)};
+    sheet.screen = std::make_shared<PerforatedScreen const>(
+        HolePattern({.size = 0.005, .pitch = 0.008}), Sheet{.thickness = thickness});
+    scene.add(sheet);
+    // The sun is a little below the polygon as seen from the window's upper edge.
+    EXPECT_EQ(in_view_of_first(scene, {3.14159, 0.03}).size(), thickness > 0.0 ? 1U : 0U);
+  }
+}
+
+TEST(BoxTree, LooksAtFewBoxesThatAreNotWanted) {
+  std::vector<Box> boxes(10000);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    glm::dvec3 const corner(static_cast<double>(i % 100), static_cast<double>(i / 100), 0.0);
+    boxes[i].include(corner);
+    boxes[i].include(corner + 0.5);
+  }
+  boxes[77] = Box();
+  BoxTree const tree(boxes);
+  int looked = 0;
+  std::vector<std::uint32_t> found;
+  tree.search(
+      [&](Box const& box) {
+        ++looked;
+        return box.low.x < 3.0 && box.high.x > 2.0 && box.low.y < 1.0;
+      },
+      [&](std::uint32_t number) { found.push_back(number); });
+  EXPECT_EQ(found, std::vector<std::uint32_t>{2});
+  EXPECT_LT(looked, 100);
+  int all = 0;
+  tree.search([](Box const&) { return true; }, [&](std::uint32_t) { ++all; });
+  EXPECT_EQ(all, 9999);
+}
+
+TEST(BoxTree, OfNothingFindsNothing) {
+  BoxTree const tree(std::vector<Box>(3));
+  tree.search([](Box const&) { return true; }, [](std::uint32_t) { ADD_FAILURE(); });
 }
 
 }  // namespace
