@@ -110,7 +110,8 @@ TEST(CastersInView, ReachAsFarAsTheirSheets) {
 TEST(BoxTree, LooksAtFewBoxesThatAreNotWanted) {
   std::vector<Box> boxes(10000);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    glm::dvec3 const corner(static_cast<double>(i % 100), static_cast<double>(i / 100), 0.0);
+    std::size_t const row = i / 100;
+    glm::dvec3 const corner(static_cast<double>(i % 100), static_cast<double>(row), 0.0);
     boxes[i].include(corner);
     boxes[i].include(corner + 0.5);
   }
