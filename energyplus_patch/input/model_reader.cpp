@@ -65,6 +65,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   Model model;
   model.shading = read_shading_input(objects);
   model.shades = read_transparent_shades(objects, model.shading, path.parent_path());
+  model.screens = read_perforated_screens(objects, model.shading, model.shades, path.parent_path());
   model.options = resolve(choices, read_settings(objects), model.shading);
   return model;
 }
