@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "input/tile_axes.h"
 #include "session/shade_optics.h"
@@ -19,7 +20,11 @@ std::string kind_of(std::string const& name, ShadingInput const& input) {
 }
 
 std::string place(glm::dvec3 const& point, int digits) {
-  return fmt::format("({0:.{3}f}, {1:.{3}f}, {2:.{3}f})", point.x, point.y, point.z, digits);
+  double const scale = std::pow(10.0, digits);
+  // No -0.
+  auto const rounded = [&](double value) { return std::round(value * scale) / scale + 0.0; };
+  return fmt::format("({0:.{3}f}, {1:.{3}f}, {2:.{3}f})", rounded(point.x), rounded(point.y),
+                     rounded(point.z), digits);
 }
 
 // Where a screen's texture or pattern lies, for the user who has to align it.
