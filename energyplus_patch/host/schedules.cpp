@@ -28,8 +28,7 @@ ScheduleFunctions::ScheduleFunctions(SymbolTable const& symbols) {
 ScheduleFunctions::Schedule* ScheduleFunctions::find(State& state, std::string const& name) const {
   Schedule* const schedule = get_(state, name);
   if (schedule == nullptr) {
-    throw Error(
-        fmt::format("Transmittance Schedule Name: EnergyPlus has no schedule \"{}\"", name));
+    throw Error(fmt::format("EnergyPlus has no schedule \"{}\"", name));
   }
   return schedule;
 }
@@ -46,7 +45,7 @@ double ScheduleFunctions::at_hour(Schedule const& schedule, State& state, int ho
       }
     }
   }
-  throw Error("a transmittance schedule of EnergyPlus is of an unknown kind");
+  throw Error("a schedule of EnergyPlus is of an unknown kind");
 }
 
 Schedules ScheduleFunctions::of(State& state) const {

@@ -2,13 +2,31 @@
 
 // What libgpu_shading_images.so exports: OpenImageIO behind a C interface, so that its many
 // libraries are loaded only when a picture or a texture is wanted. No exception leaves these
-// functions.
+// functions. Each returns 0, or 1 with the reason in `message`, one line.
 
 #include <cstddef>
 
 extern "C" {
 
-// 8-bit pixels, rows from the top. Returns 0, or 1 with the reason in `message`.
+struct gpu_shading_image_info {
+  int width;
+  int height;
+  int channels;
+  int alpha;  // the alpha channel, -1: none
+};
+
+// 8-bit pixels, rows from the top.
 int gpu_shading_write_image(char const* path, int width, int height, int channels,
                             unsigned char const* pixels, char* message, std::size_t message_size);
+
+// From the file's header alone.
+int gpu_shading_probe_image(char const* path, gpu_shading_image_info* info, char* message,
+                            std::size_t message_size);
+
+// Alpha, or luminance as stored where there is none, of `width` x `height` texels, 0 .. 65535 for
+// 0 .. 1 and clamped to that, rows from the BOTTOM. Besides `opacity` a few tens of MiB are used,
+// unless the format itself (interlaced PNG, WebP, ...) has to be decoded whole. An image of another
+// size and a texel that is not a number are errors.
+int gpu_shading_read_opacity(char const* path, int width, int height, unsigned short* opacity,
+                             char* message, std::size_t message_size);
 }

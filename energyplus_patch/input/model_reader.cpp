@@ -64,7 +64,9 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   if (auto const side = find_side_file(path, choices)) add_side_file(*side, objects);
   Model model;
   model.shading = read_shading_input(objects);
-  model.shades = read_transparent_shades(objects, model.shading, path.parent_path());
+  auto const folder = choices.folder.value_or(path.parent_path());
+  model.shades = read_transparent_shades(objects, model.shading, folder);
+  model.screens = read_perforated_screens(objects, model.shading, model.shades, folder);
   model.options = resolve(choices, read_settings(objects), model.shading);
   return model;
 }

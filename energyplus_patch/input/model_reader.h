@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "input/input_object.h"
+#include "input/perforated_screens.h"
 #include "input/shading_input.h"
 #include "input/transparent_shades.h"
 #include "options/options.h"
@@ -15,6 +16,7 @@ namespace gpu_shading::energyplus {
 struct Model {
   ShadingInput shading;
   TransparentShades shades;
+  PerforatedScreens screens;
   Options options;
 };
 

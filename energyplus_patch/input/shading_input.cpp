@@ -102,7 +102,7 @@ ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
       if (!is_exterior(object)) input.not_exterior.insert(upper(object.name));
     } else if (object.fields.contains("building_surface_name")) {
       input.base_of[upper(object.name)] = upper(object["building_surface_name"]);
-    } else if (object.fields.contains("surface_name")) {
+    } else if (object.fields.contains("surface_name") && !is_extension(object.type)) {
       named.insert(upper(object["surface_name"]));
     } else if (object.type == "DaylightingDevice:Shelf") {
       named.insert(upper(object["outside_shelf_name"]));

@@ -103,7 +103,8 @@ int launch(int argc, char** argv) {
   if (line.help) std::fputs(std::string(flags_help()).c_str(), stdout);
   if (line.model) {
     check_model(*line.model, choices);
-    // A preprocessor (-x) hands EnergyPlus another file; the one beside the user's still counts.
+    // A preprocessor (-x) hands EnergyPlus another file; what lies beside the user's still counts.
+    choices.folder = std::filesystem::absolute(*line.model).parent_path();
     choices.file = find_side_file(*line.model, choices);
   }
   arguments.insert(arguments.begin(), argv[0]);

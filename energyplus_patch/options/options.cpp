@@ -48,14 +48,14 @@ DeviceChoice parse_device(std::string const& text) {
 // One choice, by all the names that it goes by.
 struct Choice {
   std::string_view flag;
-  char const* variable;
+  char const* variable;    // nullptr: none
   std::string_view field;  // of GPUShading:Settings, or ""
   std::string_view title;  // the field's name as the user writes it
   std::function<void(Choices&, std::string const&)> set;
 };
 
-std::array<Choice, 6> const& all_choices() {
-  static std::array<Choice, 6> const choices{{
+std::array<Choice, 7> const& all_choices() {
+  static std::array<Choice, 7> const choices{{
       {"--gpu-shading", "GPU_SHADING", "", "",
        [](Choices& c, std::string const& v) { c.mode = parse_mode(v); }},
       {"--gpu-shading-resolution", "GPU_SHADING_RESOLUTION", "resolution", "Resolution",
@@ -68,6 +68,8 @@ std::array<Choice, 6> const& all_choices() {
        [](Choices& c, std::string const& v) { c.file = std::filesystem::absolute(v); }},
       {"--gpu-shading-report", "GPU_SHADING_REPORT", "", "",
        [](Choices& c, std::string const& v) { c.report = std::filesystem::absolute(v); }},
+      {"--gpu-shading-model-folder", nullptr, "", "",
+       [](Choices& c, std::string const& v) { c.folder = std::filesystem::absolute(v); }},
   }};
   return choices;
 }
@@ -119,6 +121,7 @@ void Choices::fill_from(Choices const& lower) {
   fill(device, lower.device);
   fill(file, lower.file);
   fill(report, lower.report);
+  fill(folder, lower.folder);
 }
 
 bool Choices::any() const {
@@ -171,12 +174,14 @@ std::string to_flags(Choices const& choices) {
   if (choices.device) add("--gpu-shading-device", name_of(*choices.device));
   if (choices.file) add("--gpu-shading-file", choices.file->string());
   if (choices.report) add("--gpu-shading-report", choices.report->string());
+  if (choices.folder) add("--gpu-shading-model-folder", choices.folder->string());
   return flags;
 }
 
 Choices read_environment() {
   Choices choices;
   for (auto const& choice : all_choices()) {
+    if (choice.variable == nullptr) continue;
     char const* value = std::getenv(choice.variable);
     if (value != nullptr && *value != '\0') set(choice, choices, choice.variable, value);
   }

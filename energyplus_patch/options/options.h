@@ -26,6 +26,9 @@ struct Choices {
   std::optional<DeviceChoice> device;
   std::optional<std::filesystem::path> file;
   std::optional<std::filesystem::path> report;
+  // Where relative names of files in the model start, the launcher's to say: none, where the model
+  // lies.
+  std::optional<std::filesystem::path> folder = std::nullopt;
 
   // Fills what is empty from a source of lower rank.
   void fill_from(Choices const& lower);

@@ -12,15 +12,17 @@
 
 namespace gpu_shading::energyplus {
 
-// Answers kept by direction: warm-up days, sizing periods and the sky's patches come back to the
-// same ones. They hold whatever the transmittance schedules say, which are applied to them
-// afterwards. Bounded: when full, everything is forgotten and collected anew.
+// Answers kept by direction and by the state of the screens' deployments: warm-up days, sizing
+// periods and the sky's patches come back to the same ones. They hold whatever the transmittance
+// schedules say, which are applied to them afterwards. Bounded: when full, everything is forgotten
+// and collected anew.
 class Answers {
  public:
   static constexpr std::size_t max_bytes = std::size_t{512} << 20U;
 
   struct Direction {
     SunDirection sun;
+    std::uint32_t state = 0;            // DeploymentStates
     std::vector<float> projected_area;  // by surface; not a number where not asked yet
     // What passes scheduled shades, of the surfaces that have such in view.
     std::unordered_map<SurfaceId, std::vector<ScheduledPart>> scheduled;
@@ -32,8 +34,8 @@ class Answers {
 
   explicit Answers(std::size_t surfaces = 0) : surfaces_(surfaces) {}
 
-  // The entry of a direction, made where there is none. Valid until the next call.
-  Direction& at(SunDirection sun);
+  // The entry of a direction and a state, made where there is none. Valid until the next call.
+  Direction& at(SunDirection sun, std::uint32_t state);
 
   static bool known(float answer) { return answer == answer; }
 
@@ -43,16 +45,22 @@ class Answers {
   }
 
  private:
+  struct Key {
+    SunDirection sun;
+    std::uint32_t state;
+
+    bool operator==(Key const&) const = default;
+  };
   struct Hash {
-    std::size_t operator()(SunDirection const& sun) const {
+    std::size_t operator()(Key const& key) const {
       std::hash<double> const hash;
       constexpr std::size_t odd = 0x9e3779b97f4a7c15;
-      return hash(sun.azimuth) * odd ^ hash(sun.altitude);
+      return (hash(key.sun.azimuth) * odd ^ hash(key.sun.altitude)) * odd ^ key.state;
     }
   };
 
   std::size_t surfaces_;
-  std::unordered_map<SunDirection, Direction, Hash> directions_;
+  std::unordered_map<Key, Direction, Hash> directions_;
 };
 
 }  // namespace gpu_shading::energyplus

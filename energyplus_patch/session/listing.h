@@ -9,7 +9,8 @@
 namespace gpu_shading::energyplus {
 
 // A table of what each surface is to the shading calculation: kind, area, whether its own sunlit
-// fraction is rendered, how it casts. `wanted`: by surface.
+// fraction is rendered, how it casts; below a screened one, where the screen's tile lies. `wanted`:
+// by surface.
 std::string list_surfaces(Scene const& scene, Model const& model, std::vector<bool> const& wanted);
 
 }  // namespace gpu_shading::energyplus

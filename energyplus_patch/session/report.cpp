@@ -8,6 +8,7 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <tuple>
 
 #include "gpu_shading/error.h"
 #include "images/image_file.h"
@@ -22,6 +23,7 @@ constexpr std::size_t max_pictures = 300;
 struct Row {
   SurfaceId receiver;
   SunDirection sun;
+  std::uint32_t state;
   double projected_area;
   double fraction;
 };
@@ -36,10 +38,12 @@ std::vector<Row> collect(Renderer const& renderer, SurfaceId receiver, Answers c
     double const cosine = glm::dot(facing, to_vector(direction.sun));
     if (!Answers::known(direction.projected_area[receiver]) || cosine <= 0.0 || full <= 0.0) return;
     double const answer = direction.area(receiver, factors);
-    rows.push_back({receiver, direction.sun, answer, std::min(1.0, answer / (full * cosine))});
+    rows.push_back({receiver, direction.sun, direction.state, answer,
+                    std::min(1.0, answer / (full * cosine))});
   });
   std::sort(rows.begin(), rows.end(), [](Row const& a, Row const& b) {
-    return std::pair(a.sun.azimuth, a.sun.altitude) < std::pair(b.sun.azimuth, b.sun.altitude);
+    return std::tuple(a.sun.azimuth, a.sun.altitude, a.state) <
+           std::tuple(b.sun.azimuth, b.sun.altitude, b.state);
   });
   return rows;
 }
@@ -58,8 +62,9 @@ std::vector<Row> choose(std::vector<Row> const& rows) {
       least([](Row const& row) { return std::abs(row.fraction - 0.5); }),
       least([](Row const& row) { return -row.sun.altitude; }),
   };
-  auto const last = std::unique(chosen.begin(), chosen.end(),
-                                [](Row const& a, Row const& b) { return a.sun == b.sun; });
+  auto const last = std::unique(chosen.begin(), chosen.end(), [](Row const& a, Row const& b) {
+    return a.sun == b.sun && a.state == b.state;
+  });
   chosen.erase(last, chosen.end());
   return chosen;
 }
@@ -69,13 +74,15 @@ double azimuth_degrees(SunDirection sun) {
   return degrees < 0.0 ? degrees + 360.0 : degrees;
 }
 
-std::string file_name(std::string const& surface, SunDirection sun) {
+std::string file_name(std::string const& surface, SunDirection sun,
+                      DeploymentStates::Shares const& shares) {
   std::string name = surface;
   std::replace_if(
       name.begin(), name.end(),
       [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-'; }, '_');
-  return fmt::format("{}_{:05.1f}_{:04.1f}.png", name, azimuth_degrees(sun),
-                     glm::degrees(sun.altitude));
+  name += fmt::format("_{:05.1f}_{:04.1f}", azimuth_degrees(sun), glm::degrees(sun.altitude));
+  for (double const share : shares) name += fmt::format("_{:.6g}", 100.0 * share);
+  return name + ".png";
 }
 
 // CSV's own quoting: names of surfaces may hold commas.
@@ -100,18 +107,22 @@ void prepare_report(std::filesystem::path const& folder) {
 
 void write_report(std::filesystem::path const& folder, Renderer& renderer,
                   std::vector<SurfaceId> const& receivers, Answers const& answers,
-                  std::vector<double> const& factors) {
+                  std::vector<double> const& factors, Deployments const& deployments) {
   auto const table = folder / table_name;
   std::ofstream csv(table);
   csv << "receiver,sun azimuth [deg],sun altitude [deg],projected sunlit area [m2],sunlit "
-         "fraction\n";
+         "fraction";
+  for (auto const& schedule : deployments.schedules) csv << ',' << quoted("share by " + schedule);
+  csv << '\n';
   std::vector<Row> pictures;
   for (auto const receiver : receivers) {
     auto const rows = collect(renderer, receiver, answers, factors);
     for (auto const& row : rows) {
-      csv << fmt::format("{},{:.4f},{:.4f},{:.7g},{:.6f}\n",
-                         quoted(renderer.scene()[receiver].name), azimuth_degrees(row.sun),
-                         glm::degrees(row.sun.altitude), row.projected_area, row.fraction);
+      csv << fmt::format("{},{:.4f},{:.4f},{:.7g},{:.6f}", quoted(renderer.scene()[receiver].name),
+                         azimuth_degrees(row.sun), glm::degrees(row.sun.altitude),
+                         row.projected_area, row.fraction);
+      for (double const share : deployments.states[row.state]) csv << fmt::format(",{:.6g}", share);
+      csv << '\n';
     }
     auto const chosen = choose(rows);
     pictures.insert(pictures.end(), chosen.begin(), chosen.end());
@@ -121,7 +132,10 @@ void write_report(std::filesystem::path const& folder, Renderer& renderer,
 
   if (pictures.size() > max_pictures) pictures.resize(max_pictures);
   for (auto const& picture : pictures) {
-    auto const path = folder / file_name(renderer.scene()[picture.receiver].name, picture.sun);
+    auto const& shares = deployments.states[picture.state];
+    renderer.set_deployments(shares);
+    auto const path =
+        folder / file_name(renderer.scene()[picture.receiver].name, picture.sun, shares);
     write_image(path, renderer.sun_view(picture.sun, picture.receiver, picture_size, factors));
   }
 }

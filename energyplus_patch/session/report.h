@@ -1,26 +1,34 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "gpu_shading/renderer.h"
 #include "session/answers.h"
+#include "session/deployment_states.h"
 
 namespace gpu_shading::energyplus {
 
 // Makes the folder where it is missing. Throws Error when nothing can be written to it.
 void prepare_report(std::filesystem::path const& folder);
 
+// The deployments that answers were given at.
+struct Deployments {
+  std::vector<std::string> const& schedules;
+  DeploymentStates const& states;
+};
+
 // What a user needs to check a surprising number by eye, into `folder`:
 //   sunlit.csv       receiver, sun azimuth and altitude (degrees), projected sunlit area (m2),
-//   sunlit
-//                    fraction: every answer of the run
-//   NAME_AZ_ALT.png  what the sun sees of a receiver, at up to three of its directions: the one
-//   most
-//                    shaded but lit, the one nearest to half sunlit, and the one at the highest sun
+//                    sunlit fraction, and the share of screens in place by each deployment
+//                    schedule, where there are any: every answer of the run
+//   NAME_AZ_ALT.png  what the sun sees of a receiver, at up to three of its answers: the one most
+//                    shaded but lit, the one nearest to half sunlit, and the one at the highest
+//                    sun. With deployments NAME_AZ_ALT_SHARE[_SHARE ...].png, shares in percent.
 // Throws Error when the folder cannot be written.
 void write_report(std::filesystem::path const& folder, Renderer& renderer,
                   std::vector<SurfaceId> const& receivers, Answers const& answers,
-                  std::vector<double> const& factors);
+                  std::vector<double> const& factors, Deployments const& deployments);
 
 }  // namespace gpu_shading::energyplus

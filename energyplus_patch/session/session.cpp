@@ -66,12 +66,12 @@ void Session::start(Messages messages, Schedules schedules) {
     wanted[id] = !input.shading_surfaces.contains(name) || input.wants(name);
     if (!wanted[id]) unshaded_[id] = area(polygon) * normal(polygon);
   }
+  optics_ = ShadeOptics(model_, std::move(schedules));
   if (char const* const listing = std::getenv(listing_variable)) {
     std::ofstream(listing) << list_surfaces(scene_, model_, wanted);
     std::_Exit(EXIT_SUCCESS);
   }
   if (model_.options.report) prepare_report(*model_.options.report);
-  optics_ = ShadeOptics(model_, std::move(schedules));
   add_walls_without_openings();
   open_renderer();
   check_device();
@@ -97,6 +97,12 @@ void Session::open_renderer() {
   options.resolution = model_.options.resolution;
   renderer_.emplace(std::move(scene), options);
   answers_ = Answers(surfaces_);
+  deploy_screens();
+}
+
+void Session::deploy_screens() {
+  state_ = states_.number_of(optics_.deployments());
+  renderer_->set_deployments(optics_.deployments());
 }
 
 void Session::check_device() const {
@@ -130,25 +136,36 @@ void Session::add_walls_without_openings() {
 
 void Session::describe_surfaces() {
   for (auto const& warning : model_.shades.warnings) messages_.warning(warning);
-  auto const& input = model_.shading;
-  auto const actuated = std::find_if(
-      input.shading_surfaces.begin(), input.shading_surfaces.end(), [&](auto const& surface) {
-        return input.actuated.contains(surface.second.transmittance_schedule);
-      });
-  if (actuated != input.shading_surfaces.end() && !input.every_timestep &&
-      !model_.options.every_timestep) {
-    messages_.warning(fmt::format(
-        "Transmittance Schedule {} is overridden by an EMS actuator, but shading is calculated for "
-        "whole periods: the value at the time counts for all of it; see --gpu-shading-update",
-        actuated->second.transmittance_schedule));
-  }
+  for (auto const& warning : model_.screens.warnings()) messages_.warning(warning);
+  warn_of_actuated_schedules();
   bool first = true;
-  for (auto const& [name, surface] : model_.shading.shading_surfaces) {
-    auto const optics = describe_optics(model_, name);
+  for (auto const id : shading_surfaces()) {
+    auto optics = describe_optics(model_, scene_[id]);
     if (optics == "opaque") continue;
     if (first) messages_.eio("! <GPU Shading Surface>, Surface Name, Transmittance\n");
     first = false;
-    messages_.eio(fmt::format("GPU Shading Surface,{},{}\n", name, optics));
+    // Commas part the file's fields.
+    std::replace(optics.begin(), optics.end(), ',', ';');
+    messages_.eio(fmt::format("GPU Shading Surface,{},{}\n", scene_[id].name, optics));
+  }
+}
+
+void Session::warn_of_actuated_schedules() const {
+  auto const& input = model_.shading;
+  if (input.every_timestep || model_.options.every_timestep) return;
+  auto const warn = [&](std::string_view field, std::string const& schedule) {
+    messages_.warning(fmt::format(
+        "{} {} is overridden by an EMS actuator, but shading is calculated for whole periods: the "
+        "value at the time counts for all of it; see --gpu-shading-update",
+        field, schedule));
+  };
+  for (auto const& [name, surface] : input.shading_surfaces) {
+    if (!input.actuated.contains(surface.transmittance_schedule)) continue;
+    warn("Transmittance Schedule", surface.transmittance_schedule);
+    break;
+  }
+  for (auto const& schedule : optics_.deployment_names()) {
+    if (input.actuated.contains(schedule)) warn("Deployment Schedule", schedule);
   }
 }
 
@@ -158,12 +175,15 @@ void Session::set_sun(SunDirection sun) {
 }
 
 void Session::set_time(Moment moment) {
-  if (renderer_ && optics_.update(moment)) {
+  if (!renderer_) return;
+  if (optics_.update(moment)) {
     messages_.warning(
         "a Transmittance Schedule that had one value all the time has another now (overridden by "
         "an "
         "EMS or a program): it is followed from here on");
     open_renderer();
+  } else if (states_.number_of(optics_.deployments()) != state_) {
+    deploy_screens();
   }
 }
 
@@ -189,7 +209,7 @@ float Session::projected_sunlit_area(SurfaceId receiver) {
   if (unshaded_[receiver]) {
     return static_cast<float>(std::max(glm::dot(*unshaded_[receiver], towards_sun_), 0.0));
   }
-  auto& direction = answers_.at(sun_);
+  auto& direction = answers_.at(sun_, state_);
   if (!Answers::known(direction.projected_area[receiver])) render(direction, receiver);
   if (!is_receiver_[receiver]) {
     is_receiver_[receiver] = true;
@@ -203,7 +223,7 @@ std::vector<float> Session::interior_areas(SurfaceId window,
   if (!renderer_) {
     throw Error("EnergyPlus asks for interior areas before its surfaces are complete");
   }
-  auto& kept = answers_.at(sun_).interior[hash_of(window, interiors)];
+  auto& kept = answers_.at(sun_, state_).interior[hash_of(window, interiors)];
   if (kept.size() != interiors.size()) {
     kept = renderer_->interior_sunlit_areas(sun_, window, interiors);
   }
@@ -228,8 +248,10 @@ void Session::finish() {
       device.renderer, device.version, model_.options.resolution, model_.options.resolution,
       receivers_.size(), casters_, did.directions, did.receivers_drawn, did.receivers_clear,
       did.seconds));
-  if (model_.options.report)
-    write_report(*model_.options.report, *renderer_, receivers_, answers_, optics_.factors());
+  if (model_.options.report) {
+    write_report(*model_.options.report, *renderer_, receivers_, answers_, optics_.factors(),
+                 {optics_.deployment_names(), states_});
+  }
 }
 
 }  // namespace gpu_shading::energyplus

@@ -9,6 +9,7 @@
 #include "gpu_shading/renderer.h"
 #include "input/model_reader.h"
 #include "session/answers.h"
+#include "session/deployment_states.h"
 #include "session/schedules.h"
 #include "session/shade_optics.h"
 
@@ -41,13 +42,13 @@ class Session {
   Surface const& surface(SurfaceId id) const { return scene_[id]; }
   ShadingInput const& input() const { return model_.shading; }
 
-  // Ids of the model's shading surfaces, in order. Before start().
+  // Ids of the model's shading surfaces, in order.
   std::vector<SurfaceId> shading_surfaces() const;
 
   // All surfaces are there: reads what they let through and opens the device.
   void start(Messages messages, Schedules schedules);
 
-  // The time whose transmittance schedules count from here on.
+  // The time whose schedules count from here on.
   void set_time(Moment moment);
   void set_sun(SunDirection sun);
 
@@ -65,8 +66,10 @@ class Session {
  private:
   void render(Answers::Direction& direction, SurfaceId asked);
   void describe_surfaces();
+  void warn_of_actuated_schedules() const;
   void add_walls_without_openings();
   void open_renderer();
+  void deploy_screens();
   void check_device() const;
 
   Model model_;
@@ -84,6 +87,8 @@ class Session {
   SunDirection sun_;
   glm::dvec3 towards_sun_{0.0, 0.0, 1.0};
   Answers answers_;
+  DeploymentStates states_;
+  std::uint32_t state_ = 0;  // which is set
 };
 
 }  // namespace gpu_shading::energyplus

@@ -2,23 +2,65 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "gpu_shading/error.h"
 #include "gpu_shading/transmittance.h"
 
 namespace gpu_shading::energyplus {
+namespace {
+
+// Of a schedule that an object's field names.
+std::pair<double, double> range_of(Schedules const& schedules, std::string const& name,
+                                   std::string const& object, std::string_view field) {
+  try {
+    return schedules.range(name);
+  } catch (Error const& error) {
+    throw Error(fmt::format("{}: {}: {}", object, field, error.what()));
+  }
+}
+
+// What screens a surface, nullptr where nothing does. One without an area has no place for it.
+SurfaceScreen const* screen_of(Model const& model, Surface const& surface) {
+  auto const found = model.screens.by_surface.find(surface.name);
+  if (found == model.screens.by_surface.end() || area(surface.polygon) <= 0.0) return nullptr;
+  return &found->second;
+}
+
+}  // namespace
 
 ShadeOptics::ShadeOptics(Model const& model, Schedules schedules)
     : model_(&model), schedules_(std::move(schedules)) {
-  for (auto const& [name, surface] : model.shading.shading_surfaces) {
+  add_transmittance_schedules();
+  add_deployments();
+}
+
+void ShadeOptics::add_transmittance_schedules() {
+  for (auto const& [name, surface] : model_->shading.shading_surfaces) {
     auto const& schedule_name = surface.transmittance_schedule;
     if (schedule_name.empty()) continue;
     auto const [place, added] = by_name_.try_emplace(schedule_name);
     if (!added) continue;
-    auto const [least, most] = schedules_.range(schedule_name);
+    auto const [least, most] = range_of(schedules_, schedule_name, surface.type + " " + name,
+                                        "Transmittance Schedule Name");
     if (least == most) {
       place->second.held = least;
     } else {
       make_factor(schedule_name, place->second);
     }
+  }
+}
+
+void ShadeOptics::add_deployments() {
+  for (auto const& [surface, screen] : model_->screens.by_surface) {
+    auto const& name = screen.deployment_schedule;
+    auto const& known = deployment_names_;
+    if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) continue;
+    auto const range =
+        range_of(schedules_, name, "GPUShading:PerforatedScreen " + screen.maker->object(),
+                 "Deployment Schedule Name");
+    deployment_names_.push_back(name);
+    deployments_.push_back(range.second);
   }
 }
 
@@ -36,6 +78,7 @@ void ShadeOptics::apply(Surface& surface) const {
   if (shade != model_->shades.by_surface.end()) {
     surface.transmittance = shade->second.transmittance;
   }
+  apply_screen(surface);
   auto const schedule = by_name_.find(shading->second.transmittance_schedule);
   if (schedule == by_name_.end()) return;
   auto const& held = schedule->second.held;
@@ -43,14 +86,26 @@ void ShadeOptics::apply(Surface& surface) const {
     surface.schedule = schedule->second.factor;
   } else if (*held <= 0.0) {
     surface.transmittance.reset();
+    surface.screen.reset();
+    surface.deployment = -1;
   } else if (*held < 1.0) {
     Transmittance const model =
         surface.transmittance ? *surface.transmittance : Transmittance::constant(1.0);
     surface.transmittance =
         std::make_shared<Transmittance const>(Transmittance::product(model, *held));
-  } else if (!surface.transmittance) {
+  } else if (!surface.transmittance && !surface.screen) {
     surface.casting = Casting::never;
   }
+}
+
+void ShadeOptics::apply_screen(Surface& surface) const {
+  auto const* const screen = screen_of(*model_, surface);
+  if (screen == nullptr) return;
+  surface.screen = screen->maker->make(surface.polygon);
+  surface.placement = screen->maker->placement(surface.polygon);
+  auto const& known = deployment_names_;
+  auto const found = std::find(known.begin(), known.end(), screen->deployment_schedule);
+  if (found != known.end()) surface.deployment = static_cast<int>(found - known.begin());
 }
 
 bool ShadeOptics::update(Moment moment) {
@@ -64,17 +119,28 @@ bool ShadeOptics::update(Moment moment) {
   for (std::size_t i = 0; i < factors_.size(); ++i) {
     factors_[i] = schedules_.value(factor_names_[i], moment);
   }
+  for (std::size_t i = 0; i < deployments_.size(); ++i) {
+    auto const& name = deployment_names_[i];
+    deployments_[i] =
+        moment.timestep > 0 ? schedules_.value(name, moment) : schedules_.range(name).second;
+  }
   return changed;
 }
 
-std::string describe_optics(Model const& model, std::string const& surface) {
-  auto const shading = model.shading.shading_surfaces.find(surface);
+std::string describe_optics(Model const& model, Surface const& surface) {
+  auto const shading = model.shading.shading_surfaces.find(surface.name);
   if (shading == model.shading.shading_surfaces.end()) return "opaque";
-  auto const shade = model.shades.by_surface.find(surface);
+  auto const shade = model.shades.by_surface.find(surface.name);
   auto const& schedule = shading->second.transmittance_schedule;
   std::string text;
   if (shade != model.shades.by_surface.end()) {
     text = fmt::format("transparent ({})", shade->second.description);
+  }
+  if (auto const* const screen = screen_of(model, surface)) {
+    text = screen->maker->describe(surface.polygon);
+    if (!screen->deployment_schedule.empty()) {
+      text += fmt::format(" deployed by {}", screen->deployment_schedule);
+    }
   }
   if (!schedule.empty()) {
     text += fmt::format("{}schedule {}", text.empty() ? "" : " x ", schedule);

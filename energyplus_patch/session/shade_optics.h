@@ -12,17 +12,18 @@
 
 namespace gpu_shading::energyplus {
 
-// What shading surfaces let through: GPUShading:TransparentShade times the surface's own
-// Transmittance Schedule. A schedule of one value all the simulation long is taken for a number, so
-// that the renderer has less to keep apart; where an EMS or a program overrides it all the same, it
-// becomes a factor.
+// What shading surfaces let through: GPUShading:TransparentShade or :PerforatedScreen, times the
+// surface's own Transmittance Schedule. A transmittance schedule of one value all the simulation
+// long is taken for a number, so that the renderer has less to keep apart; where an EMS or a
+// program overrides it all the same, it becomes a factor.
 class ShadeOptics {
  public:
   ShadeOptics() = default;
-  // Throws Error where EnergyPlus lacks a schedule.
+  // Throws Error, naming object and field, where EnergyPlus lacks a schedule.
   ShadeOptics(Model const& model, Schedules schedules);
 
-  // Sets a surface's casting, transmittance and schedule.
+  // Sets a surface's casting, transmittance, schedule, screen and deployment. Throws Error where a
+  // screen's texture cannot be read.
   void apply(Surface& surface) const;
 
   // Reads the schedules. True where one that was taken for a number has another value: optics have
@@ -31,6 +32,8 @@ class ShadeOptics {
 
   // By the numbers that apply() gives out.
   std::vector<double> const& factors() const { return factors_; }
+  std::vector<double> const& deployments() const { return deployments_; }
+  std::vector<std::string> const& deployment_names() const { return deployment_names_; }
 
  private:
   struct Schedule {
@@ -38,16 +41,22 @@ class ShadeOptics {
     int factor = -1;             // else
   };
 
+  void add_transmittance_schedules();
+  void add_deployments();
   void make_factor(std::string const& name, Schedule& schedule);
+  void apply_screen(Surface& surface) const;
 
   Model const* model_ = nullptr;
   Schedules schedules_;
   std::map<std::string, Schedule> by_name_;
   std::vector<std::string> factor_names_;
   std::vector<double> factors_;
+  std::vector<std::string> deployment_names_;
+  std::vector<double> deployments_;
 };
 
-// "transparent (construction Double)", "opaque", ...: for listings.
-std::string describe_optics(Model const& model, std::string const& surface);
+// "transparent (construction Double)", "opaque", ...: for listings. Throws Error where a screen's
+// texture cannot be read.
+std::string describe_optics(Model const& model, Surface const& surface);
 
 }  // namespace gpu_shading::energyplus

@@ -30,7 +30,8 @@ TEST(ShadingInput, ShadingFractionsAreWantedOnlyWhereTheyAreUsed) {
   EXPECT_FALSE(plain.wants("A"));
   auto const named = read(surfaces +
                           "Output:Variable,a,Surface Outside Face Sunlit Fraction;"
-                          "Generator:Photovoltaic,PV,b;");
+                          "Generator:Photovoltaic,PV,b;"
+                          "GPUShading:TransparentShade,Glass,C,Constant,0.5;");
   EXPECT_TRUE(named.wants("A"));
   EXPECT_TRUE(named.wants("B"));
   EXPECT_FALSE(named.wants("C"));

@@ -1,0 +1,48 @@
+#include "images/texture_file.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "gpu_shading/error.h"
+#include "images/image_library.h"
+#include "images/load_library.h"
+
+namespace gpu_shading::energyplus {
+
+TextureInfo probe_texture(std::filesystem::path const& path) {
+  static auto const probe = reinterpret_cast<decltype(&gpu_shading_probe_image)>(
+      image_function("textures", "gpu_shading_probe_image"));
+  if (!std::filesystem::exists(path)) throw Error(fmt::format("{}: no such file", path.string()));
+  // Others (a pipe, a device) may never come to an end.
+  if (!std::filesystem::is_regular_file(path)) {
+    throw Error(fmt::format("{}: is not a file", path.string()));
+  }
+  gpu_shading_image_info info{};
+  std::array<char, 512> message{};
+  if (probe(path.c_str(), &info, message.data(), message.size()) != 0) {
+    throw Error(
+        fmt::format("{}: is not an image that can be read: {}", path.string(), message.data()));
+  }
+  if (info.width > max_texture_side || info.height > max_texture_side) {
+    throw Error(fmt::format("{}: is {} x {} texels, expected at most {} a side", path.string(),
+                            info.width, info.height, max_texture_side));
+  }
+  return {info.width, info.height, info.channels, info.alpha >= 0};
+}
+
+std::vector<std::uint16_t> read_opacity(std::filesystem::path const& path,
+                                        TextureInfo const& info) {
+  static auto const read = reinterpret_cast<decltype(&gpu_shading_read_opacity)>(
+      image_function("textures", "gpu_shading_read_opacity"));
+  std::vector<std::uint16_t> opacity(static_cast<std::size_t>(info.width) *
+                                     static_cast<std::size_t>(info.height));
+  std::array<char, 512> message{};
+  if (read(path.c_str(), info.width, info.height, opacity.data(), message.data(), message.size()) !=
+      0) {
+    throw Error(fmt::format("{}: cannot be read: {}", path.string(), message.data()));
+  }
+  return opacity;
+}
+
+}  // namespace gpu_shading::energyplus
