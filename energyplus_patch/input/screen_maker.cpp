@@ -8,8 +8,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "input/tile_axes.h"
-
 namespace gpu_shading::energyplus {
 namespace {
 
@@ -83,14 +81,6 @@ std::string describe_sheet(PerforatedScreen const& screen) {
   return fmt::format("{:.1f} % open", 100.0 * screen.open_fraction());
 }
 
-// The one place to change when OpacityTile takes 16 bits.
-std::vector<float> to_opacity(std::vector<std::uint16_t> const& texels) {
-  std::vector<float> opacity;
-  opacity.reserve(texels.size());
-  for (auto const texel : texels) opacity.push_back(static_cast<float>(texel) / solid);
-  return opacity;
-}
-
 }  // namespace
 
 Error screen_error(std::string const& object, std::string message) {
@@ -115,7 +105,7 @@ ScreenMaker::ScreenMaker(std::string object, Holes holes, Sheet const& sheet,
   auto const& texture = std::get<ScreenTexture>(holes_);
   PerforatedScreen const check(
       OpacityTile(texture.width.value_or(1.0), texture.height.value_or(1.0), 1, 1,
-                  std::vector<float>{1.0F}, texture.threshold),
+                  std::vector<std::uint16_t>{solid}, texture.threshold),
       sheet_);
 }
 
@@ -166,10 +156,9 @@ ScreenMaker::Made ScreenMaker::make_of(HolePattern const& pattern) {
 }
 
 ScreenMaker::Made ScreenMaker::make_of(ScreenTexture const& texture, double width, double height) {
-  auto texels = read_texture(texture);
-  OpacityTile tile(width, height, texture.info.width, texture.info.height, to_opacity(texels),
-                   texture.threshold);
-  if (covers_each_surface(texture)) texture_ = std::move(texels);
+  auto tile = made_.empty() ? OpacityTile(width, height, texture.info.width, texture.info.height,
+                                          read_texture(texture), texture.threshold)
+                            : made_.front().screen->tile()->stretched(width, height);
   auto const screen = std::make_shared<PerforatedScreen const>(std::move(tile), sheet_);
   double const open = screen->open_fraction();
   if (warnings_.empty() && (open <= 0.0 || open >= 1.0)) {
@@ -185,7 +174,6 @@ ScreenMaker::Made ScreenMaker::make_of(ScreenTexture const& texture, double widt
 }
 
 std::vector<std::uint16_t> ScreenMaker::read_texture(ScreenTexture const& texture) {
-  if (!texture_.empty()) return std::move(texture_);
   std::vector<std::uint16_t> texels;
   try {
     texels = read_opacity(texture.path, texture.info);

@@ -63,14 +63,13 @@ class ScreenMaker {
   Made const& find_or_make(Polygon const& polygon);
   Made make_of(HolePattern const& pattern);
   Made make_of(ScreenTexture const& texture, double width, double height);
-  std::vector<std::uint16_t> read_texture(ScreenTexture const& texture);
+  static std::vector<std::uint16_t> read_texture(ScreenTexture const& texture);
 
   std::string object_;
   Holes holes_;
   Sheet sheet_;
   ScreenPlacement placement_;
   std::vector<Made> made_;
-  std::vector<std::uint16_t> texture_;  // where tiles of other sizes may be made of it
   std::vector<std::string> warnings_;
 };
 

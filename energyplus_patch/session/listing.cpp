@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "input/tile_axes.h"
 #include "session/shade_optics.h"
 
 namespace gpu_shading::energyplus {

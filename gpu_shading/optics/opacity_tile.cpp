@@ -150,6 +150,15 @@ OpacityTile::OpacityTile(HolePattern const& pattern, double texel, std::optional
   find_web();
 }
 
+OpacityTile OpacityTile::stretched(double width, double height) const {
+  check_positive("tile width", width);
+  check_positive("tile height", height);
+  OpacityTile tile = *this;
+  tile.width_ = width;
+  tile.height_ = height;
+  return tile;
+}
+
 double OpacityTile::open_fraction() const {
   std::uint64_t open = 0;
   if (threshold_) {

@@ -9,23 +9,8 @@
 namespace gpu_shading {
 namespace {
 
-struct TileAxes {
-  glm::dvec3 origin;
-  glm::dvec3 u;
-  glm::dvec3 v;
-
-  glm::dvec2 operator()(glm::dvec3 const& point) const {
-    return {glm::dot(point - origin, u), glm::dot(point - origin, v)};
-  }
-};
-
-TileAxes tile_axes(Ring const& ring, glm::dvec3 const& normal, ScreenPlacement const& placement) {
-  glm::dvec3 const edge = ring[2] - ring[1];
-  glm::dvec3 const u = glm::normalize(edge - normal * glm::dot(normal, edge));
-  glm::dvec3 const v = glm::cross(normal, u);
-  double const c = std::cos(placement.rotation);
-  double const s = std::sin(placement.rotation);
-  return {ring[1] + placement.origin_u * u + placement.origin_v * v, c * u + s * v, c * v - s * u};
+glm::dvec2 place_on(TileAxes const& axes, glm::dvec3 const& point) {
+  return {glm::dot(point - axes.origin, axes.u), glm::dot(point - axes.origin, axes.v)};
 }
 
 bool is_convex_quadrilateral(Polygon const& polygon, Ring const& ring, glm::dvec3 const& normal) {
@@ -42,8 +27,9 @@ std::vector<Screens::Quadrilateral> parts_of(Polygon const& polygon, Ring const&
                                              glm::dvec3 const& normal, TileAxes const& axes) {
   std::vector<Screens::Quadrilateral> parts;
   auto const add = [&](std::array<glm::dvec3, 4> const& corners) {
-    parts.push_back(
-        {corners, {axes(corners[0]), axes(corners[1]), axes(corners[2]), axes(corners[3])}});
+    parts.push_back({corners,
+                     {place_on(axes, corners[0]), place_on(axes, corners[1]),
+                      place_on(axes, corners[2]), place_on(axes, corners[3])}});
   };
   if (is_convex_quadrilateral(polygon, ring, normal)) {
     add({ring[0], ring[1], ring[2], ring[3]});
@@ -60,6 +46,18 @@ std::vector<Screens::Quadrilateral> parts_of(Polygon const& polygon, Ring const&
 }
 
 }  // namespace
+
+TileAxes tile_axes(Polygon const& polygon, ScreenPlacement const& placement) {
+  Ring const ring = without_repeats(polygon.outline);
+  glm::dvec3 const facing = glm::normalize(newell(ring));
+  glm::dvec3 const edge = ring[2] - ring[1];
+  glm::dvec3 const right = glm::normalize(edge - facing * glm::dot(facing, edge));
+  glm::dvec3 const up = glm::cross(facing, right);
+  double const c = std::cos(placement.rotation);
+  double const s = std::sin(placement.rotation);
+  return {ring[1] + placement.origin_u * right + placement.origin_v * up, c * right + s * up,
+          c * up - s * right};
+}
 
 SheetFaces sheet_faces(Surface const& surface) {
   if (!surface.screen) return {};
@@ -83,7 +81,7 @@ Screens::Screens(Scene const& scene) : numbers_(scene.size(), none) {
     glm::dvec3 const vector = newell(ring);
     if (ring.size() < 3 || is_degenerate(ring, vector)) continue;
     glm::dvec3 const normal = glm::normalize(vector);
-    TileAxes const axes = tile_axes(ring, normal, surface.placement);
+    TileAxes const axes = tile_axes(surface.polygon, surface.placement);
     SheetFaces const faces = sheet_faces(surface);
     numbers_[id] = static_cast<int>(entries_.size());
     entries_.push_back({surface.screen, normal, axes.u, axes.v, faces.inside, faces.outside,

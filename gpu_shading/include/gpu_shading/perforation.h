@@ -105,6 +105,9 @@ class OpacityTile {
   // them in the tile makes them.
   OpacityTile(HolePattern const& pattern, double texel, std::optional<double> threshold = 0.5);
 
+  // The same image over another tile, which shares its memory.
+  OpacityTile stretched(double width, double height) const;
+
   double width() const { return width_; }
   double height() const { return height_; }
   int columns() const { return columns_; }

@@ -84,4 +84,13 @@ class Scene {
 double area(Polygon const& polygon);
 glm::dvec3 normal(Polygon const& polygon);
 
+// A screen's placement on a polygon, written out in world axes. The polygon has to have an area;
+// one that is not quite planar is taken at its plane.
+struct TileAxes {
+  glm::dvec3 origin;  // the tile's (0, 0)
+  glm::dvec3 u;       // unit vectors
+  glm::dvec3 v;
+};
+TileAxes tile_axes(Polygon const& polygon, ScreenPlacement const& placement);
+
 }  // namespace gpu_shading

@@ -15,6 +15,7 @@
 namespace gpu_shading::energyplus {
 namespace {
 
+using testing::ElementsAre;
 using testing::StartsWith;
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -179,14 +180,13 @@ TEST_F(Textured, TileCoversEachSurfaceOnce) {
   EXPECT_NEAR(screen->tile()->width(), 4.0, 1e-12);
   EXPECT_NEAR(screen->tile()->height(), 2.0, 1e-12);
   EXPECT_EQ(screen->tile()->threshold(), 0.5);
-  EXPECT_EQ(std::vector<float>(screen->tile()->opacity().begin(), screen->tile()->opacity().end()),
-            (std::vector<float>{1, 0}));
+  EXPECT_THAT(screen->tile()->opacity(), ElementsAre(65535, 0));
   // Of the same size, but for rounding, and of another.
   Polygon const elsewhere{{{7, 1, 2}, {7, 1, 0}, {7, 5, 0}, {7, 5, 2.00001}}, {}};
   EXPECT_EQ(maker->make(elsewhere), screen);
   Polygon const larger{{{7, 1, 2}, {7, 1, 0}, {7, 6, 0}, {7, 6, 2}}, {}};
   EXPECT_NEAR(maker->make(larger)->tile()->width(), 5.0, 1e-12);
-  EXPECT_EQ(maker->make(larger)->tile()->opacity()[0], 1.0F);
+  EXPECT_EQ(maker->make(larger)->tile()->opacity()[0], 65535);
   EXPECT_EQ(maker->describe(panel),
             "perforated (texture checks.png 2 x 1, 50.0 % open over 4 x 2 m tiles, 3 mm thick)");
 }
@@ -222,8 +222,8 @@ TEST_F(Textured, TileOfGivenSize) {
 }
 
 TEST_F(Textured, OpacityOfTexels) {
-  EXPECT_EQ(made(read(textured({{"invert_opacity", "Yes"}}))).tile()->opacity()[0], 0.0F);
-  EXPECT_EQ(made(read(textured({{"invert_opacity", "no"}}))).tile()->opacity()[0], 1.0F);
+  EXPECT_EQ(made(read(textured({{"invert_opacity", "Yes"}}))).tile()->opacity()[0], 0);
+  EXPECT_EQ(made(read(textured({{"invert_opacity", "no"}}))).tile()->opacity()[0], 65535);
   EXPECT_EQ(made(read(textured({{"opacity", "Fractional"}}))).tile()->threshold(), std::nullopt);
   EXPECT_EQ(made(read(textured({{"opacity", "Threshold"}, {"opacity_threshold", "0.25"}})))
                 .tile()
@@ -395,7 +395,7 @@ TEST_F(Textured, IdfEpJsonAndSideFileAreAlike) {
     EXPECT_EQ(made_screen->sheet().layers, 3);
     EXPECT_EQ(made_screen->tile()->threshold(), 0.25);
     EXPECT_NEAR(made_screen->tile()->height(), 0.25, 1e-12);
-    EXPECT_EQ(made_screen->tile()->opacity()[0], 0.0F);
+    EXPECT_EQ(made_screen->tile()->opacity()[0], 0);
   }
 }
 
