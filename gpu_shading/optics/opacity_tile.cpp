@@ -1,22 +1,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <numbers>
+#include <memory>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "gpu_shading/error.h"
 #include "gpu_shading/perforation.h"
+#include "optics/solid_runs.h"
 
 namespace gpu_shading {
 namespace {
 
+// Of a tile made from a pattern, which takes 256 points for each.
 constexpr double most_texels = 1U << 26U;
+constexpr float solid_value = 65535.0F;
 
 void check_positive(std::string_view field, double value) {
   if (value > 0.0 && std::isfinite(value)) return;
@@ -24,7 +27,8 @@ void check_positive(std::string_view field, double value) {
 }
 
 void check_threshold(std::optional<double> threshold) {
-  if (!threshold || (*threshold >= 0.0 && *threshold < 1.0)) return;
+  // In floats, as texels are compared with it.
+  if (!threshold || (*threshold >= 0.0 && static_cast<float>(*threshold) < 1.0F)) return;
   throw Error(fmt::format("opacity threshold is {:.9g}, expected 0 to below 1", *threshold));
 }
 
@@ -39,11 +43,47 @@ std::size_t index(int column, int row, int columns) {
 
 int around(int place, int count) { return (place + count) % count; }
 
+void check_texels(std::size_t texels, int columns, int rows) {
+  constexpr int most = OpacityTile::most_texels_a_side;
+  if (columns > most || rows > most) {
+    throw Error(
+        fmt::format("texture is {} x {} texels, expected at most {} a side", columns, rows, most));
+  }
+  if (columns < 1 || rows < 1 || texels != index(0, rows, columns)) {
+    throw Error(fmt::format("texture has {} texels, expected {} x {}", texels, columns, rows));
+  }
+}
+
+// Rounds halves down.
+std::uint16_t quantised(double opacity) {
+  return static_cast<std::uint16_t>(std::ceil(opacity * static_cast<double>(solid_value) - 0.5));
+}
+
+std::vector<std::uint16_t> quantised(std::vector<float> const& opacity) {
+  std::vector<std::uint16_t> values;
+  values.reserve(opacity.size());
+  for (float const value : opacity) {
+    if (!(value >= 0.0F && value <= 1.0F)) {
+      throw Error(fmt::format("opacity is {:.9g}, expected 0 to 1", value));
+    }
+    values.push_back(quantised(static_cast<double>(value)));
+  }
+  return values;
+}
+
+// The least value that is above a threshold of 0 to below 1 as a shader compares it.
+std::uint16_t least_solid(double threshold) {
+  auto const limit = static_cast<float>(threshold);
+  int value = std::max(0, static_cast<int>(limit * solid_value) - 1);
+  while (static_cast<float>(value) / solid_value <= limit) ++value;
+  return static_cast<std::uint16_t>(value);
+}
+
 constexpr int points = 8;  // each way
 
 // How many of points x points in each of columns x rows parts of the tile are solid.
-std::vector<int> solid_points(HolePattern const& pattern, int columns, int rows) {
-  std::vector<int> solid;
+std::vector<std::uint8_t> solid_points(HolePattern const& pattern, int columns, int rows) {
+  std::vector<std::uint8_t> solid;
   solid.reserve(index(0, rows, columns));
   double const step_u = pattern.width() / columns / points;
   double const step_v = pattern.height() / rows / points;
@@ -55,7 +95,7 @@ std::vector<int> solid_points(HolePattern const& pattern, int columns, int rows)
           if (!pattern.is_open((u + 0.5) * step_u, (v + 0.5) * step_v)) ++count;
         }
       }
-      solid.push_back(count);
+      solid.push_back(static_cast<std::uint8_t>(count));
     }
   }
   return solid;
@@ -64,42 +104,36 @@ std::vector<int> solid_points(HolePattern const& pattern, int columns, int rows)
 }  // namespace
 
 OpacityTile::OpacityTile(double width, double height, int columns, int rows,
-                         std::vector<float> opacity, std::optional<double> threshold)
-    : width_(width),
-      height_(height),
-      columns_(columns),
-      rows_(rows),
-      opacity_(std::move(opacity)),
-      threshold_(threshold) {
+                         std::vector<std::uint16_t> opacity, std::optional<double> threshold)
+    : width_(width), height_(height), columns_(columns), rows_(rows), threshold_(threshold) {
   check_positive("tile width", width);
   check_positive("tile height", height);
   check_threshold(threshold);
-  if (columns < 1 || rows < 1 ||
-      opacity_.size() != static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {
-    throw Error(
-        fmt::format("texture has {} texels, expected {} x {}", opacity_.size(), columns, rows));
-  }
-  for (float const value : opacity_) {
-    if (!(value >= 0.0F && value <= 1.0F)) {
-      throw Error(fmt::format("opacity is {:.9g}, expected 0 to 1", value));
-    }
-  }
+  check_texels(opacity.size(), columns, rows);
+  opacity_ = std::make_shared<std::vector<std::uint16_t> const>(std::move(opacity));
+  find_web();
 }
+
+OpacityTile::OpacityTile(double width, double height, int columns, int rows,
+                         std::vector<float> const& opacity, std::optional<double> threshold)
+    : OpacityTile(width, height, columns, rows, quantised(opacity), threshold) {}
 
 OpacityTile::OpacityTile(HolePattern const& pattern, double texel, std::optional<double> threshold)
     : width_(pattern.width()), height_(pattern.height()), threshold_(threshold) {
   check_positive("texel", texel);
   check_threshold(threshold);
-  if (width_ / texel * (height_ / texel) > most_texels) {
+  if (width_ / texel * (height_ / texel) > most_texels ||
+      std::max(width_, height_) / texel > most_texels_a_side) {
     throw Error(fmt::format("texel is {:.9g} m, too small for a tile of {:.9g} x {:.9g} m", texel,
                             width_, height_));
   }
   columns_ = texels_along(width_, texel);
   rows_ = texels_along(height_, texel);
-  std::vector<int> const quarters = solid_points(pattern, 2 * columns_, 2 * rows_);
+  std::vector<std::uint8_t> const quarters = solid_points(pattern, 2 * columns_, 2 * rows_);
   int const margin = threshold ? 1 : 0;
   int const quarters_seen = (2 + 2 * margin) * (2 + 2 * margin);
-  opacity_.reserve(quarters.size() / 4);
+  std::vector<std::uint16_t> opacity;
+  opacity.reserve(quarters.size() / 4);
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
       int solid = 0;
@@ -109,70 +143,60 @@ OpacityTile::OpacityTile(HolePattern const& pattern, double texel, std::optional
                                   around(2 * row + v, 2 * rows_), 2 * columns_)];
         }
       }
-      opacity_.push_back(static_cast<float>(solid) /
-                         static_cast<float>(quarters_seen * points * points));
+      opacity.push_back(quantised(static_cast<double>(solid) / (quarters_seen * points * points)));
     }
   }
+  opacity_ = std::make_shared<std::vector<std::uint16_t> const>(std::move(opacity));
+  find_web();
 }
 
 double OpacityTile::open_fraction() const {
-  double open = 0.0;
-  for (float const value : opacity_) {
-    if (threshold_) {
-      open += static_cast<double>(value) > *threshold_ ? 0.0 : 1.0;
-    } else {
-      open += 1.0 - static_cast<double>(value);
-    }
+  std::uint64_t open = 0;
+  if (threshold_) {
+    std::uint16_t const solid = least_solid(*threshold_);
+    for (std::uint16_t const value : *opacity_) open += value < solid ? 1U : 0U;
+    return static_cast<double>(open) / static_cast<double>(opacity_->size());
   }
-  return open / static_cast<double>(opacity_.size());
+  constexpr std::uint16_t most = 65535;
+  for (std::uint16_t const value : *opacity_) open += static_cast<std::uint64_t>(most - value);
+  return static_cast<double>(open) / most / static_cast<double>(opacity_->size());
 }
 
-double OpacityTile::web() const {
-  double const limit = threshold_.value_or(0.5);
-  auto const solid = [&](int column, int row) {
-    return static_cast<double>(opacity_[index(column, row, columns_)]) > limit;
-  };
-  double narrowest = std::numeric_limits<double>::infinity();
-  constexpr std::array<std::pair<int, int>, 4> directions{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
-  for (auto const& [du, dv] : directions) {
-    double const stride = std::hypot(du * texel_width(), dv * texel_height());
-    for (int row = 0; row < rows_; ++row) {
-      for (int column = 0; column < columns_; ++column) {
-        if (solid(column, row)) continue;
-        // The run that begins next to this open texel, as long as it may be the shortest. It ends
-        // here at the latest, having come around.
-        int u = column;
-        int v = row;
-        for (int run = 0; run * stride < narrowest; ++run) {
-          u = around(u + du, columns_);
-          v = around(v + dv, rows_);
-          if (solid(u, v)) continue;
-          if (run > 0) narrowest = run * stride;
-          break;
-        }
-      }
-    }
-  }
+void OpacityTile::find_web() {
+  SolidRuns const runs(*opacity_, columns_, rows_, least_solid(threshold_.value_or(0.5)));
+  constexpr double astray = 0.01;
+  double const diagonal = std::hypot(texel_width(), texel_height());
+  double const narrowest = std::min({runs.shortest_along_rows(astray) * texel_width(),
+                                     runs.shortest_along_columns(astray) * texel_height(),
+                                     runs.shortest_along_diagonals(astray) * diagonal});
   constexpr double cos_eighth = 0.92387953251128674;  // cos(pi / 8)
-  return std::max(cos_eighth * narrowest, 2.0 * std::max(texel_width(), texel_height()));
+  web_ = std::max(cos_eighth * narrowest, 2.0 * std::max(texel_width(), texel_height()));
 }
 
 double OpacityTile::hole() const {
-  double const limit = threshold_.value_or(0.5);
-  auto const open = [&](int column, int row) {
-    return static_cast<double>(opacity_[index(column, row, columns_)]) <= limit;
-  };
-  double length = 0.0;
+  std::uint16_t const solid = least_solid(threshold_.value_or(0.5));
+  auto const columns = static_cast<std::size_t>(columns_);
+  std::size_t open = 0;
   std::size_t edges = 0;
   for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
-      if (!open(column, row)) continue;
-      length += texel_width() + texel_height();
-      if (!open(around(column + 1, columns_), row)) ++edges;
-      if (!open(column, around(row + 1, rows_))) ++edges;
+    std::uint16_t const* const here = opacity_->data() + index(0, row, columns_);
+    std::uint16_t const* const next = opacity_->data() + index(0, around(row + 1, rows_), columns_);
+    unsigned open_here = 0;
+    unsigned edges_here = 0;
+    for (std::size_t column = 0; column < columns; ++column) {
+      unsigned const is_open = here[column] < solid ? 1 : 0;
+      open_here += is_open;
+      edges_here += is_open & (next[column] < solid ? 0U : 1U);
     }
+    for (std::size_t column = 0; column + 1 < columns; ++column) {
+      edges_here += (here[column] < solid ? 1U : 0U) & (here[column + 1] < solid ? 0U : 1U);
+    }
+    edges_here += (here[columns - 1] < solid ? 1U : 0U) & (here[0] < solid ? 0U : 1U);
+    open += open_here;
+    edges += edges_here;
   }
-  return edges == 0 ? std::numeric_limits<double>::infinity() : length / static_cast<double>(edges);
+  if (edges == 0) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(open) * (texel_width() + texel_height()) / static_cast<double>(edges);
 }
 
 }  // namespace gpu_shading

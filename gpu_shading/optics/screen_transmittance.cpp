@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -46,7 +47,9 @@ class Rays {
     for (std::size_t row = 0; row < rows_; ++row) {
       auto const texels = tile.opacity().subspan(row * columns_, columns_);
       for (int copy = 0; copy < 2; ++copy) {
-        texels_.insert(texels_.end(), texels.begin(), texels.end());
+        for (std::uint16_t const texel : texels) {
+          texels_.push_back(static_cast<float>(texel) / 65535.0F);
+        }
       }
     }
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -79,13 +81,22 @@ class HolePattern {
 };
 
 // A raster of a tile: row after row along u, the first at v = 0, each texel the opacity of its
-// area, 0 open .. 1 solid. Between texels' centres it is interpolated bilinearly, across the
-// tile's edges too. A thresholded tile is 1 where that is above its threshold and 0 elsewhere, as a
-// shader does it; one that is not has fractional opacity, which counts once on a ray's way: its
-// largest does.
+// area, 0 open .. 65535 solid, which is opacity 0 .. 1. Between texels' centres it is interpolated
+// bilinearly, across the tile's edges too. A thresholded tile is 1 where that is above its
+// threshold and 0 elsewhere, as a shader does it, in floats; one that is not has fractional
+// opacity, which counts once on a ray's way: its largest does.
+//
+// At most most_texels_a_side texels each way. A value; copies share the texels.
 class OpacityTile {
  public:
-  OpacityTile(double width, double height, int columns, int rows, std::vector<float> opacity,
+  static constexpr int most_texels_a_side = 16384;
+
+  OpacityTile(double width, double height, int columns, int rows,
+              std::vector<std::uint16_t> opacity, std::optional<double> threshold = 0.5);
+
+  // Opacity 0 .. 1, rounded to the nearest, halves down, so that 0.5 is not above a threshold of
+  // 0.5.
+  OpacityTile(double width, double height, int columns, int rows, std::vector<float> const& opacity,
               std::optional<double> threshold = 0.5);
 
   // Each texel the share of it that is solid or, where there is a threshold, of an area twice as
@@ -100,29 +111,33 @@ class OpacityTile {
   int rows() const { return rows_; }
   double texel_width() const { return width_ / columns_; }
   double texel_height() const { return height_ / rows_; }
-  std::span<float const> opacity() const { return opacity_; }
+  std::span<std::uint16_t const> opacity() const { return *opacity_; }
   std::optional<double> threshold() const { return threshold_; }
 
   // Mean openness of the texels, each taken against the threshold where there is one.
   double open_fraction() const;
 
-  // The narrowest web, between holes or parts of one: the shortest run of solid texels (above the
+  // The narrowest web, between holes or parts of one: from runs of solid texels (above the
   // threshold, or above 0.5 where there is none) between open ones, along rows, columns and
-  // diagonals, times cos(22.5 degrees) for webs that lie between those directions. At least two
-  // texels; infinite where there is none.
-  double web() const;
+  // diagonals. In each of these directions a hundredth of the runs may be shorter, since texels
+  // gone astray and frayed edges make no web; then the shortest direction, times cos(22.5 degrees)
+  // for webs that lie between. At least two texels; infinite where there is none.
+  double web() const { return web_; }
 
   // The size of a typical hole: the mean length of runs of open texels along rows and columns.
   // Infinite where nothing or everything is open.
   double hole() const;
 
  private:
+  void find_web();
+
   double width_ = 0.0;
   double height_ = 0.0;
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<float> opacity_;
+  std::shared_ptr<std::vector<std::uint16_t> const> opacity_;
   std::optional<double> threshold_;
+  double web_ = 0.0;
 };
 
 }  // namespace gpu_shading

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gpu_shading {
+
+// Runs of solid texels between open ones of a raster that repeats both ways.
+class SolidRuns {
+ public:
+  // Texels are solid from the value `solid` on.
+  SolidRuns(std::span<std::uint16_t const> texels, int columns, int rows, std::uint16_t solid);
+
+  // In texels, the length of the shortest run but for a share of all in that direction; infinite
+  // where there is none. Of diagonals the shorter of both.
+  double shortest_along_rows(double share) const { return shortest(along_rows_, share); }
+  double shortest_along_columns(double share) const { return shortest(along_columns_, share); }
+  double shortest_along_diagonals(double share) const;
+
+ private:
+  // Runs of each length.
+  using Counts = std::vector<std::size_t>;
+  static double shortest(Counts const& counts, double share);
+
+  Counts across_rows(std::span<std::uint16_t const> texels, std::uint16_t solid) const;
+  // Going `du` columns, -1, 0 or 1, with each row.
+  Counts across_columns(std::span<std::uint16_t const> texels, std::uint16_t solid, int du) const;
+
+  std::size_t columns_;
+  std::size_t rows_;
+  Counts along_rows_;
+  Counts along_columns_;
+  Counts rising_;
+  Counts falling_;
+};
+
+}  // namespace gpu_shading
