@@ -164,7 +164,7 @@ double OpacityTile::open_fraction() const {
 
 void OpacityTile::find_web() {
   SolidRuns const runs(*opacity_, columns_, rows_, least_solid(threshold_.value_or(0.5)));
-  constexpr double astray = 0.01;
+  constexpr double astray = 0.03;
   double const diagonal = std::hypot(texel_width(), texel_height());
   double const narrowest = std::min({runs.shortest_along_rows(astray) * texel_width(),
                                      runs.shortest_along_columns(astray) * texel_height(),
