@@ -156,6 +156,7 @@ OpacityTile OpacityTile::stretched(double width, double height) const {
   OpacityTile tile = *this;
   tile.width_ = width;
   tile.height_ = height;
+  tile.find_web();
   return tile;
 }
 
@@ -173,7 +174,7 @@ double OpacityTile::open_fraction() const {
 
 void OpacityTile::find_web() {
   SolidRuns const runs(*opacity_, columns_, rows_, least_solid(threshold_.value_or(0.5)));
-  constexpr double astray = 0.01;
+  constexpr double astray = 0.03;
   double const diagonal = std::hypot(texel_width(), texel_height());
   double const narrowest = std::min({runs.shortest_along_rows(astray) * texel_width(),
                                      runs.shortest_along_columns(astray) * texel_height(),

@@ -1,17 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "gpu_shading/error.h"
 #include "gpu_shading/perforated_screen.h"
+#include "optics/tile_table.h"
 
 namespace gpu_shading {
 namespace {
@@ -23,129 +22,31 @@ void check_thickness(double thickness) {
   throw Error(fmt::format("thickness is {:.9g} m, expected 0 or more", thickness));
 }
 
-// Where in a texel rays are, u and v: each on its own quarter both ways. An edge along rows or
-// columns is met by all texels at one place, which four rays know to a quarter of a texel; so rows
-// are displaced besides, each differently.
-struct Offset {
-  double u;
-  double v;
+// Between which of a row's `count` values a place is.
+struct Between {
+  std::size_t below = 0;
+  std::size_t above = 0;
+  float part = 0.0F;
 };
-constexpr std::array<Offset, 4> offsets{
-    {{-0.375, -0.125}, {-0.125, 0.375}, {0.125, -0.375}, {0.375, 0.125}}};
 
-// Rays through a tile, four for each texel, and what layers of it leave of them.
-class Rays {
- public:
-  explicit Rays(OpacityTile const& tile)
-      : tile_(tile),
-        columns_(static_cast<std::size_t>(tile.columns())),
-        rows_(static_cast<std::size_t>(tile.rows())),
-        stride_(2 * columns_),
-        solid_(offsets.size() * columns_ * rows_, 0.0F) {
-    // Each row twice, so that shifts within a tile need no remainder.
-    texels_.reserve(stride_ * rows_);
-    for (std::size_t row = 0; row < rows_; ++row) {
-      auto const texels = tile.opacity().subspan(row * columns_, columns_);
-      for (int copy = 0; copy < 2; ++copy) {
-        for (std::uint16_t const texel : texels) {
-          texels_.push_back(static_cast<float>(texel) / 65535.0F);
-        }
-      }
-    }
-  }
+Between between_directions(double phi, int directions) {
+  double const turns = phi / pi;
+  double const place = (turns - std::floor(turns)) * directions;
+  int const below = static_cast<int>(place);
+  return {.below = static_cast<std::size_t>(below % directions),
+          .above = static_cast<std::size_t>((below + 1) % directions),
+          .part = static_cast<float>(place - below)};
+}
 
-  void reset() { std::fill(solid_.begin(), solid_.end(), 0.0F); }
-
-  // A layer at which rays have moved by a shift. Returns the mean of what is left.
-  double pass(double shift, double phi) {
-    double const texels_u = shift * std::cos(phi) / tile_.texel_width();
-    double const texels_v = shift * std::sin(phi) / tile_.texel_height();
-    double blocked = 0.0;
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
-      Place const v = place(texels_v + offsets[i].v, rows_);
-      for (std::size_t row = 0; row < rows_; ++row) {
-        Place const u = place(texels_u + offsets[i].u + displacement(row), columns_);
-        float const* const lower = &texels_[(row + v.whole) % rows_ * stride_ + u.whole];
-        float const* const upper = &texels_[(row + v.whole + 1) % rows_ * stride_ + u.whole];
-        float* const solid = &solid_[(i * rows_ + row) * columns_];
-        auto const opacity = [=](std::size_t k) {
-          float const below = lower[k] + u.part * (lower[k + 1] - lower[k]);
-          float const above = upper[k] + u.part * (upper[k + 1] - upper[k]);
-          return below + v.part * (above - below);
-        };
-        if (tile_.threshold()) {
-          auto const limit = static_cast<float>(*tile_.threshold());
-          blocked +=
-              pass_row(solid, [=](std::size_t k) { return opacity(k) > limit ? 1.0F : 0.0F; });
-        } else {
-          blocked += pass_row(solid, opacity);
-        }
-      }
-    }
-    return 1.0 - blocked / static_cast<double>(solid_.size());
-  }
-
- private:
-  struct Place {
-    std::size_t whole = 0;
-    float part = 0.0F;
-  };
-
-  static Place place(double texels, std::size_t count) {
-    auto const period = static_cast<double>(count);
-    double within = texels - std::floor(texels / period) * period;
-    if (!(within < period)) within = 0.0;
-    double const whole = std::floor(within);
-    return {static_cast<std::size_t>(whole), static_cast<float>(within - whole)};
-  }
-
-  // Multiples of the golden ratio, evenly spread over a texel.
-  static double displacement(std::size_t row) {
-    double const multiple = static_cast<double>(row) * std::numbers::phi;
-    return multiple - std::floor(multiple) - 0.5;
-  }
-
-  // In lanes, which compilers make vectors of.
-  template <typename Opacity>
-  double pass_row(float* solid, Opacity const& opacity) const {
-    constexpr std::size_t lanes = 8;
-    std::array<float, lanes> sums{};
-    std::size_t k = 0;
-    for (; k + lanes <= columns_; k += lanes) {
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        solid[k + lane] = std::max(solid[k + lane], opacity(k + lane));
-        sums[lane] += solid[k + lane];
-      }
-    }
-    for (; k < columns_; ++k) {
-      solid[k] = std::max(solid[k], opacity(k));
-      sums[0] += solid[k];
-    }
-    return std::accumulate(sums.begin(), sums.end(), 0.0);
-  }
-
-  OpacityTile const& tile_;
-  std::size_t columns_;
-  std::size_t rows_;
-  std::size_t stride_;
-  std::vector<float> texels_;
-  std::vector<float> solid_;
-};
+Between between_steps(double place, int steps) {
+  double const within = std::min(place, static_cast<double>(steps - 1));
+  int const below = std::min(static_cast<int>(within), steps - 2);
+  return {.below = static_cast<std::size_t>(below),
+          .above = static_cast<std::size_t>(below + 1),
+          .part = static_cast<float>(within - below)};
+}
 
 }  // namespace
-
-int layers_for(double shift, double web, double longest_chord, int most) {
-  if (shift >= longest_chord) return 0;
-  return static_cast<int>(std::min(1.0 + std::ceil(shift / web), static_cast<double>(most)));
-}
-
-double layered_transmittance(OpacityTile const& tile, int layers, double shift, double phi) {
-  if (layers <= 0) return 0.0;
-  Rays rays(tile);
-  double left = rays.pass(0.0, phi);
-  for (int layer = 1; layer < layers; ++layer) left = rays.pass(shift * layer / (layers - 1), phi);
-  return left;
-}
 
 ScreenTransmittance::ScreenTransmittance(HolePattern const& pattern, double thickness)
     : thickness_(thickness), longest_chord_(pattern.longest_chord()) {
@@ -164,52 +65,73 @@ ScreenTransmittance::ScreenTransmittance(HolePattern const& pattern, double thic
 ScreenTransmittance::ScreenTransmittance(OpacityTile const& tile, double thickness)
     : thickness_(thickness) {
   check_thickness(thickness);
-  step_ = std::max(std::min(tile.texel_width(), tile.texel_height()),
-                   std::min(tile.web() / 2.0, std::min(tile.width(), tile.height()) / 128.0));
-  double const farthest = 8.0 * (tile.width() + tile.height());
-  Rays rays(tile);
-  std::vector<std::vector<double>> left(directions());
-  std::size_t longest = 2;
-  bool ends = true;
-  for (int direction = 0; direction < directions(); ++direction) {
-    std::vector<double>& values = left[static_cast<std::size_t>(direction)];
-    double const phi = direction * pi / directions();
-    rays.reset();
-    double shift = 0.0;
-    do {
-      values.push_back(rays.pass(shift, phi));
-      shift = static_cast<double>(values.size()) * step_;
-    } while (values.back() > 0.0 && shift <= farthest);
-    ends = ends && values.back() <= 0.0;
-    longest = std::max(longest, values.size());
+  TileTable table = make_tile_table(tile, thickness, directions());
+  regions_across_ = table.regions_across;
+  regions_up_ = table.regions_up;
+  step_ = table.step;
+  steps_ = table.steps;
+  longest_chord_ = table.longest_chord;
+  if (regions() == 1) {
+    values_ = std::move(table.values);
+    return;
   }
-  steps_ = static_cast<int>(longest);
-  longest_chord_ = ends ? (steps_ - 1) * step_ : std::numeric_limits<double>::infinity();
-  for (std::vector<double>& values : left) {
-    values.resize(longest, values.back());
-    for (double const value : values) values_.push_back(static_cast<float>(value));
+  region_directions_ = table.directions;
+  region_values_ = std::move(table.values);
+  for (int direction = 0; direction < directions(); ++direction) {
+    double const phi = direction * pi / directions();
+    for (int step = 0; step < steps_; ++step) {
+      std::vector<float> const at_step = of_regions(step, phi);
+      values_.push_back(static_cast<float>(std::accumulate(at_step.begin(), at_step.end(), 0.0) /
+                                           static_cast<double>(at_step.size())));
+    }
   }
 }
 
-double ScreenTransmittance::at(int direction, double shift) const {
-  double const place = std::min(shift / step_, static_cast<double>(steps_ - 1));
-  int const below = std::min(static_cast<int>(place), steps_ - 2);
-  auto const index =
-      static_cast<std::size_t>(direction % directions()) * static_cast<std::size_t>(steps_) +
-      static_cast<std::size_t>(below);
-  return std::lerp(static_cast<double>(values_[index]), static_cast<double>(values_[index + 1]),
-                   place - below);
+double ScreenTransmittance::at(double shift, double phi) const {
+  if (shift >= longest_chord_) return 0.0;
+  Between const step = between_steps(shift / step_, steps_);
+  Between const direction = between_directions(phi, directions());
+  auto const steps = static_cast<std::size_t>(steps_);
+  auto const in_direction = [&](std::size_t row) {
+    float const* const values = &values_[row * steps];
+    return std::lerp(static_cast<double>(values[step.below]),
+                     static_cast<double>(values[step.above]), static_cast<double>(step.part));
+  };
+  return std::lerp(in_direction(direction.below), in_direction(direction.above),
+                   static_cast<double>(direction.part));
+}
+
+std::vector<float> ScreenTransmittance::of_regions(double place, double phi) const {
+  Between const step = between_steps(place, steps_);
+  Between const direction = between_directions(phi, region_directions_);
+  auto const steps = static_cast<std::size_t>(steps_);
+  auto const count = static_cast<std::size_t>(regions());
+  auto const at = [&](std::size_t in_direction, std::size_t at_step) {
+    return &region_values_[(in_direction * steps + at_step) * count];
+  };
+  float const* const first = at(direction.below, step.below);
+  float const* const second = at(direction.below, step.above);
+  float const* const third = at(direction.above, step.below);
+  float const* const fourth = at(direction.above, step.above);
+  std::vector<float> values(count);
+  for (std::size_t region = 0; region < count; ++region) {
+    float const below = first[region] + step.part * (second[region] - first[region]);
+    float const above = third[region] + step.part * (fourth[region] - third[region]);
+    values[region] = below + direction.part * (above - below);
+  }
+  return values;
+}
+
+std::vector<float> ScreenTransmittance::at_shift(double shift, double phi) const {
+  if (regions() == 1) return {static_cast<float>(at(shift, phi))};
+  if (shift >= longest_chord_) return std::vector<float>(static_cast<std::size_t>(regions()), 0.0F);
+  return of_regions(shift / step_, phi);
 }
 
 double ScreenTransmittance::operator()(double theta, double phi) const {
   if (thickness_ == 0.0) return open_fraction();
   // The tangent of pi/2 in doubles is finite and large.
-  double const shift = thickness_ * std::tan(std::clamp(theta, 0.0, pi / 2.0));
-  if (shift >= longest_chord_) return 0.0;
-  double const turns = phi / pi;
-  double const place = (turns - std::floor(turns)) * directions();
-  int const below = static_cast<int>(place);
-  return std::lerp(at(below, shift), at(below + 1, shift), place - below);
+  return at(thickness_ * std::tan(std::clamp(theta, 0.0, pi / 2.0)), phi);
 }
 
 double ScreenTransmittance::cut_off() const { return std::atan2(longest_chord_, thickness_); }

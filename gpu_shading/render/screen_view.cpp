@@ -78,8 +78,8 @@ std::vector<glm::vec4> effective(PerforatedScreen const& screen, glm::dvec2 cons
   double const phi = std::atan2(shift.y, shift.x);
   std::vector<glm::vec4> regions;
   for (int i = 0; i < 4; ++i) {
-    std::vector<float> const values = {static_cast<float>(screen.transmittance()(
-        std::atan2(glm::length(shift) * (i / 3.0), screen.sheet().thickness), phi))};
+    std::vector<float> const values =
+        screen.transmittance().at_shift(glm::length(shift) * (i / 3.0), phi);
     regions.resize(values.size(), glm::vec4(0.0F));
     for (std::size_t at = 0; at < values.size(); ++at) regions[at][i] = values[at];
   }
@@ -126,7 +126,7 @@ TextureCells texture_cells(OpacityTile const& tile, int most_texels) {
 
 bool varies(PerforatedScreen const& screen) {
   if (screen.pattern() || screen.sheet().detail == ScreenDetail::holes) return false;
-  return 1 * 1 > 1;
+  return screen.transmittance().regions_across() * screen.transmittance().regions_up() > 1;
 }
 
 ScreenView see_screens(Screens const& screens, std::span<int const> numbers,
@@ -157,8 +157,8 @@ ScreenView see_screens(Screens const& screens, std::span<int const> numbers,
     sheet.effective = thirds.front();
     if (!varies(screen)) continue;
     sheet.kind.z = static_cast<int>(view.regions.size());
-    sheet.kind.w = 1;
-    sheet.image.x = 1;
+    sheet.kind.w = screen.transmittance().regions_across();
+    sheet.image.x = screen.transmittance().regions_up();
     view.regions.insert(view.regions.end(), thirds.begin(), thirds.end());
   }
   return view;

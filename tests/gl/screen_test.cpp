@@ -147,6 +147,35 @@ TEST(Screen, OfALargeImageIsWhole) {
   EXPECT_EQ(shares, (std::vector<double>{1, 0, 1, 1, 1, 0, 0, 1}));
 }
 
+// Bars of 8 texels in every 16, of 4, and so on, from west to east: what passes is another from
+// place to place, and the same whether bars are drawn or their effect.
+TEST(Screen, OfAnImageThatVariesHasItsEffectInPlace) {
+  constexpr int side = 1024;
+  std::vector<float> opacity;
+  for (int row = 0; row < side; ++row) {
+    int const solid = 16 - 4 * (1 + row / 512);  // u runs north, v west: rows are from east to west
+    for (int column = 0; column < side; ++column) {
+      opacity.push_back(column % 16 < solid ? 1.0F : 0.0F);
+    }
+  }
+  OpacityTile const tile(4.0, 4.0, side, side, opacity);
+  for (ScreenDetail const detail : {ScreenDetail::holes, ScreenDetail::effective}) {
+    Scene scene;
+    scene.add({"west", level(0.5, 1, 0, 0.5, 2)});
+    scene.add({"east", level(3.0, 1, 0, 0.5, 2)});
+    scene.add(screened("screen", level(0, 0, 0.5, 4, 4), sheet_of(tile, 0.01, detail)));
+    Renderer renderer = renderer_of(scene, 1024);
+    for (SunDirection const sun : {sun_at(0, 90), sun_at(0, 70), sun_at(90, 70)}) {
+      // Bars run from east to west; across them the walls take tan(theta) x thickness.
+      glm::dvec3 const s = to_vector(sun);
+      double const lost = 0.01 * std::abs(s.y) / s.z;
+      double const cell = 4.0 / 64;
+      EXPECT_NEAR(passed(renderer, sun, 0), 0.5 - lost / cell, 0.01);
+      EXPECT_NEAR(passed(renderer, sun, 1), 0.25 - lost / cell, 0.01);
+    }
+  }
+}
+
 // One slot, 0.2 m wide and 1 m long, and small receivers below where it should be and where not.
 struct Slot {
   Polygon sheet;

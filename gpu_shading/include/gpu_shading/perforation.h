@@ -122,9 +122,10 @@ class OpacityTile {
 
   // The narrowest web, between holes or parts of one: from runs of solid texels (above the
   // threshold, or above 0.5 where there is none) between open ones, along rows, columns and
-  // diagonals. In each of these directions a hundredth of the runs may be shorter, since texels
-  // gone astray and frayed edges make no web; then the shortest direction, times cos(22.5 degrees)
-  // for webs that lie between. At least two texels; infinite where there is none.
+  // diagonals. In each of these directions 3 % of the runs may be shorter, since texels gone astray
+  // (up to one in 10000) and frayed edges (noise of 0.05 in opacity) make no web; so may narrow
+  // webs in as small a part of the tile. Then the shortest direction, times cos(22.5 degrees) for
+  // webs that lie between. At least two texels; infinite where there is none.
   double web() const { return web_; }
 
   // The size of a typical hole: the mean length of runs of open texels along rows and columns.

@@ -1,0 +1,215 @@
+#include "optics/tile_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gpu_shading {
+namespace {
+
+constexpr int block_log2 = 3;
+constexpr float solid_value = 65535.0F;
+
+std::size_t parts(std::size_t count, int size_log2) {
+  return (count + (std::size_t{1} << static_cast<unsigned>(size_log2)) - 1) >>
+         static_cast<unsigned>(size_log2);
+}
+
+// The largest value that a shader does not find above the threshold, having divided it.
+float most_open(float threshold) {
+  float value = threshold * solid_value;
+  while (value / solid_value > threshold) value = std::nextafter(value, 0.0F);
+  for (float next = value; next / solid_value <= threshold;) {
+    value = next;
+    next = std::nextafter(next, 2.0F * solid_value);
+  }
+  return value;
+}
+
+// Into 0 .. count, that excluded, from less than a count away.
+double wrapped(double place, double count) {
+  if (place >= count) place -= count;
+  if (place < 0.0) place += count;
+  // Just below 0 it may have been rounded.
+  return place < count ? place : 0.0;
+}
+
+}  // namespace
+
+// A point on its way, in texels from the first one's centre.
+class TileRays::Walk {
+ public:
+  Walk(TileRays const& rays, double x, double y, Direction const& direction)
+      : rays_(rays), direction_(direction), x_(x), y_(y) {}
+
+  double x() const { return x_; }
+  double y() const { return y_; }
+  double shift() const { return shift_; }
+
+  void advance(double length) {
+    shift_ += length;
+    x_ = wrapped(x_ + direction_.along_x * length, rays_.columns_);
+    y_ = wrapped(y_ + direction_.along_y * length, rays_.rows_);
+  }
+
+  std::uint16_t largest(std::size_t level) const {
+    Level const& blocks = rays_.levels_[level];
+    auto const size = static_cast<unsigned>(blocks.size_log2);
+    return blocks.largest[(static_cast<std::size_t>(y_) >> size) * blocks.columns +
+                          (static_cast<std::size_t>(x_) >> size)];
+  }
+
+  double length_in_block(std::size_t level) const {
+    auto const size = static_cast<unsigned>(rays_.levels_[level].size_log2);
+    return std::min(length_in_block(x_, direction_.per_x, rays_.columns_, size),
+                    length_in_block(y_, direction_.per_y, rays_.rows_, size));
+  }
+
+ private:
+  static double length_in_block(double place, double per_texel, int count, unsigned size_log2) {
+    int const block = static_cast<int>(place) >> size_log2;
+    int const end =
+        per_texel > 0.0 ? std::min((block + 1) << size_log2, count) : block << size_log2;
+    return (end - place) * per_texel;
+  }
+
+  TileRays const& rays_;
+  Direction const& direction_;
+  double x_;
+  double y_;
+  double shift_ = 0.0;
+};
+
+TileRays::TileRays(OpacityTile const& tile)
+    : tile_(tile),
+      texels_(tile.opacity().data()),
+      columns_(tile.columns()),
+      rows_(tile.rows()),
+      thresholded_(tile.threshold().has_value()),
+      most_open_(most_open(static_cast<float>(tile.threshold().value_or(0.0)))) {
+  add_blocks();
+  while (levels_.back().largest.size() > 1) add_level_above(levels_.back());
+}
+
+// What is interpolated in a block depends on its texels and on one more each way.
+void TileRays::add_blocks() {
+  auto const columns = static_cast<std::size_t>(columns_);
+  auto const rows = static_cast<std::size_t>(rows_);
+  Level level{.size_log2 = block_log2, .columns = parts(columns, block_log2), .largest = {}};
+  level.largest.reserve(level.columns * parts(rows, block_log2));
+  std::vector<std::uint16_t> of_rows(columns + 1);
+  constexpr std::size_t size = std::size_t{1} << static_cast<unsigned>(block_log2);
+  for (std::size_t row = 0; row < rows; row += size) {
+    std::fill(of_rows.begin(), of_rows.end(), std::uint16_t{0});
+    for (std::size_t y = row; y <= std::min(row + size, rows); ++y) {
+      std::uint16_t const* const texels = texels_ + y % rows * columns;
+      for (std::size_t x = 0; x < columns; ++x) of_rows[x] = std::max(of_rows[x], texels[x]);
+    }
+    of_rows[columns] = of_rows[0];
+    for (std::size_t column = 0; column < columns; column += size) {
+      level.largest.push_back(*std::max_element(
+          of_rows.begin() + static_cast<std::ptrdiff_t>(column),
+          of_rows.begin() + static_cast<std::ptrdiff_t>(std::min(column + size, columns) + 1)));
+    }
+  }
+  levels_.push_back(std::move(level));
+}
+
+void TileRays::add_level_above(Level const& level) {
+  std::size_t const rows = level.largest.size() / level.columns;
+  Level above{.size_log2 = level.size_log2 + 1, .columns = parts(level.columns, 1), .largest = {}};
+  above.largest.assign(above.columns * parts(rows, 1), 0);
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t column = 0; column < level.columns; ++column) {
+      std::uint16_t& largest = above.largest[row / 2 * above.columns + column / 2];
+      largest = std::max(largest, level.largest[row * level.columns + column]);
+    }
+  }
+  levels_.push_back(std::move(above));
+}
+
+float TileRays::sample(double x, double y) const {
+  int const column = static_cast<int>(x);
+  int const row = static_cast<int>(y);
+  auto const part_x = static_cast<float>(x - column);
+  auto const part_y = static_cast<float>(y - row);
+  int const next_column = column + 1 == columns_ ? 0 : column + 1;
+  int const next_row = row + 1 == rows_ ? 0 : row + 1;
+  auto const texel = [&](int at_column, int at_row) {
+    return static_cast<float>(
+        texels_[static_cast<std::size_t>(at_row) * static_cast<std::size_t>(columns_) +
+                static_cast<std::size_t>(at_column)]);
+  };
+  float const first = texel(column, row);
+  float const second = texel(column, next_row);
+  float const below = first + part_x * (texel(next_column, row) - first);
+  float const above = second + part_x * (texel(next_column, next_row) - second);
+  return below + part_y * (above - below);
+}
+
+float TileRays::opacity(double u, double v) const {
+  float const value = sample(wrapped(u / tile_.texel_width() - 0.5, columns_),
+                             wrapped(v / tile_.texel_height() - 0.5, rows_));
+  if (!thresholded_) return value / solid_value;
+  return value > most_open_ ? 1.0F : 0.0F;
+}
+
+TileRays::Direction TileRays::direction(double phi) const {
+  double const along_x = std::cos(phi) / tile_.texel_width();
+  double const along_y = std::sin(phi) / tile_.texel_height();
+  return {.along_x = along_x, .along_y = along_y, .per_x = 1.0 / along_x, .per_y = 1.0 / along_y};
+}
+
+std::size_t TileRays::follow(double u, double v, Direction const& direction, double farthest,
+                             std::vector<Rise>& rises) const {
+  rises.clear();
+  Walk walk(*this, wrapped(u / tile_.texel_width() - 0.5, columns_),
+            wrapped(v / tile_.texel_height() - 0.5, rows_), direction);
+  double const texel = std::min(tile_.texel_width(), tile_.texel_height());
+  double const beyond_edge = 1e-4 * texel;
+  // The value that is passed, and the sample a texel before, if one was taken.
+  float passed = thresholded_ ? most_open_ : sample(walk.x(), walk.y());
+  float before = passed;
+  bool has_before = false;
+  // Of fractional opacity, what rises by less is not looked for.
+  float const negligible = thresholded_ ? 0.0F : (1.0F - solid) * solid_value;
+  auto const nothing_in = [&](std::uint16_t largest) {
+    return static_cast<float>(largest) <= passed + negligible;
+  };
+  std::size_t steps = 1;
+  if (nothing_in(levels_.back().largest.front())) return steps;
+  std::size_t level = 0;
+  while (walk.shift() < farthest) {
+    ++steps;
+    if (nothing_in(walk.largest(level))) {
+      if (level + 1 == levels_.size()) break;
+      walk.advance(walk.length_in_block(level) + beyond_edge);
+      ++level;
+      has_before = false;
+      continue;
+    }
+    if (level > 0) {
+      --level;
+      continue;
+    }
+    float const value = sample(walk.x(), walk.y());
+    if (value > passed) {
+      // Where between two samples it rose above what is passed.
+      double const back =
+          has_before ? texel * static_cast<double>((value - passed) / (value - before)) : 0.0;
+      if (thresholded_) {
+        rises.push_back({walk.shift() - back, 1.0F});
+        break;
+      }
+      rises.push_back({walk.shift() - back / 2.0, value / solid_value});
+      passed = value;
+      if (value >= solid * solid_value) break;
+    }
+    before = value;
+    has_before = true;
+    walk.advance(texel);
+  }
+  return steps;
+}
+
+}  // namespace gpu_shading
