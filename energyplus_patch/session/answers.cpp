@@ -1,10 +1,23 @@
 #include "session/answers.h"
 
-namespace gpu_shading::energyplus {
+#include <utility>
 
-double Answers::Direction::area(SurfaceId surface, std::span<double const> factors) const {
-  double const unscheduled = projected_area[surface];
-  auto const parts = scheduled.find(surface);
+namespace gpu_shading::energyplus {
+namespace {
+
+std::size_t bytes_of(std::vector<ScheduledPart> const& parts) {
+  std::size_t bytes = 0;
+  for (auto const& part : parts) {
+    bytes += sizeof part + part.powers.size() * sizeof part.powers.front();
+  }
+  return bytes;
+}
+
+}  // namespace
+
+double Answers::Direction::area(ReceiverNumber receiver, std::span<double const> factors) const {
+  double const unscheduled = projected_area[receiver];
+  auto const parts = scheduled.find(receiver);
   return parts == scheduled.end() ? unscheduled
                                   : unscheduled + through_schedules(parts->second, factors);
 }
@@ -12,13 +25,35 @@ double Answers::Direction::area(SurfaceId surface, std::span<double const> facto
 Answers::Direction& Answers::at(SunDirection sun, std::uint32_t state) {
   auto const found = directions_.find({sun, state});
   if (found != directions_.end()) return found->second;
-  std::size_t const each = surfaces_ * sizeof(float) + sizeof(Direction) + 64;
-  if ((directions_.size() + 1) * each > max_bytes) directions_.clear();
+  if (bytes_ + sizeof(Direction) > most_bytes_) {
+    directions_.clear();
+    bytes_ = 0;
+  }
   auto& direction = directions_[{sun, state}];
   direction.sun = sun;
   direction.state = state;
-  direction.projected_area.assign(surfaces_, std::numeric_limits<float>::quiet_NaN());
+  bytes_ += sizeof(Direction);
   return direction;
+}
+
+void Answers::keep(Direction& direction, ReceiverNumber receiver, Sunlit answer) {
+  auto& areas = direction.projected_area;
+  if (receiver >= areas.size()) {
+    auto const before = areas.capacity();
+    areas.resize(receiver + std::size_t{1}, std::numeric_limits<float>::quiet_NaN());
+    bytes_ += (areas.capacity() - before) * sizeof areas.front();
+  }
+  areas[receiver] = static_cast<float>(answer.projected_area);
+  if (answer.scheduled.empty()) return;
+  bytes_ += bytes_of(answer.scheduled);
+  direction.scheduled[receiver] = std::move(answer.scheduled);
+}
+
+std::vector<Sunlit> const& Answers::keep_interior(Direction& direction,
+                                                  std::uint64_t window_and_list,
+                                                  std::vector<Sunlit> answers) {
+  for (auto const& answer : answers) bytes_ += sizeof answer + bytes_of(answer.scheduled);
+  return direction.interior[window_and_list] = std::move(answers);
 }
 
 }  // namespace gpu_shading::energyplus

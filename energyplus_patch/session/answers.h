@@ -12,32 +12,44 @@
 
 namespace gpu_shading::energyplus {
 
+// Position of a receiver in the order in which receivers were first asked for.
+using ReceiverNumber = std::uint32_t;
+
 // Answers kept by direction and by the state of the screens' deployments: warm-up days, sizing
 // periods and the sky's patches come back to the same ones. They hold whatever the transmittance
 // schedules say, which are applied to them afterwards. Bounded: when full, everything is forgotten
 // and collected anew.
 class Answers {
  public:
-  static constexpr std::size_t max_bytes = std::size_t{512} << 20U;
+  static constexpr std::size_t default_most_bytes = std::size_t{512} << 20U;
 
   struct Direction {
     SunDirection sun;
     std::uint32_t state = 0;            // DeploymentStates
-    std::vector<float> projected_area;  // by surface; not a number where not asked yet
-    // What passes scheduled shades, of the surfaces that have such in view.
-    std::unordered_map<SurfaceId, std::vector<ScheduledPart>> scheduled;
+    std::vector<float> projected_area;  // by receiver; not a number, or too short, where unknown
+    // What passes scheduled shades, of the receivers that have such in view.
+    std::unordered_map<ReceiverNumber, std::vector<ScheduledPart>> scheduled;
     std::unordered_map<std::uint64_t, std::vector<Sunlit>> interior;  // by window and list
 
+    bool knows(ReceiverNumber receiver) const {
+      return receiver < projected_area.size() &&
+             projected_area[receiver] == projected_area[receiver];
+    }
     // A known answer with the schedules' values.
-    double area(SurfaceId surface, std::span<double const> factors) const;
+    double area(ReceiverNumber receiver, std::span<double const> factors) const;
   };
 
-  explicit Answers(std::size_t surfaces = 0) : surfaces_(surfaces) {}
+  explicit Answers(std::size_t most_bytes = default_most_bytes) : most_bytes_(most_bytes) {}
 
   // The entry of a direction and a state, made where there is none. Valid until the next call.
   Direction& at(SunDirection sun, std::uint32_t state);
 
-  static bool known(float answer) { return answer == answer; }
+  void keep(Direction& direction, ReceiverNumber receiver, Sunlit answer);
+  std::vector<Sunlit> const& keep_interior(Direction& direction, std::uint64_t window_and_list,
+                                           std::vector<Sunlit> answers);
+
+  // What all of it takes, but for the containers' own.
+  std::size_t bytes() const { return bytes_; }
 
   template <typename Visit>
   void for_each(Visit const& visit) const {
@@ -59,7 +71,8 @@ class Answers {
     }
   };
 
-  std::size_t surfaces_;
+  std::size_t most_bytes_;
+  std::size_t bytes_ = 0;
   std::unordered_map<Key, Direction, Hash> directions_;
 };
 

@@ -28,16 +28,16 @@ struct Row {
   double fraction;
 };
 
-std::vector<Row> collect(Renderer const& renderer, SurfaceId receiver, Answers const& answers,
-                         std::vector<double> const& factors) {
+std::vector<Row> collect(Renderer const& renderer, SurfaceId receiver, ReceiverNumber number,
+                         Answers const& answers, std::vector<double> const& factors) {
   auto const& polygon = renderer.scene()[receiver].polygon;
   double const full = area(polygon);
   auto const facing = normal(polygon);
   std::vector<Row> rows;
   answers.for_each([&](Answers::Direction const& direction) {
     double const cosine = glm::dot(facing, to_vector(direction.sun));
-    if (!Answers::known(direction.projected_area[receiver]) || cosine <= 0.0 || full <= 0.0) return;
-    double const answer = direction.area(receiver, factors);
+    if (!direction.knows(number) || cosine <= 0.0 || full <= 0.0) return;
+    double const answer = direction.area(number, factors);
     rows.push_back({receiver, direction.sun, direction.state, answer,
                     std::min(1.0, answer / (full * cosine))});
   });
@@ -115,8 +115,9 @@ void write_report(std::filesystem::path const& folder, Renderer& renderer,
   for (auto const& schedule : deployments.schedules) csv << ',' << quoted("share by " + schedule);
   csv << '\n';
   std::vector<Row> pictures;
-  for (auto const receiver : receivers) {
-    auto const rows = collect(renderer, receiver, answers, factors);
+  for (ReceiverNumber number = 0; number < receivers.size(); ++number) {
+    auto const receiver = receivers[number];
+    auto const rows = collect(renderer, receiver, number, answers, factors);
     for (auto const& row : rows) {
       csv << fmt::format("{},{:.4f},{:.4f},{:.7g},{:.6f}", quoted(renderer.scene()[receiver].name),
                          azimuth_degrees(row.sun), glm::degrees(row.sun.altitude),

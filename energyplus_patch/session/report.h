@@ -26,7 +26,7 @@ struct Deployments {
 //   NAME_AZ_ALT.png  what the sun sees of a receiver, at up to three of its answers: the one most
 //                    shaded but lit, the one nearest to half sunlit, and the one at the highest
 //                    sun. With deployments NAME_AZ_ALT_SHARE[_SHARE ...].png, shares in percent.
-// Throws Error when the folder cannot be written.
+// `receivers`: by their numbers. Throws Error when the folder cannot be written.
 void write_report(std::filesystem::path const& folder, Renderer& renderer,
                   std::vector<SurfaceId> const& receivers, Answers const& answers,
                   std::vector<double> const& factors, Deployments const& deployments);

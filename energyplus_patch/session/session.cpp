@@ -58,7 +58,7 @@ void Session::start(Messages messages, Schedules schedules) {
   surfaces_ = scene_.size();
   auto const& input = model_.shading;
   unshaded_.assign(surfaces_, std::nullopt);
-  is_receiver_.assign(surfaces_, false);
+  numbers_.assign(surfaces_, std::nullopt);
   std::vector<bool> wanted(surfaces_, true);
   for (SurfaceId id = 0; id < surfaces_; ++id) {
     auto const& name = scene_[id].name;
@@ -96,7 +96,7 @@ void Session::open_renderer() {
   options.device = model_.options.device;
   options.resolution = model_.options.resolution;
   renderer_.emplace(std::move(scene), options);
-  answers_ = Answers(surfaces_);
+  answers_ = Answers();
   deploy_screens();
 }
 
@@ -187,18 +187,26 @@ void Session::set_time(Moment moment) {
   }
 }
 
-void Session::render(Answers::Direction& direction, SurfaceId asked) {
-  std::vector<SurfaceId> batch;
-  for (auto const id : receivers_) {
-    if (!Answers::known(direction.projected_area[id])) batch.push_back(id);
+ReceiverNumber Session::number_of(SurfaceId receiver) {
+  auto& number = numbers_[receiver];
+  if (!number) {
+    number = static_cast<ReceiverNumber>(receivers_.size());
+    receivers_.push_back(receiver);
   }
-  if (std::find(batch.begin(), batch.end(), asked) == batch.end()) batch.push_back(asked);
-  auto sunlit = renderer_->projected_sunlit_areas(direction.sun, batch);
+  return *number;
+}
+
+void Session::render(Answers::Direction& direction) {
+  std::vector<ReceiverNumber> batch;
+  std::vector<SurfaceId> surfaces;
+  for (ReceiverNumber number = 0; number < receivers_.size(); ++number) {
+    if (direction.knows(number)) continue;
+    batch.push_back(number);
+    surfaces.push_back(receivers_[number]);
+  }
+  auto sunlit = renderer_->projected_sunlit_areas(direction.sun, surfaces);
   for (std::size_t i = 0; i < batch.size(); ++i) {
-    direction.projected_area[batch[i]] = static_cast<float>(sunlit[i].projected_area);
-    if (!sunlit[i].scheduled.empty()) {
-      direction.scheduled[batch[i]] = std::move(sunlit[i].scheduled);
-    }
+    answers_.keep(direction, batch[i], std::move(sunlit[i]));
   }
 }
 
@@ -209,13 +217,10 @@ float Session::projected_sunlit_area(SurfaceId receiver) {
   if (unshaded_[receiver]) {
     return static_cast<float>(std::max(glm::dot(*unshaded_[receiver], towards_sun_), 0.0));
   }
+  auto const number = number_of(receiver);
   auto& direction = answers_.at(sun_, state_);
-  if (!Answers::known(direction.projected_area[receiver])) render(direction, receiver);
-  if (!is_receiver_[receiver]) {
-    is_receiver_[receiver] = true;
-    receivers_.push_back(receiver);
-  }
-  return static_cast<float>(direction.area(receiver, optics_.factors()));
+  if (!direction.knows(number)) render(direction);
+  return static_cast<float>(direction.area(number, optics_.factors()));
 }
 
 std::vector<float> Session::interior_areas(SurfaceId window,
@@ -223,10 +228,14 @@ std::vector<float> Session::interior_areas(SurfaceId window,
   if (!renderer_) {
     throw Error("EnergyPlus asks for interior areas before its surfaces are complete");
   }
-  auto& kept = answers_.at(sun_, state_).interior[hash_of(window, interiors)];
-  if (kept.size() != interiors.size()) {
-    kept = renderer_->interior_sunlit_areas(sun_, window, interiors);
-  }
+  auto& direction = answers_.at(sun_, state_);
+  auto const question = hash_of(window, interiors);
+  auto const known = direction.interior.find(question);
+  auto const& kept =
+      known != direction.interior.end()
+          ? known->second
+          : answers_.keep_interior(direction, question,
+                                   renderer_->interior_sunlit_areas(sun_, window, interiors));
   std::vector<float> areas;
   areas.reserve(kept.size());
   for (auto const& sunlit : kept) {

@@ -64,7 +64,9 @@ class Session {
   void finish();
 
  private:
-  void render(Answers::Direction& direction, SurfaceId asked);
+  ReceiverNumber number_of(SurfaceId receiver);
+  // For every receiver that the direction does not know.
+  void render(Answers::Direction& direction);
   void describe_surfaces();
   void warn_of_actuated_schedules() const;
   void add_walls_without_openings();
@@ -82,8 +84,8 @@ class Session {
   RendererStatistics earlier_;  // of renderers before it
   // By surface, where its own fraction has no use: normal x area, for an answer without shadows.
   std::vector<std::optional<glm::dvec3>> unshaded_;
-  std::vector<SurfaceId> receivers_;  // asked for so far
-  std::vector<bool> is_receiver_;
+  std::vector<SurfaceId> receivers_;                    // asked for so far, by number
+  std::vector<std::optional<ReceiverNumber>> numbers_;  // of receivers, by surface
   SunDirection sun_;
   glm::dvec3 towards_sun_{0.0, 0.0, 1.0};
   Answers answers_;
