@@ -34,7 +34,7 @@ TEST(Answers, MemoryIsThatOfTheReceivers) {
       answers.keep(direction, receiver, lit(1.0));
     }
   }
-  EXPECT_LT(answers.bytes(), 1000 * (sizeof(Answers::Direction) + 2 * 100 * sizeof(float)));
+  EXPECT_LT(answers.bytes(), 1000U * (sizeof(Answers::Direction) + 200U * sizeof(float)));
 }
 
 TEST(Answers, MemoryIsBounded) {
