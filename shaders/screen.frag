@@ -59,13 +59,15 @@ float opacity(Screen s, vec2 p) {
   return textureLod(texture_opacity, vec3(at, layer.y * float(s.regions_texture.w) + layer.x), 0.0).r;
 }
 
-// Through layers at equal steps, those of them that are within the sheet's outline.
+// Through layers at equal steps, those of them that are within the sheet's outline, and where the
+// ray crosses that, so that it steps over nothing between the sheet's side and the next layer.
 float through_layers(Screen s, float begin, float end) {
   int layers = s.kind_layers_effective.y;
   float threshold = s.shift_deployed_threshold.w;
   float most = 0.0;
-  for (int k = 0; k < layers; ++k) {
+  for (int k = begin > 0.0 || end < 1.0 ? -2 : 0; k < layers; ++k) {
     float depth = layers == 1 ? 0.5 : float(k) / float(layers - 1);
+    if (k < 0) depth = k == -2 ? begin : end;
     if (depth < begin || depth > end) continue;
     vec2 p = place + depth * s.shift_deployed_threshold.xy;
     if (s.kind_layers_effective.x == shape_texture) {

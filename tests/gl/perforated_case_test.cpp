@@ -6,6 +6,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "transparent_case.h"
 
@@ -101,19 +104,43 @@ double lit_by_rays(Placed const& placed, SunDirection sun) {
   return static_cast<double>(lit) / rays;
 }
 
-class PerforatedReferenceTest : public ::testing::TestWithParam<Placed (*)()> {};
+// From high to low.
+std::vector<SunDirection> suns() {
+  return {sun_at(33, 89.9), sun_at(20, 65), sun_at(180, 50), sun_at(250, 35),
+          sun_at(90, 20),   sun_at(310, 9), sun_at(135, 4)};
+}
 
-TEST_P(PerforatedReferenceTest, AgreesWithRaysOneByOne) {
+class PerforatedPlacement : public ::testing::TestWithParam<Placed (*)()> {};
+
+TEST_P(PerforatedPlacement, ReferenceAgreesWithRaysOneByOne) {
   Placed const placed = GetParam()();
   PerforatedReference const reference(placed.given);
-  for (SunDirection const sun : {sun_at(33, 89.9), sun_at(20, 65), sun_at(180, 50), sun_at(250, 35),
-                                 sun_at(90, 20), sun_at(310, 9), sun_at(135, 4)}) {
+  for (SunDirection const sun : suns()) {
     EXPECT_NEAR(reference(sun) / std::sin(sun.altitude), lit_by_rays(placed, sun), 1e-3)
         << "azimuth " << sun.azimuth / degree << " altitude " << sun.altitude / degree;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Placements, PerforatedReferenceTest,
+// Of few holes, so that edges count.
+void expect_near_reference(PerforatedCase const& given, PerforatedScreen screen, double tolerance) {
+  PerforatedReference const reference(given);
+  Renderer renderer =
+      renderer_of(given.scene(std::make_shared<PerforatedScreen const>(std::move(screen))), 1024);
+  for (SunDirection const sun : suns()) {
+    EXPECT_NEAR(sunlit(renderer, sun, 0).projected_area, reference(sun), tolerance)
+        << "azimuth " << sun.azimuth / degree << " altitude " << sun.altitude / degree;
+  }
+}
+
+TEST_P(PerforatedPlacement, RendererAgreesWithReference) {
+  PerforatedCase const given = GetParam()().given;
+  Sheet const sheet{given.thickness, given.plane};
+  expect_near_reference(given, PerforatedScreen(given.pattern(), sheet), 2e-4);
+  expect_near_reference(
+      given, PerforatedScreen(OpacityTile(given.pattern(), given.hole / 64), sheet), 6e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, PerforatedPlacement,
                          ::testing::Values(facing_up, moved_and_turned, turned_over));
 
 TEST(PerforatedReference, HasTheClosedFormUnderASheetWithoutEnd) {
