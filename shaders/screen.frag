@@ -76,12 +76,14 @@ float through_hole(float begin, float end) {
 
 #endif
 
-// Layers at equal steps, those of them that are within the outline.
+// Layers at equal steps, those of them that are within the outline, and where the ray crosses that,
+// so that it steps over nothing between the sheet's side and the next layer.
 float through_layers(float begin, float end) {
   int layers = kind.y;
   float most = 0.0;
-  for (int k = 0; k < layers && most < 1.0; ++k) {
+  for (int k = begin > 0.0 || end < 1.0 ? -2 : 0; k < layers && most < 1.0; ++k) {
     float depth = layers == 1 ? 0.5 : float(k) / float(layers - 1);
+    if (k < 0) depth = k == -2 ? begin : end;
     if (depth >= begin && depth <= end) most = max(most, solid(place + depth * ray.xy));
   }
   return 1.0 - most;

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "exact.h"
 #include "gpu_shading/error.h"
@@ -468,6 +470,28 @@ TEST(Sunlit, ARendererMayChangeThreads) {
   std::vector<double> there;
   std::thread([&] { there = areas(renderer.projected_sunlit_areas(sun, all_of(scene))); }).join();
   EXPECT_EQ(here, there);
+}
+
+// More than a software renderer keeps at once: one like another, whatever it draws in between.
+TEST(Sunlit, ManyReceiversAtOnceAreCountedRight) {
+  constexpr int receivers = 400;
+  constexpr int strips = 50;
+  Scene scene;
+  std::vector<SurfaceId> asked;
+  asked.reserve(receivers);
+  for (int i = 0; i < receivers; ++i) {
+    asked.push_back(scene.add({"receiver", level(2.0 * i, 0, 0, 1, 1), Casting::never}));
+  }
+  for (int i = 0; i < receivers; ++i) {
+    for (int k = 0; k < strips; ++k) {
+      scene.add({"strip", level(2.0 * i + k / 50.0, 0, 0.5, 1.0 / strips, 0.5)});
+    }
+  }
+  Renderer renderer = renderer_of(std::move(scene), 1024);
+  SunDirection const sun = sun_at(180, 89.9);
+  for (Sunlit const& answer : renderer.projected_sunlit_areas(sun, asked)) {
+    ASSERT_NEAR(answer.projected_area, 0.5, 2e-3);
+  }
 }
 
 }  // namespace
