@@ -54,11 +54,20 @@ SizingPeriod:DesignDay,Clear Autumn Day,10,21,SummerDesignDay,25,12,DefaultMulti
 GlobalGeometryRules,UpperLeftCorner,Counterclockwise,World;
 
 Material,Insulation,Rough,0.1,0.04,30,1400;
-Material,Block,Rough,0.1,0.5,1400,1000;
+Material,Board,Smooth,0.02,0.2,800,1000;
 WindowMaterial:SimpleGlazingSystem,Glazing,1.4,0.6;
-Construction,Outer Wall,Insulation,Block;
+Construction,Outer Wall,Insulation,Board;
 Construction,Glass,Glazing;
 Zone,Room;
+
+Schedule:Constant,Heating Setpoint,,20;
+Schedule:Constant,Cooling Setpoint,,26;
+Schedule:Constant,Control Type,,4;
+ThermostatSetpoint:DualSetpoint,Setpoints,Heating Setpoint,Cooling Setpoint;
+ZoneControl:Thermostat,Thermostat,Room,Control Type,ThermostatSetpoint:DualSetpoint,Setpoints;
+ZoneHVAC:EquipmentConnections,Room,Equipment,Inlet,,Room Air,Return;
+ZoneHVAC:EquipmentList,Equipment,SequentialLoad,ZoneHVAC:IdealLoadsAirSystem,Ideal Loads,1,1;
+ZoneHVAC:IdealLoadsAirSystem,Ideal Loads,,Inlet;
 
 Output:Variable,*,Surface Window Transmitted Solar Radiation Energy,Monthly;
 Output:Variable,*,Surface Window Transmitted Beam Solar Radiation Energy,Monthly;
