@@ -29,7 +29,7 @@ TEXEL = 0.002
 
 SCREENS = {
     "none": "",
-    "schedule": f"Schedule:Constant,Open Share,,{OPEN};\n",
+    "schedule": f"Schedule:Constant,Open Share,Any,{OPEN};\n",
     "small holes": "",
     "large holes": "",
     "gradient": ("! Holes of 6 to 30 mm at random, more of them towards the top; once over the whole screen.\n"
@@ -60,9 +60,10 @@ Construction,Outer Wall,Insulation,Board;
 Construction,Glass,Glazing;
 Zone,Room;
 
-Schedule:Constant,Heating Setpoint,,20;
-Schedule:Constant,Cooling Setpoint,,26;
-Schedule:Constant,Control Type,,4;
+ScheduleTypeLimits,Any;
+Schedule:Constant,Heating Setpoint,Any,20;
+Schedule:Constant,Cooling Setpoint,Any,26;
+Schedule:Constant,Control Type,Any,4;
 ThermostatSetpoint:DualSetpoint,Setpoints,Heating Setpoint,Cooling Setpoint;
 ZoneControl:Thermostat,Thermostat,Room,Control Type,ThermostatSetpoint:DualSetpoint,Setpoints;
 ZoneHVAC:EquipmentConnections,Room,Equipment,Inlet,,Room Air,Return;
