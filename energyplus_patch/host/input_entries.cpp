@@ -1,8 +1,11 @@
 #include "host/input_entries.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <ios>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 
 #include "host/run.h"
@@ -54,12 +57,27 @@ Rewrite rewrite_for(Options const& options) {
           options.every_timestep ? "Timestep" : ""};
 }
 
+// What polygon clipping makes of shades that only our objects open.
+void warn_of_opaque_shades(Run const& run) {
+  std::set<std::string> opaque;
+  for (auto const& [surface, shade] : run.model->shades.by_surface) opaque.insert(surface);
+  for (auto const& [surface, screen] : run.model->screens.by_surface) opaque.insert(surface);
+  if (opaque.empty()) return;
+  auto const more = opaque.size() - 1;
+  messages_of(run).warning(fmt::format(
+      "shading is off: GPUShading objects are left out, no beam passes {}{} but by a transmittance "
+      "schedule",
+      *opaque.begin(), more == 0 ? "" : fmt::format(" and {} more", more)));
+}
+
 // Understands the model and says what EnergyPlus shall read in its place.
 Rewrite take_model(std::vector<InputObject> objects, Path const& path) {
   auto& run = this_run();
   run.model = understand(std::move(objects), path, installation().choices);
   if (run.model->options.mode != Mode::off) {
     check_supported(run.model->shading, installation().version);
+  } else {
+    warn_of_opaque_shades(run);
   }
   return rewrite_for(run.model->options);
 }

@@ -17,7 +17,8 @@ constexpr std::size_t frequency_field = 1;
 [[noreturn]] void unknown_extension(std::string_view type) {
   std::string known;
   for (auto const& candidate : known_types()) {
-    if (is_extension(candidate.type)) known += fmt::format(" {}", candidate.type);
+    if (!is_extension(candidate.type)) continue;
+    known += fmt::format("{} {}", known.empty() ? "" : ",", candidate.type);
   }
   throw Error(fmt::format("{}: no such object; known:{}", type, known));
 }
@@ -25,8 +26,9 @@ constexpr std::size_t frequency_field = 1;
 InputObject from_idf(ObjectType const& type, std::vector<std::string> const& values) {
   InputObject object{std::string(type.type), {}, {}, {}};
   if (is_extension(type.type) && type.list.empty() && values.size() > type.fields.size()) {
-    throw Error(fmt::format("{}: {} fields, expected {} at most", type.type, values.size(),
-                            type.fields.size()));
+    bool const named = type.fields.front() == "name";
+    throw Error(fmt::format("{}{}{}: {} fields, expected {} at most", type.type, named ? " " : "",
+                            named ? values.front() : "", values.size(), type.fields.size()));
   }
   std::size_t const own = std::min(values.size(), type.fields.size());
   for (std::size_t i = 0; i < own; ++i) {
@@ -49,7 +51,7 @@ InputObject from_epjson(ObjectType const& type, std::string const& name,
   for (auto const& [field, value] : fields.items()) {
     if (is_extension(type.type) && field != type.list &&
         std::find(type.fields.begin(), type.fields.end(), field) == type.fields.end()) {
-      throw Error(fmt::format("{}: {}: no such field", type.type, field));
+      throw Error(fmt::format("{} {}: {}: no such field", type.type, name, field));
     }
     if (value.is_primitive()) object.fields[field] = text_of(value);
   }

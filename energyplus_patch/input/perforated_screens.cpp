@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "gpu_shading/error.h"
 #include "input/name_pattern.h"
@@ -197,9 +198,11 @@ ScreenPlacement read_placement(InputObject const& object) {
 
 std::shared_ptr<ScreenMaker> read_maker(InputObject const& object,
                                         std::filesystem::path const& folder) {
+  // In the order of the fields: where a comma is missing or too many, the first one is told.
+  auto holes = read_holes(object, folder);
   auto const sheet = read_sheet(object);
   auto const placement = read_placement(object);
-  return std::make_shared<ScreenMaker>(object.name, read_holes(object, folder), sheet, placement);
+  return std::make_shared<ScreenMaker>(object.name, std::move(holes), sheet, placement);
 }
 
 void add_object(InputObject const& object, ShadingInput const& input,

@@ -115,6 +115,11 @@ def assert_refused(run, message):
      "GPUShading:PerforatedScreen Mesh: Hole Size is 0.005 m, expected less than the pitch, 0.004 m"),
     (PATTERN.format(surfaces="*").replace("Round", "Oval"),
      'GPUShading:PerforatedScreen Mesh: Hole Shape is "Oval", expected Texture, Round, Square, Slotted or Hexagonal'),
+    # A comma left out: the first field that is wrong is named, not the last.
+    (PATTERN.format(surfaces="*").replace("Round,,", "Round,"),
+     'GPUShading:PerforatedScreen Mesh: Arrangement is "0.005", expected Straight, Staggered45 or Staggered60'),
+    (PATTERN.format(surfaces="*").replace("Round,,,", "Round,Straight,"),
+     'GPUShading:PerforatedScreen Mesh: Texture File Name is "Straight", expected blank with Hole Shape Round'),
     (PATTERN.format(surfaces="hood") + "GPUShading:TransparentShade,Glass,*,Constant,0.5;\n",
      'GPUShading:PerforatedScreen Mesh: Surface Name "hood": HOOD is named by GPUShading:TransparentShade Glass '
      "already"),
@@ -123,7 +128,7 @@ def assert_refused(run, message):
     (TEXTURE.format(surfaces="hood", file="huge.ppm"),
      "GPUShading:PerforatedScreen Leaves: Texture File Name: {folder}/huge.ppm: is 20000 x 20000 texels, expected at "
      "most 16384 a side"),
-], ids=["surface", "hole", "shape", "named twice", "no file", "huge"])
+], ids=["surface", "hole", "shape", "comma", "two commas", "named twice", "no file", "huge"])
 def test_bad_screen_stops_before_energyplus_starts(screen, message, patched, weather, tmp_path):
     (tmp_path / "huge.ppm").write_bytes(b"P6\n20000 20000\n255\n")
     path = tmp_path / "model.idf"
@@ -212,3 +217,11 @@ def test_deployed_screens_run(patched, weather, tmp_path):
     header, *rows = (report / "sunlit.csv").read_text().splitlines()
     assert header.endswith('"share by SAILS"')
     assert {row.rsplit(",", 1)[1] for row in rows} == {"1", "0.25"}
+
+
+def test_shading_that_is_off_warns_of_screens(patched, weather, tmp_path):
+    path = tmp_path / "model.idf"
+    path.write_text(model() + PATTERN.format(surfaces="*Panel"))
+    run = energyplus.run(patched, path, weather, tmp_path / "run", ["--gpu-shading=off", "-D"])
+    assert run.completed, run.why()
+    assert run.text("eplusout.err").count("no beam passes BUILDING PANEL and 3 more but by") == 1
