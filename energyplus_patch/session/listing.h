@@ -9,7 +9,11 @@
 namespace gpu_shading::energyplus {
 
 // A table of what each surface is to the shading calculation: kind, area, whether its own sunlit
-// fraction is rendered, how it casts. `wanted`: by surface.
+// fraction is rendered, how it casts; before it what lean input did, if anything. `wanted`: by
+// surface of EnergyPlus's; those after them were left out of its input.
 std::string list_surfaces(Scene const& scene, Model const& model, std::vector<bool> const& wanted);
+
+// The outlines of the same surfaces, one vertex a line, as comma-separated values.
+std::string list_vertices(Scene const& scene, Model const& model);
 
 }  // namespace gpu_shading::energyplus
