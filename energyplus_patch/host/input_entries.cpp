@@ -52,9 +52,10 @@ nlohmann::json (*original_read_json)(Path const&, std::ios_base::openmode) = nul
 void (*original_end)(State&) = nullptr;
 void (*original_abort)(State&) = nullptr;
 
-Rewrite rewrite_for(Options const& options) {
-  return {options.mode == Mode::off ? "PolygonClipping" : "PixelCounting",
-          options.every_timestep ? "Timestep" : ""};
+Rewrite rewrite_for(Model const& model) {
+  return {model.options.mode == Mode::off ? "PolygonClipping" : "PixelCounting",
+          model.options.every_timestep ? "Timestep" : "", model.lean.left_out,
+          model.lean.placeholders};
 }
 
 // What polygon clipping makes of shades that only our objects open.
@@ -71,15 +72,16 @@ void warn_of_opaque_shades(Run const& run) {
 }
 
 // Understands the model and says what EnergyPlus shall read in its place.
-Rewrite take_model(std::vector<InputObject> objects, Path const& path) {
+Rewrite take_model(std::vector<InputObject> objects, Path const& path,
+                   MentionFinder const& find_mentions) {
   auto& run = this_run();
-  run.model = understand(std::move(objects), path, installation().choices);
+  run.model = understand(std::move(objects), path, installation().choices, find_mentions);
   if (run.model->options.mode != Mode::off) {
     check_supported(run.model->shading, installation().version);
   } else {
     warn_of_opaque_shades(run);
   }
-  return rewrite_for(run.model->options);
+  return rewrite_for(*run.model);
 }
 
 // The state is handed over here, before the input is read.
@@ -99,7 +101,11 @@ bool is_model() {
 std::string read_file(Path const& path, std::ios_base::openmode mode) {
   auto text = original_read_file(path, mode);
   if (!is_model()) return text;
-  return guarded([&] { return rewrite_idf(text, take_model(read_idf(text), path)); });
+  return guarded([&] {
+    auto const parsed = parse_idf(text);
+    auto const find = [&](Names const& names) { return find_mentions(parsed, names); };
+    return rewrite_idf(text, parsed, take_model(read_idf(parsed), path, find));
+  });
 }
 
 // EnergyPlus's JSON value has the layout of ours: the library's, whose versions 3.x differ in none
@@ -108,7 +114,8 @@ nlohmann::json read_json(Path const& path, std::ios_base::openmode mode) {
   auto json = original_read_json(path, mode);
   if (!is_model()) return json;
   return guarded([&] {
-    rewrite_epjson(json, take_model(read_epjson(json), path));
+    auto const find = [&](Names const& names) { return find_mentions(json, names); };
+    rewrite_epjson(json, take_model(read_epjson(json), path, find));
     return std::move(json);
   });
 }

@@ -18,7 +18,8 @@ struct InputObject {
   std::string type;                           // as known_types() spells it
   std::string name;                           // "" for types without one
   std::map<std::string, std::string> fields;  // numbers as text
-  std::vector<std::string> list;  // the extensible part of ZoneList, ShadowCalculation, ...
+  // The extensible part of ZoneList, ShadowCalculation, ...; of vertices x, y and z in turn.
+  std::vector<std::string> list;
 
   // The field's text, "" where it is blank or absent.
   std::string const& operator[](std::string const& field) const;
@@ -29,7 +30,7 @@ struct ObjectType {
   std::string_view type;
   std::vector<std::string_view> fields;
   std::string_view list = {};        // epJSON name of the extensible array, if it is read
-  std::string_view list_field = {};  // the field of its items
+  std::string_view list_field = {};  // the field of its items; "" for vertices, which have three
 };
 std::vector<ObjectType> const& known_types();
 ObjectType const* find_type(std::string_view type);

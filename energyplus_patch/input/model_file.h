@@ -5,24 +5,33 @@
 #include <string_view>
 #include <vector>
 
+#include "input/idf_text.h"
 #include "input/input_object.h"
+#include "lean/mentions.h"
+#include "lean/placeholders.h"
 
 namespace gpu_shading::energyplus {
 
 // Objects of the known types and every extension object, in the model's order. Throws Error where
 // an extension object is of a type that does not exist.
 std::vector<InputObject> read_idf(std::string_view text);
+std::vector<InputObject> read_idf(std::vector<IdfObject> const& parsed);
 std::vector<InputObject> read_epjson(nlohmann::json const& model);
 
 // What EnergyPlus shall read instead of the model that the user wrote.
 struct Rewrite {
   std::string shading_method;    // PixelCounting or PolygonClipping
   std::string update_frequency;  // Periodic or Timestep; "" keeps the model's
+  Names left_out = {};  // detailed shading surfaces, with their ShadingProperty:Reflectance
+  std::vector<Placeholder> placeholders = {};  // added
 };
 
 // ShadowCalculation changed, or added where there is none, all its other fields kept; extension
-// objects taken out. Everything else stays as it is, to the byte in the case of an IDF.
+// objects and the surfaces that are left out taken out; placeholders added. Everything else stays
+// as it is, to the byte in the case of an IDF. `parsed`: the text's objects.
 std::string rewrite_idf(std::string_view text, Rewrite const& rewrite);
+std::string rewrite_idf(std::string_view text, std::vector<IdfObject> const& parsed,
+                        Rewrite const& rewrite);
 void rewrite_epjson(nlohmann::json& model, Rewrite const& rewrite);
 
 }  // namespace gpu_shading::energyplus

@@ -60,7 +60,7 @@ bool is_idf(std::filesystem::path const& path) {
 }
 
 Model understand(std::vector<InputObject> objects, std::filesystem::path const& path,
-                 Choices const& choices) {
+                 Choices const& choices, MentionFinder const& find_mentions) {
   if (auto const side = find_side_file(path, choices)) add_side_file(*side, objects);
   Model model;
   model.shading = read_shading_input(objects);
@@ -68,6 +68,9 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   model.shades = read_transparent_shades(objects, model.shading, folder);
   model.screens = read_perforated_screens(objects, model.shading, model.shades, folder);
   model.options = resolve(choices, read_settings(objects), model.shading);
+  if (find_mentions) {
+    model.lean = plan_lean_input(objects, model.shading, model.options, find_mentions);
+  }
   return model;
 }
 

@@ -8,6 +8,7 @@
 #include "input/perforated_screens.h"
 #include "input/shading_input.h"
 #include "input/transparent_shades.h"
+#include "lean/lean_input.h"
 #include "options/options.h"
 
 namespace gpu_shading::energyplus {
@@ -18,13 +19,15 @@ struct Model {
   TransparentShades shades;
   PerforatedScreens screens;
   Options options;
+  LeanInput lean;
 };
 
 // Reads a model's objects together with those of its side file, and answers every option.
 // `choices`: command line over environment. Side file: choices.file, else MODEL.gpu-shading.idf
-// where that exists. Throws Error: one line naming object, field and value.
+// where that exists. `find_mentions`, of the model's own file: without it lean input is not
+// planned. Throws Error: one line naming object, field and value.
 Model understand(std::vector<InputObject> objects, std::filesystem::path const& path,
-                 Choices const& choices);
+                 Choices const& choices, MentionFinder const& find_mentions = {});
 
 // The same from the model's file (.idf, .imf or .epJSON).
 Model read_model(std::filesystem::path const& path, Choices const& choices);

@@ -19,6 +19,13 @@ Mode parse_mode(std::string const& text) {
   throw Error(fmt::format("is \"{}\", expected auto, require or off", text));
 }
 
+Lean parse_lean(std::string const& text) {
+  if (same_name(text, "auto")) return Lean::automatic;
+  if (same_name(text, "on")) return Lean::on;
+  if (same_name(text, "off")) return Lean::off;
+  throw Error(fmt::format("is \"{}\", expected auto, on or off", text));
+}
+
 int parse_resolution(std::string const& text) {
   int value = 0;
   auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -54,8 +61,8 @@ struct Choice {
   std::function<void(Choices&, std::string const&)> set;
 };
 
-std::array<Choice, 7> const& all_choices() {
-  static std::array<Choice, 7> const choices{{
+std::array<Choice, 8> const& all_choices() {
+  static std::array<Choice, 8> const choices{{
       {"--gpu-shading", "GPU_SHADING", "", "",
        [](Choices& c, std::string const& v) { c.mode = parse_mode(v); }},
       {"--gpu-shading-resolution", "GPU_SHADING_RESOLUTION", "resolution", "Resolution",
@@ -70,6 +77,8 @@ std::array<Choice, 7> const& all_choices() {
        [](Choices& c, std::string const& v) { c.report = std::filesystem::absolute(v); }},
       {"--gpu-shading-model-folder", nullptr, "", "",
        [](Choices& c, std::string const& v) { c.folder = std::filesystem::absolute(v); }},
+      {"--gpu-shading-lean", "GPU_SHADING_LEAN", "", "",
+       [](Choices& c, std::string const& v) { c.lean = parse_lean(v); }},
   }};
   return choices;
 }
@@ -114,6 +123,18 @@ std::string name_of(DeviceChoice const& device) {
   return "auto";
 }
 
+std::string name_of(Lean lean) {
+  switch (lean) {
+    case Lean::on:
+      return "on";
+    case Lean::off:
+      return "off";
+    case Lean::automatic:
+      break;
+  }
+  return "auto";
+}
+
 void Choices::fill_from(Choices const& lower) {
   fill(mode, lower.mode);
   fill(resolution, lower.resolution);
@@ -122,10 +143,11 @@ void Choices::fill_from(Choices const& lower) {
   fill(file, lower.file);
   fill(report, lower.report);
   fill(folder, lower.folder);
+  fill(lean, lower.lean);
 }
 
 bool Choices::any() const {
-  return mode || resolution || every_timestep || device || file || report;
+  return mode || resolution || every_timestep || device || file || report || lean;
 }
 
 Choices take_flags(std::vector<std::string>& arguments) {
@@ -175,6 +197,7 @@ std::string to_flags(Choices const& choices) {
   if (choices.file) add("--gpu-shading-file", choices.file->string());
   if (choices.report) add("--gpu-shading-report", choices.report->string());
   if (choices.folder) add("--gpu-shading-model-folder", choices.folder->string());
+  if (choices.lean) add("--gpu-shading-lean", name_of(*choices.lean));
   return flags;
 }
 
@@ -214,6 +237,7 @@ Options resolve(Choices choices, Choices const& settings, ShadingInput const& in
   options.every_timestep = choices.every_timestep.value_or(false);
   options.device = choices.device.value_or(DeviceChoice{});
   options.report = choices.report;
+  options.lean = choices.lean.value_or(Lean::automatic);
   return options;
 }
 
@@ -229,6 +253,8 @@ std::string_view flags_help() {
   --gpu-shading-file F                 Extension objects in a file of their own
                                        (default: MODEL.gpu-shading.idf, where it is)
   --gpu-shading-report DIR             Write pictures of what the sun sees, and counts, to DIR
+  --gpu-shading-lean auto|on|off       Leave shading surfaces that only cast shadows out of what
+                                       EnergyPlus reads (default: auto, where there are many)
 )";
 }
 

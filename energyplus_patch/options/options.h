@@ -18,6 +18,13 @@ enum class Mode {
   off,        // stock PolygonClipping, extension objects taken out
 };
 
+// Whether shading surfaces that only cast shadows are left out of what EnergyPlus reads.
+enum class Lean {
+  automatic,  // where there are many
+  on,         // however few there are
+  off,
+};
+
 // The user's choices from one source; what it does not say is empty.
 struct Choices {
   std::optional<Mode> mode;
@@ -29,6 +36,7 @@ struct Choices {
   // Where relative names of files in the model start, the launcher's to say: none, where the model
   // lies.
   std::optional<std::filesystem::path> folder = std::nullopt;
+  std::optional<Lean> lean;
 
   // Fills what is empty from a source of lower rank.
   void fill_from(Choices const& lower);
@@ -43,6 +51,7 @@ Choices take_flags(std::vector<std::string>& arguments);
 // As the flag's value has it.
 std::string name_of(Mode mode);
 std::string name_of(DeviceChoice const& device);
+std::string name_of(Lean lean);
 
 // The inverse, one flag a line.
 std::string to_flags(Choices const& choices);
@@ -62,6 +71,7 @@ struct Options {
   bool every_timestep = false;  // else as often as the model asks
   DeviceChoice device;
   std::optional<std::filesystem::path> report;
+  Lean lean = Lean::automatic;
 };
 
 // Precedence: `choices` (command line, then environment), GPUShading:Settings, the model's Pixel

@@ -61,7 +61,8 @@ std::string reasons(Path const& folder) {
 
 }  // namespace
 
-void check(Path const& model, std::optional<Path> const& weather, Choices const& choices) {
+void check(Path const& model, std::optional<Path> const& weather, Choices const& choices,
+           bool vertices) {
   if (!std::filesystem::exists(model)) {
     throw Error(fmt::format("{}: no such file", model.string()));
   }
@@ -81,11 +82,15 @@ void check(Path const& model, std::optional<Path> const& weather, Choices const&
                                    weather.value_or(some_weather()).string()};
   if (choices.device) command.push_back("--gpu-shading-device=" + name_of(*choices.device));
   if (choices.file) command.push_back("--gpu-shading-file=" + choices.file->string());
+  if (choices.lean) command.push_back("--gpu-shading-lean=" + name_of(*choices.lean));
   if (is_idf(model) && read_text(model).find("HVACTemplate:") != std::string::npos) {
     command.emplace_back("-x");
   }
   command.push_back(model.string());
-  run_process(command, {"GPU_SHADING_CHECK=" + std::filesystem::absolute(listing).string()}, log);
+  std::vector<std::string> environment{"GPU_SHADING_CHECK=" +
+                                       std::filesystem::absolute(listing).string()};
+  if (vertices) environment.emplace_back("GPU_SHADING_CHECK_VERTICES=1");
+  run_process(command, environment, log);
   if (!std::filesystem::exists(listing)) {
     throw Error(fmt::format("{}: EnergyPlus does not get as far as its shading calculation:{}",
                             model.string(), reasons(folder.path())));

@@ -49,11 +49,13 @@ int run(int argc, char** argv) {
   check_command->add_option("model", model, "IDF or epJSON file")->required();
   check_command->add_option("-w,--weather", weather, "Weather file (default: one of EnergyPlus's)");
   check_command->add_option("--gpu-shading-file", file, "Extension objects in a file of their own");
+  bool vertices = false;
+  check_command->add_flag("--vertices", vertices, "Print every surface's vertices instead");
   check_command->callback([&] {
     Choices choices = read_environment();
     if (!file.empty()) choices.file = file;
     check(model, weather.empty() ? std::nullopt : std::optional<std::filesystem::path>(weather),
-          choices);
+          choices, vertices);
   });
   CLI11_PARSE(app, argc, argv);
   return EXIT_SUCCESS;

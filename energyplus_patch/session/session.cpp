@@ -41,6 +41,7 @@ void keep_largest(std::vector<float>& areas, std::size_t limit) {
 }  // namespace
 
 SurfaceId Session::add(Surface surface) {
+  if (model_.lean.is_placeholder(surface.name)) surface.casting = Casting::never;
   if (surface.casting != Casting::never) surface.casting = model_.shading.casting(surface.name);
   return scene_.add(std::move(surface));
 }
@@ -63,12 +64,17 @@ void Session::start(Messages messages, Schedules schedules) {
   for (SurfaceId id = 0; id < surfaces_; ++id) {
     auto const& name = scene_[id].name;
     auto const& polygon = scene_[id].polygon;
-    wanted[id] = !input.shading_surfaces.contains(name) || input.wants(name);
+    wanted[id] = (!input.shading_surfaces.contains(name) || input.wants(name)) &&
+                 !model_.lean.is_placeholder(name);
     if (!wanted[id]) unshaded_[id] = area(polygon) * normal(polygon);
   }
+  for (auto& caster : model_.lean.casters) scene_.add(std::move(caster));
+  model_.lean.casters.clear();
   optics_ = ShadeOptics(model_, std::move(schedules));
   if (char const* const listing = std::getenv(listing_variable)) {
-    std::ofstream(listing) << list_surfaces(scene_, model_, wanted);
+    bool const vertices = std::getenv(vertices_variable) != nullptr;
+    std::ofstream(listing) << (vertices ? list_vertices(scene_, model_)
+                                        : list_surfaces(scene_, model_, wanted));
     std::_Exit(EXIT_SUCCESS);
   }
   if (model_.options.report) prepare_report(*model_.options.report);
@@ -137,6 +143,13 @@ void Session::add_walls_without_openings() {
 void Session::describe_surfaces() {
   for (auto const& warning : model_.shades.warnings) messages_.warning(warning);
   for (auto const& warning : model_.screens.warnings()) messages_.warning(warning);
+  if (auto const& remark = model_.lean.remark; !remark.empty()) {
+    messages_.remark(remark);
+    messages_.eio(
+        fmt::format("! <GPU Shading Lean Input>, Surfaces Left Out, Remark\n"
+                    "GPU Shading Lean Input,{},{}\n",
+                    model_.lean.left_out.size(), remark));
+  }
   warn_of_actuated_schedules();
   bool first = true;
   for (auto const id : shading_surfaces()) {

@@ -33,6 +33,8 @@ class Session {
   // Set by `gpu_shading check` alone: start() writes the listing of surfaces to this file and ends
   // the process.
   static constexpr char const* listing_variable = "GPU_SHADING_CHECK";
+  // Set with it: the vertices instead.
+  static constexpr char const* vertices_variable = "GPU_SHADING_CHECK_VERTICES";
 
   explicit Session(Model model) : model_(std::move(model)) {}
 

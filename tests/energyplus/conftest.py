@@ -41,9 +41,15 @@ def courtyard():
 
 
 @pytest.fixture(scope="session")
-def box():
-    """A model that is quick to run: one louvre, written into the session's temporary folder on request."""
+def louvres():
+    """Writes the model of a box with a number of louvres."""
     sys.path.insert(0, str(REPOSITORY / "idf_examples" / "box_with_louvres"))
     import generate
 
-    return generate.model(1)
+    return generate.model
+
+
+@pytest.fixture(scope="session")
+def box(louvres):
+    """A model that is quick to run: one louvre."""
+    return louvres(1)
