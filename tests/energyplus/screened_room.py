@@ -61,21 +61,33 @@ def timesteps(run):
     return found
 
 
+def slant(facing, azimuth, altitude):
+    """How far a ray goes to the right, as seen from outside, and up on its way of 1 m out, or None."""
+    from_normal, up = math.radians(azimuth - generate.AZIMUTHS[facing]), math.radians(altitude)
+    out = math.cos(up) * math.cos(from_normal)
+    if altitude <= 0 or out < 1e-3:
+        return None
+    # To the right is where the azimuth falls.
+    return -math.cos(up) * math.sin(from_normal) / out, math.sin(up) / out
+
+
+def seen_through(opening, right, rise):
+    """Share of the window that rays of a slant meet through a rectangle (x, z, x, z) of the screen's plane."""
+    x, z = generate.DISTANCE * right, generate.DISTANCE * rise
+    (x1, z1, x2, z2), (left, bottom, end, top) = generate.WINDOW, opening
+    wide, high = min(x2 + x, end) - max(x1 + x, left), min(z2 + z, top) - max(z1 + z, bottom)
+    return max(0, wide) * max(0, high) / ((x2 - x1) * (z2 - z1))
+
+
 def passing(facing, diameter, azimuth, altitude):
     """(share of the window that is behind the screen, transmittance of round holes); angles in degrees.
 
     A ray at theta to the normal leaves the sheet beside where it came in by t tan(theta): it passes where
     the two circles overlap. Behind is (0, 0) where the sun is not before the window.
     """
-    from_normal, up = math.radians(azimuth - generate.AZIMUTHS[facing]), math.radians(altitude)
-    out = math.cos(up) * math.cos(from_normal)
-    if altitude <= 0 or out < 1e-3:
+    way = slant(facing, azimuth, altitude)
+    if way is None:
         return 0.0, 0.0
-    # To the right, as seen from outside, is where the azimuth falls.
-    right, rise = -math.cos(up) * math.sin(from_normal) / out, math.sin(up) / out
-    apart = min(1.0, generate.THICKNESS * math.hypot(right, rise) / diameter)
+    apart = min(1.0, generate.THICKNESS * math.hypot(*way) / diameter)
     lens = 2 / math.pi * (math.acos(apart) - apart * math.sqrt(1 - apart**2))
-    x, z = generate.DISTANCE * right, generate.DISTANCE * rise
-    (x1, z1, x2, z2), (left, bottom, end, top) = generate.WINDOW, generate.SCREEN
-    wide, high = min(x2 + x, end) - max(x1 + x, left), min(z2 + z, top) - max(z1 + z, bottom)
-    return max(0, wide) * max(0, high) / ((x2 - x1) * (z2 - z1)), generate.OPEN * lens
+    return seen_through(generate.SCREEN, *way), generate.OPEN * lens
