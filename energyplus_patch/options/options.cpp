@@ -45,6 +45,11 @@ DeviceChoice parse_device(std::string const& text) {
   }
 }
 
+std::filesystem::path parse_cache(std::string const& text) {
+  if (text.empty()) throw Error("is \"\", expected a folder or off");
+  return same_name(text, "off") ? std::filesystem::path() : std::filesystem::absolute(text);
+}
+
 // One choice, by all the names that it goes by.
 struct Choice {
   std::string_view flag;
@@ -54,8 +59,8 @@ struct Choice {
   std::function<void(Choices&, std::string const&)> set;
 };
 
-std::array<Choice, 7> const& all_choices() {
-  static std::array<Choice, 7> const choices{{
+std::array<Choice, 8> const& all_choices() {
+  static std::array<Choice, 8> const choices{{
       {"--gpu-shading", "GPU_SHADING", "", "",
        [](Choices& c, std::string const& v) { c.mode = parse_mode(v); }},
       {"--gpu-shading-resolution", "GPU_SHADING_RESOLUTION", "resolution", "Resolution",
@@ -68,6 +73,8 @@ std::array<Choice, 7> const& all_choices() {
        [](Choices& c, std::string const& v) { c.file = std::filesystem::absolute(v); }},
       {"--gpu-shading-report", "GPU_SHADING_REPORT", "", "",
        [](Choices& c, std::string const& v) { c.report = std::filesystem::absolute(v); }},
+      {"--gpu-shading-cache", "GPU_SHADING_CACHE", "", "",
+       [](Choices& c, std::string const& v) { c.cache = parse_cache(v); }},
       {"--gpu-shading-model-folder", nullptr, "", "",
        [](Choices& c, std::string const& v) { c.folder = std::filesystem::absolute(v); }},
   }};
@@ -121,11 +128,12 @@ void Choices::fill_from(Choices const& lower) {
   fill(device, lower.device);
   fill(file, lower.file);
   fill(report, lower.report);
+  fill(cache, lower.cache);
   fill(folder, lower.folder);
 }
 
 bool Choices::any() const {
-  return mode || resolution || every_timestep || device || file || report;
+  return mode || resolution || every_timestep || device || file || report || cache;
 }
 
 Choices take_flags(std::vector<std::string>& arguments) {
@@ -174,6 +182,9 @@ std::string to_flags(Choices const& choices) {
   if (choices.device) add("--gpu-shading-device", name_of(*choices.device));
   if (choices.file) add("--gpu-shading-file", choices.file->string());
   if (choices.report) add("--gpu-shading-report", choices.report->string());
+  if (choices.cache) {
+    add("--gpu-shading-cache", choices.cache->empty() ? "off" : choices.cache->string());
+  }
   if (choices.folder) add("--gpu-shading-model-folder", choices.folder->string());
   return flags;
 }
@@ -214,6 +225,7 @@ Options resolve(Choices choices, Choices const& settings, ShadingInput const& in
   options.every_timestep = choices.every_timestep.value_or(false);
   options.device = choices.device.value_or(DeviceChoice{});
   options.report = choices.report;
+  if (choices.cache && !choices.cache->empty()) options.cache = choices.cache;
   return options;
 }
 
@@ -229,6 +241,8 @@ std::string_view flags_help() {
   --gpu-shading-file F                 Extension objects in a file of their own
                                        (default: MODEL.gpu-shading.idf, where it is)
   --gpu-shading-report DIR             Write pictures of what the sun sees, and counts, to DIR
+  --gpu-shading-cache DIR|off          Keep answers in DIR, so that runs of the same geometry render
+                                       nothing again (default: off)
 )";
 }
 

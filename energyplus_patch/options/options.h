@@ -26,6 +26,7 @@ struct Choices {
   std::optional<DeviceChoice> device;
   std::optional<std::filesystem::path> file;
   std::optional<std::filesystem::path> report;
+  std::optional<std::filesystem::path> cache = std::nullopt;  // empty: off
   // Where relative names of files in the model start, the launcher's to say: none, where the model
   // lies.
   std::optional<std::filesystem::path> folder = std::nullopt;
@@ -62,6 +63,7 @@ struct Options {
   bool every_timestep = false;  // else as often as the model asks
   DeviceChoice device;
   std::optional<std::filesystem::path> report;
+  std::optional<std::filesystem::path> cache = std::nullopt;
 };
 
 // Precedence: `choices` (command line, then environment), GPUShading:Settings, the model's Pixel
