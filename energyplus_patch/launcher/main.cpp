@@ -18,6 +18,7 @@
 #include "host/version.h"
 #include "input/model_reader.h"
 #include "launcher/command_line.h"
+#include "session/cache_folder.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -73,6 +74,7 @@ void check_model(Path const& path, Choices const& choices) {
   auto const model = read_model(path, choices);
   if (model.options.mode != Mode::off) {
     check_supported(model.shading, read_version(own_folder()));
+    if (model.options.cache) prepare_cache_folder(*model.options.cache);
   }
 }
 

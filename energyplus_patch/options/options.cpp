@@ -52,6 +52,11 @@ DeviceChoice parse_device(std::string const& text) {
   }
 }
 
+std::filesystem::path parse_cache(std::string const& text) {
+  if (text.empty()) throw Error("is \"\", expected a folder or off");
+  return same_name(text, "off") ? std::filesystem::path() : std::filesystem::absolute(text);
+}
+
 // One choice, by all the names that it goes by.
 struct Choice {
   std::string_view flag;
@@ -61,8 +66,8 @@ struct Choice {
   std::function<void(Choices&, std::string const&)> set;
 };
 
-std::array<Choice, 8> const& all_choices() {
-  static std::array<Choice, 8> const choices{{
+std::array<Choice, 9> const& all_choices() {
+  static std::array<Choice, 9> const choices{{
       {"--gpu-shading", "GPU_SHADING", "", "",
        [](Choices& c, std::string const& v) { c.mode = parse_mode(v); }},
       {"--gpu-shading-resolution", "GPU_SHADING_RESOLUTION", "resolution", "Resolution",
@@ -75,6 +80,8 @@ std::array<Choice, 8> const& all_choices() {
        [](Choices& c, std::string const& v) { c.file = std::filesystem::absolute(v); }},
       {"--gpu-shading-report", "GPU_SHADING_REPORT", "", "",
        [](Choices& c, std::string const& v) { c.report = std::filesystem::absolute(v); }},
+      {"--gpu-shading-cache", "GPU_SHADING_CACHE", "", "",
+       [](Choices& c, std::string const& v) { c.cache = parse_cache(v); }},
       {"--gpu-shading-model-folder", nullptr, "", "",
        [](Choices& c, std::string const& v) { c.folder = std::filesystem::absolute(v); }},
       {"--gpu-shading-lean", "GPU_SHADING_LEAN", "", "",
@@ -142,12 +149,13 @@ void Choices::fill_from(Choices const& lower) {
   fill(device, lower.device);
   fill(file, lower.file);
   fill(report, lower.report);
+  fill(cache, lower.cache);
   fill(folder, lower.folder);
   fill(lean, lower.lean);
 }
 
 bool Choices::any() const {
-  return mode || resolution || every_timestep || device || file || report || lean;
+  return mode || resolution || every_timestep || device || file || report || lean || cache;
 }
 
 Choices take_flags(std::vector<std::string>& arguments) {
@@ -196,6 +204,9 @@ std::string to_flags(Choices const& choices) {
   if (choices.device) add("--gpu-shading-device", name_of(*choices.device));
   if (choices.file) add("--gpu-shading-file", choices.file->string());
   if (choices.report) add("--gpu-shading-report", choices.report->string());
+  if (choices.cache) {
+    add("--gpu-shading-cache", choices.cache->empty() ? "off" : choices.cache->string());
+  }
   if (choices.folder) add("--gpu-shading-model-folder", choices.folder->string());
   if (choices.lean) add("--gpu-shading-lean", name_of(*choices.lean));
   return flags;
@@ -238,6 +249,7 @@ Options resolve(Choices choices, Choices const& settings, ShadingInput const& in
   options.device = choices.device.value_or(DeviceChoice{});
   options.report = choices.report;
   options.lean = choices.lean.value_or(Lean::automatic);
+  if (choices.cache && !choices.cache->empty()) options.cache = choices.cache;
   return options;
 }
 
@@ -255,6 +267,8 @@ std::string_view flags_help() {
   --gpu-shading-report DIR             Write pictures of what the sun sees, and counts, to DIR
   --gpu-shading-lean auto|on|off       Leave shading surfaces that only cast shadows out of what
                                        EnergyPlus reads (default: auto, where there are many)
+  --gpu-shading-cache DIR|off          Keep answers in DIR, so that runs of the same geometry render
+                                       nothing again (default: off)
 )";
 }
 

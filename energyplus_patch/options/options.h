@@ -33,6 +33,7 @@ struct Choices {
   std::optional<DeviceChoice> device;
   std::optional<std::filesystem::path> file;
   std::optional<std::filesystem::path> report;
+  std::optional<std::filesystem::path> cache = std::nullopt;  // empty: off
   // Where relative names of files in the model start, the launcher's to say: none, where the model
   // lies.
   std::optional<std::filesystem::path> folder = std::nullopt;
@@ -72,6 +73,7 @@ struct Options {
   DeviceChoice device;
   std::optional<std::filesystem::path> report;
   Lean lean = Lean::automatic;
+  std::optional<std::filesystem::path> cache = std::nullopt;
 };
 
 // Precedence: `choices` (command line, then environment), GPUShading:Settings, the model's Pixel

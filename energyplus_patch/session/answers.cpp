@@ -36,6 +36,11 @@ Answers::Direction& Answers::at(SunDirection sun, std::uint32_t state) {
   return direction;
 }
 
+Answers::Direction const* Answers::find(SunDirection sun, std::uint32_t state) const {
+  auto const found = directions_.find({sun, state});
+  return found == directions_.end() ? nullptr : &found->second;
+}
+
 void Answers::keep(Direction& direction, ReceiverNumber receiver, Sunlit answer) {
   auto& areas = direction.projected_area;
   if (receiver >= areas.size()) {
@@ -47,6 +52,15 @@ void Answers::keep(Direction& direction, ReceiverNumber receiver, Sunlit answer)
   if (answer.scheduled.empty()) return;
   bytes_ += bytes_of(answer.scheduled);
   direction.scheduled[receiver] = std::move(answer.scheduled);
+}
+
+void Answers::copy(Direction const& from, ReceiverNumber known, Direction& direction,
+                   ReceiverNumber receiver) {
+  Sunlit answer;
+  answer.projected_area = from.projected_area[known];
+  auto const parts = from.scheduled.find(known);
+  if (parts != from.scheduled.end()) answer.scheduled = parts->second;
+  keep(direction, receiver, std::move(answer));
 }
 
 std::vector<Sunlit> const& Answers::keep_interior(Direction& direction,

@@ -30,6 +30,7 @@ class Answers {
     // What passes scheduled shades, of the receivers that have such in view.
     std::unordered_map<ReceiverNumber, std::vector<ScheduledPart>> scheduled;
     std::unordered_map<std::uint64_t, std::vector<Sunlit>> interior;  // by window and list
+    bool recalled = false;  // some of it is from earlier runs (AnswerCache)
 
     bool knows(ReceiverNumber receiver) const {
       return receiver < projected_area.size() &&
@@ -44,12 +45,20 @@ class Answers {
   // The entry of a direction and a state, made where there is none. Valid until the next call.
   Direction& at(SunDirection sun, std::uint32_t state);
 
+  // nullptr where there is none.
+  Direction const* find(SunDirection sun, std::uint32_t state) const;
+
   void keep(Direction& direction, ReceiverNumber receiver, Sunlit answer);
   std::vector<Sunlit> const& keep_interior(Direction& direction, std::uint64_t window_and_list,
                                            std::vector<Sunlit> answers);
 
+  // Keeps what another direction knows of a receiver, whose number is another there.
+  void copy(Direction const& from, ReceiverNumber known, Direction& direction,
+            ReceiverNumber receiver);
+
   // What all of it takes, but for the containers' own.
   std::size_t bytes() const { return bytes_; }
+  std::size_t size() const { return directions_.size(); }
 
   template <typename Visit>
   void for_each(Visit const& visit) const {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace gpu_shading::energyplus {
@@ -19,6 +20,12 @@ class DeploymentStates {
     return place->second;
   }
 
+  std::optional<std::uint32_t> find(Shares const& shares) const {
+    auto const found = numbers_.find(shares);
+    return found == numbers_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  std::size_t size() const { return states_.size(); }
   Shares const& operator[](std::uint32_t number) const { return states_.at(number); }
 
  private:

@@ -9,8 +9,11 @@
 #include <numeric>
 
 #include "gpu_shading/error.h"
+#include "session/build_id.h"
+#include "session/cache_folder.h"
 #include "session/listing.h"
 #include "session/report.h"
+#include "session/scene_hash.h"
 #include "session/shading_rule.h"
 
 namespace gpu_shading::energyplus {
@@ -78,6 +81,7 @@ void Session::start(Messages messages, Schedules schedules) {
     std::_Exit(EXIT_SUCCESS);
   }
   if (model_.options.report) prepare_report(*model_.options.report);
+  if (model_.options.cache) prepare_cache_folder(*model_.options.cache);
   add_walls_without_openings();
   open_renderer();
   check_device();
@@ -85,6 +89,7 @@ void Session::start(Messages messages, Schedules schedules) {
 }
 
 void Session::open_renderer() {
+  store_answers();
   std::vector<std::string> names;
   names.reserve(scene_.size());
   Scene scene;
@@ -98,16 +103,34 @@ void Session::open_renderer() {
   }
   scene.set_rule(make_shading_rule(model_.shading, names));
   if (renderer_) earlier_ += renderer_->statistics();
+  if (cache_) recalled_earlier_ += cache_->directions_recalled();
   RendererOptions options;
   options.device = model_.options.device;
   options.resolution = model_.options.resolution;
   renderer_.emplace(std::move(scene), options);
-  answers_ = Answers();
+  run_.answers = Answers();
+  if (model_.options.cache) open_cache(describe_shading_rule(model_.shading, names), options);
   deploy_screens();
 }
 
+void Session::open_cache(std::vector<std::uint32_t> const& rule, RendererOptions const& options) {
+  auto const scene =
+      hash_scene(renderer_->scene(), {options, renderer_->device(), rule, build_id()});
+  cache_.emplace(*model_.options.cache, scene, messages_.remark);
+}
+
+void Session::store_answers() {
+  if (!cache_ || !to_store_) return;
+  to_store_ = false;
+  try {
+    cache_->store(run_);
+  } catch (Error const& error) {
+    messages_.warning(error.what());
+  }
+}
+
 void Session::deploy_screens() {
-  state_ = states_.number_of(optics_.deployments());
+  state_ = run_.states.number_of(optics_.deployments());
   renderer_->set_deployments(optics_.deployments());
 }
 
@@ -195,7 +218,7 @@ void Session::set_time(Moment moment) {
         "an "
         "EMS or a program): it is followed from here on");
     open_renderer();
-  } else if (states_.number_of(optics_.deployments()) != state_) {
+  } else if (run_.states.number_of(optics_.deployments()) != state_) {
     deploy_screens();
   }
 }
@@ -203,8 +226,8 @@ void Session::set_time(Moment moment) {
 ReceiverNumber Session::number_of(SurfaceId receiver) {
   auto& number = numbers_[receiver];
   if (!number) {
-    number = static_cast<ReceiverNumber>(receivers_.size());
-    receivers_.push_back(receiver);
+    number = static_cast<ReceiverNumber>(run_.receivers.size());
+    run_.receivers.push_back(receiver);
   }
   return *number;
 }
@@ -212,15 +235,16 @@ ReceiverNumber Session::number_of(SurfaceId receiver) {
 void Session::render(Answers::Direction& direction) {
   std::vector<ReceiverNumber> batch;
   std::vector<SurfaceId> surfaces;
-  for (ReceiverNumber number = 0; number < receivers_.size(); ++number) {
+  for (ReceiverNumber number = 0; number < run_.receivers.size(); ++number) {
     if (direction.knows(number)) continue;
     batch.push_back(number);
-    surfaces.push_back(receivers_[number]);
+    surfaces.push_back(run_.receivers[number]);
   }
   auto sunlit = renderer_->projected_sunlit_areas(direction.sun, surfaces);
   for (std::size_t i = 0; i < batch.size(); ++i) {
-    answers_.keep(direction, batch[i], std::move(sunlit[i]));
+    run_.answers.keep(direction, batch[i], std::move(sunlit[i]));
   }
+  to_store_ = true;
 }
 
 float Session::projected_sunlit_area(SurfaceId receiver) {
@@ -231,9 +255,25 @@ float Session::projected_sunlit_area(SurfaceId receiver) {
     return static_cast<float>(std::max(glm::dot(*unshaded_[receiver], towards_sun_), 0.0));
   }
   auto const number = number_of(receiver);
-  auto& direction = answers_.at(sun_, state_);
+  auto& direction = run_.answers.at(sun_, state_);
+  if (!direction.knows(number) && cache_) cache_->recall(run_, direction);
   if (!direction.knows(number)) render(direction);
   return static_cast<float>(direction.area(number, optics_.factors()));
+}
+
+std::vector<Sunlit> const& Session::find_interior(SurfaceId window,
+                                                  std::vector<SurfaceId> const& interiors) {
+  auto& direction = run_.answers.at(sun_, state_);
+  auto const question = hash_of(window, interiors);
+  auto const known = direction.interior.find(question);
+  if (known != direction.interior.end()) return known->second;
+  if (cache_) {
+    auto const* const recalled = cache_->recall_interior(run_, direction, question);
+    if (recalled != nullptr) return *recalled;
+  }
+  to_store_ = true;
+  return run_.answers.keep_interior(direction, question,
+                                    renderer_->interior_sunlit_areas(sun_, window, interiors));
 }
 
 std::vector<float> Session::interior_areas(SurfaceId window,
@@ -241,14 +281,7 @@ std::vector<float> Session::interior_areas(SurfaceId window,
   if (!renderer_) {
     throw Error("EnergyPlus asks for interior areas before its surfaces are complete");
   }
-  auto& direction = answers_.at(sun_, state_);
-  auto const question = hash_of(window, interiors);
-  auto const known = direction.interior.find(question);
-  auto const& kept =
-      known != direction.interior.end()
-          ? known->second
-          : answers_.keep_interior(direction, question,
-                                   renderer_->interior_sunlit_areas(sun_, window, interiors));
+  auto const& kept = find_interior(window, interiors);
   std::vector<float> areas;
   areas.reserve(kept.size());
   for (auto const& sunlit : kept) {
@@ -263,16 +296,20 @@ void Session::finish() {
   auto const& device = renderer_->device();
   auto did = earlier_;
   did += renderer_->statistics();
-  if (receivers_.empty() && did.directions == 0) return;  // ended before the first question
+  if (run_.receivers.empty() && did.directions == 0) return;  // ended before the first question
+  auto const from_cache = cache_ ? fmt::format(" rendered, {} from the cache",
+                                               recalled_earlier_ + cache_->directions_recalled())
+                                 : "";
   messages_.remark(fmt::format(
-      "shading rendered by {} ({}), {} x {} pixels: {} receivers, {} casters, {} directions, {} "
+      "shading rendered by {} ({}), {} x {} pixels: {} receivers, {} casters, {} directions{}, {} "
       "views drawn, {} clear, {:.2f} s",
       device.renderer, device.version, model_.options.resolution, model_.options.resolution,
-      receivers_.size(), casters_, did.directions, did.receivers_drawn, did.receivers_clear,
-      did.seconds));
+      run_.receivers.size(), casters_, did.directions, from_cache, did.receivers_drawn,
+      did.receivers_clear, did.seconds));
+  store_answers();
   if (model_.options.report) {
-    write_report(*model_.options.report, *renderer_, receivers_, answers_, optics_.factors(),
-                 {optics_.deployment_names(), states_});
+    write_report(*model_.options.report, *renderer_, run_.receivers, run_.answers,
+                 optics_.factors(), {optics_.deployment_names(), run_.states});
   }
 }
 

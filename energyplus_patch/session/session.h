@@ -8,8 +8,7 @@
 
 #include "gpu_shading/renderer.h"
 #include "input/model_reader.h"
-#include "session/answers.h"
-#include "session/deployment_states.h"
+#include "session/answer_cache.h"
 #include "session/schedules.h"
 #include "session/shade_optics.h"
 
@@ -69,10 +68,14 @@ class Session {
   ReceiverNumber number_of(SurfaceId receiver);
   // For every receiver that the direction does not know.
   void render(Answers::Direction& direction);
+  std::vector<Sunlit> const& find_interior(SurfaceId window,
+                                           std::vector<SurfaceId> const& interiors);
   void describe_surfaces();
   void warn_of_actuated_schedules() const;
   void add_walls_without_openings();
   void open_renderer();
+  void open_cache(std::vector<std::uint32_t> const& rule, RendererOptions const& options);
+  void store_answers();
   void deploy_screens();
   void check_device() const;
 
@@ -86,13 +89,14 @@ class Session {
   RendererStatistics earlier_;  // of renderers before it
   // By surface, where its own fraction has no use: normal x area, for an answer without shadows.
   std::vector<std::optional<glm::dvec3>> unshaded_;
-  std::vector<SurfaceId> receivers_;                    // asked for so far, by number
-  std::vector<std::optional<ReceiverNumber>> numbers_;  // of receivers, by surface
+  std::vector<std::optional<ReceiverNumber>> numbers_;  // of receivers asked for, by surface
   SunDirection sun_;
   glm::dvec3 towards_sun_{0.0, 0.0, 1.0};
-  Answers answers_;
-  DeploymentStates states_;
+  AnswerSet run_;
   std::uint32_t state_ = 0;  // which is set
+  std::optional<AnswerCache> cache_;
+  bool to_store_ = false;             // something was rendered that the cache lacks
+  std::size_t recalled_earlier_ = 0;  // directions, from caches before it
 };
 
 }  // namespace gpu_shading::energyplus

@@ -89,10 +89,13 @@ void ShadeOptics::apply(Surface& surface) const {
     surface.screen.reset();
     surface.deployment = -1;
   } else if (*held < 1.0) {
-    Transmittance const model =
-        surface.transmittance ? *surface.transmittance : Transmittance::constant(1.0);
-    surface.transmittance =
-        std::make_shared<Transmittance const>(Transmittance::product(model, *held));
+    auto& product = products_[{surface.transmittance.get(), *held}];
+    if (!product) {
+      Transmittance const model =
+          surface.transmittance ? *surface.transmittance : Transmittance::constant(1.0);
+      product = std::make_shared<Transmittance const>(Transmittance::product(model, *held));
+    }
+    surface.transmittance = product;
   } else if (!surface.transmittance && !surface.screen) {
     surface.casting = Casting::never;
   }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gpu_shading/scene.h"
@@ -53,6 +54,9 @@ class ShadeOptics {
   std::vector<double> factors_;
   std::vector<std::string> deployment_names_;
   std::vector<double> deployments_;
+  // What schedules of one value make of transmittances: made once, so that surfaces share it.
+  mutable std::map<std::pair<Transmittance const*, double>, std::shared_ptr<Transmittance const>>
+      products_;
 };
 
 // "transparent (construction Double)", "opaque", ...: for listings. Throws Error where a screen's

@@ -76,6 +76,17 @@ std::unordered_map<std::string, std::set<std::string>> find_disabled(ShadingInpu
   return disabled;
 }
 
+// Numbers names in the order in which they come.
+class Numbering {
+ public:
+  std::uint32_t operator[](std::string const& name) {
+    return numbers_.try_emplace(name, static_cast<std::uint32_t>(numbers_.size())).first->second;
+  }
+
+ private:
+  std::unordered_map<std::string, std::uint32_t> numbers_;
+};
+
 }  // namespace
 
 std::string without_openings(std::string const& wall) { return wall + std::string(no_openings); }
@@ -99,6 +110,34 @@ ShadingRule make_shading_rule(ShadingInput const& input, std::vector<std::string
     auto const zones = disabled.find(r.zone);
     return zones == disabled.end() || !zones->second.contains(c.zone);
   };
+}
+
+std::vector<std::uint32_t> describe_shading_rule(ShadingInput const& input,
+                                                 std::vector<std::string> const& names) {
+  auto const flag = [](bool value) { return static_cast<std::uint32_t>(value ? 1 : 0); };
+  auto const disabled = find_disabled(input);
+  Numbering surfaces;
+  Numbering zones;
+  surfaces[""];
+  zones[""];
+  std::vector<std::uint32_t> numbers{flag(input.minimal_shadowing),
+                                     flag(input.disable_within_groups),
+                                     flag(input.disable_between_groups)};
+  auto const places = find_places(input, names);
+  std::vector<std::string> in_order{""};  // zones, by number
+  for (auto const& place : places) {
+    numbers.insert(numbers.end(),
+                   {surfaces[place.name], surfaces[place.window], surfaces[place.base],
+                    zones[place.zone], flag(place.closed), flag(place.open)});
+    if (zones[place.zone] == in_order.size()) in_order.push_back(place.zone);
+  }
+  for (auto const& receiver : in_order) {
+    auto const found = disabled.find(receiver);
+    for (auto const& caster : in_order) {
+      numbers.push_back(flag(found != disabled.end() && found->second.contains(caster)));
+    }
+  }
+  return numbers;
 }
 
 }  // namespace gpu_shading::energyplus

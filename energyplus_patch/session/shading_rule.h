@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,5 +20,10 @@ std::string without_openings(std::string const& wall);
 // From Shading Zone Groups, and MinimalShadowing. `names`: of every surface, by id; a reveal is
 // named "WINDOW reveal N".
 ShadingRule make_shading_rule(ShadingInput const& input, std::vector<std::string> const& names);
+
+// All that the rule depends on, in numbers that stand for names: where they are equal, so are the
+// rules, whatever the surfaces are called.
+std::vector<std::uint32_t> describe_shading_rule(ShadingInput const& input,
+                                                 std::vector<std::string> const& names);
 
 }  // namespace gpu_shading::energyplus

@@ -60,11 +60,14 @@ TEST(Options, BadValuesAreNamedWithWhatWasExpected) {
 TEST(Options, FlagsAreWrittenAsTheyAreRead) {
   std::string const flags =
       "--gpu-shading=require\n--gpu-shading-resolution=1024\n--gpu-shading-update=timestep\n"
-      "--gpu-shading-device=software\n--gpu-shading-file=/a b/c.idf\n--gpu-shading-report=/r\n";
+      "--gpu-shading-device=software\n--gpu-shading-file=/a b/c.idf\n--gpu-shading-report=/r\n"
+      "--gpu-shading-cache=/c\n";
   EXPECT_EQ(to_flags(take({"--gpu-shading=require", "--gpu-shading-resolution=1024",
                            "--gpu-shading-update=timestep", "--gpu-shading-device=software",
-                           "--gpu-shading-file=/a b/c.idf", "--gpu-shading-report=/r"})),
+                           "--gpu-shading-file=/a b/c.idf", "--gpu-shading-report=/r",
+                           "--gpu-shading-cache=/c"})),
             flags);
+  EXPECT_EQ(to_flags(take({"--gpu-shading-cache=off"})), "--gpu-shading-cache=off\n");
 }
 
 // Command line, environment, GPUShading:Settings, Pixel Counting Resolution, built in: each source
@@ -87,6 +90,22 @@ TEST(Options, Precedence) {
   EXPECT_EQ(resolution(false, false, true, true), 3);
   EXPECT_EQ(resolution(false, false, false, true), 4);
   EXPECT_EQ(resolution(false, false, false, false), 512);
+}
+
+TEST(Options, CacheIsOffUnlessAFolderIsNamedAndOffOverridesTheEnvironment) {
+  auto const cache = [](std::vector<std::string> const& flags, char const* environment) {
+    setenv("GPU_SHADING_CACHE", environment, 1);
+    auto choices = take(flags);
+    choices.fill_from(read_environment());
+    unsetenv("GPU_SHADING_CACHE");
+    return resolve(choices, {}, {}).cache;
+  };
+  EXPECT_EQ(cache({}, ""), std::nullopt);
+  EXPECT_EQ(cache({}, "/e"), "/e");
+  EXPECT_EQ(cache({"--gpu-shading-cache=/f"}, "/e"), "/f");
+  EXPECT_EQ(cache({"--gpu-shading-cache=Off"}, "/e"), std::nullopt);
+  EXPECT_EQ(cache({"--gpu-shading-cache", "here"}, "/e"), std::filesystem::absolute("here"));
+  EXPECT_THAT(refusal({"--gpu-shading-cache="}), HasSubstr("expected a folder or off"));
 }
 
 TEST(Options, SettingsNameTheirField) {

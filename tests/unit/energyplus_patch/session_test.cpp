@@ -5,9 +5,11 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "gpu_shading/error.h"
 #include "input/model_file.h"
+#include "temporary_folder.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -130,14 +132,16 @@ TEST(Session, ReportHoldsEveryAnswerAndPictures) {
 
 // A plate over half a floor, with a screen that is deployed by a schedule.
 struct Deployed {
-  explicit Deployed(std::filesystem::path const& report = {}) : session(model(report)) {
+  explicit Deployed(std::filesystem::path const& report = {},
+                    std::filesystem::path const& cache = {})
+      : session(model(report, cache)) {
     floor = session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
     session.add(surface_of("PLATE", rectangle({0, 0, 1}, {1, 0, 0}, {0, 2, 0})));
     session.start(said.messages(), {[](std::string const&) { return std::pair(0.0, 1.0); },
                                     [this](std::string const&, Moment) { return share; }});
   }
 
-  static Model model(std::filesystem::path const& report) {
+  static Model model(std::filesystem::path const& report, std::filesystem::path const& cache) {
     auto const objects = read_idf(
         "Shading:Site:Detailed,Plate;GPUShading:PerforatedScreen,S,Plate,Round,,,0.005,,0.008,,0,,,"
         ","
@@ -146,6 +150,7 @@ struct Deployed {
     model.shading = read_shading_input(objects);
     model.screens = read_perforated_screens(objects, model.shading, {}, {});
     if (!report.empty()) model.options.report = report;
+    if (!cache.empty()) model.options.cache = cache;
     return model;
   }
 
@@ -174,6 +179,21 @@ TEST(Session, AnswersAreKeptForEachStateOfDeployment) {
       << deployed.said.remarks[0];
 }
 
+TEST(Session, CacheKeepsAnswersForEachStateOfDeployment) {
+  TemporaryFolder const folder;
+  for (auto const* const wanted :
+       {" 3 directions rendered, 0 from the cache", " 1 directions rendered, 2 from the cache"}) {
+    Deployed deployed({}, folder.path());
+    bool const first = std::string_view(wanted).starts_with(" 3");
+    for (double const share : first ? std::vector{1.0, 0.25, 0.0} : std::vector{0.0, 0.25, 0.75}) {
+      deployed.ask(share, zenith);
+    }
+    deployed.session.finish();
+    EXPECT_NE(deployed.said.remarks.back().find(wanted), std::string::npos)
+        << deployed.said.remarks.back();
+  }
+}
+
 TEST(Session, EioListsScreens) {
   Deployed const deployed;
   EXPECT_EQ(deployed.said.eio,
@@ -196,6 +216,140 @@ TEST(Session, ReportTellsStatesOfDeploymentApart) {
   while (std::getline(table, line)) shares.push_back(line.substr(line.rfind(',') + 1));
   EXPECT_EQ(shares, (std::vector<std::string>{"1", "0.25"}));
   EXPECT_TRUE(std::filesystem::exists(folder / "FLOOR_028.6_57.3_100.png"));
+}
+
+// A skylight over two halves of a floor, half under a plate that a schedule makes transparent.
+struct WithCache {
+  WithCache(std::filesystem::path const& folder, double plate_height, double transmittance)
+      : session(model(folder)) {
+    skylight = session.add(surface_of("SKYLIGHT", rectangle({0, 0, 3}, {2, 0, 0}, {0, 1, 0})));
+    for (double const x : {0.0, 1.0}) {
+      floor.push_back(session.add(surface_of("FLOOR", rectangle({x, 0, 0}, {0, 1, 0}, {1, 0, 0}))));
+    }
+    session.add(surface_of("PLATE", rectangle({0, 0, plate_height}, {1, 0, 0}, {0, 1, 0})));
+    session.start(said.messages(),
+                  {[](std::string const&) { return std::pair(0.0, 1.0); },
+                   [transmittance](std::string const&, Moment) { return transmittance; }});
+    session.set_time({1, 1});
+    session.set_sun(zenith);
+  }
+
+  static Model model(std::filesystem::path const& folder) {
+    auto made = model_of("Shading:Site:Detailed,Plate,Leaves;");
+    made.options.cache = folder;
+    return made;
+  }
+
+  std::vector<float> ask() {
+    auto answers = session.interior_areas(skylight, floor);
+    answers.push_back(session.projected_sunlit_area(skylight));
+    return answers;
+  }
+
+  std::string remark() {
+    session.finish();
+    return said.remarks.empty() ? "" : said.remarks.back();
+  }
+
+  Said said;
+  Session session;
+  SurfaceId skylight = 0;
+  std::vector<SurfaceId> floor;
+};
+
+TEST(Session, CacheAnswersALaterRunAndSchedulesStillCount) {
+  TemporaryFolder const folder;
+  WithCache first(folder.path(), 4, 0.5);
+  auto const answers = first.ask();
+  EXPECT_NEAR(answers[2], 1.5, 1e-2);
+  EXPECT_NE(first.remark().find(" 1 directions rendered, 0 from the cache, "), std::string::npos)
+      << first.remark();
+  for (double const transmittance : {0.5, 0.25}) {
+    WithCache again(folder.path(), 4, transmittance);
+    auto const same = again.ask();
+    EXPECT_EQ(same == answers, transmittance == 0.5);
+    EXPECT_NEAR(same[2], 1.0 + transmittance, 1e-2);
+    EXPECT_NE(again.remark().find(" 0 directions rendered, 1 from the cache, 0 views drawn"),
+              std::string::npos)
+        << again.remark();
+  }
+  WithCache moved(folder.path(), 4.5, 0.5);
+  moved.ask();
+  EXPECT_NE(moved.remark().find(" 1 directions rendered, 0 from the cache"), std::string::npos);
+}
+
+// What the renderer would never say shows where the answers are from.
+TEST(Session, CachedInteriorsAreNotRenderedAgain) {
+  TemporaryFolder const folder;
+  {
+    WithCache first(folder.path(), 4, 0.5);
+    first.ask();
+    first.session.finish();
+  }
+  std::filesystem::path file;
+  for (auto const& entry : std::filesystem::directory_iterator(folder.path())) {
+    if (entry.path().extension() == ".sunlit") file = entry.path();
+  }
+  auto const digits = file.stem().string();
+  Hash scene{};
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    scene[i] = static_cast<std::uint8_t>(std::stoi(digits.substr(2 * i, 2), nullptr, 16));
+  }
+  std::ifstream in(file, std::ios::binary);
+  std::string const text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  auto const known = decode(std::as_bytes(std::span(text)), scene);
+  AnswerSet odd;
+  odd.states = known.states;
+  known.answers.for_each([&](Answers::Direction const& direction) {
+    for (auto const& [question, answers] : direction.interior) {
+      std::vector<Sunlit> changed(answers.size());
+      for (auto& answer : changed) answer.projected_area = 42.0;
+      odd.answers.keep_interior(odd.answers.at(direction.sun, direction.state), question, changed);
+    }
+  });
+  auto const bytes = encode(odd, scene);
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<char const*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+  WithCache second(folder.path(), 4, 0.5);
+  auto const answers = second.ask();
+  EXPECT_EQ(answers[0], 42.0F);
+  EXPECT_EQ(answers[1], 42.0F);
+  EXPECT_NEAR(answers[2], 1.5, 1e-2) << "is not in the file, so rendered";
+}
+
+TEST(Session, CacheThatCannotBeWrittenAtTheEndIsAWarning) {
+  TemporaryFolder const folder;
+  WithCache run(folder.path() / "cache", 4, 0.5);
+  auto const before = run.said.warnings.size();
+  run.ask();
+  std::filesystem::remove_all(folder.path() / "cache");
+  EXPECT_NO_THROW(run.session.finish());
+  ASSERT_EQ(run.said.warnings.size(), before + 1);
+  EXPECT_NE(run.said.warnings.back().find("cannot be written"), std::string::npos);
+}
+
+TEST(Session, AScheduleThatIsOverriddenLeavesTheCachesApart) {
+  TemporaryFolder const folder;
+  auto const run = [&] {
+    double now = 0.5;
+    Said said;
+    Session session(WithCache::model(folder.path()));
+    auto const floor = session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 1, 0})));
+    session.add(surface_of("PLATE", rectangle({0, 0, 1}, {1, 0, 0}, {0, 1, 0})));
+    session.start(said.messages(), {[](std::string const&) { return std::pair(0.5, 0.5); },
+                                    [&now](std::string const&, Moment) { return now; }});
+    session.set_sun(zenith);
+    for (double const value : {0.5, 0.25}) {
+      now = value;
+      session.set_time({1, 1});
+      EXPECT_NEAR(session.projected_sunlit_area(floor), 1.0 + value, 1e-2);
+    }
+    session.finish();
+    return said.remarks.back();
+  };
+  EXPECT_NE(run().find(" 2 directions rendered, 0 from the cache"), std::string::npos);
+  EXPECT_NE(run().find(" 0 directions rendered, 2 from the cache"), std::string::npos);
 }
 
 TEST(Session, ReportThatCannotBeWrittenIsSaidAtTheStart) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "input/model_file.h"
 
 namespace gpu_shading::energyplus {
@@ -84,6 +86,45 @@ TEST(ShadingRule, MinimalShadowingKnowsRevealsAlone) {
   EXPECT_FALSE(rule(window_1, tree));
   EXPECT_FALSE(rule(wall_2, fin));
   EXPECT_FALSE(rule(wall_1, wall_2));
+}
+
+std::vector<std::uint32_t> description(std::string const& objects,
+                                       std::vector<std::string> const& surfaces = names) {
+  return describe_shading_rule(read_shading_input(read_idf(building + objects)), surfaces);
+}
+
+TEST(ShadingRule, DescriptionChangesWithWhateverTheRuleDependsOn) {
+  std::set<std::vector<std::uint32_t>> seen;
+  for (std::string const objects :
+       {"", "Building,B,0,City,0.04,0.4,MinimalShadowing;",
+        "ShadowCalculation,PixelCounting,,,,,,,,Yes,Yes,First,Second;",
+        "ShadowCalculation,PixelCounting,,,,,,,,Yes,No,First,Second;",
+        "ShadowCalculation,PixelCounting,,,,,,,,No,Yes,First,Second;",
+        "ShadowCalculation,PixelCounting,,,,,,,,Yes,No,First;",
+        "ZoneList,Both,Zone 1,Zone 2;ShadowCalculation,PixelCounting,,,,,,,,Yes,No,Both;"}) {
+    EXPECT_TRUE(seen.insert(description(objects)).second) << objects;
+  }
+  auto others = names;
+  others[reveal] = "WALL 2 reveal 1";
+  EXPECT_TRUE(seen.insert(description("", others)).second) << "another window's reveal";
+  others = names;
+  others.back() = "TREE 2";
+  EXPECT_TRUE(seen.insert(description("", others)).second) << "no wall without openings";
+  others = names;
+  others[window_1] = "WINDOW 2";
+  EXPECT_TRUE(seen.insert(description("", others)).second) << "a window in no wall";
+}
+
+TEST(ShadingRule, DescriptionKnowsNoNames) {
+  auto const described = [](std::string const& x) {
+    return describe_shading_rule(
+        read_shading_input(read_idf("BuildingSurface:Detailed," + x + "Wall,Wall,C," + x +
+                                    "Zone,,Outdoors;FenestrationSurface:Detailed," + x +
+                                    "Window,Window,G," + x + "Wall;ZoneList,List," + x +
+                                    "Zone;ShadowCalculation,PixelCounting,,,,,,,,Yes,No,List;")),
+        {x + "WALL", x + "WINDOW", x + "WINDOW reveal 1", without_openings(x + "WALL")});
+  };
+  EXPECT_EQ(described(""), described("MY "));
 }
 
 }  // namespace

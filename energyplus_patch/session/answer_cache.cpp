@@ -1,0 +1,175 @@
+#include "session/answer_cache.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <random>
+#include <thread>
+
+#include "gpu_shading/error.h"
+#include "session/cache_folder.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using Path = std::filesystem::path;
+
+std::string digits_of(Hash const& hash) {
+  std::string digits;
+  for (auto const byte : hash) digits += fmt::format("{:02x}", byte);
+  return digits;
+}
+
+struct Close {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+// No answers where there is no file. Throws Error, without the file's name, where it is of no use.
+AnswerSet read_answers(Path const& path, Hash const& scene) {
+  // Opened once: under the same name there may be another file in a moment.
+  std::unique_ptr<std::FILE, Close> const file(std::fopen(path.c_str(), "rb"));
+  if (!file && errno == ENOENT) return AnswerSet();
+  struct stat found {};
+  if (!file || fstat(fileno(file.get()), &found) != 0 || !S_ISREG(found.st_mode)) {
+    throw Error("cannot be read");
+  }
+  auto const size = static_cast<std::size_t>(found.st_size);
+  if (size > Answers::default_most_bytes) throw Error("is too large");
+  std::vector<std::byte> bytes(size);
+  if (std::fread(bytes.data(), 1, size, file.get()) != size) throw Error("cannot be read");
+  return decode(bytes, scene);
+}
+
+// Of the folder, for as long as this lives. Where another process keeps it, or the file system has
+// no locks, it is gone without: then at worst what was stored in the same moment is lost.
+class Lock {
+ public:
+  explicit Lock(Path const& folder) {
+    constexpr int tries = 200;
+    constexpr std::chrono::milliseconds pause(10);
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
+    file_ = open((folder / cache_lock_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    for (int i = 0; file_ >= 0 && i < tries; ++i) {
+      if (flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+      std::this_thread::sleep_for(pause);
+    }
+  }
+  Lock(Lock const&) = delete;
+  Lock& operator=(Lock const&) = delete;
+  ~Lock() {
+    if (file_ >= 0) close(file_);
+  }
+
+ private:
+  int file_ = -1;
+};
+
+// All or nothing, in one step.
+void write_file(Path const& path, std::vector<std::byte> const& bytes) {
+  auto temporary = path;
+  temporary += fmt::format(".{:08x}.tmp", std::random_device{}());
+  std::string trouble;
+  if (auto* const file = std::fopen(temporary.c_str(), "wbx")) {
+    bool const written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+    if (!written) trouble = std::strerror(errno);
+    if (std::fclose(file) != 0 && written) trouble = std::strerror(errno);
+    std::error_code failure;
+    if (trouble.empty()) std::filesystem::rename(temporary, path, failure);
+    if (failure) trouble = failure.message();
+    if (!trouble.empty()) std::filesystem::remove(temporary, failure);
+  } else {
+    trouble = std::strerror(errno);
+  }
+  if (!trouble.empty()) {
+    throw Error(
+        fmt::format("--gpu-shading-cache: {}: cannot be written ({}), this run's answers "
+                    "are not kept",
+                    path.string(), trouble));
+  }
+}
+
+}  // namespace
+
+AnswerCache::AnswerCache(Path const& folder, Hash const& scene,
+                         std::function<void(std::string const&)> const& remark,
+                         std::uint64_t most_bytes)
+    : folder_(folder),
+      file_(folder / cache_file_name(digits_of(scene))),
+      scene_(scene),
+      most_bytes_(most_bytes) {
+  try {
+    known_ = read_answers(file_, scene_);
+  } catch (Error const& error) {
+    remark(fmt::format("--gpu-shading-cache: {} {}: it is ignored, and replaced at the run's end",
+                       file_.string(), error.what()));
+    return;
+  }
+  for (ReceiverNumber number = 0; number < known_.receivers.size(); ++number) {
+    numbers_[known_.receivers[number]] = number;
+  }
+  // What is used last is removed last.
+  std::error_code ignored;
+  std::filesystem::last_write_time(file_, std::filesystem::file_time_type::clock::now(), ignored);
+}
+
+Answers::Direction const* AnswerCache::find(AnswerSet const& run,
+                                            Answers::Direction const& direction) const {
+  auto const state = known_.states.find(run.states[direction.state]);
+  return state ? known_.answers.find(direction.sun, *state) : nullptr;
+}
+
+void AnswerCache::note_recalled(Answers::Direction& direction) {
+  if (!direction.recalled) ++directions_recalled_;
+  direction.recalled = true;
+}
+
+void AnswerCache::recall(AnswerSet& run, Answers::Direction& direction) {
+  auto const* const found = find(run, direction);
+  if (found == nullptr) return;
+  for (ReceiverNumber receiver = 0; receiver < run.receivers.size(); ++receiver) {
+    if (direction.knows(receiver)) continue;
+    auto const number = numbers_.find(run.receivers[receiver]);
+    if (number == numbers_.end() || !found->knows(number->second)) continue;
+    run.answers.copy(*found, number->second, direction, receiver);
+    note_recalled(direction);
+  }
+}
+
+std::vector<Sunlit> const* AnswerCache::recall_interior(AnswerSet& run,
+                                                        Answers::Direction& direction,
+                                                        std::uint64_t window_and_list) {
+  auto const* const found = find(run, direction);
+  if (found == nullptr) return nullptr;
+  auto const answers = found->interior.find(window_and_list);
+  if (answers == found->interior.end()) return nullptr;
+  note_recalled(direction);
+  return &run.answers.keep_interior(direction, window_and_list, answers->second);
+}
+
+void AnswerCache::store(AnswerSet const& run) {
+  known_ = AnswerSet();
+  numbers_.clear();
+  Lock const lock(folder_);
+  AnswerSet all;
+  try {
+    all = read_answers(file_, scene_);
+  } catch (Error const&) {
+    // Of no use: the user has been told, or is when it happens again.
+    all = AnswerSet();
+  }
+  // What is full is forgotten and collected anew, as in memory.
+  if (all.answers.bytes() + run.answers.bytes() > Answers::default_most_bytes) all = AnswerSet();
+  add_answers(run, all);
+  write_file(file_, encode(all, scene_));
+  bound_cache_folder(folder_, most_bytes_, file_);
+}
+
+}  // namespace gpu_shading::energyplus
