@@ -68,19 +68,23 @@ TEST(RewriteEpJson, ModelWithoutShadowCalculationGetsOne) {
 
 TEST(ReadModel, BothFormatsGiveTheSameObjects) {
   auto const idf = read_idf(
-      "shading:zone:detailed,Fin 1,Wall,Half,4,0,0,0,1,0,0,1,0,1,0,0,1;\n"
+      "shading:zone:detailed,Fin 1,Wall,Half,3,0,0,0.5,1,0,0,1,0,1;\n"
       "ZoneList,Pair,North,South;\nUnknown,x;\nGPUShading:Settings,256;");
   auto const json = read_epjson(nlohmann::json::parse(R"({
     "GPUShading:Settings": {"any": {"resolution": 256}},
     "Shading:Zone:Detailed": {"Fin 1": {"base_surface_name": "Wall",
                                         "transmittance_schedule_name": "Half",
-                                        "vertices": []}},
+                                        "number_of_vertices": 3, "vertices": [
+      {"vertex_x_coordinate": 0, "vertex_y_coordinate": 0, "vertex_z_coordinate": 0.5},
+      {"vertex_z_coordinate": 0, "vertex_y_coordinate": 0, "vertex_x_coordinate": 1},
+      {"vertex_x_coordinate": 1, "vertex_y_coordinate": 0, "vertex_z_coordinate": 1}]}},
     "Unknown": {"x": {}},
     "ZoneList": {"Pair": {"zones": [{"zone_name": "North"}, {"zone_name": "South"}]}}})"));
   ASSERT_EQ(idf.size(), 3U);
   ASSERT_EQ(json.size(), 3U);
   EXPECT_EQ(idf[0].type, "Shading:Zone:Detailed");
   EXPECT_EQ(idf[0].fields, json[1].fields);
+  EXPECT_EQ(idf[0].list, json[1].list);
   EXPECT_EQ(idf[1].list, (std::vector<std::string>{"North", "South"}));
   EXPECT_EQ(idf[1].list, json[2].list);
   EXPECT_EQ(idf[2]["resolution"], "256");
