@@ -25,9 +25,9 @@ struct LeanInput {
   bool is_placeholder(std::string const& surface) const;
 };
 
-// With Lean::automatic only from this many surfaces on, so that small models run as they always
-// did. A surface less saves about 5 ms of a year's run (scripts/benchmark).
-inline constexpr std::size_t fewest_left_out = 50;
+// With Lean::automatic only from this many surfaces on: each costs EnergyPlus some 5 ms of a year's
+// run, what stands in for them about as much as this many. Small models run as they always did.
+inline constexpr std::size_t fewest_left_out = 100;
 
 // Surfaces stay that another object or an output names, or of which anything is not understood.
 // Nothing is left out where the model needs the surfaces themselves: solar reflections,

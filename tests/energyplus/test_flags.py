@@ -68,6 +68,7 @@ def assert_refused(run, *words):
         (["--gpu-shading-device=99"], ["device", "99"]),
         (["--gpu-shading-device=bogus"], ["device", "bogus"]),
         (["--gpu-shading-file=missing.idf"], ["missing.idf"]),
+        (["--gpu-shading-lean=perhaps"], ["lean", "perhaps", "auto", "on", "off"]),
         (["--gpu-shading-bogus=1"], ["--gpu-shading-bogus"]),
     ],
     ids=lambda value: value[0] if isinstance(value, list) and value[0].startswith("--") else "",

@@ -1,0 +1,116 @@
+#include "lean/lean_input.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "input/model_file.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string const rules = "GlobalGeometryRules,UpperLeftCorner,Counterclockwise,World;\n";
+std::string const corners = "0,0,3,0,0,0,4,0,0,4,0,3;\n";
+
+std::string shade(std::string const& name, std::string const& schedule = "") {
+  return fmt::format("Shading:Building:Detailed,{},{},,{}", name, schedule, corners);
+}
+
+LeanInput plan(std::string const& idf, Lean lean = Lean::on) {
+  auto const parsed = parse_idf(idf);
+  auto const objects = read_idf(parsed);
+  Options options;
+  options.lean = lean;
+  return plan_lean_input(objects, read_shading_input(objects), options,
+                         [&](Names const& names) { return find_mentions(parsed, names); });
+}
+
+TEST(LeanInput, SurfacesThatOnlyShadeAreLeftOut) {
+  auto const lean = plan(rules + shade("One") + shade("Two"));
+  EXPECT_EQ(lean.left_out, (Names{"ONE", "TWO"}));
+  ASSERT_EQ(lean.casters.size(), 2U);
+  EXPECT_EQ(lean.casters[0].name, "ONE");
+  EXPECT_EQ(lean.casters[0].polygon.outline.size(), 4U);
+  EXPECT_THAT(lean.remark, HasSubstr("2 shading surfaces left out"));
+}
+
+TEST(LeanInput, WhatIsNamedOrNotUnderstoodStays) {
+  auto const lean = plan(rules + shade("Gone") + shade("Used") + shade("Twice") + shade("twice") +
+                         "Generator:Photovoltaic,Cells,used;\n"
+                         "Shading:Site:Detailed,Short,,4,0,0,3,0,0,0,4,0,0;\n"
+                         "Shading:Site:Detailed,Odd,,,0,0,3,0,0,x,4,0,0;\n"
+                         "Shading:Zone:Detailed,Lost,No Such Wall,,," +
+                         corners + "Output:Variable,*,Surface Outside Face Sunlit Fraction;\n");
+  EXPECT_EQ(lean.left_out, (Names{"GONE"}));
+  EXPECT_THAT(lean.remark, HasSubstr("USED, which Generator:Photovoltaic names"));
+  EXPECT_THAT(lean.remark, HasSubstr("key *"));
+}
+
+TEST(LeanInput, EverySchedulePutsUpAPlaceholder) {
+  auto const lean = plan(rules + shade("One", "Leaves") + shade("Two", "LEAVES") +
+                         shade("Three", "Glass") + shade("GPU Shading Placeholder 1"));
+  std::vector<std::string> names;
+  std::vector<std::string> schedules;
+  for (auto const& placeholder : lean.placeholders) {
+    names.push_back(placeholder.name);
+    schedules.push_back(placeholder.schedule);
+  }
+  EXPECT_THAT(schedules, ElementsAre("", "", "Leaves", "Glass"));
+  EXPECT_EQ(names.front(), "GPU SHADING PLACEHOLDER 2");
+  EXPECT_TRUE(lean.is_placeholder(names.back()));
+  EXPECT_FALSE(lean.is_placeholder("ONE"));
+}
+
+TEST(LeanInput, FewSurfacesStayUnlessAskedFor) {
+  std::string idf = rules;
+  for (std::size_t i = 1; i < fewest_left_out; ++i) idf += shade(fmt::format("S{}", i));
+  EXPECT_FALSE(plan(idf, Lean::automatic).active());
+  EXPECT_EQ(plan(idf, Lean::automatic).remark, "");
+  idf += shade("Last");
+  EXPECT_TRUE(plan(idf, Lean::automatic).active());
+  EXPECT_FALSE(plan(idf, Lean::off).active());
+}
+
+TEST(LeanInput, ReasonsAreGiven) {
+  auto const reason = [](std::string const& more) {
+    auto const lean = plan(rules + shade("One") + more);
+    EXPECT_FALSE(lean.active());
+    EXPECT_THAT(lean.remark, StartsWith("lean input is off: "));
+    return lean.remark;
+  };
+  EXPECT_THAT(reason("Building,B,,,,,FullExteriorWithReflections;"), HasSubstr("reflections"));
+  EXPECT_THAT(reason("Daylighting:Controls,Light;"), HasSubstr("Daylighting:Controls Light"));
+  EXPECT_THAT(reason("GeometryTransform,XY,1,2;"), HasSubstr("GeometryTransform"));
+  EXPECT_THAT(reason("Output:Variable,One[,Surface Outside Face Sunlit Fraction;"),
+              HasSubstr("Key Value is \"One[\""));
+}
+
+TEST(LeanInput, TheRestOfTheTextIsKept) {
+  std::string const kept = "! note\nZone,A; ! last\n" + shade("Stays");
+  std::string const gone = shade("Goes") + "ShadingProperty:Reflectance,goes,0.3;\n";
+  Rewrite rewrite{"PixelCounting", "", {"GOES"}, make_placeholders({}, {})};
+  auto const text = rewrite_idf("ShadowCalculation,PixelCounting,Periodic;" + kept + gone, rewrite);
+  EXPECT_THAT(text, HasSubstr(kept));
+  EXPECT_THAT(text, Not(HasSubstr("oes,")));
+  EXPECT_EQ(read_idf(text).size(), 5U);  // with two placeholders
+}
+
+TEST(LeanInput, EpJsonIsRewrittenAlike) {
+  auto model = nlohmann::json::parse(R"({"Zone": {"A": {}},
+    "Shading:Site:Detailed": {"Stays": {}, "Goes": {}}, "Shading:Zone:Detailed": {"Goes": {}},
+    "ShadingProperty:Reflectance": {"R 1": {"shading_surface_name": "goes"}}})");
+  rewrite_epjson(model, {"PixelCounting", "", {"GOES"}, make_placeholders({"Half"}, {})});
+  EXPECT_FALSE(model.contains("ShadingProperty:Reflectance"));
+  EXPECT_FALSE(model.contains("Shading:Zone:Detailed"));
+  auto const& site = model.at("Shading:Site:Detailed");
+  EXPECT_EQ(site.size(), 4U);
+  EXPECT_EQ(site.at("GPU SHADING PLACEHOLDER 3").at("transmittance_schedule_name"), "Half");
+  EXPECT_EQ(site.at("GPU SHADING PLACEHOLDER 1").at("vertices").size(), 4U);
+}
+
+}  // namespace
+}  // namespace gpu_shading::energyplus
