@@ -121,7 +121,7 @@ enum class SheetPlane { centre, outside, inside };
 
 // How a screen is drawn.
 enum class ScreenDetail {
-  automatic,  // holes where pixels are small beside them, else effective; between, a blend
+  automatic,  // holes up to pixels of one hole, effective from two on; between, a blend
   holes,      // hole by hole, whatever the size of pixels
   effective,  // by tau(theta, phi)
 };
