@@ -12,6 +12,7 @@ void DrawList::clear() {
   keys_.clear();
   screen_indices_.clear();
   screen_draws_.clear();
+  by_effect_.clear();
   screen_view_ = {};
 }
 
@@ -27,6 +28,11 @@ Range DrawList::add_tile(std::span<glm::vec2 const> triangles) {
 
 void DrawList::add_quadrilaterals(std::span<std::uint32_t const> indices) {
   screen_indices_.insert(screen_indices_.end(), indices.begin(), indices.end());
+}
+
+void DrawList::add_effect(int screen, std::size_t screens) {
+  by_effect_.resize(screens, false);
+  by_effect_[static_cast<std::size_t>(screen)] = true;
 }
 
 void DrawList::end_screens(std::size_t begin, ScreenLook look) {

@@ -88,6 +88,10 @@ class DrawList {
   std::size_t begin_screens() const { return screen_indices_.size(); }
   void add_quadrilaterals(std::span<std::uint32_t const> indices);
   void end_screens(std::size_t begin, ScreenLook look);
+  // Some view may see this screen's effect, one of `screens`.
+  void add_effect(int screen, std::size_t screens);
+  // By screen; too short, or false, where no view does.
+  std::vector<bool> const& by_effect() const { return by_effect_; }
   // Needed where there are screens.
   void set_screen_view(ScreenView view) { screen_view_ = std::move(view); }
 
@@ -108,6 +112,7 @@ class DrawList {
   std::vector<glm::vec4> keys_;
   std::vector<std::uint32_t> screen_indices_;
   std::vector<ScreenDraw> screen_draws_;
+  std::vector<bool> by_effect_;
   ScreenView screen_view_;
 };
 

@@ -93,9 +93,9 @@ Picture::Picture()
     : tilt_(gl::Program::link("tilt", shaders::slide_vert, shaders::tilt_frag)),
       plain_(gl::Program::link("plain", shaders::slide_vert, shaders::plain_frag)) {}
 
-Image Picture::draw(Geometry& geometry, Scene const& scene, SurfaceId receiver,
-                    PlaneFrame const& frame, Shading const& shading, glm::dvec3 const& towards_sun,
-                    int size) {
+Image Picture::draw(Geometry& geometry, Scene const& scene, Screens const& screens,
+                    SurfaceId receiver, PlaneFrame const& frame, Shading const& shading,
+                    glm::dvec3 const& towards_sun, int size) {
   SunAxes const axes(towards_sun);
   Frame seen;
   for (glm::dvec3 const& vertex : scene[receiver].polygon.outline) {
@@ -118,7 +118,6 @@ Image Picture::draw(Geometry& geometry, Scene const& scene, SurfaceId receiver,
 
   DrawList list;
   list.set_shades(shading.shades);
-  list.set_screen_view(shading.screens);
   std::size_t const whole_view = list.add_view(all, geometry.scene_origin());
   std::size_t const front_view = list.add_view(in_front, geometry.scene_origin());
   std::size_t begin = list.begin_surfaces();
@@ -129,8 +128,13 @@ Image Picture::draw(Geometry& geometry, Scene const& scene, SurfaceId receiver,
   begin = list.begin_surfaces();
   for (SurfaceId const id : shading.plain) list.add_triangles(geometry.triangles(id));
   Range const plain = list.end_surfaces(begin);
-  Range const screens = geometry.screens().add_to(list, shading.screens_in_view);
-  Range const all_screens = geometry.screens().add_to(list, shading.all_screens);
+  double const pixel_area = wide * tall / (static_cast<double>(width) * height);
+  Range const in_view =
+      geometry.screens().add_to(list, shading.screens_in_view, towards_sun, pixel_area);
+  Range const all_screens =
+      geometry.screens().add_to(list, shading.all_screens, towards_sun, pixel_area);
+  list.set_screen_view(see_screens(screens, shading.all_screens, list.by_effect(), towards_sun,
+                                   shading.deployments, geometry.screens().most_texels()));
   begin = list.begin_surfaces();
   list.add_triangles(geometry.triangles(receiver));
   Range const itself = list.end_surfaces(begin);
@@ -168,7 +172,7 @@ Image Picture::draw(Geometry& geometry, Scene const& scene, SurfaceId receiver,
     gl::blend(gl::Blend::multiply);
     geometry.use_shades(-1);
     geometry.draw_surfaces(front_view, plain);
-    geometry.draw_screens(front_view, screens);
+    geometry.draw_screens(front_view, in_view);
     gl::blend(gl::Blend::replace);
     gl::check("drawing a sun's view through shades");
     return from_rows_below(target.read_colour(), width, height);

@@ -22,13 +22,14 @@ class Picture {
     std::vector<int> screens_in_view;  // by their numbers
     std::vector<int> all_screens;
     std::vector<Shade> shades;  // empty: all casters in view are opaque
-    ScreenView screens;         // right for all screens
+    std::vector<double> deployments;
   };
 
   // Everything else of the scene is drawn around the receiver, which is grey by its luminance where
   // there are shades.
-  Image draw(Geometry& geometry, Scene const& scene, SurfaceId receiver, PlaneFrame const& frame,
-             Shading const& shading, glm::dvec3 const& towards_sun, int size);
+  Image draw(Geometry& geometry, Scene const& scene, Screens const& screens, SurfaceId receiver,
+             PlaneFrame const& frame, Shading const& shading, glm::dvec3 const& towards_sun,
+             int size);
 
  private:
   gl::Program tilt_;

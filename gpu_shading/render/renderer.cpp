@@ -245,7 +245,7 @@ void Renderer::Implementation::see_through(DrawList& list, std::span<SurfaceId c
   list.set_shades(shades_of(casters, towards_sun));
   std::vector<int> const numbers = screens_among(casters);
   if (numbers.empty()) return;
-  list.set_screen_view(see_screens(screens_, numbers, towards_sun, deployments_,
+  list.set_screen_view(see_screens(screens_, numbers, list.by_effect(), towards_sun, deployments_,
                                    on_device_->geometry.screens().most_texels()));
 }
 
@@ -300,7 +300,9 @@ ReceiverJob Renderer::Implementation::add_view(Receiver const& seen,
   job.view = draw_list_.add_view(view_in_front(*seen.frame, seen.tile.map, towards_sun),
                                  on_device_->geometry.scene_origin());
   job.casters = add_surfaces(plain_among(casters));
-  job.screens = on_device_->geometry.screens().add_to(draw_list_, screens_among(casters));
+  job.screens = on_device_->geometry.screens().add_to(
+      draw_list_, screens_among(casters), towards_sun,
+      seen.tile.map.pixel_area(seen.tile.side) * glm::dot(seen.frame->normal, towards_sun));
   job.tile = draw_list_.add_tile(seen.tile.triangles);
   return job;
 }
@@ -490,8 +492,7 @@ Image Renderer::Implementation::sun_view(SunDirection sun, SurfaceId id, int siz
   shading.screens_in_view = screens_among(casters);
   shading.all_screens.resize(screens_.entries().size());
   std::iota(shading.all_screens.begin(), shading.all_screens.end(), 0);
-  shading.screens = see_screens(screens_, shading.all_screens, towards_sun, deployments_,
-                                on_device_->geometry.screens().most_texels());
+  shading.deployments = deployments_;
   if (any_transmits(casters)) {
     shading.shades = shades_of(casters, towards_sun);
     for (SurfaceId const caster : casters) {
@@ -502,7 +503,7 @@ Image Renderer::Implementation::sun_view(SunDirection sun, SurfaceId id, int siz
   }
   egl::Current const current = device_.context.make_current();
   if (!on_device_->picture) on_device_->picture.emplace();
-  return on_device_->picture->draw(on_device_->geometry, scene_, id, *seen.frame, shading,
+  return on_device_->picture->draw(on_device_->geometry, scene_, screens_, id, *seen.frame, shading,
                                    towards_sun, size);
 }
 

@@ -1,9 +1,12 @@
 #include "render/screen_geometry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <glm/geometric.hpp>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "gl/check.h"
 #include "gl/draw.h"
@@ -95,34 +98,49 @@ void ScreenGeometry::add_quadrilaterals(Screens const& screens, glm::dvec3 const
 }
 
 void ScreenGeometry::add_looks(Screens const& screens) {
-  std::map<PerforatedScreen const*, ScreenLook> known;
+  std::map<PerforatedScreen const*, int> textures;
   for (Screens::Entry const& entry : screens.entries()) {
     PerforatedScreen const& screen = *entry.screen;
-    auto const [place, added] = known.try_emplace(&screen);
-    if (added && screen.tile()) {
-      place->second = {varies(screen) ? of_regions : of_texture,
-                       static_cast<int>(textures_.size())};
-      textures_.push_back(
-          make_texture(*screen.tile(), texture_cells(*screen.tile(), most_texels_)));
+    Look look{entry.screen, entry.normal};
+    if (screen.tile()) {
+      auto const [place, added] = textures.try_emplace(&screen, static_cast<int>(textures_.size()));
+      if (added) {
+        textures_.push_back(
+            make_texture(*screen.tile(), texture_cells(*screen.tile(), most_texels_)));
+      }
+      look.texture = place->second;
+      link_program(of_texture);
+      link_program(of_regions);
+    } else {
+      link_program(of_pattern);
     }
-    link_program(place->second);
-    looks_.push_back(place->second);
+    looks_.push_back(std::move(look));
   }
 }
 
-void ScreenGeometry::link_program(ScreenLook const& look) {
-  gl::Program& program = programs_.at(static_cast<std::size_t>(look.program));
-  if (!program.empty()) return;
+void ScreenGeometry::link_program(int program) {
+  gl::Program& linked = programs_.at(static_cast<std::size_t>(program));
+  if (!linked.empty()) return;
   std::string fragment = shaders::screen_frag;
-  fragment.insert(fragment.find('\n') + 1, definitions.at(static_cast<std::size_t>(look.program)));
-  program =
+  fragment.insert(fragment.find('\n') + 1, definitions.at(static_cast<std::size_t>(program)));
+  linked =
       gl::Program::link("screens", shaders::screen_vert, shaders::screen_geom, fragment.c_str());
 }
 
-Range ScreenGeometry::add_to(DrawList& list, std::span<int const> numbers) const {
+ScreenLook ScreenGeometry::look_of(Look const& look, bool by_effect) const {
+  if (look.texture < 0) return {of_pattern, look.texture};
+  return {by_effect && varies(*look.screen) ? of_regions : of_texture, look.texture};
+}
+
+Range ScreenGeometry::add_to(DrawList& list, std::span<int const> numbers,
+                             glm::dvec3 const& towards_sun, double pixel_area) const {
   std::map<ScreenLook, std::vector<int>> by_look;
   for (int const number : numbers) {
-    by_look[looks_[static_cast<std::size_t>(number)]].push_back(number);
+    Look const& look = looks_[static_cast<std::size_t>(number)];
+    double const cosine = std::abs(glm::dot(look.normal, towards_sun));
+    bool const by_effect = may_see_effect(*look.screen, std::sqrt(pixel_area / cosine));
+    if (by_effect) list.add_effect(number, looks_.size());
+    by_look[look_of(look, by_effect)].push_back(number);
   }
   std::size_t const first = list.screen_draws().size();
   for (auto const& [look, some] : by_look) {

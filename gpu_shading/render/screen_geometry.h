@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -26,8 +27,10 @@ class ScreenGeometry {
   // Texels a side of a texture.
   int most_texels() const { return most_texels_; }
 
-  // Screens before one receiver, by their numbers, as draws of a list.
-  Range add_to(DrawList& list, std::span<int const> numbers) const;
+  // Screens before one receiver, by their numbers, as draws of a list. `pixel_area`: m2 across the
+  // beam.
+  Range add_to(DrawList& list, std::span<int const> numbers, glm::dvec3 const& towards_sun,
+               double pixel_area) const;
 
   void upload(DrawList const& list);
 
@@ -37,12 +40,19 @@ class ScreenGeometry {
  private:
   void add_quadrilaterals(Screens const& screens, glm::dvec3 const& scene_origin);
   void add_looks(Screens const& screens);
-  void link_program(ScreenLook const& look);
+  void link_program(int program);
 
   int most_texels_ = 0;
   std::vector<std::uint32_t> indices_;
-  std::vector<Range> ranges_;      // of the indices, by screen
-  std::vector<ScreenLook> looks_;  // by screen
+  std::vector<Range> ranges_;  // of the indices, by screen
+  struct Look {
+    std::shared_ptr<PerforatedScreen const> screen;
+    glm::dvec3 normal{0.0};
+    int texture = -1;  // none
+  };
+  ScreenLook look_of(Look const& look, bool by_effect) const;
+
+  std::vector<Look> looks_;  // by screen
   std::vector<gl::ValueTexture> textures_;
   std::vector<ScreenDraw> draws_;        // as uploaded
   std::array<gl::Program, 3> programs_;  // by ScreenLook::program

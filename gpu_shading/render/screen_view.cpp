@@ -58,8 +58,10 @@ int layers_of(PerforatedScreen const& screen, double shift) {
   return layers_for(shift, screen.web(), std::numeric_limits<double>::infinity(), most);
 }
 
+// Larger than any pixel.
+constexpr float never = 1e30F;
+
 glm::vec2 blend_of(PerforatedScreen const& screen) {
-  constexpr float never = 1e30F;
   switch (screen.sheet().detail) {
     case ScreenDetail::holes:
       return {never, 2.0F * never};
@@ -131,14 +133,20 @@ TextureCells texture_cells(OpacityTile const& tile, int most_texels) {
   return cells;
 }
 
+bool may_see_effect(PerforatedScreen const& screen, double pixel) {
+  // Fragments find the size of pixels for themselves, in single precision.
+  constexpr double margin = 1.1;
+  return margin * pixel > static_cast<double>(blend_of(screen).x);
+}
+
 bool varies(PerforatedScreen const& screen) {
-  if (screen.pattern() || screen.sheet().detail == ScreenDetail::holes) return false;
+  if (screen.pattern()) return false;
   return screen.transmittance().regions_across() * screen.transmittance().regions_up() > 1;
 }
 
 ScreenView see_screens(Screens const& screens, std::span<int const> numbers,
-                       glm::dvec3 const& towards_sun, std::span<double const> deployments,
-                       int most_texels) {
+                       std::vector<bool> const& by_effect, glm::dvec3 const& towards_sun,
+                       std::span<double const> deployments, int most_texels) {
   ScreenView view;
   view.sheets.resize(screens.entries().size());
   for (int const number : numbers) {
@@ -155,11 +163,13 @@ ScreenView see_screens(Screens const& screens, std::span<int const> numbers,
     }
     sheet.normal = glm::vec4(entry.normal, entry.inside);
     sheet.ray = glm::vec4(shift, entry.outside, deployed(entry, deployments));
-    glm::vec2 const blend = blend_of(screen);
+    bool const has_effect = static_cast<std::size_t>(number) < by_effect.size() &&
+                            by_effect[static_cast<std::size_t>(number)];
+    glm::vec2 const blend = has_effect ? blend_of(screen) : glm::vec2(never, 2.0F * never);
     sheet.tile.z = blend.x;
     sheet.tile.w = blend.y;
     sheet.kind.y = aside ? solid : layers_of(screen, glm::length(shift));
-    if (screen.sheet().detail == ScreenDetail::holes) continue;
+    if (!has_effect) continue;
     std::vector<glm::vec4> const thirds = effective(screen, shift);
     sheet.effective = thirds.front();
     if (!varies(screen)) continue;

@@ -32,8 +32,12 @@ struct TextureCells {
 };
 TextureCells texture_cells(OpacityTile const& tile, int most_texels);
 
-// Whether the effective transmittance is another from region to region.
+// Whether the effective transmittance is another from region to region. Takes the screen's table.
 bool varies(PerforatedScreen const& screen);
+
+// Whether pixels of this size in the sheet's plane, m, may see a screen's effect. Where none do,
+// its table is not made.
+bool may_see_effect(PerforatedScreen const& screen, double pixel);
 
 // What the screens of a scene are to the sun at one direction: each entry right for those asked
 // for, nothing for the others.
@@ -42,9 +46,10 @@ struct ScreenView {
   std::vector<glm::vec4> regions;  // of those whose effective transmittance varies
 };
 
-// `numbers`: of the screens in view. `deployments`: shares in place, 1 where too few.
+// `numbers`: of the screens in view. `by_effect`: by screen, whether a view may see its effect;
+// none where too short. `deployments`: shares in place, 1 where too few.
 ScreenView see_screens(Screens const& screens, std::span<int const> numbers,
-                       glm::dvec3 const& towards_sun, std::span<double const> deployments,
-                       int most_texels);
+                       std::vector<bool> const& by_effect, glm::dvec3 const& towards_sun,
+                       std::span<double const> deployments, int most_texels);
 
 }  // namespace gpu_shading

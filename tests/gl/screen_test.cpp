@@ -176,6 +176,29 @@ TEST(Screen, OfAnImageThatVariesHasItsEffectInPlace) {
   }
 }
 
+// Small pixels see holes, large ones their effect, and what is between, something between.
+TEST(Screen, IsDrawnAsTheSizeOfPixelsAsks) {
+  HolePattern const holes = round_holes(50 * mm, 80 * mm);
+  OpacityTile const small(holes, 2 * mm);
+  // Of more than one region.
+  std::vector<float> stripes;
+  for (int i = 0; i < 512 * 512; ++i) stripes.push_back(i % 32 < 12 ? 1.0F : 0.0F);
+  OpacityTile const large(0.8, 0.8, 512, 512, stripes);
+  SunDirection const sun = sun_at(33.0, 60.0);
+  for (int kind = 0; kind < 3; ++kind) {
+    auto const answer = [&](ScreenDetail detail, int resolution) {
+      Screen const screen = kind == 0   ? sheet_of(holes, 30 * mm, detail)
+                            : kind == 1 ? sheet_of(small, 30 * mm, detail)
+                                        : sheet_of(large, 10 * mm, detail);
+      Renderer renderer = renderer_of(covered(holes.width(), holes.height(), screen), resolution);
+      return passed(renderer, sun);
+    };
+    EXPECT_EQ(answer(ScreenDetail::automatic, 512), answer(ScreenDetail::holes, 512)) << kind;
+    EXPECT_EQ(answer(ScreenDetail::automatic, 4), answer(ScreenDetail::effective, 4)) << kind;
+    EXPECT_NE(answer(ScreenDetail::effective, 512), answer(ScreenDetail::holes, 512)) << kind;
+  }
+}
+
 // One slot, 0.2 m wide and 1 m long, and small receivers below where it should be and where not.
 struct Slot {
   Polygon sheet;
