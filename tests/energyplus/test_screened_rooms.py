@@ -192,6 +192,15 @@ def test_beam_falls_on_the_floor_by_what_passes(ran):
     assert compared > 12
 
 
+def test_lean_input_keeps_screens(ran):
+    sails = "Schedule:Compact,Sails,,Through: 12/31,For: AllDays,Until: 12:00,0.25,Until: 24:00,1;\n"
+    text = room.model(objects=SCREEN + sails + holes(LARGE, schedule="Sails"))
+    full, lean = (ran(text, options=("-D", f"--gpu-shading-lean={choice}")) for choice in ("off", "on"))
+    assert max(full["beam"]) > 0
+    assert lean["beam"] == full["beam"]
+    assert diffuse(lean) == pytest.approx(diffuse(full), rel=1e-6)
+
+
 def test_screen_is_away_when_its_schedule_says(ran):
     sails = "Schedule:Compact,Sails,,Through: 12/31,For: AllDays,Until: 11:00,0,Until: 14:00,1,Until: 24:00,0.25;\n"
     bare, whole = ran(room.model()), ran(room.model(screen="large holes"))
