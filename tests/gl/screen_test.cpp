@@ -182,7 +182,7 @@ TEST(Screen, IsDrawnAsTheSizeOfPixelsAsks) {
   OpacityTile const small(holes, 2 * mm);
   // Of more than one region.
   std::vector<float> stripes;
-  stripes.reserve(512U * 512U);
+  stripes.reserve(std::size_t{512} * 512);
   for (int i = 0; i < 512 * 512; ++i) stripes.push_back(i % 32 < 12 ? 1.0F : 0.0F);
   OpacityTile const large(0.8, 0.8, 512, 512, stripes);
   SunDirection const sun = sun_at(33.0, 60.0);
