@@ -151,7 +151,7 @@ std::vector<ObjectType> const& known_types() {
         "tile_rotation",
         "deployment_schedule_name",
         "detail"}},
-      {"GPUShading:Settings", {"resolution", "update_frequency", "device"}},
+      {"GPUShading:Settings", {"resolution", "update_frequency", "device", "error"}},
   };
   return types;
 }

@@ -35,6 +35,17 @@ int parse_resolution(std::string const& text) {
   return value;
 }
 
+double parse_error(std::string const& text) {
+  double value = 0.0;
+  auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() ||
+      !(value >= Choices::least_error && value <= Choices::most_error)) {
+    throw Error(fmt::format("is \"{}\", expected a share of a receiver from {} to {}", text,
+                            Choices::least_error, Choices::most_error));
+  }
+  return value;
+}
+
 bool parse_update(std::string const& text) {
   if (same_name(text, "idf")) return false;
   if (same_name(text, "timestep")) return true;
@@ -66,12 +77,14 @@ struct Choice {
   std::function<void(Choices&, std::string const&)> set;
 };
 
-std::array<Choice, 9> const& all_choices() {
-  static std::array<Choice, 9> const choices{{
+std::array<Choice, 10> const& all_choices() {
+  static std::array<Choice, 10> const choices{{
       {"--gpu-shading", "GPU_SHADING", "", "",
        [](Choices& c, std::string const& v) { c.mode = parse_mode(v); }},
       {"--gpu-shading-resolution", "GPU_SHADING_RESOLUTION", "resolution", "Resolution",
        [](Choices& c, std::string const& v) { c.resolution = parse_resolution(v); }},
+      {"--gpu-shading-error", "GPU_SHADING_ERROR", "error", "Error",
+       [](Choices& c, std::string const& v) { c.error = parse_error(v); }},
       {"--gpu-shading-update", "GPU_SHADING_UPDATE", "update_frequency", "Update Frequency",
        [](Choices& c, std::string const& v) { c.every_timestep = parse_update(v); }},
       {"--gpu-shading-device", "GPU_SHADING_DEVICE", "device", "Device",
@@ -96,6 +109,13 @@ void set(Choice const& choice, Choices& choices, std::string_view source,
     choice.set(choices, value);
   } catch (Error const& error) {
     throw Error(fmt::format("{} {}", source, error.what()));
+  }
+}
+
+void expect_one_fineness(Choices const& choices, std::string_view resolution,
+                         std::string_view error) {
+  if (choices.resolution && choices.error) {
+    throw Error(fmt::format("{} and {} are both given, expected one of them", resolution, error));
   }
 }
 
@@ -144,7 +164,10 @@ std::string name_of(Lean lean) {
 
 void Choices::fill_from(Choices const& lower) {
   fill(mode, lower.mode);
-  fill(resolution, lower.resolution);
+  if (!resolution && !error) {
+    resolution = lower.resolution;
+    error = lower.error;
+  }
   fill(every_timestep, lower.every_timestep);
   fill(device, lower.device);
   fill(file, lower.file);
@@ -155,7 +178,7 @@ void Choices::fill_from(Choices const& lower) {
 }
 
 bool Choices::any() const {
-  return mode || resolution || every_timestep || device || file || report || lean || cache;
+  return mode || resolution || error || every_timestep || device || file || report || lean || cache;
 }
 
 Choices take_flags(std::vector<std::string>& arguments) {
@@ -188,6 +211,7 @@ Choices take_flags(std::vector<std::string>& arguments) {
     }
     set(*found, choices, flag, value);
   }
+  expect_one_fineness(choices, "--gpu-shading-resolution", "--gpu-shading-error");
   arguments = std::move(rest);
   return choices;
 }
@@ -199,6 +223,7 @@ std::string to_flags(Choices const& choices) {
   };
   if (choices.mode) add("--gpu-shading", name_of(*choices.mode));
   if (choices.resolution) add("--gpu-shading-resolution", std::to_string(*choices.resolution));
+  if (choices.error) add("--gpu-shading-error", fmt::format("{}", *choices.error));
   if (choices.every_timestep)
     add("--gpu-shading-update", *choices.every_timestep ? "timestep" : "idf");
   if (choices.device) add("--gpu-shading-device", name_of(*choices.device));
@@ -219,6 +244,7 @@ Choices read_environment() {
     char const* value = std::getenv(choice.variable);
     if (value != nullptr && *value != '\0') set(choice, choices, choice.variable, value);
   }
+  expect_one_fineness(choices, "GPU_SHADING_RESOLUTION", "GPU_SHADING_ERROR");
   return choices;
 }
 
@@ -236,6 +262,7 @@ Choices read_settings(std::vector<InputObject> const& objects) {
       if (!value.empty()) set(choice, choices, fmt::format("{}: {}", type, choice.title), value);
     }
   }
+  expect_one_fineness(choices, "GPUShading:Settings: Resolution", "Error");
   return choices;
 }
 
@@ -243,8 +270,9 @@ Options resolve(Choices choices, Choices const& settings, ShadingInput const& in
   choices.fill_from(settings);
   Options options;
   options.mode = choices.mode.value_or(Mode::automatic);
-  options.resolution = choices.resolution.value_or(
-      input.pixel_counting_resolution.value_or(Options::default_resolution));
+  options.resolution = choices.resolution;
+  if (!choices.resolution && !choices.error) options.resolution = input.pixel_counting_resolution;
+  options.error = choices.error.value_or(Options::default_error);
   options.every_timestep = choices.every_timestep.value_or(false);
   options.device = choices.device.value_or(DeviceChoice{});
   options.report = choices.report;
@@ -258,8 +286,10 @@ std::string_view flags_help() {
   --gpu-shading[=auto|require|off]     Shade by rendering. auto (the bare flag): in software, with a
                                        warning, where there is no GPU; require: no GPU is an error;
                                        off: stock PolygonClipping, for comparison
-  --gpu-shading-resolution N           Pixels a side of a receiver's tile (default: the model's Pixel
-                                       Counting Resolution, else 512)
+  --gpu-shading-error E                What 99 of a hundred sunlit fractions are to be right within,
+                                       0.00001 to 0.1 (default: 0.001)
+  --gpu-shading-resolution N           Instead: pixels a side of every receiver's tile (default: the
+                                       model's Pixel Counting Resolution, where it gives one)
   --gpu-shading-update idf|timestep    How often shading is calculated (default: idf, as the model asks)
   --gpu-shading-device auto|N|software Which device renders (default: auto; see gpu_shading devices)
   --gpu-shading-file F                 Extension objects in a file of their own

@@ -27,8 +27,13 @@ enum class Lean {
 
 // The user's choices from one source; what it does not say is empty.
 struct Choices {
+  static constexpr double least_error = 1e-5;
+  static constexpr double most_error = 0.1;
+
   std::optional<Mode> mode;
+  // How fine: one of the two at most.
   std::optional<int> resolution;
+  std::optional<double> error = std::nullopt;
   std::optional<bool> every_timestep;
   std::optional<DeviceChoice> device;
   std::optional<std::filesystem::path> file;
@@ -39,7 +44,7 @@ struct Choices {
   std::optional<std::filesystem::path> folder = std::nullopt;
   std::optional<Lean> lean;
 
-  // Fills what is empty from a source of lower rank.
+  // Fills what is empty from a source of lower rank. Where one says how fine, the lower has no say.
   void fill_from(Choices const& lower);
   bool any() const;
 };
@@ -65,10 +70,11 @@ Choices read_settings(std::vector<InputObject> const& objects);
 
 // What a run does, every question answered.
 struct Options {
-  static constexpr int default_resolution = 512;
+  static constexpr double default_error = 1e-3;
 
   Mode mode = Mode::automatic;
-  int resolution = default_resolution;
+  std::optional<int> resolution = std::nullopt;  // nothing: by the error
+  double error = default_error;
   bool every_timestep = false;  // else as often as the model asks
   DeviceChoice device;
   std::optional<std::filesystem::path> report;
@@ -77,7 +83,7 @@ struct Options {
 };
 
 // Precedence: `choices` (command line, then environment), GPUShading:Settings, the model's Pixel
-// Counting Resolution, built in.
+// Counting Resolution, built in. Which of resolution and error is given first counts.
 Options resolve(Choices choices, Choices const& settings, ShadingInput const& input);
 
 // One line a flag, for --help.

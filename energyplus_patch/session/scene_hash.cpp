@@ -118,7 +118,8 @@ Hash hash_scene(Scene const& scene, Rendering const& rendering) {
     digest.add(name);
   }
   digest.add(device.max_resolution);
-  digest.add(rendering.options.resolution);
+  add(digest, rendering.options.resolution);
+  digest.add(rendering.options.error);
   digest.add(rendering.options.luminance_sum);
   digest.add(rendering.rule);
   digest.add(std::uint64_t{scene.size()});

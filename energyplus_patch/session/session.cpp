@@ -41,6 +41,12 @@ void keep_largest(std::vector<float>& areas, std::size_t limit) {
   for (std::size_t i = limit; i < order.size(); ++i) areas[order[i]] = 0.0F;
 }
 
+std::string describe_fineness(Options const& options) {
+  return options.resolution
+             ? fmt::format("{} x {} pixels", *options.resolution, *options.resolution)
+             : fmt::format("error {}", options.error);
+}
+
 }  // namespace
 
 SurfaceId Session::add(Surface surface) {
@@ -107,6 +113,7 @@ void Session::open_renderer() {
   RendererOptions options;
   options.device = model_.options.device;
   options.resolution = model_.options.resolution;
+  options.error = model_.options.error;
   renderer_.emplace(std::move(scene), options);
   run_.answers = Answers();
   if (model_.options.cache) open_cache(describe_shading_rule(model_.shading, names), options);
@@ -301,11 +308,10 @@ void Session::finish() {
                                                recalled_earlier_ + cache_->directions_recalled())
                                  : "";
   messages_.remark(fmt::format(
-      "shading rendered by {} ({}), {} x {} pixels: {} receivers, {} casters, {} directions{}, {} "
+      "shading rendered by {} ({}), {}: {} receivers, {} casters, {} directions{}, {} "
       "views drawn, {} clear, {:.2f} s",
-      device.renderer, device.version, model_.options.resolution, model_.options.resolution,
-      run_.receivers.size(), casters_, did.directions, from_cache, did.receivers_drawn,
-      did.receivers_clear, did.seconds));
+      device.renderer, device.version, describe_fineness(model_.options), run_.receivers.size(),
+      casters_, did.directions, from_cache, did.receivers_drawn, did.receivers_clear, did.seconds));
   store_answers();
   if (model_.options.report) {
     write_report(*model_.options.report, *renderer_, run_.receivers, run_.answers,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -15,8 +16,9 @@ namespace gpu_shading {
 struct Tile {
   int side = 0;  // pixels
   TileMap map;
-  std::vector<glm::vec2> triangles;  // in clip coordinates
-  double pixel_area = 0.0;           // m2 of the receiver's plane
+  std::vector<glm::vec2> triangles;     // in clip coordinates
+  double pixel_area = 0.0;              // m2 of the receiver's plane
+  std::optional<std::uint64_t> pixels;  // of the receiver, once counted; never 0
 };
 
 // `resolution` pixels a side, doubled while a receiver that fills little of its bounding rectangle,
@@ -35,8 +37,7 @@ inline constexpr double fewest_pixels = 16.0;
 struct Receiver {
   std::optional<PlaneFrame> frame;  // nothing when it has no area
   double area = 0.0;                // exact, m2
-  Tile tile;
-  std::optional<std::uint64_t> pixels;  // on its tile, once counted; never 0
+  std::map<int, Tile> tiles;        // those needed so far, by the resolution asked for
 };
 
 }  // namespace gpu_shading

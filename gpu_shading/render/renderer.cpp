@@ -21,6 +21,7 @@
 #include "render/receiver.h"
 #include "render/schedule_keys.h"
 #include "render/scheduled_luminance.h"
+#include "render/tile_size.h"
 #include "scene/casters.h"
 #include "scene/screens.h"
 #include "scene/shades.h"
@@ -41,6 +42,20 @@ class Stopwatch {
   double& total_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+TileSize tile_size(RendererOptions const& options, DeviceInfo const& device) {
+  if (!options.resolution) {
+    if (!(options.error >= 1e-5 && options.error <= 0.1)) {
+      throw Error(fmt::format("error {}: expected 1e-5 to 0.1", options.error));
+    }
+    return TileSize::for_error(options.error, device.max_resolution);
+  }
+  if (*options.resolution < 1 || *options.resolution > device.max_resolution) {
+    throw Error(fmt::format("resolution {}: expected 1 to {} pixels, the range of the device '{}'",
+                            *options.resolution, device.max_resolution, device.renderer));
+  }
+  return TileSize::fixed(*options.resolution);
+}
 
 }  // namespace
 
@@ -76,10 +91,7 @@ class Renderer::Implementation {
  private:
   // What lives on the device, made and ended with its context current.
   struct OnDevice {
-    OnDevice(Scene const& scene, Screens const& screens, int resolution)
-        : geometry(scene, screens) {
-      coverage.try_emplace(resolution, resolution);
-    }
+    OnDevice(Scene const& scene, Screens const& screens) : geometry(scene, screens) {}
 
     Geometry geometry;
     // By the side of their tiles.
@@ -93,9 +105,16 @@ class Renderer::Implementation {
 
   Surface const& surface(SurfaceId id) const;  // throws Error when there is none
   Receiver& receiver(SurfaceId id);
+  // As the detail before it asks for. The receiver has to have an area.
+  Tile& tile(SurfaceId id, int side);
+  int side_for(Receiver const& seen, InView const& in_view) const;
   Range add_surfaces(std::span<SurfaceId const> surfaces);
-  // Counts the pixels of those receivers that are not known yet.
-  void measure(std::span<SurfaceId const> receivers);
+  // Counts the pixels of those receivers' tiles that are not known yet.
+  struct Measured {
+    SurfaceId receiver;
+    int side;
+  };
+  void measure(std::span<Measured const> tiles);
 
   bool any_transmits(std::span<SurfaceId const> casters) const;
   // Of the whole scene, right for these casters.
@@ -108,10 +127,10 @@ class Renderer::Implementation {
                    glm::dvec3 const& towards_sun) const;
   // Nothing when none of the casters has a schedule.
   std::optional<ScheduleKeys> keys_of(SurfaceId id, std::span<SurfaceId const> casters) const;
-  ReceiverJob add_view(Receiver const& seen, std::span<SurfaceId const> casters,
+  ReceiverJob add_view(Receiver const& seen, Tile const& tile, std::span<SurfaceId const> casters,
                        glm::dvec3 const& towards_sun);
   Sunlit sunlit_of(LuminanceByKey const& sums, ScheduleKeys const* keys, Receiver const& seen,
-                   double cosine) const;
+                   Tile const& tile, double cosine) const;
 
   Scene scene_;
   RendererOptions options_;
@@ -119,6 +138,7 @@ class Renderer::Implementation {
   Shades shades_;
   Screens screens_;
   egl::Device device_;
+  TileSize tile_size_;
   std::unique_ptr<OnDevice> on_device_;
   std::unordered_map<SurfaceId, Receiver> receivers_;
   std::vector<double> deployments_;
@@ -132,18 +152,14 @@ Renderer::Implementation::Implementation(Scene scene, RendererOptions options)
       casters_(scene_),
       shades_(scene_),
       screens_(scene_),
-      device_(egl::open_device(options.device)) {
+      device_(egl::open_device(options.device)),
+      tile_size_(tile_size(options_, device_.info)) {
   Stopwatch const watch(statistics_.seconds);
-  if (options_.resolution < 1 || options_.resolution > device_.info.max_resolution) {
-    throw Error(fmt::format("resolution {}: expected 1 to {} pixels, the range of the device '{}'",
-                            options_.resolution, device_.info.max_resolution,
-                            device_.info.renderer));
-  }
   if (options_.luminance_sum == LuminanceSum::automatic) {
     options_.luminance_sum = device_.info.software ? LuminanceSum::readback : LuminanceSum::compute;
   }
   egl::Current const current = device_.context.make_current();
-  on_device_ = std::make_unique<OnDevice>(scene_, screens_, options_.resolution);
+  on_device_ = std::make_unique<OnDevice>(scene_, screens_);
 }
 
 Renderer::Implementation::~Implementation() {
@@ -168,11 +184,26 @@ Receiver& Renderer::Implementation::receiver(SurfaceId id) {
   Receiver receiver;
   receiver.area = area(polygon);
   if (receiver.area > 0.0) receiver.frame = plane_frame(polygon);
-  if (receiver.frame) {
-    receiver.tile =
-        make_tile(polygon, *receiver.frame, options_.resolution, device_.info.max_resolution);
-  }
   return receivers_.emplace(id, std::move(receiver)).first->second;
+}
+
+Tile& Renderer::Implementation::tile(SurfaceId id, int side) {
+  Receiver& seen = receiver(id);
+  auto const known = seen.tiles.find(side);
+  if (known != seen.tiles.end()) return known->second;
+  return seen.tiles
+      .emplace(side, make_tile(surface(id).polygon, *seen.frame, side, device_.info.max_resolution))
+      .first->second;
+}
+
+int Renderer::Implementation::side_for(Receiver const& seen, InView const& in_view) const {
+  // Of the rectangle's edges and pixels the receiver has its share.
+  double const share = seen.area / (seen.frame->width * seen.frame->height);
+  int const side = tile_size_.side((1.0 / share) * in_view.detail);
+  bool const screened =
+      std::any_of(in_view.casters.begin(), in_view.casters.end(),
+                  [&](SurfaceId id) { return screens_.number(id) != Screens::none; });
+  return screened ? tile_size_.side_with_screens(side) : side;
 }
 
 Range Renderer::Implementation::add_surfaces(std::span<SurfaceId const> surfaces) {
@@ -183,30 +214,33 @@ Range Renderer::Implementation::add_surfaces(std::span<SurfaceId const> surfaces
   return draw_list_.end_surfaces(begin);
 }
 
-void Renderer::Implementation::measure(std::span<SurfaceId const> receivers) {
-  std::map<int, std::vector<SurfaceId>> by_side;
-  for (SurfaceId const id : receivers) {
-    Receiver const& seen = receiver(id);
-    if (!seen.pixels) by_side[seen.tile.side].push_back(id);
+void Renderer::Implementation::measure(std::span<Measured const> tiles) {
+  std::map<int, std::vector<Measured>> by_side;
+  for (Measured const& wanted : tiles) {
+    Tile const& known = tile(wanted.receiver, wanted.side);
+    if (!known.pixels) by_side[known.side].push_back(wanted);
   }
   if (by_side.empty()) return;
   egl::Current const current = device_.context.make_current();
-  std::vector<SurfaceId> missed;
-  for (auto const& [side, ids] : by_side) {
+  std::vector<Measured> missed;
+  for (auto const& [side, unknown] : by_side) {
     DrawList list;
-    std::vector<Range> tiles;
-    for (SurfaceId const id : ids) tiles.push_back(list.add_tile(receiver(id).tile.triangles));
+    std::vector<Range> drawn;
+    for (Measured const& one : unknown) {
+      drawn.push_back(list.add_tile(tile(one.receiver, one.side).triangles));
+    }
     on_device_->geometry.upload(list);
     Coverage& coverage = on_device_->coverage.try_emplace(side, side).first->second;
-    coverage.draw_clear(on_device_->geometry, tiles);
+    coverage.draw_clear(on_device_->geometry, drawn);
     std::vector<std::uint64_t> const counts = coverage.counts();
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      Receiver& seen = receiver(ids[i]);
+    for (std::size_t i = 0; i < unknown.size(); ++i) {
+      auto const [id, wanted] = unknown[i];
+      Tile& measured = tile(id, wanted);
       if (counts[i] > 0) {
-        seen.pixels = counts[i];
+        measured.pixels = counts[i];
       } else {
-        seen.tile = bounding_tile(surface(ids[i]).polygon, *seen.frame, side);
-        missed.push_back(ids[i]);
+        measured = bounding_tile(surface(id).polygon, *receiver(id).frame, side);
+        missed.push_back(unknown[i]);
       }
     }
   }
@@ -274,15 +308,16 @@ std::optional<ScheduleKeys> Renderer::Implementation::keys_of(
 }
 
 Sunlit Renderer::Implementation::sunlit_of(LuminanceByKey const& sums, ScheduleKeys const* keys,
-                                           Receiver const& seen, double cosine) const {
-  double const share = seen.area * cosine / static_cast<double>(*seen.pixels);
+                                           Receiver const& seen, Tile const& tile,
+                                           double cosine) const {
+  double const share = seen.area * cosine / static_cast<double>(*tile.pixels);
   Sunlit answer;
   for (auto const& [key, sum] : sums) {
     std::vector<std::pair<int, int>> powers;
     if (keys != nullptr) powers = keys->powers(key);
     if (powers.empty()) {
       answer.projected_area = sum * share;
-      answer.pixel_counted_area = sum * seen.tile.pixel_area * cosine;
+      answer.pixel_counted_area = sum * tile.pixel_area * cosine;
       continue;
     }
     for (auto& [schedule, power] : powers) {
@@ -293,17 +328,17 @@ Sunlit Renderer::Implementation::sunlit_of(LuminanceByKey const& sums, ScheduleK
   return answer;
 }
 
-ReceiverJob Renderer::Implementation::add_view(Receiver const& seen,
+ReceiverJob Renderer::Implementation::add_view(Receiver const& seen, Tile const& tile,
                                                std::span<SurfaceId const> casters,
                                                glm::dvec3 const& towards_sun) {
   ReceiverJob job;
-  job.view = draw_list_.add_view(view_in_front(*seen.frame, seen.tile.map, towards_sun),
+  job.view = draw_list_.add_view(view_in_front(*seen.frame, tile.map, towards_sun),
                                  on_device_->geometry.scene_origin());
   job.casters = add_surfaces(plain_among(casters));
   job.screens = on_device_->geometry.screens().add_to(
       draw_list_, screens_among(casters), towards_sun,
-      seen.tile.map.pixel_area(seen.tile.side) * glm::dot(seen.frame->normal, towards_sun));
-  job.tile = draw_list_.add_tile(seen.tile.triangles);
+      tile.map.pixel_area(tile.side) * glm::dot(seen.frame->normal, towards_sun));
+  job.tile = draw_list_.add_tile(tile.triangles);
   return job;
 }
 
@@ -316,33 +351,35 @@ std::vector<Sunlit> Renderer::Implementation::projected_sunlit_areas(
   struct Drawn {
     std::size_t place;  // of the answer
     std::vector<SurfaceId> casters;
+    int side;
   };
   std::vector<Drawn> drawn;
-  std::vector<SurfaceId> ids;
+  std::vector<Measured> tiles;
   for (std::size_t i = 0; i < receivers.size(); ++i) {
     Receiver const& seen = receiver(receivers[i]);
     if (!seen.frame) continue;
     double const cosine = glm::dot(seen.frame->normal, towards_sun);
     if (cosine <= edge_on) continue;
     answers[i].projected_area = answers[i].pixel_counted_area = seen.area * cosine;
-    std::vector<SurfaceId> casters =
-        casters_.in_view(scene_, receivers[i], *seen.frame, towards_sun);
-    if (casters.empty()) {
+    InView in_view =
+        casters_.in_view(scene_, receivers[i], *seen.frame, towards_sun, tile_size_.enough());
+    if (in_view.casters.empty()) {
       ++statistics_.receivers_clear;
       continue;
     }
     ++statistics_.receivers_drawn;
-    statistics_.casters_drawn += casters.size();
-    drawn.push_back({i, std::move(casters)});
-    ids.push_back(receivers[i]);
+    statistics_.casters_drawn += in_view.casters.size();
+    int const side = side_for(seen, in_view);
+    drawn.push_back({i, std::move(in_view.casters), side});
+    tiles.push_back({receivers[i], side});
   }
   if (drawn.empty()) return answers;
-  measure(ids);
+  measure(tiles);
 
   // By the side of their tiles and the cheapest way that will do.
   struct Views {
     std::vector<ReceiverJob> jobs;
-    std::vector<std::size_t> places;
+    std::vector<Drawn const*> drawn;
     std::vector<ScheduleKeys> keys;
   };
   struct Ways {
@@ -356,9 +393,10 @@ std::vector<Sunlit> Renderer::Implementation::projected_sunlit_areas(
   for (Drawn const& one : drawn) {
     SurfaceId const id = receivers[one.place];
     Receiver const& seen = receiver(id);
-    Ways& ways = by_side[seen.tile.side];
+    Tile const& laid_out = tile(id, one.side);
+    Ways& ways = by_side[laid_out.side];
     Views* views = &ways.opaque;
-    ReceiverJob job = add_view(seen, one.casters, towards_sun);
+    ReceiverJob job = add_view(seen, laid_out, one.casters, towards_sun);
     if (any_transmits(one.casters)) {
       ++statistics_.luminance_views;
       transmitting.insert(transmitting.end(), one.casters.begin(), one.casters.end());
@@ -370,7 +408,7 @@ std::vector<Sunlit> Renderer::Implementation::projected_sunlit_areas(
       }
     }
     views->jobs.push_back(job);
-    views->places.push_back(one.place);
+    views->drawn.push_back(&one);
   }
   if (!transmitting.empty()) {
     std::sort(transmitting.begin(), transmitting.end());
@@ -390,21 +428,23 @@ std::vector<Sunlit> Renderer::Implementation::projected_sunlit_areas(
           .first->second.draw(on_device_->geometry, ways.unscheduled.jobs);
     }
   }
-  auto const set = [&](std::size_t place, LuminanceByKey const& sums, ScheduleKeys const* keys) {
-    Receiver const& seen = receiver(receivers[place]);
-    answers[place] = sunlit_of(sums, keys, seen, glm::dot(seen.frame->normal, towards_sun));
+  auto const set = [&](Drawn const& one, LuminanceByKey const& sums, ScheduleKeys const* keys) {
+    SurfaceId const id = receivers[one.place];
+    Receiver const& seen = receiver(id);
+    answers[one.place] =
+        sunlit_of(sums, keys, seen, tile(id, one.side), glm::dot(seen.frame->normal, towards_sun));
   };
   for (auto const& [side, ways] : by_side) {
     if (!ways.opaque.jobs.empty()) {
       std::vector<std::uint64_t> const lit = on_device_->coverage.at(side).counts();
       for (std::size_t i = 0; i < lit.size(); ++i) {
-        set(ways.opaque.places[i], {{{}, static_cast<double>(lit[i])}}, nullptr);
+        set(*ways.opaque.drawn[i], {{{}, static_cast<double>(lit[i])}}, nullptr);
       }
     }
     if (!ways.unscheduled.jobs.empty()) {
       std::vector<double> const sums = on_device_->luminance.at(side).sums();
       for (std::size_t i = 0; i < sums.size(); ++i) {
-        set(ways.unscheduled.places[i], {{{}, sums[i]}}, nullptr);
+        set(*ways.unscheduled.drawn[i], {{{}, sums[i]}}, nullptr);
       }
     }
     if (!ways.scheduled.jobs.empty()) {
@@ -412,7 +452,7 @@ std::vector<Sunlit> Renderer::Implementation::projected_sunlit_areas(
           on_device_->scheduled.try_emplace(side, side)
               .first->second.sum(on_device_->geometry, ways.scheduled.jobs);
       for (std::size_t i = 0; i < sums.size(); ++i) {
-        set(ways.scheduled.places[i], sums[i], &ways.scheduled.keys[i]);
+        set(*ways.scheduled.drawn[i], sums[i], &ways.scheduled.keys[i]);
       }
     }
   }
@@ -436,12 +476,17 @@ std::vector<Sunlit> Renderer::Implementation::interior_sunlit_areas(
     }
   }
   reach *= 1.01;  // what lies at the far end is not nearer than nothing
-  measure({&window, 1});
-  std::vector<SurfaceId> const casters = casters_.in_view(scene_, window, *seen.frame, towards_sun);
+  InView in_view = casters_.in_view(scene_, window, *seen.frame, towards_sun, tile_size_.enough());
+  // Where one surface inside ends and the next begins there is an edge as well.
+  in_view.detail.across += static_cast<double>(std::min<std::size_t>(interiors.size(), 6));
+  Measured const wanted{window, side_for(seen, in_view)};
+  measure({&wanted, 1});
+  Tile const& laid_out = tile(window, wanted.side);
+  std::vector<SurfaceId> const& casters = in_view.casters;
   draw_list_.clear();
-  ReceiverJob in_front = add_view(seen, casters, towards_sun);
+  ReceiverJob in_front = add_view(seen, laid_out, casters, towards_sun);
   std::size_t const behind_view =
-      draw_list_.add_view(view_behind(*seen.frame, seen.tile.map, towards_sun, reach),
+      draw_list_.add_view(view_behind(*seen.frame, laid_out.map, towards_sun, reach),
                           on_device_->geometry.scene_origin());
   std::vector<Range> surfaces;
   for (SurfaceId const id : interiors) surfaces.push_back(add_surfaces({&id, 1}));
@@ -452,21 +497,22 @@ std::vector<Sunlit> Renderer::Implementation::interior_sunlit_areas(
 
   egl::Current const current = device_.context.make_current();
   on_device_->geometry.upload(draw_list_);
-  int const side = seen.tile.side;
+  int const side = laid_out.side;
   if (transmits) {
     InteriorLuminance& interior =
         on_device_->interior_luminance.try_emplace(side, side).first->second;
     std::vector<LuminanceByKey> const sums =
         interior.sum(on_device_->geometry, {in_front, behind_view, surfaces});
     for (std::size_t i = 0; i < sums.size(); ++i) {
-      answers[i] = sunlit_of(sums[i], keys ? &*keys : nullptr, seen, cosine);
+      answers[i] = sunlit_of(sums[i], keys ? &*keys : nullptr, seen, laid_out, cosine);
     }
   } else {
     Interior& interior = on_device_->interior.try_emplace(side, side).first->second;
     std::vector<std::uint64_t> const counts =
         interior.count(on_device_->geometry, {in_front, behind_view, surfaces});
     for (std::size_t i = 0; i < counts.size(); ++i) {
-      answers[i] = sunlit_of({{{}, static_cast<double>(counts[i])}}, nullptr, seen, cosine);
+      answers[i] =
+          sunlit_of({{{}, static_cast<double>(counts[i])}}, nullptr, seen, laid_out, cosine);
     }
   }
   return answers;
@@ -486,7 +532,8 @@ Image Renderer::Implementation::sun_view(SunDirection sun, SurfaceId id, int siz
   glm::dvec3 const towards_sun = to_vector(sun);
   bool const faces_sun = glm::dot(seen.frame->normal, towards_sun) > edge_on;
   std::vector<SurfaceId> const casters =
-      faces_sun ? casters_.in_view(scene_, id, *seen.frame, towards_sun) : std::vector<SurfaceId>();
+      faces_sun ? casters_.in_view(scene_, id, *seen.frame, towards_sun, 0.0).casters
+                : std::vector<SurfaceId>();
   Picture::Shading shading;
   shading.plain = plain_among(casters);
   shading.screens_in_view = screens_among(casters);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <limits>
 
 #include "scene/ring.h"
@@ -63,6 +64,31 @@ class Casters::Shadow {
     include(a + (b - a) * (depth_a / (depth_a - depth_b)));
   }
 
+  // Of the edge from a to b, what lies in the receiver's rectangle.
+  Detail edge(glm::dvec3 const& a, glm::dvec3 const& b) const {
+    glm::dvec2 const from = in_rectangle(a);
+    glm::dvec2 const step = in_rectangle(b) - from;
+    double enters = 0.0;
+    double leaves = 1.0;
+    for (int axis = 0; axis < 2; ++axis) {
+      constexpr double rounding = 1e-9;
+      if (std::abs(step[axis]) < rounding) {
+        if (std::abs(from[axis]) > 0.5 - rounding) return {};
+        continue;
+      }
+      double const low = (-0.5 - from[axis]) / step[axis];
+      double const high = (0.5 - from[axis]) / step[axis];
+      enters = std::max(enters, std::min(low, high));
+      leaves = std::min(leaves, std::max(low, high));
+    }
+    if (leaves <= enters) return {};
+    glm::dvec2 const length = (leaves - enters) * glm::abs(step);
+    // Within a pixel of a row from end to end of the finest tile that is chosen by detail.
+    constexpr double parallel = 1e-3;
+    bool const along = std::min(length.x, length.y) < parallel * std::max(length.x, length.y);
+    return along ? Detail{glm::length(length), 0.0} : Detail{0.0, glm::length(length)};
+  }
+
   // Whether a box may throw one on the rectangle: all of it is taken, in front of the plane or not.
   bool may_come_from(Box const& box) const {
     glm::dvec3 const c = box.centre() - origin_;
@@ -82,6 +108,12 @@ class Casters::Shadow {
   }
 
  private:
+  // Sides of the rectangle, from its middle.
+  glm::dvec2 in_rectangle(glm::dvec3 const& point) const {
+    glm::dvec3 const p = point - origin_;
+    return {0.5 * glm::dot(slide_u_, p) / half_width_, 0.5 * glm::dot(slide_v_, p) / half_height_};
+  }
+
   // Against rounding, here and in the float32 of the GPU.
   double slack() const { return 1e-6 * (half_width_ + half_height_); }
 
@@ -116,14 +148,16 @@ Casters::Casters(Scene const& scene) {
       boxes[id].include(vertex + caster.faces.outside * caster.normal);
     }
     points_.insert(points_.end(), ring.begin(), ring.end());
+    caster.first_hole = holes_.size();
+    caster.holes = scene[id].polygon.holes.size();
+    holes_.insert(holes_.end(), scene[id].polygon.holes.begin(), scene[id].polygon.holes.end());
   }
   tree_ = BoxTree(boxes);
 }
 
-std::vector<SurfaceId> Casters::in_view(Scene const& scene, SurfaceId receiver,
-                                        PlaneFrame const& frame,
-                                        glm::dvec3 const& towards_sun) const {
-  std::vector<SurfaceId> found;
+InView Casters::in_view(Scene const& scene, SurfaceId receiver, PlaneFrame const& frame,
+                        glm::dvec3 const& towards_sun, double enough) const {
+  InView found;
   Shadow shadow(frame, towards_sun);
   auto const wanted = [&](Box const& box) {
     glm::dvec3 const c = box.centre() - frame.origin;
@@ -131,12 +165,20 @@ std::vector<SurfaceId> Casters::in_view(Scene const& scene, SurfaceId receiver,
         glm::dot(frame.normal, c) + glm::dot(glm::abs(frame.normal), box.reach());
     return highest > coplanar - 1e-12 * glm::length(c) && shadow.may_come_from(box);
   };
-  tree_.search(wanted, [&](SurfaceId id) {
-    if (is_in_view(casters_[id], frame, towards_sun, shadow) && scene.may_shade(receiver, id)) {
-      found.push_back(id);
+  auto const add_edges = [&](std::span<glm::dvec3 const> ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      found.detail += shadow.edge(ring[i], ring[(i + 1) % ring.size()]);
     }
+  };
+  tree_.search(wanted, [&](SurfaceId id) {
+    Caster const& caster = casters_[id];
+    if (!is_in_view(caster, frame, towards_sun, shadow) || !scene.may_shade(receiver, id)) return;
+    found.casters.push_back(id);
+    if (found.detail.total() >= enough) return;
+    add_edges(points(caster));
+    for (Ring const& hole : holes(caster)) add_edges(hole);
   });
-  std::sort(found.begin(), found.end());
+  std::sort(found.casters.begin(), found.casters.end());
   return found;
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "gpu_shading/error.h"
@@ -83,6 +84,14 @@ TEST(Resolution, OutOfRangeIsNamedWithTheRange) {
     std::string const message = message_of(options);
     EXPECT_NE(message.find(std::to_string(resolution)), std::string::npos) << message;
     EXPECT_NE(message.find(std::to_string(most)), std::string::npos) << message;
+  }
+}
+
+TEST(Resolution, AnErrorOutOfRangeIsNamed) {
+  for (double const error : {0.0, -1.0, 0.2, 1e-6, std::nan("")}) {
+    RendererOptions options;
+    options.error = error;
+    EXPECT_NE(message_of(options).find("expected 1e-5 to 0.1"), std::string::npos) << error;
   }
 }
 

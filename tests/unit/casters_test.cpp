@@ -24,7 +24,9 @@ Polygon horizontal(double x, double y, double z, double width, double depth) {
 }
 
 std::vector<SurfaceId> in_view_of_first(Scene const& scene, SunDirection sun) {
-  return Casters(scene).in_view(scene, 0, *plane_frame(scene[0].polygon), to_vector(sun));
+  return Casters(scene)
+      .in_view(scene, 0, *plane_frame(scene[0].polygon), to_vector(sun), 1e9)
+      .casters;
 }
 
 constexpr SunDirection from_the_south{3.14159, 0.785};

@@ -93,7 +93,7 @@ TEST(ReadModel, BothFormatsGiveTheSameObjects) {
 
 TEST(ReadModel, ExtensionsThatDoNotExistAreErrors) {
   EXPECT_THROW(read_idf("GPUShading:Nonsense,1;"), Error);
-  EXPECT_THROW(read_idf("GPUShading:Settings,1,idf,auto,more;"), Error);
+  EXPECT_THROW(read_idf("GPUShading:Settings,1,idf,auto,,more;"), Error);
   EXPECT_THROW(read_epjson({{"GPUShading:Nonsense", {{"a", nlohmann::json::object()}}}}), Error);
   EXPECT_THROW(read_epjson({{"GPUShading:Settings", {{"a", {{"resolutoin", 5}}}}}}), Error);
 }

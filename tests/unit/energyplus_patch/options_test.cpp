@@ -89,7 +89,32 @@ TEST(Options, Precedence) {
   EXPECT_EQ(resolution(false, true, true, true), 2);
   EXPECT_EQ(resolution(false, false, true, true), 3);
   EXPECT_EQ(resolution(false, false, false, true), 4);
-  EXPECT_EQ(resolution(false, false, false, false), 512);
+  EXPECT_EQ(resolution(false, false, false, false), std::nullopt);
+}
+
+// Resolution and error answer the same question: whoever is asked first decides.
+TEST(Options, AnErrorComesBeforeResolutionsOfLowerRank) {
+  auto const by_flag = resolve(take({"--gpu-shading-error=0.01"}),
+                               read_settings(read_idf("GPUShading:Settings,300;")), {});
+  EXPECT_EQ(by_flag.resolution, std::nullopt);
+  EXPECT_EQ(by_flag.error, 0.01);
+  ShadingInput input;
+  input.pixel_counting_resolution = 512;
+  auto const by_settings =
+      resolve({}, read_settings(read_idf("GPUShading:Settings,,,,0.002;")), input);
+  EXPECT_EQ(by_settings.resolution, std::nullopt);
+  EXPECT_EQ(by_settings.error, 0.002);
+  EXPECT_EQ(resolve(take({"--gpu-shading-resolution=64"}), {}, input).resolution, 64);
+  EXPECT_EQ(to_flags(take({"--gpu-shading-error=0.002"})), "--gpu-shading-error=0.002\n");
+}
+
+TEST(Options, ResolutionAndErrorTogetherAreRefused) {
+  EXPECT_THAT(refusal({"--gpu-shading-resolution=64", "--gpu-shading-error=0.01"}),
+              AllOf(HasSubstr("--gpu-shading-resolution"), HasSubstr("--gpu-shading-error")));
+  EXPECT_THROW(read_settings(read_idf("GPUShading:Settings,64,,,0.002;")), Error);
+  for (auto const* const value : {"0", "0.2", "1e-6", "-0.001", "small", "nan", "0.001x"}) {
+    EXPECT_THAT(refusal({std::string("--gpu-shading-error=") + value}), HasSubstr(value));
+  }
 }
 
 TEST(Options, CacheIsOffUnlessAFolderIsNamedAndOffOverridesTheEnvironment) {

@@ -109,6 +109,7 @@ TEST(SceneHash, AnyInputThatAnAnswerDependsOnChangesIt) {
       {"threshold", [](Everything& e) { e.threshold = 0.6; }},
       {"fractional opacity", [](Everything& e) { e.threshold.reset(); }},
       {"resolution", [](Everything& e) { e.options.resolution = 513; }},
+      {"error", [](Everything& e) { e.options.error = 2e-3; }},
       {"sum of luminance", [](Everything& e) { e.options.luminance_sum = LuminanceSum::mipmaps; }},
       {"renderer", [](Everything& e) { e.device.renderer = "renderers"; }},
       {"vendor", [](Everything& e) { e.device.vendor = "other"; }},
