@@ -64,6 +64,8 @@ def assert_refused(run, *words):
         (["--gpu-shading-resolution=0"], ["resolution", "0"]),
         (["--gpu-shading-resolution=-512"], ["resolution", "-512"]),
         (["--gpu-shading-resolution=many"], ["resolution", "many"]),
+        (["--gpu-shading-error=2"], ["error", "2", "0.1"]),
+        (["--gpu-shading-error=0.001", "--gpu-shading-resolution=64"], ["error", "resolution", "one of them"]),
         (["--gpu-shading-update=daily"], ["update", "daily", "idf", "timestep"]),
         (["--gpu-shading-device=99"], ["device", "99"]),
         (["--gpu-shading-device=bogus"], ["device", "bogus"]),
@@ -180,7 +182,9 @@ def test_order_of_precedence(shade, box, tmp_path):
     assert sunlit(shade(full)) == at[32]
     model.remove(lambda name: name == "gpushading:settings")
     assert sunlit(shade(write_model(model.text, tmp_path / "field.idf"))) == at[48]
-    assert sunlit(shade(plain)) == sunlit(shade(plain, "--gpu-shading-resolution=512"))
+    assert sunlit(shade(full, "--gpu-shading-error=0.05")) == sunlit(shade(plain, "--gpu-shading-error=0.05"))
+    assert sunlit(shade(plain)) == sunlit(shade(plain, "--gpu-shading-error=0.001"))
+    assert sunlit(shade(plain)) != sunlit(shade(plain, "--gpu-shading-error=0.05"))
 
 
 def test_interrupt_ends_the_run(patched, courtyard, weather, tmp_path):
