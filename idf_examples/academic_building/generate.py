@@ -7,6 +7,7 @@ The building stands on level ground around the origin, x east, y north, in metre
 """
 
 import argparse
+import itertools
 import math
 import sys
 from dataclasses import dataclass
@@ -32,8 +33,8 @@ CORRIDOR_WINDOW = (0.5, 0.9, 2.0, 2.3)
 GROUND_CORRIDOR_WINDOW, CORRIDOR_DOOR = (0.3, 0.9, 1.0, 2.3), (1.5, 0.0, 1.2, 2.2)
 SKYLIGHTS, SKYLIGHT = 4, (4.0, 1.6)
 
-# The screen runs around the building in folds between two lines before its walls.
-SCREEN_NEAR, SCREEN_FAR = 1.0, 1.3
+# The screen runs around the building in folds between two lines before its walls, up to the next storey's sills.
+SCREEN_NEAR, SCREEN_FAR, SCREEN_ABOVE = 1.0, 1.3, 0.9
 THICKNESS = 0.00635
 OPEN = 0.5
 HOLES = {"small": 0.00635, "large": 0.0254}  # diameters
@@ -72,7 +73,7 @@ class Size:
 
 
 FULL = Size(storeys=4, screened=(1, 2), strip=0.5, cells=100, cell=8.0, neighbours=11)
-SMALL = Size(storeys=2, screened=(1,), strip=2.0, cells=12, cell=32.0, neighbours=2)
+SMALL = Size(storeys=2, screened=(1,), strip=1.0, cells=12, cell=32.0, neighbours=2)
 
 HEAD = """\
 ! An academic building of {zones} zones behind folded screens with {holes}.
@@ -157,16 +158,23 @@ def folds(strip):
     return found
 
 
+def strip_size(size):
+    """Width and height; there is a row of strips for each screened storey."""
+    return math.dist(*folds(size.strip)["South"][:2]), STOREY + SCREEN_ABOVE / len(size.screened)
+
+
 def screen_strips(size):
+    _, height_of_row = strip_size(size)
     for side, corners in folds(size.strip).items():
-        for storey in size.screened:
-            bottom, top = storey * STOREY, (storey + 1) * STOREY
-            for number, (left, right) in enumerate(zip(corners, corners[1:], strict=False), 1):
-                yield (f"Screen {side} {storey + 1} {number}",
+        for row in range(len(size.screened)):
+            bottom = size.screened[0] * STOREY + row * height_of_row
+            top = bottom + height_of_row
+            for number, (left, right) in enumerate(itertools.pairwise(corners), 1):
+                yield (f"Screen {side} {row + 1} {number}",
                        [(*left, top), (*left, bottom), (*right, bottom), (*right, top)])  # fmt: skip
 
 
-def screen_object(screen, strip):
+def screen_object(screen):
     if screen == "gradient":
         return (f"\nGPUShading:PerforatedScreen,Sheet,Screen *,\n  Texture,{IMAGE},,,,,,\n"
                 f"  {THICKNESS};                 !- Thickness {{m}}\n")  # fmt: skip
@@ -179,8 +187,7 @@ def screen_object(screen, strip):
 
 def write_image(path, size=FULL):
     """The sheet of one strip."""
-    width = math.dist(*folds(size.strip)["South"][:2])
-    Path(path).write_bytes(random_holes.png(random_holes.opacity(width, STOREY, TEXEL)))
+    Path(path).write_bytes(random_holes.png(random_holes.opacity(*strip_size(size), TEXEL)))
 
 
 def height(x, y):
@@ -234,7 +241,7 @@ def model(screen="small", size=FULL):
     for part in casting(size).values():
         for name, corners in part:
             yield idf.shade(name, corners, "Site")
-    yield screen_object(screen, size.strip)
+    yield screen_object(screen)
 
 
 def main():

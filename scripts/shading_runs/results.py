@@ -10,6 +10,8 @@ COSINE = "Surface Outside Face Beam Solar Incident Angle Cosine Value"
 SOLAR = "Surface Window Transmitted Solar Radiation Energy"
 BEAM = "Surface Window Transmitted Beam Solar Radiation Energy"
 VARIABLES = (SUNLIT, COSINE, SOLAR, BEAM)
+HEATING = "Zone Ideal Loads Zone Total Heating Energy"
+COOLING = "Zone Ideal Loads Zone Total Cooling Energy"
 J_PER_KWH = 3.6e6
 
 # Sunlit fractions are compared only where the sun stands higher than this over the receiver's plane:
@@ -98,6 +100,18 @@ class Results:
         columns = self.values[variable]
         chosen = columns.values() if receiver is None else [columns.get(receiver, ())]
         return sum(sum(values) for values in chosen) / J_PER_KWH
+
+
+def energies(folder, variable, frequency="Monthly"):
+    """{surface, zone or whatever has it: the run's sum of an energy in kWh}."""
+    with sqlite3.connect(f"file:{Path(folder) / 'eplusout.sql'}?mode=ro", uri=True) as data:
+        rows = data.execute(
+            "SELECT KeyValue, SUM(Value) FROM ReportData JOIN ReportDataDictionary USING (ReportDataDictionaryIndex) "
+            "WHERE Name = ? AND ReportingFrequency = ? GROUP BY KeyValue",
+            (variable, frequency),
+        ).fetchall()
+    data.close()
+    return {key: value / J_PER_KWH for key, value in rows}
 
 
 @dataclass

@@ -1,0 +1,90 @@
+"""Runs the variants of a large model for a year and prints what they admit, as Markdown."""
+
+import argparse
+import re
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+
+from shading_runs import energyplus, results  # noqa: E402
+
+OF_RUN = ["heating kWh", "cooling kWh", "seconds", "of it rendering", "receivers", "casters"]
+
+
+@dataclass(frozen=True)
+class CaseStudy:
+    """model_of(variant, is_small) gives a model's text, write_files(variant, is_small, folder) what it needs
+    beside it; group_of(window) says in which column a window counts, by its name in upper case.
+    """
+
+    name: str
+    weather: str
+    variants: dict  # {words: variant}
+    groups: list
+    group_of: callable
+    model_of: callable
+    write_files: callable = lambda variant, is_small, folder: None
+
+
+@dataclass(frozen=True)
+class Rendered:
+    """What our module said of a run."""
+
+    receivers: int
+    casters: int
+    seconds: float
+
+
+def rendered(run):
+    found = re.search(r"(\d+) receivers, (\d+) casters, .* ([\d.]+) s$", run.rendering)
+    return Rendered(int(found[1]), int(found[2]), float(found[3]))
+
+
+def admitted(folder, group_of):
+    """{group: solar radiation through its windows in kWh}."""
+    sums = {}
+    for window, energy in results.energies(folder, results.SOLAR).items():
+        sums[group_of(window)] = sums.get(group_of(window), 0.0) + energy
+    return sums
+
+
+def cells_of(study, run):
+    sums = admitted(run.folder, study.group_of)
+    did = rendered(run)
+    values = [f"{sum(sums.values()):,.0f}", *(f"{sums.get(group, 0.0):,.0f}" for group in study.groups)]
+    values += [f"{sum(results.energies(run.folder, variable).values()):,.0f}"
+               for variable in (results.HEATING, results.COOLING)]  # fmt: skip
+    return [*values, f"{run.wall:.1f}", f"{did.seconds:.1f}", f"{did.receivers:,}", f"{did.casters:,}"]
+
+
+def run_variant(study, variant, folder, arguments):
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"{study.name}.idf"
+    path.write_text("".join(study.model_of(variant, arguments.small)))
+    study.write_files(variant, arguments.small, folder)
+    options = ["--gpu-shading", f"--gpu-shading-device={arguments.device}"]
+    return energyplus.run(energyplus.patched_prefix() / "energyplus", path,
+                          energyplus.find_weather(arguments.weather), folder / "run", options,
+                          timeout=arguments.timeout)  # fmt: skip
+
+
+def main(study):
+    parser = argparse.ArgumentParser(description="Runs each variant for a year and prints a table.")
+    parser.add_argument("-o", "--output", type=Path, default=Path("out") / study.name, metavar="DIR",
+                        help="for the runs (default: %(default)s)")  # fmt: skip
+    parser.add_argument("-w", "--weather", default=study.weather, metavar="EPW", help="(default: %(default)s)")
+    parser.add_argument("--device", default="auto", metavar="NAME", help="as --gpu-shading-device (default: auto)")
+    parser.add_argument("--timeout", type=float, metavar="SECONDS", help="limit for one run (default: none)")
+    parser.add_argument("--small", action="store_true", help="the small model of the same kind")
+    arguments = parser.parse_args()
+    header = [study.name.replace("_", " "), "all kWh", *study.groups, *OF_RUN]
+    print(f"| {' | '.join(header)} |")
+    print(f"|---|{'---:|' * (len(header) - 1)}")
+    for number, (words, variant) in enumerate(study.variants.items()):
+        run = run_variant(study, variant, arguments.output / str(number), arguments)
+        if not run.completed or run.severe:
+            sys.exit(f"{words}: {run.why()}")
+        print(f"| {' | '.join([words, *cells_of(study, run)])} |", flush=True)
+        print(f"{words}: {run.device}", file=sys.stderr, flush=True)
