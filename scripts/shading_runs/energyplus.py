@@ -66,17 +66,25 @@ class Run:
         return int(found[1]) * 3600 + int(found[2]) * 60 + float(found[3])
 
     @property
-    def severe(self):
-        """The severe and fatal errors, each with its continuation lines, in order."""
-        messages = []
+    def messages(self):
+        """[(Warning, Severe or Fatal, text with its continuation lines)] of eplusout.err, in order."""
+        found, last = [], None
         for line in self.text("eplusout.err").splitlines():
-            if re.match(r" *\*\* +(Severe|Fatal) +\*\*", line):
-                messages.append(line.strip())
-            elif messages and line.lstrip().startswith("**   ~~~   **") and messages[-1] is not None:
-                messages[-1] += "\n" + line.strip()
-            elif messages:
-                messages.append(None)
-        return [message for message in messages if message]
+            start = re.match(r"[ *]*\*\* +(Warning|Severe|Fatal) +\*\* *(.*)", line)
+            further = re.match(r" *\*\* +~~~ +\*\* *(.*)", line)
+            if start:
+                last = [start[1], start[2].strip()]
+                found.append(last)
+            elif further and last:
+                last[1] += "\n" + further[1].strip()
+            else:
+                last = None
+        return [tuple(message) for message in found]
+
+    @property
+    def severe(self):
+        """The severe and fatal errors, as they stand in eplusout.err without their stars."""
+        return [f"{kind}: {text}" for kind, text in self.messages if kind != "Warning"]
 
     @property
     def method(self):
