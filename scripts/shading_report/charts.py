@@ -67,8 +67,10 @@ def _colour_bar(figure, axes, image, gap=0.1, width=0.12, **options):
     return figure.colorbar(image, cax=bar, **options)
 
 
-def _power(value):
-    return f"{value:.1e}".replace("-", "\u2212")
+def difference(value):
+    """Of sunlit fractions, in few characters: 0.35, 1.2e-05."""
+    form = ".1e" if 0 < abs(value) < 1e-3 else ".2g"
+    return format(value, form).replace("-", "\u2212")
 
 
 def _plain(value, _=None):
@@ -93,7 +95,7 @@ def _days(axes, calendar):
 
 def heat_map(grid, calendar, title, description, limit=None):
     """Hours over days; amounts of 0 to 1, or, with a limit, differences of at most that."""
-    figure, axes = _figure(6.0, 2.1, left=0.5, right=0.95, bottom=0.4)
+    figure, axes = _figure(5.2, 2.0, left=0.5, right=0.8, bottom=0.4)
     colours = mpl.colormaps["cividis" if limit is None else "PuOr"].with_extremes(bad=NOT_FACING)
     low, high = (0.0, 1.0) if limit is None else (-limit, limit)
     image = axes.imshow(grid, aspect="auto", origin="lower", interpolation="none", cmap=colours, vmin=low, vmax=high,
@@ -102,7 +104,7 @@ def heat_map(grid, calendar, title, description, limit=None):
     axes.set_title(title, loc="left", fontsize=9, fontweight="bold")
     bar = _colour_bar(figure, axes, image)
     if limit is not None:
-        bar.set_ticks([-limit, 0.0, limit], labels=[_power(-limit), "0", _power(limit)])
+        bar.set_ticks([-limit, 0.0, limit], labels=[difference(-limit), "0", difference(limit)])
     return _svg(figure, description)
 
 
@@ -147,7 +149,7 @@ def histogram(others, description):
     axes.set_yscale("log")
     axes.set_ylim(bottom=0.5)
     axes.axvline(0.0, color="#444444", linewidth=0.8)
-    axes.set_xticks([-largest, 0.0, largest], [_power(-largest), "0", _power(largest)])
+    axes.set_xticks([-largest, 0.0, largest], [difference(-largest), "0", difference(largest)])
     axes.yaxis.set_major_formatter(_plain)
     axes.yaxis.set_minor_locator(NullLocator())
     axes.grid(axis="y", **GRID)

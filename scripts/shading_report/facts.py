@@ -14,6 +14,7 @@ QUANTITIES = (
     ("Cooling", results.COOLING),
 )
 HOURS = 24
+SAME = 9  # decimals to which sunlit fractions of hours are taken for one
 
 
 def month_name(month):
@@ -127,11 +128,34 @@ def peaks(runs, calendar):
     return found
 
 
-def worst_hours(difference, count=10):
-    """Places in time of the largest |difference|, largest first; none where it is 0."""
-    values = np.asarray(difference.values)
-    order = np.argsort(-np.abs(values), kind="stable")[:count]
-    return [(difference.times[i], float(values[i])) for i in order if values[i] != 0.0]
+@dataclass
+class WorstHour:
+    """An hour of a large difference; days: how many days, this one the first, have the same at that hour."""
+
+    place: int
+    change: float
+    days: int = 1
+
+
+def worst_hours(difference, calendar, count=10):
+    """The largest |difference|, largest first; none where it is 0.
+
+    Where shading is calculated for periods, days have the same sunlit fractions: of such only the first.
+    """
+    values, reference = np.asarray(difference.values), np.asarray(difference.reference)
+    found = {}
+    for i in np.argsort(-np.abs(values), kind="stable"):
+        if values[i] == 0.0:
+            break
+        place = difference.times[i]
+        alike = (calendar.row[place], round(reference[i], SAME), round(values[i], SAME))
+        if alike in found:
+            found[alike].days += 1
+        elif len(found) < count:
+            found[alike] = WorstHour(place, float(values[i]))
+        elif abs(values[i]) < abs(min(found.values(), key=lambda each: abs(each.change)).change):
+            break
+    return list(found.values())
 
 
 def messages(runs):

@@ -20,6 +20,7 @@ class Hour:
     sun: tuple
     fractions: list
     change: float
+    days: int  # that are like it, itself counted
     pictures: list = field(default_factory=list)  # (run, data URI)
 
 
@@ -60,8 +61,11 @@ def _fraction(value):
 
 
 def _difference(value):
-    """Of a sunlit fraction: 1.2e-05."""
-    return _number(value, ".1e") if value else "0"
+    return "–" if value is None else charts.difference(value)
+
+
+def _signed_difference(value):
+    return "+" * (value > 0) + charts.difference(value)
 
 
 def _largest(name, runs):
@@ -109,11 +113,11 @@ def _detail(anchor, name, runs, calendar):
                          f"Histogram of the differences at {name}"),
     ]
     hours = []
-    for place, change in facts.worst_hours(of_runs[0][1]):
-        fractions = [run.results.values[results.SUNLIT][name][place] for run in runs]
-        hours.append((place, Hour(calendar.name(place), runs[0].results.sun_at(place), fractions, change)))
-    return Detail(anchor, runs[0].results.receivers[name], _maps(name, runs, calendar), parts,
-                  [hour for _, hour in hours])
+    for worst in facts.worst_hours(of_runs[0][1], calendar):
+        fractions = [run.results.values[results.SUNLIT][name][worst.place] for run in runs]
+        hours.append(Hour(calendar.name(worst.place), runs[0].results.sun_at(worst.place), fractions, worst.change,
+                          worst.days))
+    return Detail(anchor, runs[0].results.receivers[name], _maps(name, runs, calendar), parts, hours)
 
 
 def _draw(details, runs, weather, output):
@@ -174,7 +178,8 @@ def write(output, everything, weather, most, further):
 
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters |= {"number": _number, "fraction": _fraction, "difference": _difference}
+    environment.filters |= {"number": _number, "fraction": _fraction, "difference": _difference,
+                            "signed_difference": _signed_difference}
     text = environment.get_template("page.html").render(
         style=(HERE / "page.css").read_text(encoding="utf-8"),
         script=(HERE / "page.js").read_text(encoding="utf-8"),

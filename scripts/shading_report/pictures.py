@@ -1,7 +1,6 @@
 """What the sun sees of receivers, drawn by the gpu_shading program from the model that a run read."""
 
 import base64
-import csv
 import shutil
 import subprocess
 
@@ -20,11 +19,9 @@ def draw(run, weather, wanted, folder):
     program = run.program.parent / "gpu_shading"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    table = folder / "views.csv"
-    with open(table, "w", newline="", encoding="utf-8") as file:
-        rows = csv.writer(file)
-        rows.writerow(["picture", "receiver", "sun azimuth [deg]", "sun altitude [deg]"])
-        rows.writerows([f"{number}.png", receiver, *sun] for number, (receiver, sun) in enumerate(wanted))
+    table = folder / "views.txt"
+    table.write_text("".join(f"{number}.png {azimuth:.6f} {altitude:.6f} {receiver}\n"
+                             for number, (receiver, (azimuth, altitude)) in enumerate(wanted)), encoding="utf-8")
     command = [program, "view", run.placed, "-w", weather, "--list", table, "-o", folder, "--size", str(SIZE)]
     if run.extension_file:
         command += ["--gpu-shading-file", run.extension_file]
