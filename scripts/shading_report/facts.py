@@ -4,7 +4,6 @@ import calendar as gregorian
 from dataclasses import dataclass
 
 import numpy as np
-
 from shading_runs import results
 
 QUANTITIES = (

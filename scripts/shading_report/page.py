@@ -5,9 +5,9 @@ from pathlib import Path
 
 import jinja2
 import numpy as np
+from shading_runs import results
 
 from shading_report import charts, facts, origin, pictures
-from shading_runs import results
 
 HERE = Path(__file__).resolve().parent
 

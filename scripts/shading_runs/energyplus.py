@@ -71,7 +71,7 @@ class Run:
         found, last = [], None
         for line in self.text("eplusout.err").splitlines():
             start = re.match(r"[ *]*\*\* +(Warning|Severe|Fatal) +\*\* *(.*)", line)
-            further = re.match(r" *\*\* +~~~ +\*\* *(.*)", line)
+            further = re.match(r"[ *]*\*\* +~~~ +\*\* *(.*)", line)
             if start:
                 last = [start[1], start[2].strip()]
                 found.append(last)
