@@ -1,10 +1,12 @@
 """Runs EnergyPlus and says how it went."""
 
+import importlib.util
 import os
 import re
 import shutil
 import signal
 import subprocess
+import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +24,13 @@ def patched_prefix():
     chosen = os.environ.get("GPU_SHADING_PREFIX")
     build = os.environ.get("GPU_SHADING_BUILD", "build")
     return Path(chosen) if chosen else REPOSITORY / build / "EnergyPlus"
+
+
+def use_own_python(needed):
+    """Starts the script again with the Python of scripts/setup, where the one that runs lacks a needed package."""
+    own = REPOSITORY / ".venv" / "bin" / "python"
+    if not importlib.util.find_spec(needed) and own.is_file() and Path(sys.prefix) != own.parents[1]:
+        os.execv(own, [str(own), *sys.argv])
 
 
 def models_folder():

@@ -6,6 +6,7 @@ from pathlib import Path
 from shading_runs import energyplus, input_file, results
 
 OURS = "gpushading:"
+LONG = 20  # characters, for a title in a heading
 
 
 class Method:
@@ -14,6 +15,7 @@ class Method:
     def __init__(self, key, short, title, program, shading_method=None, options=(), before=(), model=None,
                  is_ours=False):
         self.key, self.short, self.title, self.program = key, short, title, program
+        self.label = title  # in headings and charts
         self.shading_method, self.options, self.before = shading_method, list(options), list(before)
         self.model = model  # the path of the model it runs
         self.is_ours = is_ours  # rendered by this software
@@ -39,11 +41,6 @@ class Method:
             self.missing = f"EnergyPlus fell back to {self.run.method}"
             return
         self.results = results.Results(output / self.key)
-
-    @property
-    def label(self):
-        """The title, or where that is long what stands for it."""
-        return self.title if len(self.title) <= 16 else self.short
 
     @property
     def extension_file(self):
@@ -121,4 +118,7 @@ def choose(model, a, b, with_xvfb):
             each.short = letter
     if with_xvfb and "pixelcounting" not in (a, b):
         chosen.append(pixel_counting("xvfb", model))
+    if any(len(each.title) > LONG for each in chosen):
+        for each in chosen:
+            each.label = each.short
     return chosen
