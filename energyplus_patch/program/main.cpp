@@ -78,27 +78,30 @@ struct ViewArguments {
 
 void run_view(ModelRun const& model, ViewArguments const& arguments) {
   std::filesystem::path const output = arguments.output;
+  std::vector<Picture> pictures;
   if (!arguments.list.empty()) {
-    draw(model, read_views(arguments.list), arguments.size, output);
-    return;
+    for (auto& view : read_views(arguments.list)) {
+      auto file = output / view.picture;
+      pictures.push_back({std::move(view), std::move(file)});
+    }
+  } else if (!arguments.sun.empty()) {
+    auto const sun = direction_of_degrees(arguments.sun[0], arguments.sun[1]);
+    pictures.push_back({{"", sun, arguments.receiver}, output});
+  } else {
+    throw Error("expected --sun AZIMUTH,ALTITUDE, or --list FILE");
   }
-  if (arguments.receiver.empty() || arguments.sun.empty()) {
-    throw Error("expected --receiver NAME with --sun AZIMUTH,ALTITUDE, or --list FILE");
-  }
-  auto const name = output.filename().string();
-  draw(model, {{name, sun_at(arguments.sun[0], arguments.sun[1]), arguments.receiver}},
-       arguments.size, output.parent_path());
+  draw(model, pictures, arguments.size);
 }
 
 void add_view(CLI::App& app) {
   auto* const command = app.add_subcommand(
       "view",
-      "Draw a receiver as the sun sees it: its sunlit parts yellow, shaded ones blue, casters "
-      "grey; grey by what reaches it where a caster transmits (schedules at their least "
-      "transmittance, screens all in place)");
+      "Draw the model as the sun sees it, receivers from dark blue to yellow by their sunlit "
+      "fraction; or one receiver, its sunlit parts yellow, shaded ones blue, grey by what reaches "
+      "it where a caster transmits. Schedules at their least transmittance, screens all in place");
   auto const model = std::make_shared<ModelArguments>(*command);
   auto const arguments = std::make_shared<ViewArguments>();
-  command->add_option("--receiver", arguments->receiver, "Name of a surface");
+  command->add_option("--receiver", arguments->receiver, "Name of the one to show");
   command
       ->add_option("--sun", arguments->sun,
                    "Degrees: azimuth clockwise from true north, altitude above the horizon")
@@ -106,7 +109,7 @@ void add_view(CLI::App& app) {
       ->expected(2)
       ->type_name("AZIMUTH,ALTITUDE");
   command->add_option("--list", arguments->list,
-                      "Many pictures, one a line: FILE AZIMUTH ALTITUDE RECEIVER");
+                      "Many pictures, one a line: FILE AZIMUTH ALTITUDE [RECEIVER]");
   command
       ->add_option("-o,--output", arguments->output,
                    "The picture, in the format that its name's ending tells; with --list the "

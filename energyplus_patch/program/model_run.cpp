@@ -71,8 +71,8 @@ std::string own_error(Path const& log) {
 
 }  // namespace
 
-void run_to_shading(ModelRun const& run, std::vector<std::string> environment, Path const& folder,
-                    Path const& product) {
+void run_to_shading(ModelRun const& run, std::vector<std::string> const& environment,
+                    Path const& folder, Path const& product) {
   auto const& [model, weather, choices] = run;
   if (!std::filesystem::exists(model)) {
     throw Error(fmt::format("{}: no such file", model.string()));

@@ -8,10 +8,14 @@
 
 namespace gpu_shading::energyplus {
 
-// Draws a model's receivers as the sun sees them, `size` pixels on the longer side, into a folder,
-// which is made where it is missing: all pictures, or none. The surfaces come from EnergyPlus
-// itself, run as far as it hands them over. Throws Error.
-void draw(ModelRun const& run, std::vector<View> const& views, int size,
-          std::filesystem::path const& folder);
+struct Picture {
+  View view;  // under any name
+  std::filesystem::path file;
+};
+
+// Draws a model as the sun sees it, `size` pixels on the longer side, into files of the formats
+// that their names' endings tell: all of them, or none. Folders are made where they are missing.
+// The surfaces come from EnergyPlus itself, run as far as it hands them over. Throws Error.
+void draw(ModelRun const& run, std::vector<Picture> const& pictures, int size);
 
 }  // namespace gpu_shading::energyplus

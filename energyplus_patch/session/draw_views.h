@@ -8,12 +8,14 @@
 
 namespace gpu_shading::energyplus {
 
-// What draws: the model's receivers, the light that schedules let pass, and how large.
+// What draws.
 struct Drawing {
   Renderer& renderer;
-  std::size_t receivers;  // surfaces before this one can be named
-  std::vector<double> const& factors;
-  int size;  // pixels on the longer side
+  DeviceChoice device;
+  std::vector<SurfaceId> shown;        // the model's surfaces, which can be named
+  std::vector<bool> receives;          // by surface, whether its sunlit fraction is a colour
+  std::vector<double> const& factors;  // what schedules let pass
+  int size;                            // pixels on the longer side
 };
 
 // Into a folder. Throws Error where a receiver is not there or a picture cannot be written.

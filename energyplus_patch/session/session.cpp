@@ -91,7 +91,7 @@ void Session::start(Messages messages, Schedules schedules) {
   }
   if (char const* const folder = std::getenv(views_variable)) {
     char const* const size = std::getenv(view_size_variable);
-    draw(folder, size == nullptr ? default_view_size : std::atoi(size));
+    draw(folder, size == nullptr ? default_view_size : std::atoi(size), std::move(wanted));
     std::_Exit(EXIT_SUCCESS);
   }
   if (model_.options.report) prepare_report(*model_.options.report);
@@ -102,14 +102,24 @@ void Session::start(Messages messages, Schedules schedules) {
   describe_surfaces();
 }
 
-void Session::draw(std::filesystem::path const& folder, int size) {
+void Session::draw(std::filesystem::path const& folder, int size, std::vector<bool> wanted) {
   auto const views = read_views(folder / views_list);
-  model_.options.cache.reset();  // nothing is answered
+  std::vector<SurfaceId> shown;
+  for (SurfaceId id = 0; id < scene_.size(); ++id) {
+    if (!model_.lean.is_placeholder(scene_[id].name)) shown.push_back(id);
+  }
+  for (SurfaceId id = 0; id < surfaces_; ++id) {
+    if (is_reveal(scene_[id].name)) wanted[id] = false;
+  }
+  wanted.resize(scene_.size(), false);  // what was left out of EnergyPlus's input only casts
+  model_.options.cache.reset();         // nothing is answered
   add_walls_without_openings();
   open_renderer();
   optics_.update({});
   renderer_->set_deployments(optics_.deployments());
-  draw_views(views, folder, {*renderer_, surfaces_, optics_.factors(), size});
+  draw_views(
+      views, folder,
+      {*renderer_, model_.options.device, shown, std::move(wanted), optics_.factors(), size});
 }
 
 void Session::open_renderer() {

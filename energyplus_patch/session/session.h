@@ -79,7 +79,7 @@ class Session {
   std::vector<Sunlit> const& find_interior(SurfaceId window,
                                            std::vector<SurfaceId> const& interiors);
   void describe_surfaces();
-  void draw(std::filesystem::path const& folder, int size);
+  void draw(std::filesystem::path const& folder, int size, std::vector<bool> wanted);
   void warn_of_actuated_schedules() const;
   void add_walls_without_openings();
   void open_renderer();

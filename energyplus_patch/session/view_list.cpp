@@ -16,16 +16,17 @@ View read_view(std::string const& line, std::string const& place) {
   double azimuth = 0.0;
   double altitude = 0.0;
   View view;
-  if (words >> view.picture >> azimuth >> altitude) std::getline(words >> std::ws, view.receiver);
-  if (view.receiver.empty()) {
-    throw Error(fmt::format("{}: {}: expected a picture's name, azimuth, altitude and a receiver",
-                            place, line));
+  if (!(words >> view.picture >> azimuth >> altitude)) {
+    throw Error(fmt::format(
+        "{}: {}: expected a picture's name, azimuth, altitude and, of one, its receiver", place,
+        line));
   }
+  std::getline(words >> std::ws, view.receiver);
   if (view.picture.find('/') != std::string::npos) {
     throw Error(fmt::format("{}: {}: expected a file's name without folders", place, view.picture));
   }
   try {
-    view.sun = sun_at(azimuth, altitude);
+    view.sun = direction_of_degrees(azimuth, altitude);
   } catch (Error const& error) {
     throw Error(fmt::format("{}: {}", place, error.what()));
   }
@@ -34,7 +35,7 @@ View read_view(std::string const& line, std::string const& place) {
 
 }  // namespace
 
-SunDirection sun_at(double azimuth_degrees, double altitude_degrees) {
+SunDirection direction_of_degrees(double azimuth_degrees, double altitude_degrees) {
   constexpr double zenith = 90.0;
   constexpr double circle = 360.0;
   if (!(altitude_degrees > 0.0) || altitude_degrees > zenith) {

@@ -2,11 +2,14 @@
 
 import subprocess
 
+import matplotlib as mpl
+import numpy as np
 import pytest
 import window_with_shades
 from PIL import Image
 
 YELLOW, BLUE = (255, 255, 0), (0, 0, 255)
+CIVIDIS = 4  # of 255: the colours are straight lines between 17 of them
 
 
 @pytest.fixture
@@ -64,3 +67,18 @@ def test_what_is_wrong(view, tmp_path, arguments, words):
     for word in words:
         assert word in done.stderr
     assert not (tmp_path / "sun.png").exists()
+
+
+def test_a_whole_scene_has_receivers_by_their_sunlit_fraction(view, tmp_path):
+    sun = (150.0, 30.0)
+    done = view("--sun", ",".join(map(str, sun)), "-o", "scene.png", "--size", "600")
+    assert done.returncode == 0, done.stderr
+    exact = window_with_shades.sunlit_area("south", True, True, *sun) / window_with_shades.SIZE**2
+    assert 0.2 < exact < 0.8
+    expected = 255 * np.array(mpl.colormaps["cividis"](exact)[:3])
+    with Image.open(tmp_path / "scene.png") as picture:
+        pixels = np.asarray(picture.convert("RGB"), float)
+    close = np.abs(pixels - expected).max(axis=2) < CIVIDIS
+    # The window fills a good part of the picture; nothing else of it is as much in the sun.
+    assert close.mean() > 0.02
+    assert len({tuple(pixel) for pixel in pixels[close]}) == 1
