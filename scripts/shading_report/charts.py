@@ -95,7 +95,7 @@ def _days(axes, calendar):
 
 def heat_map(grid, calendar, title, description, limit=None):
     """Hours over days; amounts of 0 to 1, or, with a limit, differences of at most that."""
-    figure, axes = _figure(5.2, 2.0, left=0.5, right=0.8, bottom=0.4)
+    figure, axes = _figure(5.3, 2.0, left=0.5, right=0.95, bottom=0.4)
     colours = mpl.colormaps["cividis" if limit is None else "PuOr"].with_extremes(bad=NOT_FACING)
     low, high = (0.0, 1.0) if limit is None else (-limit, limit)
     image = axes.imshow(grid, aspect="auto", origin="lower", interpolation="none", cmap=colours, vmin=low, vmax=high,

@@ -124,7 +124,7 @@ def peaks(runs, calendar):
             peak.times = [calendar.name(i) if value > 0 else "" for i, value in zip(largest, peak.values, strict=True)]
             if any(peak.values):
                 found.append(peak)
-    return found
+    return sorted(found, key=lambda peak: peak.title != "Building")
 
 
 @dataclass
