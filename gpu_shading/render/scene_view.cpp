@@ -274,8 +274,9 @@ class SceneView::Implementation {
   glm::dvec3 sample_colour(Samples const& seen, std::size_t at) const {
     constexpr double through = 0.5;
     constexpr double edge = 0.45;
-    auto const& [front, behind, columns] = seen;
-    auto const width = static_cast<std::size_t>(columns);
+    auto const& front = seen.front;
+    auto const& behind = seen.behind;
+    auto const width = static_cast<std::size_t>(seen.columns);
     auto sample = colours_[front[at]];
     if (front[at] != behind[at]) sample = glm::mix(sample, colours_[behind[at]], through);
     auto const differs = [&](std::size_t other) {

@@ -51,7 +51,7 @@ def rows(runs, weather, further):
         ("Program", lambda run: version(run)),
         ("Shading method in force", lambda run: "rendered" if run.is_ours else run.run.method or "not known"),
         ("Rendered by", lambda run: run.run.device or "–"),
-        ("Resolution, pixels a side", lambda run: rendered(run, r"(\d+) x \d+ pixels")),
+        ("Fineness", lambda run: run.run.fineness or "–"),
         ("Receivers", lambda run: rendered(run, r"(\d+) receivers")),
         ("Casters", lambda run: rendered(run, r"(\d+) casters")),
         ("Directions of the sun", lambda run: rendered(run, r"(\d+) directions")),

@@ -117,11 +117,16 @@ class Run:
     @property
     def device(self):
         """The device that rendered, in our module's words, '' if it did not say."""
-        for line in self.our_lines:
-            found = re.search(r"rendered by (.*?), \d+ x \d+ pixels", line)
-            if found:
-                return found.group(1).strip()
-        return ""
+        return self._rendered()[0]
+
+    @property
+    def fineness(self):
+        """The pixels or the error that it rendered with, likewise."""
+        return self._rendered()[1]
+
+    def _rendered(self):
+        found = re.search(r"rendered by (.*), ([^:]*): \d+ receivers", self.rendering)
+        return (found[1].strip(), found[2].strip()) if found else ("", "")
 
     @property
     def rendering(self):

@@ -174,7 +174,7 @@ def test_the_page_says_what_ran(page, variants, model, weather):
         assert rows[title] == [f"{path.name}, SHA-256 {hashlib.sha256(path.read_bytes()).hexdigest()}"] * 2
     glass = model.with_name("glass.idf")
     assert rows["Extension file"] == ["none", f"glass.idf, SHA-256 {hashlib.sha256(glass.read_bytes()).hexdigest()}"]
-    assert rows["Resolution, pixels a side"] == ["256", "512"]
+    assert rows["Fineness"][0] == "256 x 256 pixels" and rows["Fineness"][1] not in ("", "–")
     assert "--gpu-shading-resolution=256" in rows["Options"][0]
     assert all(cell.startswith("EnergyPlus, Version 25.2") for cell in rows["Program"])
     for key, device in zip(("a", "b"), rows["Rendered by"], strict=True):
