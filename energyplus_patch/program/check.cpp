@@ -1,101 +1,20 @@
 #include "program/check.h"
 
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <fstream>
-#include <iterator>
+#include <iostream>
 
-#include "gpu_shading/error.h"
-#include "host/own_folder.h"
-#include "host/version.h"
-#include "input/model_reader.h"
 #include "program/process.h"
 
 namespace gpu_shading::energyplus {
-namespace {
 
-using Path = std::filesystem::path;
-
-Path find_launcher() {
-  auto launcher = own_folder() / "energyplus";
-  if (!std::filesystem::exists(own_folder() / "Energy+.idd")) {
-    throw Error(
-        fmt::format("{}: is not a patched EnergyPlus; run the gpu_shading of a prefix made by "
-                    "patch_energyplus",
-                    own_folder().string()));
-  }
-  return launcher;
-}
-
-// Any will do: only the geometry is wanted.
-Path some_weather() {
-  auto const folder = own_folder() / "WeatherData";
-  if (std::filesystem::exists(folder)) {
-    for (auto const& entry : std::filesystem::directory_iterator(folder)) {
-      if (entry.path().extension() == ".epw") return entry.path();
-    }
-  }
-  throw Error(fmt::format("{}: no weather file; name one with -w", folder.string()));
-}
-
-std::string read_text(Path const& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-// The lines of EnergyPlus's .err that say why it stopped.
-std::string reasons(Path const& folder) {
-  std::ifstream file(folder / "eplusout.err");
-  std::string found;
-  bool severe = false;
-  for (std::string line; std::getline(file, line);) {
-    bool const continued = line.find("**   ~~~   **") != std::string::npos;
-    bool const starts =
-        line.find("** Severe") != std::string::npos || line.find("**  Fatal") != std::string::npos;
-    severe = starts || (continued && severe);
-    if (severe) found += "\n" + line;
-  }
-  return found;
-}
-
-}  // namespace
-
-void check(Path const& model, std::optional<Path> const& weather, Choices const& choices,
-           bool vertices) {
-  if (!std::filesystem::exists(model)) {
-    throw Error(fmt::format("{}: no such file", model.string()));
-  }
-  if (!is_idf(model) && !is_epjson(model)) {
-    throw Error(fmt::format("{}: expected an .idf or .epJSON file", model.string()));
-  }
-  check_supported(read_model(model, choices).shading, read_version(own_folder()));
-
+void check(ModelRun const& run, bool vertices) {
   TemporaryFolder const folder;
   auto const listing = folder.path() / "surfaces.txt";
-  auto const log = folder.path() / "log.txt";
-  std::vector<std::string> command{find_launcher().string(),
-                                   "--gpu-shading",
-                                   "-d",
-                                   folder.path().string(),
-                                   "-w",
-                                   weather.value_or(some_weather()).string()};
-  if (choices.device) command.push_back("--gpu-shading-device=" + name_of(*choices.device));
-  if (choices.file) command.push_back("--gpu-shading-file=" + choices.file->string());
-  if (choices.lean) command.push_back("--gpu-shading-lean=" + name_of(*choices.lean));
-  if (is_idf(model) && read_text(model).find("HVACTemplate:") != std::string::npos) {
-    command.emplace_back("-x");
-  }
-  command.push_back(model.string());
-  std::vector<std::string> environment{"GPU_SHADING_CHECK=" +
-                                       std::filesystem::absolute(listing).string()};
+  std::vector<std::string> environment{"GPU_SHADING_CHECK=" + listing.string()};
   if (vertices) environment.emplace_back("GPU_SHADING_CHECK_VERTICES=1");
-  run_process(command, environment, log);
-  if (!std::filesystem::exists(listing)) {
-    throw Error(fmt::format("{}: EnergyPlus does not get as far as its shading calculation:{}",
-                            model.string(), reasons(folder.path())));
-  }
-  std::fputs(read_text(listing).c_str(), stdout);
+  run_to_shading(run, environment, folder.path(), listing);
+  std::cout << std::ifstream(listing).rdbuf();
 }
 
 }  // namespace gpu_shading::energyplus

@@ -5,12 +5,15 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "gpu_shading/device.h"
 #include "gpu_shading/error.h"
 #include "program/check.h"
+#include "program/view.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -31,32 +34,104 @@ void print_devices() {
   }
 }
 
+// What every subcommand that reads a model takes.
+class ModelArguments {
+ public:
+  explicit ModelArguments(CLI::App& command) {
+    command.add_option("model", model_, "IDF or epJSON file")->required();
+    command.add_option("-w,--weather", weather_, "Weather file (default: one of EnergyPlus's)");
+    command.add_option("--gpu-shading-file", file_, "Extension objects in a file of their own");
+  }
+
+  ModelRun run() const {
+    ModelRun run{model_, std::nullopt, read_environment()};
+    if (!weather_.empty()) run.weather = weather_;
+    if (!file_.empty()) run.choices.file = file_;
+    return run;
+  }
+
+ private:
+  std::string model_;
+  std::string weather_;
+  std::string file_;
+};
+
+void add_check(CLI::App& app) {
+  auto* const command = app.add_subcommand(
+      "check",
+      "Read a model and its extension objects; print what each surface will be to the "
+      "shading calculation, or every error");
+  auto const arguments = std::make_shared<ModelArguments>(*command);
+  auto const vertices = std::make_shared<bool>(false);
+  command->add_flag("--vertices", *vertices, "Print every surface's vertices instead");
+  command->callback([arguments, vertices] { check(arguments->run(), *vertices); });
+}
+
+// What the subcommand "view" is told, besides the model.
+struct ViewArguments {
+  std::string receiver;
+  std::vector<double> sun;
+  std::string list;
+  std::string output;
+  int size = 800;
+};
+
+void run_view(ModelRun const& model, ViewArguments const& arguments) {
+  std::filesystem::path const output = arguments.output;
+  std::vector<Picture> pictures;
+  if (!arguments.list.empty()) {
+    for (auto& view : read_views(arguments.list)) {
+      auto file = output / view.picture;
+      pictures.push_back({std::move(view), std::move(file)});
+    }
+  } else if (!arguments.sun.empty()) {
+    auto const sun = direction_of_degrees(arguments.sun[0], arguments.sun[1]);
+    pictures.push_back({{"", sun, arguments.receiver}, output});
+  } else {
+    throw Error("expected --sun AZIMUTH,ALTITUDE, or --list FILE");
+  }
+  draw(model, pictures, arguments.size);
+}
+
+void add_view(CLI::App& app) {
+  auto* const command = app.add_subcommand(
+      "view",
+      "Draw the model as the sun sees it, receivers from dark blue to yellow by their sunlit "
+      "fraction; or one receiver, its sunlit parts yellow, shaded ones blue, grey by what reaches "
+      "it where a caster transmits. Schedules at their least transmittance, screens all in place");
+  auto const model = std::make_shared<ModelArguments>(*command);
+  auto const arguments = std::make_shared<ViewArguments>();
+  command->add_option("--receiver", arguments->receiver, "Name of the one to show");
+  command
+      ->add_option("--sun", arguments->sun,
+                   "Degrees: azimuth clockwise from true north, altitude above the horizon")
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("AZIMUTH,ALTITUDE");
+  command->add_option("--list", arguments->list,
+                      "Many pictures, one a line: FILE AZIMUTH ALTITUDE [RECEIVER]");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "The picture, in the format that its name's ending tells; with --list the "
+                   "folder of all")
+      ->required();
+  constexpr int least = 16;
+  constexpr int most = 8192;
+  command->add_option("--size", arguments->size, "Pixels on the longer side")
+      ->check(CLI::Range(least, most))
+      ->capture_default_str();
+  command->callback([model, arguments] { run_view(model->run(), *arguments); });
+}
+
 int run(int argc, char** argv) {
-  CLI::App app{"Devices and checks for EnergyPlus with GPU shading", "gpu_shading"};
+  CLI::App app{"Devices, checks and pictures for EnergyPlus with GPU shading", "gpu_shading"};
   app.require_subcommand(1);
   app.add_subcommand("devices",
                      "List the devices that can render; the number is what "
                      "--gpu-shading-device takes")
       ->callback(print_devices);
-
-  auto* const check_command = app.add_subcommand(
-      "check",
-      "Read a model and its extension objects; print what each surface will be to the "
-      "shading calculation, or every error");
-  std::string model;
-  std::string weather;
-  std::string file;
-  check_command->add_option("model", model, "IDF or epJSON file")->required();
-  check_command->add_option("-w,--weather", weather, "Weather file (default: one of EnergyPlus's)");
-  check_command->add_option("--gpu-shading-file", file, "Extension objects in a file of their own");
-  bool vertices = false;
-  check_command->add_flag("--vertices", vertices, "Print every surface's vertices instead");
-  check_command->callback([&] {
-    Choices choices = read_environment();
-    if (!file.empty()) choices.file = file;
-    check(model, weather.empty() ? std::nullopt : std::optional<std::filesystem::path>(weather),
-          choices, vertices);
-  });
+  add_check(app);
+  add_view(app);
   CLI11_PARSE(app, argc, argv);
   return EXIT_SUCCESS;
 }

@@ -6,12 +6,13 @@
 #include <cmath>
 
 #include "session/shade_optics.h"
+#include "session/shading_rule.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 std::string kind_of(std::string const& name, ShadingInput const& input) {
-  if (name.find(" reveal ") != std::string::npos) return "reveal";
+  if (is_reveal(name)) return "reveal";
   if (auto const found = input.shading_surfaces.find(name); found != input.shading_surfaces.end()) {
     return found->second.type;
   }

@@ -11,6 +11,7 @@
 #include "gpu_shading/error.h"
 #include "session/build_id.h"
 #include "session/cache_folder.h"
+#include "session/draw_views.h"
 #include "session/listing.h"
 #include "session/report.h"
 #include "session/scene_hash.h"
@@ -18,6 +19,8 @@
 
 namespace gpu_shading::energyplus {
 namespace {
+
+constexpr int default_view_size = 800;
 
 std::uint64_t hash_of(SurfaceId window, std::vector<SurfaceId> const& interiors) {
   // FNV-1a
@@ -86,12 +89,37 @@ void Session::start(Messages messages, Schedules schedules) {
                                         : list_surfaces(scene_, model_, wanted));
     std::_Exit(EXIT_SUCCESS);
   }
+  if (char const* const folder = std::getenv(views_variable)) {
+    char const* const size = std::getenv(view_size_variable);
+    draw(folder, size == nullptr ? default_view_size : std::atoi(size), std::move(wanted));
+    std::_Exit(EXIT_SUCCESS);
+  }
   if (model_.options.report) prepare_report(*model_.options.report);
   if (model_.options.cache) prepare_cache_folder(*model_.options.cache);
   add_walls_without_openings();
   open_renderer();
   check_device();
   describe_surfaces();
+}
+
+void Session::draw(std::filesystem::path const& folder, int size, std::vector<bool> wanted) {
+  auto const views = read_views(folder / views_list);
+  std::vector<SurfaceId> shown;
+  for (SurfaceId id = 0; id < scene_.size(); ++id) {
+    if (!model_.lean.is_placeholder(scene_[id].name)) shown.push_back(id);
+  }
+  for (SurfaceId id = 0; id < surfaces_; ++id) {
+    if (is_reveal(scene_[id].name)) wanted[id] = false;
+  }
+  wanted.resize(scene_.size(), false);  // what was left out of EnergyPlus's input only casts
+  model_.options.cache.reset();         // nothing is answered
+  add_walls_without_openings();
+  open_renderer();
+  optics_.update({});
+  renderer_->set_deployments(optics_.deployments());
+  draw_views(
+      views, folder,
+      {*renderer_, model_.options.device, shown, std::move(wanted), optics_.factors(), size});
 }
 
 void Session::open_renderer() {

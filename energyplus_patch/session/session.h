@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -34,6 +35,13 @@ class Session {
   static constexpr char const* listing_variable = "GPU_SHADING_CHECK";
   // Set with it: the vertices instead.
   static constexpr char const* vertices_variable = "GPU_SHADING_CHECK_VERTICES";
+
+  // Set by `gpu_shading view` alone: start() draws what the folder's list of views says into that
+  // folder, by shades of the least transmittance and screens all in place, and ends the process.
+  static constexpr char const* views_variable = "GPU_SHADING_VIEW";
+  static constexpr char const* views_list = "views.txt";
+  // Set with it: pixels on a picture's longer side.
+  static constexpr char const* view_size_variable = "GPU_SHADING_VIEW_SIZE";
 
   explicit Session(Model model) : model_(std::move(model)) {}
 
@@ -71,6 +79,7 @@ class Session {
   std::vector<Sunlit> const& find_interior(SurfaceId window,
                                            std::vector<SurfaceId> const& interiors);
   void describe_surfaces();
+  void draw(std::filesystem::path const& folder, int size, std::vector<bool> wanted);
   void warn_of_actuated_schedules() const;
   void add_walls_without_openings();
   void open_renderer();

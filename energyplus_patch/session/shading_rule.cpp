@@ -8,11 +8,13 @@
 namespace gpu_shading::energyplus {
 namespace {
 
+constexpr std::string_view reveal_mark = " reveal ";
+
 constexpr std::string_view no_openings = " without openings";
 
 // The window that a reveal belongs to, or "".
 std::string reveal_owner(std::string const& name) {
-  auto const at = name.rfind(" reveal ");
+  auto const at = name.rfind(reveal_mark);
   return at == std::string::npos ? std::string{} : name.substr(0, at);
 }
 
@@ -88,6 +90,8 @@ class Numbering {
 };
 
 }  // namespace
+
+bool is_reveal(std::string const& name) { return name.find(reveal_mark) != std::string::npos; }
 
 std::string without_openings(std::string const& wall) { return wall + std::string(no_openings); }
 

@@ -10,6 +10,9 @@
 
 namespace gpu_shading::energyplus {
 
+// Whether a surface's name says that EnergyPlus has made it of a window's edge.
+bool is_reveal(std::string const& name);
+
 // A wall shades the windows in it through its own openings, and everything else as if it had none,
 // as in EnergyPlus's PolygonClipping: set-back windows and their reveals then cast on nothing
 // outside. Such a wall has a second surface in the scene, without openings, by this name.

@@ -1,10 +1,12 @@
 """Runs EnergyPlus and says how it went."""
 
+import importlib.util
 import os
 import re
 import shutil
 import signal
 import subprocess
+import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +24,13 @@ def patched_prefix():
     chosen = os.environ.get("GPU_SHADING_PREFIX")
     build = os.environ.get("GPU_SHADING_BUILD", "build")
     return Path(chosen) if chosen else REPOSITORY / build / "EnergyPlus"
+
+
+def use_own_python(needed):
+    """Starts the script again with the Python of scripts/setup, where the one that runs lacks a needed package."""
+    own = REPOSITORY / ".venv" / "bin" / "python"
+    if not importlib.util.find_spec(needed) and own.is_file() and Path(sys.prefix) != own.parents[1]:
+        os.execv(own, [str(own), *sys.argv])
 
 
 def models_folder():
@@ -66,17 +75,25 @@ class Run:
         return int(found[1]) * 3600 + int(found[2]) * 60 + float(found[3])
 
     @property
-    def severe(self):
-        """The severe and fatal errors, each with its continuation lines, in order."""
-        messages = []
+    def messages(self):
+        """[(Warning, Severe or Fatal, text with its continuation lines)] of eplusout.err, in order."""
+        found, last = [], None
         for line in self.text("eplusout.err").splitlines():
-            if re.match(r" *\*\* +(Severe|Fatal) +\*\*", line):
-                messages.append(line.strip())
-            elif messages and line.lstrip().startswith("**   ~~~   **") and messages[-1] is not None:
-                messages[-1] += "\n" + line.strip()
-            elif messages:
-                messages.append(None)
-        return [message for message in messages if message]
+            start = re.match(r"[ *]*\*\* +(Warning|Severe|Fatal) +\*\* *(.*)", line)
+            further = re.match(r"[ *]*\*\* +~~~ +\*\* *(.*)", line)
+            if start:
+                last = [start[1], start[2].strip()]
+                found.append(last)
+            elif further and last:
+                last[1] += "\n" + further[1].strip()
+            else:
+                last = None
+        return [tuple(message) for message in found]
+
+    @property
+    def severe(self):
+        """The severe and fatal errors, as they stand in eplusout.err without their stars."""
+        return [f"{kind}: {text}" for kind, text in self.messages if kind != "Warning"]
 
     @property
     def method(self):
@@ -100,11 +117,16 @@ class Run:
     @property
     def device(self):
         """The device that rendered, in our module's words, '' if it did not say."""
-        for line in self.our_lines:
-            found = re.search(r"rendered by (.*?), \d+ x \d+ pixels", line)
-            if found:
-                return found.group(1).strip()
-        return ""
+        return self._rendered()[0]
+
+    @property
+    def fineness(self):
+        """The pixels or the error that it rendered with, likewise."""
+        return self._rendered()[1]
+
+    def _rendered(self):
+        found = re.search(r"rendered by (.*), ([^:]*): \d+ receivers", self.rendering)
+        return (found[1].strip(), found[2].strip()) if found else ("", "")
 
     @property
     def rendering(self):

@@ -3,15 +3,18 @@
 import sqlite3
 from array import array
 from dataclasses import dataclass, field
+from math import atan2, cos, degrees, hypot, radians, sin
 from pathlib import Path
 
 SUNLIT = "Surface Outside Face Sunlit Fraction"
 COSINE = "Surface Outside Face Beam Solar Incident Angle Cosine Value"
 SOLAR = "Surface Window Transmitted Solar Radiation Energy"
 BEAM = "Surface Window Transmitted Beam Solar Radiation Energy"
-VARIABLES = (SUNLIT, COSINE, SOLAR, BEAM)
-HEATING = "Zone Ideal Loads Zone Total Heating Energy"
-COOLING = "Zone Ideal Loads Zone Total Cooling Energy"
+HEATING = "Zone Air System Sensible Heating Energy"
+COOLING = "Zone Air System Sensible Cooling Energy"
+VARIABLES = (SUNLIT, COSINE, SOLAR, BEAM, HEATING, COOLING)
+OF_ZONES = (HEATING, COOLING)
+AZIMUTH, ALTITUDE = "Site Solar Azimuth Angle", "Site Solar Altitude Angle"
 J_PER_KWH = 3.6e6
 
 # Sunlit fractions are compared only where the sun stands higher than this over the receiver's plane:
@@ -22,6 +25,8 @@ FACING = 1e-3
 # fraction is noise under every method, and moves nothing.
 SLIVER = 1e-3
 
+WEATHER_PERIOD = 3  # EnvironmentType of a run period with a weather file
+
 
 def instrument(model, frequency="Hourly"):
     """Adds to an input file the outputs that Results reads."""
@@ -29,21 +34,42 @@ def instrument(model, frequency="Hourly"):
     model.remove(lambda name: name == "outputcontrol:files")
     for variable in VARIABLES:
         model.add_output_variable(variable, frequency)
+    # Of every timestep: an hour's mean azimuth is wrong where the sun passes north.
+    for variable in (AZIMUTH, ALTITUDE):
+        model.add_output_variable(variable, "Timestep")
 
 
 @dataclass
 class Receiver:
-    """An exterior surface of the building; azimuth and tilt in degrees, area in m2."""
+    """An exterior surface of the building; azimuth and tilt in degrees, area in m2, and its zone."""
 
     name: str
     kind: str
     area: float
     azimuth: float
     tilt: float
+    zone: str = ""
+
+
+def mean_direction(directions):
+    """(azimuth, altitude) of the mean of those above the horizon, all in degrees; None where none is."""
+    x = y = z = 0.0
+    for azimuth, altitude in directions:
+        if altitude > 0.0:
+            azimuth, altitude = radians(azimuth), radians(altitude)
+            x += sin(azimuth) * cos(altitude)
+            y += cos(azimuth) * cos(altitude)
+            z += sin(altitude)
+    if z == 0.0:
+        return None
+    return degrees(atan2(x, y)) % 360.0, degrees(atan2(z, hypot(x, y)))
 
 
 class Results:
-    """All values of one run: values[variable][receiver name] is an array over times."""
+    """All values of one run: values[variable][receiver or zone name] is an array over times.
+
+    times are (environment, month, day, hour 1 .. 24, minute), the hour ending then; multipliers are the zones'.
+    """
 
     def __init__(self, folder, frequency="Hourly"):
         path = Path(folder) / "eplusout.sql"
@@ -55,14 +81,17 @@ class Results:
 
     def _read(self, data, frequency):
         self.receivers = {
-            name: Receiver(name, kind, area, azimuth, tilt)
-            for name, kind, area, azimuth, tilt in data.execute(
-                "SELECT SurfaceName, ClassName, Area, Azimuth, Tilt FROM Surfaces "
-                "WHERE ExtSolar = 1 AND HeatTransferSurf = 1 AND Area > ? * GrossArea ORDER BY SurfaceIndex",
+            name: Receiver(name, kind, area, azimuth, tilt, zone or "")
+            for name, kind, area, azimuth, tilt, zone in data.execute(
+                "SELECT SurfaceName, ClassName, Surfaces.Area, Azimuth, Tilt, ZoneName FROM Surfaces "
+                "LEFT JOIN Zones USING (ZoneIndex) WHERE ExtSolar = 1 AND HeatTransferSurf = 1 "
+                "AND Surfaces.Area > ? * GrossArea ORDER BY SurfaceIndex",
                 (SLIVER,),
             )
         }
-        column = {}  # data dictionary index -> (variable, receiver)
+        self.multipliers = {name: multiplier * of_list for name, multiplier, of_list in data.execute(
+            "SELECT ZoneName, Multiplier, ListMultiplier FROM Zones ORDER BY ZoneIndex")}
+        column = {}  # data dictionary index -> (variable, receiver or zone)
         for index, variable, key in data.execute(
             "SELECT ReportDataDictionaryIndex, Name, KeyValue FROM ReportDataDictionary "
             f"WHERE ReportingFrequency = ? AND Name IN ({','.join('?' * len(VARIABLES))}) "
@@ -73,33 +102,56 @@ class Results:
         self.values = {variable: {} for variable in VARIABLES}
         target = {}
         for index, (variable, key) in column.items():
-            if key in self.receivers:
+            if key in (self.multipliers if variable in OF_ZONES else self.receivers):
                 # A model that asked for the same output has it twice; the later entry replaces the other.
                 target[index] = self.values[variable][key] = array("d")
-        time_indices = {}
+        angle = {index: (AZIMUTH, ALTITUDE).index(variable) for index, variable in data.execute(
+            "SELECT ReportDataDictionaryIndex, Name FROM ReportDataDictionary "
+            "WHERE ReportingFrequency = 'Zone Timestep' AND Name IN (?, ?)", (AZIMUTH, ALTITUDE))}
+        time_indices, suns = {}, {}
         for time_index, index, value in data.execute(
             "SELECT TimeIndex, ReportDataDictionaryIndex, Value FROM ReportData ORDER BY ReportDataIndex"
         ):
             if index in target:
                 target[index].append(value)
                 time_indices[time_index] = None
-        environments = dict(data.execute("SELECT EnvironmentPeriodIndex, EnvironmentName FROM EnvironmentPeriods"))
+            elif index in angle:
+                suns.setdefault(time_index, [0.0, 0.0])[angle[index]] = value
+        environments = {index: (name, kind) for index, name, kind in data.execute(
+            "SELECT EnvironmentPeriodIndex, EnvironmentName, EnvironmentType FROM EnvironmentPeriods")}
         rows = {row[0]: row[1:] for row in data.execute(
             "SELECT TimeIndex, EnvironmentPeriodIndex, Month, Day, Hour, Minute, WarmupFlag FROM Time")}
         # A warm-up flag can only be set with Output:Diagnostics, ReportDuringWarmup.
-        self.times = [(environments.get(rows[i][0], "?"), *rows[i][1:5]) for i in time_indices]
+        self.times = [(environments.get(rows[i][0], ("?",))[0], *rows[i][1:5]) for i in time_indices]
         self.is_warmup = [bool(rows[i][5]) for i in time_indices]
+        self.weather_periods = {name for name, kind in environments.values() if kind == WEATHER_PERIOD}
+        steps = {}
+        for time_index, (azimuth, altitude) in suns.items():
+            environment, month, day, hour, minute, is_warmup = rows[time_index]
+            if not is_warmup:
+                when = (environments.get(environment, ("?",))[0], month, day, hour + (minute > 0))
+                steps.setdefault(when, []).append((azimuth, altitude))
+        self.sun = {when: mean_direction(directions) for when, directions in steps.items()}
 
     def sun_up(self, receiver):
         """Places in time at which the sun stands before the receiver."""
         cosines = self.values[COSINE].get(receiver, ())
         return [i for i, cosine in enumerate(cosines) if cosine > FACING and not self.is_warmup[i]]
 
+    def sun_at(self, place):
+        """(azimuth, altitude) in degrees of the hour's mean direction while the sun is up, None while it is not."""
+        return self.sun.get(self.times[place][:4])
+
+    def multiplier(self, variable, key):
+        """How often the building has the zone, or the zone of the surface."""
+        return self.multipliers.get(key if variable in OF_ZONES else self.receivers[key].zone, 1.0)
+
     def total(self, variable, receiver=None):
-        """The run's sum of an energy in kWh, of one window or of all."""
+        """The run's sum of an energy in kWh: of one window, or of the building, zones' multipliers counted."""
         columns = self.values[variable]
-        chosen = columns.values() if receiver is None else [columns.get(receiver, ())]
-        return sum(sum(values) for values in chosen) / J_PER_KWH
+        if receiver is not None:
+            return sum(columns.get(receiver, ())) / J_PER_KWH
+        return sum(self.multiplier(variable, key) * sum(values) for key, values in columns.items()) / J_PER_KWH
 
 
 def energies(folder, variable, frequency="Monthly"):

@@ -68,13 +68,3 @@ def test_output_names_do_not_matter(shade, model, tmp_path):
     run = shade(model, "-p", "model", "-s", "C")
     assert run.status == 0, run.why()
     assert "PixelCounting" in next((tmp_path / "out").glob("model*.eio")).read_text()
-
-
-def test_compare_shading_prints_a_table(official, patched, courtyard, weather, tmp_path):
-    done = subprocess.run(
-        [energyplus.REPOSITORY / "scripts" / "compare_shading", courtyard, "-w", weather, "-o", tmp_path, "--", "-D"],
-        capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    assert "EAST END WINDOW" in done.stdout
-    assert "PolygonClipping" in done.stdout and "rendered by" in done.stdout
-    assert (tmp_path / "receivers.csv").is_file() and (tmp_path / "hourly.csv").is_file()

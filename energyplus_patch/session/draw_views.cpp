@@ -1,0 +1,71 @@
+#include "session/draw_views.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "gpu_shading/error.h"
+#include "gpu_shading/scene_view.h"
+#include "images/image_file.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+SurfaceId find(Drawing const& drawing, std::string const& name) {
+  auto const wanted = upper(name);
+  for (SurfaceId const id : drawing.shown) {
+    auto const& surface = drawing.renderer.scene()[id];
+    if (surface.name == wanted && area(surface.polygon) > 0.0) return id;
+  }
+  throw Error(
+      fmt::format("receiver {}: the model has no such surface; see gpu_shading check", name));
+}
+
+// By surface, of those that face the sun.
+std::vector<std::optional<double>> sunlit_fractions(Drawing const& drawing, SunDirection sun) {
+  auto const& scene = drawing.renderer.scene();
+  auto const towards_sun = to_vector(sun);
+  std::vector<std::optional<double>> fractions(scene.size());
+  std::vector<SurfaceId> lit;
+  for (SurfaceId const id : drawing.shown) {
+    if (!drawing.receives[id] || area(scene[id].polygon) <= 0.0) continue;
+    fractions[id] = 0.0;
+    if (glm::dot(normal(scene[id].polygon), towards_sun) > 0.0) lit.push_back(id);
+  }
+  auto const areas = drawing.renderer.projected_sunlit_areas(sun, lit);
+  for (std::size_t i = 0; i < lit.size(); ++i) {
+    auto const& polygon = scene[lit[i]].polygon;
+    double const most = area(polygon) * glm::dot(normal(polygon), towards_sun);
+    fractions[lit[i]] = std::min(1.0, areas[i].at(drawing.factors) / most);
+  }
+  return fractions;
+}
+
+}  // namespace
+
+void draw_views(std::vector<View> const& views, std::filesystem::path const& folder,
+                Drawing const& drawing) {
+  std::optional<SceneView> whole;
+  for (auto const& view : views) {
+    if (view.receiver.empty()) {
+      if (!whole) whole.emplace(drawing.renderer.scene(), drawing.shown, drawing.device);
+      write_image(folder / view.picture,
+                  whole->draw(view.sun, sunlit_fractions(drawing, view.sun), drawing.size));
+    } else {
+      auto const receiver = find(drawing, view.receiver);
+      write_image(folder / view.picture,
+                  drawing.renderer.sun_view(view.sun, receiver, drawing.size, drawing.factors));
+    }
+  }
+}
+
+}  // namespace gpu_shading::energyplus

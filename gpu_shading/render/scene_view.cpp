@@ -1,0 +1,312 @@
+#include "gpu_shading/scene_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <limits>
+#include <vector>
+
+#include "egl/device.h"
+#include "gl/buffer.h"
+#include "gl/check.h"
+#include "gl/draw.h"
+#include "gl/framebuffer.h"
+#include "gl/program.h"
+#include "gl/vertex_array.h"
+#include "gpu_shading/error.h"
+#include "scene/triangulation.h"
+#include "shaders/sources.h"
+
+namespace gpu_shading {
+namespace {
+
+// Samples a side of a pixel.
+constexpr int samples = 2;
+// Around all that is shown, as a share of its longer side.
+constexpr double border = 0.04;
+
+struct Vertex {
+  glm::vec3 point;
+  std::uint32_t identity;  // of the surface, counted from 1; 0 is the sky
+};
+
+struct Frame {
+  glm::dvec2 low{std::numeric_limits<double>::infinity()};
+  glm::dvec2 high{-std::numeric_limits<double>::infinity()};
+
+  void include(glm::dvec2 const& place) {
+    low = glm::min(low, place);
+    high = glm::max(high, place);
+  }
+  double longer() const { return std::max(high.x - low.x, high.y - low.y); }
+  Frame widened(double by) const { return {low - by, high + by}; }
+};
+
+// Right and up across the rays; a sun in the zenith has north up.
+struct Axes {
+  glm::dvec3 right{1.0, 0.0, 0.0};
+  glm::dvec3 up;
+
+  explicit Axes(glm::dvec3 const& towards_sun) {
+    glm::dvec3 const sideways = glm::cross(glm::dvec3(0.0, 0.0, 1.0), towards_sun);
+    constexpr double zenith = 1e-9;
+    if (glm::length(sideways) > zenith) right = glm::normalize(sideways);
+    up = glm::cross(towards_sun, right);
+  }
+  glm::dvec2 operator()(glm::dvec3 const& point) const {
+    return {glm::dot(right, point), glm::dot(up, point)};
+  }
+};
+
+glm::vec4 row(glm::dvec3 const& axis, double low, double high) {
+  double const scale = 2.0 / (high - low);
+  return glm::vec4(glm::dvec4(axis * scale, -scale * 0.5 * (low + high)));
+}
+
+bool transmits(Surface const& surface) {
+  return surface.transmittance || surface.screen || surface.schedule >= 0;
+}
+
+glm::dvec3 grey(Surface const& surface, glm::dvec3 const& towards_sun) {
+  constexpr double dark = 95.0;
+  constexpr double light = 215.0;
+  return glm::dvec3(
+      glm::mix(dark, light, std::abs(glm::dot(normal(surface.polygon), towards_sun))));
+}
+
+}  // namespace
+
+glm::dvec3 fraction_colour(double fraction) {
+  static std::array<glm::dvec3, 17> const steps{{{0.0, 34.0, 78.0},
+                                                 {0.0, 46.0, 106.0},
+                                                 {26.0, 56.0, 111.0},
+                                                 {50.0, 67.0, 109.0},
+                                                 {67.0, 78.0, 108.0},
+                                                 {83.0, 90.0, 109.0},
+                                                 {97.0, 101.0, 111.0},
+                                                 {111.0, 112.0, 115.0},
+                                                 {125.0, 124.0, 120.0},
+                                                 {140.0, 136.0, 120.0},
+                                                 {155.0, 148.0, 118.0},
+                                                 {171.0, 160.0, 114.0},
+                                                 {188.0, 174.0, 108.0},
+                                                 {205.0, 187.0, 99.0},
+                                                 {222.0, 201.0, 88.0},
+                                                 {240.0, 216.0, 70.0},
+                                                 {254.0, 232.0, 56.0}}};
+  double const place = std::clamp(fraction, 0.0, 1.0) * (steps.size() - 1);
+  auto const step = std::min(static_cast<std::size_t>(place), steps.size() - 2);
+  return glm::mix(steps[step], steps[step + 1], place - static_cast<double>(step));
+}
+
+class SceneView::Implementation {
+ public:
+  Implementation(Scene const& scene, std::span<SurfaceId const> shown, DeviceChoice const& choice)
+      : scene_(scene), shown_(shown.begin(), shown.end()), device_(egl::open_device(choice)) {
+    // Those that are seen through come last.
+    std::stable_partition(shown_.begin(), shown_.end(),
+                          [&](SurfaceId id) { return !transmits(scene_[id]); });
+    find_middle();
+    std::vector<Vertex> vertices;
+    for (SurfaceId const id : shown_) {
+      Mesh const mesh = triangulate(scene_[id].polygon);
+      for (auto const index : mesh.indices) {
+        vertices.push_back({glm::vec3(mesh.vertices[index] - middle_), id + 1});
+      }
+      if (!transmits(scene_[id])) opaque_ = vertices.size();
+    }
+    vertices_ = vertices.size();
+    auto const current = device_.context.make_current();
+    on_device_.emplace(vertices);
+    gl::set_depth_convention();
+    gl::check("uploading a scene to view");
+  }
+
+  ~Implementation() {
+    auto const current = device_.context.make_current();
+    on_device_.reset();
+  }
+  Implementation(Implementation const&) = delete;
+  Implementation& operator=(Implementation const&) = delete;
+
+  Image draw(SunDirection sun, std::span<std::optional<double> const> fractions, int size) {
+    if (size < 1 || samples * size > device_.info.max_resolution) {
+      throw Error(fmt::format("size {} of a view: expected 1 to {} pixels", size,
+                              device_.info.max_resolution / samples));
+    }
+    auto const towards_sun = to_vector(sun);
+    Axes const axes(towards_sun);
+    Frame const frame = find_frame(axes, fractions);
+    double const scale = size / frame.longer();
+    auto const pixels = [&](double length) {
+      return std::clamp(static_cast<int>(std::lround(scale * length)), 1, size);
+    };
+    Image image;
+    image.width = pixels(frame.high.x - frame.low.x);
+    image.height = pixels(frame.high.y - frame.low.y);
+
+    auto const current = device_.context.make_current();
+    int const columns = samples * image.width;
+    int const rows = samples * image.height;
+    auto const target =
+        gl::Framebuffer::create({gl::Format::identity, gl::Format::depth_stencil}, columns, rows);
+    target.bind();
+    target.clear_identity();
+    target.clear_depth();
+    gl::blend(gl::Blend::replace);
+    gl::write_colour(true);
+    gl::no_stencil();
+    gl::cut_at_plane(false);
+    gl::depth(gl::Test::less, true);
+    auto& program = on_device_->program;
+    program.use();
+    program.set(0, row(axes.right, frame.low.x, frame.high.x));
+    program.set(1, row(axes.up, frame.low.y, frame.high.y));
+    program.set(2, glm::vec4(glm::dvec4(-0.5 * towards_sun / reach_, 0.5)));
+    on_device_->array.bind();
+    gl::draw_vertices(0, opaque_);
+    auto const behind = target.read_identity();
+    gl::draw_vertices(opaque_, vertices_ - opaque_);
+    auto const front = target.read_identity();
+    gl::check("drawing a view of a scene");
+
+    colour(fractions, towards_sun);
+    image.pixels.reserve(3 * static_cast<std::size_t>(image.width) *
+                         static_cast<std::size_t>(image.height));
+    for (int y = image.height - 1; y >= 0; --y) {
+      for (int x = 0; x < image.width; ++x) {
+        auto const colour = pixel_colour({front, behind, columns}, samples * x, samples * y);
+        for (int channel = 0; channel < 3; ++channel) {
+          image.pixels.push_back(static_cast<std::uint8_t>(std::lround(colour[channel])));
+        }
+      }
+    }
+    return image;
+  }
+
+ private:
+  // What lives on the device, made and ended with its context current.
+  struct OnDevice {
+    explicit OnDevice(std::vector<Vertex> const& contents)
+        : program(gl::Program::link("whole", shaders::whole_vert, shaders::whole_frag)),
+          vertices(gl::Buffer::create()),
+          array(gl::VertexArray::create()) {
+      vertices.set(std::span<Vertex const>(contents));
+      array.set_vertices(vertices, sizeof(Vertex));
+      array.add_attribute(0, 3, offsetof(Vertex, point));
+      array.add_identity(1, offsetof(Vertex, identity));
+    }
+
+    gl::Program program;
+    gl::Buffer vertices;
+    gl::VertexArray array;
+  };
+
+  template <typename Action>
+  void for_each_point(Action const& action) const {
+    for (SurfaceId const id : shown_) {
+      for (auto const& vertex : scene_[id].polygon.outline) action(id, vertex);
+    }
+  }
+
+  void find_middle() {
+    glm::dvec3 low(std::numeric_limits<double>::infinity());
+    glm::dvec3 high(-std::numeric_limits<double>::infinity());
+    for_each_point([&](SurfaceId, glm::dvec3 const& point) {
+      low = glm::min(low, point);
+      high = glm::max(high, point);
+    });
+    if (!(low.x <= high.x)) throw Error("there is no surface to view");
+    middle_ = 0.5 * (low + high);
+    reach_ = std::max(1.0, glm::distance(low, high));
+  }
+
+  Frame find_frame(Axes const& axes, std::span<std::optional<double> const> fractions) const {
+    Frame all;
+    Frame receivers;
+    for_each_point([&](SurfaceId id, glm::dvec3 const& point) {
+      all.include(axes(point - middle_));
+      if (id < fractions.size() && fractions[id]) receivers.include(axes(point - middle_));
+    });
+    if (!(receivers.low.x <= receivers.high.x)) throw Error("there is no receiver to view");
+    Frame const most = receivers.widened(0.5 * receivers.longer());
+    Frame const frame{glm::max(all.low, most.low), glm::min(all.high, most.high)};
+    return frame.widened(border * frame.longer());
+  }
+
+  void colour(std::span<std::optional<double> const> fractions, glm::dvec3 const& towards_sun) {
+    colours_.assign(scene_.size() + 1, glm::dvec3(255.0));
+    for (SurfaceId const id : shown_) {
+      bool const receives = id < fractions.size() && fractions[id];
+      colours_[id + 1] = receives ? fraction_colour(*fractions[id]) : grey(scene_[id], towards_sun);
+    }
+  }
+
+  // The surfaces that are seen, and what is behind those that transmit.
+  struct Samples {
+    std::vector<std::uint32_t> const& front;
+    std::vector<std::uint32_t> const& behind;
+    int columns;
+  };
+
+  // Of the samples from a column and a row on.
+  glm::dvec3 pixel_colour(Samples const& seen, int column, int row) const {
+    glm::dvec3 sum(0.0);
+    for (std::size_t line = 0; line < samples; ++line) {
+      for (std::size_t place = 0; place < samples; ++place) {
+        auto const width = static_cast<std::size_t>(seen.columns);
+        sum += sample_colour(seen, (static_cast<std::size_t>(row) + line) * width +
+                                       static_cast<std::size_t>(column) + place);
+      }
+    }
+    return sum / static_cast<double>(samples * samples);
+  }
+
+  // Half through what transmits; dark along the edges of surfaces.
+  glm::dvec3 sample_colour(Samples const& seen, std::size_t at) const {
+    constexpr double through = 0.5;
+    constexpr double edge = 0.45;
+    auto const& front = seen.front;
+    auto const& behind = seen.behind;
+    auto const width = static_cast<std::size_t>(seen.columns);
+    auto sample = colours_[front[at]];
+    if (front[at] != behind[at]) sample = glm::mix(sample, colours_[behind[at]], through);
+    auto const differs = [&](std::size_t other) {
+      return other < front.size() && (front[other] != front[at] || behind[other] != behind[at]);
+    };
+    bool const last = at % width == width - 1;
+    if ((!last && differs(at + 1)) || differs(at + width)) sample *= edge;
+    return sample;
+  }
+
+  Scene const& scene_;
+  std::vector<SurfaceId> shown_;
+  egl::Device device_;
+  std::optional<OnDevice> on_device_;
+  glm::dvec3 middle_{0.0};
+  double reach_ = 1.0;
+  std::size_t opaque_ = 0;  // vertices
+  std::size_t vertices_ = 0;
+  std::vector<glm::dvec3> colours_;  // by identity
+};
+
+SceneView::SceneView(Scene const& scene, std::span<SurfaceId const> shown,
+                     DeviceChoice const& device)
+    : implementation_(std::make_unique<Implementation>(scene, shown, device)) {}
+
+SceneView::~SceneView() = default;
+
+Image SceneView::draw(SunDirection sun, std::span<std::optional<double> const> fractions,
+                      int size) {
+  return implementation_->draw(sun, fractions, size);
+}
+
+}  // namespace gpu_shading

@@ -1,0 +1,168 @@
+"""The numbers of a report: what the runs hold, grouped as the page shows them. Energies in kWh, powers in kW."""
+
+import calendar as gregorian
+from dataclasses import dataclass
+
+import numpy as np
+from shading_runs import results
+
+QUANTITIES = (
+    ("Transmitted solar radiation", results.SOLAR),
+    ("of it beam", results.BEAM),
+    ("Heating", results.HEATING),
+    ("Cooling", results.COOLING),
+)
+HOURS = 24
+SAME = 9  # decimals to which sunlit fractions of hours are taken for one
+
+
+def month_name(month):
+    return gregorian.month_abbr[month]
+
+
+class Calendar:
+    """The days and hours of a run as columns and rows."""
+
+    def __init__(self, run_results):
+        self.places = np.array([i for i, is_warmup in enumerate(run_results.is_warmup) if not is_warmup], int)
+        self.times = run_results.times
+        number = {}
+        for place in self.places:
+            number.setdefault(self.times[place][:3], len(number))
+        self.days = list(number)  # (environment, month, day)
+        self.column = np.zeros(len(self.times), int)
+        self.row = np.zeros(len(self.times), int)
+        for place in self.places:
+            self.column[place] = number[self.times[place][:3]]
+            self.row[place] = min(max(self.times[place][3], 1), HOURS) - 1
+
+    @property
+    def environments(self):
+        return list(dict.fromkeys(environment for environment, _, _ in self.days))
+
+    def grid(self, values, places):
+        """values of the places as hours x days, nan elsewhere."""
+        found = np.full((HOURS, len(self.days)), np.nan)
+        found[self.row[places], self.column[places]] = values
+        return found
+
+    def name(self, place):
+        """When an hour is: its end, and the environment where there are several."""
+        environment, month, day, hour, _ = self.times[place]
+        text = f"{day} {month_name(month)}, {hour - 1:02d}–{hour:02d} h"
+        return f"{environment}: {text}" if len(self.environments) > 1 else text
+
+
+def building(run_results, variable):
+    """The hourly sum over zones or windows, each as often as the building has it, in kWh."""
+    total = np.zeros(len(run_results.times))
+    for key, values in run_results.values[variable].items():
+        total += run_results.multiplier(variable, key) * np.asarray(values)
+    return total / results.J_PER_KWH
+
+
+@dataclass
+class Amount:
+    """One quantity in each run; the reference first, None where a run has none."""
+
+    title: str
+    values: list
+
+    def change(self, i):
+        return None if None in (self.values[0], self.values[i]) else self.values[i] - self.values[0]
+
+    def percent(self, i):
+        change = self.change(i)
+        return 100 * change / self.values[0] if change is not None and self.values[0] else None
+
+
+def energies(runs, calendar):
+    """[(environment, [Amount of each quantity])] and, for run periods, [(month, [Amount ...])]."""
+    hourly = {variable: [building(run.results, variable) for run in runs] for _, variable in QUANTITIES}
+
+    def amounts(places):
+        return [Amount(title, [float(values[places].sum()) for values in hourly[variable]])
+                for title, variable in QUANTITIES if any(run.results.values[variable] for run in runs)]
+
+    by_environment, by_month = {}, {}
+    for place in calendar.places:
+        environment, month = calendar.times[place][:2]
+        by_environment.setdefault(environment, []).append(place)
+        if environment in runs[0].results.weather_periods:
+            by_month.setdefault((environment, month), []).append(place)
+    several = len({environment for environment, _ in by_month}) > 1
+    names = [f"{environment}: {month_name(month)}" if several else month_name(month) for environment, month in by_month]
+    return ([(environment, amounts(places)) for environment, places in by_environment.items()],
+            list(zip(names, map(amounts, by_month.values()), strict=True)))
+
+
+@dataclass
+class Peak:
+    """The largest hour of a load in each run: kW, and when."""
+
+    title: str
+    load: str
+    values: list
+    times: list
+
+    change, percent = Amount.change, Amount.percent
+
+
+def peaks(runs, calendar):
+    """Peaks of the building, and of each zone by itself."""
+    found = []
+    for load, variable in (("Heating", results.HEATING), ("Cooling", results.COOLING)):
+        keys = list(runs[0].results.values[variable])
+        columns = [("Building", [building(run.results, variable) for run in runs])] if keys else []
+        for key in keys:
+            if all(key in run.results.values[variable] for run in runs):
+                columns.append((key, [np.asarray(run.results.values[variable][key]) / results.J_PER_KWH
+                                      for run in runs]))
+        for title, series in columns:
+            largest = [int(calendar.places[np.argmax(values[calendar.places])]) for values in series]
+            peak = Peak(title, load, [float(values[i]) for values, i in zip(series, largest, strict=True)], [])
+            peak.times = [calendar.name(i) if value > 0 else "" for i, value in zip(largest, peak.values, strict=True)]
+            if any(peak.values):
+                found.append(peak)
+    return sorted(found, key=lambda peak: peak.title != "Building")
+
+
+@dataclass
+class WorstHour:
+    """An hour of a large difference; days: how many days, this one the first, have the same at that hour."""
+
+    place: int
+    change: float
+    days: int = 1
+
+
+def worst_hours(difference, calendar, count=10):
+    """The largest |difference|, largest first; none where it is 0.
+
+    Where shading is calculated for periods, days have the same sunlit fractions: of such only the first.
+    """
+    values, reference = np.asarray(difference.values), np.asarray(difference.reference)
+    found = {}
+    for i in np.argsort(-np.abs(values), kind="stable"):
+        if values[i] == 0.0:
+            break
+        place = difference.times[i]
+        alike = (calendar.row[place], round(reference[i], SAME), round(values[i], SAME))
+        if alike in found:
+            found[alike].days += 1
+        elif len(found) < count:
+            found[alike] = WorstHour(place, float(values[i]))
+        elif abs(values[i]) < abs(min(found.values(), key=lambda each: abs(each.change)).change):
+            break
+    return list(found.values())
+
+
+def messages(runs):
+    """[(kind, text, [how often in each run])], first those that not all runs have alike."""
+    counts = {}
+    for number, run in enumerate(runs):
+        for message in run.run.messages:
+            counts.setdefault(message, [0] * len(runs))[number] += 1
+    order = ("Fatal", "Severe", "Warning")
+    rows = [(kind, text, each) for (kind, text), each in counts.items()]
+    return sorted(rows, key=lambda row: (len(set(row[2])) == 1, order.index(row[0])))

@@ -1,0 +1,105 @@
+"""What ran where, and how long each stage took."""
+
+import csv
+import hashlib
+import os
+import platform
+import re
+from datetime import datetime
+from pathlib import Path
+
+
+def processor():
+    try:
+        found = re.search(r"^model name\s*:\s*(.*)$", Path("/proc/cpuinfo").read_text(), re.MULTILINE)
+    except OSError:
+        found = None
+    return f"{found.group(1) if found else platform.processor()}, {len(os.sched_getaffinity(0))} cores"
+
+
+def system():
+    try:
+        return platform.freedesktop_os_release()["PRETTY_NAME"]
+    except OSError:
+        return platform.platform()
+
+
+def digest(path):
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+
+
+def described(path):
+    return f"{Path(path).name}, SHA-256 {digest(path)}" if path else "none"
+
+
+def rows(runs, weather, further):
+    """[(what, [value in each run])]."""
+
+    def version(run):
+        found = re.search(r"^Program Version,\s*(.*?), YMD=", run.run.text("eplusout.eio"), re.MULTILINE)
+        return found[1] if found else "not known"
+
+    def rendered(run, pattern):
+        found = re.search(pattern, run.run.rendering)
+        return found[1] if found else "–"
+
+    def module(run):
+        library = Path(run.program).parent / "libgpu_shading_energyplus.so"
+        return f"SHA-256 {digest(library)}" if run.is_ours and library.is_file() else "–"
+
+    columns = [
+        ("Program", lambda run: version(run)),
+        ("Shading method in force", lambda run: "rendered" if run.is_ours else run.run.method or "not known"),
+        ("Rendered by", lambda run: run.run.device or "–"),
+        ("Fineness", lambda run: run.run.fineness or "–"),
+        ("Receivers", lambda run: rendered(run, r"(\d+) receivers")),
+        ("Casters", lambda run: rendered(run, r"(\d+) casters")),
+        ("Directions of the sun", lambda run: rendered(run, r"(\d+) directions")),
+        ("Shading module", module),
+        ("Options", lambda run: " ".join([*run.options, *further]) or "none"),
+        ("Model", lambda run: described(run.model)),
+        ("Extension file", lambda run: described(run.extension_file)),
+        ("Weather", lambda run: described(weather)),
+        ("Machine", lambda run: f"{processor()}; {system()}"),
+    ]
+    return [(title, [of(run) for run in runs]) for title, of in columns]
+
+
+def written():
+    return datetime.now().astimezone().strftime("%Y-%m-%d %H:%M %Z")
+
+
+def report_folder(run, further):
+    """Where --gpu-shading-report has a run write to, None where it is not given."""
+    words = [*run.options, *further]
+    for word, following in zip(words, [*words[1:], ""], strict=True):
+        name, _, value = word.partition("=")
+        if name == "--gpu-shading-report":
+            return run.run.folder / (value or following)
+    return None
+
+
+def renderer_stages(folder):
+    """[(stage, seconds)] of the tables in a report's folder that have a column for each."""
+    found = []
+    for path in sorted(folder.glob("*.csv")) if folder else []:
+        with open(path, newline="", encoding="utf-8") as file:
+            table = csv.DictReader(file)
+            stage = next((name for name in table.fieldnames or [] if name.startswith("stage")), None)
+            seconds = next((name for name in table.fieldnames or [] if "second" in name or "[s]" in name), None)
+            if stage and seconds:
+                found += [(row[stage], float(row[seconds])) for row in table]
+    return found
+
+
+def stages(run, further):
+    """[(stage, seconds)] that add up to the program's wall time."""
+    rendering = re.search(r"([\d.]+) s$", run.run.rendering)
+    inside = float(rendering[1]) if rendering else 0.0
+    parts = renderer_stages(report_folder(run, further)) or [("whole renderer", inside)]
+    named = [(f"rendering: {stage}", seconds) for stage, seconds in parts if seconds > 0]
+    rest = inside - sum(seconds for _, seconds in named)
+    if rest > 0.005:
+        named.append(("rendering: the rest", rest))
+    return [("EnergyPlus without rendering", max(0.0, run.run.seconds - inside)), *named,
+            ("start and end of the program", max(0.0, run.run.wall - run.run.seconds))]

@@ -1,0 +1,208 @@
+"""Puts numbers, charts and pictures into the page."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import jinja2
+import numpy as np
+from shading_runs import results
+
+from shading_report import charts, facts, origin, pictures
+
+HERE = Path(__file__).resolve().parent
+
+
+@dataclass
+class Hour:
+    """One of a receiver's worst: sunlit fractions of each run, and pictures of those that can draw."""
+
+    when: str
+    sun: tuple
+    fractions: list
+    change: float
+    days: int  # that are like it, itself counted
+    pictures: list = field(default_factory=list)  # (run, data URI)
+
+
+@dataclass
+class Detail:
+    """What the page shows of one receiver."""
+
+    anchor: str
+    receiver: results.Receiver
+    maps: list
+    charts: list
+    hours: list
+
+
+@dataclass
+class Line:
+    """A row of the table of receivers."""
+
+    anchor: str
+    receiver: results.Receiver
+    hours: int
+    sunlit: list  # mean of each run
+    differences: list  # of each but the first: results.Difference
+    solar: list  # kWh of each run, None where it is no window
+
+
+def _number(value, form=",.2f"):
+    if value is None:
+        return "–"
+    text = format(value, form)
+    if not text.strip("+-0.,"):  # no sign before nothing
+        text = text.lstrip("+-")
+    return text.replace("-", "\u2212")
+
+
+def _fraction(value):
+    return _number(value, ".4f")
+
+
+def _difference(value):
+    return "–" if value is None else charts.difference(value)
+
+
+def _signed_difference(value):
+    return "+" * (value > 0) + charts.difference(value)
+
+
+def _largest(name, runs):
+    return max((found.largest for run in runs[1:] for found in run.found if found.receiver.name == name), default=0.0)
+
+
+def _lines(runs, shown):
+    by_name = [{found.receiver.name: found for found in run.found} for run in runs[1:]]
+    reference = runs[0].results
+    lines = []
+    for name, receiver in reference.receivers.items():
+        found = [names.get(name) for names in by_name]
+        if not any(found):
+            continue
+        places = next(each for each in found if each).times
+        sunlit = [np.asarray(run.results.values[results.SUNLIT][name])[places].mean()
+                  if name in run.results.values[results.SUNLIT] else None for run in runs]
+        solar = [run.results.total(results.SOLAR, name) if name in run.results.values[results.SOLAR] else None
+                 for run in runs]
+        lines.append(Line(shown.get(name, ""), receiver, len(places), sunlit, found, solar))
+    return lines
+
+
+def _maps(name, runs, calendar):
+    sunlit = [np.asarray(run.results.values[results.SUNLIT][name]) for run in runs]
+    places = np.array(runs[0].results.sun_up(name))
+    found = [charts.heat_map(calendar.grid(values[places], places), calendar, f"{run.label}: sunlit fraction",
+                             f"Sunlit fraction of {name} by hour and day, {run.label}")
+             for run, values in zip(runs, sunlit, strict=True)]
+    for run, values in zip(runs[1:], sunlit[1:], strict=True):
+        change = values[places] - sunlit[0][places]
+        limit = float(np.abs(change).max(initial=0.0)) or 1e-9
+        found.append(charts.heat_map(calendar.grid(change, places), calendar, f"{run.label} − {runs[0].label}",
+                                     f"Difference of the sunlit fraction of {name} by hour and day", limit))
+    return found
+
+
+def _detail(anchor, name, runs, calendar):
+    of_runs = [(run.label, next(found for found in run.found if found.receiver.name == name)) for run in runs[1:]]
+    reference = of_runs[0][1].reference
+    parts = [
+        charts.scatter(reference, [(title, np.add(found.reference, found.values)) for title, found in of_runs],
+                       f"Sunlit fraction of {name} in each run against the reference"),
+        charts.histogram([(title, np.asarray(found.values)) for title, found in of_runs],
+                         f"Histogram of the differences at {name}"),
+    ]
+    hours = []
+    for worst in facts.worst_hours(of_runs[0][1], calendar):
+        fractions = [run.results.values[results.SUNLIT][name][worst.place] for run in runs]
+        hours.append(Hour(calendar.name(worst.place), runs[0].results.sun_at(worst.place), fractions, worst.change,
+                          worst.days))
+    return Detail(anchor, runs[0].results.receivers[name], _maps(name, runs, calendar), parts, hours)
+
+
+def _draw(details, runs, weather, output):
+    """Adds the pictures of all hours; returns why there are none, '' where there are."""
+    reason = "no run of these was rendered by this software"
+    for run in runs:
+        if not run.is_ours:
+            continue
+        wanted = [(detail.receiver.name, hour) for detail in details for hour in detail.hours if hour.sun]
+        drawn, reason = pictures.draw(run, weather, [(name, hour.sun) for name, hour in wanted],
+                                      output / "pictures" / run.key)
+        for (_, hour), picture in zip(wanted, drawn, strict=True):
+            hour.pictures.append((run, picture))
+    return reason
+
+
+def _overall(runs):
+    found = []
+    for run in runs[1:]:
+        reference = np.concatenate([each.reference for each in run.found] or [[]])
+        change = np.concatenate([each.values for each in run.found] or [[]])
+        if not len(change):
+            continue
+        found.append(charts.density(reference, reference + change, run.label,
+                                    f"Sunlit fractions of all receivers, {run.label} against the reference"))
+        found.append(charts.histogram([(run.label, change)], f"Histogram of the differences of {run.label}"))
+    return found
+
+
+def _months(runs, by_month):
+    if not by_month:
+        return []
+    names = [name for name, _ in by_month]
+    found = []
+    for number, amount in enumerate(by_month[0][1]):
+        if amount.title == "of it beam":
+            continue
+        series = [(run.label, [amounts[number].values[i] for _, amounts in by_month]) for i, run in enumerate(runs)]
+        found.append(charts.months(names, series, amount.title, f"{amount.title} by month in each run, kWh"))
+    return found
+
+
+def write(output, everything, weather, most, further):
+    """Writes DIR/report.html on the runs that have results, the reference first; returns its path.
+
+    most: how many receivers are shown hour by hour, those that differ most.
+    """
+    runs = [run for run in everything if run.results]
+    calendar = facts.Calendar(runs[0].results)
+    names = [found.receiver.name for found in runs[1].found
+             if all(any(each.receiver.name == found.receiver.name for each in run.found) for run in runs[1:])]
+    chosen = sorted(names, key=lambda name: -_largest(name, runs))[:most]
+    shown = {name: f"receiver-{number}" for number, name in enumerate(chosen, start=1)}
+    details = [_detail(anchor, name, runs, calendar) for name, anchor in shown.items()]
+    without_pictures = _draw(details, runs, weather, output)
+    by_environment, by_month = facts.energies(runs, calendar)
+    timed = [(run.label, origin.stages(run, further)) for run in runs]
+
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment.filters |= {"number": _number, "fraction": _fraction, "difference": _difference,
+                            "signed_difference": _signed_difference}
+    text = environment.get_template("page.html").render(
+        style=(HERE / "page.css").read_text(encoding="utf-8"),
+        script=(HERE / "page.js").read_text(encoding="utf-8"),
+        model=runs[0].model.name,
+        weather=weather.name,
+        written=origin.written(),
+        runs=runs,
+        colours=charts.RUN_COLOURS,
+        missing=[run for run in everything if not run.results],
+        summaries=[results.summary(run.found) for run in runs[1:]],
+        environments=by_environment,
+        months=by_month,
+        month_charts=_months(runs, by_month),
+        peaks=facts.peaks(runs, calendar),
+        lines=_lines(runs, shown),
+        overall=_overall(runs),
+        details=details,
+        without_pictures=without_pictures,
+        messages=facts.messages(runs),
+        stages=timed,
+        stage_chart=charts.stages(timed, "Seconds of each run by stage"),
+        origin=origin.rows(runs, weather, further),
+    )
+    path = output / "report.html"
+    path.write_text(text, encoding="utf-8")
+    return path

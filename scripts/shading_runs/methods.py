@@ -1,0 +1,124 @@
+"""The runs that compare_shading compares: how each is started, and what became of it."""
+
+import shlex
+from pathlib import Path
+
+from shading_runs import energyplus, input_file, results
+
+OURS = "gpushading:"
+LONG = 20  # characters, for a title in a heading
+
+
+class Method:
+    """One way to compute shading, and what became of it."""
+
+    def __init__(self, key, short, title, program, shading_method=None, options=(), before=(), model=None,
+                 is_ours=False):
+        self.key, self.short, self.title, self.program = key, short, title, program
+        self.label = title  # in headings and charts
+        self.shading_method, self.options, self.before = shading_method, list(options), list(before)
+        self.model = model  # the path of the model it runs
+        self.is_ours = is_ours  # rendered by this software
+        self.placed = None  # the copy of the model that ran
+        self.run = self.results = None
+        self.missing = ""  # why there are no results
+        self.found = []  # differences to the reference
+
+    def execute(self, weather, output, further, timeout):
+        own = input_file.read(self.model)
+        results.instrument(own)
+        if self.shading_method:
+            own.set_field("ShadowCalculation", input_file.SHADOW_METHOD, self.shading_method)
+        if not self.is_ours:  # EnergyPlus itself knows nothing of our objects
+            own.remove(lambda name: name.startswith(OURS))
+        self.placed = input_file.place_copy(own, self.model, output / "inputs" / self.key)
+        self.run = energyplus.run(self.program, self.placed, weather, output / self.key,
+                                  [*self.options, *further], timeout=timeout, before=self.before)
+        if not self.run.completed:
+            self.missing = self.run.why()
+            return
+        if self.shading_method and self.run.method and self.run.method != self.shading_method:
+            self.missing = f"EnergyPlus fell back to {self.run.method}"
+            return
+        self.results = results.Results(output / self.key)
+
+    @property
+    def extension_file(self):
+        """The side file of extension objects that the run reads, None where there is none."""
+        for word in self.options:
+            if word.startswith("--gpu-shading-file="):
+                return Path(word.partition("=")[2])
+        beside = Path(self.model).with_suffix(".gpu-shading.idf")
+        return beside if self.is_ours and beside.is_file() else None
+
+
+def clipping(key, model):
+    patched = energyplus.patched_prefix() / "energyplus"
+    if patched.is_file():
+        return Method(key, "clip", "PolygonClipping", patched, "PolygonClipping", ["--gpu-shading=off"], model=model)
+    official = energyplus.official_prefix() / "energyplus"
+    return Method(key, "clip", "PolygonClipping", official, "PolygonClipping", model=model)
+
+
+def gpu(key, model):
+    patched = energyplus.patched_prefix() / "energyplus"
+    made = Method(key, "gpu", "GPU", patched, options=["--gpu-shading"], model=model, is_ours=True)
+    if not patched.is_file():
+        made.missing = f"{patched} is not built: run scripts/build"
+    return made
+
+
+def pixel_counting(key, model):
+    before = energyplus.x_server_command()
+    made = Method(key, "pixel", "PixelCounting", energyplus.official_prefix() / "energyplus", "PixelCounting",
+                  before=before or (), model=model)
+    if not before:
+        made.missing = "xvfb-run or xauth is not installed"
+    return made
+
+
+KINDS = {"clipping": clipping, "gpu": gpu, "pixelcounting": pixel_counting}
+
+
+def holds_extensions_alone(path):
+    classes = input_file.read(path).classes() - {"version"}
+    return bool(classes) and all(name.startswith(OURS) for name in classes)
+
+
+def parse(text, key, model):
+    """The run that a user names with --a or --b: a kind or a file, and further options of EnergyPlus.
+
+    A file of extension objects alone is read in place of the model's own side file; any other file is a
+    model to run instead. Throws ValueError or OSError.
+    """
+    first, *options = shlex.split(text) or [""]
+    if first in KINDS:
+        made = KINDS[first](key, model)
+    elif not Path(first).is_file():
+        raise ValueError(f"{first}: expected {', '.join(KINDS)}, a file of extension objects, or a model")
+    elif holds_extensions_alone(first):
+        made = gpu(key, model)
+        made.options.append(f"--gpu-shading-file={Path(first).resolve()}")
+        made.title += f", {Path(first).name}"
+    else:
+        made = gpu(key, Path(first))
+        made.title += f", {Path(first).name}"
+    made.options += options
+    made.title = " ".join([made.title, *options])
+    return made
+
+
+def choose(model, a, b, with_xvfb):
+    """The reference first. Methods that cannot be had carry the reason."""
+    plain = a in KINDS and b in KINDS and a != b
+    names = {"clipping": "stock", "gpu": "gpu", "pixelcounting": "xvfb"}
+    chosen = [parse(text, names[text] if plain else key, model) for text, key in ((a, "a"), (b, "b"))]
+    if not plain:
+        for each, letter in zip(chosen, "AB", strict=True):
+            each.short = letter
+    if with_xvfb and "pixelcounting" not in (a, b):
+        chosen.append(pixel_counting("xvfb", model))
+    if any(len(each.title) > LONG for each in chosen):
+        for each in chosen:
+            each.label = each.short
+    return chosen

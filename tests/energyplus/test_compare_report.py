@@ -1,0 +1,259 @@
+"""The report of compare_shading: its numbers against what the runs have reported, and the page in a browser."""
+
+import csv
+import hashlib
+import subprocess
+
+import numpy as np
+import pytest
+from eso_file import EsoFile
+from html_page import Tables, look_at, number, screenshot
+from PIL import Image
+from shading_runs import energyplus, input_file, methods
+from shading_runs.energyplus import Run
+
+SUNLIT = "Surface Outside Face Sunlit Fraction"
+COSINE = "Surface Outside Face Beam Solar Incident Angle Cosine Value"
+QUANTITIES = {
+    "Transmitted solar radiation": "Surface Window Transmitted Solar Radiation Energy",
+    "of it beam": "Surface Window Transmitted Beam Solar Radiation Energy",
+    "Heating": "Zone Air System Sensible Heating Energy",
+    "Cooling": "Zone Air System Sensible Cooling Energy",
+}
+WEST_ZONES = 3  # of which the model has one
+RECEIVERS = 3
+WIDTHS = (480, 1280)
+
+# Half a unit of the last digit that the page prints.
+ENERGY = 0.005 + 1e-9
+PERCENT = 0.0005 + 1e-9
+FRACTION = 0.00005 + 1e-9
+
+# Nothing wider than the window, every chart with marks, every picture there; then a sorted column.
+LOOK = """() => {
+  const charts = [...document.querySelectorAll("svg.chart")];
+  const marks = (chart) => [...chart.querySelectorAll("path, image, use")].filter((mark) => {
+    const box = mark.getBoundingClientRect();
+    return box.width > 0 && box.height > 0;
+  }).length;
+  const outside = [...document.querySelectorAll("main *, header *")].filter((element) =>
+    element.getBoundingClientRect().right > innerWidth + 1 && !element.closest(".scroll") && !element.closest("svg"));
+  const table = document.querySelector("table.sortable");
+  const heading = [...table.tHead.rows[0].cells].findIndex((cell) => cell.textContent.startsWith("max |d|"));
+  table.tHead.rows[0].cells[heading].querySelector("button").click();
+  return {
+    width: innerWidth,
+    wide: document.documentElement.scrollWidth,
+    outside: outside.map((element) => element.outerHTML.slice(0, 200)),
+    charts: charts.map((chart) => [chart.getAttribute("aria-label"), marks(chart), chart.clientWidth]),
+    images: [...document.images].map((image) => [image.alt, image.naturalWidth]),
+    sorted: [...table.tBodies[0].rows].map((row) => Number(row.cells[heading].dataset.value)),
+    smallest: Math.min(...charts.map((chart) => chart.getBoundingClientRect().height)),
+  };
+}"""
+
+
+def compare(model, folder, weather, *options):
+    return subprocess.run(
+        [energyplus.REPOSITORY / "scripts" / "compare_shading", model, "-w", weather, "-o", folder, *options],
+        capture_output=True, text=True)
+
+
+@pytest.fixture(scope="module")
+def model(courtyard, tmp_path_factory):
+    """The courtyard from 29 September to 1 October, its west zone three times, and beside it, shades of glass."""
+    folder = tmp_path_factory.mktemp("model")
+    text = courtyard.read_text().replace("Zone,West;", f"Zone,West,0,0,0,0,1,{WEST_ZONES};")
+    text = text.replace("Heating Setpoint,Temperature,20;", "Heating Setpoint,Temperature,25;")  # warm at night too
+    own = input_file.Idf(text)
+    for place, value in ((1, "9"), (2, "29"), (4, "10"), (5, "1")):
+        own.set_field("RunPeriod", (place,), value)
+    own.write(folder / "yard.idf")
+    (folder / "glass.idf").write_text("GPUShading:TransparentShade, Glass, *, Constant, 0.4;\n")
+    return folder / "yard.idf"
+
+
+@pytest.fixture(scope="module")
+def variants(patched, model, weather, tmp_path_factory):
+    """Rendered as it is, and with glass."""
+    folder = tmp_path_factory.mktemp("variants")
+    done = compare(model, folder, weather, "--a", "gpu --gpu-shading-resolution=256",
+                   "--b", model.with_name("glass.idf"), "--receivers", str(RECEIVERS))
+    assert done.returncode == 0, done.stderr
+    assert f"report: {folder / 'report.html'}" in done.stdout
+    return folder
+
+
+@pytest.fixture(scope="module")
+def page(variants):
+    return Tables((variants / "report.html").read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def reported(variants):
+    return [EsoFile(variants / key / "eplusout.eso") for key in ("a", "b")]
+
+
+def hourly_sum(eso, variable):
+    """{time: kWh of the building}."""
+    total = {}
+    for key in eso.keys(variable):
+        factor = WEST_ZONES if key.startswith("WEST") else 1
+        for when, value in eso.values[variable, key].items():
+            total[when] = total.get(when, 0.0) + factor * value / 3.6e6
+    return total
+
+
+def test_energies_are_those_reported(page, reported):
+    rows = {row[1]: list(map(number, row[2:])) for row in page.tables["table-energy"][1:]}
+    assert list(rows) == list(QUANTITIES)
+    for quantity, variable in QUANTITIES.items():
+        before, after = (sum(hourly_sum(eso, variable).values()) for eso in reported)
+        assert rows[quantity][:2] == pytest.approx([before, after], abs=ENERGY)
+        assert rows[quantity][2] == pytest.approx(after - before, abs=ENERGY)
+        if before:
+            assert rows[quantity][3] == pytest.approx(100 * (after / before - 1), abs=PERCENT)
+    assert rows["Transmitted solar radiation"][2] > 1.0  # glass lets more in
+
+
+def test_months_are_those_reported(page, reported):
+    rows = {row[0]: list(map(number, row[1:])) for row in page.tables["table-months"][2:]}
+    assert list(rows) == ["Sep", "Oct"]
+    for month, name in ((9, "Sep"), (10, "Oct")):
+        expected = []
+        for variable in QUANTITIES.values():
+            before, after = (sum(value for when, value in hourly_sum(eso, variable).items() if when[0] == month)
+                             for eso in reported)
+            expected += [before, after, after - before]
+        assert rows[name] == pytest.approx(expected, abs=ENERGY)
+
+
+def test_peaks_are_the_largest_hours_reported(page, reported):
+    rows = {(row[0], row[1]): row[2:] for row in page.tables["table-peaks"][1:]}
+    months = {9: "Sep", 10: "Oct"}
+    assert ("Building", "Heating") in rows
+    for load in ("Heating", "Cooling"):
+        for zone in ("Building", "WEST", "EAST"):
+            series = [hourly_sum(eso, QUANTITIES[load]) if zone == "Building"
+                      else {when: value / 3.6e6 for when, value in eso.values[QUANTITIES[load], zone].items()}
+                      for eso in reported]
+            if not any(any(values.values()) for values in series):
+                assert (zone, load) not in rows
+                continue
+            largest = [max(values.items(), key=lambda item: item[1]) for values in series]
+            cells = rows[zone, load]
+            assert list(map(number, cells[:2])) == pytest.approx([value for _, value in largest], abs=ENERGY)
+            for ((month, day, hour), value), text in zip(largest, cells[4:], strict=True):
+                assert text == (f"{day} {months[month]}, {hour - 1:02d}–{hour:02d} h" if value else "")
+
+
+def test_differences_are_those_reported(page, reported, variants):
+    before, after = reported
+    header, *rows = page.tables["table-receivers"]
+    assert header[4:8] == ["A, mean sunlit", "B, mean sunlit", "mean |d|", "max |d|"]
+    everything = []
+    for row in rows:
+        name = row[0]
+        facing = [when for when, cosine in before.values[COSINE, name].items() if cosine > 1e-3]
+        first, second = (np.array([eso.values[SUNLIT, name][when] for when in facing]) for eso in reported)
+        assert int(row[3]) == len(facing)
+        assert list(map(number, row[4:6])) == pytest.approx([first.mean(), second.mean()], abs=FRACTION)
+        change = np.abs(second - first)
+        assert list(map(number, row[6:8])) == pytest.approx([change.mean(), change.max()], rel=0.06, abs=1e-9)
+        everything += list(change)
+    tiles = (variants / "report.html").read_text(encoding="utf-8")
+    assert f"<dt>mean |d|</dt><dd>{np.mean(everything):.2g}</dd>" in tiles
+    assert f"<dt>largest |d|</dt><dd>{max(everything):.2g}</dd>" in tiles
+    with open(variants / "hourly.csv", newline="", encoding="utf-8") as file:
+        assert sum(1 for _ in csv.reader(file)) - 1 == len(everything)
+
+
+def test_the_page_says_what_ran(page, variants, model, weather):
+    rows = {row[0]: row[1:] for row in page.tables["table-origin"][1:]}
+    for title, path in (("Model", model), ("Weather", weather)):
+        assert rows[title] == [f"{path.name}, SHA-256 {hashlib.sha256(path.read_bytes()).hexdigest()}"] * 2
+    glass = model.with_name("glass.idf")
+    assert rows["Extension file"] == ["none", f"glass.idf, SHA-256 {hashlib.sha256(glass.read_bytes()).hexdigest()}"]
+    assert rows["Fineness"][0] == "256 x 256 pixels" and rows["Fineness"][1] not in ("", "–")
+    assert "--gpu-shading-resolution=256" in rows["Options"][0]
+    assert all(cell.startswith("EnergyPlus, Version 25.2") for cell in rows["Program"])
+    for key, device in zip(("a", "b"), rows["Rendered by"], strict=True):
+        assert device in (variants / key / "eplusout.err").read_text()
+    stages = page.tables["table-stages"]
+    assert any("rendering" in row[1] for row in stages)
+    assert all(number(row[2]) >= 0 for row in stages[1:])
+
+
+def test_the_page_needs_nothing_else(page):
+    assert page.references
+    assert [reference for reference in page.references if not reference.startswith(("#", "data:"))] == []
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_the_page_in_a_browser(variants, tmp_path, width):
+    seen = look_at(variants / "report.html", width, LOOK, tmp_path)
+    assert seen["troubles"] == []
+    assert seen["width"] == width
+    assert seen["wide"] <= width
+    assert seen["outside"] == []
+    # Two of all receivers, three of months, one of seconds; of each receiver three maps, scatter and histogram.
+    assert len(seen["charts"]) == 2 + 3 + 1 + 5 * RECEIVERS
+    for label, marks, chart_width in seen["charts"]:
+        assert marks >= 3, label
+        assert 150 < chart_width <= width, label
+    assert len(seen["images"]) >= 2 * RECEIVERS
+    assert all(natural > 50 for _, natural in seen["images"])
+    assert seen["sorted"] == sorted(seen["sorted"], reverse=True) and seen["sorted"][0] > 0.01
+
+    screenshot(variants / "report.html", width, 3000, tmp_path / "page.png")
+    with Image.open(tmp_path / "page.png") as picture:
+        assert picture.size == (width, 3000)
+        assert len(picture.convert("RGB").getcolors(1 << 24)) > 100
+
+
+def test_polygon_clipping_is_the_reference_where_none_is_named(official, patched, model, weather, tmp_path):
+    done = compare(model, tmp_path, weather, "--receivers", "1", "--", "-D")
+    assert done.returncode == 0, done.stderr
+    assert "EAST END WINDOW" in done.stdout
+    assert "PolygonClipping" in done.stdout and "rendered by" in done.stdout
+    assert (tmp_path / "receivers.csv").is_file() and (tmp_path / "hourly.csv").is_file()
+    tables = Tables((tmp_path / "report.html").read_text(encoding="utf-8")).tables
+    assert tables["table-energy"][0][2:4] == ["PolygonClipping kWh", "GPU kWh"]
+    assert [row[0] for row in tables["table-energy"][1:] if row[0]] == ["CLEAR AUTUMN DAY"]
+    assert "table-months" not in tables  # a design day is no month
+
+
+def test_a_run_that_is_neither_kind_nor_file(model, weather, tmp_path):
+    done = compare(model, tmp_path, weather, "--b", "nothing.idf")
+    assert done.returncode == 1
+    assert done.stderr.startswith("compare_shading: nothing.idf: expected clipping, gpu, pixelcounting, a file")
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_what_a_run_is_called(model):
+    plain = methods.choose(model, "clipping", "gpu", False)
+    assert [(run.key, run.short, run.is_ours) for run in plain] == [("stock", "clip", False), ("gpu", "gpu", True)]
+    named = methods.choose(model, "gpu", str(model.with_name("glass.idf")), False)
+    assert [(run.key, run.short) for run in named] == [("a", "A"), ("b", "B")]
+    assert named[0].extension_file is None and named[1].extension_file == model.with_name("glass.idf")
+
+
+def test_messages_of_a_run(tmp_path):
+    (tmp_path / "eplusout.err").write_text(
+        "Program Version,EnergyPlus\n"
+        "   ** Warning ** First of two\n"
+        "   **   ~~~   ** which goes on\n"
+        "   ************* Beginning Simulation\n"
+        "   **   ~~~   ** belongs to nothing\n"
+        "   ** Severe  ** Second\n"
+        "   *************  ** Warning ** Third, again and again\n"
+        "   *************  **   ~~~   **   This error occurred 12 total times\n"
+        "   **  Fatal  ** Fourth\n")
+    run = Run(1, "", "", tmp_path, 1.0)
+    assert run.messages == [
+        ("Warning", "First of two\nwhich goes on"),
+        ("Severe", "Second"),
+        ("Warning", "Third, again and again\nThis error occurred 12 total times"),
+        ("Fatal", "Fourth"),
+    ]
+    assert run.severe == ["Severe: Second", "Fatal: Fourth"]

@@ -1,0 +1,111 @@
+#include "gpu_shading/scene_view.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "gpu_shading/error.h"
+#include "gpu_shading/transmittance.h"
+#include "shapes.h"
+
+namespace gpu_shading {
+namespace {
+
+using Colour = std::array<int, 3>;
+
+Colour rounded(glm::dvec3 const& colour) {
+  return {static_cast<int>(std::lround(colour.x)), static_cast<int>(std::lround(colour.y)),
+          static_cast<int>(std::lround(colour.z))};
+}
+
+std::map<Colour, int> count_colours(Image const& image) {
+  std::map<Colour, int> counts;
+  for (std::size_t at = 0; at + 2 < image.pixels.size(); at += 3) {
+    ++counts[{image.pixels[at], image.pixels[at + 1], image.pixels[at + 2]}];
+  }
+  return counts;
+}
+
+// A level receiver of 4 x 4 m and, over a quarter of it, a sheet.
+struct Case {
+  Scene scene;
+  std::vector<std::optional<double>> fractions{0.75, std::nullopt};
+  std::vector<SurfaceId> all{0, 1};
+
+  explicit Case(std::shared_ptr<Transmittance const> transmittance = nullptr) {
+    scene.add({"receiver", level(0, 0, 0, 4, 4)});
+    Surface sheet;
+    sheet.name = "sheet";
+    sheet.polygon = level(1, 1, 1, 2, 2);
+    sheet.transmittance = std::move(transmittance);
+    scene.add(std::move(sheet));
+  }
+};
+
+TEST(SceneView, ShowsReceiversByTheirFractionAndOthersGrey) {
+  Case const quarter;
+  SceneView view(quarter.scene, quarter.all, {});
+  auto const image = view.draw(sun_at(180, 90), quarter.fractions, 540);
+  EXPECT_EQ(image.width, 540);
+  EXPECT_EQ(image.height, 540);
+  auto const counts = count_colours(image);
+  // 4 m and 4 % of them on each side are 540 pixels: 500 for the receiver, less its edges.
+  EXPECT_NEAR(counts.at(rounded(fraction_colour(0.75))), 500 * 500 * 0.75, 3100);
+  EXPECT_NEAR(counts.at({215, 215, 215}), 250 * 250, 600);
+  EXPECT_NEAR(counts.at({255, 255, 255}), 540 * 540 - 500 * 500, 2100);
+}
+
+TEST(SceneView, SeesThroughWhatTransmits) {
+  Case const pane(std::make_shared<Transmittance const>(Transmittance::constant(0.5)));
+  SceneView view(pane.scene, pane.all, {});
+  auto const counts = count_colours(view.draw(sun_at(180, 90), pane.fractions, 540));
+  auto const both = rounded(0.5 * (fraction_colour(0.75) + glm::dvec3(215.0)));
+  EXPECT_NEAR(counts.at(both), 250 * 250, 600);
+  EXPECT_FALSE(counts.contains({215, 215, 215}));
+}
+
+TEST(SceneView, TheNearestHidesTheOthers) {
+  Case sides;
+  // From the south at the horizon only a wall in front of both is seen.
+  auto const wall = sides.scene.add({"wall", south_facing(-1, -1, -1, 6, 3)});
+  sides.all.push_back(wall);
+  sides.fractions.emplace_back(0.0);
+  SceneView view(sides.scene, sides.all, {});
+  auto const counts = count_colours(view.draw(sun_at(180, 0), sides.fractions, 300));
+  EXPECT_TRUE(counts.contains(rounded(fraction_colour(0.0))));
+  EXPECT_FALSE(counts.contains(rounded(fraction_colour(0.75))));
+}
+
+TEST(SceneView, FarSurfacesDoNotMakeReceiversSmall) {
+  Case distant;
+  auto const hill = distant.scene.add({"hill", south_facing(-5000, 9000, 0, 10000, 300)});
+  distant.all.push_back(hill);
+  distant.fractions.emplace_back(std::nullopt);
+  SceneView view(distant.scene, distant.all, {});
+  auto const counts = count_colours(view.draw(sun_at(180, 60), distant.fractions, 300));
+  EXPECT_GT(counts.at(rounded(fraction_colour(0.75))), 300 * 300 / 10);
+}
+
+TEST(SceneView, SaysWhatItCannotDraw) {
+  Case const some;
+  SceneView view(some.scene, some.all, {});
+  EXPECT_THROW(view.draw(sun_at(180, 45), {}, 300), Error);
+  EXPECT_THROW(view.draw(sun_at(180, 45), some.fractions, 0), Error);
+  EXPECT_THROW(SceneView(some.scene, {}, {}), Error);
+}
+
+TEST(FractionColour, GrowsLighter) {
+  double before = -1.0;
+  for (int step = 0; step <= 20; ++step) {
+    auto const colour = fraction_colour(0.05 * step);
+    // Luma of ITU-R BT.601.
+    double const luma = 0.299 * colour.x + 0.587 * colour.y + 0.114 * colour.z;
+    EXPECT_GT(luma, before);
+    before = luma;
+  }
+}
+
+}  // namespace
+}  // namespace gpu_shading
