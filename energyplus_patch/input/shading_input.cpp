@@ -75,6 +75,12 @@ Casting ShadingInput::casting(std::string const& surface) const {
   return zone_of.contains(surface) ? Casting::turned_away : Casting::always;
 }
 
+bool ShadingInput::receives(std::string const& surface) const {
+  if (shading_surfaces.contains(surface)) return wants(surface);
+  auto const base = base_of.find(surface);
+  return !not_exterior.contains(base == base_of.end() ? surface : base->second);
+}
+
 ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
   ShadingInput input;
   std::set<std::string> named;

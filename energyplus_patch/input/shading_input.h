@@ -54,6 +54,9 @@ struct ShadingInput {
   bool wants(std::string const& shading_surface) const {
     return all_shading_wanted || wanted_shading.contains(shading_surface);
   }
+
+  // Whether EnergyPlus may ask for the surface's sunlit area and has a use for it.
+  bool receives(std::string const& surface) const;
 };
 
 // Throws Error where a value cannot be understood.

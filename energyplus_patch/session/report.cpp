@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
@@ -95,6 +96,8 @@ std::string quoted(std::string const& text) {
   return result + '"';
 }
 
+auto const loaded = std::chrono::steady_clock::now();
+
 }  // namespace
 
 void prepare_report(std::filesystem::path const& folder) {
@@ -105,9 +108,32 @@ void prepare_report(std::filesystem::path const& folder) {
   }
 }
 
+Stages stages_of(RendererStatistics const& statistics) {
+  double const passed =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - loaded).count();
+  double const staged = statistics.cull_seconds + statistics.submit_seconds +
+                        statistics.wait_seconds + statistics.read_seconds;
+  return {{"cull", statistics.cull_seconds},
+          {"submit", statistics.submit_seconds},
+          {"wait", statistics.wait_seconds},
+          {"read", statistics.read_seconds},
+          {"other rendering", std::max(0.0, statistics.seconds - staged)},
+          {"EnergyPlus", std::max(0.0, passed - statistics.seconds)}};
+}
+
+void write_stages(std::filesystem::path const& folder, Stages const& stages) {
+  auto const table = folder / "stages.csv";
+  std::ofstream csv(table);
+  csv << "stage,seconds\n";
+  for (auto const& [stage, seconds] : stages) csv << fmt::format("{},{:.3f}\n", stage, seconds);
+  csv.close();
+  if (!csv) throw Error(fmt::format("--gpu-shading-report: {}: cannot be written", table.string()));
+}
+
 void write_report(std::filesystem::path const& folder, Renderer& renderer,
-                  std::vector<SurfaceId> const& receivers, Answers const& answers,
-                  std::vector<double> const& factors, Deployments const& deployments) {
+                  std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
+                  Answers const& answers, std::vector<double> const& factors,
+                  Deployments const& deployments) {
   auto const table = folder / table_name;
   std::ofstream csv(table);
   csv << "receiver,sun azimuth [deg],sun altitude [deg],projected sunlit area [m2],sunlit "
@@ -117,6 +143,7 @@ void write_report(std::filesystem::path const& folder, Renderer& renderer,
   std::vector<Row> pictures;
   for (ReceiverNumber number = 0; number < receivers.size(); ++number) {
     auto const receiver = receivers[number];
+    if (!asked[receiver]) continue;
     auto const rows = collect(renderer, receiver, number, answers, factors);
     for (auto const& row : rows) {
       csv << fmt::format("{},{:.4f},{:.4f},{:.7g},{:.6f}", quoted(renderer.scene()[receiver].name),

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gpu_shading/renderer.h"
@@ -26,9 +27,20 @@ struct Deployments {
 //   NAME_AZ_ALT.png  what the sun sees of a receiver, at up to three of its answers: the one most
 //                    shaded but lit, the one nearest to half sunlit, and the one at the highest
 //                    sun. With deployments NAME_AZ_ALT_SHARE[_SHARE ...].png, shares in percent.
-// `receivers`: by their numbers. Throws Error when the folder cannot be written.
+// `receivers`: by their numbers; those that were asked for, by surface, are reported. Throws Error
+// when the folder cannot be written.
 void write_report(std::filesystem::path const& folder, Renderer& renderer,
-                  std::vector<SurfaceId> const& receivers, Answers const& answers,
-                  std::vector<double> const& factors, Deployments const& deployments);
+                  std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
+                  Answers const& answers, std::vector<double> const& factors,
+                  Deployments const& deployments);
+
+// Where the time of a run goes, wall seconds by stage.
+using Stages = std::vector<std::pair<std::string, double>>;
+
+// The renderer's own stages, and the rest of what passed since this module was loaded.
+Stages stages_of(RendererStatistics const& statistics);
+
+// stages.csv: stage, seconds. Throws Error when the folder cannot be written.
+void write_stages(std::filesystem::path const& folder, Stages const& stages);
 
 }  // namespace gpu_shading::energyplus

@@ -72,13 +72,18 @@ void Session::start(Messages messages, Schedules schedules) {
   auto const& input = model_.shading;
   unshaded_.assign(surfaces_, std::nullopt);
   numbers_.assign(surfaces_, std::nullopt);
+  asked_.assign(surfaces_, false);
   std::vector<bool> wanted(surfaces_, true);
   for (SurfaceId id = 0; id < surfaces_; ++id) {
     auto const& name = scene_[id].name;
     auto const& polygon = scene_[id].polygon;
-    wanted[id] = (!input.shading_surfaces.contains(name) || input.wants(name)) &&
-                 !model_.lean.is_placeholder(name);
-    if (!wanted[id]) unshaded_[id] = area(polygon) * normal(polygon);
+    wanted[id] = input.receives(name) && !is_reveal(name) && !model_.lean.is_placeholder(name);
+    if (wanted[id]) {
+      // All of them are rendered at the first question, at one go.
+      if (area(polygon) > 0.0) number_of(id);
+    } else if (input.shading_surfaces.contains(name)) {
+      unshaded_[id] = area(polygon) * normal(polygon);
+    }
   }
   for (auto& caster : model_.lean.casters) scene_.add(std::move(caster));
   model_.lean.casters.clear();
@@ -107,9 +112,6 @@ void Session::draw(std::filesystem::path const& folder, int size, std::vector<bo
   std::vector<SurfaceId> shown;
   for (SurfaceId id = 0; id < scene_.size(); ++id) {
     if (!model_.lean.is_placeholder(scene_[id].name)) shown.push_back(id);
-  }
-  for (SurfaceId id = 0; id < surfaces_; ++id) {
-    if (is_reveal(scene_[id].name)) wanted[id] = false;
   }
   wanted.resize(scene_.size(), false);  // what was left out of EnergyPlus's input only casts
   model_.options.cache.reset();         // nothing is answered
@@ -290,6 +292,7 @@ float Session::projected_sunlit_area(SurfaceId receiver) {
     return static_cast<float>(std::max(glm::dot(*unshaded_[receiver], towards_sun_), 0.0));
   }
   auto const number = number_of(receiver);
+  asked_[receiver] = true;
   auto& direction = run_.answers.at(sun_, state_);
   if (!direction.knows(number) && cache_) cache_->recall(run_, direction);
   if (!direction.knows(number)) render(direction);
@@ -331,18 +334,26 @@ void Session::finish() {
   auto const& device = renderer_->device();
   auto did = earlier_;
   did += renderer_->statistics();
-  if (run_.receivers.empty() && did.directions == 0) return;  // ended before the first question
+  auto const asked = std::count(asked_.begin(), asked_.end(), true);
+  if (asked == 0 && did.directions == 0) return;  // ended before the first question
   auto const from_cache = cache_ ? fmt::format(" rendered, {} from the cache",
                                                recalled_earlier_ + cache_->directions_recalled())
                                  : "";
   messages_.remark(fmt::format(
       "shading rendered by {} ({}), {}: {} receivers, {} casters, {} directions{}, {} "
       "views drawn, {} clear, {:.2f} s",
-      device.renderer, device.version, describe_fineness(model_.options), run_.receivers.size(),
-      casters_, did.directions, from_cache, did.receivers_drawn, did.receivers_clear, did.seconds));
+      device.renderer, device.version, describe_fineness(model_.options), asked, casters_,
+      did.directions, from_cache, did.receivers_drawn, did.receivers_clear, did.seconds));
   store_answers();
   if (model_.options.report) {
-    write_report(*model_.options.report, *renderer_, run_.receivers, run_.answers,
+    auto const stages = stages_of(did);
+    std::string line;
+    for (auto const& [stage, seconds] : stages) {
+      line += fmt::format("{}{} {:.2f} s", line.empty() ? "" : ", ", stage, seconds);
+    }
+    messages_.remark("where the time went: " + line);
+    write_stages(*model_.options.report, stages);
+    write_report(*model_.options.report, *renderer_, run_.receivers, asked_, run_.answers,
                  optics_.factors(), {optics_.deployment_names(), run_.states});
   }
 }

@@ -98,7 +98,8 @@ class Session {
   RendererStatistics earlier_;  // of renderers before it
   // By surface, where its own fraction has no use: normal x area, for an answer without shadows.
   std::vector<std::optional<glm::dvec3>> unshaded_;
-  std::vector<std::optional<ReceiverNumber>> numbers_;  // of receivers asked for, by surface
+  std::vector<std::optional<ReceiverNumber>> numbers_;  // of receivers, by surface
+  std::vector<bool> asked_;                             // for by EnergyPlus, by surface
   SunDirection sun_;
   glm::dvec3 towards_sun_{0.0, 0.0, 1.0};
   AnswerSet run_;

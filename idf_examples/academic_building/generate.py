@@ -95,8 +95,8 @@ Site:GroundTemperature:BuildingSurface,17,17,17,17,18,19,20,20,20,19,18,17;
 Material,Door Leaf,Smooth,0.05,0.15,700,1500;
 Construction,Door,Door Leaf;
 
-Output:Variable,*,Zone Air System Sensible Heating Energy,Monthly;
-Output:Variable,*,Zone Air System Sensible Cooling Energy,Monthly;
+Output:Variable,*,Zone Ideal Loads Zone Total Heating Energy,Monthly;
+Output:Variable,*,Zone Ideal Loads Zone Total Cooling Energy,Monthly;
 Output:Variable,*,Surface Window Transmitted Solar Radiation Energy,Monthly;
 Output:Variable,*,Surface Window Transmitted Beam Solar Radiation Energy,Monthly;
 Output:SQLite,Simple;

@@ -55,7 +55,7 @@ def cells_of(study, run):
     did = rendered(run)
     values = [f"{sum(sums.values()):,.0f}", *(f"{sums.get(group, 0.0):,.0f}" for group in study.groups)]
     values += [f"{sum(results.energies(run.folder, variable).values()):,.0f}"
-               for variable in (results.HEATING, results.COOLING)]  # fmt: skip
+               for variable in (results.IDEAL_HEATING, results.IDEAL_COOLING)]  # fmt: skip
     return [*values, f"{run.wall:.1f}", f"{did.seconds:.1f}", f"{did.receivers:,}", f"{did.casters:,}"]
 
 

@@ -97,8 +97,8 @@ Construction,Balustrade Glass,Pane;
 GPUShading:TransparentShade,Shell,Pane *,Construction,Shell Glass;
 GPUShading:TransparentShade,Balustrades,Balustrade *,Construction,Balustrade Glass;
 
-Output:Variable,*,Zone Air System Sensible Heating Energy,Monthly;
-Output:Variable,*,Zone Air System Sensible Cooling Energy,Monthly;
+Output:Variable,*,Zone Ideal Loads Zone Total Heating Energy,Monthly;
+Output:Variable,*,Zone Ideal Loads Zone Total Cooling Energy,Monthly;
 Output:Variable,*,Surface Window Transmitted Solar Radiation Energy,Monthly;
 Output:Variable,*,Surface Window Transmitted Beam Solar Radiation Energy,Monthly;
 Output:SQLite,Simple;

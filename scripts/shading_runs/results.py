@@ -12,6 +12,9 @@ SOLAR = "Surface Window Transmitted Solar Radiation Energy"
 BEAM = "Surface Window Transmitted Beam Solar Radiation Energy"
 HEATING = "Zone Air System Sensible Heating Energy"
 COOLING = "Zone Air System Sensible Cooling Energy"
+# Latent heat and fresh air included, of zones with ideal loads.
+IDEAL_HEATING = "Zone Ideal Loads Zone Total Heating Energy"
+IDEAL_COOLING = "Zone Ideal Loads Zone Total Cooling Energy"
 VARIABLES = (SUNLIT, COSINE, SOLAR, BEAM, HEATING, COOLING)
 OF_ZONES = (HEATING, COOLING)
 AZIMUTH, ALTITUDE = "Site Solar Azimuth Angle", "Site Solar Altitude Angle"

@@ -192,9 +192,9 @@ def test_small_model_runs_and_counts(variant, ran):
     # Of walls that have openings the scene holds two, with them and without.
     casters = outside.shading + outside.opaque + outside.with_openings
     assert f"{outside.counts[1]} receivers, {casters} casters" in run.rendering
-    for variable in (results.HEATING, results.COOLING):
+    for variable in (results.IDEAL_HEATING, results.IDEAL_COOLING):
         assert len(results.energies(run.folder, variable)) == outside.zones
-    assert sum(results.energies(run.folder, results.COOLING).values()) > 0
+    assert sum(results.energies(run.folder, results.IDEAL_COOLING).values()) > 0
 
 
 def beam(run, words):

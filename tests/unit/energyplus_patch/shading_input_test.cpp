@@ -69,6 +69,21 @@ TEST(ShadingInput, ShadowCalculation) {
   EXPECT_THROW(read("ShadowCalculation,PixelCounting,,,,,many;"), Error);
 }
 
+TEST(ShadingInput, WhatEnergyPlusMayAskFor) {
+  auto const input = read(
+      "BuildingSurface:Detailed,South,Wall,C,Z,,Outdoors,,SunExposed,WindExposed;"
+      "BuildingSurface:Detailed,Party,Wall,C,Z,,Adiabatic,,NoSun,NoWind;"
+      "FenestrationSurface:Detailed,Pane,Window,G,South;"
+      "FenestrationSurface:Detailed,Inner,Window,G,Party;"
+      "Shading:Building:Detailed,Used;Shading:Building:Detailed,Useless;"
+      "Output:Variable,Used,Surface Outside Face Sunlit Fraction;");
+  for (auto const* const name : {"SOUTH", "PANE", "USED"})
+    EXPECT_TRUE(input.receives(name)) << name;
+  for (auto const* const name : {"PARTY", "INNER", "USELESS"}) {
+    EXPECT_FALSE(input.receives(name)) << name;
+  }
+}
+
 TEST(ShadingInput, OtherVersionsAndUserGivenFractionsAreRefused) {
   EXPECT_NO_THROW(check_supported(read("Version,25.2;"), "25.2.0"));
   EXPECT_NO_THROW(check_supported(read("Version,25.2.0;"), "25.2.0"));
