@@ -30,6 +30,8 @@ def draw(path, panels, ylabel):
             xs, ys = zip(*sorted(points), strict=True)
             axes.loglog(xs, ys, label=name, color=COLOURS[number % len(COLOURS)], linewidth=1.4, markersize=4,
                         marker=MARKS[number % len(MARKS)])
+        values = [y for points in curves.values() for _, y in points]
+        axes.set_ylim(10.0 ** math.floor(math.log10(min(values))), 10.0 ** math.ceil(math.log10(max(values)) + 1e-9))
         axes.set_title(title, fontsize=10)
         axes.set_xlabel(xlabel)
         axes.set_ylabel(ylabel)
