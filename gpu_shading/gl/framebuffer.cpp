@@ -17,6 +17,21 @@ GLenum attachment(Format format) {
   return format == Format::depth_stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_COLOR_ATTACHMENT0;
 }
 
+GLenum attachment(Pixel pixel) {
+  switch (pixel) {
+    case Pixel::depth:
+      return GL_DEPTH_ATTACHMENT;
+    case Pixel::stencil:
+      return GL_STENCIL_ATTACHMENT;
+    case Pixel::unit:
+    case Pixel::real:
+    case Pixel::reals:
+    case Pixel::identity:
+      break;
+  }
+  return GL_COLOR_ATTACHMENT0;
+}
+
 }  // namespace
 
 void destroy_renderbuffer(std::uint32_t name) { glDeleteRenderbuffers(1, &name); }
@@ -44,13 +59,21 @@ Framebuffer Framebuffer::create(std::vector<Format> const& formats, int width, i
   return target;
 }
 
-Framebuffer Framebuffer::of_layers(LayeredTexture const& colour, LayeredTexture const* depth) {
+Framebuffer Framebuffer::of_layers(std::initializer_list<LayeredTexture const*> textures) {
   GLuint name = 0;
   glCreateFramebuffers(1, &name);
   Framebuffer target(name);
-  target.width_ = target.height_ = colour.side();
-  glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, colour.name(), 0);
-  if (depth != nullptr) glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth->name(), 0);
+  bool coloured = false;
+  for (LayeredTexture const* const texture : textures) {
+    GLenum const place = attachment(texture->pixel());
+    coloured = coloured || place == GL_COLOR_ATTACHMENT0;
+    target.width_ = target.height_ = texture->side();
+    glNamedFramebufferTexture(name, place, texture->name(), 0);
+  }
+  if (!coloured) {
+    glNamedFramebufferDrawBuffer(name, GL_NONE);
+    glNamedFramebufferReadBuffer(name, GL_NONE);
+  }
   target.check_complete();
   return target;
 }

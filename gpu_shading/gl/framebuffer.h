@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec4.hpp>
+#include <initializer_list>
 #include <vector>
 
 #include "gl/object.h"
@@ -34,9 +35,9 @@ class Framebuffer : public Object<destroy_framebuffer> {
   // Owns what is attached to it. Throws DeviceError when the driver cannot draw to this.
   static Framebuffer create(std::vector<Format> const& formats, int width, int height);
 
-  // All layers of textures, which must outlive it; draws choose theirs by gl_Layer. No depth test
-  // where there is no depth.
-  static Framebuffer of_layers(LayeredTexture const& colour, LayeredTexture const* depth);
+  // All layers of textures, which must outlive it, at most one each for colour, depth and stencil;
+  // draws choose theirs by gl_Layer.
+  static Framebuffer of_layers(std::initializer_list<LayeredTexture const*> textures);
 
   // Draws go here, over all of it.
   void bind() const;

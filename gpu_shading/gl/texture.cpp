@@ -25,6 +25,8 @@ Layout layout_of(Pixel pixel) {
       return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
     case Pixel::depth:
       return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
+    case Pixel::stencil:
+      return {GL_STENCIL_INDEX8, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1};
     case Pixel::unit:
       break;
   }

@@ -18,6 +18,7 @@ enum class Pixel {
   reals,     // four of them
   identity,  // an unsigned integer of 32 bits
   depth,     // a 32-bit float
+  stencil,   // 8 bits
 };
 
 std::size_t size_of(Pixel pixel);  // bytes

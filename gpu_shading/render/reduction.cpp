@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <numeric>
 #include <span>
 
@@ -24,27 +23,6 @@ double sum_of(std::span<float const> values) {
   }
   for (; i < values.size(); ++i) lanes[0] += static_cast<double>(values[i]);
   return std::accumulate(lanes.begin(), lanes.end(), 0.0);
-}
-
-// Bytes that are 0 or 255: how many of the latter. Eight at a time, as many as a byte can count.
-std::size_t count_of(std::span<std::uint8_t const> bytes) {
-  constexpr std::uint64_t ones = 0x0101010101010101U;
-  constexpr std::size_t word = sizeof(std::uint64_t);
-  constexpr std::size_t block = 255 * word;
-  std::size_t count = 0;
-  std::size_t i = 0;
-  while (i + word <= bytes.size()) {
-    std::uint64_t counts = 0;
-    std::size_t const end = std::min(bytes.size() / word * word, i + block);
-    for (; i < end; i += word) {
-      std::uint64_t eight = 0;
-      std::memcpy(&eight, bytes.data() + i, word);
-      counts += eight & ones;
-    }
-    for (; counts != 0; counts >>= 8U) count += counts & 0xFFU;
-  }
-  for (; i < bytes.size(); ++i) count += bytes[i] & 1U;
-  return count;
 }
 
 int squares_across(int side) {
@@ -115,18 +93,12 @@ class ByMipmaps : public Reduction {
 class ByReadback : public Reduction {
  public:
   explicit ByReadback(gl::LayeredTexture const& texture)
-      : of_bytes_(texture.pixel() == gl::Pixel::unit),
-        pixels_(texture, 0, gl::Readback::Way::when_asked) {}
+      : pixels_(texture, 0, gl::Readback::Way::when_asked) {}
 
   void start(int layers) override { pixels_.start(layers); }
-
-  double sum(int layer) override {
-    return of_bytes_ ? static_cast<double>(count_of(pixels_.layer<std::uint8_t>(layer)))
-                     : sum_of(pixels_.layer<float>(layer));
-  }
+  double sum(int layer) override { return sum_of(pixels_.layer<float>(layer)); }
 
  private:
-  bool of_bytes_;
   gl::Readback pixels_;
 };
 

@@ -10,8 +10,8 @@
 
 namespace gpu_shading {
 
-// Brings back what is wanted of the layers of a texture, which has to outlive it: their sums over
-// pixels, in a fixed order.
+// Brings back the sums over pixels of the layers of a texture of units or reals, which has to
+// outlive it: in a fixed order.
 class Reduction {
  public:
   virtual ~Reduction() = default;
@@ -30,6 +30,7 @@ class Summing {
 
   // Of what a texture needs to be summed.
   gl::LayeredTexture::Levels levels(gl::Pixel pixel) const;
+  // Of units only where whole pixels are brought back ahead.
   std::unique_ptr<Reduction> make(gl::LayeredTexture const& texture);
   // Bytes of a layer beside its pixels.
   std::size_t extra_bytes(gl::Pixel pixel, int side) const;

@@ -1,6 +1,9 @@
 #include "render/target.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "gl/check.h"
@@ -31,11 +34,67 @@ void draw_luminance(Geometry& geometry, gl::Framebuffer const& target, glm::vec4
   gl::blend(gl::Blend::replace);
 }
 
-class OpaqueTarget : public Target {
+std::size_t count_of(std::uint8_t value, std::span<std::uint8_t const> values) {
+  // Lanes of bytes, as long as these can count.
+  constexpr std::size_t width = 32;
+  constexpr std::size_t most = 255;
+  std::size_t count = 0;
+  while (values.size() >= width) {
+    std::array<std::uint8_t, width> lanes{};
+    std::size_t const rows = std::min(values.size() / width, most);
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (std::size_t lane = 0; lane < width; ++lane) {
+        lanes[lane] =
+            static_cast<std::uint8_t>(lanes[lane] + (values[row * width + lane] == value));
+      }
+    }
+    count = std::accumulate(lanes.begin(), lanes.end(), count);
+    values = values.subspan(rows * width);
+  }
+  return count + static_cast<std::size_t>(std::count(values.begin(), values.end(), value));
+}
+
+// The cheapest for llvmpipe to draw, by 9 % of a colour's.
+class StencilTarget : public Target {
  public:
-  OpaqueTarget(int side, int layers, Summing& summing)
+  StencilTarget(int side, int layers)
+      : texture_(gl::LayeredTexture::create(gl::Pixel::stencil, side, layers)),
+        layers_(gl::Framebuffer::of_layers({&texture_})),
+        pixels_(texture_, 0, Way::when_asked) {}
+
+  void draw(Geometry& geometry, int layers) override {
+    layers_.bind();
+    gl::no_depth();
+    // Each time lit pixels have a mark of their own, so that those of before need no clearing.
+    if (++mark_ == 0) {
+      layers_.clear_stencil();
+      ++mark_;
+    }
+    gl::stencil(gl::Test::always, mark_, gl::OnPass::replace);
+    geometry.draw_tiles(lit);
+    gl::stencil(gl::Test::always, 0, gl::OnPass::replace);
+    geometry.draw_casters();
+    gl::no_stencil();
+    pixels_.start(layers);
+  }
+
+  void read(int layer, std::span<LuminanceByKey> parts) override {
+    parts.front()[{}] = static_cast<double>(count_of(mark_, pixels_.layer<std::uint8_t>(layer)));
+  }
+
+ private:
+  gl::LayeredTexture texture_;
+  gl::Framebuffer layers_;
+  gl::Readback pixels_;
+  std::uint8_t mark_ = 0xFF;
+};
+
+// For a compute shader to sum.
+class UnitTarget : public Target {
+ public:
+  UnitTarget(int side, int layers, Summing& summing)
       : texture_(gl::LayeredTexture::create(gl::Pixel::unit, side, layers)),
-        layers_(gl::Framebuffer::of_layers(texture_, nullptr)),
+        layers_(gl::Framebuffer::of_layers({&texture_})),
         reduction_(summing.make(texture_)) {}
 
   void draw(Geometry& geometry, int layers) override {
@@ -64,7 +123,7 @@ class UnscheduledTarget : public Target {
   UnscheduledTarget(int side, int layers, Summing& summing)
       : texture_(gl::LayeredTexture::create(gl::Pixel::real, side, layers,
                                             summing.levels(gl::Pixel::real))),
-        layers_(gl::Framebuffer::of_layers(texture_, nullptr)),
+        layers_(gl::Framebuffer::of_layers({&texture_})),
         reduction_(summing.make(texture_)) {}
 
   void draw(Geometry& geometry, int layers) override {
@@ -86,7 +145,7 @@ class ScheduledTarget : public Target {
  public:
   ScheduledTarget(int side, int layers, Way way)
       : texture_(gl::LayeredTexture::create(gl::Pixel::reals, side, layers)),
-        layers_(gl::Framebuffer::of_layers(texture_, nullptr)),
+        layers_(gl::Framebuffer::of_layers({&texture_})),
         pixels_(texture_, 0, way) {}
 
   void draw(Geometry& geometry, int layers) override {
@@ -114,7 +173,7 @@ class Identities {
   Identities(int side, int layers, Way way)
       : texture_(gl::LayeredTexture::create(gl::Pixel::identity, side, layers)),
         depth_(gl::LayeredTexture::create(gl::Pixel::depth, side, layers)),
-        layers_(gl::Framebuffer::of_layers(texture_, &depth_)),
+        layers_(gl::Framebuffer::of_layers({&texture_, &depth_})),
         pixels_(texture_, 0, way) {}
 
   // Behind windows, but where casters close them, if these are wanted too.
@@ -220,7 +279,8 @@ std::unique_ptr<Target> make_target(Kind kind, int side, int layers, Summing& su
     case Kind::opaque:
       break;
   }
-  return std::make_unique<OpaqueTarget>(side, layers, summing);
+  if (way == Way::when_asked) return std::make_unique<StencilTarget>(side, layers);
+  return std::make_unique<UnitTarget>(side, layers, summing);
 }
 
 std::size_t layer_bytes(Kind kind, int side, Summing const& summing) {

@@ -29,7 +29,7 @@ Target* TargetPool::take(Kind kind, int side, int layers) {
 
 TargetPool::Entry* TargetPool::find(Kind kind, int side, int layers) {
   // All layers are cleared: not too many for nothing.
-  constexpr int spare = 4;
+  constexpr int spare = 2;
   Entry* found = nullptr;
   for (Entry& entry : entries_) {
     if (entry.taken || entry.kind != kind || entry.side != side) continue;
