@@ -1,7 +1,7 @@
 #version 450 core
 
-layout(location = 0) uniform uint identity;
+flat in int identity;
 
 out uint fragment;
 
-void main() { fragment = identity; }
+void main() { fragment = uint(identity); }

@@ -7,6 +7,7 @@ layout(lines_adjacency) in;
 layout(triangle_strip, max_vertices = 20) out;
 
 in Corner {
+  int layer;
   vec4 inside;
   vec4 outside;
   vec2 place;
@@ -59,6 +60,7 @@ void send(int i, bool outside) {
   texels = corners[i].texels;
   gl_Position = outside ? corners[i].outside : corners[i].inside;
   gl_ClipDistance[0] = corners[i].kept;
+  gl_Layer = corners[i].layer;
   EmitVertex();
 }
 

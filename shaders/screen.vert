@@ -4,16 +4,16 @@
 layout(location = 0) in vec3 high;
 layout(location = 1) in vec3 low;
 layout(location = 2) in vec2 corner;  // m in the sheet's plane
-layout(location = 3) in uint screen;
+layout(location = 3) in int screen;
 
-layout(std140, binding = 0) uniform View {
-  vec4 row_x;
-  vec4 row_y;
-  vec4 row_z;
-  vec4 cut;
-  vec4 origin_high;
-  vec4 origin_low;
-};
+// The view, of each instance.
+layout(location = 4) in vec4 row_x;
+layout(location = 5) in vec4 row_y;
+layout(location = 6) in vec4 row_z;
+layout(location = 7) in vec4 cut;
+layout(location = 8) in vec4 origin_high;
+layout(location = 9) in vec4 origin_low;
+layout(location = 10) in ivec4 numbers;  // layer of the target; w: first sheet of the direction of the sun
 
 struct Sheet {
   vec4 normal;     // unit normal; the inside face along it from the polygon, m
@@ -31,6 +31,7 @@ struct Sheet {
 layout(std430, binding = 2) readonly buffer Sheets { Sheet sheets[]; };
 
 out Corner {
+  int layer;
   vec4 inside;
   vec4 outside;
   vec2 place;  // m in the sheet's plane
@@ -52,7 +53,8 @@ vec4 slid(vec3 p) {
 
 void main() {
   precise vec3 p = (high - origin_high.xyz) + (low - origin_low.xyz);
-  Sheet sheet = sheets[screen];
+  Sheet sheet = sheets[numbers.w + screen];
+  result.layer = numbers.x;
   result.inside = slid(p + sheet.normal.w * sheet.normal.xyz);
   result.outside = slid(p + sheet.ray.z * sheet.normal.xyz);
   result.place = corner;

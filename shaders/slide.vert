@@ -1,23 +1,25 @@
 #version 450 core
+#extension GL_ARB_shader_viewport_layer_array : enable
 // A point of the scene to its place in a view: an affine map of the point relative to the view's
 // origin, and the distance to the plane at which the view cuts.
 
 layout(location = 0) in vec3 high;  // the double coordinate, rounded
 layout(location = 1) in vec3 low;   // and what rounding left
 
-layout(std140, binding = 0) uniform View {
-  vec4 row_x;
-  vec4 row_y;
-  vec4 row_z;
-  vec4 cut;  // kept where dot(cut.xyz, p) + cut.w >= 0
-  vec4 origin_high;
-  vec4 origin_low;
-};
+// The view, of each instance.
+layout(location = 4) in vec4 row_x;
+layout(location = 5) in vec4 row_y;
+layout(location = 6) in vec4 row_z;
+layout(location = 7) in vec4 cut;  // kept where dot(cut.xyz, p) + cut.w >= 0
+layout(location = 8) in vec4 origin_high;
+layout(location = 9) in vec4 origin_low;
+layout(location = 10) in ivec4 numbers;  // layer of the target; identity of what is drawn
 
-// Drawn twice in the interior pass and compared for equal depth.
+// As in transmit.vert: both paths cover the same pixels.
 invariant gl_Position;
 
 out vec3 position;
+flat out int identity;
 
 void main() {
   // Near the view's origin the first difference is exact, and the second adds what float32 dropped.
@@ -26,4 +28,8 @@ void main() {
                      dot(row_z.xyz, p) + row_z.w, 1.0);
   gl_ClipDistance[0] = dot(cut.xyz, p) + cut.w;
   position = p;
+  identity = numbers.y;
+#ifdef GL_ARB_shader_viewport_layer_array
+  gl_Layer = numbers.x;
+#endif
 }

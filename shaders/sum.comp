@@ -6,8 +6,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2DArray luminance;
 layout(std430, binding = 0) writeonly buffer Sums { float sums[]; };
 
-layout(location = 0) uniform uint first;  // of the sums of this texture's layers
-
 void main() {
   ivec2 side = textureSize(luminance, 0).xy;
   ivec2 across = (side + 15) / 16;
@@ -22,5 +20,5 @@ void main() {
     for (int x = corner.x; x < end.x; ++x) row += texelFetch(luminance, ivec3(x, y, layer), 0).r;
     sum += row;
   }
-  sums[first + uint((layer * across.y + square.y) * across.x + square.x)] = sum;
+  sums[(layer * across.y + square.y) * across.x + square.x] = sum;
 }

@@ -1,28 +1,28 @@
 #version 450 core
+#extension GL_ARB_shader_viewport_layer_array : enable
 // slide.vert for surfaces that let part of the sun through: the same place, and what the surface
 // does to the luminance of a pixel.
 
 layout(location = 0) in vec3 high;
 layout(location = 1) in vec3 low;
-layout(location = 2) in uint surface;
+layout(location = 2) in int surface;
 
-layout(std140, binding = 0) uniform View {
-  vec4 row_x;
-  vec4 row_y;
-  vec4 row_z;
-  vec4 cut;
-  vec4 origin_high;
-  vec4 origin_low;
-};
+// The view, of each instance.
+layout(location = 4) in vec4 row_x;
+layout(location = 5) in vec4 row_y;
+layout(location = 6) in vec4 row_z;
+layout(location = 7) in vec4 cut;
+layout(location = 8) in vec4 origin_high;
+layout(location = 9) in vec4 origin_low;
+// Keys: one for each schedule; shades: of the direction of the sun, one for each surface.
+layout(location = 10) in ivec4 numbers;  // layer; first key, -1 none; first shade
 
 struct Shade {
-  float transmittance;  // at this direction of the sun; 0 opaque
+  float transmittance;  // 0 opaque
   int schedule;         // -1 none
 };
 layout(std430, binding = 0) readonly buffer Shades { Shade shades[]; };
 layout(std430, binding = 1) readonly buffer Keys { vec4 keys[]; };
-
-layout(location = 0) uniform int first_key;  // of the view, one for each schedule; -1 none
 
 // As in slide.vert: both paths cover the same pixels.
 invariant gl_Position;
@@ -34,8 +34,11 @@ void main() {
   gl_Position = vec4(dot(row_x.xyz, p) + row_x.w, dot(row_y.xyz, p) + row_y.w,
                      dot(row_z.xyz, p) + row_z.w, 1.0);
   gl_ClipDistance[0] = dot(cut.xyz, p) + cut.w;
-  Shade shade = shades[surface];
-  bool keyed = first_key >= 0 && shade.schedule >= 0;
-  vec3 key = keyed ? keys[first_key + shade.schedule].rgb : vec3(0.0);
+  Shade shade = shades[numbers.z + surface];
+  bool keyed = numbers.y >= 0 && shade.schedule >= 0;
+  vec3 key = keyed ? keys[numbers.y + shade.schedule].rgb : vec3(0.0);
   weight = vec4(key, shade.transmittance);
+#ifdef GL_ARB_shader_viewport_layer_array
+  gl_Layer = numbers.x;
+#endif
 }

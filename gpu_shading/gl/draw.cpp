@@ -19,25 +19,16 @@ GLenum function_of(Test test) {
   return GL_ALWAYS;
 }
 
-GLenum operation_of(OnPass on_pass) {
-  switch (on_pass) {
-    case OnPass::replace:
-      return GL_REPLACE;
-    case OnPass::invert:
-      return GL_INVERT;
-    case OnPass::zero:
-      return GL_ZERO;
-    case OnPass::keep:
-      break;
-  }
-  return GL_KEEP;
+GLenum operation_of(OnPass on_pass) { return on_pass == OnPass::replace ? GL_REPLACE : GL_KEEP; }
+
+// GL takes offsets into bound buffers as pointers.
+void const* as_pointer(std::size_t offset) {
+  return reinterpret_cast<void const*>(offset);  // NOLINT(performance-no-int-to-ptr)
 }
 
-void draw_elements(GLenum mode, std::size_t first, std::size_t count) {
-  // GL takes the offset into the index buffer as a pointer.
-  // NOLINTNEXTLINE(performance-no-int-to-ptr)
-  auto const* const offset = reinterpret_cast<void const*>(first * sizeof(std::uint32_t));
-  glDrawElements(mode, static_cast<GLsizei>(count), GL_UNSIGNED_INT, offset);
+void draw_elements(GLenum mode, std::size_t first, std::size_t count, std::uint32_t record) {
+  glDrawElementsInstancedBaseInstance(mode, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                                      as_pointer(first * sizeof(std::uint32_t)), 1, record);
 }
 
 }  // namespace
@@ -90,12 +81,19 @@ void set_depth_convention() {
   glEnable(GL_DEPTH_CLAMP);
 }
 
-void draw_indexed(std::size_t first, std::size_t count) {
-  draw_elements(GL_TRIANGLES, first, count);
+void draw_indexed(std::size_t first, std::size_t count, std::uint32_t record) {
+  draw_elements(GL_TRIANGLES, first, count, record);
 }
 
-void draw_indexed_fours(std::size_t first, std::size_t count) {
-  draw_elements(GL_LINES_ADJACENCY, first, count);
+void draw_indexed_fours(std::size_t first, std::size_t count, std::uint32_t record) {
+  draw_elements(GL_LINES_ADJACENCY, first, count, record);
+}
+
+void draw_commands(Buffer const& commands, std::size_t first, std::size_t count) {
+  if (count == 0) return;
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.name());
+  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, as_pointer(first * sizeof(Command)),
+                              static_cast<GLsizei>(count), sizeof(Command));
 }
 
 void draw_vertices(std::size_t first, std::size_t count) {
@@ -103,5 +101,7 @@ void draw_vertices(std::size_t first, std::size_t count) {
 }
 
 void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) { glDispatchCompute(x, y, z); }
+
+void share_written() { glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT); }
 
 }  // namespace gpu_shading::gl

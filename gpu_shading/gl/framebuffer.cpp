@@ -3,8 +3,6 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "gl/check.h"
 #include "gpu_shading/error.h"
 
@@ -12,30 +10,23 @@ namespace gpu_shading::gl {
 namespace {
 
 GLenum internal_format(Format format) {
-  switch (format) {
-    case Format::stencil:
-      return GL_STENCIL_INDEX8;
-    case Format::depth_stencil:
-      return GL_DEPTH32F_STENCIL8;
-    case Format::precise_colour:
-      return GL_RGBA32F;
-    case Format::identity:
-      return GL_R32UI;
-    case Format::colour:
-      break;
-  }
-  return GL_RGBA8;
+  return format == Format::depth_stencil ? GL_DEPTH32F_STENCIL8 : GL_RGBA8;
 }
 
 GLenum attachment(Format format) {
-  switch (format) {
-    case Format::stencil:
+  return format == Format::depth_stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_COLOR_ATTACHMENT0;
+}
+
+GLenum attachment(Pixel pixel) {
+  switch (pixel) {
+    case Pixel::depth:
+      return GL_DEPTH_ATTACHMENT;
+    case Pixel::stencil:
       return GL_STENCIL_ATTACHMENT;
-    case Format::depth_stencil:
-      return GL_DEPTH_STENCIL_ATTACHMENT;
-    case Format::colour:
-    case Format::precise_colour:
-    case Format::identity:
+    case Pixel::unit:
+    case Pixel::real:
+    case Pixel::reals:
+    case Pixel::identity:
       break;
   }
   return GL_COLOR_ATTACHMENT0;
@@ -64,23 +55,25 @@ Framebuffer Framebuffer::create(std::vector<Format> const& formats, int width, i
         target.attachments_.emplace_back(Renderbuffer::create(format, width, height));
     glNamedFramebufferRenderbuffer(name, attachment(format), GL_RENDERBUFFER, buffer.name());
   }
-  bool const coloured = std::any_of(formats.begin(), formats.end(), [](Format format) {
-    return attachment(format) == GL_COLOR_ATTACHMENT0;
-  });
-  if (!coloured) {
-    glNamedFramebufferDrawBuffer(name, GL_NONE);
-    glNamedFramebufferReadBuffer(name, GL_NONE);
-  }
   target.check_complete();
   return target;
 }
 
-Framebuffer Framebuffer::of_layer(LayeredTexture const& texture, int layer) {
+Framebuffer Framebuffer::of_layers(std::initializer_list<LayeredTexture const*> textures) {
   GLuint name = 0;
   glCreateFramebuffers(1, &name);
   Framebuffer target(name);
-  target.width_ = target.height_ = texture.side();
-  glNamedFramebufferTextureLayer(name, GL_COLOR_ATTACHMENT0, texture.name(), 0, layer);
+  bool coloured = false;
+  for (LayeredTexture const* const texture : textures) {
+    GLenum const place = attachment(texture->pixel());
+    coloured = coloured || place == GL_COLOR_ATTACHMENT0;
+    target.width_ = target.height_ = texture->side();
+    glNamedFramebufferTexture(name, place, texture->name(), 0);
+  }
+  if (!coloured) {
+    glNamedFramebufferDrawBuffer(name, GL_NONE);
+    glNamedFramebufferReadBuffer(name, GL_NONE);
+  }
   target.check_complete();
   return target;
 }
@@ -106,9 +99,10 @@ void Framebuffer::clear_stencil() const {
   glClearNamedFramebufferiv(name(), GL_STENCIL, 0, &zero);
 }
 
-void Framebuffer::clear_depth() const {
-  GLfloat const far = 1.0F;
-  glClearNamedFramebufferfv(name(), GL_DEPTH, 0, &far);
+void Framebuffer::clear_depth(float depth) const {
+  // As draws, it writes where the mask lets it.
+  glDepthMask(GL_TRUE);
+  glClearNamedFramebufferfv(name(), GL_DEPTH, 0, &depth);
 }
 
 void Framebuffer::clear_colour(glm::vec4 const& colour) const {
@@ -120,36 +114,14 @@ void Framebuffer::clear_identity() const {
   glClearNamedFramebufferuiv(name(), GL_COLOR, 0, none);
 }
 
-std::size_t Framebuffer::pixels() const {
-  return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-}
-
-void Framebuffer::start_reading() const {
+std::vector<std::uint8_t> Framebuffer::read_colour() const {
+  std::vector<std::uint8_t> colours(4 * static_cast<std::size_t>(width_) *
+                                    static_cast<std::size_t>(height_));
   glBindFramebuffer(GL_READ_FRAMEBUFFER, name());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-}
-
-std::vector<std::uint8_t> Framebuffer::read_colour() const {
-  std::vector<std::uint8_t> colours(4 * pixels());
-  start_reading();
   glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
   check("reading a picture back");
   return colours;
-}
-
-void Framebuffer::read_precise_colour(std::vector<glm::vec4>& colours) const {
-  colours.resize(pixels());
-  start_reading();
-  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, colours.data());
-  check("reading luminance back");
-}
-
-std::vector<std::uint32_t> Framebuffer::read_identity() const {
-  std::vector<std::uint32_t> identities(pixels());
-  start_reading();
-  glReadPixels(0, 0, width_, height_, GL_RED_INTEGER, GL_UNSIGNED_INT, identities.data());
-  check("reading surfaces back");
-  return identities;
 }
 
 }  // namespace gpu_shading::gl

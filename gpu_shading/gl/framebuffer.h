@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec4.hpp>
+#include <initializer_list>
 #include <vector>
 
 #include "gl/object.h"
@@ -14,11 +15,8 @@ void destroy_renderbuffer(std::uint32_t name);
 void destroy_framebuffer(std::uint32_t name);
 
 enum class Format {
-  stencil,
   depth_stencil,
-  colour,          // RGBA of 8 bits
-  precise_colour,  // RGBA of 32-bit floats
-  identity,        // an unsigned integer
+  colour,  // RGBA of 8 bits
 };
 
 class Renderbuffer : public Object<destroy_renderbuffer> {
@@ -30,35 +28,33 @@ class Renderbuffer : public Object<destroy_renderbuffer> {
   using Object::Object;
 };
 
-// An offscreen target that owns what is attached to it. Single-sampled.
+// An offscreen target. Single-sampled.
 class Framebuffer : public Object<destroy_framebuffer> {
  public:
   Framebuffer() = default;
-  // Throws DeviceError when the driver cannot draw to this.
+  // Owns what is attached to it. Throws DeviceError when the driver cannot draw to this.
   static Framebuffer create(std::vector<Format> const& formats, int width, int height);
 
-  // One layer of a texture, which must outlive it.
-  static Framebuffer of_layer(LayeredTexture const& texture, int layer);
+  // All layers of textures, which must outlive it, at most one each for colour, depth and stencil;
+  // draws choose theirs by gl_Layer.
+  static Framebuffer of_layers(std::initializer_list<LayeredTexture const*> textures);
 
   // Draws go here, over all of it.
   void bind() const;
 
+  // Every layer of it.
   void clear_stencil() const;  // to 0
-  void clear_depth() const;    // to 1, the far end
+  void clear_depth(float depth) const;
   void clear_colour(glm::vec4 const& colour) const;
   void clear_identity() const;  // to 0
 
   // RGBA, 8 bits a channel, rows from the bottom. Waits for the draws.
   std::vector<std::uint8_t> read_colour() const;
-  void read_precise_colour(std::vector<glm::vec4>& colours) const;
-  std::vector<std::uint32_t> read_identity() const;
 
  private:
   using Object::Object;
 
   void check_complete() const;
-  void start_reading() const;
-  std::size_t pixels() const;
 
   int width_ = 0;
   int height_ = 0;

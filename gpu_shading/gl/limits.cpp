@@ -34,8 +34,10 @@ Limits query_limits() {
       std::min({viewport[0], viewport[1], integer(GL_MAX_RENDERBUFFER_SIZE),
                 integer(GL_MAX_FRAMEBUFFER_WIDTH), integer(GL_MAX_FRAMEBUFFER_HEIGHT)});
   limits.max_texture_size = integer(GL_MAX_TEXTURE_SIZE);
-  limits.uniform_offset_alignment = std::max(1, integer(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT));
+  limits.max_layers =
+      std::min(integer(GL_MAX_ARRAY_TEXTURE_LAYERS), integer(GL_MAX_FRAMEBUFFER_LAYERS));
   limits.vertex_storage_blocks = integer(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS);
+  limits.layers_in_vertex_stage = epoxy_has_gl_extension("GL_ARB_shader_viewport_layer_array");
   check("asking for the device's limits");
   return limits;
 }

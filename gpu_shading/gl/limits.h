@@ -9,10 +9,11 @@ struct Limits {
   std::string renderer;
   std::string vendor;
   std::string version;
-  int max_target_size = 0;           // pixels a side of a framebuffer
-  int max_texture_size = 0;          // texels a side
-  int uniform_offset_alignment = 1;  // bytes
-  int vertex_storage_blocks = 0;     // OpenGL promises none
+  int max_target_size = 0;              // pixels a side of a framebuffer
+  int max_texture_size = 0;             // texels a side
+  int max_layers = 0;                   // of a texture
+  int vertex_storage_blocks = 0;        // OpenGL promises none
+  bool layers_in_vertex_stage = false;  // GL_ARB_shader_viewport_layer_array
 };
 
 Limits query_limits();

@@ -6,46 +6,81 @@
 
 namespace gpu_shading::gl {
 
+namespace {
+
+struct Layout {
+  GLenum internal;
+  GLenum format;
+  GLenum type;
+  std::size_t bytes;
+};
+
+Layout layout_of(Pixel pixel) {
+  switch (pixel) {
+    case Pixel::real:
+      return {GL_R32F, GL_RED, GL_FLOAT, 4};
+    case Pixel::reals:
+      return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+    case Pixel::identity:
+      return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
+    case Pixel::depth:
+      return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
+    case Pixel::stencil:
+      return {GL_STENCIL_INDEX8, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1};
+    case Pixel::unit:
+      break;
+  }
+  return {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
+}
+
+}  // namespace
+
 void destroy_texture(std::uint32_t name) { glDeleteTextures(1, &name); }
 
-LayeredTexture LayeredTexture::create(int side, int layers, Levels levels) {
+std::size_t size_of(Pixel pixel) { return layout_of(pixel).bytes; }
+
+LayeredTexture LayeredTexture::create(Pixel pixel, int side, int layers, Levels levels) {
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name);
   LayeredTexture texture(name);
+  texture.pixel_ = pixel;
   texture.side_ = side;
   texture.layers_ = layers;
   for (int halved = side; levels == Levels::all && halved % 2 == 0; halved /= 2) ++texture.levels_;
-  glTextureStorage3D(name, texture.levels_, GL_R32F, side, side, layers);
+  glTextureStorage3D(name, texture.levels_, layout_of(pixel).internal, side, side, layers);
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTextureParameteri(name, GL_TEXTURE_MAX_LEVEL, texture.levels_ - 1);
-  check("making targets for luminance");
+  check("making targets");
   return texture;
+}
+
+std::size_t LayeredTexture::layer_size(int level) const {
+  auto const across = static_cast<std::size_t>(side_ >> level);
+  return across * across * size_of(pixel_);
 }
 
 void LayeredTexture::bind(std::uint32_t unit) const { glBindTextureUnit(unit, name()); }
 
 void LayeredTexture::make_mipmaps() const { glGenerateTextureMipmap(name()); }
 
-void LayeredTexture::copy_level(int level, int layers, Buffer const& buffer,
-                                std::size_t offset) const {
+void LayeredTexture::copy(int level, int layers, Buffer const& buffer) const {
+  Layout const layout = layout_of(pixel_);
   GLsizei const across = side_ >> level;
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer.name());
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  // GL takes the offset into the bound buffer as a pointer.
-  // NOLINTNEXTLINE(performance-no-int-to-ptr)
-  auto* const place = reinterpret_cast<void*>(offset);
-  auto const bytes = static_cast<std::size_t>(across) * static_cast<std::size_t>(across) *
-                     static_cast<std::size_t>(layers) * sizeof(float);
-  glGetTextureSubImage(name(), level, 0, 0, 0, across, across, layers, GL_RED, GL_FLOAT,
-                       static_cast<GLsizei>(offset + bytes), place);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glGetTextureSubImage(name(), level, 0, 0, 0, across, across, layers, layout.format, layout.type,
+                       static_cast<GLsizei>(layer_size(level) * static_cast<std::size_t>(layers)),
+                       nullptr);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
-void LayeredTexture::read(int layers, std::span<float> pixels) const {
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glGetTextureSubImage(name(), 0, 0, 0, 0, side_, side_, layers, GL_RED, GL_FLOAT,
-                       static_cast<GLsizei>(pixels.size_bytes()), pixels.data());
+void LayeredTexture::read(int level, int layer, std::span<std::byte> pixels) const {
+  Layout const layout = layout_of(pixel_);
+  GLsizei const across = side_ >> level;
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glGetTextureSubImage(name(), level, 0, 0, layer, across, across, 1, layout.format, layout.type,
+                       static_cast<GLsizei>(pixels.size()), pixels.data());
 }
 
 ValueTexture ValueTexture::create(int width, int height, int layers) {

@@ -11,30 +11,44 @@ namespace gpu_shading::gl {
 
 void destroy_texture(std::uint32_t name);
 
-// Square layers of one 32-bit float each pixel, with as many mipmap levels as halve without a rest,
-// or the first alone.
+// What a texture keeps of a pixel.
+enum class Pixel {
+  unit,      // 0 .. 1 in 8 bits
+  real,      // a 32-bit float
+  reals,     // four of them
+  identity,  // an unsigned integer of 32 bits
+  depth,     // a 32-bit float
+  stencil,   // 8 bits
+};
+
+std::size_t size_of(Pixel pixel);  // bytes
+
+// Square layers of pixels, with as many mipmap levels as halve without a rest, or the first alone.
 class LayeredTexture : public Object<destroy_texture> {
  public:
   enum class Levels { one, all };
 
   LayeredTexture() = default;
   // Throws DeviceError when there is no memory for it.
-  static LayeredTexture create(int side, int layers, Levels levels);
+  static LayeredTexture create(Pixel pixel, int side, int layers, Levels levels = Levels::one);
 
+  Pixel pixel() const { return pixel_; }
   int side() const { return side_; }
   int layers() const { return layers_; }
   int levels() const { return levels_; }
+  std::size_t layer_size(int level) const;  // bytes
 
   void bind(std::uint32_t unit) const;
   void make_mipmaps() const;
-  // The first `layers` layers of a level into a buffer, from `offset` bytes on.
-  void copy_level(int level, int layers, Buffer const& buffer, std::size_t offset) const;
-  // All pixels of the first `layers` layers. Waits for the draws.
-  void read(int layers, std::span<float> pixels) const;
+  // The first `layers` layers of a level into a buffer.
+  void copy(int level, int layers, Buffer const& buffer) const;
+  // All pixels of a layer of a level. Waits for the draws.
+  void read(int level, int layer, std::span<std::byte> pixels) const;
 
  private:
   using Object::Object;
 
+  Pixel pixel_ = Pixel::unit;
   int side_ = 0;
   int layers_ = 0;
   int levels_ = 1;

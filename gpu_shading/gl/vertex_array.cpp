@@ -16,17 +16,22 @@ void VertexArray::set_vertices(Buffer const& buffer, std::size_t stride) {
   glVertexArrayVertexBuffer(name(), 0, buffer.name(), 0, static_cast<GLsizei>(stride));
 }
 
-void VertexArray::add_attribute(std::uint32_t location, int components, std::size_t offset) {
+void VertexArray::set_records(Buffer const& buffer, std::size_t stride) {
+  glVertexArrayVertexBuffer(name(), 1, buffer.name(), 0, static_cast<GLsizei>(stride));
+  glVertexArrayBindingDivisor(name(), 1, 1);
+}
+
+void VertexArray::add_floats(Of of, std::uint32_t location, int components, std::size_t offset) {
   glEnableVertexArrayAttrib(name(), location);
   glVertexArrayAttribFormat(name(), location, components, GL_FLOAT, GL_FALSE,
                             static_cast<GLuint>(offset));
-  glVertexArrayAttribBinding(name(), location, 0);
+  glVertexArrayAttribBinding(name(), location, of == Of::records ? 1 : 0);
 }
 
-void VertexArray::add_identity(std::uint32_t location, std::size_t offset) {
+void VertexArray::add_integers(Of of, std::uint32_t location, int components, std::size_t offset) {
   glEnableVertexArrayAttrib(name(), location);
-  glVertexArrayAttribIFormat(name(), location, 1, GL_UNSIGNED_INT, static_cast<GLuint>(offset));
-  glVertexArrayAttribBinding(name(), location, 0);
+  glVertexArrayAttribIFormat(name(), location, components, GL_INT, static_cast<GLuint>(offset));
+  glVertexArrayAttribBinding(name(), location, of == Of::records ? 1 : 0);
 }
 
 void VertexArray::set_indices(Buffer const& buffer) {

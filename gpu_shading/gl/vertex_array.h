@@ -15,11 +15,15 @@ class VertexArray : public Object<destroy_vertex_array> {
   VertexArray() = default;
   static VertexArray create();
 
-  // Floats of `buffer`, one vertex each `stride` bytes; attributes are added from offset 0 on.
+  // What `buffer` has for each vertex, every `stride` bytes; attributes are added from offset 0 on.
   void set_vertices(Buffer const& buffer, std::size_t stride);
-  void add_attribute(std::uint32_t location, int components, std::size_t offset);
-  void add_identity(std::uint32_t location, std::size_t offset);  // an unsigned integer
-  void set_indices(Buffer const& buffer);                         // of 32 bits
+  // And for each instance.
+  void set_records(Buffer const& buffer, std::size_t stride);
+
+  enum class Of { vertices, records };
+  void add_floats(Of of, std::uint32_t location, int components, std::size_t offset);
+  void add_integers(Of of, std::uint32_t location, int components, std::size_t offset);
+  void set_indices(Buffer const& buffer);  // of 32 bits
   void bind() const;
 
  private:

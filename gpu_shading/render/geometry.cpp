@@ -1,7 +1,6 @@
 #include "render/geometry.h"
 
 #include <cstddef>
-#include <cstring>
 #include <limits>
 
 #include "gl/check.h"
@@ -9,6 +8,7 @@
 #include "gl/limits.h"
 #include "gpu_shading/error.h"
 #include "render/twice_float.h"
+#include "render/view_records.h"
 #include "scene/triangulation.h"
 #include "shaders/sources.h"
 
@@ -17,9 +17,9 @@ namespace {
 
 struct Vertex {
   TwiceFloat place;
-  SurfaceId surface;
+  std::int32_t surface;
 };
-static_assert(sizeof(Vertex) == sizeof(TwiceFloat) + sizeof(SurfaceId));
+static_assert(sizeof(Vertex) == sizeof(TwiceFloat) + sizeof(std::int32_t));
 
 // Any point near the model will do: the halves of TwiceFloat take care of the rest.
 glm::dvec3 some_point(Scene const& scene) {
@@ -32,7 +32,9 @@ glm::dvec3 some_point(Scene const& scene) {
 }  // namespace
 
 Geometry::Geometry(Scene const& scene, Screens const& screens)
-    : scene_origin_(some_point(scene)), screens_(screens, scene_origin_) {
+    : scene_origin_(some_point(scene)),
+      views_(gl::Buffer::create()),
+      screens_(screens, scene_origin_, views_) {
   std::vector<Vertex> vertices;
   ranges_.reserve(scene.size());
   for (SurfaceId id = 0; id < scene.size(); ++id) {
@@ -44,41 +46,41 @@ Geometry::Geometry(Scene const& scene, Screens const& screens)
     ranges_.push_back({indices_.size(), mesh.indices.size()});
     for (std::uint32_t const index : mesh.indices) indices_.push_back(base + index);
     for (glm::dvec3 const& vertex : mesh.vertices) {
-      vertices.push_back({TwiceFloat(vertex - scene_origin_), id});
+      vertices.push_back({TwiceFloat(vertex - scene_origin_), static_cast<std::int32_t>(id)});
     }
   }
 
-  surface_program_ = gl::Program::link("surfaces", shaders::slide_vert, shaders::nothing_frag);
-  tile_program_ = gl::Program::link("tiles", shaders::tile_vert, shaders::nothing_frag);
-
+  caster_program_ = gl::Program::link("casters", shaders::slide_vert, shaders::plain_frag);
+  caster_program_.set(0, glm::vec4(0.0F));
+  interior_program_ = gl::Program::link("interiors", shaders::slide_vert, shaders::identity_frag);
+  tile_program_ = gl::Program::link("tiles", shaders::tile_vert, shaders::plain_frag);
   // Opaque scenes need none of it.
   constexpr int shade_blocks = 2;
   if (gl::query_limits().vertex_storage_blocks >= shade_blocks) {
     shade_program_ = gl::Program::link("shades", shaders::transmit_vert, shaders::transmit_frag);
   }
-  coloured_tile_program_ =
-      gl::Program::link("coloured tiles", shaders::tile_vert, shaders::plain_frag);
 
   surface_vertices_ = gl::Buffer::create();
   surface_vertices_.set(std::span<Vertex const>(vertices));
   surface_indices_ = gl::Buffer::create();
   tile_vertices_ = gl::Buffer::create();
-  views_ = gl::Buffer::create();
+  commands_ = gl::Buffer::create();
   shades_ = gl::Buffer::create();
   keys_ = gl::Buffer::create();
 
+  using Of = gl::VertexArray::Of;
   surfaces_ = gl::VertexArray::create();
   surfaces_.set_vertices(surface_vertices_, sizeof(Vertex));
-  surfaces_.add_attribute(0, 3, offsetof(TwiceFloat, high));
-  surfaces_.add_attribute(1, 3, offsetof(TwiceFloat, low));
-  surfaces_.add_identity(2, offsetof(Vertex, surface));
+  surfaces_.add_floats(Of::vertices, 0, 3, offsetof(TwiceFloat, high));
+  surfaces_.add_floats(Of::vertices, 1, 3, offsetof(TwiceFloat, low));
+  surfaces_.add_integers(Of::vertices, 2, 1, offsetof(Vertex, surface));
+  add_view_records(surfaces_, views_);
   surfaces_.set_indices(surface_indices_);
   tiles_ = gl::VertexArray::create();
-  tiles_.set_vertices(tile_vertices_, sizeof(glm::vec2));
-  tiles_.add_attribute(0, 2, 0);
+  tiles_.set_vertices(tile_vertices_, sizeof(TileVertex));
+  tiles_.add_floats(Of::vertices, 0, 2, offsetof(TileVertex, place));
+  tiles_.add_integers(Of::vertices, 1, 1, offsetof(TileVertex, layer));
 
-  auto const alignment = static_cast<std::size_t>(gl::query_limits().uniform_offset_alignment);
-  view_stride_ = (sizeof(ViewBlock) + alignment - 1) / alignment * alignment;
   gl::set_depth_convention();
   gl::check("uploading the scene");
 }
@@ -91,11 +93,13 @@ std::span<std::uint32_t const> Geometry::triangles(SurfaceId id) const {
 void Geometry::upload(DrawList const& list) {
   surface_indices_.set(list.indices());
   tile_vertices_.set(list.tile_vertices());
-  std::vector<std::byte> blocks(view_stride_ * list.views().size());
-  for (std::size_t i = 0; i < list.views().size(); ++i) {
-    std::memcpy(blocks.data() + i * view_stride_, &list.views()[i], sizeof(ViewBlock));
-  }
-  views_.set(std::span<std::byte const>(blocks));
+  views_.set(list.views());
+  vertices_of_tiles_ = list.tile_vertices().size();
+  caster_draws_ = list.caster_draws().size();
+  interior_draws_ = list.interior_draws().size();
+  std::vector<gl::Command> commands(list.caster_draws().begin(), list.caster_draws().end());
+  commands.insert(commands.end(), list.interior_draws().begin(), list.interior_draws().end());
+  commands_.set(std::span<gl::Command const>(commands));
   screens_.upload(list);
   if (list.shades().empty()) return;
   shades_.set(list.shades());
@@ -104,17 +108,49 @@ void Geometry::upload(DrawList const& list) {
   keys_.set(list.keys().empty() ? std::span(&none, 1) : list.keys());
 }
 
-void Geometry::use_surfaces(gl::Program const& program) const {
-  program.use();
-  surfaces_.bind();
-}
-
-void Geometry::use_tiles() const {
+void Geometry::draw_tiles(glm::vec4 const& colour) {
+  gl::cut_at_plane(false);
+  tile_program_.set(0, colour);
   tile_program_.use();
   tiles_.bind();
+  gl::draw_vertices(0, vertices_of_tiles_);
 }
 
-void Geometry::use_shades(std::int32_t first_key) {
+void Geometry::draw_casters() const {
+  gl::cut_at_plane(true);
+  caster_program_.use();
+  surfaces_.bind();
+  gl::draw_commands(commands_, 0, caster_draws_);
+}
+
+void Geometry::draw_shades() const {
+  if (caster_draws_ > 0) {
+    use_shades();
+    gl::draw_commands(commands_, 0, caster_draws_);
+  }
+  gl::cut_at_plane(true);
+  screens_.draw_all();
+}
+
+void Geometry::draw_interiors() const {
+  gl::cut_at_plane(true);
+  interior_program_.use();
+  surfaces_.bind();
+  gl::draw_commands(commands_, caster_draws_, interior_draws_);
+}
+
+void Geometry::draw_surfaces(gl::Program const& program, Range indices, std::uint32_t view) const {
+  program.use();
+  surfaces_.bind();
+  gl::draw_indexed(indices.first, indices.count, view);
+}
+
+void Geometry::draw_shades(Range indices, std::uint32_t view) const {
+  use_shades();
+  gl::draw_indexed(indices.first, indices.count, view);
+}
+
+void Geometry::use_shades() const {
   constexpr std::uint32_t shades_binding = 0;
   constexpr std::uint32_t keys_binding = 1;
   if (shade_program_.empty()) {
@@ -122,37 +158,11 @@ void Geometry::use_shades(std::int32_t first_key) {
         "the device has no storage buffers in its vertex stage, which transparent shades need; "
         "choose another (gpu_shading devices), or software");
   }
-  shade_program_.set(0, first_key);
+  gl::cut_at_plane(true);
   shade_program_.use();
   surfaces_.bind();
   shades_.bind_storage(shades_binding);
   keys_.bind_storage(keys_binding);
-}
-
-void Geometry::use_tiles_in(glm::vec4 const& colour) {
-  coloured_tile_program_.set(0, colour);
-  coloured_tile_program_.use();
-  tiles_.bind();
-}
-
-void Geometry::bind_view(std::size_t view) const {
-  constexpr std::uint32_t view_binding = 0;
-  views_.bind_uniform(view_binding, view * view_stride_, sizeof(ViewBlock));
-}
-
-void Geometry::draw_screens(std::size_t view, Range draws) const {
-  if (draws.count == 0) return;
-  bind_view(view);
-  screens_.draw(draws);
-}
-
-void Geometry::draw_surfaces(std::size_t view, Range indices) const {
-  bind_view(view);
-  gl::draw_indexed(indices.first, indices.count);
-}
-
-void Geometry::draw_tile(Range vertices) const {
-  gl::draw_vertices(vertices.first, vertices.count);
 }
 
 }  // namespace gpu_shading

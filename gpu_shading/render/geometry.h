@@ -17,8 +17,8 @@
 
 namespace gpu_shading {
 
-// The scene's triangles on the device, and the ways of drawing: surfaces through a view, plainly or
-// with what they let through, and a receiver on its tile.
+// The scene's triangles on the device, a draw list of them, and the ways of drawing that. Each sets
+// up all it needs but for the target, depth and blending.
 class Geometry {
  public:
   Geometry(Scene const& scene, Screens const& screens);
@@ -29,46 +29,47 @@ class Geometry {
 
   ScreenGeometry const& screens() const { return screens_; }
 
+  // What draws before it still read is left to them.
   void upload(DrawList const& list);
 
-  // Each sets program and vertices up; draws follow. The program's vertex stage is slide.vert.
-  void use_surfaces(gl::Program const& program) const;
-  void use_tiles() const;
-  // Surfaces with what they transmit, by the shades of the draw list, and with the keys of their
-  // schedules from `first_key` on; -1: none.
-  void use_shades(std::int32_t first_key);
-  // A receiver in this colour.
-  void use_tiles_in(glm::vec4 const& colour);
+  // Every tile, in this colour.
+  void draw_tiles(glm::vec4 const& colour);
+  // Every caster, black.
+  void draw_casters() const;
+  // Every caster by what it lets through, and the keys of their schedules.
+  void draw_shades() const;
+  // Every surface behind a window, as its identity.
+  void draw_interiors() const;
 
-  void draw_surfaces(std::size_t view, Range indices) const;
-  // Sets the program up too.
-  void draw_screens(std::size_t view, Range draws) const;
-  void draw_tile(Range vertices) const;
-
-  // slide.vert with no colour.
-  gl::Program const& surface_program() const { return surface_program_; }
+  // Some surfaces through one view, by a program whose vertex stage is slide.vert.
+  void draw_surfaces(gl::Program const& program, Range indices, std::uint32_t view) const;
+  void draw_shades(Range indices, std::uint32_t view) const;
 
  private:
-  void bind_view(std::size_t view) const;
+  void use_shades() const;
 
   glm::dvec3 scene_origin_{0.0};
   std::vector<std::uint32_t> indices_;
   std::vector<Range> ranges_;
 
-  gl::Program surface_program_;
-  gl::Program tile_program_;
+  gl::Program caster_program_;
   gl::Program shade_program_;
-  gl::Program coloured_tile_program_;
-  ScreenGeometry screens_;
+  gl::Program interior_program_;
+  gl::Program tile_program_;
   gl::Buffer surface_vertices_;
   gl::Buffer surface_indices_;
   gl::Buffer tile_vertices_;
   gl::Buffer views_;
+  gl::Buffer commands_;
   gl::Buffer shades_;
   gl::Buffer keys_;
   gl::VertexArray surfaces_;
   gl::VertexArray tiles_;
-  std::size_t view_stride_ = 0;
+  ScreenGeometry screens_;
+  // As uploaded.
+  std::size_t vertices_of_tiles_ = 0;
+  std::size_t caster_draws_ = 0;
+  std::size_t interior_draws_ = 0;
 };
 
 }  // namespace gpu_shading

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "gl/check.h"
@@ -93,7 +94,7 @@ Picture::Picture()
     : tilt_(gl::Program::link("tilt", shaders::slide_vert, shaders::tilt_frag)),
       plain_(gl::Program::link("plain", shaders::slide_vert, shaders::plain_frag)) {}
 
-Image Picture::draw(Geometry& geometry, Scene const& scene, Screens const& screens,
+Image Picture::draw(Geometry& geometry, Scene const& scene, Transmission const& transmission,
                     SurfaceId receiver, PlaneFrame const& frame, Shading const& shading,
                     glm::dvec3 const& towards_sun, int size) {
   SunAxes const axes(towards_sun);
@@ -117,24 +118,29 @@ Image Picture::draw(Geometry& geometry, Scene const& scene, Screens const& scree
   in_front.cut = glm::dvec4(frame.normal, -clearance);
 
   DrawList list;
-  list.set_shades(shading.shades);
-  std::size_t const whole_view = list.add_view(all, geometry.scene_origin());
-  std::size_t const front_view = list.add_view(in_front, geometry.scene_origin());
+  DirectionTables& tables = list.tables(towards_sun, scene.size());
+  for (SurfaceId id = 0; id < shading.shades.size(); ++id) list.set_shade(id, shading.shades[id]);
+  glm::ivec4 const no_keys(0, -1, 0, 0);
+  std::uint32_t const whole_view = list.add_view(all, geometry.scene_origin(), no_keys);
+  std::uint32_t const front_view = list.add_view(in_front, geometry.scene_origin(), no_keys);
   std::size_t begin = list.begin_surfaces();
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     if (id != receiver && !scene[id].screen) list.add_triangles(geometry.triangles(id));
   }
   Range const others = list.end_surfaces(begin);
   begin = list.begin_surfaces();
-  for (SurfaceId const id : shading.plain) list.add_triangles(geometry.triangles(id));
+  for (SurfaceId const id : transmission.plain_among(shading.casters)) {
+    list.add_triangles(geometry.triangles(id));
+  }
   Range const plain = list.end_surfaces(begin);
   double const pixel_area = wide * tall / (static_cast<double>(width) * height);
-  Range const in_view =
-      geometry.screens().add_to(list, shading.screens_in_view, towards_sun, pixel_area);
+  std::vector<int> numbers(transmission.screens().entries().size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  Range const in_view = geometry.screens().add_to(
+      list, tables, front_view, transmission.screens_among(shading.casters), pixel_area);
   Range const all_screens =
-      geometry.screens().add_to(list, shading.all_screens, towards_sun, pixel_area);
-  list.set_screen_view(see_screens(screens, shading.all_screens, list.by_effect(), towards_sun,
-                                   shading.deployments, geometry.screens().most_texels()));
+      geometry.screens().add_to(list, tables, whole_view, numbers, pixel_area);
+  list.set_screen_view(transmission.see(list.directions(), geometry.screens().most_texels()));
   begin = list.begin_surfaces();
   list.add_triangles(geometry.triangles(receiver));
   Range const itself = list.end_surfaces(begin);
@@ -146,33 +152,30 @@ Image Picture::draw(Geometry& geometry, Scene const& scene, Screens const& scree
   gl::blend(gl::Blend::replace);
   gl::depth(gl::Test::less, true);
   target.clear_colour(sky);
-  target.clear_depth();
+  target.clear_depth(1.0F);
   target.clear_stencil();
 
   gl::cut_at_plane(false);
   gl::no_stencil();
   tilt_.set(0, glm::vec4(glm::vec3(towards_sun), 0.0F));
-  geometry.use_surfaces(tilt_);
-  geometry.draw_surfaces(whole_view, others);
+  geometry.draw_surfaces(tilt_, others, whole_view);
   // With their holes, over what lies behind them.
   gl::depth(gl::Test::less, false);
   gl::blend(gl::Blend::multiply);
-  geometry.draw_screens(whole_view, all_screens);
+  geometry.screens().draw(all_screens);
   gl::blend(gl::Blend::replace);
 
   bool const faces_sun = glm::dot(frame.normal, towards_sun) > edge_on;
   gl::no_depth();
   if (!shading.shades.empty()) {
     gl::stencil(gl::Test::always, 1, gl::OnPass::replace);
-    geometry.use_surfaces(plain_);
     plain_.set(0, faces_sun ? white : black);
-    geometry.draw_surfaces(whole_view, itself);
+    geometry.draw_surfaces(plain_, itself, whole_view);
     gl::stencil(gl::Test::equal, 1, gl::OnPass::keep);
     gl::cut_at_plane(true);
     gl::blend(gl::Blend::multiply);
-    geometry.use_shades(-1);
-    geometry.draw_surfaces(front_view, plain);
-    geometry.draw_screens(front_view, in_view);
+    geometry.draw_shades(plain, front_view);
+    geometry.screens().draw(in_view);
     gl::blend(gl::Blend::replace);
     gl::check("drawing a sun's view through shades");
     return from_rows_below(target.read_colour(), width, height);
@@ -182,19 +185,17 @@ Image Picture::draw(Geometry& geometry, Scene const& scene, Screens const& scree
   gl::stencil(gl::Test::always, 1, gl::OnPass::replace);
   gl::cut_at_plane(true);
   gl::write_colour(false);
-  geometry.use_surfaces(geometry.surface_program());
-  geometry.draw_surfaces(front_view, plain);
+  geometry.draw_surfaces(plain_, plain, front_view);
   gl::write_colour(true);
 
   // The receiver over all of it: what hides it from the sun shows as blue.
   gl::cut_at_plane(false);
-  geometry.use_surfaces(plain_);
   plain_.set(0, faces_sun ? yellow : blue);
   gl::stencil(gl::Test::not_equal, 1, gl::OnPass::keep);
-  geometry.draw_surfaces(whole_view, itself);
+  geometry.draw_surfaces(plain_, itself, whole_view);
   plain_.set(0, blue);
   gl::stencil(gl::Test::equal, 1, gl::OnPass::keep);
-  geometry.draw_surfaces(whole_view, itself);
+  geometry.draw_surfaces(plain_, itself, whole_view);
 
   gl::check("drawing a sun's view");
   return from_rows_below(target.read_colour(), width, height);

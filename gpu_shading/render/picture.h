@@ -8,6 +8,7 @@
 #include "gpu_shading/renderer.h"
 #include "render/geometry.h"
 #include "render/receiver.h"
+#include "render/transmission.h"
 
 namespace gpu_shading {
 
@@ -18,18 +19,15 @@ class Picture {
 
   // What shades the receiver, and how.
   struct Shading {
-    std::vector<SurfaceId> plain;      // casters in view that are more than screens
-    std::vector<int> screens_in_view;  // by their numbers
-    std::vector<int> all_screens;
-    std::vector<Shade> shades;  // empty: all casters in view are opaque
-    std::vector<double> deployments;
+    std::vector<SurfaceId> casters;  // in view
+    std::vector<Shade> shades;       // by surface; empty: all casters in view are opaque
   };
 
   // Everything else of the scene is drawn around the receiver, which is grey by its luminance where
   // there are shades.
-  Image draw(Geometry& geometry, Scene const& scene, Screens const& screens, SurfaceId receiver,
-             PlaneFrame const& frame, Shading const& shading, glm::dvec3 const& towards_sun,
-             int size);
+  Image draw(Geometry& geometry, Scene const& scene, Transmission const& transmission,
+             SurfaceId receiver, PlaneFrame const& frame, Shading const& shading,
+             glm::dvec3 const& towards_sun, int size);
 
  private:
   gl::Program tilt_;

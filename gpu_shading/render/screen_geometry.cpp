@@ -14,6 +14,7 @@
 #include "gpu_shading/error.h"
 #include "render/screen_view.h"
 #include "render/twice_float.h"
+#include "render/view_records.h"
 #include "shaders/sources.h"
 
 namespace gpu_shading {
@@ -22,9 +23,9 @@ namespace {
 struct Vertex {
   TwiceFloat place;
   glm::vec2 corner;
-  std::uint32_t screen;
+  std::int32_t screen;
 };
-static_assert(sizeof(Vertex) == sizeof(TwiceFloat) + sizeof(glm::vec2) + sizeof(std::uint32_t));
+static_assert(sizeof(Vertex) == sizeof(TwiceFloat) + sizeof(glm::vec2) + sizeof(std::int32_t));
 
 // Numbers of programs, and what each defines in screen.frag.
 enum { of_pattern, of_texture, of_regions };
@@ -57,7 +58,8 @@ gl::ValueTexture make_texture(OpacityTile const& tile, TextureCells const& cells
 
 }  // namespace
 
-ScreenGeometry::ScreenGeometry(Screens const& screens, glm::dvec3 const& scene_origin)
+ScreenGeometry::ScreenGeometry(Screens const& screens, glm::dvec3 const& scene_origin,
+                               gl::Buffer const& views)
     : most_texels_(std::min(largest_texture, gl::query_limits().max_texture_size)) {
   if (screens.entries().empty()) return;
   if (gl::query_limits().vertex_storage_blocks < 1) {
@@ -73,10 +75,12 @@ ScreenGeometry::ScreenGeometry(Screens const& screens, glm::dvec3 const& scene_o
   add_looks(screens);
   quadrilaterals_ = gl::VertexArray::create();
   quadrilaterals_.set_vertices(vertices_, sizeof(Vertex));
-  quadrilaterals_.add_attribute(0, 3, offsetof(TwiceFloat, high));
-  quadrilaterals_.add_attribute(1, 3, offsetof(TwiceFloat, low));
-  quadrilaterals_.add_attribute(2, 2, offsetof(Vertex, corner));
-  quadrilaterals_.add_identity(3, offsetof(Vertex, screen));
+  using Of = gl::VertexArray::Of;
+  quadrilaterals_.add_floats(Of::vertices, 0, 3, offsetof(TwiceFloat, high));
+  quadrilaterals_.add_floats(Of::vertices, 1, 3, offsetof(TwiceFloat, low));
+  quadrilaterals_.add_floats(Of::vertices, 2, 2, offsetof(Vertex, corner));
+  quadrilaterals_.add_integers(Of::vertices, 3, 1, offsetof(Vertex, screen));
+  add_view_records(quadrilaterals_, views);
   quadrilaterals_.set_indices(draw_indices_);
   gl::check("uploading screens");
 }
@@ -89,7 +93,7 @@ void ScreenGeometry::add_quadrilaterals(Screens const& screens, glm::dvec3 const
       for (std::size_t i = 0; i < part.corners.size(); ++i) {
         indices_.push_back(static_cast<std::uint32_t>(vertices.size()));
         vertices.push_back({TwiceFloat(part.corners[i] - scene_origin), glm::vec2(part.places[i]),
-                            static_cast<std::uint32_t>(screen)});
+                            static_cast<std::int32_t>(screen)});
       }
     }
     ranges_.push_back({first, indices_.size() - first});
@@ -132,14 +136,18 @@ ScreenLook ScreenGeometry::look_of(Look const& look, bool by_effect) const {
   return {by_effect && varies(*look.screen) ? of_regions : of_texture, look.texture};
 }
 
-Range ScreenGeometry::add_to(DrawList& list, std::span<int const> numbers,
-                             glm::dvec3 const& towards_sun, double pixel_area) const {
+Range ScreenGeometry::add_to(DrawList& list, DirectionTables& tables, std::uint32_t view,
+                             std::span<int const> numbers, double pixel_area) const {
+  tables.screens.resize(looks_.size(), false);
+  tables.by_effect.resize(looks_.size(), false);
   std::map<ScreenLook, std::vector<int>> by_look;
   for (int const number : numbers) {
-    Look const& look = looks_[static_cast<std::size_t>(number)];
-    double const cosine = std::abs(glm::dot(look.normal, towards_sun));
+    auto const place = static_cast<std::size_t>(number);
+    Look const& look = looks_[place];
+    double const cosine = std::abs(glm::dot(look.normal, tables.towards_sun));
     bool const by_effect = may_see_effect(*look.screen, std::sqrt(pixel_area / cosine));
-    if (by_effect) list.add_effect(number, looks_.size());
+    tables.screens[place] = true;
+    if (by_effect) tables.by_effect[place] = true;
     by_look[look_of(look, by_effect)].push_back(number);
   }
   std::size_t const first = list.screen_draws().size();
@@ -149,7 +157,7 @@ Range ScreenGeometry::add_to(DrawList& list, std::span<int const> numbers,
       Range const range = ranges_[static_cast<std::size_t>(number)];
       list.add_quadrilaterals({indices_.data() + range.first, range.count});
     }
-    list.end_screens(begin, look);
+    list.end_screens(begin, look, view);
   }
   return {first, list.screen_draws().size() - first};
 }
@@ -170,11 +178,11 @@ void ScreenGeometry::draw(Range draws) const {
   quadrilaterals_.bind();
   sheets_.bind_storage(sheets_binding);
   for (std::size_t i = draws.first; i < draws.first + draws.count; ++i) {
-    auto const& [look, indices] = draws_[i];
+    auto const& [look, indices, record] = draws_[i];
     programs_.at(static_cast<std::size_t>(look.program)).use();
     if (look.program == of_regions) regions_.bind_storage(regions_binding);
     if (look.texture >= 0) textures_[static_cast<std::size_t>(look.texture)].bind(0);
-    gl::draw_indexed_fours(indices.first, indices.count);
+    gl::draw_indexed_fours(indices.first, indices.count, record);
   }
 }
 

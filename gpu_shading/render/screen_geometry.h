@@ -21,21 +21,25 @@ namespace gpu_shading {
 // the way of drawing them.
 class ScreenGeometry {
  public:
-  // Throws DeviceError where the device cannot.
-  ScreenGeometry(Screens const& screens, glm::dvec3 const& scene_origin);
+  // `views`: records to be drawn by, which must outlive it. Throws DeviceError where the device
+  // cannot.
+  ScreenGeometry(Screens const& screens, glm::dvec3 const& scene_origin, gl::Buffer const& views);
 
   // Texels a side of a texture.
   int most_texels() const { return most_texels_; }
 
-  // Screens before one receiver, by their numbers, as draws of a list. `pixel_area`: m2 across the
-  // beam.
-  Range add_to(DrawList& list, std::span<int const> numbers, glm::dvec3 const& towards_sun,
-               double pixel_area) const;
+  std::size_t count() const { return looks_.size(); }
+
+  // Screens by their numbers as draws of one view of a list, whose tables of the direction these
+  // are. `pixel_area`: m2 across the beam.
+  Range add_to(DrawList& list, DirectionTables& tables, std::uint32_t view,
+               std::span<int const> numbers, double pixel_area) const;
 
   void upload(DrawList const& list);
 
-  // Through the view that is bound. Gives 0 and what is kept of the luminance, as transmit.frag.
+  // Gives 0 and what is kept of the luminance, as transmit.frag.
   void draw(Range draws) const;
+  void draw_all() const { draw({0, draws_.size()}); }
 
  private:
   void add_quadrilaterals(Screens const& screens, glm::dvec3 const& scene_origin);

@@ -68,7 +68,6 @@ TileMap fit_tile(PlaneFrame const& frame, Ring const& outline, int resolution) {
 
 View view_in_front(PlaneFrame const& frame, TileMap const& map, glm::dvec3 const& towards_sun) {
   View view = slide(frame, map, towards_sun);
-  view.z.w = 0.5;
   view.cut = glm::dvec4(frame.normal, -clearance);
   return view;
 }

@@ -37,7 +37,7 @@ struct View {
   glm::dvec4 cut{0.0, 0.0, 0.0, 1.0};
 };
 
-// What stands in front of the receiver's plane, slid along the sun's rays onto it.
+// What stands in front of the receiver's plane, slid along the sun's rays onto it, at z 0.
 View view_in_front(PlaneFrame const& frame, TileMap const& map, glm::dvec3 const& towards_sun);
 
 // What lies behind the plane, up to `reach` metres from it, z growing with the distance.

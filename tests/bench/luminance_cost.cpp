@@ -72,11 +72,11 @@ void print_table() {
   std::printf("%s\n", renderer_of(canopy(Panes::opaque)).device().renderer.c_str());
   std::printf("500 panes                resolution  a direction\n");
   for (int const resolution : {256, 512, 1024}) {
-    print_row("opaque", Panes::opaque, LuminanceSum::compute, resolution);
+    print_row("opaque", Panes::opaque, LuminanceSum::automatic, resolution);
     print_row("transparent, compute", Panes::transparent, LuminanceSum::compute, resolution);
     print_row("transparent, mipmaps", Panes::transparent, LuminanceSum::mipmaps, resolution);
     print_row("transparent, readback", Panes::transparent, LuminanceSum::readback, resolution);
-    print_row("3 schedules", Panes::scheduled, LuminanceSum::compute, resolution);
+    print_row("3 schedules", Panes::scheduled, LuminanceSum::automatic, resolution);
   }
 }
 

@@ -14,11 +14,11 @@
 
 namespace gpu_shading {
 
-// How the luminance of pixels is summed; but for rounding they agree.
+// How pixels are summed, each way in a fixed order; but for rounding of luminance they agree.
 enum class LuminanceSum {
   automatic,  // readback in software, where it is the fastest of these; compute on a GPU
-  compute,    // by a compute shader, in a fixed order
-  mipmaps,    // from the coarsest mipmap, as Jones & Greenberg do
+  compute,    // by a compute shader
+  mipmaps,    // luminance from the coarsest mipmap, as Jones & Greenberg do; the rest by compute
   readback,   // on the CPU
 };
 
@@ -32,6 +32,9 @@ struct RendererOptions {
   // follows from it and from the shadows' edges in view (render/tile_size.h).
   double error = 1e-3;
   LuminanceSum luminance_sum = LuminanceSum::automatic;
+  // Views that are drawn at once, at most; 0: as many as the bounds of the class allow. Answers are
+  // the same to the bit.
+  int most_layers = 0;
 };
 
 // What the sun lights through one combination of scheduled shades.
@@ -61,13 +64,23 @@ struct Sunlit {
   }
 };
 
+// The surfaces that the sun may reach through a window.
+struct InteriorQuestion {
+  SurfaceId window = 0;
+  std::vector<SurfaceId> interiors;
+};
+
 struct RendererStatistics {
-  std::size_t directions = 0;       // calls of projected_sunlit_areas
+  std::size_t directions = 0;       // asked for by projected_sunlit_areas
   std::size_t receivers_drawn = 0;  // receiver and direction pairs that had a caster in view
   std::size_t receivers_clear = 0;  // pairs answered exactly: lit, with nothing in view
   std::size_t casters_drawn = 0;    // over all drawn pairs
   std::size_t luminance_views = 0;  // of the drawn pairs, those with a shade that transmits in view
-  double seconds = 0.0;             // wall time spent in the renderer
+  double seconds = 0.0;             // wall time spent in the renderer; of it:
+  double cull_seconds = 0.0;        // finding what is in view
+  double submit_seconds = 0.0;      // gathering, uploading and issuing draws
+  double wait_seconds = 0.0;        // waiting for the device
+  double read_seconds = 0.0;        // sums on the CPU
 
   RendererStatistics& operator+=(RendererStatistics const& other);
 };
@@ -96,6 +109,14 @@ struct Image {
 // receiver is, which every caster multiplies by what it lets through (the second method of Jones &
 // Greenberg); opaque ones by 0. Its mean over the receiver's pixels takes the place of their lit
 // share, and equals it where all are opaque.
+//
+// Views are drawn many at once, each to a layer of its own of an array of textures, so that a view
+// has the same pixels whatever it is drawn with: answers do not depend on what else is asked. The
+// CPU culls for the next views while the device draws; up to three submissions are under way.
+// Memory beside the scene's: of the host about 100 MiB, of the device targets of 4 MiB each and
+// 64 MiB in all in software, 32 and 512 MiB on a GPU, or what a layer takes where that is more
+// (RGBA of 32 bits where schedules are told apart), and some 100 MiB of buffers. A device without
+// GL_ARB_shader_viewport_layer_array draws one view at a time.
 class Renderer {
  public:
   // Throws Error when the resolution is out of range, DeviceError when the device cannot be had.
@@ -119,11 +140,19 @@ class Renderer {
   std::vector<Sunlit> projected_sunlit_areas(SunDirection sun,
                                              std::span<SurfaceId const> receivers);
 
+  // The same for each direction, in order: faster than one after another.
+  std::vector<std::vector<Sunlit>> projected_sunlit_areas(std::span<SunDirection const> suns,
+                                                          std::span<SurfaceId const> receivers);
+
   // Projected areas (m2 normal to the beam) of each of `interiors` that the sun lights through
   // `window` alone, behind the window's own casters; the nearest interior surface along a ray takes
   // it. In the order of `interiors`; their sum is at most the window's projected sunlit area.
   std::vector<Sunlit> interior_sunlit_areas(SunDirection sun, SurfaceId window,
                                             std::span<SurfaceId const> interiors);
+
+  // The same for each window, in order.
+  std::vector<std::vector<Sunlit>> interior_sunlit_areas(
+      SunDirection sun, std::span<InteriorQuestion const> questions);
 
   // What the sun sees of a receiver: lit receiver pixels yellow, shaded ones blue, casters grey by
   // their tilt to the sun. Where a caster in view transmits, the receiver is grey by its luminance,

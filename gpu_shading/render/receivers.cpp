@@ -1,0 +1,43 @@
+#include "render/receivers.h"
+
+#include <fmt/format.h>
+
+#include "gpu_shading/error.h"
+
+namespace gpu_shading {
+
+Surface const& Receivers::surface(SurfaceId id) const {
+  if (id < scene_.size()) return scene_[id];
+  throw Error(fmt::format("there is no surface {}: the scene has {}", id, scene_.size()));
+}
+
+Receiver& Receivers::find(SurfaceId id) {
+  auto const known = receivers_.find(id);
+  if (known != receivers_.end()) return known->second;
+  Polygon const& polygon = surface(id).polygon;
+  Receiver receiver;
+  receiver.area = area(polygon);
+  if (receiver.area > 0.0) receiver.frame = plane_frame(polygon);
+  return receivers_.emplace(id, std::move(receiver)).first->second;
+}
+
+int Receivers::side_for(Receiver const& receiver, InView const& in_view, bool screened) const {
+  // Of the rectangle's edges and pixels the receiver has its share.
+  double const share = receiver.area / (receiver.frame->width * receiver.frame->height);
+  int const side = size_.side((1.0 / share) * in_view.detail);
+  return screened ? size_.side_with_screens(side) : side;
+}
+
+Tile& Receivers::tile(SurfaceId id, int side) {
+  Receiver& receiver = find(id);
+  auto const known = receiver.tiles.find(side);
+  if (known != receiver.tiles.end()) return known->second;
+  return receiver.tiles.emplace(side, make_tile(surface(id).polygon, *receiver.frame, side, most_))
+      .first->second;
+}
+
+void Receivers::bound(SurfaceId id, Tile& tile) {
+  tile = bounding_tile(surface(id).polygon, *find(id).frame, tile.side);
+}
+
+}  // namespace gpu_shading

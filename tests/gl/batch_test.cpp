@@ -1,0 +1,216 @@
+// Views drawn together against views drawn one at a time.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "gpu_shading/perforated_screen.h"
+#include "gpu_shading/transmittance.h"
+#include "random_scene.h"
+#include "shapes.h"
+
+namespace gpu_shading {
+namespace {
+
+enum class Finish { opaque, shaded, scheduled, screened, mixed };
+
+std::shared_ptr<Transmittance const> half() {
+  return std::make_shared<Transmittance const>(Transmittance::polynomial_in_cosine({0.1, 0.4}));
+}
+
+std::shared_ptr<PerforatedScreen const> mesh() {
+  HolePattern const holes(
+      {.hole = Hole::Round, .arrangement = Arrangement::Staggered60, .size = 0.2, .pitch = 0.3});
+  return std::make_shared<PerforatedScreen const>(holes, Sheet{.thickness = 0.02});
+}
+
+void finish(Surface& surface, Finish how, std::uint32_t which) {
+  if (how == Finish::mixed) how = static_cast<Finish>(which % 4);
+  if (how == Finish::shaded) surface.transmittance = half();
+  if (how == Finish::scheduled) surface.schedule = static_cast<int>(which % 3);
+  if (how == Finish::screened && surface.polygon.outline.size() == 4) surface.screen = mesh();
+}
+
+// Random scenes on one site, each with its own casters around its receiver.
+struct Site {
+  Scene scene;
+  std::vector<SurfaceId> receivers;  // one of each
+  std::vector<SurfaceId> all;
+
+  Site(std::uint32_t scenes, Finish how) {
+    for (std::uint32_t seed = 1; seed <= scenes; ++seed) {
+      RandomScene const random = random_scene(seed);
+      for (SurfaceId id = 0; id < random.scene.size(); ++id) {
+        Surface surface = random.scene[id];
+        for (glm::dvec3& vertex : surface.polygon.outline) vertex.x += 15.0 * seed;
+        for (Ring& hole : surface.polygon.holes) {
+          for (glm::dvec3& vertex : hole) vertex.x += 15.0 * seed;
+        }
+        if (id > 0) finish(surface, how, static_cast<std::uint32_t>(id) + seed);
+        SurfaceId const added = scene.add(surface);
+        all.push_back(added);
+        if (id == 0) receivers.push_back(added);
+      }
+    }
+  }
+};
+
+std::vector<SunDirection> const suns{sun_at(100, 15), sun_at(150, 40), sun_at(200, 65),
+                                     sun_at(240, 30), sun_at(290, 50), sun_at(30, 25)};
+
+Renderer renderer_with(Scene const& scene, int most_layers, LuminanceSum sum,
+                       std::optional<int> resolution) {
+  RendererOptions options;
+  options.resolution = resolution;
+  options.luminance_sum = sum;
+  options.most_layers = most_layers;
+  return Renderer(scene, options);
+}
+
+void expect_equal(Sunlit const& a, Sunlit const& b) {
+  EXPECT_EQ(a.projected_area, b.projected_area);
+  EXPECT_EQ(a.pixel_counted_area, b.pixel_counted_area);
+  ASSERT_EQ(a.scheduled.size(), b.scheduled.size());
+  for (std::size_t i = 0; i < a.scheduled.size(); ++i) {
+    EXPECT_EQ(a.scheduled[i].powers, b.scheduled[i].powers);
+    EXPECT_EQ(a.scheduled[i].projected_area, b.scheduled[i].projected_area);
+  }
+}
+
+class Batches : public testing::TestWithParam<std::tuple<Finish, LuminanceSum>> {};
+
+TEST_P(Batches, OfReceiversAndDirectionsAreEqualToTheBitToOneAtATime) {
+  auto const [how, sum] = GetParam();
+  Site const site(16, how);
+  // By the error: tiles of several sides.
+  Renderer together = renderer_with(site.scene, 0, sum, std::nullopt);
+  Renderer apart = renderer_with(site.scene, 1, sum, std::nullopt);
+  auto const batched = together.projected_sunlit_areas(suns, site.all);
+  ASSERT_EQ(batched.size(), suns.size());
+  double lit = 0.0;
+  for (std::size_t i = 0; i < suns.size(); ++i) {
+    ASSERT_EQ(batched[i].size(), site.all.size());
+    for (std::size_t k = 0; k < site.all.size(); ++k) {
+      expect_equal(batched[i][k], sunlit(apart, suns[i], site.all[k]));
+      lit += batched[i][k].projected_area;
+    }
+  }
+  EXPECT_GT(lit, 100.0);
+  RendererStatistics const& did = together.statistics();
+  EXPECT_GT(did.receivers_drawn, 100U);
+  EXPECT_EQ(did.directions, suns.size());
+  EXPECT_EQ(did.luminance_views > 0, how != Finish::opaque);
+  EXPECT_EQ(did.receivers_drawn, apart.statistics().receivers_drawn);
+  EXPECT_EQ(did.receivers_clear, apart.statistics().receivers_clear);
+  EXPECT_EQ(did.casters_drawn, apart.statistics().casters_drawn);
+}
+
+TEST_P(Batches, OfWindowsAreEqualToTheBitToOneAtATime) {
+  auto const [how, sum] = GetParam();
+  Site const site(16, how);
+  Renderer together = renderer_with(site.scene, 0, sum, 128);
+  Renderer apart = renderer_with(site.scene, 1, sum, 128);
+  std::vector<InteriorQuestion> questions;
+  for (SurfaceId const window : site.receivers) questions.push_back({window, site.all});
+  questions.push_back({site.receivers.front(), {}});
+  double inside = 0.0;
+  for (SunDirection const sun : suns) {
+    auto const batched = together.interior_sunlit_areas(sun, questions);
+    ASSERT_EQ(batched.size(), questions.size());
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+      auto const one =
+          apart.interior_sunlit_areas(sun, questions[i].window, questions[i].interiors);
+      ASSERT_EQ(batched[i].size(), one.size());
+      for (std::size_t k = 0; k < one.size(); ++k) {
+        expect_equal(batched[i][k], one[k]);
+        inside += one[k].projected_area;
+      }
+    }
+  }
+  EXPECT_GT(inside, 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, Batches,
+    testing::Combine(testing::Values(Finish::opaque, Finish::shaded, Finish::scheduled,
+                                     Finish::screened, Finish::mixed),
+                     testing::Values(LuminanceSum::readback, LuminanceSum::compute)));
+
+// Pixels of opaque casters are summed exactly, whatever the way.
+TEST(Batches, CountsAreTheSameByEveryWayOfSumming) {
+  Site const site(6, Finish::opaque);
+  Renderer compute = renderer_with(site.scene, 0, LuminanceSum::compute, 100);
+  Renderer mipmaps = renderer_with(site.scene, 0, LuminanceSum::mipmaps, 100);
+  Renderer readback = renderer_with(site.scene, 0, LuminanceSum::readback, 100);
+  auto const expected = readback.projected_sunlit_areas(suns, site.all);
+  for (Renderer* const renderer : {&compute, &mipmaps}) {
+    auto const got = renderer->projected_sunlit_areas(suns, site.all);
+    for (std::size_t i = 0; i < suns.size(); ++i) {
+      for (std::size_t k = 0; k < site.all.size(); ++k) expect_equal(got[i][k], expected[i][k]);
+    }
+  }
+}
+
+// More than one submission takes, in several kinds of view.
+TEST(Batches, TwoThousandReceiversInOneCall) {
+  constexpr int receivers = 2000;
+  Scene scene;
+  std::vector<SurfaceId> asked;
+  std::vector<double> expected;
+  std::vector<double> const factors{0.3};
+  for (int i = 0; i < receivers; ++i) {
+    double const x = 3.0 * (i % 50);
+    double const y = 3.0 * (i / 50);
+    double const shaded = (i + 0.5) / receivers;
+    asked.push_back(scene.add({"receiver", level(x, y, 0, 1, 1)}));
+    Surface canopy{"canopy", level(x - 0.5, y - 0.5, 0.5, 0.5 + shaded, 2)};
+    double passes = 0.0;
+    if (i % 3 == 1) {
+      canopy.transmittance = half();
+      passes = 0.5;
+    } else if (i % 3 == 2) {
+      canopy.schedule = 0;
+      passes = factors[0];
+    }
+    scene.add(canopy);
+    expected.push_back(1.0 - shaded * (1.0 - passes));
+  }
+  Renderer renderer = renderer_of(scene, 128);
+  auto const answers = renderer.projected_sunlit_areas(SunDirection{}, asked);
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    EXPECT_NEAR(answers[i].at(factors), expected[i], 2e-3) << i;
+  }
+  EXPECT_EQ(renderer.statistics().receivers_drawn, static_cast<std::size_t>(receivers));
+}
+
+// What is under way when an error ends a call does not come into the next.
+TEST(Batches, AnErrorLeavesNothingBehind) {
+  Site const site(12, Finish::mixed);
+  Renderer renderer = renderer_with(site.scene, 0, LuminanceSum::automatic, 128);
+  Renderer other = renderer_with(site.scene, 0, LuminanceSum::automatic, 128);
+  std::vector<SurfaceId> with_unknown = site.all;
+  with_unknown.push_back(99999);
+  EXPECT_ANY_THROW(renderer.projected_sunlit_areas(suns, with_unknown));
+  auto const got = renderer.projected_sunlit_areas(suns, site.all);
+  auto const expected = other.projected_sunlit_areas(suns, site.all);
+  for (std::size_t i = 0; i < suns.size(); ++i) {
+    for (std::size_t k = 0; k < site.all.size(); ++k) expect_equal(got[i][k], expected[i][k]);
+  }
+}
+
+TEST(Batches, StagesAddUpToNoMoreThanAllOfTheTime) {
+  Site const site(6, Finish::mixed);
+  Renderer renderer = renderer_with(site.scene, 0, LuminanceSum::automatic, 128);
+  renderer.projected_sunlit_areas(suns, site.all);
+  RendererStatistics const& did = renderer.statistics();
+  for (double const stage :
+       {did.cull_seconds, did.submit_seconds, did.wait_seconds, did.read_seconds}) {
+    EXPECT_GT(stage, 0.0);
+  }
+  EXPECT_LE(did.cull_seconds + did.submit_seconds + did.wait_seconds + did.read_seconds,
+            did.seconds);
+}
+
+}  // namespace
+}  // namespace gpu_shading
