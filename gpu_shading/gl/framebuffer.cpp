@@ -10,7 +10,15 @@ namespace gpu_shading::gl {
 namespace {
 
 GLenum internal_format(Format format) {
-  return format == Format::depth_stencil ? GL_DEPTH32F_STENCIL8 : GL_RGBA8;
+  switch (format) {
+    case Format::depth_stencil:
+      return GL_DEPTH32F_STENCIL8;
+    case Format::identity:
+      return GL_R32UI;
+    case Format::colour:
+      break;
+  }
+  return GL_RGBA8;
 }
 
 GLenum attachment(Format format) {
@@ -114,14 +122,25 @@ void Framebuffer::clear_identity() const {
   glClearNamedFramebufferuiv(name(), GL_COLOR, 0, none);
 }
 
+std::size_t Framebuffer::pixels() const {
+  return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+}
+
 std::vector<std::uint8_t> Framebuffer::read_colour() const {
-  std::vector<std::uint8_t> colours(4 * static_cast<std::size_t>(width_) *
-                                    static_cast<std::size_t>(height_));
+  std::vector<std::uint8_t> colours(4 * pixels());
   glBindFramebuffer(GL_READ_FRAMEBUFFER, name());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
   check("reading a picture back");
   return colours;
+}
+
+std::vector<std::uint32_t> Framebuffer::read_identity() const {
+  std::vector<std::uint32_t> identities(pixels());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, name());
+  glReadPixels(0, 0, width_, height_, GL_RED_INTEGER, GL_UNSIGNED_INT, identities.data());
+  check("reading surfaces back");
+  return identities;
 }
 
 }  // namespace gpu_shading::gl

@@ -16,7 +16,8 @@ void destroy_framebuffer(std::uint32_t name);
 
 enum class Format {
   depth_stencil,
-  colour,  // RGBA of 8 bits
+  colour,    // RGBA of 8 bits
+  identity,  // an unsigned integer
 };
 
 class Renderbuffer : public Object<destroy_renderbuffer> {
@@ -50,11 +51,13 @@ class Framebuffer : public Object<destroy_framebuffer> {
 
   // RGBA, 8 bits a channel, rows from the bottom. Waits for the draws.
   std::vector<std::uint8_t> read_colour() const;
+  std::vector<std::uint32_t> read_identity() const;
 
  private:
   using Object::Object;
 
   void check_complete() const;
+  std::size_t pixels() const;
 
   int width_ = 0;
   int height_ = 0;

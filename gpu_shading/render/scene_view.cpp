@@ -160,7 +160,7 @@ class SceneView::Implementation {
         gl::Framebuffer::create({gl::Format::identity, gl::Format::depth_stencil}, columns, rows);
     target.bind();
     target.clear_identity();
-    target.clear_depth();
+    target.clear_depth(1.0F);
     gl::blend(gl::Blend::replace);
     gl::write_colour(true);
     gl::no_stencil();
@@ -201,8 +201,8 @@ class SceneView::Implementation {
           array(gl::VertexArray::create()) {
       vertices.set(std::span<Vertex const>(contents));
       array.set_vertices(vertices, sizeof(Vertex));
-      array.add_attribute(0, 3, offsetof(Vertex, point));
-      array.add_identity(1, offsetof(Vertex, identity));
+      array.add_floats(gl::VertexArray::Of::vertices, 0, 3, offsetof(Vertex, point));
+      array.add_integers(gl::VertexArray::Of::vertices, 1, 1, offsetof(Vertex, identity));
     }
 
     gl::Program program;
