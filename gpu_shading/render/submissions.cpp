@@ -9,7 +9,6 @@
 namespace gpu_shading {
 namespace {
 
-constexpr std::size_t most_in_flight = 3;
 // Of the lists gathered; a view may take more by itself.
 constexpr std::size_t most_bytes = std::size_t{16} << 20U;
 
@@ -46,7 +45,7 @@ void Submissions::submit_largest() {
 }
 
 void Submissions::submit(Group const& group, Batch& batch) {
-  while (in_flight_.size() >= most_in_flight) collect();
+  while (in_flight_.size() >= most_in_flight_) collect();
   auto const layers = static_cast<int>(batch.answers.size());
   Target* target = targets_.take(group.first, group.second, layers);
   while (target == nullptr) {

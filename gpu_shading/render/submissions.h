@@ -25,11 +25,12 @@ class Submissions {
  public:
   // What it refers to must outlive it. Adds to the statistics' seconds of submitting, waiting and
   // reading.
-  Submissions(Geometry& geometry, Transmission const& transmission, TargetPool targets,
-              RendererStatistics& statistics)
+  Submissions(Geometry& geometry, Transmission const& transmission, Bounds const& bounds,
+              LuminanceSum how, RendererStatistics& statistics)
       : geometry_(geometry),
         transmission_(transmission),
-        targets_(std::move(targets)),
+        most_in_flight_(bounds.in_flight),
+        targets_(bounds, how),
         statistics_(statistics) {}
 
   // Adds a view to a list, on a layer.
@@ -63,6 +64,7 @@ class Submissions {
 
   Geometry& geometry_;
   Transmission const& transmission_;
+  std::size_t most_in_flight_;
   TargetPool targets_;
   RendererStatistics& statistics_;
   std::map<Group, Batch> gathered_;

@@ -50,7 +50,7 @@ bool TargetPool::make_room(std::size_t bytes) {
       if (entry->taken) continue;
       if (oldest == entries_.end() || entry->last_taken < oldest->last_taken) oldest = entry;
     }
-    if (all <= bounds_.all) return true;
+    if (all <= bounds_.all_targets) return true;
     if (oldest == entries_.end()) return !any_taken;
     entries_.erase(oldest);
   }

@@ -9,17 +9,19 @@
 
 namespace gpu_shading {
 
+// Of what a renderer has under way on its device.
+struct Bounds {
+  std::size_t in_flight = 1;    // submissions
+  std::size_t target = 0;       // bytes of a target, or one layer where that is more
+  std::size_t all_targets = 0;  // or one layer in flight where that is more
+  int layers = 1;               // of a target
+};
+
 // Targets on a device, kept for the next views of their kind and side. Bounds the memory that they
 // take: a target is of as many layers as were needed at a time, and those longest not drawn to go
 // first.
 class TargetPool {
  public:
-  struct Bounds {
-    std::size_t target = 0;  // bytes of one, or one layer where that is more
-    std::size_t all = 0;     // bytes of all, or one layer in flight where that is more
-    int layers = 1;
-  };
-
   TargetPool(Bounds const& bounds, LuminanceSum how) : bounds_(bounds), summing_(how) {}
 
   // Views of this kind that may be drawn at once.

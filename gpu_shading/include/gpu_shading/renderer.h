@@ -112,10 +112,11 @@ struct Image {
 //
 // Views are drawn many at once, each to a layer of its own of an array of textures, so that a view
 // has the same pixels whatever it is drawn with: answers do not depend on what else is asked. The
-// CPU culls for the next views while the device draws; up to three submissions are under way.
-// Memory beside the scene's: of the host about 100 MiB, of the device targets of 4 MiB each and
-// 64 MiB in all in software, 32 and 512 MiB on a GPU, or what a layer takes where that is more
-// (RGBA of 32 bits where schedules are told apart), and some 100 MiB of buffers. A device without
+// CPU culls for the next views while the device draws; one submission is under way in software,
+// three on a GPU. Memory beside the scene's and the answers': on the host about 100 MiB; on the
+// device a target takes 1 MiB in software, 32 MiB on a GPU, or one layer where that is more (16
+// bytes a pixel where schedules are told apart, 24 for interiors behind shades), all of them 64 and
+// 512 MiB, and what is drawn to them some 100 MiB. A device without
 // GL_ARB_shader_viewport_layer_array draws one view at a time.
 class Renderer {
  public:
