@@ -34,6 +34,7 @@ std::vector<ObjectType> const& known_types() {
       {"Building",
        {"name", "north_axis", "terrain", "loads_convergence_tolerance_value",
         "temperature_convergence_tolerance_value", "solar_distribution"}},
+      {"Site:Location", {"name", "latitude", "longitude", "time_zone", "elevation"}},
       {"GlobalGeometryRules",
        {"starting_vertex_position", "vertex_entry_direction", "coordinate_system"}},
       {"GeometryTransform", {}},
@@ -151,6 +152,13 @@ std::vector<ObjectType> const& known_types() {
         "tile_rotation",
         "deployment_schedule_name",
         "detail"}},
+      {"GPUShading:SiteContext",
+       {"name", "buildings_file_name", "buildings_coordinates", "height_property",
+        "levels_property", "storey_height", "default_height", "terrain_file_name",
+        "terrain_coordinates", "terrain_clear_distance", "origin_latitude", "origin_longitude",
+        "origin_elevation"},
+       "left_out",
+       "left_out_name"},
       {"GPUShading:Settings", {"resolution", "update_frequency", "device", "error"}},
   };
   return types;

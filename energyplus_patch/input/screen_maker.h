@@ -28,6 +28,14 @@ struct ScreenTexture {
   std::optional<double> height = std::nullopt;
 };
 
+// Where texture coordinates lie on a mesh, in world axes: (0, 0), and what they grow along, of the
+// length that makes them 1.
+struct TextureAxes {
+  glm::dvec3 origin;
+  glm::dvec3 u;
+  glm::dvec3 v;
+};
+
 // Makes the screens of one GPUShading:PerforatedScreen, which has one for all its surfaces, but for
 // a texture that each surface has in its own size. For one thread at a time. Every function throws
 // Error, naming object, field and value, the constructor without the object.

@@ -36,13 +36,24 @@ std::string describe_tile(Model const& model, Surface const& surface) {
                      place(axes.u, 4), place(axes.v, 4));
 }
 
-// All but what stands in for surfaces that were left out of EnergyPlus's input.
+// All but what stands in for casters that EnergyPlus does not know, and the surroundings.
 std::vector<SurfaceId> listed(Scene const& scene, Model const& model) {
   std::vector<SurfaceId> ids;
   for (SurfaceId id = 0; id < scene.size(); ++id) {
-    if (!model.lean.is_placeholder(scene[id].name)) ids.push_back(id);
+    auto const& name = scene[id].name;
+    if (!model.lean.is_placeholder(name) && !model.surroundings.types.contains(name)) {
+      ids.push_back(id);
+    }
   }
   return ids;
+}
+
+// Before the table.
+std::string remarks_of(Model const& model) {
+  std::string text;
+  if (!model.lean.remark.empty()) text += model.lean.remark + "\n";
+  for (auto const& remark : model.surroundings.remarks) text += remark + "\n";
+  return text.empty() ? text : text + "\n";
 }
 
 }  // namespace
@@ -56,7 +67,7 @@ std::string list_surfaces(Scene const& scene, Model const& model, std::vector<bo
     width = std::max(width, scene[id].name.size());
     kind_width = std::max(kind_width, kind_of(scene[id].name, input).size());
   }
-  std::string text = model.lean.remark.empty() ? "" : model.lean.remark + "\n\n";
+  auto text = remarks_of(model);
   text += fmt::format("{:{}}  {:{}}  {:>12}  {:8}  {}\n", "surface", width, "kind", kind_width,
                       "area [m2]", "receives", "casts");
   for (auto const id : ids) {

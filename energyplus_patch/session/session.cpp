@@ -7,6 +7,8 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <set>
+#include <string_view>
 
 #include "gpu_shading/error.h"
 #include "session/build_id.h"
@@ -16,6 +18,7 @@
 #include "session/report.h"
 #include "session/scene_hash.h"
 #include "session/shading_rule.h"
+#include "site/own_building.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -80,8 +83,7 @@ void Session::start(Messages messages, Schedules schedules) {
                  !model_.lean.is_placeholder(name);
     if (!wanted[id]) unshaded_[id] = area(polygon) * normal(polygon);
   }
-  for (auto& caster : model_.lean.casters) scene_.add(std::move(caster));
-  model_.lean.casters.clear();
+  add_outside_casters();
   optics_ = ShadeOptics(model_, std::move(schedules));
   if (char const* const listing = std::getenv(listing_variable)) {
     bool const vertices = std::getenv(vertices_variable) != nullptr;
@@ -120,6 +122,13 @@ void Session::draw(std::filesystem::path const& folder, int size, std::vector<bo
   draw_views(
       views, folder,
       {*renderer_, model_.options.device, shown, std::move(wanted), optics_.factors(), size});
+}
+
+void Session::add_outside_casters() {
+  for (auto& caster : model_.lean.casters) scene_.add(std::move(caster));
+  model_.lean.casters.clear();
+  first_outside_ = static_cast<SurfaceId>(scene_.size());
+  for (auto& caster : model_.surroundings.casters) scene_.add(std::move(caster.surface));
 }
 
 void Session::open_renderer() {
@@ -208,9 +217,12 @@ void Session::describe_surfaces() {
                     "GPU Shading Lean Input,{},{}\n",
                     model_.lean.left_out.size(), remark));
   }
+  describe_surroundings();
   warn_of_actuated_schedules();
   bool first = true;
+  std::set<std::string_view> described;  // a mesh's triangles share its name
   for (auto const id : shading_surfaces()) {
+    if (!described.insert(scene_[id].name).second) continue;
     auto optics = describe_optics(model_, scene_[id]);
     if (optics == "opaque") continue;
     if (first) messages_.eio("! <GPU Shading Surface>, Surface Name, Transmittance\n");
@@ -218,6 +230,22 @@ void Session::describe_surfaces() {
     // Commas part the file's fields.
     std::replace(optics.begin(), optics.end(), ',', ';');
     messages_.eio(fmt::format("GPU Shading Surface,{},{}\n", scene_[id].name, optics));
+  }
+}
+
+void Session::describe_surroundings() {
+  auto const& surroundings = model_.surroundings;
+  if (surroundings.empty()) return;
+  for (auto const& warning : surroundings.warnings) messages_.warning(warning);
+  for (auto const& line : warn_of_own_buildings(surroundings.buildings, scene_, model_.shading)) {
+    messages_.warning(line);
+  }
+  messages_.eio("! <GPU Shading Surroundings>, Remark\n");
+  for (auto remark : surroundings.remarks) {
+    messages_.remark(remark);
+    // Commas part the file's fields.
+    std::replace(remark.begin(), remark.end(), ',', ';');
+    messages_.eio(fmt::format("GPU Shading Surroundings,{}\n", remark));
   }
 }
 

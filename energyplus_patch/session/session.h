@@ -78,8 +78,10 @@ class Session {
   void render(Answers::Direction& direction);
   std::vector<Sunlit> const& find_interior(SurfaceId window,
                                            std::vector<SurfaceId> const& interiors);
+  void add_outside_casters();
   void describe_surfaces();
   void draw(std::filesystem::path const& folder, int size, std::vector<bool> wanted);
+  void describe_surroundings();
   void warn_of_actuated_schedules() const;
   void add_walls_without_openings();
   void open_renderer();
@@ -95,7 +97,8 @@ class Session {
   std::size_t surfaces_ = 0;
   std::size_t casters_ = 0;
   std::optional<Renderer> renderer_;
-  RendererStatistics earlier_;  // of renderers before it
+  RendererStatistics earlier_;   // of renderers before it
+  SurfaceId first_outside_ = 0;  // of the surroundings' casters
   // By surface, where its own fraction has no use: normal x area, for an answer without shadows.
   std::vector<std::optional<glm::dvec3>> unshaded_;
   std::vector<std::optional<ReceiverNumber>> numbers_;  // of receivers asked for, by surface
