@@ -159,6 +159,11 @@ std::vector<ObjectType> const& known_types() {
         "origin_elevation"},
        "left_out",
        "left_out_name"},
+      {"GPUShading:Geometry",
+       {"name", "file_name", "unit", "up_axis", "x", "y", "z", "latitude", "longitude", "elevation",
+        "rotation"},
+       "left_out",
+       "left_out_name"},
       {"GPUShading:Settings", {"resolution", "update_frequency", "device", "error"}},
   };
   return types;

@@ -8,6 +8,7 @@
 
 #include "gpu_shading/error.h"
 #include "input/model_file.h"
+#include "site/texture_axes.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -80,6 +81,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   add_surroundings(model.surroundings, model.shading);
   model.shades = read_transparent_shades(objects, model.shading, folder);
   model.screens = read_perforated_screens(objects, model.shading, model.shades, folder);
+  check_textures(model.surroundings, model.screens);
   model.options = resolve(choices, read_settings(objects), model.shading);
   if (find_mentions) {
     model.lean = plan_lean_input(objects, model.shading, model.options, find_mentions);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <unordered_map>
 
 #include "session/shade_optics.h"
 #include "session/shading_rule.h"
@@ -48,6 +50,28 @@ std::vector<SurfaceId> listed(Scene const& scene, Model const& model) {
   return ids;
 }
 
+// All triangles of one name.
+struct MeshRow {
+  SurfaceId first;
+  double area = 0.0;
+};
+
+std::vector<MeshRow> meshes_of(Scene const& scene, Model const& model) {
+  std::vector<MeshRow> rows;
+  std::unordered_map<std::string_view, std::size_t> known;
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    auto const& surface = scene[id];
+    auto const type = model.surroundings.types.find(surface.name);
+    if (type == model.surroundings.types.end() || type->second != "GPUShading:Geometry") continue;
+    auto const size = area(surface.polygon);
+    if (size <= 0.0) continue;
+    auto const [row, added] = known.try_emplace(surface.name, rows.size());
+    if (added) rows.push_back({id});
+    rows[row->second].area += size;
+  }
+  return rows;
+}
+
 // Before the table.
 std::string remarks_of(Model const& model) {
   std::string text;
@@ -68,6 +92,11 @@ std::string list_surfaces(Scene const& scene, Model const& model, std::vector<bo
     kind_width = std::max(kind_width, kind_of(scene[id].name, input).size());
   }
   auto text = remarks_of(model);
+  auto const meshes = meshes_of(scene, model);
+  for (auto const& mesh : meshes) {
+    width = std::max(width, scene[mesh.first].name.size());
+    kind_width = std::max(kind_width, kind_of(scene[mesh.first].name, input).size());
+  }
   text += fmt::format("{:{}}  {:{}}  {:>12}  {:8}  {}\n", "surface", width, "kind", kind_width,
                       "area [m2]", "receives", "casts");
   for (auto const id : ids) {
@@ -84,7 +113,13 @@ std::string list_surfaces(Scene const& scene, Model const& model, std::vector<bo
                                                             : "not");
     if (!empty) text += describe_tile(model, surface);
   }
-  text += fmt::format("{} surfaces\n", ids.size());
+  for (auto const& mesh : meshes) {
+    auto const& surface = scene[mesh.first];
+    text += fmt::format("{:{}}  {:{}}  {:12.3f}  {:8}  {}\n", surface.name, width,
+                        kind_of(surface.name, input), kind_width, mesh.area, "no",
+                        describe_optics(model, surface, model.surroundings.texture_of(mesh.first)));
+  }
+  text += fmt::format("{} surfaces\n", ids.size() + meshes.size());
   return text;
 }
 

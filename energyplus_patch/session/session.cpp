@@ -127,7 +127,7 @@ void Session::draw(std::filesystem::path const& folder, int size, std::vector<bo
 void Session::add_outside_casters() {
   for (auto& caster : model_.lean.casters) scene_.add(std::move(caster));
   model_.lean.casters.clear();
-  first_outside_ = static_cast<SurfaceId>(scene_.size());
+  model_.surroundings.first = static_cast<SurfaceId>(scene_.size());
   for (auto& caster : model_.surroundings.casters) scene_.add(std::move(caster.surface));
 }
 
@@ -140,7 +140,7 @@ void Session::open_renderer() {
   for (SurfaceId id = 0; id < scene_.size(); ++id) {
     auto surface = scene_[id];
     names.push_back(surface.name);
-    optics_.apply(surface);
+    optics_.apply(surface, model_.surroundings.texture_of(id));
     if (surface.casting != Casting::never) ++casters_;
     scene.add(std::move(surface));
   }
@@ -222,9 +222,10 @@ void Session::describe_surfaces() {
   bool first = true;
   std::set<std::string_view> described;  // a mesh's triangles share its name
   for (auto const id : shading_surfaces()) {
-    if (!described.insert(scene_[id].name).second) continue;
-    auto optics = describe_optics(model_, scene_[id]);
+    if (described.contains(scene_[id].name)) continue;
+    auto optics = describe_optics(model_, scene_[id], model_.surroundings.texture_of(id));
     if (optics == "opaque") continue;
+    described.insert(scene_[id].name);
     if (first) messages_.eio("! <GPU Shading Surface>, Surface Name, Transmittance\n");
     first = false;
     // Commas part the file's fields.

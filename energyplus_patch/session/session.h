@@ -97,8 +97,7 @@ class Session {
   std::size_t surfaces_ = 0;
   std::size_t casters_ = 0;
   std::optional<Renderer> renderer_;
-  RendererStatistics earlier_;   // of renderers before it
-  SurfaceId first_outside_ = 0;  // of the surroundings' casters
+  RendererStatistics earlier_;  // of renderers before it
   // By surface, where its own fraction has no use: normal x area, for an answer without shadows.
   std::vector<std::optional<glm::dvec3>> unshaded_;
   std::vector<std::optional<ReceiverNumber>> numbers_;  // of receivers asked for, by surface

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "site/geometry.h"
 #include "site/site_context.h"
 #include "site/site_origin.h"
 
@@ -34,13 +35,20 @@ void warn_of_rays(std::vector<InputObject> const& objects, Surroundings& surroun
 
 }  // namespace
 
+std::optional<TextureAxes> Surroundings::texture_of(SurfaceId surface) const {
+  if (surface < first || surface - first >= casters.size()) return std::nullopt;
+  return casters[surface - first].texture;
+}
+
 Surroundings read_surroundings(std::vector<InputObject> const& objects,
                                std::filesystem::path const& folder) {
   Surroundings surroundings;
-  if (any_of_type(objects, "GPUShading:SiteContext")) {
-    auto origin = find_site_origin(objects);
-    read_site_contexts(objects, folder, origin, surroundings);
+  std::optional<SiteOrigin> origin;
+  if (any_of_type(objects, "GPUShading:SiteContext") || needs_origin(objects)) {
+    origin = find_site_origin(objects);
+    read_site_contexts(objects, folder, *origin, surroundings);
   }
+  read_geometries(objects, folder, origin, surroundings);
   if (!surroundings.empty()) warn_of_rays(objects, surroundings);
   return surroundings;
 }

@@ -34,7 +34,12 @@ struct Surroundings {
   std::vector<std::string> remarks;  // what each object put up, a line each
   std::vector<std::string> warnings;
 
+  // In the scene, once they are there.
+  SurfaceId first = 0;
+
   bool empty() const { return casters.empty(); }
+  // Of a surface of the scene; nothing for those that are none of these.
+  std::optional<TextureAxes> texture_of(SurfaceId surface) const;
 };
 
 // Reads every such object and its files. `folder`: where relative file names start. Names are upper
