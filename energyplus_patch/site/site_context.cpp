@@ -258,6 +258,7 @@ void stand_on_terrain(std::vector<Context> const& contexts, SiteOrigin& origin) 
     if (!context.terrain) continue;
     if (auto const elevation = elevation_at(*context.terrain, origin.place)) {
       origin.place.elevation = *elevation;
+      origin.source += ", at the terrain's elevation";
       return;
     }
   }

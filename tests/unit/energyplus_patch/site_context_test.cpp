@@ -71,7 +71,7 @@ TEST_F(SiteContext, BuildingsStandOnTheTerrain) {
   EXPECT_TRUE(found.warnings.empty());
   ASSERT_EQ(found.remarks.size(), 1U);
   EXPECT_THAT(found.remarks[0], HasSubstr("terrain of 3 x 3 nodes (4 cells drawn), 2 buildings"));
-  EXPECT_THAT(found.remarks[0], HasSubstr("20.000000 E 130.0 m (Site:Location)"));
+  EXPECT_THAT(found.remarks[0], HasSubstr("20.000000 E 130.0 m (Site:Location, at the terrain's"));
 }
 
 TEST_F(SiteContext, WithoutTerrainTheGroundIsAtTheOrigin) {
