@@ -55,7 +55,7 @@ void (*original_abort)(State&) = nullptr;
 Rewrite rewrite_for(Model const& model) {
   return {model.options.mode == Mode::off ? "PolygonClipping" : "PixelCounting",
           model.options.every_timestep ? "Timestep" : "", model.lean.left_out,
-          model.options.mode == Mode::off ? std::vector<Placeholder>{} : model.lean.placeholders};
+          model.lean.placeholders};
 }
 
 // What polygon clipping does not know of.

@@ -86,7 +86,9 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   if (find_mentions) {
     model.lean = plan_lean_input(objects, model.shading, model.options, find_mentions);
   }
-  if (!model.surroundings.empty()) ensure_placeholders(model.lean, model.shading);
+  if (!model.surroundings.empty() && model.options.mode != Mode::off) {
+    ensure_placeholders(model.lean, model.shading);
+  }
   return model;
 }
 

@@ -7,6 +7,7 @@
 
 #include "gpu_shading/error.h"
 #include "input/model_file.h"
+#include "input/model_reader.h"
 #include "site/own_building.h"
 #include "site/surroundings.h"
 #include "temporary_folder.h"
@@ -133,7 +134,8 @@ TEST_F(SiteContext, SaysWhatIsWrong) {
   EXPECT_THAT(of("town.geojson,,,,,tall"), HasSubstr("Default Height is \"tall\", not a number"));
   EXPECT_THAT(of("town.geojson,,,,,,,UTM 33N"),
               HasSubstr("Terrain Coordinates is \"UTM 33N\", expected blank without Terrain"));
-  EXPECT_THAT(of(",,,,,,hill.asc,UTM 13N"), HasSubstr("latitude 0, longitude 20 is too far from UTM 13N"));
+  EXPECT_THAT(of(",,,,,,hill.asc,UTM 13N"),
+              HasSubstr("latitude 0, longitude 20 is too far from UTM 13N"));
   EXPECT_THAT(of("town.geojson,UTM 13N"), HasSubstr("Buildings File Name"));
   EXPECT_THAT(of("town.geojson,,,,,,,,,,,Hill"), HasSubstr("Origin Elevation is \"Hill\""));
   EXPECT_THAT(of("town.geojson,,,,,,,,,,,Terrain"),
@@ -145,6 +147,32 @@ TEST_F(SiteContext, SaysWhatIsWrong) {
   write("sea.geojson", R"({"type": "Feature", "properties": {"height": 10}, "geometry":
     {"type": "Polygon", "coordinates": [[[21,0],[21.001,0],[21.001,0.001]]]}})");
   EXPECT_THAT(of("sea.geojson,,,,,,hill.asc"), HasSubstr("feature 1: none of its corners is on"));
+}
+
+TEST_F(SiteContext, EpJsonSaysTheSame) {
+  auto const objects = read_epjson(nlohmann::json::parse(R"({
+    "Site:Location": {"Here": {"latitude": 0, "longitude": 20, "elevation": 100}},
+    "GPUShading:SiteContext": {"Town": {"buildings_file_name": "town.geojson", "storey_height": 3,
+      "left_out": [{"left_out_name": "a/1"}]}}})"));
+  auto const found = read_surroundings(objects, folder_.path());
+  EXPECT_EQ(found.casters.size(), 5U);
+  EXPECT_TRUE(found.types.contains("TOWN:B/2"));
+}
+
+TEST_F(SiteContext, PutsUpPlaceholdersUnlessShadingIsOff) {
+  Choices choices;
+  choices.folder = folder_.path();
+  auto const objects = read_idf(location + "GPUShading:SiteContext,Town,town.geojson;");
+  auto const model = understand(objects, folder_.path() / "model.idf", choices);
+  EXPECT_EQ(model.lean.placeholders.size(), 4U);
+  EXPECT_FALSE(model.lean.active());
+  EXPECT_EQ(model.shading.shading_surfaces.at("TOWN:A/1").type, "GPUShading:SiteContext");
+  choices.mode = Mode::off;
+  EXPECT_TRUE(understand(objects, folder_.path() / "model.idf", choices).lean.placeholders.empty());
+  EXPECT_THROW(understand(read_idf("Shading:Site:Detailed,town:a/1;" + location +
+                                   "GPUShading:SiteContext,Town,town.geojson;"),
+                          folder_.path() / "model.idf", choices),
+               Error);
 }
 
 TEST_F(SiteContext, TellsTheModelsOwnBuilding) {
