@@ -57,25 +57,25 @@ std::string title(InputObject const& object) {
 
 SiteOrigin find_site_origin(std::vector<InputObject> const& objects) {
   Statement stated;
-  InputObject const* first = nullptr;
+  std::string first;  // which object said so
   for (auto const& object : objects) {
     if (object.type != "GPUShading:SiteContext") continue;
     try {
       auto const statement = read_statement(object);
       if (statement.empty()) continue;
-      if (first != nullptr && statement != stated) {
-        throw Error(fmt::format("its origin is not that of {}: a model has one place on earth",
-                                title(*first)));
+      if (!first.empty() && statement != stated) {
+        throw Error(
+            fmt::format("its origin is not that of {}: a model has one place on earth", first));
       }
       stated = statement;
-      if (first == nullptr) first = &object;
+      if (first.empty()) first = title(object);
     } catch (Error const& error) {
       throw Error(fmt::format("{}: {}", title(object), error.what()));
     }
   }
   auto const location = read_location(objects);
   SiteOrigin origin;
-  origin.source = stated.latitude ? title(*first) : "Site:Location";
+  origin.source = stated.latitude ? first : "Site:Location";
   auto const latitude = stated.latitude ? stated.latitude : location.latitude;
   auto const longitude = stated.latitude ? stated.longitude : location.longitude;
   auto const elevation = stated.elevation ? stated.elevation : location.elevation;
