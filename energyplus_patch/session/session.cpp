@@ -108,7 +108,8 @@ void Session::draw(std::filesystem::path const& folder, int size, std::vector<bo
   auto const views = read_views(folder / views_list);
   std::vector<SurfaceId> shown;
   for (SurfaceId id = 0; id < scene_.size(); ++id) {
-    if (!model_.lean.is_placeholder(scene_[id].name)) shown.push_back(id);
+    // Terrain and a town, which shade all the same, would make a dot of the model.
+    if (!model_.lean.is_placeholder(scene_[id].name) && !is_site_context(id)) shown.push_back(id);
   }
   for (SurfaceId id = 0; id < surfaces_; ++id) {
     if (is_reveal(scene_[id].name)) wanted[id] = false;
@@ -129,6 +130,11 @@ void Session::add_outside_casters() {
   model_.lean.casters.clear();
   model_.surroundings.first = static_cast<SurfaceId>(scene_.size());
   for (auto& caster : model_.surroundings.casters) scene_.add(std::move(caster.surface));
+}
+
+bool Session::is_site_context(SurfaceId id) const {
+  auto const type = model_.surroundings.types.find(scene_[id].name);
+  return type != model_.surroundings.types.end() && type->second == "GPUShading:SiteContext";
 }
 
 void Session::open_renderer() {

@@ -79,6 +79,7 @@ class Session {
   std::vector<Sunlit> const& find_interior(SurfaceId window,
                                            std::vector<SurfaceId> const& interiors);
   void add_outside_casters();
+  bool is_site_context(SurfaceId id) const;
   void describe_surfaces();
   void draw(std::filesystem::path const& folder, int size, std::vector<bool> wanted);
   void describe_surroundings();
