@@ -58,11 +58,20 @@ Rewrite rewrite_for(Model const& model) {
           model.lean.placeholders};
 }
 
+// What polygon clipping does not know of.
+void warn_of_missing_surroundings(Run const& run) {
+  if (run.model->surroundings.empty()) return;
+  messages_of(run).warning(
+      "shading is off: GPUShading:SiteContext and GPUShading:Geometry are left out, nothing of "
+      "theirs casts a shadow");
+}
+
 // What polygon clipping makes of shades that only our objects open.
 void warn_of_opaque_shades(Run const& run) {
   std::set<std::string> opaque;
   for (auto const& [surface, shade] : run.model->shades.by_surface) opaque.insert(surface);
   for (auto const& [surface, screen] : run.model->screens.by_surface) opaque.insert(surface);
+  for (auto const& [surface, type] : run.model->surroundings.types) opaque.erase(surface);
   if (opaque.empty()) return;
   auto const more = opaque.size() - 1;
   messages_of(run).warning(fmt::format(
@@ -80,6 +89,7 @@ Rewrite take_model(std::vector<InputObject> objects, Path const& path,
     check_supported(run.model->shading, installation().version);
   } else {
     warn_of_opaque_shades(run);
+    warn_of_missing_surroundings(run);
   }
   return rewrite_for(*run.model);
 }

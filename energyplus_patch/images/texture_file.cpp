@@ -5,14 +5,14 @@
 #include <array>
 
 #include "gpu_shading/error.h"
+#include "host/helper_library.h"
 #include "images/image_library.h"
-#include "images/load_library.h"
 
 namespace gpu_shading::energyplus {
 
 TextureInfo probe_texture(std::filesystem::path const& path) {
   static auto const probe = reinterpret_cast<decltype(&gpu_shading_probe_image)>(
-      image_function("textures", "gpu_shading_probe_image"));
+      helper_function(gpu_shading_image_library, "textures", "gpu_shading_probe_image"));
   if (!std::filesystem::exists(path)) throw Error(fmt::format("{}: no such file", path.string()));
   // Others (a pipe, a device) may never come to an end.
   if (!std::filesystem::is_regular_file(path)) {
@@ -34,7 +34,7 @@ TextureInfo probe_texture(std::filesystem::path const& path) {
 std::vector<std::uint16_t> read_opacity(std::filesystem::path const& path,
                                         TextureInfo const& info) {
   static auto const read = reinterpret_cast<decltype(&gpu_shading_read_opacity)>(
-      image_function("textures", "gpu_shading_read_opacity"));
+      helper_function(gpu_shading_image_library, "textures", "gpu_shading_read_opacity"));
   std::vector<std::uint16_t> opacity(static_cast<std::size_t>(info.width) *
                                      static_cast<std::size_t>(info.height));
   std::array<char, 512> message{};

@@ -8,6 +8,7 @@
 
 #include "gpu_shading/error.h"
 #include "input/model_file.h"
+#include "site/texture_axes.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -39,6 +40,17 @@ void add_side_file(std::filesystem::path const& path, std::vector<InputObject>& 
   }
 }
 
+// Shades and screens find them by name like the model's own.
+void add_surroundings(Surroundings const& surroundings, ShadingInput& shading) {
+  for (auto const& [name, type] : surroundings.types) {
+    auto const [place, added] =
+        shading.shading_surfaces.try_emplace(name, ShadingInput::ShadingSurface{type, ""});
+    if (!added) {
+      throw Error(fmt::format("{}: {} is the name of a {} too", type, name, place->second.type));
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> find_side_file(std::filesystem::path const& model,
@@ -65,11 +77,17 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   Model model;
   model.shading = read_shading_input(objects);
   auto const folder = choices.folder.value_or(path.parent_path());
+  model.surroundings = read_surroundings(objects, folder);
+  add_surroundings(model.surroundings, model.shading);
   model.shades = read_transparent_shades(objects, model.shading, folder);
   model.screens = read_perforated_screens(objects, model.shading, model.shades, folder);
+  check_textures(model.surroundings, model.screens);
   model.options = resolve(choices, read_settings(objects), model.shading);
   if (find_mentions) {
     model.lean = plan_lean_input(objects, model.shading, model.options, find_mentions);
+  }
+  if (!model.surroundings.empty() && model.options.mode != Mode::off) {
+    ensure_placeholders(model.lean, model.shading);
   }
   return model;
 }

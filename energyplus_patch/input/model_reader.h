@@ -10,6 +10,7 @@
 #include "input/transparent_shades.h"
 #include "lean/lean_input.h"
 #include "options/options.h"
+#include "site/surroundings.h"
 
 namespace gpu_shading::energyplus {
 
@@ -20,6 +21,7 @@ struct Model {
   PerforatedScreens screens;
   Options options;
   LeanInput lean;
+  Surroundings surroundings;
 };
 
 // Reads a model's objects together with those of its side file, and answers every option.

@@ -1,15 +1,14 @@
 #include "input/perforated_screens.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
-#include <initializer_list>
 #include <numbers>
 #include <set>
 #include <utility>
 
 #include "gpu_shading/error.h"
+#include "input/fields.h"
 #include "input/name_pattern.h"
 #include "input/number.h"
 
@@ -18,10 +17,6 @@ namespace {
 
 constexpr std::string_view type = "GPUShading:PerforatedScreen";
 
-struct Field {
-  char const* name;  // of the epJSON schema
-  char const* title;
-};
 constexpr Field hole_shape{"hole_shape", "Hole Shape"};
 constexpr Field texture_file_name{"texture_file_name", "Texture File Name"};
 constexpr Field arrangement{"arrangement", "Arrangement"};
@@ -42,55 +37,10 @@ constexpr Field tile_origin_v{"tile_origin_v", "Tile Origin V"};
 constexpr Field tile_rotation{"tile_rotation", "Tile Rotation"};
 constexpr Field detail{"detail", "Detail"};
 
-template <typename Value>
-struct Key {
-  char const* word;
-  Value value;
-};
-
-template <typename Value>
-Value choice(InputObject const& object, Field const& field,
-             std::initializer_list<Key<Value>> const& keys) {
-  std::vector<std::string> words;
-  for (auto const& key : keys) {
-    if (same_name(object[field.name], key.word)) return key.value;
-    words.emplace_back(key.word);
-  }
-  auto const last = words.back();
-  words.pop_back();
-  throw Error(fmt::format("{} is \"{}\", expected {} or {}", field.title, object[field.name],
-                          fmt::join(words, ", "), last));
-}
-
-template <typename Value>
-Value choice(InputObject const& object, Field const& field,
-             std::initializer_list<Key<Value>> const& keys, Value const& blank) {
-  return object[field.name].empty() ? blank : choice(object, field, keys);
-}
-
-std::optional<double> number(InputObject const& object, Field const& field) {
-  auto const& text = object[field.name];
-  if (text.empty()) return std::nullopt;
-  auto const value = parse_number(text);
-  if (!value || !std::isfinite(*value)) {
-    throw Error(fmt::format("{} is \"{}\", not a number", field.title, text));
-  }
-  return value;
-}
-
 double needed_length(InputObject const& object, Field const& field) {
   auto const value = number(object, field);
   if (!value) throw Error(fmt::format("{} is blank, expected a length in m", field.title));
   return *value;
-}
-
-void expect_blank(InputObject const& object, std::initializer_list<Field> const& fields,
-                  std::string_view why) {
-  for (auto const& field : fields) {
-    if (object[field.name].empty()) continue;
-    throw Error(
-        fmt::format("{} is \"{}\", expected blank {}", field.title, object[field.name], why));
-  }
 }
 
 HolePattern read_pattern(InputObject const& object, Hole hole) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numeric>
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -38,7 +39,8 @@ Bounds bounds_of(Polygon const& polygon, double rotation) {
 bool covers_each_surface(ScreenTexture const& texture) { return !texture.width && !texture.height; }
 
 std::pair<double, double> tile_size(ScreenTexture const& texture, Polygon const& polygon,
-                                    double rotation) {
+                                    double rotation, std::optional<TextureAxes> const& axes) {
+  if (covers_each_surface(texture) && axes) return {glm::length(axes->u), glm::length(axes->v)};
   if (covers_each_surface(texture)) {
     auto const bounds = bounds_of(polygon, rotation);
     return {bounds.high_u - bounds.low_u, bounds.high_v - bounds.low_v};
@@ -109,17 +111,25 @@ ScreenMaker::ScreenMaker(std::string object, Holes holes, Sheet const& sheet,
       sheet_);
 }
 
-std::shared_ptr<PerforatedScreen const> ScreenMaker::make(Polygon const& polygon) {
-  return find_or_make(polygon).screen;
+std::shared_ptr<PerforatedScreen const> ScreenMaker::make(
+    Polygon const& polygon, std::optional<TextureAxes> const& texture) {
+  return find_or_make(polygon, texture).screen;
 }
 
-std::string ScreenMaker::describe(Polygon const& polygon) {
-  return find_or_make(polygon).description;
+std::string ScreenMaker::describe(Polygon const& polygon,
+                                  std::optional<TextureAxes> const& texture) {
+  return find_or_make(polygon, texture).description;
 }
 
-ScreenPlacement ScreenMaker::placement(Polygon const& polygon) const {
+bool ScreenMaker::stretches() const {
   auto const* const texture = std::get_if<ScreenTexture>(&holes_);
-  if (texture == nullptr || !covers_each_surface(*texture)) return placement_;
+  return texture != nullptr && covers_each_surface(*texture);
+}
+
+ScreenPlacement ScreenMaker::placement(Polygon const& polygon,
+                                       std::optional<TextureAxes> const& texture) const {
+  if (texture) return placement_on(*texture, polygon);
+  if (!stretches()) return placement_;
   // Its bounding rectangle begins at the second vertex where it is a rectangle, and not turned.
   auto const bounds = bounds_of(polygon, placement_.rotation);
   double const c = std::cos(placement_.rotation);
@@ -128,16 +138,38 @@ ScreenPlacement ScreenMaker::placement(Polygon const& polygon) const {
           placement_.origin_v + s * bounds.low_u + c * bounds.low_v, placement_.rotation};
 }
 
-ScreenMaker::Made const& ScreenMaker::find_or_make(Polygon const& polygon) {
+ScreenPlacement ScreenMaker::placement_on(TextureAxes const& texture,
+                                          Polygon const& polygon) const {
+  auto from = texture.origin;
+  if (stretches()) {
+    // Tiles alike repeat: the one nearest to the polygon errs the least where scales differ.
+    auto const& outline = polygon.outline;
+    auto const middle = std::accumulate(outline.begin(), outline.end(), glm::dvec3(0.0)) /
+                        static_cast<double>(outline.size());
+    for (auto const& axis : {texture.u, texture.v}) {
+      from += std::round(glm::dot(middle - texture.origin, axis) / glm::dot(axis, axis)) * axis;
+    }
+  }
+  auto const axes = tile_axes(polygon, {});
+  auto const along = glm::normalize(texture.u);
+  auto const across = glm::cross(normal(polygon), along);
+  from += placement_.origin_u * along + placement_.origin_v * across - axes.origin;
+  return {glm::dot(from, axes.u), glm::dot(from, axes.v),
+          std::atan2(glm::dot(along, axes.v), glm::dot(along, axes.u)) + placement_.rotation};
+}
+
+ScreenMaker::Made const& ScreenMaker::find_or_make(Polygon const& polygon,
+                                                   std::optional<TextureAxes> const& axes) {
   auto const* const texture = std::get_if<ScreenTexture>(&holes_);
   if (texture == nullptr) return made_.front();
-  auto const [width, height] = tile_size(*texture, polygon, placement_.rotation);
+  auto const [width, height] = tile_size(*texture, polygon, placement_.rotation, axes);
   // Equal surfaces differ by the rounding of their vertices.
-  constexpr double same = 1e-4;
+  constexpr double rounding = 1e-4;
+  auto const same = [&](double a, double b) {
+    return std::abs(a - b) <= (axes ? std::max(rounding, same_scale * b) : rounding);
+  };
   for (auto const& made : made_) {
-    if (std::abs(made.width - width) <= same && std::abs(made.height - height) <= same) {
-      return made;
-    }
+    if (same(made.width, width) && same(made.height, height)) return made;
   }
   try {
     made_.push_back(make_of(*texture, width, height));

@@ -28,6 +28,17 @@ struct ScreenTexture {
   std::optional<double> height = std::nullopt;
 };
 
+// Where texture coordinates lie on a mesh, in world axes: (0, 0), and what they grow along, of the
+// length that makes them 1.
+struct TextureAxes {
+  glm::dvec3 origin;
+  glm::dvec3 u;
+  glm::dvec3 v;
+};
+
+// Tiles of a mesh whose width and height differ by less than this share are one.
+inline constexpr double same_scale = 5e-3;
+
 // Makes the screens of one GPUShading:PerforatedScreen, which has one for all its surfaces, but for
 // a texture that each surface has in its own size. For one thread at a time. Every function throws
 // Error, naming object, field and value, the constructor without the object.
@@ -41,13 +52,21 @@ class ScreenMaker {
 
   std::string const& object() const { return object_; }
 
-  // Equal screens are one. A texture's file is read at the first call.
-  std::shared_ptr<PerforatedScreen const> make(Polygon const& polygon);
+  // Equal screens are one. A texture's file is read at the first call. On a mesh, which has texture
+  // coordinates, these take the place of the surface's lower left corner and lower edge, and unless
+  // the tile has a size one unit of them is one tile.
+  std::shared_ptr<PerforatedScreen const> make(
+      Polygon const& polygon, std::optional<TextureAxes> const& texture = std::nullopt);
 
-  ScreenPlacement placement(Polygon const& polygon) const;
+  ScreenPlacement placement(Polygon const& polygon,
+                            std::optional<TextureAxes> const& texture = std::nullopt) const;
 
   // "perforated (round holes 5 mm, ...)": what make() gives.
-  std::string describe(Polygon const& polygon);
+  std::string describe(Polygon const& polygon,
+                       std::optional<TextureAxes> const& texture = std::nullopt);
+
+  // Whether tiles are of the size of each surface, or of a unit of a mesh's texture coordinates.
+  bool stretches() const;
 
   // One line for what is odd about the screens that were made.
   std::vector<std::string> const& warnings() const { return warnings_; }
@@ -60,7 +79,8 @@ class ScreenMaker {
     std::string description;
   };
 
-  Made const& find_or_make(Polygon const& polygon);
+  Made const& find_or_make(Polygon const& polygon, std::optional<TextureAxes> const& texture);
+  ScreenPlacement placement_on(TextureAxes const& texture, Polygon const& polygon) const;
   Made make_of(HolePattern const& pattern);
   Made make_of(ScreenTexture const& texture, double width, double height);
   static std::vector<std::uint16_t> read_texture(ScreenTexture const& texture);

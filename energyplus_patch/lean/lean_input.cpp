@@ -249,4 +249,8 @@ LeanInput plan_lean_input(std::vector<InputObject> const& objects, ShadingInput 
   return none;
 }
 
+void ensure_placeholders(LeanInput& lean, ShadingInput const& input) {
+  if (lean.placeholders.empty()) lean.placeholders = make_placeholders({}, all_surfaces(input));
+}
+
 }  // namespace gpu_shading::energyplus

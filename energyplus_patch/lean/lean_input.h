@@ -36,4 +36,7 @@ inline constexpr std::size_t fewest_left_out = 100;
 LeanInput plan_lean_input(std::vector<InputObject> const& objects, ShadingInput const& input,
                           Options const& options, MentionFinder const& find_mentions);
 
+// Placeholders for casters that EnergyPlus never had, where nothing else has put them up.
+void ensure_placeholders(LeanInput& lean, ShadingInput const& input);
+
 }  // namespace gpu_shading::energyplus

@@ -9,12 +9,17 @@ namespace {
 
 using Corner = std::array<double, 3>;
 
-// Centred on the ground, where EnergyPlus takes a surface's air temperature from.
+// Centred on the ground, where EnergyPlus takes a surface's air temperature from. It faces the
+// model.
 std::array<Corner, 4> corners(Placeholder const& placeholder) {
   constexpr double far = 1e6;  // metres: no model's coordinates are larger
-  double const side = placeholder.north ? 1.0 : -1.0;
-  auto const corner = [&](double x, double z) { return Corner{x * far, side * far, z * far}; };
-  return {corner(side, 1), corner(side, -1), corner(-side, -1), corner(-side, 1)};
+  constexpr double width = 0.1;
+  double const east = placeholder.quarter == 0 || placeholder.quarter == 3 ? 1.0 : -1.0;
+  double const north = placeholder.quarter < 2 ? 1.0 : -1.0;
+  auto const corner = [&](double side, double z) {
+    return Corner{east * far + side * north * width, north * far - side * east * width, z * far};
+  };
+  return {corner(-1, 1), corner(-1, -1), corner(1, -1), corner(1, 1)};
 }
 
 }  // namespace
@@ -23,16 +28,15 @@ std::vector<Placeholder> make_placeholders(std::vector<std::string> const& sched
                                            Names const& taken) {
   std::vector<Placeholder> placeholders;
   int number = 0;
-  auto const add = [&](std::string const& schedule, bool north) {
+  auto const add = [&](std::string const& schedule, int quarter) {
     std::string name;
     do {
       name = fmt::format("GPU SHADING PLACEHOLDER {}", ++number);
     } while (taken.contains(name));
-    placeholders.push_back({name, schedule, north});
+    placeholders.push_back({name, schedule, quarter});
   };
-  add("", true);
-  add("", false);
-  for (auto const& schedule : schedules) add(schedule, true);
+  for (int quarter = 0; quarter < 4; ++quarter) add("", quarter);
+  for (auto const& schedule : schedules) add(schedule, 0);
   return placeholders;
 }
 

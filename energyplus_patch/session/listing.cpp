@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <unordered_map>
 
 #include "session/shade_optics.h"
 #include "session/shading_rule.h"
@@ -36,13 +38,46 @@ std::string describe_tile(Model const& model, Surface const& surface) {
                      place(axes.u, 4), place(axes.v, 4));
 }
 
-// All but what stands in for surfaces that were left out of EnergyPlus's input.
+// All but what stands in for casters that EnergyPlus does not know, and the surroundings.
 std::vector<SurfaceId> listed(Scene const& scene, Model const& model) {
   std::vector<SurfaceId> ids;
   for (SurfaceId id = 0; id < scene.size(); ++id) {
-    if (!model.lean.is_placeholder(scene[id].name)) ids.push_back(id);
+    auto const& name = scene[id].name;
+    if (!model.lean.is_placeholder(name) && !model.surroundings.types.contains(name)) {
+      ids.push_back(id);
+    }
   }
   return ids;
+}
+
+// All triangles of one name.
+struct MeshRow {
+  SurfaceId first;
+  double area = 0.0;
+};
+
+std::vector<MeshRow> meshes_of(Scene const& scene, Model const& model) {
+  std::vector<MeshRow> rows;
+  std::unordered_map<std::string_view, std::size_t> known;
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    auto const& surface = scene[id];
+    auto const type = model.surroundings.types.find(surface.name);
+    if (type == model.surroundings.types.end() || type->second != "GPUShading:Geometry") continue;
+    auto const size = area(surface.polygon);
+    if (size <= 0.0) continue;
+    auto const [row, added] = known.try_emplace(surface.name, rows.size());
+    if (added) rows.push_back({id});
+    rows[row->second].area += size;
+  }
+  return rows;
+}
+
+// Before the table.
+std::string remarks_of(Model const& model) {
+  std::string text;
+  if (!model.lean.remark.empty()) text += model.lean.remark + "\n";
+  for (auto const& remark : model.surroundings.remarks) text += remark + "\n";
+  return text.empty() ? text : text + "\n";
 }
 
 }  // namespace
@@ -56,7 +91,12 @@ std::string list_surfaces(Scene const& scene, Model const& model, std::vector<bo
     width = std::max(width, scene[id].name.size());
     kind_width = std::max(kind_width, kind_of(scene[id].name, input).size());
   }
-  std::string text = model.lean.remark.empty() ? "" : model.lean.remark + "\n\n";
+  auto text = remarks_of(model);
+  auto const meshes = meshes_of(scene, model);
+  for (auto const& mesh : meshes) {
+    width = std::max(width, scene[mesh.first].name.size());
+    kind_width = std::max(kind_width, kind_of(scene[mesh.first].name, input).size());
+  }
   text += fmt::format("{:{}}  {:{}}  {:>12}  {:8}  {}\n", "surface", width, "kind", kind_width,
                       "area [m2]", "receives", "casts");
   for (auto const id : ids) {
@@ -73,7 +113,13 @@ std::string list_surfaces(Scene const& scene, Model const& model, std::vector<bo
                                                             : "not");
     if (!empty) text += describe_tile(model, surface);
   }
-  text += fmt::format("{} surfaces\n", ids.size());
+  for (auto const& mesh : meshes) {
+    auto const& surface = scene[mesh.first];
+    text += fmt::format("{:{}}  {:{}}  {:12.3f}  {:8}  {}\n", surface.name, width,
+                        kind_of(surface.name, input), kind_width, mesh.area, "no",
+                        describe_optics(model, surface, model.surroundings.texture_of(mesh.first)));
+  }
+  text += fmt::format("{} surfaces\n", ids.size() + meshes.size());
   return text;
 }
 

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <set>
+#include <string_view>
 
 #include "gpu_shading/error.h"
 #include "session/build_id.h"
@@ -16,6 +18,7 @@
 #include "session/report.h"
 #include "session/scene_hash.h"
 #include "session/shading_rule.h"
+#include "site/own_building.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -85,8 +88,7 @@ void Session::start(Messages messages, Schedules schedules) {
       unshaded_[id] = area(polygon) * normal(polygon);
     }
   }
-  for (auto& caster : model_.lean.casters) scene_.add(std::move(caster));
-  model_.lean.casters.clear();
+  add_outside_casters();
   optics_ = ShadeOptics(model_, std::move(schedules));
   if (char const* const listing = std::getenv(listing_variable)) {
     bool const vertices = std::getenv(vertices_variable) != nullptr;
@@ -111,7 +113,8 @@ void Session::draw(std::filesystem::path const& folder, int size, std::vector<bo
   auto const views = read_views(folder / views_list);
   std::vector<SurfaceId> shown;
   for (SurfaceId id = 0; id < scene_.size(); ++id) {
-    if (!model_.lean.is_placeholder(scene_[id].name)) shown.push_back(id);
+    // Terrain and a town, which shade all the same, would make a dot of the model.
+    if (!model_.lean.is_placeholder(scene_[id].name) && !is_site_context(id)) shown.push_back(id);
   }
   wanted.resize(scene_.size(), false);  // what was left out of EnergyPlus's input only casts
   model_.options.cache.reset();         // nothing is answered
@@ -124,6 +127,18 @@ void Session::draw(std::filesystem::path const& folder, int size, std::vector<bo
       {*renderer_, model_.options.device, shown, std::move(wanted), optics_.factors(), size});
 }
 
+void Session::add_outside_casters() {
+  for (auto& caster : model_.lean.casters) scene_.add(std::move(caster));
+  model_.lean.casters.clear();
+  model_.surroundings.first = static_cast<SurfaceId>(scene_.size());
+  for (auto& caster : model_.surroundings.casters) scene_.add(std::move(caster.surface));
+}
+
+bool Session::is_site_context(SurfaceId id) const {
+  auto const type = model_.surroundings.types.find(scene_[id].name);
+  return type != model_.surroundings.types.end() && type->second == "GPUShading:SiteContext";
+}
+
 void Session::open_renderer() {
   store_answers();
   std::vector<std::string> names;
@@ -133,7 +148,7 @@ void Session::open_renderer() {
   for (SurfaceId id = 0; id < scene_.size(); ++id) {
     auto surface = scene_[id];
     names.push_back(surface.name);
-    optics_.apply(surface);
+    optics_.apply(surface, model_.surroundings.texture_of(id));
     if (surface.casting != Casting::never) ++casters_;
     scene.add(std::move(surface));
   }
@@ -210,16 +225,36 @@ void Session::describe_surfaces() {
                     "GPU Shading Lean Input,{},{}\n",
                     model_.lean.left_out.size(), remark));
   }
+  describe_surroundings();
   warn_of_actuated_schedules();
   bool first = true;
+  std::set<std::string_view> described;  // a mesh's triangles share its name
   for (auto const id : shading_surfaces()) {
-    auto optics = describe_optics(model_, scene_[id]);
+    if (described.contains(scene_[id].name)) continue;
+    auto optics = describe_optics(model_, scene_[id], model_.surroundings.texture_of(id));
     if (optics == "opaque") continue;
+    described.insert(scene_[id].name);
     if (first) messages_.eio("! <GPU Shading Surface>, Surface Name, Transmittance\n");
     first = false;
     // Commas part the file's fields.
     std::replace(optics.begin(), optics.end(), ',', ';');
     messages_.eio(fmt::format("GPU Shading Surface,{},{}\n", scene_[id].name, optics));
+  }
+}
+
+void Session::describe_surroundings() {
+  auto const& surroundings = model_.surroundings;
+  if (surroundings.empty()) return;
+  for (auto const& warning : surroundings.warnings) messages_.warning(warning);
+  for (auto const& line : warn_of_own_buildings(surroundings.buildings, scene_, model_.shading)) {
+    messages_.warning(line);
+  }
+  messages_.eio("! <GPU Shading Surroundings>, Remark\n");
+  for (auto remark : surroundings.remarks) {
+    messages_.remark(remark);
+    // Commas part the file's fields.
+    std::replace(remark.begin(), remark.end(), ',', ';');
+    messages_.eio(fmt::format("GPU Shading Surroundings,{}\n", remark));
   }
 }
 

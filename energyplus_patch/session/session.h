@@ -78,8 +78,11 @@ class Session {
   void render(Answers::Direction& direction);
   std::vector<Sunlit> const& find_interior(SurfaceId window,
                                            std::vector<SurfaceId> const& interiors);
+  void add_outside_casters();
+  bool is_site_context(SurfaceId id) const;
   void describe_surfaces();
   void draw(std::filesystem::path const& folder, int size, std::vector<bool> wanted);
+  void describe_surroundings();
   void warn_of_actuated_schedules() const;
   void add_walls_without_openings();
   void open_renderer();

@@ -71,14 +71,14 @@ void ShadeOptics::make_factor(std::string const& name, Schedule& schedule) {
   factors_.push_back(0.0);
 }
 
-void ShadeOptics::apply(Surface& surface) const {
+void ShadeOptics::apply(Surface& surface, std::optional<TextureAxes> const& texture) const {
   auto const shading = model_->shading.shading_surfaces.find(surface.name);
   if (shading == model_->shading.shading_surfaces.end()) return;
   auto const shade = model_->shades.by_surface.find(surface.name);
   if (shade != model_->shades.by_surface.end()) {
     surface.transmittance = shade->second.transmittance;
   }
-  apply_screen(surface);
+  apply_screen(surface, texture);
   auto const schedule = by_name_.find(shading->second.transmittance_schedule);
   if (schedule == by_name_.end()) return;
   auto const& held = schedule->second.held;
@@ -101,11 +101,11 @@ void ShadeOptics::apply(Surface& surface) const {
   }
 }
 
-void ShadeOptics::apply_screen(Surface& surface) const {
+void ShadeOptics::apply_screen(Surface& surface, std::optional<TextureAxes> const& texture) const {
   auto const* const screen = screen_of(*model_, surface);
   if (screen == nullptr) return;
-  surface.screen = screen->maker->make(surface.polygon);
-  surface.placement = screen->maker->placement(surface.polygon);
+  surface.screen = screen->maker->make(surface.polygon, texture);
+  surface.placement = screen->maker->placement(surface.polygon, texture);
   auto const& known = deployment_names_;
   auto const found = std::find(known.begin(), known.end(), screen->deployment_schedule);
   if (found != known.end()) surface.deployment = static_cast<int>(found - known.begin());
@@ -130,7 +130,8 @@ bool ShadeOptics::update(Moment moment) {
   return changed;
 }
 
-std::string describe_optics(Model const& model, Surface const& surface) {
+std::string describe_optics(Model const& model, Surface const& surface,
+                            std::optional<TextureAxes> const& texture) {
   auto const shading = model.shading.shading_surfaces.find(surface.name);
   if (shading == model.shading.shading_surfaces.end()) return "opaque";
   auto const shade = model.shades.by_surface.find(surface.name);
@@ -140,7 +141,7 @@ std::string describe_optics(Model const& model, Surface const& surface) {
     text = fmt::format("transparent ({})", shade->second.description);
   }
   if (auto const* const screen = screen_of(model, surface)) {
-    text = screen->maker->describe(surface.polygon);
+    text = screen->maker->describe(surface.polygon, texture);
     if (!screen->deployment_schedule.empty()) {
       text += fmt::format(" deployed by {}", screen->deployment_schedule);
     }

@@ -23,9 +23,9 @@ class ShadeOptics {
   // Throws Error, naming object and field, where EnergyPlus lacks a schedule.
   ShadeOptics(Model const& model, Schedules schedules);
 
-  // Sets a surface's casting, transmittance, schedule, screen and deployment. Throws Error where a
-  // screen's texture cannot be read.
-  void apply(Surface& surface) const;
+  // Sets a surface's casting, transmittance, schedule, screen and deployment. `texture`: of a
+  // mesh. Throws Error where a screen's texture cannot be read.
+  void apply(Surface& surface, std::optional<TextureAxes> const& texture = std::nullopt) const;
 
   // Reads the schedules. True where one that was taken for a number has another value: optics have
   // to be applied anew.
@@ -45,7 +45,7 @@ class ShadeOptics {
   void add_transmittance_schedules();
   void add_deployments();
   void make_factor(std::string const& name, Schedule& schedule);
-  void apply_screen(Surface& surface) const;
+  void apply_screen(Surface& surface, std::optional<TextureAxes> const& texture) const;
 
   Model const* model_ = nullptr;
   Schedules schedules_;
@@ -61,6 +61,7 @@ class ShadeOptics {
 
 // "transparent (construction Double)", "opaque", ...: for listings. Throws Error where a screen's
 // texture cannot be read.
-std::string describe_optics(Model const& model, Surface const& surface);
+std::string describe_optics(Model const& model, Surface const& surface,
+                            std::optional<TextureAxes> const& texture = std::nullopt);
 
 }  // namespace gpu_shading::energyplus

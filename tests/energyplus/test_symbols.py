@@ -18,19 +18,26 @@ def bindings(folder):
 
 
 def test_no_library_takes_another_ones_symbols(patched, courtyard, weather, tmp_path):
-    # With pictures, so that OpenImageIO's libraries are there as well as Mesa's.
-    run = energyplus.run(patched, courtyard, weather, tmp_path / "run",
+    # With pictures and a mesh, so that OpenImageIO's libraries and Assimp's are there as well as Mesa's.
+    (tmp_path / "flag.obj").write_text("v 0 0 90\nv 1 0 90\nv 0 0 91\nf 1 2 3\n")
+    model = tmp_path / "model.idf"
+    model.write_text(courtyard.read_text() + "GPUShading:Geometry,Flag,flag.obj,m,Z;\n")
+    run = energyplus.run(patched, model, weather, tmp_path / "run",
                          ["--gpu-shading", f"--gpu-shading-report={tmp_path / 'report'}", "-D"],
                          {"LD_DEBUG": "bindings", "LD_DEBUG_OUTPUT": str(tmp_path / "bindings")})
     assert run.completed, run.why()
     assert list((tmp_path / "report").glob("*.png")), "no pictures: OpenImageIO was not loaded"
     seen = 0
+    users = set()
     for user, owner, symbol in bindings(tmp_path):
         seen += 1
+        users.add(user)
         if "libenergyplusapi" in owner and "libenergyplusapi" not in user:
             assert UNIQUE.match(symbol), f"{user} uses EnergyPlus's {symbol}"
         if "libgpu_shading" in owner:
             assert "libgpu_shading" in user, f"{user} uses our {symbol}"
         if "libenergyplusapi" in user:
-            assert not re.search(r"swrast|gallium|expat|libpng|libtiff|sqlite", owner), f"{symbol} of {owner}"
+            foreign = r"swrast|gallium|expat|libpng|libtiff|sqlite|assimp|libz\."
+            assert not re.search(foreign, owner), f"{symbol} of {owner}"
     assert seen > 1000, "the loader's log was not read"
+    assert any("libassimp" in user for user in users), "no mesh: Assimp was not loaded"

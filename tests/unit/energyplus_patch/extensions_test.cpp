@@ -53,7 +53,8 @@ TEST(Extensions, DictionaryHasTheFieldsThatAreReadInTheirOrder) {
       found.push_back(snake_case((*match)[1]));
     }
     auto expected = fields_of(type);
-    if (!find_type(type)->list.empty()) expected.back() = "value_1";
+    auto const& known = *find_type(type);
+    if (!known.list.empty()) expected.back() = std::string(known.list_field) + "_1";
     EXPECT_EQ(found, expected) << type;
   }
 }

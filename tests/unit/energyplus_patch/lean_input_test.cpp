@@ -4,6 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
 #include "input/model_file.h"
 
 namespace gpu_shading::energyplus {
@@ -59,10 +64,41 @@ TEST(LeanInput, EverySchedulePutsUpAPlaceholder) {
     names.push_back(placeholder.name);
     schedules.push_back(placeholder.schedule);
   }
-  EXPECT_THAT(schedules, ElementsAre("", "", "Leaves", "Glass"));
+  EXPECT_THAT(schedules, ElementsAre("", "", "", "", "Leaves", "Glass"));
   EXPECT_EQ(names.front(), "GPU SHADING PLACEHOLDER 2");
   EXPECT_TRUE(lean.is_placeholder(names.back()));
   EXPECT_FALSE(lean.is_placeholder("ONE"));
+}
+
+TEST(LeanInput, SomeEndOfAPlaceholderIsBeforeEveryPlane) {
+  auto const lean = plan(rules + shade("One"));
+  std::vector<glm::dvec3> ends;
+  for (auto const& placeholder : lean.placeholders) {
+    auto const fields = placeholder_fields(placeholder);
+    ASSERT_EQ(fields.size(), 3U + 4U * 3U);
+    Polygon pole;
+    for (std::size_t i = 3; i < fields.size(); i += 3) {
+      pole.outline.emplace_back(std::stod(fields[i]), std::stod(fields[i + 1]),
+                                std::stod(fields[i + 2]));
+    }
+    ends.insert(ends.end(), pole.outline.begin(), pole.outline.end());
+    // Level, towards the model.
+    EXPECT_LT(glm::dot(normal(pole), pole.outline[0]), 0.0);
+    EXPECT_NEAR(normal(pole).z, 0.0, 1e-6);
+    // What of the sky it hides, in radians of its width.
+    EXPECT_LT(glm::distance(pole.outline[1], pole.outline[2]) / glm::length(pole.outline[1]), 1e-6);
+  }
+  // Planes through the edge of a model of 100 km, whatever way they face.
+  for (int azimuth = 0; azimuth < 360; azimuth += 7) {
+    for (int tilt = 0; tilt <= 180; tilt += 5) {
+      double const a = glm::radians(static_cast<double>(azimuth));
+      double const t = glm::radians(static_cast<double>(tilt));
+      glm::dvec3 const facing(std::sin(t) * std::sin(a), std::sin(t) * std::cos(a), std::cos(t));
+      EXPECT_TRUE(std::any_of(ends.begin(), ends.end(),
+                              [&](glm::dvec3 const& end) { return glm::dot(facing, end) > 1e5; }))
+          << azimuth << ' ' << tilt;
+    }
+  }
 }
 
 TEST(LeanInput, FewSurfacesStayUnlessAskedFor) {
@@ -96,7 +132,7 @@ TEST(LeanInput, TheRestOfTheTextIsKept) {
   auto const text = rewrite_idf("ShadowCalculation,PixelCounting,Periodic;" + kept + gone, rewrite);
   EXPECT_THAT(text, HasSubstr(kept));
   EXPECT_THAT(text, Not(HasSubstr("oes,")));
-  EXPECT_EQ(read_idf(text).size(), 5U);  // with two placeholders
+  EXPECT_EQ(read_idf(text).size(), 7U);  // with four placeholders
 }
 
 TEST(LeanInput, EpJsonIsRewrittenAlike) {
@@ -107,8 +143,8 @@ TEST(LeanInput, EpJsonIsRewrittenAlike) {
   EXPECT_FALSE(model.contains("ShadingProperty:Reflectance"));
   EXPECT_FALSE(model.contains("Shading:Zone:Detailed"));
   auto const& site = model.at("Shading:Site:Detailed");
-  EXPECT_EQ(site.size(), 4U);
-  EXPECT_EQ(site.at("GPU SHADING PLACEHOLDER 3").at("transmittance_schedule_name"), "Half");
+  EXPECT_EQ(site.size(), 6U);
+  EXPECT_EQ(site.at("GPU SHADING PLACEHOLDER 5").at("transmittance_schedule_name"), "Half");
   EXPECT_EQ(site.at("GPU SHADING PLACEHOLDER 1").at("vertices").size(), 4U);
 }
 

@@ -1,4 +1,4 @@
-#include "images/load_library.h"
+#include "host/helper_library.h"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 std::filesystem::path folder_of_this_code() {
   Dl_info info{};
   link_map* map = nullptr;
-  dladdr1(reinterpret_cast<void const*>(&image_function), &info, reinterpret_cast<void**>(&map),
+  dladdr1(reinterpret_cast<void const*>(&helper_function), &info, reinterpret_cast<void**>(&map),
           RTLD_DL_LINKMAP);
   // A program itself has no name there, and the one that it was called by may lead nowhere.
   if (map == nullptr || map->l_name == nullptr || *map->l_name == '\0') return own_folder();
@@ -24,9 +24,8 @@ std::filesystem::path folder_of_this_code() {
 
 }  // namespace
 
-void* image_function(char const* what, char const* name) {
-  constexpr char const* library = "libgpu_shading_images.so";
-  static auto const path = folder_of_this_code() / library;
+void* helper_function(char const* library, char const* what, char const* name) {
+  auto const path = folder_of_this_code() / library;
   void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) throw Error(fmt::format("{} need {}: {}", what, library, dlerror()));
   void* const function = dlsym(handle, name);

@@ -1,0 +1,191 @@
+#include "site/geometry.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <utility>
+
+#include "gpu_shading/error.h"
+#include "gpu_shading/local_axes.h"
+#include "input/fields.h"
+#include "meshes/mesh_file.h"
+#include "site/extent.h"
+#include "site/left_out.h"
+#include "site/texture_axes.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+constexpr std::string_view type = "GPUShading:Geometry";
+
+constexpr Field file_name{"file_name", "File Name"};
+constexpr Field unit{"unit", "Unit"};
+constexpr Field up_axis{"up_axis", "Up Axis"};
+constexpr Field x{"x", "X"};
+constexpr Field y{"y", "Y"};
+constexpr Field z{"z", "Z"};
+constexpr Field latitude{"latitude", "Latitude"};
+constexpr Field longitude{"longitude", "Longitude"};
+constexpr Field elevation{"elevation", "Elevation"};
+constexpr Field rotation{"rotation", "Rotation"};
+
+// world = origin + axes x the file's point.
+struct Placement {
+  glm::dmat3 axes{1.0};
+  glm::dvec3 origin{0.0};
+
+  glm::dvec3 operator()(glm::dvec3 const& point) const { return origin + axes * point; }
+};
+
+// The file's axes to x east, y north, z up, in metres.
+glm::dmat3 read_axes(InputObject const& object, bool stated) {
+  // Columns: where the file's x, y and z point. With y up, north is away from the viewer: -z.
+  glm::dmat3 const y_up{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
+  if (stated) {
+    expect_blank(object, {unit, up_axis}, "with a file that states its own");
+    return y_up;
+  }
+  double const metres =
+      choice(object, unit,
+             {Key<double>{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}});
+  bool const is_y = choice(object, up_axis, {Key<bool>{"Y", true}, {"Z", false}});
+  return metres * (is_y ? y_up : glm::dmat3(1.0));
+}
+
+// Clockwise, seen from above.
+glm::dmat3 turned(double degrees) {
+  double const angle = glm::radians(degrees);
+  double const c = std::cos(angle);
+  double const s = std::sin(angle);
+  return {{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
+}
+
+Placement read_placement(InputObject const& object, bool stated,
+                         std::optional<SiteOrigin> const& origin) {
+  auto const axes = turned(number(object, rotation).value_or(0.0)) * read_axes(object, stated);
+  auto const lat = number(object, latitude);
+  auto const lon = number(object, longitude);
+  if (lat.has_value() != lon.has_value()) {
+    throw Error(fmt::format("{} is blank, expected degrees as {} is given",
+                            lat ? longitude.title : latitude.title,
+                            lat ? latitude.title : longitude.title));
+  }
+  if (!lat) {
+    expect_blank(object, {elevation}, "without Latitude and Longitude");
+    return {axes,
+            {number(object, x).value_or(0.0), number(object, y).value_or(0.0),
+             number(object, z).value_or(0.0)}};
+  }
+  expect_blank(object, {x, y, z}, "with Latitude and Longitude");
+  GeographicPoint const place{*lat, *lon,
+                              number(object, elevation).value_or(origin->place.elevation)};
+  LocalAxes const check(place);
+  LocalAxes const world(origin->place);
+  return {world.axes_at(place) * axes, world.to_local(place)};
+}
+
+// Of one object: what it has put up.
+class Builder {
+ public:
+  Builder(InputObject const& object, Surroundings& surroundings)
+      : object_(object), surroundings_(surroundings), left_out_(read_left_out(object)) {}
+
+  void add(Mesh const& mesh, Placement const& place) {
+    auto const part = mesh.material + ":" + mesh.name;
+    if (is_left_out(left_out_, part)) {
+      ++left_out_meshes_;
+      return;
+    }
+    auto const name = upper(object_.name + ":" + part);
+    surroundings_.types.try_emplace(name, std::string(type));
+    ++meshes_;
+    std::vector<glm::dvec3> points;
+    points.reserve(mesh.positions.size());
+    for (auto const& position : mesh.positions) points.push_back(place(position));
+    surroundings_.casters.reserve(surroundings_.casters.size() + mesh.triangles.size());
+    for (auto const& [a, b, c] : mesh.triangles) {
+      OutsideCaster caster;
+      caster.surface.name = name;
+      caster.surface.polygon.outline = {points[a], points[b], points[c]};
+      if (!mesh.texture.empty()) {
+        caster.texture = texture_axes({points[a], points[b], points[c]},
+                                      {mesh.texture[a], mesh.texture[b], mesh.texture[c]});
+      }
+      turn_to_read(caster);
+      extent_.include(caster.surface.polygon.outline);
+      surroundings_.casters.push_back(std::move(caster));
+      ++triangles_;
+    }
+  }
+
+  std::string describe(std::string const& file) const {
+    return fmt::format("{} {}: {}: {} mesh{}, {} triangles{}; {}", type, object_.name, file,
+                       meshes_, meshes_ == 1 ? "" : "es", triangles_,
+                       left_out_meshes_ == 0 ? "" : fmt::format(" ({} left out)", left_out_meshes_),
+                       extent_.describe());
+  }
+
+ private:
+  // So that u, v and the normal are right-handed.
+  static void turn_to_read(OutsideCaster& caster) {
+    if (!caster.texture) return;
+    auto& ring = caster.surface.polygon.outline;
+    auto const facing = glm::cross(ring[1] - ring[0], ring[2] - ring[0]);
+    if (glm::dot(glm::cross(caster.texture->u, caster.texture->v), facing) < 0.0) {
+      std::swap(ring[1], ring[2]);
+    }
+  }
+
+  InputObject const& object_;
+  Surroundings& surroundings_;
+  std::vector<std::string> left_out_;
+  Extent extent_;
+  std::size_t meshes_ = 0;
+  std::size_t triangles_ = 0;
+  std::size_t left_out_meshes_ = 0;
+};
+
+void read_geometry(InputObject const& object, std::filesystem::path const& folder,
+                   std::optional<SiteOrigin> const& origin, Surroundings& surroundings) {
+  auto const& file = object[file_name.name];
+  if (file.empty()) {
+    throw Error(fmt::format("{} is blank, expected the name of a mesh", file_name.title));
+  }
+  bool stated = false;
+  std::vector<Mesh> meshes;
+  auto const of_file = [&](auto const& action) {
+    try {
+      action();
+    } catch (Error const& error) {
+      throw Error(fmt::format("{}: {}", file_name.title, error.what()));
+    }
+  };
+  of_file([&] { stated = states_its_axes(file); });
+  auto const placement = read_placement(object, stated, origin);
+  of_file([&] { meshes = read_meshes(folder / file); });
+  Builder builder(object, surroundings);
+  for (auto const& mesh : meshes) builder.add(mesh, placement);
+  surroundings.remarks.push_back(builder.describe(file));
+}
+
+}  // namespace
+
+bool needs_origin(std::vector<InputObject> const& objects) {
+  return std::any_of(objects.begin(), objects.end(), [](InputObject const& object) {
+    return object.type == type && !object[latitude.name].empty();
+  });
+}
+
+void read_geometries(std::vector<InputObject> const& objects, std::filesystem::path const& folder,
+                     std::optional<SiteOrigin> const& origin, Surroundings& surroundings) {
+  for (auto const& object : objects) {
+    if (object.type != type) continue;
+    try {
+      read_geometry(object, folder, origin, surroundings);
+    } catch (Error const& error) {
+      throw Error(fmt::format("{} {}: {}", type, object.name, error.what()));
+    }
+  }
+}
+
+}  // namespace gpu_shading::energyplus

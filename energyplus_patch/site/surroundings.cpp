@@ -1,0 +1,56 @@
+#include "site/surroundings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "site/geometry.h"
+#include "site/site_context.h"
+#include "site/site_origin.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+bool any_of_type(std::vector<InputObject> const& objects, std::string_view type) {
+  return std::any_of(objects.begin(), objects.end(),
+                     [&](InputObject const& object) { return object.type == type; });
+}
+
+void warn_of_rays(std::vector<InputObject> const& objects, Surroundings& surroundings) {
+  constexpr std::string_view whom =
+      "GPUShading:SiteContext and GPUShading:Geometry: EnergyPlus knows nothing of their casters";
+  bool const daylight = std::any_of(objects.begin(), objects.end(), [](InputObject const& object) {
+    return object.type.starts_with("Daylighting");
+  });
+  if (daylight) {
+    surroundings.warnings.push_back(fmt::format("daylighting does not see {}", whom));
+  }
+  for (auto const& object : objects) {
+    if (object.type == "Building" && upper(object["solar_distribution"]).ends_with("REFLECTIONS")) {
+      surroundings.warnings.push_back(fmt::format("solar reflections do not see {}", whom));
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<TextureAxes> Surroundings::texture_of(SurfaceId surface) const {
+  if (surface < first || surface - first >= casters.size()) return std::nullopt;
+  return casters[surface - first].texture;
+}
+
+Surroundings read_surroundings(std::vector<InputObject> const& objects,
+                               std::filesystem::path const& folder) {
+  Surroundings surroundings;
+  std::optional<SiteOrigin> origin;
+  if (any_of_type(objects, "GPUShading:SiteContext") || needs_origin(objects)) {
+    origin = find_site_origin(objects);
+    read_site_contexts(objects, folder, *origin, surroundings);
+  }
+  read_geometries(objects, folder, origin, surroundings);
+  if (!surroundings.empty()) warn_of_rays(objects, surroundings);
+  return surroundings;
+}
+
+}  // namespace gpu_shading::energyplus

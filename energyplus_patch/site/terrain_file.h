@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+
+#include "gpu_shading/terrain.h"
+
+namespace gpu_shading::energyplus {
+
+// Of more nodes the ground is not drawn: a million take a gigabyte.
+inline constexpr int max_terrain_nodes = 1'000'000;
+
+// Reads an ESRI ASCII grid: ncols, nrows, xllcorner or xllcenter, yllcorner or yllcenter, cellsize
+// (or dx and dy), NODATA_value (-9999 where it is absent), then elevations in metres, rows from the
+// north. Nodes are the cells' centres. Throws Error: "FILE: why", one line.
+TerrainGrid read_terrain(std::filesystem::path const& path, MapCoordinates const& coordinates);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "gpu_shading/map_coordinates.h"
+#include "gpu_shading/scene.h"
+
+namespace gpu_shading {
+
+// Elevations at the nodes of a grid along a map's axes.
+struct TerrainGrid {
+  MapCoordinates coordinates;
+  MapPoint first;       // the south-western node
+  double step_x = 0.0;  // between nodes, in the map's units
+  double step_y = 0.0;
+  int columns = 0;
+  int rows = 0;
+  // m, rows from the south, each from the west; not a number where the grid has no data.
+  std::vector<double> elevations;
+
+  double elevation(int column, int row) const {
+    return elevations[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                      static_cast<std::size_t>(column)];
+  }
+};
+
+// Bilinear between the nodes; nothing outside the grid and where one of the four has no data.
+std::optional<double> elevation_at(TerrainGrid const& grid, GeographicPoint const& place);
+
+// The ground as polygons in the axes, facing up: a quadrilateral for each four nodes, a triangle
+// where one of them has no data. Those with a node nearer to the axes' origin than
+// `clear_distance`, in plan, are left out. Throws Error where a node is nowhere on earth.
+std::vector<Polygon> ground(TerrainGrid const& grid, LocalAxes const& axes, double clear_distance);
+
+}  // namespace gpu_shading

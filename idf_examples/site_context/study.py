@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+"""Runs the office for a year with more and more around it, prints what reaches each window, as Markdown.
+
+    study.py [-o DIR]             # the year
+    study.py --load [-o DIR]      # seconds that sails of more and more triangles take to load
+"""
+
+import argparse
+import subprocess
+import sys
+import time
+from pathlib import Path
+from statistics import median
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parents[1] / "scripts")]
+
+import generate  # noqa: E402
+from shading_runs import energyplus, results  # noqa: E402
+
+WEATHER = "USA_CO_Golden-NREL.724666_TMY3.epw"
+VARIANTS = {
+    "nothing": (),
+    "the town": ("town",),
+    "the hills": ("hills",),
+    "the town and the hills": ("town", "hills"),
+    "the town, the hills and the sail": ("town", "hills", "sail"),
+}
+SIDES = ("SOUTH", "EAST", "NORTH", "WEST")
+TRIANGLES = (0, 1_000, 10_000, 100_352)
+
+
+def year(folder):
+    print("| around it | south, kWh | east | north | west | all | of nothing | seconds |")
+    print("|---|---:|---:|---:|---:|---:|---:|---:|")
+    whole = None
+    for number, (name, parts) in enumerate(VARIANTS.items()):
+        path = generate.write(folder / str(number), parts)
+        done = energyplus.run(energyplus.patched_prefix() / "energyplus", path, energyplus.find_weather(WEATHER),
+                              path.parent / "run", ["--gpu-shading"])
+        if not done.completed:
+            sys.exit(f"{name}: {done.why()}")
+        values = results.Results(done.folder, "Monthly")
+        windows = [values.total(results.SOLAR, f"{side} WINDOW") for side in SIDES]
+        whole = whole or sum(windows)
+        cells = " | ".join(f"{value:,.0f}" for value in (*windows, sum(windows)))
+        print(f"| {name} | {cells} | {100 * sum(windows) / whole:.1f} % | {done.seconds:.1f} |", flush=True)
+
+
+def load(folder, times=5):
+    """Seconds of `gpu_shading check`, which reads the model twice and runs EnergyPlus up to its shading."""
+    print("| triangles | seconds |")
+    print("|---:|---:|")
+    for triangles in TRIANGLES:
+        path = generate.write(folder / f"load {triangles}", ("sail",) if triangles else (), triangles)
+        took = []
+        for _ in range(times):
+            start = time.perf_counter()
+            subprocess.run([energyplus.patched_prefix() / "gpu_shading", "check", path], check=True,
+                           stdout=subprocess.DEVNULL)
+            took.append(time.perf_counter() - start)
+        print(f"| {triangles:,} | {median(took):.2f} |", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="What surrounds an office, by the sun in its windows.")
+    parser.add_argument("-o", "--output", type=Path, default=Path("out/site_context"), metavar="DIR",
+                        help="for the runs")
+    parser.add_argument("--load", action="store_true", help="seconds to load meshes instead")
+    arguments = parser.parse_args()
+    (load if arguments.load else year)(arguments.output)
+
+
+if __name__ == "__main__":
+    main()
