@@ -35,10 +35,34 @@ int parse_resolution(std::string const& text) {
   return value;
 }
 
-bool parse_update(std::string const& text) {
-  if (same_name(text, "idf")) return false;
-  if (same_name(text, "timestep")) return true;
-  throw Error(fmt::format("is \"{}\", expected idf or timestep", text));
+struct NamedUpdate {
+  std::string_view name;
+  Update update;
+};
+
+std::array<NamedUpdate, 8> const& all_updates() {
+  using enum Sampling::Density;
+  static std::array<NamedUpdate, 8> const updates{{
+      {"idf", {}},
+      {"timestep", {true}},
+      {"sampled:fine", {true, Sampling{fine, false}}},
+      {"sampled:medium", {true, Sampling{medium, false}}},
+      {"sampled:coarse", {true, Sampling{coarse, false}}},
+      {"sampled:paper-fine", {true, Sampling{fine, true}}},
+      {"sampled:paper-medium", {true, Sampling{medium, true}}},
+      {"sampled:paper-coarse", {true, Sampling{coarse, true}}},
+  }};
+  return updates;
+}
+
+Update parse_update(std::string const& text) {
+  for (auto const& [name, update] : all_updates()) {
+    if (same_name(text, name)) return update;
+  }
+  throw Error(
+      fmt::format("is \"{}\", expected idf, timestep, or sampled: with fine, medium, coarse, "
+                  "paper-fine, paper-medium or paper-coarse behind it",
+                  text));
 }
 
 DeviceChoice parse_device(std::string const& text) {
@@ -73,7 +97,7 @@ std::array<Choice, 9> const& all_choices() {
       {"--gpu-shading-resolution", "GPU_SHADING_RESOLUTION", "resolution", "Resolution",
        [](Choices& c, std::string const& v) { c.resolution = parse_resolution(v); }},
       {"--gpu-shading-update", "GPU_SHADING_UPDATE", "update_frequency", "Update Frequency",
-       [](Choices& c, std::string const& v) { c.every_timestep = parse_update(v); }},
+       [](Choices& c, std::string const& v) { c.update = parse_update(v); }},
       {"--gpu-shading-device", "GPU_SHADING_DEVICE", "device", "Device",
        [](Choices& c, std::string const& v) { c.device = parse_device(v); }},
       {"--gpu-shading-file", "GPU_SHADING_FILE", "", "",
@@ -118,6 +142,13 @@ std::string name_of(Mode mode) {
   return "auto";
 }
 
+std::string name_of(Update const& wanted) {
+  for (auto const& [name, update] : all_updates()) {
+    if (update == wanted) return std::string(name);
+  }
+  return "idf";
+}
+
 std::string name_of(DeviceChoice const& device) {
   switch (device.kind) {
     case DeviceChoice::Kind::software:
@@ -145,7 +176,7 @@ std::string name_of(Lean lean) {
 void Choices::fill_from(Choices const& lower) {
   fill(mode, lower.mode);
   fill(resolution, lower.resolution);
-  fill(every_timestep, lower.every_timestep);
+  fill(update, lower.update);
   fill(device, lower.device);
   fill(file, lower.file);
   fill(report, lower.report);
@@ -155,7 +186,7 @@ void Choices::fill_from(Choices const& lower) {
 }
 
 bool Choices::any() const {
-  return mode || resolution || every_timestep || device || file || report || lean || cache;
+  return mode || resolution || update || device || file || report || lean || cache;
 }
 
 Choices take_flags(std::vector<std::string>& arguments) {
@@ -199,8 +230,7 @@ std::string to_flags(Choices const& choices) {
   };
   if (choices.mode) add("--gpu-shading", name_of(*choices.mode));
   if (choices.resolution) add("--gpu-shading-resolution", std::to_string(*choices.resolution));
-  if (choices.every_timestep)
-    add("--gpu-shading-update", *choices.every_timestep ? "timestep" : "idf");
+  if (choices.update) add("--gpu-shading-update", name_of(*choices.update));
   if (choices.device) add("--gpu-shading-device", name_of(*choices.device));
   if (choices.file) add("--gpu-shading-file", choices.file->string());
   if (choices.report) add("--gpu-shading-report", choices.report->string());
@@ -245,7 +275,7 @@ Options resolve(Choices choices, Choices const& settings, ShadingInput const& in
   options.mode = choices.mode.value_or(Mode::automatic);
   options.resolution = choices.resolution.value_or(
       input.pixel_counting_resolution.value_or(Options::default_resolution));
-  options.every_timestep = choices.every_timestep.value_or(false);
+  options.update = choices.update.value_or(Update{});
   options.device = choices.device.value_or(DeviceChoice{});
   options.report = choices.report;
   options.lean = choices.lean.value_or(Lean::automatic);
@@ -260,7 +290,11 @@ std::string_view flags_help() {
                                        off: stock PolygonClipping, for comparison
   --gpu-shading-resolution N           Pixels a side of a receiver's tile (default: the model's Pixel
                                        Counting Resolution, else 512)
-  --gpu-shading-update idf|timestep    How often shading is calculated (default: idf, as the model asks)
+  --gpu-shading-update idf|timestep|sampled:D
+                                       How often shading is calculated (default: idf, as the model
+                                       asks). sampled:fine, :medium or :coarse: at every timestep, from
+                                       samples of the sun's positions over the year; sampled:paper-fine,
+                                       :paper-medium or :paper-coarse: from a poorer grid, to compare
   --gpu-shading-device auto|N|software Which device renders (default: auto; see gpu_shading devices)
   --gpu-shading-file F                 Extension objects in a file of their own
                                        (default: MODEL.gpu-shading.idf, where it is)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu_shading/device.h"
+#include "gpu_shading/sampled_sunlit.h"
 #include "input/input_object.h"
 #include "input/shading_input.h"
 
@@ -25,11 +26,20 @@ enum class Lean {
   off,
 };
 
+// When shading is calculated.
+struct Update {
+  bool every_timestep = false;  // else as often as the model asks
+  // At every timestep, from samples of the sun's positions.
+  std::optional<Sampling> sampling = std::nullopt;
+
+  bool operator==(Update const&) const = default;
+};
+
 // The user's choices from one source; what it does not say is empty.
 struct Choices {
   std::optional<Mode> mode;
   std::optional<int> resolution;
-  std::optional<bool> every_timestep;
+  std::optional<Update> update;
   std::optional<DeviceChoice> device;
   std::optional<std::filesystem::path> file;
   std::optional<std::filesystem::path> report;
@@ -51,6 +61,7 @@ Choices take_flags(std::vector<std::string>& arguments);
 
 // As the flag's value has it.
 std::string name_of(Mode mode);
+std::string name_of(Update const& update);
 std::string name_of(DeviceChoice const& device);
 std::string name_of(Lean lean);
 
@@ -69,7 +80,7 @@ struct Options {
 
   Mode mode = Mode::automatic;
   int resolution = default_resolution;
-  bool every_timestep = false;  // else as often as the model asks
+  Update update;
   DeviceChoice device;
   std::optional<std::filesystem::path> report;
   Lean lean = Lean::automatic;
