@@ -112,10 +112,10 @@ TEST(SampledSession, SamplesAnswerTheSunWithinTheirErrorAndFollowSchedules) {
 
 TEST(SampledSession, PatchesOfTheSkyAreRenderedWhateverTheSampling) {
   Sampled sampled;
-  // 7.5 degrees above the horizon in the south the sun stands in winter.
+  // 37.5 degrees above the horizon in the south the sun stands in October.
   sampled.session.set_time({});
-  sampled.session.set_sun({std::numbers::pi, 7.5 * Sampled::degree});
-  EXPECT_TRUE(is_sky_patch({std::numbers::pi, 7.5 * Sampled::degree}));
+  sampled.session.set_sun({std::numbers::pi, 37.5 * Sampled::degree});
+  EXPECT_TRUE(is_sky_patch({std::numbers::pi, 37.5 * Sampled::degree}));
   sampled.session.projected_sunlit_area(sampled.wall);
   // Beyond the solstices the sun is never.
   sampled.session.set_sun({0.1, 0.3});

@@ -1,7 +1,8 @@
 // Prints the sun's azimuth and altitude in degrees as sun_of_day has it, at the end of every time
 // step of a year's 365 days, night left out: day, step, azimuth, altitude.
 //
-//   print_sun_positions LATITUDE LONGITUDE ZONE STEPS    degrees, degrees, hours, a day's time steps
+//   print_sun_positions LATITUDE LONGITUDE ZONE STEPS    degrees, degrees, hours, a day's time
+//   steps
 
 #include <cmath>
 #include <cstdio>

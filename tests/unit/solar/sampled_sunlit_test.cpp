@@ -127,6 +127,26 @@ TEST(SampledSunlit, StaysWithinNothingAndTheCosine) {
   }
 }
 
+TEST(SampledSunlit, TogetherSchedulesPassNoMoreThanTheCosine) {
+  // All of the beam, parted at random among none, one and two scheduled shades.
+  auto const source = [](std::span<SunDirection const> directions) {
+    std::vector<std::vector<Sunlit>> answers;
+    for (auto const sun : directions) {
+      double const a = noise(sun);
+      double const b = noise({sun.altitude, sun.azimuth}) * (1.0 - a);
+      double const whole = std::sin(sun.altitude);
+      answers.push_back(
+          {{whole * a, 0.0, {{{{0, 1}}, whole * b}, {{{0, 2}}, whole * (1.0 - a - b)}}}});
+    }
+    return answers;
+  };
+  SampledSunlit const sampled({coarse, false}, 42 * degree, {{0, 0, 1}}, source);
+  std::vector<double> const open{1.0};
+  for (auto const sun : year_of_suns(42 * degree, 5)) {
+    EXPECT_LE(sampled.at(sun)[0].at(open), std::sin(sun.altitude) * (1 + 1e-12));
+  }
+}
+
 TEST(SampledSunlit, JumpsStaySharp) {
   // Lit in the morning alone: between samples at least it cannot be told when noon is.
   auto const morning = [](SunDirection sun) { return sun.azimuth < 180 * degree ? 1.0 : 0.0; };
