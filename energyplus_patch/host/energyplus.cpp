@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include "binary/function_finder.h"
@@ -24,6 +25,10 @@ EnergyPlusFunctions::EnergyPlusFunctions(SymbolTable const& symbols) {
   finder.find(show_name("14ShowFatalError"), show_fatal_);
   finder.find(show_name("11ShowMessage"), show_message_);
   finder.find("issueWarning", issue_warning_);
+  finder.find(
+      "_ZN10EnergyPlus7Weather28CalculateSunDirectionCosinesERKNS_14EnergyPlusDataEddddRN"
+      "9ObjexxFCL7Vector3IdEE",
+      sun_cosines_);
   finder.check();
 }
 
@@ -38,6 +43,17 @@ void EnergyPlusFunctions::warning(State& state, std::string const& message) cons
 
 void EnergyPlusFunctions::text(State& state, std::string const& message) const {
   show_message_(state, message, std::nullopt, std::nullopt);
+}
+
+double EnergyPlusFunctions::latitude(State const& state) const {
+  // A sun in the celestial pole stands as high as the latitude, in the north or in the south. Of
+  // one below the horizon EnergyPlus tells the depth alone, and so of one on it, at the equator.
+  for (double const sine : {1.0, -1.0}) {
+    Cosines pole{};
+    sun_cosines_(state, 12.0, 0.0, sine, 0.0, pole);
+    if (pole.y != 0.0) return sine * std::atan2(pole.z, std::abs(pole.y));
+  }
+  return 0.0;
 }
 
 }  // namespace gpu_shading::energyplus

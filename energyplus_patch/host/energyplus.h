@@ -33,10 +33,21 @@ class EnergyPlusFunctions {
   void warning(State& state, std::string const& message) const;
   void text(State& state, std::string const& message) const;
 
+  // Of the site, radians, as EnergyPlus has it: the weather file's, else that of Site:Location.
+  double latitude(State const& state) const;
+
  private:
+  // Direction cosines of the sun: east, north, up.
+  struct Cosines {
+    double x, y, z;
+  };
+  using SunCosines = void(State const&, double hour, double equation_of_time,
+                          double sine_of_declination, double cosine_of_declination, Cosines&);
+
   ShowFunction* show_fatal_ = nullptr;
   ShowFunction* show_message_ = nullptr;
   void (*issue_warning_)(State*, char const*) = nullptr;
+  SunCosines* sun_cosines_ = nullptr;
 };
 
 }  // namespace gpu_shading::energyplus

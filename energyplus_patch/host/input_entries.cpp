@@ -54,7 +54,7 @@ void (*original_abort)(State&) = nullptr;
 
 Rewrite rewrite_for(Model const& model) {
   return {model.options.mode == Mode::off ? "PolygonClipping" : "PixelCounting",
-          model.options.every_timestep ? "Timestep" : "", model.lean.left_out,
+          model.options.update.every_timestep ? "Timestep" : "", model.lean.left_out,
           model.lean.placeholders};
 }
 

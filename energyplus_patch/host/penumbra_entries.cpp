@@ -99,7 +99,9 @@ void set_model(PenumbraObject* self) {
   guarded([&] {
     auto const messages = messages_of(this_run());
     add_mirrored_surfaces(*self->session, messages);
-    self->session->start(messages, installation().schedules.of(*this_run().state));
+    State& state = *this_run().state;
+    self->session->start(messages, installation().schedules.of(state),
+                         [&state] { return installation().functions.latitude(state); });
   });
 }
 

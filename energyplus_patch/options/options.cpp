@@ -46,10 +46,34 @@ double parse_error(std::string const& text) {
   return value;
 }
 
-bool parse_update(std::string const& text) {
-  if (same_name(text, "idf")) return false;
-  if (same_name(text, "timestep")) return true;
-  throw Error(fmt::format("is \"{}\", expected idf or timestep", text));
+struct NamedUpdate {
+  std::string_view name;
+  Update update;
+};
+
+std::array<NamedUpdate, 8> const& all_updates() {
+  using enum Sampling::Density;
+  static std::array<NamedUpdate, 8> const updates{{
+      {"idf", {}},
+      {"timestep", {true}},
+      {"sampled:fine", {true, Sampling{fine, false}}},
+      {"sampled:medium", {true, Sampling{medium, false}}},
+      {"sampled:coarse", {true, Sampling{coarse, false}}},
+      {"sampled:paper-fine", {true, Sampling{fine, true}}},
+      {"sampled:paper-medium", {true, Sampling{medium, true}}},
+      {"sampled:paper-coarse", {true, Sampling{coarse, true}}},
+  }};
+  return updates;
+}
+
+Update parse_update(std::string const& text) {
+  for (auto const& [name, update] : all_updates()) {
+    if (same_name(text, name)) return update;
+  }
+  throw Error(
+      fmt::format("is \"{}\", expected idf, timestep, or sampled: with fine, medium, coarse, "
+                  "paper-fine, paper-medium or paper-coarse behind it",
+                  text));
 }
 
 DeviceChoice parse_device(std::string const& text) {
@@ -86,7 +110,7 @@ std::array<Choice, 10> const& all_choices() {
       {"--gpu-shading-error", "GPU_SHADING_ERROR", "error", "Error",
        [](Choices& c, std::string const& v) { c.error = parse_error(v); }},
       {"--gpu-shading-update", "GPU_SHADING_UPDATE", "update_frequency", "Update Frequency",
-       [](Choices& c, std::string const& v) { c.every_timestep = parse_update(v); }},
+       [](Choices& c, std::string const& v) { c.update = parse_update(v); }},
       {"--gpu-shading-device", "GPU_SHADING_DEVICE", "device", "Device",
        [](Choices& c, std::string const& v) { c.device = parse_device(v); }},
       {"--gpu-shading-file", "GPU_SHADING_FILE", "", "",
@@ -138,6 +162,13 @@ std::string name_of(Mode mode) {
   return "auto";
 }
 
+std::string name_of(Update const& wanted) {
+  for (auto const& [name, update] : all_updates()) {
+    if (update == wanted) return std::string(name);
+  }
+  return "idf";
+}
+
 std::string name_of(DeviceChoice const& device) {
   switch (device.kind) {
     case DeviceChoice::Kind::software:
@@ -168,7 +199,7 @@ void Choices::fill_from(Choices const& lower) {
     resolution = lower.resolution;
     error = lower.error;
   }
-  fill(every_timestep, lower.every_timestep);
+  fill(update, lower.update);
   fill(device, lower.device);
   fill(file, lower.file);
   fill(report, lower.report);
@@ -178,7 +209,7 @@ void Choices::fill_from(Choices const& lower) {
 }
 
 bool Choices::any() const {
-  return mode || resolution || error || every_timestep || device || file || report || lean || cache;
+  return mode || resolution || error || update || device || file || report || lean || cache;
 }
 
 Choices take_flags(std::vector<std::string>& arguments) {
@@ -224,8 +255,7 @@ std::string to_flags(Choices const& choices) {
   if (choices.mode) add("--gpu-shading", name_of(*choices.mode));
   if (choices.resolution) add("--gpu-shading-resolution", std::to_string(*choices.resolution));
   if (choices.error) add("--gpu-shading-error", fmt::format("{}", *choices.error));
-  if (choices.every_timestep)
-    add("--gpu-shading-update", *choices.every_timestep ? "timestep" : "idf");
+  if (choices.update) add("--gpu-shading-update", name_of(*choices.update));
   if (choices.device) add("--gpu-shading-device", name_of(*choices.device));
   if (choices.file) add("--gpu-shading-file", choices.file->string());
   if (choices.report) add("--gpu-shading-report", choices.report->string());
@@ -273,7 +303,7 @@ Options resolve(Choices choices, Choices const& settings, ShadingInput const& in
   options.resolution = choices.resolution;
   if (!choices.resolution && !choices.error) options.resolution = input.pixel_counting_resolution;
   options.error = choices.error.value_or(Options::default_error);
-  options.every_timestep = choices.every_timestep.value_or(false);
+  options.update = choices.update.value_or(Update{});
   options.device = choices.device.value_or(DeviceChoice{});
   options.report = choices.report;
   options.lean = choices.lean.value_or(Lean::automatic);
@@ -290,7 +320,11 @@ std::string_view flags_help() {
                                        0.00001 to 0.1 (default: 0.001)
   --gpu-shading-resolution N           Instead: pixels a side of every receiver's tile (default: the
                                        model's Pixel Counting Resolution, where it gives one)
-  --gpu-shading-update idf|timestep    How often shading is calculated (default: idf, as the model asks)
+  --gpu-shading-update idf|timestep|sampled:D
+                                       How often shading is calculated (default: idf, as the model
+                                       asks). sampled:fine, :medium or :coarse: at every timestep, from
+                                       samples of the sun's positions over the year; sampled:paper-fine,
+                                       :paper-medium or :paper-coarse: from a poorer grid, to compare
   --gpu-shading-device auto|N|software Which device renders (default: auto; see gpu_shading devices)
   --gpu-shading-file F                 Extension objects in a file of their own
                                        (default: MODEL.gpu-shading.idf, where it is)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu_shading/device.h"
+#include "gpu_shading/sampled_sunlit.h"
 #include "input/input_object.h"
 #include "input/shading_input.h"
 
@@ -25,6 +26,15 @@ enum class Lean {
   off,
 };
 
+// When shading is calculated.
+struct Update {
+  bool every_timestep = false;  // else as often as the model asks
+  // At every timestep, from samples of the sun's positions.
+  std::optional<Sampling> sampling = std::nullopt;
+
+  bool operator==(Update const&) const = default;
+};
+
 // The user's choices from one source; what it does not say is empty.
 struct Choices {
   static constexpr double least_error = 1e-5;
@@ -34,7 +44,7 @@ struct Choices {
   // How fine: one of the two at most.
   std::optional<int> resolution;
   std::optional<double> error = std::nullopt;
-  std::optional<bool> every_timestep;
+  std::optional<Update> update;
   std::optional<DeviceChoice> device;
   std::optional<std::filesystem::path> file;
   std::optional<std::filesystem::path> report;
@@ -56,6 +66,7 @@ Choices take_flags(std::vector<std::string>& arguments);
 
 // As the flag's value has it.
 std::string name_of(Mode mode);
+std::string name_of(Update const& update);
 std::string name_of(DeviceChoice const& device);
 std::string name_of(Lean lean);
 
@@ -75,7 +86,7 @@ struct Options {
   Mode mode = Mode::automatic;
   std::optional<int> resolution = std::nullopt;  // nothing: by the error
   double error = default_error;
-  bool every_timestep = false;  // else as often as the model asks
+  Update update;
   DeviceChoice device;
   std::optional<std::filesystem::path> report;
   Lean lean = Lean::automatic;

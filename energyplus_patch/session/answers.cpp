@@ -15,6 +15,14 @@ std::size_t bytes_of(std::vector<ScheduledPart> const& parts) {
 
 }  // namespace
 
+Sunlit Answers::Direction::sunlit(ReceiverNumber receiver) const {
+  Sunlit answer;
+  answer.projected_area = projected_area[receiver];
+  auto const parts = scheduled.find(receiver);
+  if (parts != scheduled.end()) answer.scheduled = parts->second;
+  return answer;
+}
+
 double Answers::Direction::area(ReceiverNumber receiver, std::span<double const> factors) const {
   double const unscheduled = projected_area[receiver];
   auto const parts = scheduled.find(receiver);
@@ -56,11 +64,7 @@ void Answers::keep(Direction& direction, ReceiverNumber receiver, Sunlit answer)
 
 void Answers::copy(Direction const& from, ReceiverNumber known, Direction& direction,
                    ReceiverNumber receiver) {
-  Sunlit answer;
-  answer.projected_area = from.projected_area[known];
-  auto const parts = from.scheduled.find(known);
-  if (parts != from.scheduled.end()) answer.scheduled = parts->second;
-  keep(direction, receiver, std::move(answer));
+  keep(direction, receiver, from.sunlit(known));
 }
 
 std::vector<Sunlit> const& Answers::keep_interior(Direction& direction,

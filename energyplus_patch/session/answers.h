@@ -36,7 +36,9 @@ class Answers {
       return receiver < projected_area.size() &&
              projected_area[receiver] == projected_area[receiver];
     }
-    // A known answer with the schedules' values.
+    // A known answer.
+    Sunlit sunlit(ReceiverNumber receiver) const;
+    // The same with the schedules' values.
     double area(ReceiverNumber receiver, std::span<double const> factors) const;
   };
 

@@ -69,8 +69,9 @@ std::vector<SurfaceId> Session::shading_surfaces() const {
   return ids;
 }
 
-void Session::start(Messages messages, Schedules schedules) {
+void Session::start(Messages messages, Schedules schedules, std::function<double()> latitude) {
   messages_ = std::move(messages);
+  latitude_ = std::move(latitude);
   surfaces_ = scene_.size();
   auto const& input = model_.shading;
   unshaded_.assign(surfaces_, std::nullopt);
@@ -162,6 +163,7 @@ void Session::open_renderer() {
   renderer_.emplace(std::move(scene), options);
   run_.answers = Answers();
   if (model_.options.cache) open_cache(describe_shading_rule(model_.shading, names), options);
+  open_samples();
   deploy_screens();
 }
 
@@ -169,6 +171,18 @@ void Session::open_cache(std::vector<std::uint32_t> const& rule, RendererOptions
   auto const scene =
       hash_scene(renderer_->scene(), {options, renderer_->device(), rule, build_id()});
   cache_.emplace(*model_.options.cache, scene, messages_.remark);
+}
+
+void Session::open_samples() {
+  auto const& sampling = model_.options.update.sampling;
+  if (!sampling) return;
+  std::vector<glm::dvec3> areas;
+  areas.reserve(surfaces_);
+  for (SurfaceId id = 0; id < surfaces_; ++id) {
+    auto const& polygon = scene_[id].polygon;
+    areas.push_back(area(polygon) * normal(polygon));
+  }
+  samples_.emplace(*sampling, std::move(areas));
 }
 
 void Session::store_answers() {
@@ -260,7 +274,7 @@ void Session::describe_surroundings() {
 
 void Session::warn_of_actuated_schedules() const {
   auto const& input = model_.shading;
-  if (input.every_timestep || model_.options.every_timestep) return;
+  if (input.every_timestep || model_.options.update.every_timestep) return;
   auto const warn = [&](std::string_view field, std::string const& schedule) {
     messages_.warning(fmt::format(
         "{} {} is overridden by an EMS actuator, but shading is calculated for whole periods: the "
@@ -319,6 +333,46 @@ void Session::render(Answers::Direction& direction) {
   to_store_ = true;
 }
 
+Answers::Direction& Session::answers_at(SunDirection sun, ReceiverNumber receiver) {
+  auto& direction = run_.answers.at(sun, state_);
+  if (!direction.knows(receiver) && cache_) cache_->recall(run_, direction);
+  if (!direction.knows(receiver)) render(direction);
+  return direction;
+}
+
+std::vector<std::vector<Sunlit>> Session::sample(std::span<SunDirection const> directions,
+                                                 std::vector<SurfaceId> const& receivers) {
+  std::vector<std::vector<Sunlit>> rows(directions.size());
+  std::vector<SunDirection> unknown;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    auto& direction = run_.answers.at(directions[i], state_);
+    if (cache_) cache_->recall(run_, direction);
+    bool const known = std::all_of(receivers.begin(), receivers.end(), [&](SurfaceId receiver) {
+      return direction.knows(number_of(receiver));
+    });
+    if (!known) {
+      unknown.push_back(directions[i]);
+      places.push_back(i);
+      continue;
+    }
+    for (auto const receiver : receivers) {
+      rows[i].push_back(direction.sunlit(number_of(receiver)));
+    }
+  }
+  if (unknown.empty()) return rows;
+  to_store_ = true;
+  auto rendered = renderer_->projected_sunlit_areas(unknown, receivers);
+  for (std::size_t i = 0; i < unknown.size(); ++i) {
+    auto& direction = run_.answers.at(unknown[i], state_);
+    for (std::size_t j = 0; j < receivers.size(); ++j) {
+      run_.answers.keep(direction, number_of(receivers[j]), rendered[i][j]);
+    }
+    rows[places[i]] = std::move(rendered[i]);
+  }
+  return rows;
+}
+
 float Session::projected_sunlit_area(SurfaceId receiver) {
   if (!renderer_ || receiver >= surfaces_) {
     throw Error(fmt::format("EnergyPlus asks for surface {} of {}", receiver, surfaces_));
@@ -328,15 +382,23 @@ float Session::projected_sunlit_area(SurfaceId receiver) {
   }
   auto const number = number_of(receiver);
   asked_[receiver] = true;
-  auto& direction = run_.answers.at(sun_, state_);
-  if (!direction.knows(number) && cache_) cache_->recall(run_, direction);
-  if (!direction.knows(number)) render(direction);
-  return static_cast<float>(direction.area(number, optics_.factors()));
+  if (auto const* const sunlit = find_sampled(receiver)) {
+    return static_cast<float>(sunlit->at(optics_.factors()));
+  }
+  return static_cast<float>(answers_at(sun_, number).area(number, optics_.factors()));
 }
 
-std::vector<Sunlit> const& Session::find_interior(SurfaceId window,
-                                                  std::vector<SurfaceId> const& interiors) {
-  auto& direction = run_.answers.at(sun_, state_);
+Sunlit const* Session::find_sampled(SurfaceId receiver) {
+  if (!samples_) return nullptr;
+  number_of(receiver);
+  return samples_->find(
+      receiver, {sun_, state_, latitude_()}, run_.receivers,
+      [this](auto directions, auto const& receivers) { return sample(directions, receivers); });
+}
+
+std::vector<Sunlit> const& Session::render_interior(SunDirection sun, SurfaceId window,
+                                                    std::vector<SurfaceId> const& interiors) {
+  auto& direction = run_.answers.at(sun, state_);
   auto const question = hash_of(window, interiors);
   auto const known = direction.interior.find(question);
   if (known != direction.interior.end()) return known->second;
@@ -346,7 +408,39 @@ std::vector<Sunlit> const& Session::find_interior(SurfaceId window,
   }
   to_store_ = true;
   return run_.answers.keep_interior(direction, question,
-                                    renderer_->interior_sunlit_areas(sun_, window, interiors));
+                                    renderer_->interior_sunlit_areas(sun, window, interiors));
+}
+
+std::vector<float> Session::sampled_interior_areas(SurfaceId window,
+                                                   std::vector<SurfaceId> const& interiors) {
+  auto const* const through = find_sampled(window);
+  if (through == nullptr) return {};
+  double const most = through->at(optics_.factors());
+  auto const source = [&](std::span<SunDirection const> directions) {
+    std::vector<std::vector<Sunlit>> rows;
+    rows.reserve(directions.size());
+    for (auto const sun : directions) rows.push_back(render_interior(sun, window, interiors));
+    return rows;
+  };
+  auto const* const row = samples_->find_interior(
+      window, hash_of(window, interiors), interiors.size(), {sun_, state_, latitude_()}, source);
+  if (row == nullptr) return {};
+  auto areas = areas_of(*row);
+  // Each is interpolated by itself: together they get no more than the window does.
+  double const sum = std::accumulate(areas.begin(), areas.end(), 0.0);
+  if (sum > most) {
+    for (auto& area : areas) area = static_cast<float>(area * most / sum);
+  }
+  return areas;
+}
+
+std::vector<float> Session::areas_of(std::vector<Sunlit> const& answers) const {
+  std::vector<float> areas;
+  areas.reserve(answers.size());
+  for (auto const& sunlit : answers) {
+    areas.push_back(static_cast<float>(sunlit.at(optics_.factors())));
+  }
+  return areas;
 }
 
 std::vector<float> Session::interior_areas(SurfaceId window,
@@ -354,12 +448,8 @@ std::vector<float> Session::interior_areas(SurfaceId window,
   if (!renderer_) {
     throw Error("EnergyPlus asks for interior areas before its surfaces are complete");
   }
-  auto const& kept = find_interior(window, interiors);
-  std::vector<float> areas;
-  areas.reserve(kept.size());
-  for (auto const& sunlit : kept) {
-    areas.push_back(static_cast<float>(sunlit.at(optics_.factors())));
-  }
+  auto areas = sampled_interior_areas(window, interiors);
+  if (areas.empty()) areas = areas_of(render_interior(sun_, window, interiors));
   keep_largest(areas, max_back_surfaces);
   return areas;
 }
@@ -379,6 +469,11 @@ void Session::finish() {
       "views drawn, {} clear, {:.2f} s",
       device.renderer, device.version, describe_fineness(model_.options), asked, casters_,
       did.directions, from_cache, did.receivers_drawn, did.receivers_clear, did.seconds));
+  if (samples_) {
+    messages_.remark(
+        fmt::format("{} directions of the sun answered from samples at {}, --gpu-shading-update {}",
+                    samples_->answered(), samples_->sampled(), name_of(model_.options.update)));
+  }
   store_answers();
   if (model_.options.report) {
     auto const stages = stages_of(did);

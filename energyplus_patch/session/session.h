@@ -10,6 +10,7 @@
 #include "gpu_shading/renderer.h"
 #include "input/model_reader.h"
 #include "session/answer_cache.h"
+#include "session/sampled_answers.h"
 #include "session/schedules.h"
 #include "session/shade_optics.h"
 
@@ -54,8 +55,9 @@ class Session {
   // Ids of the model's shading surfaces, in order.
   std::vector<SurfaceId> shading_surfaces() const;
 
-  // All surfaces are there: reads what they let through and opens the device.
-  void start(Messages messages, Schedules schedules);
+  // All surfaces are there: reads what they let through and opens the device. `latitude`: of the
+  // site, radians; asked for where the sun's positions are sampled.
+  void start(Messages messages, Schedules schedules, std::function<double()> latitude = {});
 
   // The time whose schedules count from here on.
   void set_time(Moment moment);
@@ -76,10 +78,20 @@ class Session {
   ReceiverNumber number_of(SurfaceId receiver);
   // For every receiver that the direction does not know.
   void render(Answers::Direction& direction);
-  std::vector<Sunlit> const& find_interior(SurfaceId window,
-                                           std::vector<SurfaceId> const& interiors);
   void add_outside_casters();
   bool is_site_context(SurfaceId id) const;
+  // With the receiver known. Valid until the next call.
+  Answers::Direction& answers_at(SunDirection sun, ReceiverNumber receiver);
+  std::vector<std::vector<Sunlit>> sample(std::span<SunDirection const> directions,
+                                          std::vector<SurfaceId> const& receivers);
+  // nullptr where it has to be rendered.
+  Sunlit const* find_sampled(SurfaceId receiver);
+  std::vector<Sunlit> const& render_interior(SunDirection sun, SurfaceId window,
+                                             std::vector<SurfaceId> const& interiors);
+  // Empty where they have to be rendered.
+  std::vector<float> sampled_interior_areas(SurfaceId window,
+                                            std::vector<SurfaceId> const& interiors);
+  std::vector<float> areas_of(std::vector<Sunlit> const& answers) const;
   void describe_surfaces();
   void draw(std::filesystem::path const& folder, int size, std::vector<bool> wanted);
   void describe_surroundings();
@@ -88,6 +100,7 @@ class Session {
   void open_renderer();
   void open_cache(std::vector<std::uint32_t> const& rule, RendererOptions const& options);
   void store_answers();
+  void open_samples();
   void deploy_screens();
   void check_device() const;
 
@@ -107,6 +120,8 @@ class Session {
   glm::dvec3 towards_sun_{0.0, 0.0, 1.0};
   AnswerSet run_;
   std::uint32_t state_ = 0;  // which is set
+  std::function<double()> latitude_;
+  std::optional<SampledAnswers> samples_;
   std::optional<AnswerCache> cache_;
   bool to_store_ = false;             // something was rendered that the cache lacks
   std::size_t recalled_earlier_ = 0;  // directions, from caches before it

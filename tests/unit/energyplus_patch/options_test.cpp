@@ -1,5 +1,6 @@
 #include "options/options.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +37,7 @@ TEST(Options, OurFlagsAreTakenAndEnergyPlusKeepsItsOwn) {
   auto const choices = take_flags(arguments);
   EXPECT_EQ(arguments, (std::vector<std::string>{"-w", "a.epw", "model.idf"}));
   EXPECT_EQ(choices.mode, Mode::automatic);
-  EXPECT_EQ(choices.every_timestep, true);
+  EXPECT_EQ(choices.update, (Update{true}));
   ASSERT_TRUE(choices.device);
   EXPECT_EQ(choices.device->index, 3);
 }
@@ -52,9 +53,23 @@ TEST(Options, BadValuesAreNamedWithWhatWasExpected) {
   EXPECT_THAT(refusal({"--gpu-shading-resolution", "0"}), HasSubstr("is \"0\""));
   EXPECT_THAT(refusal({"--gpu-shading-resolution=12x"}), HasSubstr("is \"12x\""));
   EXPECT_THAT(refusal({"--gpu-shading-resolution"}), HasSubstr("missing"));
-  EXPECT_THAT(refusal({"--gpu-shading-update=hourly"}), HasSubstr("expected idf or timestep"));
+  EXPECT_THAT(refusal({"--gpu-shading-update=hourly"}),
+              HasSubstr("expected idf, timestep, or sampled:"));
   EXPECT_THAT(refusal({"--gpu-shading-device=-1"}), HasSubstr("--gpu-shading-device"));
   EXPECT_THAT(refusal({"--gpu-shading-colour=red"}), HasSubstr("no such flag"));
+}
+
+TEST(Options, SamplingIsNamed) {
+  auto const fine = take({"--gpu-shading-update", "sampled:Paper-Fine"}).update;
+  ASSERT_TRUE(fine);
+  EXPECT_TRUE(fine->every_timestep);
+  EXPECT_EQ(fine->sampling, (Sampling{Sampling::Density::fine, true}));
+  for (auto const* const name : {"idf", "timestep", "sampled:medium", "sampled:paper-coarse"}) {
+    auto const flag = fmt::format("--gpu-shading-update={}", name);
+    EXPECT_EQ(to_flags(take({flag})), flag + "\n");
+  }
+  EXPECT_THAT(refusal({"--gpu-shading-update=sampled"}), HasSubstr("is \"sampled\""));
+  EXPECT_THAT(refusal({"--gpu-shading-update=sampled:better"}), HasSubstr("paper-medium"));
 }
 
 TEST(Options, FlagsAreWrittenAsTheyAreRead) {
@@ -139,7 +154,9 @@ TEST(Options, SettingsNameTheirField) {
     FAIL();
   } catch (Error const& error) {
     EXPECT_STREQ(error.what(),
-                 "GPUShading:Settings: Update Frequency is \"hourly\", expected idf or timestep");
+                 "GPUShading:Settings: Update Frequency is \"hourly\", expected idf, timestep, or "
+                 "sampled: with fine, medium, coarse, paper-fine, paper-medium or paper-coarse "
+                 "behind it");
   }
   EXPECT_THROW(read_settings(read_idf("GPUShading:Settings,1;GPUShading:Settings,2;")), Error);
 }

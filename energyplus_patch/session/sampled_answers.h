@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "gpu_shading/sampled_sunlit.h"
+#include "gpu_shading/scene.h"
+
+namespace gpu_shading::energyplus {
+
+// Answers at the sun's positions from samples (--gpu-shading-update sampled:...), by the state of
+// the screens' deployments.
+class SampledAnswers {
+ public:
+  // What to sample: every receiver at every direction, rendered or known.
+  using Source = std::function<std::vector<std::vector<Sunlit>>(
+      std::span<SunDirection const> directions, std::vector<SurfaceId> const& receivers)>;
+
+  // `areas`: unit normal times net area (m2) of every surface that may be a receiver, by its id.
+  SampledAnswers(Sampling sampling, std::vector<glm::dvec3> areas);
+
+  struct Question {
+    SunDirection sun;
+    std::uint32_t state;  // of the deployments
+    double latitude;      // of the site, radians
+  };
+
+  // nullptr where the answer has to be rendered: for patches of the sky, for directions that the
+  // sun never has, for receivers that the sun faces at no sample, and for a state of deployments
+  // that few directions are asked of. The first direction has the samples taken, of `receivers`,
+  // the asked one among them; others that turn up later have theirs taken together. Valid until the
+  // next call.
+  Sunlit const* find(SurfaceId receiver, Question const& question,
+                     std::vector<SurfaceId> const& receivers, Source const& source);
+
+  // The same of interior surfaces that the sun reaches through a window, sampled at the window's
+  // directions: their areas in the order of the question's list. nullptr where find() has not
+  // answered for the window at this sun and state.
+  std::vector<Sunlit> const* find_interior(SurfaceId window, std::uint64_t window_and_list,
+                                           std::size_t interiors, Question const& question,
+                                           SunlitSource const& source);
+
+  // Directions that samples were taken at, those of each state and of later receivers apart.
+  std::size_t sampled() const { return sampled_; }
+  // Directions answered from samples.
+  std::size_t answered() const { return answered_; }
+
+ private:
+  struct Place {
+    std::size_t batch;
+    std::size_t row;
+  };
+  struct Interior {
+    SampledSunlit samples;
+    std::optional<SunDirection> sun;  // of the row
+    std::vector<Sunlit> row;
+  };
+  struct State {
+    std::vector<SampledSunlit> batches;
+    std::unordered_map<SurfaceId, Place> places;
+    std::optional<SunDirection> sun;  // of the rows
+    std::vector<std::vector<Sunlit>> rows;
+    std::unordered_map<std::uint64_t, Interior> interiors;  // by window and list
+    std::size_t rendered = 0;  // directions, before it is worth samples
+  };
+
+  void sample(State& state, std::vector<SurfaceId> receivers, Source const& source);
+  bool worth_samples(State& state, SunDirection sun);
+
+  Sampling sampling_;
+  std::vector<glm::dvec3> areas_;
+  double latitude_ = 0.0;
+  std::map<std::uint32_t, State> states_;
+  std::optional<SunDirection> last_rendered_;
+  std::size_t sampled_ = 0;
+  std::size_t answered_ = 0;
+};
+
+// Whether EnergyPlus takes the direction for a patch of the sky: 7.5 degrees of altitude and steps
+// of 15 from there, multiples of 15 degrees of azimuth. That the sun stands there exactly is as
+// good as impossible, and does no harm.
+bool is_sky_patch(SunDirection sun);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
+#include <vector>
+
+#include "solar/interpolant.h"
+#include "solar/sun_arcs.h"
+#include "solar/sunlit_table.h"
+
+namespace gpu_shading {
+
+// The paper's way between samples of its grid: cubic B-splines along each day's azimuths, held at
+// its ends, then across the days. A direction alone does not tell spring from autumn: it is taken
+// at both days of its declination, and their mean counts.
+class AzimuthSplines : public Interpolant {
+ public:
+  // The table's directions are those of the days in turn.
+  AzimuthSplines(SunlitTable const& table, std::vector<AzimuthDay> const& days, double latitude,
+                 double step);
+
+  std::vector<double> at(SunDirection direction) const override;
+
+ private:
+  using Spline = boost::math::interpolators::cardinal_cubic_b_spline<double>;
+
+  struct Day {
+    double first;  // azimuths from noon
+    double last;
+    Spline spline;
+  };
+
+  std::vector<double> weights_of(double declination) const;
+
+  double latitude_;
+  std::vector<std::vector<Day>> days_of_column_;
+  std::vector<Spline> weight_of_day_;  // each sampled day's in the spline across the days
+  std::vector<double> declinations_;   // by day of the year less one
+};
+
+}  // namespace gpu_shading

@@ -1,0 +1,115 @@
+#include "solar/sun_arcs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace gpu_shading {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double degree = pi / 180.0;
+
+// Steps along the arcs are longer than those between them, by what the closed-form scenes of
+// tests/bench/sampling_error like best.
+constexpr double elongation = 1.4;
+
+// Nearer to the horizon than the sun goes in the ten seconds before sunset.
+constexpr double from_horizon = 0.04 * degree;
+
+// Declinations at which the sun rises.
+struct Range {
+  double least;
+  double most;
+};
+
+Range lit_declinations(double latitude) {
+  // So much of the arc is then above the horizon that two directions find room.
+  constexpr double margin = 0.2 * degree;
+  double const reach = pi / 2.0 - std::abs(latitude) - margin;
+  if (latitude >= 0.0) return {std::max(-most_declination, -reach), most_declination};
+  return {-most_declination, std::min(most_declination, reach)};
+}
+
+void add_arc(double declination, double latitude, double step, bool shifted,
+             std::vector<HourDirection>& directions) {
+  double const sunset = sunset_hour_angle(declination, latitude);
+  auto const steps = std::max(2, static_cast<int>(std::lround(2.0 * sunset / step)));
+  double const shift = shifted ? 0.5 : 0.0;
+  if (sunset == pi) {
+    for (int i = 0; i < steps; ++i) {
+      directions.push_back({declination, (2.0 * (i + shift) / steps - 1.0) * pi});
+    }
+    return;
+  }
+  double const end = std::max(sunset - from_horizon, 0.0);
+  directions.push_back({declination, -end});
+  for (int i = shifted ? 0 : 1; i < steps; ++i) {
+    directions.push_back({declination, (2.0 * (i + shift) / steps - 1.0) * end});
+  }
+  directions.push_back({declination, end});
+}
+
+std::vector<HourDirection> spread(double latitude, int arcs, double elongated) {
+  auto const [least, most] = lit_declinations(latitude);
+  double const apart = (most - least) / (arcs - 1);
+  std::vector<HourDirection> directions;
+  for (int arc = 0; arc < arcs; ++arc) {
+    add_arc(least + arc * apart, latitude, elongated * apart, arc % 2 == 1, directions);
+  }
+  return directions;
+}
+
+}  // namespace
+
+std::vector<HourDirection> spread_on_arcs(double latitude, std::size_t most) {
+  std::vector<HourDirection> best;
+  constexpr int most_arcs = 60;
+  for (int arcs = 3; arcs <= most_arcs; ++arcs) {
+    // Between one number of arcs and the next the steps along them take up the slack.
+    for (double const slack : {0.92, 0.96, 1.0, 1.04, 1.08}) {
+      auto directions = spread(latitude, arcs, elongation * slack);
+      if (directions.size() <= most && directions.size() > best.size()) best = directions;
+    }
+  }
+  return best;
+}
+
+double azimuth_from_noon(SunDirection direction, double latitude) {
+  return latitude >= 0.0 ? std::remainder(direction.azimuth - pi, 2.0 * pi)
+                         : std::remainder(-direction.azimuth, 2.0 * pi);
+}
+
+std::vector<AzimuthDay> sample_azimuths(double latitude, double step) {
+  constexpr int days_apart = 14;
+  constexpr int instants = 8640;  // of a day, to look for azimuths at
+  std::vector<AzimuthDay> days;
+  for (int day = 1; day <= 365; day += days_apart) {
+    double const declination = sun_of_day(day).declination;
+    double const sunset = sunset_hour_angle(declination, latitude);
+    std::vector<std::pair<int, HourDirection>> crossed;
+    double before = 0.0;
+    for (int i = 0; i <= instants && sunset > 0.0; ++i) {
+      HourDirection const direction{declination, (2.0 * i / instants - 1.0) * sunset};
+      double const azimuth = azimuth_from_noon(to_direction(direction, latitude), latitude) / step;
+      bool const through_midnight = std::abs(azimuth - before) > pi / step;
+      if (i > 0 && !through_midnight && std::floor(azimuth) != std::floor(before)) {
+        crossed.emplace_back(static_cast<int>(std::floor(std::max(azimuth, before))), direction);
+      }
+      before = azimuth;
+    }
+    std::stable_sort(crossed.begin(), crossed.end(),
+                     [](auto const& a, auto const& b) { return a.first < b.first; });
+    AzimuthDay found{day, crossed.empty() ? 0 : crossed.front().first, {}};
+    for (auto const& [multiple, direction] : crossed) {
+      // Between the tropics the sun may pass an azimuth twice a day: the grid has it once.
+      if (multiple == found.first + static_cast<int>(found.directions.size())) {
+        found.directions.push_back(direction);
+      }
+    }
+    days.push_back(std::move(found));
+  }
+  return days;
+}
+
+}  // namespace gpu_shading

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "gpu_shading/renderer.h"
+#include "gpu_shading/sun_direction.h"
+
+namespace gpu_shading {
+
+// Sunlit fractions at sampled directions, in columns: for each receiver one of what passes
+// unscheduled shades alone, and one for each combination of scheduled ones that was met.
+class SunlitTable {
+ public:
+  using Powers = std::vector<std::pair<int, int>>;  // as in ScheduledPart; none: unscheduled
+
+  struct Column {
+    std::size_t receiver;
+    Powers powers;
+    std::vector<double> fractions;  // by direction; 0 .. 1, and 0 where the receiver is turned away
+  };
+
+  // Unit normal times net area of each receiver.
+  explicit SunlitTable(std::vector<glm::dvec3> receivers);
+
+  void add(std::span<SunDirection const> directions,
+           std::vector<std::vector<Sunlit>> const& answers);
+
+  std::vector<SunDirection> const& directions() const { return directions_; }
+  std::vector<glm::dvec3> const& towards_sun() const { return towards_sun_; }
+  std::vector<Column> const& columns() const { return columns_; }
+  std::size_t receivers() const { return receivers_.size(); }
+
+  // Whether a fraction can be told from a rendering.
+  bool faces(std::size_t receiver, glm::dvec3 const& sun) const;
+
+  // By direction.
+  std::vector<bool> const& lit(std::size_t receiver) const { return lit_[receiver]; }
+
+  // Areas from fractions by column, which may be somewhat beyond 0 and 1.
+  std::vector<Sunlit> compose(std::span<double const> fractions, glm::dvec3 const& sun) const;
+
+ private:
+  struct Receiver {
+    glm::dvec3 normal;
+    double area;
+  };
+
+  Column& column_of(std::size_t receiver, Powers const& powers);
+
+  std::vector<Receiver> receivers_;
+  std::vector<SunDirection> directions_;
+  std::vector<glm::dvec3> towards_sun_;
+  std::vector<std::vector<bool>> lit_;  // by receiver and direction
+  std::vector<Column> columns_;         // the unscheduled first, by receiver
+  std::map<std::pair<std::size_t, Powers>, std::size_t> scheduled_;  // the others
+};
+
+}  // namespace gpu_shading
