@@ -51,10 +51,9 @@ glm::dmat3 LocalAxes::axes_at(GeographicPoint const& place) const {
   projection(origin_).Forward(place.latitude, place.longitude, place.elevation, local.x, local.y,
                               local.z, rotation);
   glm::dmat3 axes;
+  auto element = rotation.begin();
   for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      axes[column][row] = rotation[static_cast<std::size_t>(3 * row + column)];
-    }
+    for (int column = 0; column < 3; ++column) axes[column][row] = *element++;
   }
   return axes;
 }
