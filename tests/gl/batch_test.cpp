@@ -160,8 +160,9 @@ TEST(Batches, TwoThousandReceiversInOneCall) {
   std::vector<double> expected;
   std::vector<double> const factors{0.3};
   for (int i = 0; i < receivers; ++i) {
+    int const row = i / 50;
     double const x = 3.0 * (i % 50);
-    double const y = 3.0 * (i / 50);
+    double const y = 3.0 * row;
     double const shaded = (i + 0.5) / receivers;
     asked.push_back(scene.add({"receiver", level(x, y, 0, 1, 1)}));
     Surface canopy{"canopy", level(x - 0.5, y - 0.5, 0.5, 0.5 + shaded, 2)};
