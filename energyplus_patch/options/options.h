@@ -25,6 +25,13 @@ enum class Lean {
   off,
 };
 
+// How sunlit fractions get into EnergyPlus.
+enum class Method {
+  automatic,  // by patching, where the library can be patched
+  patched,
+  scheduled,  // as schedules, rendered before the run
+};
+
 // The user's choices from one source; what it does not say is empty.
 struct Choices {
   static constexpr double least_error = 1e-5;
@@ -43,6 +50,7 @@ struct Choices {
   // lies.
   std::optional<std::filesystem::path> folder = std::nullopt;
   std::optional<Lean> lean;
+  std::optional<Method> method = std::nullopt;
 
   // Fills what is empty from a source of lower rank. Where one says how fine, the lower has no say.
   void fill_from(Choices const& lower);
@@ -58,6 +66,7 @@ Choices take_flags(std::vector<std::string>& arguments);
 std::string name_of(Mode mode);
 std::string name_of(DeviceChoice const& device);
 std::string name_of(Lean lean);
+std::string name_of(Method method);
 
 // The inverse, one flag a line.
 std::string to_flags(Choices const& choices);
