@@ -133,7 +133,7 @@ class EpjsonEditor : public ModelEditor {
     for (auto const& field : fields) {
       if (field.name == "name") {
         name = text_of(field.value);
-      } else if (field.value != "") {
+      } else if (!text_of(field.value).empty()) {
         object[std::string(field.name)] = field.value;
       }
     }
