@@ -113,6 +113,7 @@ struct Module {
 int run_scheduled(Path const& energyplus, Module const& module,
                   std::vector<std::string> const& arguments, std::string const& flags) {
   std::vector<char const*> words;
+  words.reserve(arguments.size());
   for (auto const& argument : arguments) words.push_back(argument.c_str());
   int const status = module.run_scheduled(energyplus.c_str(), flags.c_str(),
                                           static_cast<int>(words.size()), words.data());
