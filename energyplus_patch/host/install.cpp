@@ -3,21 +3,20 @@
 #include <link.h>
 
 #include <filesystem>
-#include <iterator>
 #include <mutex>
-#include <sstream>
 #include <string>
-#include <vector>
 
 #include "binary/entry_patch.h"
 #include "binary/symbol_table.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading_energyplus.h"
+#include "host/given_choices.h"
 #include "host/input_entries.h"
 #include "host/penumbra_entries.h"
 #include "host/run.h"
 #include "host/shading_entries.h"
 #include "host/version.h"
+#include "scheduled/scheduled_run.h"
 
 #define EXPORTED __attribute__((visibility("default")))
 
@@ -58,26 +57,10 @@ Loaded find_loaded(char const* wanted) {
   return search.found;
 }
 
-// Lines where there are any (their flags may hold blanks), else words.
-std::vector<std::string> split(std::string const& options) {
-  std::istringstream text(options);
-  if (options.find('\n') == std::string::npos) {
-    return {std::istream_iterator<std::string>(text), {}};
-  }
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(text, line);) {
-    if (!line.empty()) lines.push_back(line);
-  }
-  return lines;
-}
-
-Choices read_choices(char const* options) {
-  auto arguments = split(options == nullptr ? "" : options);
-  auto choices = take_flags(arguments);
-  if (!arguments.empty()) throw Error(fmt::format("{}: no such flag", arguments.front()));
-  choices.fill_from(read_environment());
-  return choices;
-}
+// Why a library's shading cannot be taken over; another way may do.
+class CannotPatch : public Error {
+  using Error::Error;
+};
 
 std::optional<StoredResult> find_surface_ids(SymbolTable const& symbols) {
   Symbol const* const caller = symbols.find(
@@ -87,29 +70,37 @@ std::optional<StoredResult> find_surface_ids(SymbolTable const& symbols) {
   return find_stored_result(*caller, *callee);
 }
 
+void patch(Loaded const& loaded, Installation& installed) {
+  SymbolTable const symbols(loaded.path, loaded.base);
+  auto entries = penumbra_entries();
+  for (auto const& more : {input_entries(), shading_entries()}) {
+    entries.insert(entries.end(), more.begin(), more.end());
+  }
+  check_entries(symbols, entries);
+  EnergyPlusFunctions const functions(symbols);
+  ScheduleFunctions const schedules(symbols);
+  auto const version = read_version(loaded.path.parent_path());
+  // Before the entries change: it reads the code that calls them.
+  installed.surface_ids = find_surface_ids(symbols);
+  patch_entries(symbols, entries);
+  installed.library = loaded.path;
+  installed.version = version;
+  installed.functions = functions;
+  installed.schedules = schedules;
+}
+
 void install(char const* library, char const* options) {
   static std::mutex mutex;
   std::scoped_lock const lock(mutex);
-  auto choices = read_choices(options);
+  auto choices = given_choices(options);
   auto const loaded = find_loaded(library);
   auto& installed = installation();
   if (installed.library.empty()) {
-    SymbolTable const symbols(loaded.path, loaded.base);
-    auto entries = penumbra_entries();
-    for (auto const& more : {input_entries(), shading_entries()}) {
-      entries.insert(entries.end(), more.begin(), more.end());
+    try {
+      patch(loaded, installed);
+    } catch (Error const& error) {
+      throw CannotPatch(error.what());
     }
-    check_entries(symbols, entries);
-    EnergyPlusFunctions const functions(symbols);
-    ScheduleFunctions const schedules(symbols);
-    auto const version = read_version(loaded.path.parent_path());
-    // Before the entries change: it reads the code that calls them.
-    installed.surface_ids = find_surface_ids(symbols);
-    patch_entries(symbols, entries);
-    installed.library = loaded.path;
-    installed.version = version;
-    installed.functions = functions;
-    installed.schedules = schedules;
   } else if (installed.library != loaded.path) {
     throw Error(fmt::format("{}: GPU shading is installed for {} already", loaded.path.string(),
                             installed.library.string()));
@@ -128,9 +119,26 @@ extern "C" EXPORTED int gpu_shading_install(char const* energyplus_library, char
     gpu_shading::energyplus::install(energyplus_library, options);
     message.clear();
     return 0;
+  } catch (gpu_shading::energyplus::CannotPatch const& error) {
+    message = error.what();
+    return 2;
   } catch (std::exception const& error) {
     message = error.what();
     return 1;
+  }
+}
+
+extern "C" EXPORTED int gpu_shading_run_scheduled(char const* energyplus_library,
+                                                  char const* options, int argc,
+                                                  char const* const* argv) {
+  using gpu_shading::energyplus::message;
+  try {
+    message.clear();
+    return gpu_shading::energyplus::run_scheduled(
+        energyplus_library, gpu_shading::energyplus::given_choices(options), {argv, argv + argc});
+  } catch (std::exception const& error) {
+    message = error.what();
+    return gpu_shading::energyplus::not_run;
   }
 }
 

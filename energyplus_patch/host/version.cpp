@@ -3,15 +3,33 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <optional>
 #include <string_view>
 
 #include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
 
+namespace {
+
+// libenergyplusapi.so.25.2.0, of a build without the data dictionary.
+std::optional<std::string> version_of_library(std::filesystem::path const& folder) {
+  constexpr std::string_view start = "libenergyplusapi.so.";
+  for (auto const& entry : std::filesystem::directory_iterator(folder)) {
+    auto const name = entry.path().filename().string();
+    if (name.starts_with(start)) return name.substr(start.size());
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::string read_version(std::filesystem::path const& folder) {
   constexpr std::string_view mark = "!IDD_Version ";
   auto const idd = folder / "Energy+.idd";
+  if (!std::filesystem::exists(idd)) {
+    if (auto const version = version_of_library(folder)) return *version;
+  }
   std::ifstream file(idd);
   std::string line;
   std::getline(file, line);

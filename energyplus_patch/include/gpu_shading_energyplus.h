@@ -15,12 +15,21 @@ extern "C" {
  * or separated by blanks, e.g.
  * "--gpu-shading=require --gpu-shading-resolution=1024"; NULL or empty for none. What they leave
  * open comes from the environment (GPU_SHADING_...), the model, and the built-in defaults, in this
- * order. Returns 0, or 1 with nothing changed and the reason in gpu_shading_message(). Calling it
+ * order. Returns 0, or with nothing changed and the reason in gpu_shading_message() 2 where this
+ * library cannot be patched, and 1 for anything else. Calling it
  * again for the same library replaces the options. Not while a run is in progress. */
 int gpu_shading_install(char const* energyplus_library, char const* options);
 
-/* Why the last gpu_shading_install of this thread returned 1; one or more lines. Never NULL. */
+/* Why the last of these functions failed in this thread; one or more lines. Never NULL. */
 char const* gpu_shading_message(void);
+
+/* A whole run of an EnergyPlus library that cannot be patched, which need not be loaded: sunlit
+ * fractions are rendered first and go in as schedules. `options` as above; `argv`: EnergyPlus's own
+ * arguments without the program. The folder of this process's program has to hold one by the name
+ * of energyplus that runs the library as it is, as in a folder made by patch_energyplus. Returns
+ * EnergyPlus's exit status, or -1 with the reason in gpu_shading_message(). */
+int gpu_shading_run_scheduled(char const* energyplus_library, char const* options, int argc,
+                              char const* const* argv);
 
 #ifdef __cplusplus
 }

@@ -12,24 +12,33 @@ CommandLine read_command_line(std::vector<std::string> const& arguments) {
       "-d", "--output-directory", "-i", "--idd",     "-p", "--output-prefix",
       "-s", "--output-suffix",    "-w", "--weather", "-j", "--jobs"};
   CommandLine line;
-  bool preprocessed = false;
   bool no_run = false;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     auto const& argument = arguments[i];
     if (std::find(with_value.begin(), with_value.end(), argument) != with_value.end()) {
       ++i;
+      if ((argument == "-w" || argument == "--weather") && i < arguments.size()) {
+        line.weather = arguments[i];
+      }
     } else if (argument == "-h" || argument == "--help") {
       line.help = true;
     } else if (argument == "-v" || argument == "--version" || argument == "auxiliary") {
       no_run = true;
     } else if (argument == "-m" || argument == "--epmacro") {
-      preprocessed = true;
+      line.preprocessed = true;
+    } else if (argument == "-x" || argument == "--expandobjects") {
+      line.expand = true;
+    } else if (argument == "-a" || argument == "--annual") {
+      line.annual = true;
+    } else if (argument == "-D" || argument == "--design-day") {
+      line.design_days = true;
     } else if (!argument.starts_with("-")) {
       line.model = argument;
+      line.model_at = i;
     }
   }
   if (!line.model) line.model = "in.idf";
-  if (preprocessed || no_run || line.help) line.model.reset();
+  if (line.preprocessed || no_run || line.help) line.model.reset();
   return line;
 }
 

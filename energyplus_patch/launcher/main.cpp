@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -27,13 +29,6 @@ using Path = std::filesystem::path;
 
 constexpr char const* official_program = "energyplus-official";
 constexpr char const* patch_library = "libgpu_shading_energyplus.so";
-
-[[noreturn]] void run_official(char** argv) {
-  auto const program = std::filesystem::weakly_canonical(own_folder() / official_program);
-  execv(program.c_str(), argv);
-  throw Error(fmt::format("{}: {}; make this prefix again with patch_energyplus", program.string(),
-                          std::strerror(errno)));
-}
 
 Path find_energyplus_library(Path const& folder) {
   Path found;
@@ -68,6 +63,28 @@ Function* find(void* library, char const* name) {
   return reinterpret_cast<Function*>(function);
 }
 
+// What EnergyPlus's own program does.
+using RunEnergyPlus = int(std::vector<std::string> const&, std::string const&);
+constexpr char const* run_energyplus =
+    "_Z13EnergyPlusPgmRKSt6vectorINSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEESaIS5_EERKS5"
+    "_";
+
+// In a folder made of an installation without a program.
+[[noreturn]] void run_library(char** argv) {
+  std::vector<std::string> arguments;
+  for (char** argument = argv; *argument != nullptr; ++argument) arguments.emplace_back(*argument);
+  void* const library = load(find_energyplus_library(own_folder()));
+  std::exit(find<RunEnergyPlus>(library, run_energyplus)(arguments, {}));
+}
+
+[[noreturn]] void run_official(char** argv) {
+  auto const program = std::filesystem::weakly_canonical(own_folder() / official_program);
+  if (!std::filesystem::exists(program)) run_library(argv);
+  execv(program.c_str(), argv);
+  throw Error(fmt::format("{}: {}; make this prefix again with patch_energyplus", program.string(),
+                          std::strerror(errno)));
+}
+
 // Errors of the model come before anything is written.
 void check_model(Path const& path, Choices const& choices) {
   if (!std::filesystem::exists(path) || (!is_idf(path) && !is_epjson(path))) return;
@@ -78,20 +95,62 @@ void check_model(Path const& path, Choices const& choices) {
   }
 }
 
-int run_patched(std::vector<std::string> const& arguments, std::string const& flags) {
-  auto const folder = own_folder();
-  auto const energyplus = find_energyplus_library(folder);
-  void* const library = load(energyplus);
-  void* const patch = load(folder / patch_library);
-  auto* const install = find<int(char const*, char const*)>(patch, "gpu_shading_install");
-  auto* const message = find<char const*()>(patch, "gpu_shading_message");
-  if (install(energyplus.c_str(), flags.c_str()) != 0) throw Error(message());
+// Our module's functions, include/gpu_shading_energyplus.h.
+struct Module {
+  Module() {
+    void* const library = load(own_folder() / patch_library);
+    install = find<int(char const*, char const*)>(library, "gpu_shading_install");
+    run_scheduled = find<int(char const*, char const*, int, char const* const*)>(
+        library, "gpu_shading_run_scheduled");
+    message = find<char const*()>(library, "gpu_shading_message");
+  }
 
-  auto* const run = find<int(std::vector<std::string> const&, std::string const&)>(
-      library,
-      "_Z13EnergyPlusPgmRKSt6vectorINSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEESaIS5_"
-      "EERKS5_");
-  return run(arguments, {});
+  int (*install)(char const*, char const*);
+  int (*run_scheduled)(char const*, char const*, int, char const* const*);
+  char const* (*message)();
+};
+
+int run_scheduled(Path const& energyplus, Module const& module,
+                  std::vector<std::string> const& arguments, std::string const& flags) {
+  std::vector<char const*> words;
+  words.reserve(arguments.size());
+  for (auto const& argument : arguments) words.push_back(argument.c_str());
+  int const status = module.run_scheduled(energyplus.c_str(), flags.c_str(),
+                                          static_cast<int>(words.size()), words.data());
+  if (status < 0) throw Error(module.message());
+  return status;
+}
+
+// A reason and what it lists on lines of their own, of which the first will do.
+std::string in_one_line(std::string const& message) {
+  std::istringstream text(message);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  if (lines.size() < 2) return message;
+  auto const first = lines[1].substr(std::min(lines[1].find_first_not_of(' '), lines[1].size()));
+  return fmt::format("{} {}{}", lines[0], first,
+                     lines.size() == 2 ? "" : fmt::format(" and {} more", lines.size() - 2));
+}
+
+// The program's name and EnergyPlus's arguments.
+int run_shaded(char const* program, std::vector<std::string> arguments, Choices const& choices) {
+  auto const energyplus = find_energyplus_library(own_folder());
+  auto const flags = to_flags(choices);
+  auto const method = choices.method.value_or(Method::automatic);
+  Module const module;
+  if (method == Method::scheduled) return run_scheduled(energyplus, module, arguments, flags);
+
+  void* const library = load(energyplus);
+  constexpr int cannot_patch = 2;
+  int const installed = module.install(energyplus.c_str(), flags.c_str());
+  if (installed == cannot_patch && method == Method::automatic) {
+    fmt::print(stderr, "gpu_shading: sunlit fractions go in as schedules: {}\n",
+               in_one_line(module.message()));
+    return run_scheduled(energyplus, module, arguments, flags);
+  }
+  if (installed != 0) throw Error(module.message());
+  arguments.insert(arguments.begin(), program);
+  return find<RunEnergyPlus>(library, run_energyplus)(arguments, {});
 }
 
 int launch(int argc, char** argv) {
@@ -109,8 +168,7 @@ int launch(int argc, char** argv) {
     choices.folder = std::filesystem::absolute(*line.model).parent_path();
     choices.file = find_side_file(*line.model, choices);
   }
-  arguments.insert(arguments.begin(), argv[0]);
-  return run_patched(arguments, to_flags(choices));
+  return run_shaded(argv[0], std::move(arguments), choices);
 }
 
 }  // namespace

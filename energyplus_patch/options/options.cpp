@@ -26,6 +26,13 @@ Lean parse_lean(std::string const& text) {
   throw Error(fmt::format("is \"{}\", expected auto, on or off", text));
 }
 
+Method parse_method(std::string const& text) {
+  if (same_name(text, "auto")) return Method::automatic;
+  if (same_name(text, "patched")) return Method::patched;
+  if (same_name(text, "scheduled")) return Method::scheduled;
+  throw Error(fmt::format("is \"{}\", expected auto, patched or scheduled", text));
+}
+
 int parse_resolution(std::string const& text) {
   int value = 0;
   auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -101,8 +108,8 @@ struct Choice {
   std::function<void(Choices&, std::string const&)> set;
 };
 
-std::array<Choice, 10> const& all_choices() {
-  static std::array<Choice, 10> const choices{{
+std::array<Choice, 11> const& all_choices() {
+  static std::array<Choice, 11> const choices{{
       {"--gpu-shading", "GPU_SHADING", "", "",
        [](Choices& c, std::string const& v) { c.mode = parse_mode(v); }},
       {"--gpu-shading-resolution", "GPU_SHADING_RESOLUTION", "resolution", "Resolution",
@@ -123,6 +130,8 @@ std::array<Choice, 10> const& all_choices() {
        [](Choices& c, std::string const& v) { c.folder = std::filesystem::absolute(v); }},
       {"--gpu-shading-lean", "GPU_SHADING_LEAN", "", "",
        [](Choices& c, std::string const& v) { c.lean = parse_lean(v); }},
+      {"--gpu-shading-method", "GPU_SHADING_METHOD", "", "",
+       [](Choices& c, std::string const& v) { c.method = parse_method(v); }},
   }};
   return choices;
 }
@@ -193,6 +202,18 @@ std::string name_of(Lean lean) {
   return "auto";
 }
 
+std::string name_of(Method method) {
+  switch (method) {
+    case Method::patched:
+      return "patched";
+    case Method::scheduled:
+      return "scheduled";
+    case Method::automatic:
+      break;
+  }
+  return "auto";
+}
+
 void Choices::fill_from(Choices const& lower) {
   fill(mode, lower.mode);
   if (!resolution && !error) {
@@ -206,10 +227,12 @@ void Choices::fill_from(Choices const& lower) {
   fill(cache, lower.cache);
   fill(folder, lower.folder);
   fill(lean, lower.lean);
+  fill(method, lower.method);
 }
 
 bool Choices::any() const {
-  return mode || resolution || error || update || device || file || report || lean || cache;
+  return mode || resolution || error || update || device || file || report || lean || cache ||
+         method;
 }
 
 Choices take_flags(std::vector<std::string>& arguments) {
@@ -264,6 +287,7 @@ std::string to_flags(Choices const& choices) {
   }
   if (choices.folder) add("--gpu-shading-model-folder", choices.folder->string());
   if (choices.lean) add("--gpu-shading-lean", name_of(*choices.lean));
+  if (choices.method) add("--gpu-shading-method", name_of(*choices.method));
   return flags;
 }
 
@@ -333,6 +357,10 @@ std::string_view flags_help() {
                                        EnergyPlus reads (default: auto, where there are many)
   --gpu-shading-cache DIR|off          Keep answers in DIR, so that runs of the same geometry render
                                        nothing again (default: off)
+  --gpu-shading-method auto|patched|scheduled
+                                       How sunlit fractions get into EnergyPlus: in its own process,
+                                       or as schedules rendered before the run (default: auto,
+                                       patched where that can be)
 )";
 }
 

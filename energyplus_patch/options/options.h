@@ -35,6 +35,13 @@ struct Update {
   bool operator==(Update const&) const = default;
 };
 
+// How sunlit fractions get into EnergyPlus.
+enum class Method {
+  automatic,  // by patching, where the library can be patched
+  patched,
+  scheduled,  // as schedules, rendered before the run
+};
+
 // The user's choices from one source; what it does not say is empty.
 struct Choices {
   static constexpr double least_error = 1e-5;
@@ -53,6 +60,7 @@ struct Choices {
   // lies.
   std::optional<std::filesystem::path> folder = std::nullopt;
   std::optional<Lean> lean;
+  std::optional<Method> method = std::nullopt;
 
   // Fills what is empty from a source of lower rank. Where one says how fine, the lower has no say.
   void fill_from(Choices const& lower);
@@ -69,6 +77,7 @@ std::string name_of(Mode mode);
 std::string name_of(Update const& update);
 std::string name_of(DeviceChoice const& device);
 std::string name_of(Lean lean);
+std::string name_of(Method method);
 
 // The inverse, one flag a line.
 std::string to_flags(Choices const& choices);

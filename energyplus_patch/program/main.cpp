@@ -13,6 +13,7 @@
 #include "gpu_shading/device.h"
 #include "gpu_shading/error.h"
 #include "program/check.h"
+#include "program/export.h"
 #include "program/view.h"
 
 namespace gpu_shading::energyplus {
@@ -123,8 +124,42 @@ void add_view(CLI::App& app) {
   command->callback([model, arguments] { run_view(model->run(), *arguments); });
 }
 
+void add_export(CLI::App& app) {
+  struct Arguments {
+    EnergyPlusCall call;
+    std::string folder;
+    std::string imported;
+  };
+  auto* const command = app.add_subcommand(
+      "export",
+      "Render sunlit fractions of the run periods, for an EnergyPlus without this renderer");
+  auto const model = std::make_shared<ModelArguments>(*command);
+  auto const arguments = std::make_shared<Arguments>();
+  command->add_flag("-x,--expandobjects", arguments->call.expand, "Run ExpandObjects first");
+  command->add_flag("-a,--annual", arguments->call.annual, "A year, whatever the run periods");
+  auto* const outputs = command->add_option_group("output");
+  outputs->add_option("--scheduled", arguments->folder,
+                      "Write the model, with the fractions as schedules, into this folder");
+  outputs->add_option("--imported", arguments->imported,
+                      "Write the file of Schedule:File:Shading (not for EnergyPlus 25.2.0, whose "
+                      "method Imported does not find its surfaces)");
+  outputs->require_option(1);
+  command->callback([model, arguments] {
+    auto const run = model->run();
+    auto call = arguments->call;
+    call.model = run.model;
+    call.weather = run.weather;
+    if (arguments->imported.empty()) {
+      export_scheduled(std::move(call), run.choices, arguments->folder);
+    } else {
+      export_imported(std::move(call), run.choices, arguments->imported);
+    }
+  });
+}
+
 int run(int argc, char** argv) {
-  CLI::App app{"Devices, checks and pictures for EnergyPlus with GPU shading", "gpu_shading"};
+  CLI::App app{"Devices, checks, pictures and exports for EnergyPlus with GPU shading",
+               "gpu_shading"};
   app.require_subcommand(1);
   app.add_subcommand("devices",
                      "List the devices that can render; the number is what "
@@ -132,6 +167,7 @@ int run(int argc, char** argv) {
       ->callback(print_devices);
   add_check(app);
   add_view(app);
+  add_export(app);
   CLI11_PARSE(app, argc, argv);
   return EXIT_SUCCESS;
 }

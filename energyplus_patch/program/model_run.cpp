@@ -9,23 +9,14 @@
 #include "host/own_folder.h"
 #include "host/version.h"
 #include "input/model_reader.h"
+#include "program/launcher.h"
 #include "program/process.h"
+#include "program/stop_reasons.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 using Path = std::filesystem::path;
-
-Path find_launcher() {
-  auto launcher = own_folder() / "energyplus";
-  if (!std::filesystem::exists(own_folder() / "Energy+.idd")) {
-    throw Error(
-        fmt::format("{}: is not a patched EnergyPlus; run the gpu_shading of a prefix made by "
-                    "patch_energyplus",
-                    own_folder().string()));
-  }
-  return launcher;
-}
 
 // Any will do: only the geometry is wanted.
 Path some_weather() {
@@ -41,21 +32,6 @@ Path some_weather() {
 std::string read_text(Path const& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-// The lines of EnergyPlus's .err that say why it stopped.
-std::string reasons(Path const& folder) {
-  std::ifstream file(folder / "eplusout.err");
-  std::string found;
-  bool severe = false;
-  for (std::string line; std::getline(file, line);) {
-    bool const continued = line.find("**   ~~~   **") != std::string::npos;
-    bool const starts =
-        line.find("** Severe") != std::string::npos || line.find("**  Fatal") != std::string::npos;
-    severe = starts || (continued && severe);
-    if (severe) found += "\n" + line;
-  }
-  return found;
 }
 
 // The last error of ours that a run has printed, '' where there is none.
@@ -100,7 +76,7 @@ void run_to_shading(ModelRun const& run, std::vector<std::string> const& environ
   if (std::filesystem::exists(product)) return;
   if (auto const error = own_error(log); !error.empty()) throw Error(error);
   throw Error(fmt::format("{}: EnergyPlus does not get as far as its shading calculation:{}",
-                          model.string(), reasons(folder)));
+                          model.string(), stop_reasons(folder)));
 }
 
 }  // namespace gpu_shading::energyplus

@@ -14,8 +14,8 @@
 #include <set>
 
 #include "gpu_shading/error.h"
+#include "program/process.h"
 #include "session/cache_folder.h"
-#include "temporary_folder.h"
 
 namespace gpu_shading::energyplus {
 namespace {

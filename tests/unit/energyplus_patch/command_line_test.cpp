@@ -7,10 +7,18 @@ namespace {
 
 TEST(CommandLine, ModelIsWhatIsNoOptionAndNoOptionsValue) {
   auto const line = read_command_line({"-w", "a.epw", "-r", "model.idf", "-d", "out"});
+  EXPECT_EQ(line.model_at, 3U);
+  EXPECT_EQ(line.weather, "a.epw");
+  EXPECT_FALSE(line.annual || line.expand || line.design_days);
   EXPECT_EQ(line.model, "model.idf");
 }
 
-TEST(CommandLine, DefaultModel) { EXPECT_EQ(read_command_line({"-D"}).model, "in.idf"); }
+TEST(CommandLine, DefaultModel) {
+  auto const line = read_command_line({"-D", "-x", "-a"});
+  EXPECT_EQ(line.model, "in.idf");
+  EXPECT_FALSE(line.model_at);
+  EXPECT_TRUE(line.annual && line.expand && line.design_days);
+}
 
 TEST(CommandLine, NoModelToCheck) {
   EXPECT_FALSE(read_command_line({"--version"}).model);

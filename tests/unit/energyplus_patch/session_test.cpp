@@ -9,7 +9,7 @@
 
 #include "gpu_shading/error.h"
 #include "input/model_file.h"
-#include "temporary_folder.h"
+#include "program/process.h"
 
 namespace gpu_shading::energyplus {
 namespace {

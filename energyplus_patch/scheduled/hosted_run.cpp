@@ -1,0 +1,101 @@
+#include "scheduled/hosted_run.h"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "gpu_shading/error.h"
+#include "scheduled/progress.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+// The C API, as in EnergyPlus/api/state.h and runtime.h.
+using State = void*;
+
+template <typename Function>
+void find(void* library, char const* name, Function*& function) {
+  void* const found = dlsym(library, name);
+  if (found == nullptr) throw Error(dlerror());
+  function = reinterpret_cast<Function*>(found);
+}
+
+struct Api {
+  explicit Api(std::filesystem::path const& path) {
+    // Local: what it exports must not be taken for another library's. It stays loaded.
+    void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (library == nullptr) throw Error(dlerror());
+    find(library, "stateNew", new_state);
+    find(library, "stateDelete", delete_state);
+    find(library, "setEnergyPlusRootDirectory", set_root);
+    find(library, "energyplus", energyplus);
+    find(library, "issueWarning", issue_warning);
+    find(library, "issueText", issue_text);
+    find(library, "callbackBeginNewEnvironment", on_new_environment);
+    find(library, "registerProgressCallback", on_progress);
+  }
+
+  State (*new_state)() = nullptr;
+  void (*delete_state)(State) = nullptr;
+  void (*set_root)(State, char const*) = nullptr;
+  int (*energyplus)(State, int, char const**) = nullptr;
+  void (*issue_warning)(State, char const*) = nullptr;
+  void (*issue_text)(State, char const*) = nullptr;
+  void (*on_new_environment)(State, void (*)(State)) = nullptr;
+  void (*on_progress)(State, void (*)(int)) = nullptr;
+};
+
+// What the callbacks, which are handed no data of ours, work on: the thread's run.
+struct Hosted {
+  Api const* api = nullptr;
+  RunMessages messages;  // not told yet
+  std::optional<Progress> progress;
+};
+
+Hosted& hosted() {
+  thread_local Hosted instance;
+  return instance;
+}
+
+void tell_messages(State state) {
+  auto const messages = std::exchange(hosted().messages, {});
+  for (auto const& line : messages.warnings) {
+    hosted().api->issue_warning(state, ("gpu_shading: " + line).c_str());
+  }
+  for (auto const& line : messages.remarks) {
+    hosted().api->issue_text(state, ("gpu_shading: " + line).c_str());
+  }
+}
+
+void show_progress(int percent) {
+  if (hosted().progress) hosted().progress->at(static_cast<std::size_t>(percent));
+}
+
+}  // namespace
+
+int run_hosted(std::filesystem::path const& library, std::vector<std::string> const& arguments,
+               RunMessages const& messages) {
+  Api const api(library);
+  auto& run = hosted();
+  run.api = &api;
+  run.messages = messages;
+  // On a terminal EnergyPlus's own lines show how far it is, unless they go elsewhere.
+  constexpr std::size_t percent = 100;
+  if (isatty(STDERR_FILENO) != 0 && isatty(STDOUT_FILENO) == 0) {
+    run.progress.emplace("EnergyPlus", percent);
+  }
+  std::unique_ptr<void, void (*)(State)> const state(api.new_state(), api.delete_state);
+  api.set_root(state.get(), library.parent_path().c_str());
+  api.on_new_environment(state.get(), &tell_messages);
+  api.on_progress(state.get(), &show_progress);
+  std::vector<char const*> words{"energyplus"};
+  for (auto const& argument : arguments) words.push_back(argument.c_str());
+  int const status = api.energyplus(state.get(), static_cast<int>(words.size()), words.data());
+  run.progress.reset();
+  return status;
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gpu_shading::energyplus {
+
+// What a run tells in its .err, from the beginning of its first environment on.
+struct RunMessages {
+  std::vector<std::string> warnings;
+  std::vector<std::string> remarks;
+};
+
+// Runs an EnergyPlus library, unpatched, through its C API. `arguments`: EnergyPlus's own, without
+// the program. `messages` are told with our prefix. Returns EnergyPlus's exit status. Throws Error
+// where the library lacks the API.
+int run_hosted(std::filesystem::path const& library, std::vector<std::string> const& arguments,
+               RunMessages const& messages);
+
+}  // namespace gpu_shading::energyplus

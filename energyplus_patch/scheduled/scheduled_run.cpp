@@ -1,0 +1,40 @@
+#include "scheduled/scheduled_run.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "gpu_shading/error.h"
+#include "host/own_folder.h"
+#include "launcher/command_line.h"
+#include "program/process.h"
+#include "scheduled/hosted_run.h"
+#include "scheduled/scheduled_model.h"
+
+namespace gpu_shading::energyplus {
+
+int run_scheduled(std::filesystem::path const& library, Choices const& choices,
+                  std::vector<std::string> arguments) {
+  auto const line = read_command_line(arguments);
+  if (line.preprocessed) {
+    throw Error(
+        "-m: a model that EPMacro makes cannot have its sunlit fractions scheduled; make the IDF "
+        "first");
+  }
+  if (!line.model) return run_hosted(library, arguments, {});
+  if (!std::filesystem::exists(*line.model)) return run_hosted(library, arguments, {});
+  TemporaryFolder const folder;
+  auto const prepared = prepare_scheduled({own_folder() / "energyplus", *line.model, line.weather,
+                                           line.expand, line.annual, line.design_days},
+                                          choices, folder.path(), [](std::string const& text) {
+                                            fmt::print(stderr, "gpu_shading: {}\n", text);
+                                          });
+  if (line.model_at) {
+    arguments[*line.model_at] = prepared.path.string();
+  } else {
+    arguments.push_back(prepared.path.string());
+  }
+  return run_hosted(library, arguments, {prepared.warnings, prepared.remarks});
+}
+
+}  // namespace gpu_shading::energyplus

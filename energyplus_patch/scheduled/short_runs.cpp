@@ -1,0 +1,144 @@
+#include "scheduled/short_runs.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <string_view>
+#include <utility>
+
+#include "gpu_shading/error.h"
+#include "input/input_object.h"
+#include "input/number.h"
+#include "program/process.h"
+#include "program/stop_reasons.h"
+#include "scheduled/model_editor.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using Path = std::filesystem::path;
+
+bool starts(std::string_view type, std::string_view prefix) {
+  return type.size() >= prefix.size() && same_name(type.substr(0, prefix.size()), prefix);
+}
+
+// Run periods alone, and no sizing.
+std::vector<NewField> simulation_control() {
+  return {{"do_zone_sizing_calculation", "No"},
+          {"do_system_sizing_calculation", "No"},
+          {"do_plant_sizing_calculation", "No"},
+          {"run_simulation_for_sizing_periods", "No"},
+          {"run_simulation_for_weather_file_run_periods", "Yes"}};
+}
+
+void shorten_run_periods(ModelEditor& model) {
+  constexpr std::pair<FieldPlace, FieldPlace> month{{1, "begin_month"}, {4, "end_month"}};
+  constexpr std::pair<FieldPlace, FieldPlace> day{{2, "begin_day_of_month"},
+                                                  {5, "end_day_of_month"}};
+  constexpr std::pair<FieldPlace, FieldPlace> year{{3, "begin_year"}, {6, "end_year"}};
+  model.edit("RunPeriod", [&](EditedObject& period) {
+    for (auto const& [begin, end] : {month, day, year}) {
+      auto const value = parse_number(period.get(begin));
+      if (value) period.set(end, static_cast<int>(*value));
+    }
+  });
+}
+
+// What only a drawing of the surfaces needs.
+void reduce_to_surfaces(ModelEditor& model) {
+  model.remove([](std::string_view type) {
+    return is_extension(type) || starts(type, "Output") || same_name(type, "ShadowCalculation") ||
+           same_name(type, "SimulationControl");
+  });
+  model.add("SimulationControl", simulation_control());
+  shorten_run_periods(model);
+  model.edit("Building", [](EditedObject& building) {
+    building.set({5, "solar_distribution"}, "MinimalShadowing");
+  });
+  model.add("Output:Surfaces:Drawing", {{"report_type", "DXF:WireFrame"}});
+}
+
+// The calendar, the place and the schedules.
+void reduce_to_times(ModelEditor& model, std::vector<std::string> const& schedules) {
+  model.remove([](std::string_view type) {
+    bool const kept = same_name(type, "Version") || same_name(type, "Timestep") ||
+                      same_name(type, "Site:Location") ||
+                      same_name(type, "Site:VariableLocation") || starts(type, "RunPeriod") ||
+                      starts(type, "Schedule");
+    return !kept || same_name(type, "Schedule:File:Shading");
+  });
+  model.add("SimulationControl", simulation_control());
+  model.add("Building", {{"name", "Sun"}, {"north_axis", 0}});
+  model.add("GlobalGeometryRules", {{"starting_vertex_position", "UpperLeftCorner"},
+                                    {"vertex_entry_direction", "Counterclockwise"},
+                                    {"coordinate_system", "World"}});
+  auto const report = [&](std::string const& key, std::string_view variable) {
+    model.add(
+        "Output:Variable",
+        {{"key_value", key}, {"variable_name", variable}, {"reporting_frequency", "Timestep"}});
+  };
+  report("*", "Site Solar Azimuth Angle");
+  report("*", "Site Solar Altitude Angle");
+  for (auto const& schedule : schedules) report(schedule, "Schedule Value");
+}
+
+// Runs a reduced model; the output that was asked for.
+std::ifstream run(EnergyPlusCall const& call, ModelEditor& model, bool expand,
+                  TemporaryFolder const& folder, std::string_view output) {
+  auto const out = folder.path() / "out";
+  std::filesystem::create_directory(out);
+  auto const path = place_model(model, call.model, folder.path() / "in");
+  std::vector<std::string> command{call.program.string(), "-d", out.string()};
+  if (call.weather) command.insert(command.end(), {"-w", call.weather->string()});
+  if (expand) command.emplace_back("-x");
+  if (call.annual) command.emplace_back("-a");
+  command.push_back(path.string());
+  // An empty variable counts as unset: EnergyPlus as it is.
+  run_process(command, {"GPU_SHADING="}, folder.path() / "log.txt");
+  std::ifstream file(out / output);
+  if (!file) {
+    throw Error(fmt::format("{}: EnergyPlus does not get as far as its shading calculation:{}",
+                            call.model.string(), stop_reasons(out)));
+  }
+  return file;
+}
+
+}  // namespace
+
+std::vector<DrawnSurface> run_for_surfaces(EnergyPlusCall const& call) {
+  auto const model = edit_model(call.model);
+  reduce_to_surfaces(*model);
+  TemporaryFolder const folder;
+  auto day = call;
+  day.annual = false;
+  auto file = run(day, *model, call.expand, folder, "eplusout.dxf");
+  return read_drawing(file);
+}
+
+RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> const& schedules) {
+  auto const model = edit_model(call.model);
+  reduce_to_times(*model, schedules);
+  TemporaryFolder const folder;
+  auto file = run(call, *model, false, folder, "eplusout.eso");
+  return read_run_times(file);
+}
+
+Path place_model(ModelEditor& model, Path const& original, Path const& folder) {
+  std::filesystem::create_directories(folder);
+  auto const source = std::filesystem::weakly_canonical(original);
+  model.anchor_paths(source.parent_path());
+  for (auto const& entry : std::filesystem::directory_iterator(source.parent_path())) {
+    auto const link = folder / entry.path().filename();
+    if (entry.path() == source || std::filesystem::equivalent(entry.path(), folder)) continue;
+    std::error_code exists;
+    std::filesystem::create_symlink(entry.path(), link, exists);
+  }
+  auto path = folder / source.filename();
+  std::ofstream file(path, std::ios::binary);
+  file << model.text();
+  file.close();
+  if (!file) throw Error(fmt::format("{}: cannot be written", path.string()));
+  return path;
+}
+
+}  // namespace gpu_shading::energyplus

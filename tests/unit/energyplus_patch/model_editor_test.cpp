@@ -1,0 +1,62 @@
+#include "scheduled/model_editor.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "input/idf_text.h"
+#include "program/process.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using ::testing::ElementsAre;
+
+constexpr FieldPlace axis{1, "north_axis"};
+constexpr FieldPlace terrain{2, "terrain"};
+
+void change(ModelEditor& model) {
+  model.remove([](std::string_view type) { return type == "Output:Variable"; });
+  model.edit("BUILDING", [](EditedObject& building) {
+    EXPECT_EQ(building.get(axis), "30");
+    EXPECT_EQ(building.get(terrain), "");
+    building.set(axis, 45);
+    building.set(terrain, "City");
+  });
+  model.add("Zone", {{"name", "Hall"}, {"direction_of_relative_north", 10}});
+}
+
+TEST(ModelEditor, Idf) {
+  auto const model = edit_idf("Building,House,30; ! north\nOutput:Variable,*,Sun;\n");
+  change(*model);
+  auto const objects = parse_idf(model->text());
+  ASSERT_EQ(objects.size(), 2U);
+  EXPECT_THAT(objects[0].fields, ElementsAre("House", "45", "City"));
+  EXPECT_EQ(objects[1].type, "Zone");
+  EXPECT_THAT(objects[1].fields, ElementsAre("Hall", "10"));
+}
+
+TEST(ModelEditor, Epjson) {
+  auto const model = edit_epjson(nlohmann::json::parse(
+      R"({"Building": {"House": {"north_axis": 30}}, "Output:Variable": {"O 1": {}}})"));
+  change(*model);
+  auto const changed = nlohmann::json::parse(model->text());
+  EXPECT_EQ(changed,
+            nlohmann::json::parse(R"({"Building": {"House": {"north_axis": 45, "terrain": "City"}},
+                                      "Zone": {"Hall": {"direction_of_relative_north": 10}}})"));
+}
+
+TEST(ModelEditor, AnchorsPathsThatLeaveTheFolder) {
+  TemporaryFolder const folder;
+  std::ofstream(folder.path() / "data.csv") << "1\n";
+  auto const model = edit_idf("Schedule:File,S,,../data.csv,1;Schedule:File,T,,../none.csv,1;");
+  std::filesystem::create_directory(folder.path() / "models");
+  model->anchor_paths(folder.path() / "models");
+  auto const objects = parse_idf(model->text());
+  EXPECT_EQ(objects[0].fields[2], std::filesystem::canonical(folder.path() / "data.csv"));
+  EXPECT_EQ(objects[1].fields[2], "../none.csv");
+}
+
+}  // namespace
+}  // namespace gpu_shading::energyplus
