@@ -366,9 +366,11 @@ std::vector<std::vector<Sunlit>> Session::sample(std::span<SunDirection const> d
   for (std::size_t i = 0; i < unknown.size(); ++i) {
     auto& direction = run_.answers.at(unknown[i], state_);
     for (std::size_t j = 0; j < receivers.size(); ++j) {
-      run_.answers.keep(direction, number_of(receivers[j]), rendered[i][j]);
+      auto const number = number_of(receivers[j]);
+      run_.answers.keep(direction, number, std::move(rendered[i][j]));
+      // As it is kept, which is how it comes back from the cache.
+      rows[places[i]].push_back(direction.sunlit(number));
     }
-    rows[places[i]] = std::move(rendered[i]);
   }
   return rows;
 }

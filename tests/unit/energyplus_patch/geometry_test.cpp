@@ -11,8 +11,8 @@
 #include "gpu_shading/local_axes.h"
 #include "input/model_file.h"
 #include "input/model_reader.h"
+#include "program/process.h"
 #include "site/texture_axes.h"
-#include "temporary_folder.h"
 #include "test_images.h"
 
 namespace gpu_shading::energyplus {

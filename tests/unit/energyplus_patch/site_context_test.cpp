@@ -8,9 +8,9 @@
 #include "gpu_shading/error.h"
 #include "input/model_file.h"
 #include "input/model_reader.h"
+#include "program/process.h"
 #include "site/own_building.h"
 #include "site/surroundings.h"
-#include "temporary_folder.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "gpu_shading/error.h"
-#include "temporary_folder.h"
+#include "program/process.h"
 
 namespace gpu_shading::energyplus {
 namespace {
