@@ -85,7 +85,7 @@ void Session::start(Messages messages, Schedules schedules, std::function<double
     if (wanted[id]) {
       // All of them are rendered at the first question, at one go.
       if (area(polygon) > 0.0) number_of(id);
-    } else if (input.shading_surfaces.contains(name)) {
+    } else if (input.shading_surfaces.contains(name) || model_.lean.is_placeholder(name)) {
       unshaded_[id] = area(polygon) * normal(polygon);
     }
   }
