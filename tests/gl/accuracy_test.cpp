@@ -159,6 +159,7 @@ TEST(Accuracy, NinetyNineOfAHundredAreWithinTheErrorAskedFor) {
       }
     };
     std::vector<SunDirection> suns;
+    suns.reserve(30);
     for (int i = 0; i < 30; ++i) suns.push_back(sun_at(107 + 5 * i, 4 + i * 29 % 71));
     for (int const count : {2, 17, 61}) {
       add_scene(louvres(count), suns);
