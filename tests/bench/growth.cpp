@@ -44,12 +44,14 @@ void add_leaves(Scene& scene, Random& random, int count, glm::dvec3 const& low,
 Scene facade(int windows) {
   Scene scene;
   int const across = std::max(1, static_cast<int>(std::lround(std::sqrt(windows))));
+  auto const column = [&](int i) { return i % across; };
+  auto const row = [&](int i) { return i / across; };
   for (int i = 0; i < windows; ++i) {
-    scene.add({"window", south_facing(3.0 * (i % across), 0, 3.0 * (i / across), 2, 2)});
+    scene.add({"window", south_facing(3.0 * column(i), 0, 3.0 * row(i), 2, 2)});
   }
   for (int i = 0; i < windows; ++i) {
-    double const x = 3.0 * (i % across) - 0.3;
-    scene.add({"overhang", level(x, -0.8, 3.0 * (i / across) + 2.1, 2.6, 0.8)});
+    double const x = 3.0 * column(i) - 0.3;
+    scene.add({"overhang", level(x, -0.8, 3.0 * row(i) + 2.1, 2.6, 0.8)});
   }
   return scene;
 }

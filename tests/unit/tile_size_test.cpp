@@ -17,7 +17,8 @@ TEST(TileSize, FollowsTheErrorAndTheDetailBetweenItsLimits) {
   EXPECT_EQ(size.side({0.0, 16.0}), 256);  // 252
   EXPECT_EQ(size.side({9.0, 0.0}), 192);   // sqrt(18.3 / 1e-3) = 135
   EXPECT_EQ(size.side({1e6, 1e6}), 512);
-  for (double edges = 0.1; edges < 1e5; edges *= 1.3) {
+  for (int step = 0; step < 53; ++step) {
+    double const edges = 0.1 * std::pow(1.3, step);
     EXPECT_GE(size.side({0.0, 1.3 * edges}), size.side({0.0, edges}));
     EXPECT_GE(size.side({1.3 * edges, 0.0}), size.side({edges, 0.0}));
     EXPECT_LE(TileSize::for_error(3e-3, 16384).side({0.0, edges}), size.side({0.0, edges}));
