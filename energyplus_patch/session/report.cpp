@@ -111,9 +111,11 @@ void prepare_report(std::filesystem::path const& folder) {
 Stages stages_of(RendererStatistics const& statistics) {
   double const passed =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - loaded).count();
-  double const staged = statistics.cull_seconds + statistics.submit_seconds +
-                        statistics.wait_seconds + statistics.read_seconds;
+  double const staged = statistics.cull_seconds + statistics.count_seconds +
+                        statistics.submit_seconds + statistics.wait_seconds +
+                        statistics.read_seconds;
   return {{"cull", statistics.cull_seconds},
+          {"count", statistics.count_seconds},
           {"submit", statistics.submit_seconds},
           {"wait", statistics.wait_seconds},
           {"read", statistics.read_seconds},

@@ -16,9 +16,11 @@ namespace gpu_shading {
 struct Tile {
   int side = 0;  // pixels
   TileMap map;
-  std::vector<glm::vec2> triangles;     // in clip coordinates
-  double pixel_area = 0.0;              // m2 of the receiver's plane
-  std::optional<std::uint64_t> pixels;  // of the receiver, once counted; never 0
+  std::vector<glm::vec2> triangles;  // in clip coordinates
+  double pixel_area = 0.0;           // m2 of the receiver's plane
+  // Of the receiver, once known; never 0. OpenGL rounds corners to parts of a pixel, Coverage not.
+  std::optional<std::uint64_t> drawn_pixels;
+  std::optional<std::uint64_t> counted_pixels;
 };
 
 // `resolution` pixels a side, doubled while a receiver that fills little of its bounding rectangle,

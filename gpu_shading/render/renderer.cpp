@@ -10,6 +10,7 @@
 #include "egl/device.h"
 #include "gl/limits.h"
 #include "gpu_shading/error.h"
+#include "render/coverage.h"
 #include "render/geometry.h"
 #include "render/picture.h"
 #include "render/receivers.h"
@@ -41,6 +42,9 @@ RendererOptions settled(RendererOptions options, DeviceInfo const& device) {
   if (options.luminance_sum == LuminanceSum::automatic) {
     options.luminance_sum = device.software ? LuminanceSum::readback : LuminanceSum::compute;
   }
+  if (options.opaque_views == OpaqueViews::automatic) {
+    options.opaque_views = device.software ? OpaqueViews::counted : OpaqueViews::drawn;
+  }
   return options;
 }
 
@@ -69,6 +73,7 @@ RendererStatistics& RendererStatistics::operator+=(RendererStatistics const& oth
   seconds += other.seconds;
   cull_seconds += other.cull_seconds;
   submit_seconds += other.submit_seconds;
+  count_seconds += other.count_seconds;
   wait_seconds += other.wait_seconds;
   read_seconds += other.read_seconds;
   return *this;
@@ -110,7 +115,7 @@ class Renderer::Implementation {
 
   Round new_round() {
     return Round({scene_, casters_, transmission_, on_device_->geometry, receivers_,
-                  on_device_->submissions, statistics_});
+                  on_device_->submissions, coverage_ ? &*coverage_ : nullptr, statistics_});
   }
 
   Scene scene_;
@@ -119,6 +124,7 @@ class Renderer::Implementation {
   egl::Device device_;
   RendererOptions options_;
   Receivers receivers_;
+  std::optional<Coverage> coverage_;
   RendererStatistics statistics_;
   std::unique_ptr<OnDevice> on_device_;
 };
@@ -131,6 +137,7 @@ Renderer::Implementation::Implementation(Scene scene, RendererOptions options)
       options_(settled(options, device_.info)),
       receivers_(scene_, tile_size(options_, device_.info), device_.info.max_resolution) {
   Stopwatch const watch(statistics_.seconds);
+  if (options_.opaque_views == OpaqueViews::counted) coverage_.emplace(scene_);
   egl::Current const current = device_.context.make_current();
   on_device_ = std::make_unique<OnDevice>(scene_, transmission_, bounds_of(options_, device_.info),
                                           options_.luminance_sum, statistics_);

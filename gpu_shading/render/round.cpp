@@ -1,5 +1,8 @@
 #include "render/round.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -12,41 +15,70 @@ namespace {
 
 // Answers that are waited for at a time: their sums take memory.
 constexpr std::size_t most_drawn = 16384;
+// Questions whose casters are found at a time: what is found takes memory.
+constexpr std::size_t most_asked = 64;
+// Casters from which on several cores share a view.
+constexpr std::size_t worth_sharing = 200;
 
 }  // namespace
 
 Round::Round(Parts const& parts) : parts_(parts) { parts_.submissions.clear(); }
 
 void Round::ask(Question const& question) {
-  SurfaceId const id = question.receiver;
-  Receiver const& seen = parts_.receivers[id];
-  if (!seen.frame) return;
+  for (SurfaceId const id : question.interiors) parts_.receivers.surface(id);
+  Receiver const& seen = parts_.receivers[question.receiver];
+  if (!seen.frame || question.answers.empty()) return;
   double const cosine = glm::dot(seen.frame->normal, question.towards_sun);
-  if (cosine <= edge_on || question.answers.empty()) return;
+  if (cosine <= edge_on) return;
+  asked_.push_back({question, &seen, cosine});
+  if (asked_.size() >= most_asked) look();
+}
 
-  InView in_view;
-  int side = 0;
+void Round::look() {
+  std::vector<InView> in_view(asked_.size());
   {
     Stopwatch const watch(parts_.statistics.cull_seconds);
-    in_view = parts_.casters.in_view(parts_.scene, id, *seen.frame, question.towards_sun,
-                                     parts_.receivers.size().enough());
-    // Where one surface inside ends and the next begins there is an edge as well.
-    in_view.detail.across +=
-        static_cast<double>(std::min<std::size_t>(question.interiors.size(), 6));
-    side =
-        parts_.receivers.side_for(seen, in_view, parts_.transmission.any_screen(in_view.casters));
+    tbb::parallel_for(std::size_t{0}, asked_.size(), [&](std::size_t i) {
+      Question const& question = asked_[i].question;
+      in_view[i] =
+          parts_.casters.in_view(parts_.scene, question.receiver, *asked_[i].receiver->frame,
+                                 question.towards_sun, parts_.receivers.size().enough());
+    });
   }
+  for (std::size_t i = 0; i < asked_.size(); ++i) take(asked_[i], std::move(in_view[i]));
+  asked_.clear();
+  count();
+  if (drawn_.size() >= most_drawn) finish();
+}
+
+void Round::take(Asked const& asked, InView in_view) {
+  Question const& question = asked.question;
+  Receiver const& seen = *asked.receiver;
   if (!question.through && in_view.casters.empty()) {
     Sunlit& clear = question.answers.front();
-    clear.projected_area = clear.pixel_counted_area = seen.area * cosine;
+    clear.projected_area = clear.pixel_counted_area = seen.area * asked.cosine;
     ++parts_.statistics.receivers_clear;
     return;
   }
-  Tile& tile = parts_.receivers.tile(id, side);
-  measure(id, tile);
-  Drawn drawn{question, &tile, cosine, in_view.casters.size(), true, std::nullopt, 0};
+  // Where one surface inside ends and the next begins there is an edge as well.
+  in_view.detail.across += static_cast<double>(std::min<std::size_t>(question.interiors.size(), 6));
+  int const side =
+      parts_.receivers.side_for(seen, in_view, parts_.transmission.any_screen(in_view.casters));
+  Tile& tile = parts_.receivers.tile(question.receiver, side);
+  if (parts_.coverage == nullptr || parts_.transmission.any_transmits(in_view.casters)) {
+    draw(asked, tile, in_view);
+    return;
+  }
+  measure_by_count(question.receiver, tile);
+  counted_.push_back({asked, &tile, std::move(in_view.casters), {}});
+}
+
+void Round::draw(Asked const& asked, Tile& tile, InView const& in_view) {
+  Question const& question = asked.question;
+  measure(question.receiver, tile);
+  Drawn drawn{question, &tile, asked.cosine, in_view.casters.size(), true, std::nullopt, 0};
   drawn.opaque = !parts_.transmission.any_transmits(in_view.casters);
-  if (!drawn.opaque) drawn.keys = parts_.transmission.keys(id, in_view.casters);
+  if (!drawn.opaque) drawn.keys = parts_.transmission.keys(question.receiver, in_view.casters);
   Kind kind = question.through ? Kind::interior : Kind::opaque;
   if (!drawn.opaque) {
     kind = question.through ? Kind::shaded_interior
@@ -56,11 +88,53 @@ void Round::ask(Question const& question) {
       kind, tile.side, question.answers.size(),
       [&](DrawList& list, int layer) { gather(list, layer, drawn, in_view.casters); });
   drawn_.push_back(std::move(drawn));
-  if (drawn_.size() >= most_drawn) finish();
+}
+
+void Round::count() {
+  Stopwatch const watch(parts_.statistics.count_seconds);
+  int const cores = tbb::this_task_arena::max_concurrency();
+  bool const few = counted_.size() < static_cast<std::size_t>(cores);
+  tbb::parallel_for(std::size_t{0}, counted_.size(), [&](std::size_t i) {
+    count(counted_[i], few && counted_[i].casters.size() >= worth_sharing ? cores : 1);
+  });
+  for (Counted const& view : counted_) {
+    Question const& question = view.asked.question;
+    for (std::size_t i = 0; i < view.lit.size(); ++i) {
+      set_areas(question.answers[i], static_cast<double>(view.lit[i]), *view.tile->counted_pixels,
+                question.receiver, *view.tile, view.asked.cosine);
+    }
+    if (question.through) continue;
+    ++parts_.statistics.receivers_drawn;
+    parts_.statistics.casters_drawn += view.casters.size();
+  }
+  counted_.clear();
+}
+
+void Round::count(Counted& view, int threads) const {
+  Question const& question = view.asked.question;
+  PlaneFrame const& frame = *view.asked.receiver->frame;
+  Tile const& tile = *view.tile;
+  View const before = view_in_front(frame, tile.map, question.towards_sun);
+  if (question.through) {
+    View const behind = view_behind(frame, tile.map, question.towards_sun, 1.0);
+    view.lit = parts_.coverage->lit_inside(tile, before, view.casters, behind, question.interiors);
+  } else {
+    view.lit = {parts_.coverage->lit(tile, before, view.casters, threads)};
+  }
+}
+
+void Round::measure_by_count(SurfaceId receiver, Tile& tile) {
+  if (tile.counted_pixels) return;
+  std::uint64_t pixels = parts_.coverage->lit(tile);
+  if (pixels == 0) {
+    parts_.receivers.bound(receiver, tile);
+    pixels = parts_.coverage->lit(tile);
+  }
+  tile.counted_pixels = pixels;
 }
 
 void Round::measure(SurfaceId receiver, Tile& tile) {
-  if (tile.pixels || measured_.contains(&tile)) return;
+  if (tile.drawn_pixels || measured_.contains(&tile)) return;
   std::size_t const view = parts_.submissions.add(
       Kind::opaque, tile.side, 1,
       [&](DrawList& list, int layer) { list.add_tile(tile.triangles, layer); });
@@ -132,18 +206,19 @@ void Round::gather_interiors(DrawList& list, int layer, Drawn const& drawn) {
 }
 
 void Round::finish() {
+  look();
   parts_.submissions.finish();
   for (auto const& [tile, measured] : measured_) {
     double const pixels = parts_.submissions.sums(measured.view).front().begin()->second;
     if (pixels > 0.0) {
-      tile->pixels = static_cast<std::uint64_t>(pixels);
+      tile->drawn_pixels = static_cast<std::uint64_t>(pixels);
     } else {
       parts_.receivers.bound(measured.receiver, *tile);
     }
   }
   std::vector<Question> again;
   for (Drawn const& drawn : drawn_) {
-    if (drawn.tile->pixels) {
+    if (drawn.tile->drawn_pixels) {
       answer(drawn);
     } else {
       again.push_back(drawn.question);
@@ -168,24 +243,32 @@ void Round::answer(Drawn const& drawn) {
 }
 
 Sunlit Round::sunlit(LuminanceByKey const& sums, Drawn const& drawn) {
-  double const whole = parts_.receivers[drawn.question.receiver].area * drawn.cosine;
-  double const share = whole / static_cast<double>(*drawn.tile->pixels);
   auto const& schedules = parts_.transmission.shades().schedules();
   Sunlit answer;
   for (auto const& [key, sum] : sums) {
+    Sunlit part;
+    set_areas(part, sum, *drawn.tile->drawn_pixels, drawn.question.receiver, *drawn.tile,
+              drawn.cosine);
     std::vector<std::pair<int, int>> powers;
     if (drawn.keys) powers = drawn.keys->powers(key);
     if (powers.empty()) {
-      answer.projected_area = sum * share;
-      answer.pixel_counted_area = sum * drawn.tile->pixel_area * drawn.cosine;
+      answer.projected_area = part.projected_area;
+      answer.pixel_counted_area = part.pixel_counted_area;
       continue;
     }
     for (auto& [schedule, power] : powers) {
       schedule = schedules[static_cast<std::size_t>(schedule)];
     }
-    answer.scheduled.push_back({std::move(powers), sum * share});
+    answer.scheduled.push_back({std::move(powers), part.projected_area});
   }
   return answer;
+}
+
+void Round::set_areas(Sunlit& answer, double lit, std::uint64_t pixels, SurfaceId receiver,
+                      Tile const& tile, double cosine) {
+  double const whole = parts_.receivers[receiver].area * cosine;
+  answer.projected_area = lit * (whole / static_cast<double>(pixels));
+  answer.pixel_counted_area = lit * tile.pixel_area * cosine;
 }
 
 }  // namespace gpu_shading

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "gpu_shading/renderer.h"
+#include "render/coverage.h"
 #include "render/receivers.h"
 #include "render/schedule_keys.h"
 #include "render/submissions.h"
@@ -36,6 +38,7 @@ class Round {
     Geometry const& geometry;
     Receivers& receivers;
     Submissions& submissions;
+    Coverage const* coverage;  // where it counts opaque views
     RendererStatistics& statistics;
   };
 
@@ -47,6 +50,17 @@ class Round {
   void finish();
 
  private:
+  struct Asked {
+    Question question;
+    Receiver const* receiver;
+    double cosine;
+  };
+  struct Counted {
+    Asked asked;
+    Tile const* tile;
+    std::vector<SurfaceId> casters;
+    std::vector<std::uint64_t> lit;  // once counted, of each answer
+  };
   struct Drawn {
     Question question;
     Tile const* tile;
@@ -61,17 +75,28 @@ class Round {
     std::size_t view;
   };
 
+  // Finds what is in view of all that was asked since, and has it counted or drawn.
+  void look();
+  void take(Asked const& asked, InView in_view);
+  void draw(Asked const& asked, Tile& tile, InView const& in_view);
+  void count();
+  void count(Counted& view, int threads) const;
   // How far the farthest is behind the window's plane, m.
   double reach(Question const& question, PlaneFrame const& frame);
   void measure(SurfaceId receiver, Tile& tile);
+  void measure_by_count(SurfaceId receiver, Tile& tile);
   void gather(DrawList& list, int layer, Drawn const& drawn, std::span<SurfaceId const> casters);
   void gather_casters(DrawList& list, int layer, Drawn const& drawn,
                       std::span<SurfaceId const> casters);
   void gather_interiors(DrawList& list, int layer, Drawn const& drawn);
   void answer(Drawn const& drawn);
   Sunlit sunlit(LuminanceByKey const& sums, Drawn const& drawn);
+  void set_areas(Sunlit& answer, double lit, std::uint64_t pixels, SurfaceId receiver,
+                 Tile const& tile, double cosine);
 
   Parts parts_;
+  std::vector<Asked> asked_;
+  std::vector<Counted> counted_;
   std::vector<Drawn> drawn_;
   std::unordered_map<Tile*, Measured> measured_;
 };

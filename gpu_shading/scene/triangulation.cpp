@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 #include <numbers>
+#include <optional>
 
 #include "gpu_shading/error.h"
 #include "scene/ring.h"
@@ -114,6 +115,29 @@ Mesh tessellate(Ring const& outline, std::vector<Ring> const& holes, glm::dvec3 
   return std::move(result.mesh);
 }
 
+// The two as one piece, if they share an edge, lie in one plane, and turn left all the way round.
+std::optional<glm::uvec4> joined(Mesh const& mesh, glm::uvec3 const& a, glm::uvec3 const& b) {
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (a[i] != b[(j + 1) % 3] || a[(i + 1) % 3] != b[j]) continue;
+      glm::uvec4 const corners(a[(i + 1) % 3], a[(i + 2) % 3], a[i], b[(j + 2) % 3]);
+      Ring ring;
+      for (int k = 0; k < 4; ++k) ring.push_back(mesh.vertices[corners[k]]);
+      glm::dvec3 const vector = newell(ring);
+      double const size = glm::length(vector);
+      if (size == 0.0) return std::nullopt;
+      glm::dvec3 const up = vector / size;
+      constexpr double flat = 1e-9;
+      for (glm::dvec3 const& corner : ring) {
+        if (std::abs(glm::dot(corner - ring[0], up)) > flat) return std::nullopt;
+      }
+      if (!is_convex(ring, up)) return std::nullopt;
+      return corners;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Mesh triangulate(Polygon const& polygon) {
@@ -124,6 +148,25 @@ Mesh triangulate(Polygon const& polygon) {
   glm::dvec3 const up = glm::normalize(vector);
   if (polygon.holes.empty() && is_convex(outline, up)) return fan(outline);
   return tessellate(outline, polygon.holes, up);
+}
+
+std::vector<glm::uvec4> convex_pieces(Mesh const& mesh) {
+  std::vector<glm::uvec4> pieces;
+  auto const triangle = [&](std::size_t i) {
+    return glm::uvec3(mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]);
+  };
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    glm::uvec3 const here = triangle(i);
+    if (i + 3 < mesh.indices.size()) {
+      if (auto const both = joined(mesh, here, triangle(i + 3))) {
+        pieces.push_back(*both);
+        i += 3;
+        continue;
+      }
+    }
+    pieces.emplace_back(here, here.z);
+  }
+  return pieces;
 }
 
 }  // namespace gpu_shading

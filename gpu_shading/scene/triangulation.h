@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec4.hpp>
 #include <vector>
 
 #include "gpu_shading/scene.h"
@@ -15,5 +16,9 @@ struct Mesh {
 // Triangles that cover the polygon less its holes once (odd winding, so holes run either way).
 // Their vertices are the polygon's, but where its rings cross. Empty for a degenerate polygon.
 Mesh triangulate(Polygon const& polygon);
+
+// The mesh as convex pieces of up to four corners, in order; the last is repeated where there are
+// three. Triangles that share an edge and lie in one plane are joined in pairs.
+std::vector<glm::uvec4> convex_pieces(Mesh const& mesh);
 
 }  // namespace gpu_shading

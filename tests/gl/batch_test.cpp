@@ -65,6 +65,7 @@ Renderer renderer_with(Scene const& scene, int most_layers, LuminanceSum sum,
   options.resolution = resolution;
   options.luminance_sum = sum;
   options.most_layers = most_layers;
+  options.opaque_views = OpaqueViews::drawn;
   return Renderer(scene, options);
 }
 
@@ -198,6 +199,29 @@ TEST(Batches, AnErrorLeavesNothingBehind) {
   for (std::size_t i = 0; i < suns.size(); ++i) {
     for (std::size_t k = 0; k < site.all.size(); ++k) expect_equal(got[i][k], expected[i][k]);
   }
+}
+
+TEST(Batches, OfCountedViewsAreEqualToTheBitToOneAtATime) {
+  Site const site(16, Finish::mixed);
+  RendererOptions options;
+  options.opaque_views = OpaqueViews::counted;
+  Renderer together(site.scene, options);
+  Renderer apart(site.scene, options);
+  auto const batched = together.projected_sunlit_areas(suns, site.all);
+  std::vector<InteriorQuestion> questions;
+  for (SurfaceId const window : site.receivers) questions.push_back({window, site.all});
+  for (std::size_t i = 0; i < suns.size(); ++i) {
+    for (std::size_t k = 0; k < site.all.size(); ++k) {
+      expect_equal(batched[i][k], sunlit(apart, suns[i], site.all[k]));
+    }
+    auto const inside = together.interior_sunlit_areas(suns[i], questions);
+    for (std::size_t k = 0; k < questions.size(); ++k) {
+      auto const alone =
+          apart.interior_sunlit_areas(suns[i], questions[k].window, questions[k].interiors);
+      for (std::size_t n = 0; n < alone.size(); ++n) expect_equal(inside[k][n], alone[n]);
+    }
+  }
+  EXPECT_GT(together.statistics().count_seconds, 0.0);
 }
 
 TEST(Batches, StagesAddUpToNoMoreThanAllOfTheTime) {

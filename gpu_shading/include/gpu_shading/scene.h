@@ -58,8 +58,8 @@ struct Surface {
   int deployment = -1;
 };
 
-// Whether a caster counts for a receiver. Asked for each pair in view, at each direction; may not
-// change its mind.
+// Whether a caster counts for a receiver. Asked for each pair in view, at each direction, by
+// several threads at a time; may not change its mind.
 using ShadingRule = std::function<bool(SurfaceId receiver, SurfaceId caster)>;
 
 // Every surface that can cast or receive. Each one casts on every other, but where the rule says

@@ -1,0 +1,198 @@
+#include "render/coverage.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <array>
+#include <bit>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+#include "gpu_shading/error.h"
+#include "scene/triangulation.h"
+
+namespace gpu_shading {
+namespace {
+
+// From the places of a view or a tile, -1 .. 1, to pixels.
+glm::dvec2 to_pixels(glm::dvec2 const& place, int side) {
+  return (0.5 * place + 0.5) * static_cast<double>(side);
+}
+
+double at(glm::dvec4 const& row, glm::dvec3 const& p) {
+  return row.x * p.x + row.y * p.y + row.z * p.z + row.w;
+}
+
+// A convex piece as a view has it.
+class Projected {
+ public:
+  // `pixels` has its x and y in pixels.
+  Projected(std::span<glm::dvec3 const> points, glm::uvec4 const& piece, View const& pixels)
+      : count_(piece[2] == piece[3] ? 3 : 4) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      glm::dvec3 const p = points[piece[static_cast<int>(i)]] - pixels.origin;
+      corners_[i] = {at(pixels.x, p), at(pixels.y, p)};
+      depths_[i] = at(pixels.z, p);
+      distances_[i] = at(pixels.cut, p);
+    }
+  }
+
+  ConvexArea area(int side) const {
+    return area_in_front({corners_.data(), count_}, {distances_.data(), count_}, side);
+  }
+
+  // x, y: the change of depth by column and row; z: at the corner of the tile.
+  glm::dvec3 depth() const {
+    glm::dvec2 const a = corners_[1] - corners_[0];
+    glm::dvec2 const b = corners_[2] - corners_[0];
+    double const twice_area = a.x * b.y - a.y * b.x;
+    double const up_a = depths_[1] - depths_[0];
+    double const up_b = depths_[2] - depths_[0];
+    glm::dvec2 const slope =
+        glm::dvec2(up_a * b.y - up_b * a.y, up_b * a.x - up_a * b.x) / twice_area;
+    return {slope, depths_[0] - glm::dot(slope, corners_[0])};
+  }
+
+ private:
+  std::size_t count_;
+  std::array<glm::dvec2, 4> corners_;
+  std::array<double, 4> depths_;
+  std::array<double, 4> distances_;
+};
+
+View in_pixels(View view, int side) {
+  glm::dvec4 const shift(0.0, 0.0, 0.0, 1.0);
+  view.x = 0.5 * side * (view.x + shift);
+  view.y = 0.5 * side * (view.y + shift);
+  return view;
+}
+
+struct InteriorPiece {
+  std::size_t surface = 0;  // its place in what was asked
+  PixelMask mask;
+  glm::dvec3 depth{0.0};
+};
+
+// Of pixels that several pieces cover, whose each is.
+void share_out(std::span<std::uint64_t const> pixels, std::span<InteriorPiece const> pieces,
+               std::vector<std::uint64_t>& counts) {
+  for (std::size_t word = 0; word < pixels.size(); ++word) {
+    for (std::uint64_t rest = pixels[word]; rest != 0; rest &= rest - 1) {
+      std::uint64_t const bit = rest & (~rest + 1);
+      InteriorPiece const* nearest = nullptr;
+      double least = std::numeric_limits<double>::infinity();
+      for (InteriorPiece const& piece : pieces) {
+        if ((piece.mask.words()[word] & bit) == 0) continue;
+        glm::dvec3 const middle(piece.mask.column(word) + std::countr_zero(bit) + 0.5,
+                                piece.mask.row(word) + 0.5, 1.0);
+        double const depth = glm::dot(piece.depth, middle);
+        if (nearest != nullptr && !(depth < least)) continue;
+        nearest = &piece;
+        least = depth;
+      }
+      if (nearest != nullptr) ++counts[nearest->surface];
+    }
+  }
+}
+
+}  // namespace
+
+Coverage::Coverage(Scene const& scene) {
+  ranges_.reserve(scene.size());
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    Mesh const mesh = triangulate(scene[id].polygon);
+    if (points_.size() + mesh.vertices.size() > std::numeric_limits<std::uint32_t>::max()) {
+      throw Error("the scene has more vertices than can be numbered with 32 bits");
+    }
+    auto const base = static_cast<std::uint32_t>(points_.size());
+    std::vector<glm::uvec4> const pieces = convex_pieces(mesh);
+    ranges_.push_back({pieces_.size(), pieces.size()});
+    for (glm::uvec4 const& piece : pieces) pieces_.push_back(piece + base);
+    points_.insert(points_.end(), mesh.vertices.begin(), mesh.vertices.end());
+  }
+}
+
+void Coverage::light(PixelMask& mask, Tile const& tile) const {
+  for (std::size_t i = 0; i < tile.triangles.size(); i += 3) {
+    std::array<glm::dvec2, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = to_pixels(tile.triangles[i + k], tile.side);
+    mask.light(area_within(corners, tile.side));
+  }
+}
+
+void Coverage::darken(PixelMask& mask, Tile const& tile, View const& view,
+                      std::span<SurfaceId const> casters) const {
+  View const pixels = in_pixels(view, tile.side);
+  for (SurfaceId const id : casters) {
+    for (glm::uvec4 const& piece : pieces(id)) {
+      mask.darken(Projected(points_, piece, pixels).area(tile.side));
+    }
+  }
+}
+
+std::uint64_t Coverage::lit(Tile const& tile) const { return lit(tile, {}, {}, 1); }
+
+std::uint64_t Coverage::lit(Tile const& tile, View const& view, std::span<SurfaceId const> casters,
+                            int threads) const {
+  auto const of_rows = [&](int first, int end) {
+    static thread_local PixelMask mask;
+    mask.start(tile.side, first, end);
+    light(mask, tile);
+    darken(mask, tile, view, casters);
+    return mask.lit();
+  };
+  if (threads <= 1) return of_rows(0, tile.side);
+  using Rows = tbb::blocked_range<int>;
+  auto const share = static_cast<std::size_t>((tile.side + threads - 1) / threads);
+  return tbb::parallel_reduce(
+      Rows(0, tile.side, share), std::uint64_t{0},
+      [&](Rows const& rows, std::uint64_t sum) { return sum + of_rows(rows.begin(), rows.end()); },
+      std::plus<>());
+}
+
+std::vector<std::uint64_t> Coverage::lit_inside(Tile const& tile, View const& view,
+                                                std::span<SurfaceId const> casters,
+                                                View const& behind,
+                                                std::span<SurfaceId const> interiors) const {
+  PixelMask lit;
+  lit.start(tile.side, 0, tile.side);
+  light(lit, tile);
+  darken(lit, tile, view, casters);
+  View const pixels = in_pixels(behind, tile.side);
+  std::vector<InteriorPiece> found;
+  std::vector<std::uint64_t> covered(lit.words().size());
+  std::vector<std::uint64_t> several(lit.words().size());
+  for (std::size_t i = 0; i < interiors.size(); ++i) {
+    for (glm::uvec4 const& piece : pieces(interiors[i])) {
+      Projected const projected(points_, piece, pixels);
+      ConvexArea const area = projected.area(tile.side);
+      if (area.first_row >= area.end_row) continue;
+      InteriorPiece& added = found.emplace_back();
+      added.surface = i;
+      added.depth = projected.depth();
+      added.mask.start(tile.side, 0, tile.side);
+      added.mask.light(area);
+      std::span<std::uint64_t const> const words = std::as_const(added.mask).words();
+      for (std::size_t k = 0; k < words.size(); ++k) {
+        several[k] |= covered[k] & words[k];
+        covered[k] |= words[k];
+      }
+    }
+  }
+  // A closed room has hardly any pixel that two of its surfaces cover.
+  std::vector<std::uint64_t> alone(lit.words().size());
+  for (std::size_t k = 0; k < alone.size(); ++k) {
+    alone[k] = lit.words()[k] & ~several[k];
+    several[k] &= lit.words()[k];
+  }
+  std::vector<std::uint64_t> counts(interiors.size());
+  for (InteriorPiece const& piece : found) {
+    counts[piece.surface] += count_common(alone, piece.mask.words());
+  }
+  share_out(several, found, counts);
+  return counts;
+}
+
+}  // namespace gpu_shading
