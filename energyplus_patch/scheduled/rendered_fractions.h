@@ -17,4 +17,8 @@ SunlitTable render_fractions(Model model, std::vector<Surface> const& surfaces, 
 // The transmittance and deployment schedules of a model's shades, upper case, each once.
 std::vector<std::string> shade_schedules(Model const& model);
 
+// Those of them whose values only the run itself will know; and a warning of these.
+std::vector<std::string> unknown_schedules(Model const& model, RunTimes const& run);
+std::string describe_unknown(std::vector<std::string> const& schedules);
+
 }  // namespace gpu_shading::energyplus

@@ -27,12 +27,6 @@ constexpr std::string_view local_environment = "SurfaceProperty:LocalEnvironment
 constexpr FieldPlace exterior_surface{1, "exterior_surface_name"};
 constexpr FieldPlace sunlit_schedule{2, "sunlit_fraction_schedule_name"};
 
-std::string joined(std::vector<std::string> const& names) {
-  std::string text;
-  for (auto const& name : names) text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
-  return text;
-}
-
 // The one warning of what fractions in schedules leave to EnergyPlus.
 std::string describe_limits(Model const& model) {
   std::string text =
@@ -47,19 +41,6 @@ std::string describe_limits(Model const& model) {
   }
   if (model.options.lean == Lean::on) text += "; lean input is off";
   return text;
-}
-
-// Schedules whose values only the run itself will know.
-std::vector<std::string> unknown_schedules(Model const& model, RunTimes const& run) {
-  std::vector<std::string> names;
-  for (auto const& name : shade_schedules(model)) {
-    auto const& known = run.schedules;
-    if (model.shading.actuated.contains(name) ||
-        std::find(known.begin(), known.end(), name) == known.end()) {
-      names.push_back(name);
-    }
-  }
-  return names;
 }
 
 class Collected {
@@ -105,12 +86,7 @@ SunlitTable render(EnergyPlusCall const& call, Model model, Collected& out) {
   auto const run = run_for_times(call, shade_schedules(model));
   if (run.times.empty()) return {};
   auto const unknown = unknown_schedules(model, run);
-  if (!unknown.empty()) {
-    out.warn(fmt::format(
-        "Transmittance or Deployment Schedule {}: its values are another program's or an EMS "
-        "actuator's, which are not known ahead; those of the schedule itself count, or none",
-        joined(unknown)));
-  }
+  if (!unknown.empty()) out.warn(describe_unknown(unknown));
   auto const surfaces = surfaces_of(run_for_surfaces(call), model.shading);
   return render_fractions(std::move(model), surfaces, run, out.messages());
 }

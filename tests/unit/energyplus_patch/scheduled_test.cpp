@@ -10,7 +10,7 @@
 #include "gpu_shading/error.h"
 #include "scheduled/drawing.h"
 #include "scheduled/drawn_surfaces.h"
-#include "scheduled/progress.h"
+#include "session/progress.h"
 #include "scheduled/run_times.h"
 #include "scheduled/sunlit_table.h"
 
