@@ -170,6 +170,8 @@ void put_together(Source const& source, SampleParts const& parts, Path const& fo
   write("year.csv", [&](std::ostream& out) { write_year(set, year, out); });
   write("samples.json",
         [&](std::ostream& out) { out << describe(source, set, year).dump(2) << '\n'; });
+  say(fmt::format("{} directions of {} receivers, {} times of the year",
+                  set.samples.directions().size(), set.scene.receivers.size(), year.times.size()));
 }
 
 }  // namespace
