@@ -43,11 +43,12 @@ float fraction(Session& session, Receiver const& receiver, glm::dvec3 const& sun
 }  // namespace
 
 SunlitTable render_fractions(Model model, std::vector<Surface> const& surfaces, RunTimes const& run,
-                             Session::Messages const& messages) {
+                             Session::Messages const& messages,
+                             std::function<double()> const& latitude) {
   auto const now = std::make_shared<RunTime const*>(nullptr);
   SunlitTable table;
   table.steps_per_hour = run.steps_per_hour;
-  model.options.update = {true};
+  model.options.update.every_timestep = true;
   Session session(std::move(model));
   std::vector<Receiver> receivers;
   for (auto const& surface : surfaces) {
@@ -56,7 +57,7 @@ SunlitTable render_fractions(Model model, std::vector<Surface> const& surfaces, 
     receivers.push_back({id, area(surface.polygon) * normal(surface.polygon)});
     table.surfaces.push_back(surface.name);
   }
-  session.start(messages, schedules_of(run, now));
+  session.start(messages, schedules_of(run, now), latitude);
   Progress progress("rendering sunlit fractions", run.times.size());
   for (std::size_t i = 0; i < run.times.size(); ++i) {
     auto const& time = run.times[i];

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <glm/trigonometric.hpp>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "gpu_shading/error.h"
 #include "host/version.h"
 #include "input/model_reader.h"
+#include "samples/weather_site.h"
 #include "scheduled/drawn_surfaces.h"
 #include "scheduled/model_editor.h"
 #include "scheduled/rendered_fractions.h"
@@ -82,13 +84,21 @@ bool runs_periods(EnergyPlusCall const& call, ModelEditor& model) {
   return runs;
 }
 
+// Of the place that the sun of run periods keeps to; radians.
+double latitude_of(EnergyPlusCall const& call) {
+  if (!call.weather)
+    throw Error("-w: a weather file is needed, for whose place the sun is sampled");
+  return glm::radians(read_weather_site(*call.weather).latitude);
+}
+
 SunlitTable render(EnergyPlusCall const& call, Model model, Collected& out) {
   auto const run = run_for_times(call, shade_schedules(model));
   if (run.times.empty()) return {};
   auto const unknown = unknown_schedules(model, run);
   if (!unknown.empty()) out.warn(describe_unknown(unknown));
   auto const surfaces = surfaces_of(run_for_surfaces(call), model.shading);
-  return render_fractions(std::move(model), surfaces, run, out.messages());
+  return render_fractions(std::move(model), surfaces, run, out.messages(),
+                          [&] { return latitude_of(call); });
 }
 
 void set_method(ModelEditor& editor, std::string_view method, std::string_view frequency) {
