@@ -42,7 +42,9 @@ std::vector<std::string> own_messages(Path const& log, std::string_view kind) {
   std::ifstream file(log);
   std::vector<std::string> found;
   for (std::string line; std::getline(file, line);) {
-    if (line.starts_with(mark)) found.push_back(line.substr(mark.size()));
+    if (!line.starts_with(mark)) continue;
+    if (line.ends_with(':')) line.pop_back();  // a list follows
+    found.push_back(line.substr(mark.size()));
   }
   return found;
 }
@@ -70,7 +72,7 @@ std::vector<std::string> run_to_shading(ModelRun const& run,
 
   auto const log = folder / "log.txt";
   std::vector<std::string> command{find_launcher().string(), "-d", folder.string(), "-w",
-                                   weather.value_or(some_weather()).string()};
+                                   (weather ? *weather : some_weather()).string()};
   std::istringstream flags(flags_of(choices));
   for (std::string flag; std::getline(flags, flag);) command.push_back(flag);
   if (is_idf(model) && read_text(model).find("HVACTemplate:") != std::string::npos) {
