@@ -56,10 +56,11 @@ std::string describe_fineness(Options const& options) {
 }
 
 // Each position of a screen would take samples of its own.
-void refuse_moving_screens(std::vector<std::string> const& deployments,
-                           Schedules const& schedules) {
+void refuse_moving_screens(
+    std::vector<std::string> const& deployments,
+    std::function<std::pair<double, double>(std::string const&)> const& range) {
   for (auto const& name : deployments) {
-    auto const [least, most] = schedules.range(name);
+    auto const [least, most] = range(name);
     if (least < most) {
       throw Error(fmt::format(
           "GPUShading:PerforatedScreen: Deployment Schedule Name {}: has values from {} to {}; "
@@ -106,7 +107,8 @@ void Session::start(Messages messages, Schedules schedules, std::function<double
     }
   }
   add_outside_casters();
-  optics_ = ShadeOptics(model_, schedules);
+  auto const range = schedules.range;
+  optics_ = ShadeOptics(model_, std::move(schedules));
   if (char const* const listing = std::getenv(listing_variable)) {
     bool const vertices = std::getenv(vertices_variable) != nullptr;
     std::ofstream(listing) << (vertices ? list_vertices(scene_, model_)
@@ -121,7 +123,7 @@ void Session::start(Messages messages, Schedules schedules, std::function<double
   if (model_.options.report) prepare_report(*model_.options.report);
   if (model_.options.cache) prepare_cache_folder(*model_.options.cache);
   if (char const* const request = std::getenv(samples_variable)) {
-    refuse_moving_screens(optics_.deployment_names(), schedules);
+    refuse_moving_screens(optics_.deployment_names(), range);
     take_samples(request);
     std::_Exit(EXIT_SUCCESS);
   }
