@@ -3,17 +3,23 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gpu_shading/device.h"
 #include "gpu_shading/error.h"
+#include "input/number.h"
+#include "options/options.h"
 #include "program/check.h"
 #include "program/export.h"
+#include "program/sample.h"
 #include "program/view.h"
 
 namespace gpu_shading::energyplus {
@@ -38,31 +44,31 @@ void print_devices() {
 // What every subcommand that reads a model takes.
 class ModelArguments {
  public:
-  explicit ModelArguments(CLI::App& command) {
+  // `choices`: of the flags that energyplus takes, too.
+  ModelArguments(CLI::App& command, Choices choices) : choices_(std::move(choices)) {
     command.add_option("model", model_, "IDF or epJSON file")->required();
     command.add_option("-w,--weather", weather_, "Weather file (default: one of EnergyPlus's)");
-    command.add_option("--gpu-shading-file", file_, "Extension objects in a file of their own");
+    command.footer(std::string(flags_help()));
   }
 
   ModelRun run() const {
-    ModelRun run{model_, std::nullopt, read_environment()};
+    ModelRun run{model_, std::nullopt, choices_};
     if (!weather_.empty()) run.weather = weather_;
-    if (!file_.empty()) run.choices.file = file_;
     return run;
   }
 
  private:
   std::string model_;
   std::string weather_;
-  std::string file_;
+  Choices choices_;
 };
 
-void add_check(CLI::App& app) {
+void add_check(CLI::App& app, Choices const& choices) {
   auto* const command = app.add_subcommand(
       "check",
       "Read a model and its extension objects; print what each surface will be to the "
       "shading calculation, or every error");
-  auto const arguments = std::make_shared<ModelArguments>(*command);
+  auto const arguments = std::make_shared<ModelArguments>(*command, choices);
   auto const vertices = std::make_shared<bool>(false);
   command->add_flag("--vertices", *vertices, "Print every surface's vertices instead");
   command->callback([arguments, vertices] { check(arguments->run(), *vertices); });
@@ -94,13 +100,13 @@ void run_view(ModelRun const& model, ViewArguments const& arguments) {
   draw(model, pictures, arguments.size);
 }
 
-void add_view(CLI::App& app) {
+void add_view(CLI::App& app, Choices const& choices) {
   auto* const command = app.add_subcommand(
       "view",
       "Draw the model as the sun sees it, receivers from dark blue to yellow by their sunlit "
       "fraction; or one receiver, its sunlit parts yellow, shaded ones blue, grey by what reaches "
       "it where a caster transmits. Schedules at their least transmittance, screens all in place");
-  auto const model = std::make_shared<ModelArguments>(*command);
+  auto const model = std::make_shared<ModelArguments>(*command, choices);
   auto const arguments = std::make_shared<ViewArguments>();
   command->add_option("--receiver", arguments->receiver, "Name of the one to show");
   command
@@ -124,7 +130,7 @@ void add_view(CLI::App& app) {
   command->callback([model, arguments] { run_view(model->run(), *arguments); });
 }
 
-void add_export(CLI::App& app) {
+void add_export(CLI::App& app, Choices const& choices) {
   struct Arguments {
     EnergyPlusCall call;
     std::string folder;
@@ -133,7 +139,7 @@ void add_export(CLI::App& app) {
   auto* const command = app.add_subcommand(
       "export",
       "Render sunlit fractions of the run periods, for an EnergyPlus without this renderer");
-  auto const model = std::make_shared<ModelArguments>(*command);
+  auto const model = std::make_shared<ModelArguments>(*command, choices);
   auto const arguments = std::make_shared<Arguments>();
   command->add_flag("-x,--expandobjects", arguments->call.expand, "Run ExpandObjects first");
   command->add_flag("-a,--annual", arguments->call.annual, "A year, whatever the run periods");
@@ -157,18 +163,84 @@ void add_export(CLI::App& app) {
   });
 }
 
+// "3/8".
+Shard parse_shard(std::string const& text) {
+  auto const slash = text.find('/');
+  auto const number = parse_number(text.substr(0, slash));
+  auto const shards = parse_number(slash == std::string::npos ? "" : text.substr(slash + 1));
+  constexpr double most = 10000.0;
+  bool const whole =
+      number && shards && std::floor(*number) == *number && std::floor(*shards) == *shards;
+  if (!whole || *number < 1.0 || *number > *shards || *shards > most) {
+    throw Error(fmt::format("--shard {}: expected I/N, the I-th of N shards, such as 3/8", text));
+  }
+  return {static_cast<int>(*number), static_cast<int>(*shards)};
+}
+
+void add_sample(CLI::App& app, Choices const& choices) {
+  struct Arguments {
+    std::string mode = "medium";
+    std::string folder;
+    std::string shard;
+    int merge = 0;
+  };
+  auto* const command = app.add_subcommand(
+      "sample",
+      "Sample sunlit fractions at the sun's positions, as --gpu-shading-update sampled:... does, "
+      "without a run: a table of samples, and of every 15 minutes of the year");
+  auto const model = std::make_shared<ModelArguments>(*command, choices);
+  auto const arguments = std::make_shared<Arguments>();
+  command->add_option("-o,--output", arguments->folder, "Folder for samples.csv and year.csv")
+      ->required();
+  command->add_option("--mode", arguments->mode, "How densely")
+      ->check(
+          CLI::IsMember({"fine", "medium", "coarse", "paper-fine", "paper-medium", "paper-coarse"}))
+      ->capture_default_str();
+  auto* const shard = command->add_option(
+      "--shard", arguments->shard,
+      "Render the I-th of N shares of one round, and keep it in the folder: to be repeated for all "
+      "shares, then for the next round, until it says that all are there");
+  constexpr int most_shards = 10000;
+  command
+      ->add_option("--merge", arguments->merge,
+                   "Put together what N shards have rendered; renders nothing")
+      ->check(CLI::Range(1, most_shards))
+      ->excludes(shard)
+      ->type_name("N");
+  shard->type_name("I/N");
+  command->callback([model, arguments] {
+    auto run = model->run();
+    std::vector<std::string> flag{"--gpu-shading-update=sampled:" + arguments->mode};
+    run.choices.update = take_flags(flag).update;
+    SampleTask task{arguments->folder};
+    if (!arguments->shard.empty()) task.shard = parse_shard(arguments->shard);
+    if (arguments->merge > 0) task.merge = arguments->merge;
+    sample(run, task);
+  });
+}
+
 int run(int argc, char** argv) {
-  CLI::App app{"Devices, checks, pictures and exports for EnergyPlus with GPU shading",
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  auto choices = take_flags(arguments);
+  choices.fill_from(read_environment());
+  CLI::App app{"Devices, checks, pictures, samples and exports for EnergyPlus with GPU shading",
                "gpu_shading"};
   app.require_subcommand(1);
   app.add_subcommand("devices",
                      "List the devices that can render; the number is what "
                      "--gpu-shading-device takes")
       ->callback(print_devices);
-  add_check(app);
-  add_view(app);
-  add_export(app);
-  CLI11_PARSE(app, argc, argv);
+  add_check(app, choices);
+  add_view(app, choices);
+  add_sample(app, choices);
+  add_export(app, choices);
+  // As it wants them.
+  std::reverse(arguments.begin(), arguments.end());
+  try {
+    app.parse(std::move(arguments));
+  } catch (CLI::ParseError const& error) {
+    return app.exit(error);
+  }
   return EXIT_SUCCESS;
 }
 

@@ -4,6 +4,8 @@
 
 #include <fstream>
 #include <iterator>
+#include <sstream>
+#include <string_view>
 
 #include "gpu_shading/error.h"
 #include "host/own_folder.h"
@@ -34,21 +36,31 @@ std::string read_text(Path const& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-// The last error of ours that a run has printed, '' where there is none.
-std::string own_error(Path const& log) {
-  constexpr std::string_view mark = "gpu_shading: error: ";
+// What a run has printed of ours: "warning" or "error".
+std::vector<std::string> own_messages(Path const& log, std::string_view kind) {
+  auto const mark = fmt::format("gpu_shading: {}: ", kind);
   std::ifstream file(log);
-  std::string found;
+  std::vector<std::string> found;
   for (std::string line; std::getline(file, line);) {
-    if (line.rfind(mark, 0) == 0) found = line.substr(mark.size());
+    if (!line.starts_with(mark)) continue;
+    if (line.ends_with(':')) line.pop_back();  // a list follows
+    found.push_back(line.substr(mark.size()));
   }
   return found;
 }
 
+// Of our flags those that EnergyPlus is run by here: rendering is on, and in its own process.
+std::string flags_of(Choices choices) {
+  if (choices.mode != Mode::require) choices.mode = Mode::automatic;
+  choices.method = Method::patched;
+  return to_flags(choices);
+}
+
 }  // namespace
 
-void run_to_shading(ModelRun const& run, std::vector<std::string> const& environment,
-                    Path const& folder, Path const& product) {
+std::vector<std::string> run_to_shading(ModelRun const& run,
+                                        std::vector<std::string> const& environment,
+                                        Path const& folder, Path const& product) {
   auto const& [model, weather, choices] = run;
   if (!std::filesystem::exists(model)) {
     throw Error(fmt::format("{}: no such file", model.string()));
@@ -59,22 +71,17 @@ void run_to_shading(ModelRun const& run, std::vector<std::string> const& environ
   check_supported(read_model(model, choices).shading, read_version(own_folder()));
 
   auto const log = folder / "log.txt";
-  std::vector<std::string> command{find_launcher().string(),
-                                   "--gpu-shading",
-                                   "-d",
-                                   folder.string(),
-                                   "-w",
-                                   weather.value_or(some_weather()).string()};
-  if (choices.device) command.push_back("--gpu-shading-device=" + name_of(*choices.device));
-  if (choices.file) command.push_back("--gpu-shading-file=" + choices.file->string());
-  if (choices.lean) command.push_back("--gpu-shading-lean=" + name_of(*choices.lean));
+  std::vector<std::string> command{find_launcher().string(), "-d", folder.string(), "-w",
+                                   (weather ? *weather : some_weather()).string()};
+  std::istringstream flags(flags_of(choices));
+  for (std::string flag; std::getline(flags, flag);) command.push_back(flag);
   if (is_idf(model) && read_text(model).find("HVACTemplate:") != std::string::npos) {
     command.emplace_back("-x");
   }
   command.push_back(model.string());
   run_process(command, environment, log);
-  if (std::filesystem::exists(product)) return;
-  if (auto const error = own_error(log); !error.empty()) throw Error(error);
+  if (std::filesystem::exists(product)) return own_messages(log, "warning");
+  if (auto const errors = own_messages(log, "error"); !errors.empty()) throw Error(errors.back());
   throw Error(fmt::format("{}: EnergyPlus does not get as far as its shading calculation:{}",
                           model.string(), stop_reasons(folder)));
 }

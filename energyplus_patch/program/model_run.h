@@ -18,8 +18,11 @@ struct ModelRun {
 
 // Reads a model and its extensions, then has EnergyPlus hand over its surfaces; the `environment`
 // ("NAME=value") tells our module to write `product` then and to end. EnergyPlus writes into
-// `folder`. Throws Error with every error of the model, or why there is no product.
-void run_to_shading(ModelRun const& run, std::vector<std::string> const& environment,
-                    std::filesystem::path const& folder, std::filesystem::path const& product);
+// `folder`. Returns the run's warnings of ours. Throws Error with every error of the model, or why
+// there is no product.
+std::vector<std::string> run_to_shading(ModelRun const& run,
+                                        std::vector<std::string> const& environment,
+                                        std::filesystem::path const& folder,
+                                        std::filesystem::path const& product);
 
 }  // namespace gpu_shading::energyplus

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
-#include "scheduled/progress.h"
+#include "session/progress.h"
 
 namespace gpu_shading::energyplus {
 namespace {

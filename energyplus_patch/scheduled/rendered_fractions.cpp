@@ -1,78 +1,68 @@
 #include "scheduled/rendered_fractions.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <set>
 #include <utility>
 
 #include "scheduled/drawn_surfaces.h"
-#include "scheduled/progress.h"
+#include "session/progress.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
-// EnergyPlus's own limit (Engineering Reference, "Shading Module"): the sun is down below it, and
-// behind a surface of a smaller cosine of incidence.
-constexpr double sun_is_up = 1e-5;
-
 struct Receiver {
   SurfaceId id;
-  glm::dvec3 normal;
-  double area;
+  glm::dvec3 area;  // times the unit normal
 };
 
 // A run's schedules at the time of `now`; 0 for those that EnergyPlus does not know.
 Schedules schedules_of(RunTimes const& run, std::shared_ptr<RunTime const*> const& now) {
-  auto const place = [&run](std::string const& name) {
-    auto const found = std::find(run.schedules.begin(), run.schedules.end(), name);
-    return static_cast<std::size_t>(found - run.schedules.begin());
-  };
-  auto const at = [](RunTime const& time, std::size_t i) {
-    return i < time.schedules.size() ? std::clamp(time.schedules[i], 0.0, 1.0) : 0.0;
-  };
-  return {[=, &run](std::string const& name) {
-            auto const i = place(name);
-            std::pair range(1.0, 0.0);
-            for (auto const& time : run.times) {
-              range.first = std::min(range.first, at(time, i));
-              range.second = std::max(range.second, at(time, i));
-            }
-            return range;
-          },
-          [=](std::string const& name, Moment) { return at(**now, place(name)); }};
+  return {
+      [&run](std::string const& name) {
+        std::pair range(1.0, 0.0);
+        for (auto const& time : run.times) {
+          double const value = schedule_value(run, time, name);
+          range.first = std::min(range.first, value);
+          range.second = std::max(range.second, value);
+        }
+        return range;
+      },
+      [&run, now](std::string const& name, Moment) { return schedule_value(run, **now, name); }};
 }
 
 float fraction(Session& session, Receiver const& receiver, glm::dvec3 const& sun) {
-  double const cosine = glm::dot(receiver.normal, sun);
-  if (cosine < sun_is_up || receiver.area <= 0.0) return 0.0F;
-  double const lit = session.projected_sunlit_area(receiver.id);
-  return static_cast<float>(std::clamp(lit / (cosine * receiver.area), 0.0, 1.0));
+  if (glm::dot(receiver.area, sun) <= 0.0) return 0.0F;
+  return static_cast<float>(
+      sunlit_fraction(session.projected_sunlit_area(receiver.id), receiver.area, sun));
 }
 
 }  // namespace
 
 SunlitTable render_fractions(Model model, std::vector<Surface> const& surfaces, RunTimes const& run,
-                             Session::Messages const& messages) {
+                             Session::Messages const& messages,
+                             std::function<double()> const& latitude) {
   auto const now = std::make_shared<RunTime const*>(nullptr);
   SunlitTable table;
   table.steps_per_hour = run.steps_per_hour;
-  model.options.update = {true};
+  model.options.update.every_timestep = true;
   Session session(std::move(model));
   std::vector<Receiver> receivers;
   for (auto const& surface : surfaces) {
     auto const id = session.add(surface);
     if (!is_exterior(surface.name, session.input())) continue;
-    receivers.push_back({id, normal(surface.polygon), area(surface.polygon)});
+    receivers.push_back({id, area(surface.polygon) * normal(surface.polygon)});
     table.surfaces.push_back(surface.name);
   }
-  session.start(messages, schedules_of(run, now));
+  session.start(messages, schedules_of(run, now), latitude);
   Progress progress("rendering sunlit fractions", run.times.size());
   for (std::size_t i = 0; i < run.times.size(); ++i) {
     auto const& time = run.times[i];
     auto const sun = to_vector(time.sun);
-    if (sun.z < sun_is_up) continue;
+    if (!sun_is_up(time.sun)) continue;
     *now = &time;
     session.set_time({time.hour, time.timestep});
     session.set_sun(time.sun);
@@ -84,6 +74,25 @@ SunlitTable render_fractions(Model model, std::vector<Surface> const& surfaces, 
   }
   session.finish();
   return table;
+}
+
+std::vector<std::string> unknown_schedules(Model const& model, RunTimes const& run) {
+  std::vector<std::string> names;
+  for (auto const& name : shade_schedules(model)) {
+    auto const& known = run.schedules;
+    if (model.shading.actuated.contains(name) ||
+        std::find(known.begin(), known.end(), name) == known.end()) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+std::string describe_unknown(std::vector<std::string> const& schedules) {
+  return fmt::format(
+      "Transmittance or Deployment Schedule {}: its values are another program's or an EMS "
+      "actuator's, which are not known ahead; those of the schedule itself count, or none",
+      fmt::join(schedules, ", "));
 }
 
 std::vector<std::string> shade_schedules(Model const& model) {

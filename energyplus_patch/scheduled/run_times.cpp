@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -19,6 +20,9 @@ namespace gpu_shading::energyplus {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
+
+// See sun_is_up().
+constexpr double least_cosine = 1e-5;
 
 std::vector<std::string> split(std::string const& line) {
   std::vector<std::string> words;
@@ -83,6 +87,22 @@ std::size_t row_of(RunTime const& time, int steps_per_hour) {
   constexpr int hours = 24;
   auto const hour = hours * day_of_schedule(time.month, time.day) + time.hour - 1;
   return static_cast<std::size_t>(hour * steps_per_hour + time.timestep - 1);
+}
+
+double schedule_value(RunTimes const& run, RunTime const& time, std::string const& name) {
+  auto const found = std::find(run.schedules.begin(), run.schedules.end(), name);
+  if (found == run.schedules.end()) return 0.0;
+  return std::clamp(time.schedules[static_cast<std::size_t>(found - run.schedules.begin())], 0.0,
+                    1.0);
+}
+
+bool sun_is_up(SunDirection sun) { return to_vector(sun).z >= least_cosine; }
+
+double sunlit_fraction(double projected_area, glm::dvec3 const& area, glm::dvec3 const& sun) {
+  double const whole = glm::length(area);
+  double const facing = glm::dot(area, sun);
+  if (whole <= 0.0 || facing < least_cosine * whole) return 0.0;
+  return std::clamp(projected_area / facing, 0.0, 1.0);
 }
 
 RunTimes read_run_times(std::istream& eso) {

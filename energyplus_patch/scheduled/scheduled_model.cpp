@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <glm/trigonometric.hpp>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "gpu_shading/error.h"
 #include "host/version.h"
 #include "input/model_reader.h"
+#include "samples/weather_site.h"
 #include "scheduled/drawn_surfaces.h"
 #include "scheduled/model_editor.h"
 #include "scheduled/rendered_fractions.h"
@@ -27,12 +29,6 @@ constexpr std::string_view local_environment = "SurfaceProperty:LocalEnvironment
 constexpr FieldPlace exterior_surface{1, "exterior_surface_name"};
 constexpr FieldPlace sunlit_schedule{2, "sunlit_fraction_schedule_name"};
 
-std::string joined(std::vector<std::string> const& names) {
-  std::string text;
-  for (auto const& name : names) text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
-  return text;
-}
-
 // The one warning of what fractions in schedules leave to EnergyPlus.
 std::string describe_limits(Model const& model) {
   std::string text =
@@ -47,19 +43,6 @@ std::string describe_limits(Model const& model) {
   }
   if (model.options.lean == Lean::on) text += "; lean input is off";
   return text;
-}
-
-// Schedules whose values only the run itself will know.
-std::vector<std::string> unknown_schedules(Model const& model, RunTimes const& run) {
-  std::vector<std::string> names;
-  for (auto const& name : shade_schedules(model)) {
-    auto const& known = run.schedules;
-    if (model.shading.actuated.contains(name) ||
-        std::find(known.begin(), known.end(), name) == known.end()) {
-      names.push_back(name);
-    }
-  }
-  return names;
 }
 
 class Collected {
@@ -101,18 +84,21 @@ bool runs_periods(EnergyPlusCall const& call, ModelEditor& model) {
   return runs;
 }
 
+// Of the place that the sun of run periods keeps to; radians.
+double latitude_of(EnergyPlusCall const& call) {
+  if (!call.weather)
+    throw Error("-w: a weather file is needed, for whose place the sun is sampled");
+  return glm::radians(read_weather_site(*call.weather).latitude);
+}
+
 SunlitTable render(EnergyPlusCall const& call, Model model, Collected& out) {
   auto const run = run_for_times(call, shade_schedules(model));
   if (run.times.empty()) return {};
   auto const unknown = unknown_schedules(model, run);
-  if (!unknown.empty()) {
-    out.warn(fmt::format(
-        "Transmittance or Deployment Schedule {}: its values are another program's or an EMS "
-        "actuator's, which are not known ahead; those of the schedule itself count, or none",
-        joined(unknown)));
-  }
+  if (!unknown.empty()) out.warn(describe_unknown(unknown));
   auto const surfaces = surfaces_of(run_for_surfaces(call), model.shading);
-  return render_fractions(std::move(model), surfaces, run, out.messages());
+  return render_fractions(std::move(model), surfaces, run, out.messages(),
+                          [&] { return latitude_of(call); });
 }
 
 void set_method(ModelEditor& editor, std::string_view method, std::string_view frequency) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <string_view>
 #include <utility>
@@ -82,6 +84,41 @@ void reduce_to_times(ModelEditor& model, std::vector<std::string> const& schedul
   for (auto const& schedule : schedules) report(schedule, "Schedule Value");
 }
 
+// In place of all run periods one, which EnergyPlus lengthens to a year (-a): the first, whose year
+// or day of the week it keeps to.
+void keep_one_run_period(ModelEditor& model) {
+  constexpr std::array<FieldPlace, 10> fields{{{1, "begin_month"},
+                                               {2, "begin_day_of_month"},
+                                               {3, "begin_year"},
+                                               {4, "end_month"},
+                                               {5, "end_day_of_month"},
+                                               {6, "end_year"},
+                                               {7, "day_of_week_for_start_day"},
+                                               {8, "use_weather_file_holidays_and_special_days"},
+                                               {9, "use_weather_file_daylight_saving_period"},
+                                               {10, "apply_weekend_holiday_rule"}}};
+  std::vector<NewField> period{{"name", "Year"}};
+  model.edit("RunPeriod", [&](EditedObject const& first) {
+    if (period.size() > 1) return;
+    for (auto const& field : fields) {
+      auto const text = first.get(field);
+      auto const number = parse_number(text);
+      period.push_back(
+          {field.name, number ? nlohmann::json(std::lround(*number)) : nlohmann::json(text)});
+    }
+  });
+  if (period.size() == 1) {
+    constexpr int december = 12;
+    constexpr int last = 31;
+    for (int const value : {1, 1, 0, december, last}) {
+      auto const name = fields.at(period.size() - 1).name;
+      period.push_back({name, value == 0 ? nlohmann::json("") : nlohmann::json(value)});
+    }
+  }
+  model.remove([](std::string_view type) { return same_name(type, "RunPeriod"); });
+  model.add("RunPeriod", period);
+}
+
 // Runs a reduced model; the output that was asked for.
 std::ifstream run(EnergyPlusCall const& call, ModelEditor& model, bool expand,
                   TemporaryFolder const& folder, std::string_view output) {
@@ -120,6 +157,20 @@ RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> cons
   reduce_to_times(*model, schedules);
   TemporaryFolder const folder;
   auto file = run(call, *model, false, folder, "eplusout.eso");
+  return read_run_times(file);
+}
+
+RunTimes run_for_year(EnergyPlusCall const& call, std::vector<std::string> const& schedules,
+                      int steps_per_hour) {
+  auto const model = edit_model(call.model);
+  reduce_to_times(*model, schedules);
+  model->remove([](std::string_view type) { return same_name(type, "Timestep"); });
+  model->add("Timestep", {{"number_of_timesteps_per_hour", steps_per_hour}});
+  keep_one_run_period(*model);
+  TemporaryFolder const folder;
+  auto year = call;
+  year.annual = true;
+  auto file = run(year, *model, false, folder, "eplusout.eso");
   return read_run_times(file);
 }
 

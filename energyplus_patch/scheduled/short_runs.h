@@ -31,6 +31,11 @@ std::vector<DrawnSurface> run_for_surfaces(EnergyPlusCall const& call);
 // (another program's, say) is left out of the answer. Throws Error like it.
 RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> const& schedules);
 
+// The same of a whole year, whatever the model's run periods and timestep are: that of its first
+// run period.
+RunTimes run_for_year(EnergyPlusCall const& call, std::vector<std::string> const& schedules,
+                      int steps_per_hour);
+
 // Writes a model into a folder under its own name, with links to what lies beside the original, so
 // that relative names of files hold.
 std::filesystem::path place_model(ModelEditor& model, std::filesystem::path const& original,

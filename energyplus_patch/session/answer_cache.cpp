@@ -22,12 +22,6 @@ namespace {
 
 using Path = std::filesystem::path;
 
-std::string digits_of(Hash const& hash) {
-  std::string digits;
-  for (auto const byte : hash) digits += fmt::format("{:02x}", byte);
-  return digits;
-}
-
 struct Close {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
@@ -102,7 +96,7 @@ AnswerCache::AnswerCache(Path const& folder, Hash const& scene,
                          std::function<void(std::string const&)> const& remark,
                          std::uint64_t most_bytes)
     : folder_(folder),
-      file_(folder / cache_file_name(digits_of(scene))),
+      file_(folder / cache_file_name(to_text(scene))),
       scene_(scene),
       most_bytes_(most_bytes) {
   try {

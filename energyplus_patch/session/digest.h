@@ -8,6 +8,7 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -15,6 +16,9 @@ namespace gpu_shading::energyplus {
 
 // 128 bits that stand for whatever they were made of (XXH3, the same on every machine).
 using Hash = std::array<std::uint8_t, 16>;
+
+// In hexadecimal digits.
+std::string to_text(Hash const& hash);
 
 // Makes a hash of values one after another. Lists of any length go in with their length, so that
 // what follows cannot be taken for a part of them.

@@ -11,6 +11,8 @@
 #include <string_view>
 
 #include "gpu_shading/error.h"
+#include "samples/take_samples.h"
+#include "samples/whole_file.h"
 #include "session/build_id.h"
 #include "session/cache_folder.h"
 #include "session/draw_views.h"
@@ -53,6 +55,21 @@ std::string describe_fineness(Options const& options) {
              : fmt::format("error {}", options.error);
 }
 
+// Each position of a screen would take samples of its own.
+void refuse_moving_screens(
+    std::vector<std::string> const& deployments,
+    std::function<std::pair<double, double>(std::string const&)> const& range) {
+  for (auto const& name : deployments) {
+    auto const [least, most] = range(name);
+    if (least < most) {
+      throw Error(fmt::format(
+          "GPUShading:PerforatedScreen: Deployment Schedule Name {}: has values from {} to {}; "
+          "expected one value all the time, for samples",
+          name, least, most));
+    }
+  }
+}
+
 }  // namespace
 
 SurfaceId Session::add(Surface surface) {
@@ -90,6 +107,7 @@ void Session::start(Messages messages, Schedules schedules, std::function<double
     }
   }
   add_outside_casters();
+  auto const range = schedules.range;
   optics_ = ShadeOptics(model_, std::move(schedules));
   if (char const* const listing = std::getenv(listing_variable)) {
     bool const vertices = std::getenv(vertices_variable) != nullptr;
@@ -104,6 +122,11 @@ void Session::start(Messages messages, Schedules schedules, std::function<double
   }
   if (model_.options.report) prepare_report(*model_.options.report);
   if (model_.options.cache) prepare_cache_folder(*model_.options.cache);
+  if (char const* const request = std::getenv(samples_variable)) {
+    refuse_moving_screens(optics_.deployment_names(), range);
+    take_samples(request);
+    std::_Exit(EXIT_SUCCESS);
+  }
   add_walls_without_openings();
   open_renderer();
   check_device();
@@ -126,6 +149,36 @@ void Session::draw(std::filesystem::path const& folder, int size, std::vector<bo
   draw_views(
       views, folder,
       {*renderer_, model_.options.device, shown, std::move(wanted), optics_.factors(), size});
+}
+
+void Session::take_samples(std::filesystem::path const& request) {
+  auto const wanted = read_sample_request(request);
+  add_walls_without_openings();
+  open_renderer();
+  check_device();
+  describe_surfaces();
+  optics_.update({});
+  deploy_screens();
+  auto const& device = renderer_->device();
+  auto const line = energyplus::take_samples(
+      wanted, model_.options.update.sampling.value(), sampled_scene(wanted.asked),
+      fmt::format("{} ({})", device.renderer, device.version),
+      [this](auto directions) { return sample(directions, run_.receivers); });
+  store_answers();
+  write_whole_file(wanted.done, [&](std::ostream& out) { out << line << '\n'; });
+}
+
+SampledScene Session::sampled_scene(std::string const& asked) const {
+  SampledScene sampled;
+  sampled.asked = asked;
+  sampled.hash = to_text(hash_of_scene({}));
+  sampled.fineness = describe_fineness(model_.options);
+  sampled.schedules = optics_.factor_names();
+  for (auto const id : run_.receivers) {
+    auto const& [name, polygon] = std::tie(scene_[id].name, scene_[id].polygon);
+    sampled.receivers.push_back({name, area(polygon) * normal(polygon)});
+  }
+  return sampled;
 }
 
 void Session::add_outside_casters() {
@@ -156,21 +209,29 @@ void Session::open_renderer() {
   scene.set_rule(make_shading_rule(model_.shading, names));
   if (renderer_) earlier_ += renderer_->statistics();
   if (cache_) recalled_earlier_ += cache_->directions_recalled();
-  RendererOptions options;
-  options.device = model_.options.device;
-  options.resolution = model_.options.resolution;
-  options.error = model_.options.error;
-  renderer_.emplace(std::move(scene), options);
+  renderer_.emplace(std::move(scene), renderer_options());
   run_.answers = Answers();
-  if (model_.options.cache) open_cache(describe_shading_rule(model_.shading, names), options);
+  if (auto const& folder = model_.options.cache) {
+    cache_.emplace(*folder, hash_of_scene(renderer_->device()), messages_.remark);
+  }
   open_samples();
   deploy_screens();
 }
 
-void Session::open_cache(std::vector<std::uint32_t> const& rule, RendererOptions const& options) {
-  auto const scene =
-      hash_scene(renderer_->scene(), {options, renderer_->device(), rule, build_id()});
-  cache_.emplace(*model_.options.cache, scene, messages_.remark);
+RendererOptions Session::renderer_options() const {
+  RendererOptions options;
+  options.device = model_.options.device;
+  options.resolution = model_.options.resolution;
+  options.error = model_.options.error;
+  return options;
+}
+
+Hash Session::hash_of_scene(DeviceInfo const& device) const {
+  std::vector<std::string> names;
+  names.reserve(scene_.size());
+  for (SurfaceId id = 0; id < scene_.size(); ++id) names.push_back(scene_[id].name);
+  auto const rule = describe_shading_rule(model_.shading, names);
+  return hash_scene(renderer_->scene(), {renderer_options(), device, rule, build_id()});
 }
 
 void Session::open_samples() {

@@ -9,6 +9,7 @@
 
 #include "gpu_shading/renderer.h"
 #include "input/model_reader.h"
+#include "samples/sample_parts.h"
 #include "session/answer_cache.h"
 #include "session/sampled_answers.h"
 #include "session/schedules.h"
@@ -43,6 +44,10 @@ class Session {
   static constexpr char const* views_list = "views.txt";
   // Set with it: pixels on a picture's longer side.
   static constexpr char const* view_size_variable = "GPU_SHADING_VIEW_SIZE";
+
+  // Set by `gpu_shading sample` alone: start() renders what the request in this file asks for (see
+  // samples/sample_request.h), and ends the process.
+  static constexpr char const* samples_variable = "GPU_SHADING_SAMPLES";
 
   explicit Session(Model model) : model_(std::move(model)) {}
 
@@ -94,11 +99,14 @@ class Session {
   std::vector<float> areas_of(std::vector<Sunlit> const& answers) const;
   void describe_surfaces();
   void draw(std::filesystem::path const& folder, int size, std::vector<bool> wanted);
+  void take_samples(std::filesystem::path const& request);
+  SampledScene sampled_scene(std::string const& asked) const;
   void describe_surroundings();
   void warn_of_actuated_schedules() const;
   void add_walls_without_openings();
   void open_renderer();
-  void open_cache(std::vector<std::uint32_t> const& rule, RendererOptions const& options);
+  RendererOptions renderer_options() const;
+  Hash hash_of_scene(DeviceInfo const& device) const;
   void store_answers();
   void open_samples();
   void deploy_screens();

@@ -33,6 +33,7 @@ class ShadeOptics {
 
   // By the numbers that apply() gives out.
   std::vector<double> const& factors() const { return factors_; }
+  std::vector<std::string> const& factor_names() const { return factor_names_; }
   std::vector<double> const& deployments() const { return deployments_; }
   std::vector<std::string> const& deployment_names() const { return deployment_names_; }
 

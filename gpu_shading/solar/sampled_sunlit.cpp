@@ -26,31 +26,19 @@ double azimuth_step(Sampling::Density density) {
   return 15.0 * degree;
 }
 
-void sample(std::vector<HourDirection> const& wanted, double latitude, SunlitSource const& source,
-            SunlitTable& table) {
-  if (wanted.empty()) return;
+std::vector<SunDirection> directions_at(std::vector<HourDirection> const& wanted, double latitude) {
   std::vector<SunDirection> directions;
   directions.reserve(wanted.size());
   for (auto const direction : wanted) directions.push_back(to_direction(direction, latitude));
-  table.add(directions, source(directions));
+  return directions;
 }
 
-void sample_paper_grid(Sampling::Density density, double latitude, SunlitSource const& source,
-                       SunlitTable& table) {
+std::vector<HourDirection> papers_grid(Sampling::Density density, double latitude) {
+  std::vector<HourDirection> directions;
   for (auto const& day : sample_azimuths(latitude, azimuth_step(density))) {
-    sample(day.directions, latitude, source, table);
+    directions.insert(directions.end(), day.directions.begin(), day.directions.end());
   }
-}
-
-void sample_arcs(std::size_t most, double latitude, SunlitSource const& source,
-                 SunlitTable& table) {
-  constexpr std::size_t rounds = 3;
-  sample(spread_on_arcs(latitude, most * 6 / 10), latitude, source, table);
-  for (std::size_t left = rounds; left > 0; --left) {
-    std::size_t const count = (most - table.directions().size()) / left;
-    auto const misses = SunlitSplines(table).misses(table);
-    sample(where_samples_disagree(table, misses, latitude, count), latitude, source, table);
-  }
+  return directions;
 }
 
 }  // namespace
@@ -67,16 +55,66 @@ std::size_t most_directions(Sampling::Density density) {
   return 320;
 }
 
-class SampledSunlit::Implementation {
+class SampleRounds::Implementation {
  public:
-  Implementation(Sampling sampling, double latitude, std::vector<glm::dvec3> receivers,
-                 SunlitSource const& source)
+  Implementation(Sampling sampling, double latitude, std::vector<glm::dvec3> receivers)
       : sampling_(sampling), latitude_(latitude), table_(std::move(receivers)) {
     if (sampling.paper_grid) {
-      sample_paper_grid(sampling.density, latitude, source, table_);
+      directions_ = directions_at(papers_grid(sampling.density, latitude), latitude);
+      refinements_left_ = 0;
     } else {
-      sample_arcs(most_directions(sampling.density), latitude, source, table_);
+      std::size_t const most = most_directions(sampling.density) * 6 / 10;
+      directions_ = directions_at(spread_on_arcs(latitude, most), latitude);
     }
+    if (directions_.empty()) refine();
+  }
+
+  Sampling sampling() const { return sampling_; }
+  double latitude() const { return latitude_; }
+  SunlitTable& table() { return table_; }
+  std::vector<SunDirection> const& directions() const { return directions_; }
+
+  void add(std::vector<std::vector<Sunlit>> const& answers) {
+    table_.add(directions_, answers);
+    directions_.clear();
+    refine();
+  }
+
+ private:
+  void refine() {
+    for (; directions_.empty() && refinements_left_ > 0; --refinements_left_) {
+      std::size_t const left = most_directions(sampling_.density) - table_.directions().size();
+      auto const misses = SunlitSplines(table_).misses(table_);
+      directions_ = directions_at(
+          where_samples_disagree(table_, misses, latitude_, left / refinements_left_), latitude_);
+    }
+  }
+
+  Sampling sampling_;
+  double latitude_;
+  SunlitTable table_;
+  std::size_t refinements_left_ = 3;
+  std::vector<SunDirection> directions_;
+};
+
+SampleRounds::SampleRounds(Sampling sampling, double latitude, std::vector<glm::dvec3> receivers)
+    : implementation_(std::make_unique<Implementation>(sampling, latitude, std::move(receivers))) {}
+SampleRounds::~SampleRounds() = default;
+SampleRounds::SampleRounds(SampleRounds&&) noexcept = default;
+SampleRounds& SampleRounds::operator=(SampleRounds&&) noexcept = default;
+
+std::vector<SunDirection> const& SampleRounds::directions() const {
+  return implementation_->directions();
+}
+
+void SampleRounds::add(std::vector<std::vector<Sunlit>> const& answers) {
+  implementation_->add(answers);
+}
+
+class SampledSunlit::Implementation {
+ public:
+  Implementation(Sampling sampling, double latitude, SunlitTable table)
+      : sampling_(sampling), latitude_(latitude), table_(std::move(table)) {
     interpolate();
   }
 
@@ -115,8 +153,16 @@ SampledSunlit::SampledSunlit(std::unique_ptr<Implementation> implementation)
     : implementation_(std::move(implementation)) {}
 SampledSunlit::SampledSunlit(Sampling sampling, double latitude, std::vector<glm::dvec3> receivers,
                              SunlitSource const& source)
-    : implementation_(
-          std::make_unique<Implementation>(sampling, latitude, std::move(receivers), source)) {}
+    : SampledSunlit([&] {
+        SampleRounds rounds(sampling, latitude, std::move(receivers));
+        while (!rounds.directions().empty()) rounds.add(source(rounds.directions()));
+        return rounds;
+      }()) {}
+SampledSunlit::SampledSunlit(SampleRounds rounds) {
+  auto& of = *rounds.implementation_;
+  implementation_ =
+      std::make_unique<Implementation>(of.sampling(), of.latitude(), std::move(of.table()));
+}
 SampledSunlit::~SampledSunlit() = default;
 SampledSunlit::SampledSunlit(SampledSunlit&&) noexcept = default;
 SampledSunlit& SampledSunlit::operator=(SampledSunlit&&) noexcept = default;
@@ -138,6 +184,14 @@ bool SampledSunlit::knows(std::size_t receiver) const {
 
 std::vector<SunDirection> const& SampledSunlit::directions() const {
   return implementation_->table().directions();
+}
+
+std::vector<SampledFractions> const& SampledSunlit::fractions() const {
+  return implementation_->table().columns();
+}
+
+std::vector<bool> const& SampledSunlit::lit(std::size_t receiver) const {
+  return implementation_->table().lit(receiver);
 }
 
 bool in_suns_range(SunDirection direction, double latitude) {

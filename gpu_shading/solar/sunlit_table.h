@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gpu_shading/renderer.h"
+#include "gpu_shading/sampled_sunlit.h"
 #include "gpu_shading/sun_direction.h"
 
 namespace gpu_shading {
@@ -16,13 +17,8 @@ namespace gpu_shading {
 // unscheduled shades alone, and one for each combination of scheduled ones that was met.
 class SunlitTable {
  public:
-  using Powers = std::vector<std::pair<int, int>>;  // as in ScheduledPart; none: unscheduled
-
-  struct Column {
-    std::size_t receiver;
-    Powers powers;
-    std::vector<double> fractions;  // by direction; 0 .. 1, and 0 where the receiver is turned away
-  };
+  using Column = SampledFractions;
+  using Powers = std::vector<std::pair<int, int>>;
 
   // Unit normal times net area of each receiver.
   explicit SunlitTable(std::vector<glm::dvec3> receivers);

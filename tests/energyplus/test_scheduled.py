@@ -112,6 +112,16 @@ def test_scheduled_is_as_patched(name, by_patch, patched, weather, tmp_path):
     expect_equal_fractions(reference, run.folder)
 
 
+def test_from_samples(by_patch, patched, weather, tmp_path):
+    model, reference = by_patch("courtyard")
+    run = energyplus.run(patched, model, weather, tmp_path / "out",
+                         ["--gpu-shading-method=scheduled", "--gpu-shading-update=sampled:medium"])
+    expect_scheduled(run)
+    assert "answered from samples at 320" in run.errors
+    found = results.differences(reference, results.Results(run.folder, STEP))
+    assert sum(each.mean for each in found) / len(found) < 5e-3
+
+
 @pytest.mark.parametrize("name", MODELS)
 def test_chosen_by_itself_where_the_library_cannot_be_patched(name, by_patch, unpatchable, weather, tmp_path):
     model, reference = by_patch(name)

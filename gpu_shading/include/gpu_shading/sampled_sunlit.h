@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gpu_shading/renderer.h"
@@ -33,6 +34,38 @@ std::size_t most_directions(Sampling::Density density);
 using SunlitSource =
     std::function<std::vector<std::vector<Sunlit>>(std::span<SunDirection const> directions)>;
 
+// Sampled fractions of a receiver: of the beam that passes unscheduled shades alone, or of what
+// passes one combination of scheduled ones.
+struct SampledFractions {
+  std::size_t receiver;
+  std::vector<std::pair<int, int>> powers;  // as in ScheduledPart; none: unscheduled
+  std::vector<double> fractions;  // by direction; 0 .. 1, and 0 where the receiver is turned away
+};
+
+// The directions that are sampled, round by round: what is seen at those of one round tells those
+// of the next. A grid of the paper's has one round. The same answers give the same directions.
+class SampleRounds {
+ public:
+  // Latitude in radians, north positive. `receivers`: unit normal times net area (m2).
+  SampleRounds(Sampling sampling, double latitude, std::vector<glm::dvec3> receivers);
+  ~SampleRounds();
+  SampleRounds(SampleRounds const&) = delete;
+  SampleRounds& operator=(SampleRounds const&) = delete;
+  SampleRounds(SampleRounds&&) noexcept;
+  SampleRounds& operator=(SampleRounds&&) noexcept;
+
+  // Of the round at hand; none after the last.
+  std::vector<SunDirection> const& directions() const;
+
+  // What is seen at them, by direction and receiver; the next round is at hand then.
+  void add(std::vector<std::vector<Sunlit>> const& answers);
+
+ private:
+  friend class SampledSunlit;
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
 // Sunlit areas at any of the sun's positions over the years, from samples: between the solstices
 // they depend on the direction alone, so that one sample serves spring and autumn, morning
 // schedules and any weather.
@@ -48,10 +81,11 @@ using SunlitSource =
 // The paper's grid instead has cubic B-splines along the azimuth and then across the days.
 class SampledSunlit {
  public:
-  // Latitude in radians, north positive. `receivers`: unit normal times net area (m2). Asks
-  // `source` a few times, for many directions at once. Throws what it throws.
+  // As SampleRounds. Asks `source` a few times, for many directions at once. Throws what it throws.
   SampledSunlit(Sampling sampling, double latitude, std::vector<glm::dvec3> receivers,
                 SunlitSource const& source);
+  // From all rounds.
+  explicit SampledSunlit(SampleRounds rounds);
   ~SampledSunlit();
   SampledSunlit(SampledSunlit const&) = delete;
   SampledSunlit& operator=(SampledSunlit const&) = delete;
@@ -68,6 +102,12 @@ class SampledSunlit {
   bool knows(std::size_t receiver) const;
 
   std::vector<SunDirection> const& directions() const;
+
+  // The samples themselves; first one unscheduled of each receiver, in order.
+  std::vector<SampledFractions> const& fractions() const;
+
+  // Whether the sun faces a receiver at each of directions().
+  std::vector<bool> const& lit(std::size_t receiver) const;
 
  private:
   class Implementation;

@@ -10,9 +10,9 @@
 #include "gpu_shading/error.h"
 #include "scheduled/drawing.h"
 #include "scheduled/drawn_surfaces.h"
-#include "scheduled/progress.h"
 #include "scheduled/run_times.h"
 #include "scheduled/sunlit_table.h"
+#include "session/progress.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -1,4 +1,4 @@
-#include "scheduled/progress.h"
+#include "session/progress.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,0 +1,190 @@
+#include "program/sample.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "gpu_shading/error.h"
+#include "host/own_folder.h"
+#include "host/version.h"
+#include "input/model_reader.h"
+#include "program/launcher.h"
+#include "program/process.h"
+#include "samples/sample_request.h"
+#include "samples/sample_tables.h"
+#include "samples/weather_site.h"
+#include "samples/whole_file.h"
+#include "scheduled/rendered_fractions.h"
+#include "scheduled/short_runs.h"
+#include "session/digest.h"
+#include "session/session.h"
+#include "site/text_file.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using Path = std::filesystem::path;
+using Json = nlohmann::ordered_json;
+
+constexpr int steps_per_hour = 4;
+
+void say(std::string const& line) { fmt::print(stderr, "gpu_shading: {}\n", line); }
+
+std::string hash_of(Path const& file) {
+  Digest digest;
+  digest.add(std::string_view(read_text_file(file)));
+  return to_text(digest.result());
+}
+
+// What is sampled, and where from.
+struct Source {
+  ModelRun const& run;
+  Path weather;
+  WeatherSite site;
+  Sampling sampling;
+  std::string mode;
+  std::string model_hash;
+  std::optional<Path> extensions;
+  std::string extensions_hash;
+
+  double latitude() const { return glm::radians(site.latitude); }
+  std::string asked() const {
+    return fmt::format("{} samples at latitude {} of model {}, extensions {}", mode, site.latitude,
+                       model_hash, extensions ? extensions_hash : "none");
+  }
+};
+
+Source read_source(ModelRun const& run) {
+  if (!run.weather) {
+    throw Error("-w: a weather file is needed, whose place and days the sun keeps to");
+  }
+  constexpr std::string_view prefix = "sampled:";
+  auto const& update = run.choices.update.value();
+  Source source{run,
+                *run.weather,
+                read_weather_site(*run.weather),
+                update.sampling.value(),
+                name_of(update).substr(prefix.size()),
+                hash_of(run.model),
+                find_side_file(run.model, run.choices),
+                ""};
+  if (source.extensions) source.extensions_hash = hash_of(*source.extensions);
+  return source;
+}
+
+// A second descriptor of standard error, which a process that is started inherits.
+class StandardError {
+ public:
+  StandardError() : descriptor_(dup(STDERR_FILENO)) {}
+  ~StandardError() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  StandardError(StandardError const&) = delete;
+  StandardError& operator=(StandardError const&) = delete;
+
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+std::string render(Source const& source, Path const& parts, Shard const& shard) {
+  TemporaryFolder const folder;
+  StandardError const progress;
+  auto const request = folder.path() / "request.json";
+  auto const done = folder.path() / "done.txt";
+  write_sample_request(request,
+                       {source.asked(), source.latitude(), std::filesystem::absolute(parts), shard,
+                        progress.descriptor(), done});
+  auto const environment = std::string(Session::samples_variable) + "=" + request.string();
+  for (auto const& warning : run_to_shading(source.run, {environment}, folder.path(), done)) {
+    say("warning: " + warning);
+  }
+  auto line = read_text_file(done);
+  line.pop_back();  // its end
+  return line;
+}
+
+Json describe_file(Path const& file, std::string const& hash) {
+  return {{"name", file.filename().string()}, {"xxh128", hash}};
+}
+
+Json describe(Source const& source, SampleSet const& set, RunTimes const& year) {
+  auto const& site = source.site;
+  Json json{{"format", "gpu_shading samples 1"},
+            {"versions",
+             {{"gpu_shading", GPU_SHADING_VERSION}, {"energyplus", read_version(own_folder())}}},
+            {"mode", source.mode},
+            {"fineness", set.scene.fineness},
+            {"devices", set.devices},
+            {"site",
+             {{"name", site.name},
+              {"latitude", site.latitude},
+              {"longitude", site.longitude},
+              {"time_zone", site.time_zone},
+              {"elevation", site.elevation}}},
+            {"inputs",
+             {{"model", describe_file(source.run.model, source.model_hash)},
+              {"weather", describe_file(source.weather, hash_of(source.weather))}}},
+            {"scene", set.scene.hash},
+            {"directions", set.samples.directions().size()},
+            {"directions_by_round", set.rounds},
+            {"year", {{"rows", year.times.size()}, {"rows_per_hour", year.steps_per_hour}}},
+            {"schedules", set.scene.schedules},
+            {"receivers", Json::array()}};
+  if (source.extensions) {
+    json["inputs"]["extensions"] = describe_file(*source.extensions, source.extensions_hash);
+  }
+  for (auto const& [name, area] : set.scene.receivers) {
+    auto const normal = glm::normalize(area);
+    json["receivers"].push_back(
+        {{"name", name}, {"area", glm::length(area)}, {"normal", {normal.x, normal.y, normal.z}}});
+  }
+  return json;
+}
+
+RunTimes run_year(Source const& source, SampleSet const& set) {
+  EnergyPlusCall call;
+  call.program = find_launcher();
+  call.model = source.run.model;
+  call.weather = source.weather;
+  auto year = run_for_year(call, set.scene.schedules, steps_per_hour);
+  if (set.scene.schedules.empty()) return year;
+  auto const unknown = unknown_schedules(read_model(source.run.model, source.run.choices), year);
+  if (!unknown.empty()) say("warning: " + describe_unknown(unknown));
+  return year;
+}
+
+void put_together(Source const& source, SampleParts const& parts, Path const& folder) {
+  auto const set = gather_samples(parts, source.asked(), source.sampling, source.latitude());
+  auto const year = run_year(source, set);
+  auto const write = [&](std::string_view name, auto const& content) {
+    write_whole_file(folder / name, content);
+    fmt::print("{}\n", (folder / name).string());
+  };
+  write("samples.csv", [&](std::ostream& out) { write_samples(set, out); });
+  write("year.csv", [&](std::ostream& out) { write_year(set, year, out); });
+  write("samples.json",
+        [&](std::ostream& out) { out << describe(source, set, year).dump(2) << '\n'; });
+  say(fmt::format("{} directions of {} receivers, {} times of the year",
+                  set.samples.directions().size(), set.scene.receivers.size(), year.times.size()));
+}
+
+}  // namespace
+
+void sample(ModelRun const& run, SampleTask const& task) {
+  auto const source = read_source(run);
+  auto const folder = task.folder / "parts";
+  if (task.shard) {
+    say(render(source, folder, *task.shard));
+    return;
+  }
+  if (!task.merge) say(render(source, folder, {}));
+  put_together(source, SampleParts(folder, task.merge.value_or(1)), task.folder);
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,161 @@
+#include "samples/sample_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "gpu_shading/error.h"
+#include "samples/whole_file.h"
+#include "site/text_file.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using Json = nlohmann::json;
+using Path = std::filesystem::path;
+
+constexpr int format = 1;
+
+// A number where nothing is scheduled, which is nearly everywhere.
+Json to_json(Sunlit const& answer) {
+  if (answer.scheduled.empty()) return answer.projected_area;
+  Json parts = Json::array();
+  for (auto const& part : answer.scheduled) parts.push_back({part.powers, part.projected_area});
+  return {answer.projected_area, std::move(parts)};
+}
+
+Sunlit answer_from(Json const& json) {
+  Sunlit answer;
+  if (json.is_number()) {
+    answer.projected_area = json.get<double>();
+    return answer;
+  }
+  answer.projected_area = json.at(0).get<double>();
+  for (auto const& part : json.at(1)) {
+    answer.scheduled.push_back(
+        {part.at(0).get<std::vector<std::pair<int, int>>>(), part.at(1).get<double>()});
+  }
+  return answer;
+}
+
+Json to_json(SamplePart const& part) {
+  Json json{{"format", format},
+            {"asked", part.scene.asked},
+            {"scene", part.scene.hash},
+            {"fineness", part.scene.fineness},
+            {"schedules", part.scene.schedules},
+            {"device", part.device},
+            {"round", part.round},
+            {"shard", part.shard.number},
+            {"shards", part.shard.shards},
+            {"receivers", Json::array()},
+            {"directions", Json::array()},
+            {"answers", Json::array()}};
+  for (auto const& [name, area] : part.scene.receivers) {
+    json["receivers"].push_back({name, area.x, area.y, area.z});
+  }
+  for (auto const& sun : part.directions) {
+    json["directions"].push_back({sun.azimuth, sun.altitude});
+  }
+  for (auto const& answers : part.answers) {
+    auto row = Json::array();
+    for (auto const& answer : answers) row.push_back(to_json(answer));
+    json["answers"].push_back(std::move(row));
+  }
+  return json;
+}
+
+SamplePart part_from(Json const& json) {
+  SamplePart part;
+  if (json.at("format") != format) throw Error("is of another version");
+  part.scene = {json.at("asked"), json.at("scene"), json.at("fineness"), {}, json.at("schedules")};
+  part.device = json.at("device");
+  part.round = json.at("round");
+  part.shard = {json.at("shard"), json.at("shards")};
+  for (auto const& receiver : json.at("receivers")) {
+    part.scene.receivers.push_back(
+        {receiver.at(0), {receiver.at(1), receiver.at(2), receiver.at(3)}});
+  }
+  for (auto const& sun : json.at("directions")) {
+    part.directions.push_back({sun.at(0), sun.at(1)});
+  }
+  for (auto const& row : json.at("answers")) {
+    auto& answers = part.answers.emplace_back();
+    for (auto const& answer : row) answers.push_back(answer_from(answer));
+    if (answers.size() != part.scene.receivers.size()) throw Error("lacks receivers");
+  }
+  return part;
+}
+
+std::size_t share(std::size_t directions, Shard const& shard) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < directions; ++i) count += shard.has(i) ? 1 : 0;
+  return count;
+}
+
+}  // namespace
+
+SampleParts::SampleParts(Path folder, int shards) : folder_(std::move(folder)), shards_(shards) {}
+
+Path SampleParts::file(int round, int shard) const {
+  return folder_ / fmt::format("round{}-shard{}of{}.json", round, shard, shards_);
+}
+
+std::optional<SamplePart> SampleParts::find(int round, int shard) const {
+  auto const path = file(round, shard);
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  try {
+    auto part = part_from(Json::parse(read_text_file(path)));
+    if (part.round != round || !(part.shard == Shard{shard, shards_}) ||
+        part.answers.size() != share(part.directions.size(), part.shard)) {
+      throw Error("is of another round or shard");
+    }
+    return part;
+  } catch (std::exception const& error) {
+    throw Error(
+        fmt::format("{}: is no part of samples; remove it ({})", path.string(), error.what()));
+  }
+}
+
+void SampleParts::write(SamplePart const& part) const {
+  std::error_code failure;
+  std::filesystem::create_directories(folder_, failure);
+  write_whole_file(file(part.round, part.shard.number),
+                   [&](std::ostream& out) { out << to_json(part) << '\n'; });
+}
+
+RenderedRound find_round(SampleParts const& parts, SampledScene const& scene, int round,
+                         std::vector<SunDirection> const& directions) {
+  RenderedRound found;
+  found.answers.resize(directions.size());
+  for (int number = 1; number <= parts.shards(); ++number) {
+    auto part = parts.find(round, number);
+    if (!part || !(part->scene == scene)) {
+      found.missing.push_back(number);
+      continue;
+    }
+    if (part->directions != directions) {
+      throw Error(fmt::format(
+          "{}: has other directions than the rounds before it lead to, as another kind of "
+          "processor may; remove it",
+          parts.file(round, number).string()));
+    }
+    auto& devices = found.devices;
+    if (std::find(devices.begin(), devices.end(), part->device) == devices.end()) {
+      devices.push_back(part->device);
+    }
+    auto answers = part->answers.begin();
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      if (part->shard.has(i)) found.answers[i] = std::move(*answers++);
+    }
+  }
+  return found;
+}
+
+std::string list_shards(std::vector<int> const& shards) {
+  return fmt::format("{}", fmt::join(shards, ", "));
+}
+
+}  // namespace gpu_shading::energyplus

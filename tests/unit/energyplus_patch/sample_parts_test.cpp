@@ -1,0 +1,172 @@
+#include "samples/sample_parts.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <sstream>
+
+#include "gpu_shading/error.h"
+#include "program/process.h"
+#include "samples/sample_set.h"
+#include "samples/sample_tables.h"
+#include "samples/take_samples.h"
+#include "site/text_file.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr double latitude = 0.7;
+constexpr Sampling coarse{Sampling::Density::coarse, false};
+
+SampledScene const scene{
+    "coarse",
+    "0f",
+    "error 0.001",
+    {{"South, \"main\"", {0.0, -2.0, 0.0}}, {"West", {-3.0, 0.0, 0.0}}, {"Roof", {0.0, 0.0, 9.0}}},
+    {"Leaves", "Blind"}};
+
+// Some of it through schedules; a third of one has no short decimal form.
+Sunlit answer(glm::dvec3 const& area, SunDirection sun) {
+  double const projected = std::max(glm::dot(area, to_vector(sun)), 0.0);
+  Sunlit lit;
+  lit.projected_area = projected * (sun.azimuth > 0.5 && sun.altitude < 0.6 ? 1.0 / 3.0 : 0.9);
+  if (sun.altitude > 0.3) lit.scheduled.push_back({{{0, 1}, {1, 2}}, projected / 30.0});
+  return lit;
+}
+
+// Counts what it is asked.
+struct Rendered {
+  std::size_t directions = 0;
+
+  SunlitSource source() {
+    return [this](std::span<SunDirection const> suns) {
+      directions += suns.size();
+      std::vector<std::vector<Sunlit>> rows;
+      for (auto const sun : suns) {
+        auto& row = rows.emplace_back();
+        for (auto const& receiver : scene.receivers) row.push_back(answer(receiver.area, sun));
+      }
+      return rows;
+    };
+  }
+};
+
+SampleRequest request(std::filesystem::path const& folder, Shard shard) {
+  return {"coarse", latitude, folder, shard, -1, ""};
+}
+
+std::string table_of(SampleParts const& parts) {
+  std::ostringstream out;
+  write_samples(gather_samples(parts, "coarse", coarse, latitude), out);
+  return out.str();
+}
+
+TEST(SampleParts, EightShardsMakeTheTableOfOne) {
+  TemporaryFolder const one;
+  TemporaryFolder const many;
+  Rendered alone;
+  take_samples(request(one.path(), {1, 1}), coarse, scene, "device", alone.source());
+  Rendered together;
+  constexpr int rounds = 4;
+  for (int round = 1; round <= rounds; ++round) {
+    // In any order.
+    for (int const shard : {3, 1, 8, 2, 7, 6, 4, 5}) {
+      EXPECT_THAT(take_samples(request(many.path(), {shard, 8}), coarse, scene, "device",
+                               together.source()),
+                  HasSubstr("round " + std::to_string(round) + ": "));
+    }
+  }
+  EXPECT_EQ(together.directions, alone.directions);
+  EXPECT_THAT(
+      take_samples(request(many.path(), {5, 8}), coarse, scene, "device", together.source()),
+      HasSubstr("all of 4 rounds are there"));
+  EXPECT_EQ(together.directions, alone.directions);
+  auto const table = table_of(SampleParts(one.path(), 1));
+  EXPECT_EQ(table_of(SampleParts(many.path(), 8)), table);
+  EXPECT_THAT(table, HasSubstr("\n\"South, \"\"main\"\"\","));
+  EXPECT_THAT(table, HasSubstr(",Leaves*Blind^2,"));
+}
+
+TEST(SampleParts, ARoundWaitsForAllShardsOfTheOneBefore) {
+  TemporaryFolder const folder;
+  Rendered rendered;
+  auto const take = [&](int shard) {
+    return take_samples(request(folder.path(), {shard, 3}), coarse, scene, "device",
+                        rendered.source());
+  };
+  EXPECT_THAT(take(2), HasSubstr("2 of 3 shards to come"));
+  auto const before = rendered.directions;
+  EXPECT_THAT(take(2), HasSubstr("round 1: nothing to render, it waits for shards 1, 3"));
+  EXPECT_EQ(rendered.directions, before);
+  EXPECT_THAT([&] { gather_samples(SampleParts(folder.path(), 3), "coarse", coarse, latitude); },
+              ThrowsMessage<Error>(HasSubstr("round1-shard1of3.json: is missing")));
+  take(1);
+  EXPECT_THAT([&] { gather_samples(SampleParts(folder.path(), 3), "coarse", coarse, latitude); },
+              ThrowsMessage<Error>(HasSubstr("render shards 3 of round 1 first")));
+}
+
+TEST(SampleParts, ComeBackToTheLastDigit) {
+  TemporaryFolder const folder;
+  SampleParts const parts(folder.path() / "new", 2);
+  SamplePart part{scene, "device", 3, {2, 2}, {{0.1, 0.2}, {1.0 / 3.0, 0.7}}, {}};
+  part.answers.emplace_back();
+  for (auto const& receiver : scene.receivers) {
+    part.answers.back().push_back(answer(receiver.area, part.directions[1]));
+  }
+  parts.write(part);
+  auto const found = parts.find(3, 2);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->scene, scene);
+  EXPECT_EQ(found->device, "device");
+  EXPECT_EQ(found->directions, part.directions);
+  for (std::size_t i = 0; i < scene.receivers.size(); ++i) {
+    auto const& [written, read] = std::tie(part.answers[0][i], found->answers[0][i]);
+    EXPECT_EQ(read.projected_area, written.projected_area);
+    ASSERT_EQ(read.scheduled.size(), written.scheduled.size());
+    for (std::size_t k = 0; k < read.scheduled.size(); ++k) {
+      EXPECT_EQ(read.scheduled[k].powers, written.scheduled[k].powers);
+      EXPECT_EQ(read.scheduled[k].projected_area, written.scheduled[k].projected_area);
+    }
+  }
+  EXPECT_FALSE(parts.find(3, 1));
+}
+
+TEST(SampleParts, OfAnotherSceneCountAsMissingAndAreReplaced) {
+  TemporaryFolder const folder;
+  Rendered rendered;
+  take_samples(request(folder.path(), {1, 1}), coarse, scene, "device", rendered.source());
+  auto const before = rendered.directions;
+  auto other = scene;
+  other.hash = "10";
+  take_samples(request(folder.path(), {1, 1}), coarse, other, "device", rendered.source());
+  EXPECT_EQ(rendered.directions, 2 * before);
+  EXPECT_EQ(SampleParts(folder.path(), 1).find(4, 1)->scene, other);
+}
+
+TEST(SampleParts, DirectionsThatDoNotFollowAreAnError) {
+  TemporaryFolder const folder;
+  SampleParts const parts(folder.path(), 1);
+  Rendered rendered;
+  take_samples(request(folder.path(), {1, 1}), coarse, scene, "device", rendered.source());
+  auto part = parts.find(2, 1);
+  ASSERT_TRUE(part);
+  part->directions.front().azimuth += 1e-15;
+  parts.write(*part);
+  EXPECT_THAT([&] { table_of(parts); }, ThrowsMessage<Error>(HasSubstr("has other directions")));
+}
+
+TEST(SampleParts, ADamagedFileIsNamed) {
+  TemporaryFolder const folder;
+  SampleParts const parts(folder.path(), 1);
+  std::ofstream(parts.file(1, 1)) << "{\"format\": 1";
+  EXPECT_THAT([&] { parts.find(1, 1); },
+              ThrowsMessage<Error>(HasSubstr("round1-shard1of1.json: is no part of samples")));
+}
+
+}  // namespace
+}  // namespace gpu_shading::energyplus
