@@ -9,6 +9,9 @@
 // It takes about 0.25 s to load.
 inline constexpr char const* gpu_shading_image_library = "libgpu_shading_images.so";
 
+// Of a scale, from 0 to 1.
+inline constexpr int gpu_shading_scale_colours = 256;
+
 extern "C" {
 
 struct gpu_shading_image_info {
@@ -21,6 +24,19 @@ struct gpu_shading_image_info {
 // 8-bit pixels, rows from the top.
 int gpu_shading_write_image(char const* path, int width, int height, int channels,
                             unsigned char const* pixels, char* message, std::size_t message_size);
+
+// Pictures together in one file, each below its caption.
+struct gpu_shading_sheet {
+  int count;
+  char const* const* pictures;  // files
+  char const* const* captions;
+  unsigned char const* scale;  // gpu_shading_scale_colours x red, green, blue; or nullptr: none
+  int columns;                 // of a picture of all of them
+  int animated;                // not 0: one after another instead
+  float frames_per_second;
+};
+int gpu_shading_write_sheet(char const* path, gpu_shading_sheet const* sheet, char* message,
+                            std::size_t message_size);
 
 // From the file's header alone.
 int gpu_shading_probe_image(char const* path, gpu_shading_image_info* info, char* message,
