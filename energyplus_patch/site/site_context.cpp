@@ -105,9 +105,8 @@ Context read_context(InputObject const& object, std::filesystem::path const& fol
   } else {
     auto const coordinates = read_coordinates(object, terrain_coordinates);
     context.clear_distance = positive(object, terrain_clear_distance).value_or(0.0);
-    context.terrain = of_file(terrain_file_name, [&] {
-      return read_terrain(folder / terrain, coordinates.value_or(MapCoordinates()));
-    });
+    context.terrain =
+        of_file(terrain_file_name, [&] { return read_terrain(folder / terrain, coordinates); });
   }
   return context;
 }
