@@ -485,8 +485,16 @@ void Session::finish() {
     }
     messages_.remark("where the time went: " + line);
     write_stages(*model_.options.report, stages);
-    write_report(*model_.options.report, *renderer_, run_.receivers, asked_, run_.answers,
-                 optics_.factors(), {optics_.deployment_names(), run_.states});
+    auto const left_out =
+        write_report(*model_.options.report, *renderer_, run_.receivers, asked_, run_.answers,
+                     optics_.factors(), {optics_.deployment_names(), run_.states});
+    if (left_out > 0) {
+      messages_.remark(
+          fmt::format("--gpu-shading-report: the first {} pictures are drawn, {} more are not; "
+                      "gpu_shading view "
+                      "draws any",
+                      max_report_pictures, left_out));
+    }
   }
 }
 
