@@ -282,7 +282,14 @@ void read_site_contexts(std::vector<InputObject> const& objects,
   };
   for (auto const& object : objects) {
     if (object.type != type) continue;
-    of_object(object.name, [&] { contexts.push_back(read_context(object, folder)); });
+    of_object(object.name, [&] {
+      contexts.push_back(read_context(object, folder));
+      constexpr double tallest_storey = 20.0;
+      constexpr double tallest_building = 1000.0;
+      auto const odd = lengths_beyond(
+          object, {{storey_height, tallest_storey}, {default_height, tallest_building}});
+      surroundings.warnings.insert(surroundings.warnings.end(), odd.begin(), odd.end());
+    });
   }
   if (origin.at_terrain) stand_on_terrain(contexts, origin);
   for (auto const& context : contexts) {
