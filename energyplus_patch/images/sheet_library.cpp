@@ -74,10 +74,14 @@ void add_scale(ImageBuf& on, Layout const& layout, unsigned char const* colours)
   int const tall = std::max(shades / 8, std::min(on.spec().height, layout.cell_height) - top -
                                             layout.margin - layout.text);
   for (int y = 0; y < tall; ++y) {
-    auto const* const colour = colours + 3 * ((tall - 1 - y) * (shades - 1) / (tall - 1));
-    std::array<float, 3> const fraction{colour[0] / 255.0F, colour[1] / 255.0F, colour[2] / 255.0F};
+    auto const shade = static_cast<std::size_t>((tall - 1 - y) * (shades - 1) / (tall - 1));
+    std::array<float, 3> colour{};
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      constexpr float most = 255.0F;
+      colour.at(channel) = static_cast<float>(colours[3 * shade + channel]) / most;
+    }
     OIIO::ROI const row(left, left + wide, top + y, top + y + 1, 0, 1, 0, 3);
-    check(OIIO::ImageBufAlgo::fill(on, fraction, row), on);
+    check(OIIO::ImageBufAlgo::fill(on, colour, row), on);
   }
   constexpr int steps = 4;
   for (int step = 0; step <= steps; ++step) {
@@ -139,9 +143,9 @@ extern "C" __attribute__((visibility("default"))) int gpu_shading_write_sheet(
       auto frame =
           blank(columns * layout.cell_width + layout.scale_width, rows * layout.cell_height);
       for (int i = 0; i < each; ++i) {
-        add_picture(frame, pictures[static_cast<std::size_t>(first + i)],
-                    sheet->captions[first + i], i % columns * layout.cell_width,
-                    i / columns * layout.cell_height, layout);
+        int const number = first + i;
+        add_picture(frame, pictures[static_cast<std::size_t>(number)], sheet->captions[number],
+                    i % columns * layout.cell_width, i / columns * layout.cell_height, layout);
       }
       if (sheet->scale != nullptr) add_scale(frame, layout, sheet->scale);
       frames.push_back(std::move(frame));

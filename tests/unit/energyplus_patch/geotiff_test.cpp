@@ -80,7 +80,7 @@ void write_tiff(std::filesystem::path const& path, Tiff const& what) {
   }
   GTIFWriteKeys(keys);
   GTIFFree(keys);
-  for (std::uint32_t row = 0; row < 2; ++row) {
+  for (std::size_t row = 0; row < 2; ++row) {
     std::vector<float> line;
     std::vector<std::int16_t> whole;
     for (std::size_t column = 0; column < 3; ++column) {
@@ -89,10 +89,9 @@ void write_tiff(std::filesystem::path const& path, Tiff const& what) {
         whole.push_back(static_cast<std::int16_t>(numbers.at(3 * row + column)));
       }
     }
-    TIFFWriteScanline(
-        file,
-        what.whole_numbers ? static_cast<void*>(whole.data()) : static_cast<void*>(line.data()),
-        row, 0);
+    void* const texels =
+        what.whole_numbers ? static_cast<void*>(whole.data()) : static_cast<void*>(line.data());
+    TIFFWriteScanline(file, texels, static_cast<std::uint32_t>(row));
   }
   XTIFFClose(file);
 }
