@@ -52,6 +52,9 @@ class ModelArguments {
   ModelRun run() const {
     ModelRun run{model_, std::nullopt, read_environment()};
     if (!weather_.empty()) run.weather = weather_;
+    if (run.weather && !std::filesystem::exists(*run.weather)) {
+      throw Error(fmt::format("-w {}: no such file", weather_));
+    }
     if (!file_.empty()) run.choices.file = file_;
     return run;
   }

@@ -85,6 +85,7 @@ def test_one_picture(view, tmp_path):
     (("--at", "02-30 12:00"), ('--at "02-30 12:00": 2017 has no such day',)),
     (("--at", "06-21 12:75"), ("expected a time from 00:00 to 24:00",)),
     (("--at", "06-21 23:00"), ("the sun is down", "below the horizon")),
+    (("--at", "06-21 12:00", "-w", "none.epw"), ("-w none.epw: no such file",)),
     (("--day", "June"), ('--day "June": expected month and day, as in 06-21',)),
     (("--list", "views.txt"), ("views.txt, line 2", "nonsense")),
     (("--list", "missing.txt"), ("missing.txt", "cannot be read")),
