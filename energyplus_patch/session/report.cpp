@@ -120,13 +120,12 @@ Stages stages_of(RendererStatistics const& statistics) {
           {"EnergyPlus", std::max(0.0, passed - statistics.seconds)}};
 }
 
-void write_stages(std::filesystem::path const& folder, Stages const& stages) {
-  auto const table = folder / "stages.csv";
-  std::ofstream csv(table);
+void write_stages(std::filesystem::path const& file, Stages const& stages) {
+  std::ofstream csv(file);
   csv << "stage,seconds\n";
   for (auto const& [stage, seconds] : stages) csv << fmt::format("{},{:.3f}\n", stage, seconds);
   csv.close();
-  if (!csv) throw Error(fmt::format("--gpu-shading-report: {}: cannot be written", table.string()));
+  if (!csv) throw Error(fmt::format("{}: cannot be written", file.string()));
 }
 
 std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer,

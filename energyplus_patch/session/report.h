@@ -42,7 +42,9 @@ using Stages = std::vector<std::pair<std::string, double>>;
 // The renderer's own stages, and the rest of what passed since this module was loaded.
 Stages stages_of(RendererStatistics const& statistics);
 
-// stages.csv: stage, seconds. Throws Error when the folder cannot be written.
-void write_stages(std::filesystem::path const& folder, Stages const& stages);
+inline constexpr char const* stages_table = "stages.csv";
+
+// Columns: stage, seconds. Throws Error when the file cannot be written.
+void write_stages(std::filesystem::path const& file, Stages const& stages);
 
 }  // namespace gpu_shading::energyplus

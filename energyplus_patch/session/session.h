@@ -44,6 +44,9 @@ class Session {
   // Set with it: pixels on a picture's longer side.
   static constexpr char const* view_size_variable = "GPU_SHADING_VIEW_SIZE";
 
+  // Set by compare_shading alone: finish() writes where the time went to this file.
+  static constexpr char const* stages_variable = "GPU_SHADING_STAGES";
+
   explicit Session(Model model) : model_(std::move(model)) {}
 
   SurfaceId add(Surface surface);
