@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "images/guarded.h"
 
 #define EXPORTED __attribute__((visibility("default")))
 
@@ -19,27 +19,6 @@ namespace {
 constexpr std::size_t strip_bytes = std::size_t{16} << 20U;
 
 using Input = std::unique_ptr<OIIO::ImageInput>;
-
-[[noreturn]] void fail(std::string const& why) {
-  throw std::runtime_error(why.empty() ? "OpenImageIO gives no reason" : why);
-}
-
-// Runs what may throw behind the C interface.
-template <typename Action>
-int guarded(char* message, std::size_t message_size, Action const& action) {
-  std::string why = "unknown error";
-  try {
-    action();
-    return 0;
-  } catch (std::exception const& error) {
-    why = error.what();
-  } catch (...) {  // NOLINT(bugprone-empty-catch): the reason is set
-  }
-  std::replace(why.begin(), why.end(), '\n', ' ');
-  if (message_size == 0) return 1;
-  message[why.copy(message, message_size - 1)] = '\0';
-  return 1;
-}
 
 Input open(char const* path) {
   auto input = OIIO::ImageInput::open(path);

@@ -50,6 +50,16 @@ Value choice(InputObject const& object, Field const& field,
 // Nothing where it is blank.
 std::optional<double> number(InputObject const& object, Field const& field);
 
+// A length in metres, and what it may be at most without looking like one in millimetres.
+struct LengthLimit {
+  Field field;
+  double most;
+};
+
+// A line for each that is beyond.
+std::vector<std::string> lengths_beyond(InputObject const& object,
+                                        std::initializer_list<LengthLimit> const& limits);
+
 // `why`, as in "with Hole Shape Texture".
 void expect_blank(InputObject const& object, std::initializer_list<Field> const& fields,
                   std::string_view why);

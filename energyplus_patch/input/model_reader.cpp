@@ -20,16 +20,6 @@ std::string read_text(std::filesystem::path const& path) {
   return text;
 }
 
-std::vector<InputObject> read_objects(std::filesystem::path const& path) {
-  auto const text = read_text(path);
-  if (!is_epjson(path)) return read_idf(text);
-  try {
-    return read_epjson(nlohmann::json::parse(text));
-  } catch (nlohmann::json::exception const& error) {
-    throw Error(fmt::format("{}: {}", path.string(), error.what()));
-  }
-}
-
 void add_side_file(std::filesystem::path const& path, std::vector<InputObject>& objects) {
   for (auto& object : read_objects(path)) {
     if (!is_extension(object.type)) {
@@ -52,6 +42,16 @@ void add_surroundings(Surroundings const& surroundings, ShadingInput& shading) {
 }
 
 }  // namespace
+
+std::vector<InputObject> read_objects(std::filesystem::path const& path) {
+  auto const text = read_text(path);
+  if (!is_epjson(path)) return read_idf(text);
+  try {
+    return read_epjson(nlohmann::json::parse(text));
+  } catch (nlohmann::json::exception const& error) {
+    throw Error(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
 
 std::optional<std::filesystem::path> find_side_file(std::filesystem::path const& model,
                                                     Choices const& choices) {

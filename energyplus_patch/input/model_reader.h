@@ -24,6 +24,9 @@ struct Model {
   Surroundings surroundings;
 };
 
+// The objects of known types (known_types) in a model's file. Throws Error.
+std::vector<InputObject> read_objects(std::filesystem::path const& path);
+
 // Reads a model's objects together with those of its side file, and answers every option.
 // `choices`: command line over environment. Side file: choices.file, else MODEL.gpu-shading.idf
 // where that exists. `find_mentions`, of the model's own file: without it lean input is not

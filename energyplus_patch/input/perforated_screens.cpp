@@ -37,6 +37,10 @@ constexpr Field tile_origin_v{"tile_origin_v", "Tile Origin V"};
 constexpr Field tile_rotation{"tile_rotation", "Tile Rotation"};
 constexpr Field detail{"detail", "Detail"};
 
+// m: beyond these it is no sheet of metal, no cloth.
+constexpr double longest_hole = 1.0;
+constexpr double longest_tile = 100.0;
+
 double needed_length(InputObject const& object, Field const& field) {
   auto const value = number(object, field);
   if (!value) throw Error(fmt::format("{} is blank, expected a length in m", field.title));
@@ -185,7 +189,8 @@ void add_object(InputObject const& object, ShadingInput const& input,
 }  // namespace
 
 std::vector<std::string> PerforatedScreens::warnings() const {
-  std::set<std::string> lines;  // an object has several surfaces
+  // An object has several surfaces.
+  std::set<std::string> lines(odd_lengths.begin(), odd_lengths.end());
   for (auto const& [surface, screen] : by_surface) {
     lines.insert(screen.maker->warnings().begin(), screen.maker->warnings().end());
   }
@@ -201,6 +206,13 @@ PerforatedScreens read_perforated_screens(std::vector<InputObject> const& object
     if (object.type != type) continue;
     try {
       add_object(object, input, shades, folder, screens);
+      auto const odd = lengths_beyond(object, {{hole_size, longest_hole},
+                                               {hole_length, longest_hole},
+                                               {pitch, longest_hole},
+                                               {row_pitch, longest_hole},
+                                               {tile_width, longest_tile},
+                                               {tile_height, longest_tile}});
+      screens.odd_lengths.insert(screens.odd_lengths.end(), odd.begin(), odd.end());
     } catch (Error const& error) {
       throw screen_error(object.name, error.what());
     }

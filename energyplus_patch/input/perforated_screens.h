@@ -21,8 +21,9 @@ struct SurfaceScreen {
 
 struct PerforatedScreens {
   std::map<std::string, SurfaceScreen> by_surface;  // upper-case names
+  std::vector<std::string> odd_lengths;             // a line each
 
-  // Of the screens made so far, a line each.
+  // These, and a line each of the screens made so far.
   std::vector<std::string> warnings() const;
 };
 

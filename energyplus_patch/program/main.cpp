@@ -8,19 +8,24 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <glm/trigonometric.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "gpu_shading/device.h"
 #include "gpu_shading/error.h"
+#include "images/picture_sheet.h"
+#include "input/model_reader.h"
 #include "input/number.h"
 #include "options/options.h"
 #include "program/check.h"
 #include "program/export.h"
 #include "program/sample.h"
 #include "program/view.h"
+#include "program/view_times.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -54,6 +59,9 @@ class ModelArguments {
   ModelRun run() const {
     ModelRun run{model_, std::nullopt, choices_};
     if (!weather_.empty()) run.weather = weather_;
+    if (run.weather && !std::filesystem::exists(*run.weather)) {
+      throw Error(fmt::format("-w {}: no such file", weather_));
+    }
     return run;
   }
 
@@ -78,26 +86,53 @@ void add_check(CLI::App& app, Choices const& choices) {
 struct ViewArguments {
   std::string receiver;
   std::vector<double> sun;
+  std::string at;
+  std::string day;
   std::string list;
   std::string output;
-  int size = 800;
+  std::optional<int> size;
 };
+
+std::vector<SunTime> view_times(ModelRun const& model, ViewArguments const& arguments) {
+  if (!arguments.sun.empty()) {
+    return {{fmt::format("azimuth {:g}, altitude {:g}", arguments.sun[0], arguments.sun[1]),
+             direction_of_degrees(arguments.sun[0], arguments.sun[1])}};
+  }
+  SiteClock const clock(read_objects(model.model), model.weather);
+  if (!arguments.at.empty()) return {sun_time(arguments.at, clock)};
+  // As many as a page has room for, or as make a film.
+  std::chrono::minutes const step(is_animation(arguments.output) ? 15 : 60);
+  return sun_times(arguments.day, clock, step);
+}
 
 void run_view(ModelRun const& model, ViewArguments const& arguments) {
   std::filesystem::path const output = arguments.output;
-  std::vector<Picture> pictures;
+  constexpr int usual = 800;
   if (!arguments.list.empty()) {
+    std::vector<Picture> pictures;
     for (auto& view : read_views(arguments.list)) {
       auto file = output / view.picture;
       pictures.push_back({std::move(view), std::move(file)});
     }
-  } else if (!arguments.sun.empty()) {
-    auto const sun = direction_of_degrees(arguments.sun[0], arguments.sun[1]);
-    pictures.push_back({{"", sun, arguments.receiver}, output});
-  } else {
-    throw Error("expected --sun AZIMUTH,ALTITUDE, or --list FILE");
+    draw(model, pictures, arguments.size.value_or(usual));
+    return;
   }
-  draw(model, pictures, arguments.size);
+  if (arguments.sun.empty() && arguments.at.empty() && arguments.day.empty()) {
+    throw Error(
+        "expected --at \"MM-DD HH:MM\", --day MM-DD, --sun AZIMUTH,ALTITUDE, or --list FILE");
+  }
+  std::vector<CaptionedView> views;
+  for (auto const& time : view_times(model, arguments)) {
+    views.push_back({{"", time.sun, arguments.receiver}, time.caption});
+  }
+  constexpr int usual_of_many = 400;
+  draw_together(model, views, output,
+                arguments.size.value_or(views.size() > 1 ? usual_of_many : usual));
+  for (auto const& view : views) {
+    auto const sun = view.view.sun;
+    fmt::print("{}: sun at azimuth {:.3f}, altitude {:.3f} degrees\n", view.caption,
+               glm::degrees(sun.azimuth), glm::degrees(sun.altitude));
+  }
 }
 
 void add_view(CLI::App& app, Choices const& choices) {
@@ -109,14 +144,23 @@ void add_view(CLI::App& app, Choices const& choices) {
   auto const model = std::make_shared<ModelArguments>(*command, choices);
   auto const arguments = std::make_shared<ViewArguments>();
   command->add_option("--receiver", arguments->receiver, "Name of the one to show");
-  command
-      ->add_option("--sun", arguments->sun,
+  auto* const when = command->add_option_group("sun");
+  when->add_option("--at", arguments->at,
+                   "Month, day and time by the clock at Site:Location, with daylight saving where "
+                   "the model has it, as in \"06-21 15:00\"")
+      ->type_name("\"MM-DD HH:MM\"");
+  when->add_option("--day", arguments->day,
+                   "The hours of a day from sunrise to sunset, together; every quarter of an hour "
+                   "of it, one after another, where the picture's name ends in .gif")
+      ->type_name("MM-DD");
+  when->add_option("--sun", arguments->sun,
                    "Degrees: azimuth clockwise from true north, altitude above the horizon")
       ->delimiter(',')
       ->expected(2)
       ->type_name("AZIMUTH,ALTITUDE");
-  command->add_option("--list", arguments->list,
-                      "Many pictures, one a line: FILE AZIMUTH ALTITUDE [RECEIVER]");
+  when->add_option("--list", arguments->list,
+                   "Many bare pictures, one a line: FILE AZIMUTH ALTITUDE [RECEIVER]");
+  when->require_option(0, 1);
   command
       ->add_option("-o,--output", arguments->output,
                    "The picture, in the format that its name's ending tells; with --list the "
@@ -124,9 +168,10 @@ void add_view(CLI::App& app, Choices const& choices) {
       ->required();
   constexpr int least = 16;
   constexpr int most = 8192;
-  command->add_option("--size", arguments->size, "Pixels on the longer side")
-      ->check(CLI::Range(least, most))
-      ->capture_default_str();
+  command
+      ->add_option("--size", arguments->size,
+                   "Pixels on the longer side of each picture (default: 800; 400 with --day)")
+      ->check(CLI::Range(least, most));
   command->callback([model, arguments] { run_view(model->run(), *arguments); });
 }
 

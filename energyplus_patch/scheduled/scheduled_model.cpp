@@ -112,7 +112,8 @@ void set_method(ModelEditor& editor, std::string_view method, std::string_view f
   editor.add(shadow_calculation, {{method_field.name, method}, {frequency_field.name, frequency}});
 }
 
-void add_schedules(ModelEditor& editor, SunlitTable const& table, Path const& file) {
+// `file`: beside the model, so that both may be taken elsewhere together.
+void add_schedules(ModelEditor& editor, SunlitTable const& table, std::string const& file) {
   constexpr int minutes_of_hour = 60;
   constexpr int hours_of_leap_year = 8784;
   constexpr std::string_view limits = "GPU SHADING SUNLIT FRACTION";
@@ -126,7 +127,7 @@ void add_schedules(ModelEditor& editor, SunlitTable const& table, Path const& fi
     schedule_of[upper(table.surfaces[i])] = name;
     editor.add("Schedule:File", {{"name", name},
                                  {"schedule_type_limits_name", limits},
-                                 {"file_name", file.string()},
+                                 {"file_name", file},
                                  {"column_number", i + 1},
                                  {"rows_to_skip_at_top", 1},
                                  {"number_of_hours_of_data", hours_of_leap_year},
@@ -151,17 +152,11 @@ void add_schedules(ModelEditor& editor, SunlitTable const& table, Path const& fi
   }
 }
 
-Path write_fractions(SunlitTable const& table, Path const& folder) {
-  auto path = std::filesystem::absolute(folder) / "gpu_shading_sunlit.csv";
-  if (path.string().find_first_of(",;!") != std::string::npos) {
-    throw Error(fmt::format("{}: a file named in a model may not have one of ,;! in its path",
-                            path.string()));
-  }
+void write_fractions(SunlitTable const& table, Path const& path) {
   std::ofstream file(path, std::ios::binary);
   write_schedule_file(table, file);
   file.close();
   if (!file) throw Error(fmt::format("{}: cannot be written", path.string()));
-  return path;
 }
 
 }  // namespace
@@ -185,7 +180,9 @@ ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choi
     } else {
       // With Periodic a day's schedule values would stand for the whole period.
       set_method(*editor, "Scheduled", "Timestep");
-      add_schedules(*editor, table, write_fractions(table, folder));
+      constexpr char const* fractions = "gpu_shading_sunlit.csv";
+      write_fractions(table, folder / fractions);
+      add_schedules(*editor, table, fractions);
     }
   }
   ScheduledModel done;

@@ -19,7 +19,6 @@ namespace {
 
 constexpr char const* table_name = "sunlit.csv";
 constexpr int picture_size = 800;
-constexpr std::size_t max_pictures = 300;
 
 struct Row {
   SurfaceId receiver;
@@ -123,19 +122,18 @@ Stages stages_of(RendererStatistics const& statistics) {
           {"EnergyPlus", std::max(0.0, passed - statistics.seconds)}};
 }
 
-void write_stages(std::filesystem::path const& folder, Stages const& stages) {
-  auto const table = folder / "stages.csv";
-  std::ofstream csv(table);
+void write_stages(std::filesystem::path const& file, Stages const& stages) {
+  std::ofstream csv(file);
   csv << "stage,seconds\n";
   for (auto const& [stage, seconds] : stages) csv << fmt::format("{},{:.3f}\n", stage, seconds);
   csv.close();
-  if (!csv) throw Error(fmt::format("--gpu-shading-report: {}: cannot be written", table.string()));
+  if (!csv) throw Error(fmt::format("{}: cannot be written", file.string()));
 }
 
-void write_report(std::filesystem::path const& folder, Renderer& renderer,
-                  std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
-                  Answers const& answers, std::vector<double> const& factors,
-                  Deployments const& deployments) {
+std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer,
+                         std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
+                         Answers const& answers, std::vector<double> const& factors,
+                         Deployments const& deployments) {
   auto const table = folder / table_name;
   std::ofstream csv(table);
   csv << "receiver,sun azimuth [deg],sun altitude [deg],projected sunlit area [m2],sunlit "
@@ -160,7 +158,8 @@ void write_report(std::filesystem::path const& folder, Renderer& renderer,
   csv.close();
   if (!csv) throw Error(fmt::format("--gpu-shading-report: {}: cannot be written", table.string()));
 
-  if (pictures.size() > max_pictures) pictures.resize(max_pictures);
+  auto const left_out = pictures.size() - std::min(pictures.size(), max_report_pictures);
+  pictures.resize(pictures.size() - left_out);
   for (auto const& picture : pictures) {
     auto const& shares = deployments.states[picture.state];
     renderer.set_deployments(shares);
@@ -168,6 +167,7 @@ void write_report(std::filesystem::path const& folder, Renderer& renderer,
         folder / file_name(renderer.scene()[picture.receiver].name, picture.sun, shares);
     write_image(path, renderer.sun_view(picture.sun, picture.receiver, picture_size, factors));
   }
+  return left_out;
 }
 
 }  // namespace gpu_shading::energyplus

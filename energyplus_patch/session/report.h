@@ -27,12 +27,14 @@ struct Deployments {
 //   NAME_AZ_ALT.png  what the sun sees of a receiver, at up to three of its answers: the one most
 //                    shaded but lit, the one nearest to half sunlit, and the one at the highest
 //                    sun. With deployments NAME_AZ_ALT_SHARE[_SHARE ...].png, shares in percent.
-// `receivers`: by their numbers; those that were asked for, by surface, are reported. Throws Error
-// when the folder cannot be written.
-void write_report(std::filesystem::path const& folder, Renderer& renderer,
-                  std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
-                  Answers const& answers, std::vector<double> const& factors,
-                  Deployments const& deployments);
+// `receivers`: by their numbers; those that were asked for, by surface, are reported. Returns how
+// many pictures were left out, being more than max_report_pictures. Throws Error when the folder
+// cannot be written.
+inline constexpr std::size_t max_report_pictures = 300;
+std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer,
+                         std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
+                         Answers const& answers, std::vector<double> const& factors,
+                         Deployments const& deployments);
 
 // Where the time of a run goes, wall seconds by stage.
 using Stages = std::vector<std::pair<std::string, double>>;
@@ -40,7 +42,9 @@ using Stages = std::vector<std::pair<std::string, double>>;
 // The renderer's own stages, and the rest of what passed since this module was loaded.
 Stages stages_of(RendererStatistics const& statistics);
 
-// stages.csv: stage, seconds. Throws Error when the folder cannot be written.
-void write_stages(std::filesystem::path const& folder, Stages const& stages);
+inline constexpr char const* stages_table = "stages.csv";
+
+// Columns: stage, seconds. Throws Error when the file cannot be written.
+void write_stages(std::filesystem::path const& file, Stages const& stages);
 
 }  // namespace gpu_shading::energyplus

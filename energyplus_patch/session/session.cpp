@@ -538,16 +538,25 @@ void Session::finish() {
                     samples_->answered(), samples_->sampled(), name_of(model_.options.update)));
   }
   store_answers();
+  auto const stages = stages_of(did);
+  if (char const* const file = std::getenv(stages_variable)) write_stages(file, stages);
   if (model_.options.report) {
-    auto const stages = stages_of(did);
     std::string line;
     for (auto const& [stage, seconds] : stages) {
       line += fmt::format("{}{} {:.2f} s", line.empty() ? "" : ", ", stage, seconds);
     }
     messages_.remark("where the time went: " + line);
-    write_stages(*model_.options.report, stages);
-    write_report(*model_.options.report, *renderer_, run_.receivers, asked_, run_.answers,
-                 optics_.factors(), {optics_.deployment_names(), run_.states});
+    write_stages(*model_.options.report / stages_table, stages);
+    auto const left_out =
+        write_report(*model_.options.report, *renderer_, run_.receivers, asked_, run_.answers,
+                     optics_.factors(), {optics_.deployment_names(), run_.states});
+    if (left_out > 0) {
+      messages_.remark(
+          fmt::format("--gpu-shading-report: the first {} pictures are drawn, {} more are not; "
+                      "gpu_shading view "
+                      "draws any",
+                      max_report_pictures, left_out));
+    }
   }
 }
 

@@ -48,6 +48,8 @@ class Session {
   // Set by `gpu_shading sample` alone: start() renders what the request in this file asks for (see
   // samples/sample_request.h), and ends the process.
   static constexpr char const* samples_variable = "GPU_SHADING_SAMPLES";
+  // Set by compare_shading alone: finish() writes where the time went to this file.
+  static constexpr char const* stages_variable = "GPU_SHADING_STAGES";
 
   explicit Session(Model model) : model_(std::move(model)) {}
 

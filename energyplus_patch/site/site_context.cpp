@@ -105,9 +105,8 @@ Context read_context(InputObject const& object, std::filesystem::path const& fol
   } else {
     auto const coordinates = read_coordinates(object, terrain_coordinates);
     context.clear_distance = positive(object, terrain_clear_distance).value_or(0.0);
-    context.terrain = of_file(terrain_file_name, [&] {
-      return read_terrain(folder / terrain, coordinates.value_or(MapCoordinates()));
-    });
+    context.terrain =
+        of_file(terrain_file_name, [&] { return read_terrain(folder / terrain, coordinates); });
   }
   return context;
 }
@@ -283,7 +282,14 @@ void read_site_contexts(std::vector<InputObject> const& objects,
   };
   for (auto const& object : objects) {
     if (object.type != type) continue;
-    of_object(object.name, [&] { contexts.push_back(read_context(object, folder)); });
+    of_object(object.name, [&] {
+      contexts.push_back(read_context(object, folder));
+      constexpr double tallest_storey = 20.0;
+      constexpr double tallest_building = 1000.0;
+      auto const odd = lengths_beyond(
+          object, {{storey_height, tallest_storey}, {default_height, tallest_building}});
+      surroundings.warnings.insert(surroundings.warnings.end(), odd.begin(), odd.end());
+    });
   }
   if (origin.at_terrain) stand_on_terrain(contexts, origin);
   for (auto const& context : contexts) {

@@ -14,6 +14,7 @@
 #include "gpu_shading/error.h"
 #include "input/input_object.h"
 #include "input/number.h"
+#include "site/geotiff.h"
 #include "site/text_file.h"
 
 namespace gpu_shading::energyplus {
@@ -131,45 +132,46 @@ void read_elevations(Words& words, double no_data, TerrainGrid& grid) {
   }
 }
 
-void refuse_images(std::string_view text) {
-  if (text.starts_with("II*") || text.starts_with("MM")) {
-    throw Error(
-        "is a TIFF, expected an ESRI ASCII grid (gdal_translate -of AAIGrid makes one of it)");
-  }
-}
-
 TerrainGrid read_grid(std::string_view text, MapCoordinates const& coordinates) {
-  refuse_images(text);
   Words words(text);
   Header const header(words);
   TerrainGrid grid;
   grid.coordinates = coordinates;
   grid.columns = header.count("NCOLS");
   grid.rows = header.count("NROWS");
-  if (grid.columns > max_terrain_nodes / grid.rows) {
-    throw Error(
-        fmt::format("is {} x {} cells, expected at most {} (gdal_translate -outsize makes "
-                    "fewer)",
-                    grid.columns, grid.rows, max_terrain_nodes));
-  }
+  check_terrain_size(grid.columns, grid.rows);
   grid.step_x = header.step("DX");
   grid.step_y = header.step("DY");
   grid.first = {header.first("X", grid.step_x), header.first("Y", grid.step_y)};
   constexpr double usual = -9999.0;
   read_elevations(words, header.get("NODATA_VALUE").value_or(usual), grid);
-  if (std::none_of(grid.elevations.begin(), grid.elevations.end(),
-                   [](double value) { return std::isfinite(value); })) {
-    throw Error("holds no elevation: all of it is NODATA");
-  }
   return grid;
 }
 
 }  // namespace
 
-TerrainGrid read_terrain(std::filesystem::path const& path, MapCoordinates const& coordinates) {
-  auto const text = read_text_file(path);
+void check_terrain_size(int columns, int rows) {
+  if (columns < 2 || rows < 2) {
+    throw Error(fmt::format("is {} x {} cells, expected at least 2 x 2", columns, rows));
+  }
+  if (columns <= max_terrain_nodes / rows) return;
+  throw Error(
+      fmt::format("is {} x {} cells, expected at most {} (gdal_translate -outsize makes fewer)",
+                  columns, rows, max_terrain_nodes));
+}
+
+TerrainGrid read_terrain(std::filesystem::path const& path,
+                         std::optional<MapCoordinates> const& coordinates) {
+  auto const tiff = is_tiff(path);
+  auto const text = tiff ? std::string() : read_text_file(path);
   try {
-    return read_grid(text, coordinates);
+    auto grid = tiff ? read_geotiff(path, coordinates)
+                     : read_grid(text, coordinates.value_or(MapCoordinates()));
+    if (std::none_of(grid.elevations.begin(), grid.elevations.end(),
+                     [](double value) { return std::isfinite(value); })) {
+      throw Error("holds no elevation: all of it is NODATA");
+    }
+    return grid;
   } catch (Error const& error) {
     throw Error(fmt::format("{}: {}", path.string(), error.what()));
   }

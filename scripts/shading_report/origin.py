@@ -8,6 +8,8 @@ import re
 from datetime import datetime
 from pathlib import Path
 
+from shading_runs import methods
+
 
 def processor():
     try:
@@ -69,34 +71,20 @@ def written():
     return datetime.now().astimezone().strftime("%Y-%m-%d %H:%M %Z")
 
 
-def report_folder(run, further):
-    """Where --gpu-shading-report has a run write to, None where it is not given."""
-    words = [*run.options, *further]
-    for word, following in zip(words, [*words[1:], ""], strict=True):
-        name, _, value = word.partition("=")
-        if name == "--gpu-shading-report":
-            return run.run.folder / (value or following)
-    return None
-
-
 def renderer_stages(folder):
-    """[(stage, seconds)] of the tables in a report's folder that have a column for each."""
-    found = []
-    for path in sorted(folder.glob("*.csv")) if folder else []:
-        with open(path, newline="", encoding="utf-8") as file:
-            table = csv.DictReader(file)
-            stage = next((name for name in table.fieldnames or [] if name.startswith("stage")), None)
-            seconds = next((name for name in table.fieldnames or [] if "second" in name or "[s]" in name), None)
-            if stage and seconds:
-                found += [(row[stage], float(row[seconds])) for row in table]
-    return found
+    """[(stage, seconds)] of the rendering, from the table that a run of ours leaves in its folder."""
+    table = folder / methods.STAGES
+    if not table.is_file():
+        return []
+    with open(table, newline="", encoding="utf-8") as file:
+        return [(row["stage"], float(row["seconds"])) for row in csv.DictReader(file) if row["stage"] != "EnergyPlus"]
 
 
-def stages(run, further):
+def stages(run):
     """[(stage, seconds)] that add up to the program's wall time."""
     rendering = re.search(r"([\d.]+) s$", run.run.rendering)
     inside = float(rendering[1]) if rendering else 0.0
-    parts = renderer_stages(report_folder(run, further)) or [("whole renderer", inside)]
+    parts = renderer_stages(run.run.folder) or [("whole renderer", inside)]
     named = [(f"rendering: {stage}", seconds) for stage, seconds in parts if seconds > 0]
     rest = inside - sum(seconds for _, seconds in named)
     if rest > 0.005:

@@ -174,7 +174,7 @@ def write(output, everything, weather, most, further):
     details = [_detail(anchor, name, runs, calendar) for name, anchor in shown.items()]
     without_pictures = _draw(details, runs, weather, output)
     by_environment, by_month = facts.energies(runs, calendar)
-    timed = [(run.label, origin.stages(run, further)) for run in runs]
+    timed = [(run.label, origin.stages(run)) for run in runs]
 
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)

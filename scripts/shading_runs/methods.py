@@ -6,6 +6,7 @@ from pathlib import Path
 from shading_runs import energyplus, input_file, results
 
 OURS = "gpushading:"
+STAGES = "stages.csv"  # where a run's time went, in its folder
 LONG = 20  # characters, for a title in a heading
 
 
@@ -33,7 +34,8 @@ class Method:
             own.remove(lambda name: name.startswith(OURS))
         self.placed = input_file.place_copy(own, self.model, output / "inputs" / self.key)
         self.run = energyplus.run(self.program, self.placed, weather, output / self.key,
-                                  [*self.options, *further], timeout=timeout, before=self.before)
+                                  [*self.options, *further], timeout=timeout, before=self.before,
+                                  environment={"GPU_SHADING_STAGES": str((output / self.key / STAGES).resolve())})
         if not self.run.completed:
             self.missing = self.run.why()
             return

@@ -151,7 +151,9 @@ def test_an_exported_model_runs_in_any_program(unpatchable, without_opengl, by_p
                            tmp_path / "model"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     exported = Path(done.stdout.strip())
-    command = [sys.executable, PLAIN_HOST, without_opengl, "-w", weather, "-d", tmp_path / "out", exported]
+    # The folder may be taken anywhere.
+    elsewhere = exported.parent.rename(tmp_path / "elsewhere") / exported.name
+    command = [sys.executable, PLAIN_HOST, without_opengl, "-w", weather, "-d", tmp_path / "out", elsewhere]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     expect_equal_fractions(reference, tmp_path / "out")

@@ -7,7 +7,9 @@ import sqlite3
 import struct
 import subprocess
 
+import numpy as np
 import pytest
+from PIL import Image, TiffImagePlugin, TiffTags
 from shading_runs import energyplus, input_file, results
 from test_screens import write_grey_image
 
@@ -125,6 +127,35 @@ def test_terrain_shades_like_a_slope(run, bare, tmp_path):
     answer = run(bare, "context")
     assert_alike(reference, answer, ["SOUTH"])
     assert any("terrain of 3 x 2 nodes (2 cells drawn)" in line for line in answer.our_lines)
+
+
+def write_geotiff(path, rows, corner, steps, epsg):
+    """By the format's own tags (OGC 19-008): rows from the north, cells as areas from a corner."""
+    tags = TiffImagePlugin.ImageFileDirectory_v2()
+    for tag, kind, value in (
+            (33550, TiffTags.DOUBLE, (*steps, 0.0)),
+            (33922, TiffTags.DOUBLE, (0.0, 0.0, 0.0, *corner, 0.0)),
+            # Version, then model type, raster type and the projected coordinates' code.
+            (34735, TiffTags.SHORT, (1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, epsg))):
+        tags[tag], tags.tagtype[tag] = value, kind
+    Image.fromarray(np.array(rows, np.float32)).save(path, tiffinfo=tags)
+
+
+def test_a_geotiff_is_the_same_ground_as_its_numbers_in_ascii(run, bare, tmp_path):
+    """A ridge to the south, in UTM: Golden is at 484,577 m east, 4,398,917 m north of zone 13."""
+    west, south, step = 484_400.0, 4_398_700.0, 20.0
+    rows = [[ELEVATION + (25.0 + column if 7 <= row <= 9 else 0.0) for column in range(18)] for row in range(12, 0, -1)]
+    (tmp_path / "hill.asc").write_text(
+        f"ncols 18\nnrows 12\nxllcorner {west}\nyllcorner {south}\ncellsize {step}\n"
+        + "\n".join(" ".join(map(str, row)) for row in rows))
+    write_geotiff(tmp_path / "hill.tif", rows, (west, south + 12 * step), (step, step), 32613)
+    answers = [run(bare + f"GPUShading:SiteContext,Hill,,,,,,,{fields};\n", name)
+               for name, fields in (("ascii", "hill.asc,UTM 13N"), ("geotiff", "hill.tif"))]
+    remarks = [[line for line in answer.our_lines if "SiteContext" in line] for answer in answers]
+    assert remarks[0] == remarks[1] and "terrain of 18 x 12 nodes" in remarks[0][0]
+    found = results.differences(*(results.Results(answer.folder) for answer in answers))
+    assert max(each.largest for each in found) == 0.0
+    assert min(min(each.reference) for each in found) < 0.9
 
 
 LIGHT = """

@@ -1,5 +1,7 @@
-"""gpu_shading view: pictures of what the sun sees of a receiver."""
+"""gpu_shading view: pictures of what the sun sees."""
 
+import re
+import sqlite3
 import subprocess
 
 import matplotlib as mpl
@@ -7,6 +9,7 @@ import numpy as np
 import pytest
 import window_with_shades
 from PIL import Image
+from shading_runs import energyplus
 
 YELLOW, BLUE = (255, 255, 0), (0, 0, 255)
 CIVIDIS = 4  # of 255: the colours are straight lines between 17 of them
@@ -31,6 +34,28 @@ def sunlit_share(path):
     return colours.get(YELLOW, 0) / (colours.get(YELLOW, 0) + colours.get(BLUE, 0))
 
 
+def colour(fraction):
+    return 255 * np.array(mpl.colormaps["cividis"](fraction)[:3])
+
+
+def values(run, variable):
+    """[(month, day, minutes, value)] of the run's timesteps, in standard time."""
+    with sqlite3.connect(f"file:{run.folder / 'eplusout.sql'}?mode=ro", uri=True) as data:
+        rows = data.execute(
+            "SELECT Month, Day, 60 * Hour + Minute, Value FROM ReportData JOIN ReportDataDictionary "
+            "USING (ReportDataDictionaryIndex) JOIN Time USING (TimeIndex) JOIN EnvironmentPeriods "
+            "USING (EnvironmentPeriodIndex) WHERE Name = ? AND (WarmupFlag IS NULL OR WarmupFlag = 0) "
+            "ORDER BY TimeIndex", (variable,)).fetchall()
+    data.close()
+    return rows
+
+
+def times(output):
+    """What view prints: {"06-21 15:00": (azimuth, altitude)}."""
+    found = re.findall(r"^(\S+ \S+): sun at azimuth (\S+), altitude (\S+) degrees$", output, re.M)
+    return {time: (float(azimuth), float(altitude)) for time, azimuth, altitude in found}
+
+
 def test_the_sunlit_share_of_a_picture_is_the_closed_form(view, tmp_path):
     suns = [(150.0, 30.0), (180.0, 60.0), (215.5, 12.25)]
     lines = [f"{number}.png {azimuth} {altitude} window\n" for number, (azimuth, altitude) in enumerate(suns)]
@@ -48,13 +73,20 @@ def test_one_picture(view, tmp_path):
     done = view("--receiver", "Window", "--sun", "180,60", "-o", "sun.png", "--size", "300")
     assert done.returncode == 0, done.stderr
     with Image.open(tmp_path / "sun.png") as picture:
-        assert max(picture.size) == 300
+        # A caption above it and a margin about it; no scale, which a receiver's two colours do not need.
+        assert 300 < max(picture.size) < 340
 
 
 @pytest.mark.parametrize("arguments, words", [
     (("--receiver", "Door", "--sun", "180,60"), ("receiver Door", "no such surface")),
     (("--receiver", "Window", "--sun", "180,-1"), ("sun altitude -1", "above 0")),
-    (("--receiver", "Window"), ("--sun AZIMUTH,ALTITUDE",)),
+    (("--receiver", "Window"), ("--sun AZIMUTH,ALTITUDE", "--at", "--day")),
+    (("--at", "noon"), ('--at "noon": expected month, day and time, as in "06-21 15:00"',)),
+    (("--at", "02-30 12:00"), ('--at "02-30 12:00": 2017 has no such day',)),
+    (("--at", "06-21 12:75"), ("expected a time from 00:00 to 24:00",)),
+    (("--at", "06-21 23:00"), ("the sun is down", "below the horizon")),
+    (("--at", "06-21 12:00", "-w", "none.epw"), ("-w none.epw: no such file",)),
+    (("--day", "June"), ('--day "June": expected month and day, as in 06-21',)),
     (("--list", "views.txt"), ("views.txt, line 2", "nonsense")),
     (("--list", "missing.txt"), ("missing.txt", "cannot be read")),
 ])
@@ -71,14 +103,83 @@ def test_what_is_wrong(view, tmp_path, arguments, words):
 
 def test_a_whole_scene_has_receivers_by_their_sunlit_fraction(view, tmp_path):
     sun = (150.0, 30.0)
-    done = view("--sun", ",".join(map(str, sun)), "-o", "scene.png", "--size", "600")
+    (tmp_path / "views.txt").write_text("scene.png {} {}\n".format(*sun))
+    done = view("--list", "views.txt", "-o", ".", "--size", "600")
     assert done.returncode == 0, done.stderr
     exact = window_with_shades.sunlit_area("south", True, True, *sun) / window_with_shades.SIZE**2
     assert 0.2 < exact < 0.8
-    expected = 255 * np.array(mpl.colormaps["cividis"](exact)[:3])
     with Image.open(tmp_path / "scene.png") as picture:
         pixels = np.asarray(picture.convert("RGB"), float)
-    close = np.abs(pixels - expected).max(axis=2) < CIVIDIS
+    close = np.abs(pixels - colour(exact)).max(axis=2) < CIVIDIS
     # The window fills a good part of the picture; nothing else of it is as much in the sun.
     assert close.mean() > 0.02
     assert len({tuple(pixel) for pixel in pixels[close]}) == 1
+
+
+SCALE = 7 * 11  # pixels beside pictures of up to 300: seven times the least height of text
+
+
+def test_a_day_shows_what_energyplus_calculates_hour_by_hour(view, official, weather, tmp_path):
+    """The window's colour in each hour's picture against polygon clipping, the sun against EnergyPlus's own."""
+    run = energyplus.run(official, tmp_path / "model.idf", weather, tmp_path / "official", ["-D"])
+    assert run.completed, run.why()
+    fractions, azimuths, altitudes = ({minutes: value for _, _, minutes, value in values(run, name)} for name in (
+        "Surface Outside Face Sunlit Fraction", "Site Solar Azimuth Angle", "Site Solar Altitude Angle"))
+    done = view("--day", "08-21", "-o", "day.png", "--size", "300")
+    assert done.returncode == 0, done.stderr
+    shown = times(done.stdout)
+    hours = [hour for hour in range(24) if altitudes.get(60 * hour, -1) > 0]
+    assert list(shown) == [f"08-21 {hour:02}:00" for hour in hours] and len(hours) > 10
+    with Image.open(tmp_path / "day.png") as picture:
+        pixels = np.asarray(picture.convert("RGB"), float)[:, :-SCALE]
+    rows = -(-len(hours) // 4)
+    looked_at = 0
+    for number, hour in enumerate(hours):
+        assert shown[f"08-21 {hour:02}:00"] == pytest.approx((azimuths[60 * hour], altitudes[60 * hour]), abs=0.02)
+        fraction = fractions[60 * hour]
+        # Half sunlit is grey, as shades are.
+        if not 0.2 < fraction < 0.9 or 0.4 < fraction < 0.6:
+            continue
+        looked_at += 1
+        row, column = divmod(number, 4)
+        high, wide = pixels.shape[0] / rows, pixels.shape[1] / 4
+        cell = pixels[round(row * high):round((row + 1) * high), round(column * wide):round((column + 1) * wide)]
+        # No wall is as much in the sun; the sun sees the sunlit part of the window.
+        assert (np.abs(cell - colour(fraction)).max(axis=2) < CIVIDIS).mean() > 0.001, f"{hour}:00, {fraction}"
+    assert looked_at >= 2
+
+
+def test_an_animation_has_a_quarter_of_an_hour_a_picture(view, tmp_path):
+    done = view("--day", "12-21", "--receiver", "Window", "-o", "day.gif", "--size", "100")
+    assert done.returncode == 0, done.stderr
+    shown = list(times(done.stdout))
+    assert shown[0][-2:] in {"00", "15", "30", "45"} and len(shown) > 30
+    with Image.open(tmp_path / "day.gif") as picture:
+        assert picture.n_frames == len(shown)
+        frames = set()
+        for number in range(picture.n_frames):
+            picture.seek(number)
+            frames.add(picture.convert("RGB").tobytes())
+    assert len(frames) == len(shown)
+
+
+def test_daylight_saving_is_energyplus_s(view, official, weather, tmp_path):
+    """By a run over the day when it begins: the clock is ahead of the run's standard time from then on."""
+    model = (tmp_path / "model.idf").read_text()
+    model = model.replace("SimulationControl,No,No,No,Yes,No", "SimulationControl,No,No,No,No,Yes")
+    model = model.replace("Atlanta,33.65,-84.42,-5,315", "Golden,39.74,-105.18,-7,1829")
+    model += ("RunPeriodControl:DaylightSavingTime,2nd Sunday in March,1st Sunday in November;\n"
+              "RunPeriod,March,3,11,,3,12,,,Yes,No,No,Yes,Yes;\n"
+              "Output:Variable,*,Site Daylight Saving Time Status,Timestep;\n")
+    (tmp_path / "model.idf").write_text(model)
+    run = energyplus.run(official, tmp_path / "model.idf", weather, tmp_path / "official", [])
+    assert run.completed, run.why()
+    ahead, azimuths, altitudes = ({(day, minutes): value for _, day, minutes, value in values(run, name)} for name in (
+        "Site Daylight Saving Time Status", "Site Solar Azimuth Angle", "Site Solar Altitude Angle"))
+    assert {round(value) for value in ahead.values()} == {0, 1}
+    for day in (11, 12):
+        standard = (day, 15 * 60)
+        clock = f"03-{day} {15 + round(ahead[standard])}:00"
+        done = view("--at", clock, "-o", "sun.png", "--size", "100")
+        assert done.returncode == 0, done.stderr
+        assert times(done.stdout)[clock] == pytest.approx((azimuths[standard], altitudes[standard]), abs=0.02)

@@ -399,5 +399,19 @@ TEST_F(Textured, IdfEpJsonAndSideFileAreAlike) {
   }
 }
 
+TEST_F(Textured, WarnsOfMillimetres) {
+  EXPECT_TRUE(read(pattern({{"hole_size", "0.9"}, {"pitch", "1"}})).warnings().empty());
+  // As meant, 5 and 8 mm in a sheet of no thickness.
+  auto const holes =
+      read(pattern({{"hole_size", "5"}, {"pitch", "8"}, {"thickness", "0"}})).warnings();
+  ASSERT_EQ(holes.size(), 2U);
+  EXPECT_EQ(
+      holes[0],
+      "GPUShading:PerforatedScreen S: Hole Size is 5 m, more than 1 m: lengths are in metres, "
+      "is it in millimetres?");
+  EXPECT_EQ(read(textured({{"tile_width", "1200"}})).warnings().size(), 1U);
+  EXPECT_TRUE(read(textured({{"tile_width", "1.2"}})).warnings().empty());
+}
+
 }  // namespace
 }  // namespace gpu_shading::energyplus

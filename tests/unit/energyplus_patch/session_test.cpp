@@ -1,5 +1,6 @@
 #include "session/session.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "gpu_shading/error.h"
 #include "input/model_file.h"
 #include "program/process.h"
+#include "session/report.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -200,6 +202,34 @@ TEST(Session, EioListsScreens) {
             "! <GPU Shading Surface>, Surface Name, Transmittance\n"
             "GPU Shading Surface,PLATE,perforated (round holes 5 mm; 60 degrees staggered; pitch 8 "
             "mm; 35.4 % open; 0 mm thick) deployed by SAILS\n");
+}
+
+TEST(Session, ReportSaysWhenItHasTooManyPictures) {
+  TemporaryFolder const folder;
+  auto model = model_of("");
+  model.options.report = folder.path();
+  Session session(std::move(model));
+  std::vector<SurfaceId> strips;
+  for (std::size_t i = 0; i < max_report_pictures + 2; ++i) {
+    // Narrow, so that the pictures are small.
+    strips.push_back(session.add(
+        surface_of("STRIP " + std::to_string(i),
+                   rectangle({0.0, 0.01 * static_cast<double>(i), 0.0}, {1, 0, 0}, {0, 0.01, 0}))));
+  }
+  session.add(surface_of("PLATE", rectangle({0, 0, 1}, {0.5, 0, 0}, {0, 9, 0})));
+  Said said;
+  session.start(said.messages(), {});
+  session.set_sun(zenith);
+  for (auto const strip : strips) session.projected_sunlit_area(strip);
+  session.finish();
+  EXPECT_THAT(
+      said.remarks,
+      testing::Contains(testing::HasSubstr("the first 300 pictures are drawn, 2 more are not")));
+  std::size_t pictures = 0;
+  for (auto const& entry : std::filesystem::directory_iterator(folder.path())) {
+    if (entry.path().extension() == ".png") ++pictures;
+  }
+  EXPECT_EQ(pictures, max_report_pictures);
 }
 
 TEST(Session, ReportTellsStatesOfDeploymentApart) {

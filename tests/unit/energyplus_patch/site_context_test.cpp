@@ -56,6 +56,19 @@ class SiteContext : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(SiteContext, WarnsOfMillimetres) {
+  auto const town = [&](std::string const& storey, std::string const& otherwise) {
+    return read(location + "GPUShading:SiteContext,Town,town.geojson,,,," + storey + "," +
+                otherwise + ";")
+        .warnings;
+  };
+  EXPECT_TRUE(town("3.5", "12").empty());
+  EXPECT_THAT(town("3500", "12000"),
+              ElementsAre(HasSubstr("SiteContext Town: Storey Height is 3500 m, more than 20 m: "
+                                    "lengths are in metres, is it in millimetres?"),
+                          HasSubstr("Default Height is 12000 m, more than 1000 m")));
+}
+
 TEST_F(SiteContext, BuildingsStandOnTheTerrain) {
   auto const found =
       read(location + "GPUShading:SiteContext,Town,town.geojson,,,,,,hill.asc,,,,,Terrain;");

@@ -1,0 +1,131 @@
+#include "site/site_clock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <glm/trigonometric.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "gpu_shading/error.h"
+#include "gpu_shading/sun_position.h"
+#include "input/fields.h"
+#include "site/calendar_date.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+namespace chrono = std::chrono;
+
+InputObject const* find(std::vector<InputObject> const& objects, std::string_view type) {
+  auto const found = std::find_if(objects.begin(), objects.end(),
+                                  [&](InputObject const& object) { return object.type == type; });
+  return found == objects.end() ? nullptr : &*found;
+}
+
+// Runs `action` with the object's name before its errors.
+template <typename Action>
+auto of_object(InputObject const& object, Action const& action) {
+  try {
+    return action();
+  } catch (Error const& error) {
+    throw Error(fmt::format("{}{}{}: {}", object.type, object.name.empty() ? "" : " ", object.name,
+                            error.what()));
+  }
+}
+
+chrono::year year_of(InputObject const& period) {
+  constexpr chrono::year usual{2017};
+  if (auto const year = number(period, {"begin_year", "Begin Year"})) {
+    return chrono::year(static_cast<int>(*year));
+  }
+  auto const month = number(period, {"begin_month", "Begin Month"}).value_or(1.0);
+  auto const day = number(period, {"begin_day_of_month", "Begin Day of Month"}).value_or(1.0);
+  auto const weekday = weekday_of(period["day_of_week_for_start_day"]);
+  if (!weekday) return usual;
+  // After so many years weekdays come again.
+  constexpr chrono::years cycle{28};
+  for (chrono::year year = usual; year > usual - cycle; --year) {
+    auto const start = date_in(fmt::format("{:.0f}/{:.0f}", month, day), year);
+    if (!year.is_leap() && chrono::weekday(chrono::sys_days(start)) == *weekday) return year;
+  }
+  return usual;
+}
+
+using Days = std::pair<std::string, std::string>;
+
+// The fifth line of an EPW: HOLIDAYS/DAYLIGHT SAVINGS, leap years, first day, last day; 0 for none.
+std::optional<Days> saving_in(std::filesystem::path const& weather) {
+  std::ifstream file(weather);
+  if (!file) throw Error(fmt::format("{}: cannot be read", weather.string()));
+  constexpr int header_lines = 8;
+  std::string line;
+  for (int number = 0; number < header_lines && std::getline(file, line); ++number) {
+    if (!upper(line).starts_with("HOLIDAYS/DAYLIGHT SAVING")) continue;
+    std::istringstream words(line);
+    std::string skipped;
+    Days days;
+    std::getline(words, skipped, ',');
+    std::getline(words, skipped, ',');
+    std::getline(words, days.first, ',');
+    std::getline(words, days.second, ',');
+    if (days.first.find_first_not_of("0 ") == std::string::npos) return {};
+    return days;
+  }
+  return {};
+}
+
+}  // namespace
+
+SiteClock::SiteClock(std::vector<InputObject> const& objects,
+                     std::optional<std::filesystem::path> const& weather) {
+  auto const* const location = find(objects, "Site:Location");
+  if (location == nullptr) {
+    throw Error("Site:Location is missing, expected it for the sun's position at a time");
+  }
+  of_object(*location, [&] {
+    auto const degrees = [&](Field const& field) { return number(*location, field).value_or(0.0); };
+    constexpr double degrees_an_hour = 15.0;
+    latitude_ = glm::radians(degrees({"latitude", "Latitude"}));
+    hours_ahead_ =
+        degrees({"longitude", "Longitude"}) / degrees_an_hour - degrees({"time_zone", "Time Zone"});
+  });
+  auto const* const period = find(objects, "RunPeriod");
+  if (period != nullptr) {
+    year_ = of_object(*period, [&] { return year_of(*period); });
+  }
+  if (auto const* const own = find(objects, "RunPeriodControl:DaylightSavingTime")) {
+    saving_ = {(*own)["start_date"], (*own)["end_date"]};
+    of_object(*own, [&] { saves_daylight({}); });
+  } else if (weather && (period == nullptr ||
+                         !same_name((*period)["use_weather_file_daylight_saving_period"], "No"))) {
+    saving_ = saving_in(*weather);
+  }
+}
+
+bool SiteClock::saves_daylight(ClockTime time) const {
+  if (!saving_) return false;
+  auto const day = chrono::floor<chrono::days>(time);
+  auto const year = chrono::year_month_day(day).year();
+  chrono::local_days const first(date_in(saving_->first, year));
+  chrono::local_days const last(date_in(saving_->second, year));
+  // South of the equator it lasts over the new year.
+  return first <= last ? first <= day && day <= last : day >= first || day <= last;
+}
+
+SunDirection SiteClock::sun(ClockTime time) const {
+  auto const standard = time - chrono::hours(saves_daylight(time) ? 1 : 0);
+  auto const midnight = chrono::floor<chrono::days>(standard);
+  chrono::local_days const new_year(chrono::year_month_day(midnight).year() / chrono::January / 1);
+  auto const sun = sun_of_day(static_cast<int>((midnight - new_year).count()) + 1);
+  constexpr double minutes_of_hour = 60.0;
+  constexpr double noon = 12.0;
+  constexpr double half_turn = 12.0;
+  double const hours = static_cast<double>((standard - midnight).count()) / minutes_of_hour;
+  double const past_noon = hours + hours_ahead_ + sun.equation_of_time / minutes_of_hour - noon;
+  double const turn = past_noon / half_turn * std::numbers::pi;
+  return to_direction(HourDirection{sun.declination, std::remainder(turn, 2.0 * std::numbers::pi)},
+                      latitude_);
+}
+
+}  // namespace gpu_shading::energyplus
