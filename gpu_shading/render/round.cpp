@@ -1,7 +1,6 @@
 #include "render/round.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -17,12 +16,15 @@ namespace {
 constexpr std::size_t most_drawn = 16384;
 // Questions whose casters are found at a time: what is found takes memory.
 constexpr std::size_t most_asked = 64;
-// Casters from which on several cores share a view.
-constexpr std::size_t worth_sharing = 200;
 
 }  // namespace
 
-Round::Round(Parts const& parts) : parts_(parts) { parts_.submissions.clear(); }
+Round::Round(Parts const& parts) : parts_(parts) {
+  parts_.submissions.clear();
+  if (parts_.coverage != nullptr) {
+    counted_.emplace(*parts_.coverage, parts_.receivers, parts_.statistics);
+  }
+}
 
 void Round::ask(Question const& question) {
   for (SurfaceId const id : question.interiors) parts_.receivers.surface(id);
@@ -40,23 +42,22 @@ void Round::look() {
     Stopwatch const watch(parts_.statistics.cull_seconds);
     tbb::parallel_for(std::size_t{0}, asked_.size(), [&](std::size_t i) {
       Question const& question = asked_[i].question;
-      in_view[i] =
-          parts_.casters.in_view(parts_.scene, question.receiver, *asked_[i].receiver->frame,
-                                 question.towards_sun, parts_.receivers.size().enough());
+      in_view[i] = parts_.casters.in_view(parts_.scene, question.receiver, asked_[i].frame(),
+                                          question.towards_sun, parts_.receivers.size().enough());
     });
   }
   for (std::size_t i = 0; i < asked_.size(); ++i) take(asked_[i], std::move(in_view[i]));
   asked_.clear();
-  count();
+  if (counted_) counted_->count();
   if (drawn_.size() >= most_drawn) finish();
 }
 
-void Round::take(Asked const& asked, InView in_view) {
-  Question const& question = asked.question;
-  Receiver const& seen = *asked.receiver;
+void Round::take(FacedQuestion const& faced, InView in_view) {
+  Question const& question = faced.question;
+  Receiver const& seen = *faced.receiver;
   if (!question.through && in_view.casters.empty()) {
     Sunlit& clear = question.answers.front();
-    clear.projected_area = clear.pixel_counted_area = seen.area * asked.cosine;
+    clear.projected_area = clear.pixel_counted_area = seen.area * faced.cosine;
     ++parts_.statistics.receivers_clear;
     return;
   }
@@ -65,20 +66,19 @@ void Round::take(Asked const& asked, InView in_view) {
   int const side =
       parts_.receivers.side_for(seen, in_view, parts_.transmission.any_screen(in_view.casters));
   Tile& tile = parts_.receivers.tile(question.receiver, side);
-  if (parts_.coverage == nullptr || parts_.transmission.any_transmits(in_view.casters)) {
-    draw(asked, tile, in_view);
-    return;
+  if (counted_ && !parts_.transmission.any_transmits(in_view.casters)) {
+    counted_->add(faced, tile, std::move(in_view.casters));
+  } else {
+    draw(faced, tile, in_view.casters);
   }
-  measure_by_count(question.receiver, tile);
-  counted_.push_back({asked, &tile, std::move(in_view.casters), {}});
 }
 
-void Round::draw(Asked const& asked, Tile& tile, InView const& in_view) {
-  Question const& question = asked.question;
+void Round::draw(FacedQuestion const& faced, Tile& tile, std::span<SurfaceId const> casters) {
+  Question const& question = faced.question;
   measure(question.receiver, tile);
-  Drawn drawn{question, &tile, asked.cosine, in_view.casters.size(), true, std::nullopt, 0};
-  drawn.opaque = !parts_.transmission.any_transmits(in_view.casters);
-  if (!drawn.opaque) drawn.keys = parts_.transmission.keys(question.receiver, in_view.casters);
+  Drawn drawn{faced, &tile, casters.size(), true, std::nullopt, 0};
+  drawn.opaque = !parts_.transmission.any_transmits(casters);
+  if (!drawn.opaque) drawn.keys = parts_.transmission.keys(question.receiver, casters);
   Kind kind = question.through ? Kind::interior : Kind::opaque;
   if (!drawn.opaque) {
     kind = question.through ? Kind::shaded_interior
@@ -86,51 +86,8 @@ void Round::draw(Asked const& asked, Tile& tile, InView const& in_view) {
   }
   drawn.view = parts_.submissions.add(
       kind, tile.side, question.answers.size(),
-      [&](DrawList& list, int layer) { gather(list, layer, drawn, in_view.casters); });
+      [&](DrawList& list, int layer) { gather(list, layer, drawn, casters); });
   drawn_.push_back(std::move(drawn));
-}
-
-void Round::count() {
-  Stopwatch const watch(parts_.statistics.count_seconds);
-  int const cores = tbb::this_task_arena::max_concurrency();
-  bool const few = counted_.size() < static_cast<std::size_t>(cores);
-  tbb::parallel_for(std::size_t{0}, counted_.size(), [&](std::size_t i) {
-    count(counted_[i], few && counted_[i].casters.size() >= worth_sharing ? cores : 1);
-  });
-  for (Counted const& view : counted_) {
-    Question const& question = view.asked.question;
-    for (std::size_t i = 0; i < view.lit.size(); ++i) {
-      set_areas(question.answers[i], static_cast<double>(view.lit[i]), *view.tile->counted_pixels,
-                question.receiver, *view.tile, view.asked.cosine);
-    }
-    if (question.through) continue;
-    ++parts_.statistics.receivers_drawn;
-    parts_.statistics.casters_drawn += view.casters.size();
-  }
-  counted_.clear();
-}
-
-void Round::count(Counted& view, int threads) const {
-  Question const& question = view.asked.question;
-  PlaneFrame const& frame = *view.asked.receiver->frame;
-  Tile const& tile = *view.tile;
-  View const before = view_in_front(frame, tile.map, question.towards_sun);
-  if (question.through) {
-    View const behind = view_behind(frame, tile.map, question.towards_sun, 1.0);
-    view.lit = parts_.coverage->lit_inside(tile, before, view.casters, behind, question.interiors);
-  } else {
-    view.lit = {parts_.coverage->lit(tile, before, view.casters, threads)};
-  }
-}
-
-void Round::measure_by_count(SurfaceId receiver, Tile& tile) {
-  if (tile.counted_pixels) return;
-  std::uint64_t pixels = parts_.coverage->lit(tile);
-  if (pixels == 0) {
-    parts_.receivers.bound(receiver, tile);
-    pixels = parts_.coverage->lit(tile);
-  }
-  tile.counted_pixels = pixels;
 }
 
 void Round::measure(SurfaceId receiver, Tile& tile) {
@@ -145,13 +102,13 @@ void Round::gather(DrawList& list, int layer, Drawn const& drawn,
                    std::span<SurfaceId const> casters) {
   list.add_tile(drawn.tile->triangles, layer);
   if (!casters.empty()) gather_casters(list, layer, drawn, casters);
-  if (drawn.question.through) gather_interiors(list, layer, drawn);
+  if (drawn.faced.question.through) gather_interiors(list, layer, drawn);
 }
 
 void Round::gather_casters(DrawList& list, int layer, Drawn const& drawn,
                            std::span<SurfaceId const> casters) {
-  PlaneFrame const& frame = *parts_.receivers[drawn.question.receiver].frame;
-  glm::dvec3 const& towards_sun = drawn.question.towards_sun;
+  PlaneFrame const& frame = drawn.faced.frame();
+  glm::dvec3 const& towards_sun = drawn.faced.question.towards_sun;
   Transmission const& transmission = parts_.transmission;
   glm::ivec4 numbers(layer, -1, 0, 0);
   DirectionTables* tables = nullptr;
@@ -176,8 +133,9 @@ void Round::gather_casters(DrawList& list, int layer, Drawn const& drawn,
   if (tables == nullptr) return;
   std::vector<int> const screens = transmission.screens_among(casters);
   if (screens.empty()) return;
-  parts_.geometry.screens().add_to(list, *tables, view, screens,
-                                   drawn.tile->map.pixel_area(drawn.tile->side) * drawn.cosine);
+  parts_.geometry.screens().add_to(
+      list, *tables, view, screens,
+      drawn.tile->map.pixel_area(drawn.tile->side) * drawn.faced.cosine);
 }
 
 double Round::reach(Question const& question, PlaneFrame const& frame) {
@@ -191,8 +149,8 @@ double Round::reach(Question const& question, PlaneFrame const& frame) {
 }
 
 void Round::gather_interiors(DrawList& list, int layer, Drawn const& drawn) {
-  Question const& question = drawn.question;
-  PlaneFrame const& frame = *parts_.receivers[question.receiver].frame;
+  Question const& question = drawn.faced.question;
+  PlaneFrame const& frame = drawn.faced.frame();
   View const behind =
       view_behind(frame, drawn.tile->map, question.towards_sun, reach(question, frame));
   int identity = 0;
@@ -221,7 +179,7 @@ void Round::finish() {
     if (drawn.tile->drawn_pixels) {
       answer(drawn);
     } else {
-      again.push_back(drawn.question);
+      again.push_back(drawn.faced.question);
     }
   }
   drawn_.clear();
@@ -234,9 +192,9 @@ void Round::finish() {
 void Round::answer(Drawn const& drawn) {
   auto const sums = parts_.submissions.sums(drawn.view);
   for (std::size_t i = 0; i < sums.size(); ++i) {
-    drawn.question.answers[i] = sunlit(sums[i], drawn);
+    drawn.faced.question.answers[i] = sunlit(sums[i], drawn);
   }
-  if (drawn.question.through) return;
+  if (drawn.faced.question.through) return;
   ++parts_.statistics.receivers_drawn;
   parts_.statistics.casters_drawn += drawn.casters;
   if (!drawn.opaque) ++parts_.statistics.luminance_views;
@@ -247,8 +205,7 @@ Sunlit Round::sunlit(LuminanceByKey const& sums, Drawn const& drawn) {
   Sunlit answer;
   for (auto const& [key, sum] : sums) {
     Sunlit part;
-    set_areas(part, sum, *drawn.tile->drawn_pixels, drawn.question.receiver, *drawn.tile,
-              drawn.cosine);
+    set_areas(part, drawn.faced, *drawn.tile, sum, *drawn.tile->drawn_pixels);
     std::vector<std::pair<int, int>> powers;
     if (drawn.keys) powers = drawn.keys->powers(key);
     if (powers.empty()) {
@@ -262,13 +219,6 @@ Sunlit Round::sunlit(LuminanceByKey const& sums, Drawn const& drawn) {
     answer.scheduled.push_back({std::move(powers), part.projected_area});
   }
   return answer;
-}
-
-void Round::set_areas(Sunlit& answer, double lit, std::uint64_t pixels, SurfaceId receiver,
-                      Tile const& tile, double cosine) {
-  double const whole = parts_.receivers[receiver].area * cosine;
-  answer.projected_area = lit * (whole / static_cast<double>(pixels));
-  answer.pixel_counted_area = lit * tile.pixel_area * cosine;
 }
 
 }  // namespace gpu_shading

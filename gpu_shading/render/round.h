@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
@@ -9,7 +8,9 @@
 #include <vector>
 
 #include "gpu_shading/renderer.h"
+#include "render/counted_views.h"
 #include "render/coverage.h"
+#include "render/question.h"
 #include "render/receivers.h"
 #include "render/schedule_keys.h"
 #include "render/submissions.h"
@@ -17,15 +18,6 @@
 #include "scene/casters.h"
 
 namespace gpu_shading {
-
-// What the sun at one direction sees of a receiver, or of the surfaces behind one.
-struct Question {
-  SurfaceId receiver = 0;
-  glm::dvec3 towards_sun{0.0};
-  bool through = false;  // the receiver is a window, and asked for are these:
-  std::span<SurfaceId const> interiors;
-  std::span<Sunlit> answers;  // the receiver's, or of each of `interiors`; zero when asked
-};
 
 // Answers questions: culls, draws what needs it, and makes areas of the sums. Answers are there
 // after finish(), and what questions refer to must be until then.
@@ -50,21 +42,9 @@ class Round {
   void finish();
 
  private:
-  struct Asked {
-    Question question;
-    Receiver const* receiver;
-    double cosine;
-  };
-  struct Counted {
-    Asked asked;
-    Tile const* tile;
-    std::vector<SurfaceId> casters;
-    std::vector<std::uint64_t> lit;  // once counted, of each answer
-  };
   struct Drawn {
-    Question question;
+    FacedQuestion faced;
     Tile const* tile;
-    double cosine;
     std::size_t casters;
     bool opaque;
     std::optional<ScheduleKeys> keys;
@@ -77,26 +57,21 @@ class Round {
 
   // Finds what is in view of all that was asked since, and has it counted or drawn.
   void look();
-  void take(Asked const& asked, InView in_view);
-  void draw(Asked const& asked, Tile& tile, InView const& in_view);
-  void count();
-  void count(Counted& view, int threads) const;
+  void take(FacedQuestion const& faced, InView in_view);
+  void draw(FacedQuestion const& faced, Tile& tile, std::span<SurfaceId const> casters);
   // How far the farthest is behind the window's plane, m.
   double reach(Question const& question, PlaneFrame const& frame);
   void measure(SurfaceId receiver, Tile& tile);
-  void measure_by_count(SurfaceId receiver, Tile& tile);
   void gather(DrawList& list, int layer, Drawn const& drawn, std::span<SurfaceId const> casters);
   void gather_casters(DrawList& list, int layer, Drawn const& drawn,
                       std::span<SurfaceId const> casters);
   void gather_interiors(DrawList& list, int layer, Drawn const& drawn);
   void answer(Drawn const& drawn);
   Sunlit sunlit(LuminanceByKey const& sums, Drawn const& drawn);
-  void set_areas(Sunlit& answer, double lit, std::uint64_t pixels, SurfaceId receiver,
-                 Tile const& tile, double cosine);
 
   Parts parts_;
-  std::vector<Asked> asked_;
-  std::vector<Counted> counted_;
+  std::vector<FacedQuestion> asked_;
+  std::optional<CountedViews> counted_;  // where opaque views are
   std::vector<Drawn> drawn_;
   std::unordered_map<Tile*, Measured> measured_;
 };
