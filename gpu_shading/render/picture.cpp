@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "gl/check.h"
 #include "gl/draw.h"
 #include "gl/framebuffer.h"
+#include "render/sun_axes.h"
 #include "scene/casters.h"
 #include "shaders/sources.h"
 
@@ -25,42 +25,8 @@ constexpr glm::vec4 blue{0.0F, 0.0F, 1.0F, 1.0F};
 // Around the receiver, as a share of its longer side in the picture.
 constexpr double border = 0.15;
 
-// As the sun sees it with its head up: right and up across the rays. A sun in the zenith has north
-// up.
-struct SunAxes {
-  glm::dvec3 right;
-  glm::dvec3 up;
-
-  explicit SunAxes(glm::dvec3 const& towards_sun) {
-    glm::dvec3 const sideways = glm::cross(glm::dvec3(0.0, 0.0, 1.0), towards_sun);
-    constexpr double zenith = 1e-9;
-    right = glm::length(sideways) > zenith ? glm::normalize(sideways) : glm::dvec3(1.0, 0.0, 0.0);
-    up = glm::cross(towards_sun, right);
-  }
-};
-
-struct Frame {
-  glm::dvec2 low{std::numeric_limits<double>::infinity()};
-  glm::dvec2 high{-std::numeric_limits<double>::infinity()};
-
-  void include(glm::dvec2 const& place) {
-    low = glm::dvec2(std::min(low.x, place.x), std::min(low.y, place.y));
-    high = glm::dvec2(std::max(high.x, place.x), std::max(high.y, place.y));
-  }
-  void widen() {
-    double const by = border * std::max(high.x - low.x, high.y - low.y);
-    low -= by;
-    high += by;
-  }
-};
-
 int side(double length, double longest, int size) {
   return std::clamp(static_cast<int>(std::lround(size * length / longest)), 1, size);
-}
-
-glm::dvec4 row(glm::dvec3 const& axis, double low, double high) {
-  double const scale = 2.0 / (high - low);
-  return {axis * scale, -scale * 0.5 * (low + high)};
 }
 
 // How far the scene reaches from the origin, for the depth range along the rays.
@@ -98,12 +64,11 @@ Image Picture::draw(Geometry& geometry, Scene const& scene, Transmission const& 
                     SurfaceId receiver, PlaneFrame const& frame, Shading const& shading,
                     glm::dvec3 const& towards_sun, int size) {
   SunAxes const axes(towards_sun);
-  Frame seen;
+  PictureFrame outline;
   for (glm::dvec3 const& vertex : scene[receiver].polygon.outline) {
-    glm::dvec3 const p = vertex - frame.origin;
-    seen.include({glm::dot(axes.right, p), glm::dot(axes.up, p)});
+    outline.include(axes(vertex - frame.origin));
   }
-  seen.widen();
+  PictureFrame const seen = outline.widened(border * outline.longer());
   double const wide = seen.high.x - seen.low.x;
   double const tall = seen.high.y - seen.low.y;
   int const width = side(wide, std::max(wide, tall), size);
@@ -111,8 +76,8 @@ Image Picture::draw(Geometry& geometry, Scene const& scene, Transmission const& 
 
   View all;
   all.origin = frame.origin;
-  all.x = row(axes.right, seen.low.x, seen.high.x);
-  all.y = row(axes.up, seen.low.y, seen.high.y);
+  all.x = clip_row(axes.right, seen.low.x, seen.high.x);
+  all.y = clip_row(axes.up, seen.low.y, seen.high.y);
   all.z = glm::dvec4(-0.5 * towards_sun / reach_of(scene, frame.origin), 0.5);
   View in_front = all;
   in_front.cut = glm::dvec4(frame.normal, -clearance);

@@ -11,7 +11,6 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <limits>
 #include <vector>
 
 #include "egl/device.h"
@@ -22,6 +21,7 @@
 #include "gl/program.h"
 #include "gl/vertex_array.h"
 #include "gpu_shading/error.h"
+#include "render/sun_axes.h"
 #include "scene/triangulation.h"
 #include "shaders/sources.h"
 
@@ -37,39 +37,6 @@ struct Vertex {
   glm::vec3 point;
   std::uint32_t identity;  // of the surface, counted from 1; 0 is the sky
 };
-
-struct Frame {
-  glm::dvec2 low{std::numeric_limits<double>::infinity()};
-  glm::dvec2 high{-std::numeric_limits<double>::infinity()};
-
-  void include(glm::dvec2 const& place) {
-    low = glm::min(low, place);
-    high = glm::max(high, place);
-  }
-  double longer() const { return std::max(high.x - low.x, high.y - low.y); }
-  Frame widened(double by) const { return {low - by, high + by}; }
-};
-
-// Right and up across the rays; a sun in the zenith has north up.
-struct Axes {
-  glm::dvec3 right{1.0, 0.0, 0.0};
-  glm::dvec3 up;
-
-  explicit Axes(glm::dvec3 const& towards_sun) {
-    glm::dvec3 const sideways = glm::cross(glm::dvec3(0.0, 0.0, 1.0), towards_sun);
-    constexpr double zenith = 1e-9;
-    if (glm::length(sideways) > zenith) right = glm::normalize(sideways);
-    up = glm::cross(towards_sun, right);
-  }
-  glm::dvec2 operator()(glm::dvec3 const& point) const {
-    return {glm::dot(right, point), glm::dot(up, point)};
-  }
-};
-
-glm::vec4 row(glm::dvec3 const& axis, double low, double high) {
-  double const scale = 2.0 / (high - low);
-  return glm::vec4(glm::dvec4(axis * scale, -scale * 0.5 * (low + high)));
-}
 
 bool transmits(Surface const& surface) {
   return surface.transmittance || surface.screen || surface.schedule >= 0;
@@ -143,8 +110,8 @@ class SceneView::Implementation {
                               device_.info.max_resolution / samples));
     }
     auto const towards_sun = to_vector(sun);
-    Axes const axes(towards_sun);
-    Frame const frame = find_frame(axes, fractions);
+    SunAxes const axes(towards_sun);
+    PictureFrame const frame = find_frame(axes, fractions);
     double const scale = size / frame.longer();
     auto const pixels = [&](double length) {
       return std::clamp(static_cast<int>(std::lround(scale * length)), 1, size);
@@ -168,8 +135,8 @@ class SceneView::Implementation {
     gl::depth(gl::Test::less, true);
     auto& program = on_device_->program;
     program.use();
-    program.set(0, row(axes.right, frame.low.x, frame.high.x));
-    program.set(1, row(axes.up, frame.low.y, frame.high.y));
+    program.set(0, glm::vec4(clip_row(axes.right, frame.low.x, frame.high.x)));
+    program.set(1, glm::vec4(clip_row(axes.up, frame.low.y, frame.high.y)));
     program.set(2, glm::vec4(glm::dvec4(-0.5 * towards_sun / reach_, 0.5)));
     on_device_->array.bind();
     gl::draw_vertices(0, opaque_);
@@ -229,16 +196,17 @@ class SceneView::Implementation {
     reach_ = std::max(1.0, glm::distance(low, high));
   }
 
-  Frame find_frame(Axes const& axes, std::span<std::optional<double> const> fractions) const {
-    Frame all;
-    Frame receivers;
+  PictureFrame find_frame(SunAxes const& axes,
+                          std::span<std::optional<double> const> fractions) const {
+    PictureFrame all;
+    PictureFrame receivers;
     for_each_point([&](SurfaceId id, glm::dvec3 const& point) {
       all.include(axes(point - middle_));
       if (id < fractions.size() && fractions[id]) receivers.include(axes(point - middle_));
     });
     if (!(receivers.low.x <= receivers.high.x)) throw Error("there is no receiver to view");
-    Frame const most = receivers.widened(0.5 * receivers.longer());
-    Frame const frame{glm::max(all.low, most.low), glm::min(all.high, most.high)};
+    PictureFrame const most = receivers.widened(0.5 * receivers.longer());
+    PictureFrame const frame{glm::max(all.low, most.low), glm::min(all.high, most.high)};
     return frame.widened(border * frame.longer());
   }
 
