@@ -5,12 +5,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <random>
 #include <utility>
 #include <vector>
 
 #include "shapes.h"
+#include "table_main.h"
 
 namespace gpu_shading {
 namespace {
@@ -107,12 +107,4 @@ void print_table() {
 }  // namespace
 }  // namespace gpu_shading
 
-int main() {
-  try {
-    gpu_shading::print_table();
-    return 0;
-  } catch (std::exception const& error) {
-    std::fprintf(stderr, "growth: %s\n", error.what());
-    return 1;
-  }
-}
+int main() { return gpu_shading::print_or_say_why("growth", gpu_shading::print_table); }

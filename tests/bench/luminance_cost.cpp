@@ -5,11 +5,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <memory>
 
 #include "gpu_shading/transmittance.h"
 #include "shapes.h"
+#include "table_main.h"
 
 namespace gpu_shading {
 namespace {
@@ -83,12 +83,4 @@ void print_table() {
 }  // namespace
 }  // namespace gpu_shading
 
-int main() {
-  try {
-    gpu_shading::print_table();
-    return 0;
-  } catch (std::exception const& error) {
-    std::fprintf(stderr, "luminance_cost: %s\n", error.what());
-    return 1;
-  }
-}
+int main() { return gpu_shading::print_or_say_why("luminance_cost", gpu_shading::print_table); }

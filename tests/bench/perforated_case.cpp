@@ -10,12 +10,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <memory>
 #include <random>
 #include <string>
 #include <string_view>
 
+#include "table_main.h"
 #include "transparent_case.h"
 
 namespace gpu_shading {
@@ -130,11 +130,5 @@ Errors errors_of(Renderer& renderer, std::span<SunDirection const> suns,
 }  // namespace gpu_shading
 
 int main(int argc, char** argv) {
-  try {
-    gpu_shading::run(argc, argv);
-    return 0;
-  } catch (std::exception const& error) {
-    std::fprintf(stderr, "perforated_case: %s\n", error.what());
-    return 1;
-  }
+  return gpu_shading::print_or_say_why("perforated_case", [&] { gpu_shading::run(argc, argv); });
 }

@@ -8,10 +8,10 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <numbers>
 
 #include "shaded_window.h"
+#include "table_main.h"
 
 namespace gpu_shading::shaded_window {
 namespace {
@@ -60,12 +60,8 @@ void print_table(int every) {
 }  // namespace gpu_shading::shaded_window
 
 int main(int argc, char** argv) {
-  try {
+  return gpu_shading::print_or_say_why("sampling_error", [&] {
     int const every = argc > 1 ? std::atoi(argv[1]) : 5;
     gpu_shading::shaded_window::print_table(std::max(1, every));
-    return 0;
-  } catch (std::exception const& error) {
-    std::fprintf(stderr, "sampling_error: %s\n", error.what());
-    return 1;
-  }
+  });
 }

@@ -4,12 +4,12 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <functional>
 #include <memory>
 
 #include "gpu_shading/transmittance.h"
 #include "shapes.h"
+#include "table_main.h"
 
 namespace gpu_shading {
 namespace {
@@ -91,12 +91,4 @@ void print_table() {
 }  // namespace
 }  // namespace gpu_shading
 
-int main() {
-  try {
-    gpu_shading::print_table();
-    return 0;
-  } catch (std::exception const& error) {
-    std::fprintf(stderr, "screen_cost: %s\n", error.what());
-    return 1;
-  }
-}
+int main() { return gpu_shading::print_or_say_why("screen_cost", gpu_shading::print_table); }

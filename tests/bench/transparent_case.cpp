@@ -9,7 +9,8 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
+
+#include "table_main.h"
 
 namespace gpu_shading {
 namespace {
@@ -51,12 +52,8 @@ void print_table(std::size_t every) {
 }  // namespace gpu_shading
 
 int main(int argc, char** argv) {
-  try {
+  return gpu_shading::print_or_say_why("transparent_case", [&] {
     int const every = argc > 1 ? std::atoi(argv[1]) : 1;
     gpu_shading::print_table(static_cast<std::size_t>(std::max(1, every)));
-    return 0;
-  } catch (std::exception const& error) {
-    std::fprintf(stderr, "transparent_case: %s\n", error.what());
-    return 1;
-  }
+  });
 }

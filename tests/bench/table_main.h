@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdio>
+#include <exception>
+
+namespace gpu_shading {
+
+// What a bench's main() returns: prints its table, or says in one line why it cannot.
+template <typename PrintTable>
+int print_or_say_why(char const* bench, PrintTable print_table) {
+  try {
+    print_table();
+    return 0;
+  } catch (std::exception const& error) {
+    std::fprintf(stderr, "%s: %s\n", bench, error.what());
+    return 1;
+  }
+}
+
+}  // namespace gpu_shading
