@@ -26,8 +26,10 @@ namespace {
 
 TileSize tile_size(RendererOptions const& options, DeviceInfo const& device) {
   if (!options.resolution) {
-    if (!(options.error >= 1e-5 && options.error <= 0.1)) {
-      throw Error(fmt::format("error {}: expected 1e-5 to 0.1", options.error));
+    if (!(options.error >= RendererOptions::least_error &&
+          options.error <= RendererOptions::most_error)) {
+      throw Error(fmt::format("error {}: expected {} to {}", options.error,
+                              RendererOptions::least_error, RendererOptions::most_error));
     }
     return TileSize::for_error(options.error, device.max_resolution);
   }

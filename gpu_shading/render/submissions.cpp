@@ -1,7 +1,6 @@
 #include "render/submissions.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "gl/check.h"
 #include "render/stopwatch.h"

@@ -33,7 +33,6 @@ class TileSize {
   // more already.
   int side_with_screens(int side) const { return std::max(side, fixed_ ? 1 : (most_ + 1) / 2); }
 
-  bool is_fixed() const { return fixed_.has_value(); }
   int least() const { return least_; }
   int most() const { return most_; }
   // Edges longer than this change nothing any more.

@@ -30,12 +30,15 @@ enum class OpaqueViews {
 };
 
 struct RendererOptions {
+  static constexpr double least_error = 1e-5;
+  static constexpr double most_error = 0.1;
+
   DeviceChoice device;
   // Pixels a side of every receiver's tile, 1 .. DeviceInfo::max_resolution; nothing: by the error.
   // Either way the side is doubled for a receiver that would have fewer than side^2 / 64 pixels or
   // 16, until it has, up to 4096.
   std::optional<int> resolution = std::nullopt;
-  // What 99 of a hundred sunlit fractions are to be right within, 1e-5 .. 0.1: the side of a tile
+  // What 99 of a hundred sunlit fractions are to be right within, between those: the side of a tile
   // follows from it and from the shadows' edges in view (render/tile_size.h).
   double error = 1e-3;
   LuminanceSum luminance_sum = LuminanceSum::automatic;
