@@ -64,7 +64,8 @@ def run_variant(study, variant, folder, arguments):
     path = folder / f"{study.name}.idf"
     path.write_text("".join(study.model_of(variant, arguments.small)))
     study.write_files(variant, arguments.small, folder)
-    options = ["--gpu-shading", f"--gpu-shading-device={arguments.device}"]
+    options = ["--gpu-shading", f"--gpu-shading-device={arguments.device}",
+               f"--gpu-shading-update={arguments.update}"]
     return energyplus.run(energyplus.patched_prefix() / "energyplus", path,
                           energyplus.find_weather(arguments.weather), folder / "run", options,
                           timeout=arguments.timeout)  # fmt: skip
@@ -76,6 +77,7 @@ def main(study):
                         help="for the runs (default: %(default)s)")  # fmt: skip
     parser.add_argument("-w", "--weather", default=study.weather, metavar="EPW", help="(default: %(default)s)")
     parser.add_argument("--device", default="auto", metavar="NAME", help="as --gpu-shading-device (default: auto)")
+    parser.add_argument("--update", default="idf", metavar="HOW", help="as --gpu-shading-update (default: idf)")
     parser.add_argument("--timeout", type=float, metavar="SECONDS", help="limit for one run (default: none)")
     parser.add_argument("--small", action="store_true", help="the small model of the same kind")
     arguments = parser.parse_args()

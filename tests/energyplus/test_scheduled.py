@@ -208,7 +208,7 @@ def test_imported_file_is_as_energyplus_writes_it(official, patched, courtyard, 
     stock = energyplus.run(official, path, weather, tmp_path / "out", [])
     assert stock.completed, stock.why()
     done = subprocess.run([patched.parent / "gpu_shading", "export", path, "-w", weather, "--imported",
-                           tmp_path / "sunlit.csv"], capture_output=True, text=True)
+                           tmp_path / "sunlit.csv", "--gpu-shading-error=0.0005"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     names, rows = rows_of(tmp_path / "sunlit.csv")
     stock_names, stock_rows = rows_of(stock.folder / "eplusshading.csv")
