@@ -86,9 +86,7 @@ std::optional<Ring> vertices_of(InputObject const& object) {
 
 std::optional<GeometryRules::Zone> zone_of(InputObject const& object, ShadingInput const& input,
                                            GeometryRules const& rules) {
-  auto base = upper(object["base_surface_name"]);
-  if (auto const wall = input.base_of.find(base); wall != input.base_of.end()) base = wall->second;
-  auto const name = input.zone_of.find(base);
+  auto const name = input.zone_of.find(input.base_surface(upper(object["base_surface_name"])));
   if (name == input.zone_of.end()) return std::nullopt;
   auto const zone = rules.zones.find(name->second);
   return zone == rules.zones.end() ? std::nullopt : std::optional(zone->second);
