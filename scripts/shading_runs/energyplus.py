@@ -33,6 +33,13 @@ def use_own_python(needed):
         os.execv(own, [str(own), *sys.argv])
 
 
+def parse_arguments(parser):
+    """(what the parser makes of the words before --, the words behind it, which are for the program that is run)."""
+    words = sys.argv[1:]
+    cut = words.index("--") if "--" in words else len(words)
+    return parser.parse_args(words[:cut]), words[cut + 1:]
+
+
 def models_folder():
     """Where the collection of other people's models lies; may not exist."""
     chosen = os.environ.get("GPU_SHADING_MODELS")
