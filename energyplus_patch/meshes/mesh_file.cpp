@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "files/required_file.h"
 #include "gpu_shading/error.h"
 #include "host/helper_library.h"
 #include "input/input_object.h"
@@ -55,11 +56,7 @@ std::vector<Mesh> read_meshes(std::filesystem::path const& path) {
       helper_function(gpu_shading_mesh_library, "meshes", "gpu_shading_read_meshes"));
   static auto const free = reinterpret_cast<FreeMeshes>(
       helper_function(gpu_shading_mesh_library, "meshes", "gpu_shading_free_meshes"));
-  if (!std::filesystem::exists(path)) throw Error(fmt::format("{}: no such file", path.string()));
-  // Others (a pipe, a device) may never come to an end.
-  if (!std::filesystem::is_regular_file(path)) {
-    throw Error(fmt::format("{}: is not a file", path.string()));
-  }
+  require_file(path);
   gpu_shading_meshes const* raw = nullptr;
   std::array<char, 512> message{};
   if (read(path.c_str(), &raw, message.data(), message.size()) != 0) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "files/required_file.h"
 #include "gpu_shading/error.h"
 #include "program/launcher.h"
 #include "scheduled/scheduled_model.h"
@@ -15,11 +16,10 @@ namespace {
 void say(std::string const& line) { fmt::print(stderr, "gpu_shading: {}\n", line); }
 
 void complete(EnergyPlusCall& call) {
-  if (!std::filesystem::exists(call.model)) {
-    throw Error(fmt::format("{}: no such file", call.model.string()));
-  }
-  if (!call.weather)
+  require_file(call.model);
+  if (!call.weather) {
     throw Error("-w: a weather file is needed, whose place and days the sun keeps to");
+  }
   call.program = find_launcher();
 }
 

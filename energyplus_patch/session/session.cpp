@@ -10,9 +10,9 @@
 #include <set>
 #include <string_view>
 
+#include "files/whole_file.h"
 #include "gpu_shading/error.h"
 #include "samples/take_samples.h"
-#include "samples/whole_file.h"
 #include "session/build_id.h"
 #include "session/cache_folder.h"
 #include "session/draw_views.h"
@@ -409,9 +409,8 @@ std::vector<std::vector<Sunlit>> Session::sample(std::span<SunDirection const> d
   for (std::size_t i = 0; i < directions.size(); ++i) {
     auto& direction = run_.answers.at(directions[i], state_);
     auto const known = [&] {
-      return std::all_of(receivers.begin(), receivers.end(), [&](SurfaceId receiver) {
-        return direction.knows(number_of(receiver));
-      });
+      return std::all_of(receivers.begin(), receivers.end(),
+                         [&](SurfaceId receiver) { return direction.knows(number_of(receiver)); });
     };
     if (cache_ && !known()) cache_->recall(run_, direction);
     if (!known()) {

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "files/text_file.h"
 #include "gpu_shading/error.h"
 #include "input/number.h"
-#include "site/text_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {

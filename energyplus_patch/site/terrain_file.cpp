@@ -11,11 +11,11 @@
 #include <string>
 #include <string_view>
 
+#include "files/text_file.h"
 #include "gpu_shading/error.h"
 #include "input/input_object.h"
 #include "input/number.h"
 #include "site/geotiff.h"
-#include "site/text_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {

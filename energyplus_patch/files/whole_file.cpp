@@ -1,4 +1,4 @@
-#include "samples/whole_file.h"
+#include "files/whole_file.h"
 
 #include <fmt/format.h>
 
