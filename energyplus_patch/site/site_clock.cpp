@@ -5,11 +5,11 @@
 #include <fstream>
 #include <glm/trigonometric.hpp>
 #include <numbers>
-#include <sstream>
 
 #include "gpu_shading/error.h"
 #include "gpu_shading/sun_position.h"
 #include "input/fields.h"
+#include "input/text.h"
 #include "site/calendar_date.h"
 
 namespace gpu_shading::energyplus {
@@ -62,15 +62,10 @@ std::optional<Days> saving_in(std::filesystem::path const& weather) {
   std::string line;
   for (int number = 0; number < header_lines && std::getline(file, line); ++number) {
     if (!upper(line).starts_with("HOLIDAYS/DAYLIGHT SAVING")) continue;
-    std::istringstream words(line);
-    std::string skipped;
-    Days days;
-    std::getline(words, skipped, ',');
-    std::getline(words, skipped, ',');
-    std::getline(words, days.first, ',');
-    std::getline(words, days.second, ',');
-    if (days.first.find_first_not_of("0 ") == std::string::npos) return {};
-    return days;
+    auto fields = comma_separated(line);
+    fields.resize(4);
+    if (fields[2].find_first_not_of('0') == std::string::npos) return {};
+    return Days{fields[2], fields[3]};
   }
   return {};
 }
