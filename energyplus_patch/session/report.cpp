@@ -11,6 +11,7 @@
 #include <glm/trigonometric.hpp>
 #include <tuple>
 
+#include "files/whole_file.h"
 #include "gpu_shading/error.h"
 #include "images/image_file.h"
 
@@ -123,11 +124,10 @@ Stages stages_of(RendererStatistics const& statistics) {
 }
 
 void write_stages(std::filesystem::path const& file, Stages const& stages) {
-  std::ofstream csv(file);
-  csv << "stage,seconds\n";
-  for (auto const& [stage, seconds] : stages) csv << fmt::format("{},{:.3f}\n", stage, seconds);
-  csv.close();
-  if (!csv) throw Error(fmt::format("{}: cannot be written", file.string()));
+  write_whole_file(file, [&](std::ostream& csv) {
+    csv << "stage,seconds\n";
+    for (auto const& [stage, seconds] : stages) csv << fmt::format("{},{:.3f}\n", stage, seconds);
+  });
 }
 
 std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer,

@@ -6,6 +6,7 @@
 #include <glm/trigonometric.hpp>
 #include <sstream>
 
+#include "files/whole_file.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
@@ -63,13 +64,12 @@ std::vector<View> read_views(std::filesystem::path const& list) {
 }
 
 void write_views(std::filesystem::path const& list, std::vector<View> const& views) {
-  std::ofstream file(list);
-  for (auto const& view : views) {
-    file << fmt::format("{} {:.9g} {:.9g} {}\n", view.picture, glm::degrees(view.sun.azimuth),
-                        glm::degrees(view.sun.altitude), view.receiver);
-  }
-  file.close();
-  if (!file) throw Error(fmt::format("{}: cannot be written", list.string()));
+  write_whole_file(list, [&](std::ostream& file) {
+    for (auto const& view : views) {
+      file << fmt::format("{} {:.9g} {:.9g} {}\n", view.picture, glm::degrees(view.sun.azimuth),
+                          glm::degrees(view.sun.altitude), view.receiver);
+    }
+  });
 }
 
 }  // namespace gpu_shading::energyplus
