@@ -18,4 +18,13 @@ std::vector<std::string> comma_separated(std::string const& line) {
   return fields;
 }
 
+std::string csv_quoted(std::string_view text) {
+  std::string field = "\"";
+  for (char const letter : text) {
+    if (letter == '"') field += '"';
+    field += letter;
+  }
+  return field + '"';
+}
+
 }  // namespace gpu_shading::energyplus

@@ -12,4 +12,7 @@ std::string trimmed(std::string_view text);
 // What commas part in a line, each trimmed.
 std::vector<std::string> comma_separated(std::string const& line);
 
+// As a field of CSV, whatever it holds.
+std::string csv_quoted(std::string_view text);
+
 }  // namespace gpu_shading::energyplus
