@@ -97,6 +97,13 @@ std::size_t share(std::size_t directions, Shard const& shard) {
 
 }  // namespace
 
+std::vector<glm::dvec3> SampledScene::areas() const {
+  std::vector<glm::dvec3> areas;
+  areas.reserve(receivers.size());
+  for (auto const& receiver : receivers) areas.push_back(receiver.area);
+  return areas;
+}
+
 SampleParts::SampleParts(Path folder, int shards) : folder_(std::move(folder)), shards_(shards) {}
 
 Path SampleParts::file(int round, int shard) const {
