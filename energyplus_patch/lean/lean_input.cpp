@@ -50,8 +50,7 @@ std::string reason_against(std::vector<InputObject> const& objects, ShadingInput
     auto const found = std::find_if(forbidding_types.begin(), forbidding_types.end(),
                                     [&](auto const& entry) { return entry.first == object.type; });
     if (found != forbidding_types.end()) {
-      return fmt::format("{}{}{}: {}", object.type, object.name.empty() ? "" : " ", object.name,
-                         found->second);
+      return fmt::format("{}: {}", object.title(), found->second);
     }
     if (object.type == "Compliance:Building" &&
         !object["building_rotation_for_appendix_g"].empty()) {

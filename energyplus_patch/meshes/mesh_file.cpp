@@ -10,6 +10,7 @@
 #include "gpu_shading/error.h"
 #include "host/helper_library.h"
 #include "input/input_object.h"
+#include "input/naming.h"
 #include "meshes/mesh_library.h"
 
 namespace gpu_shading::energyplus {
@@ -65,11 +66,9 @@ std::vector<Mesh> read_meshes(std::filesystem::path const& path) {
   std::unique_ptr<gpu_shading_meshes const, FreeMeshes> const found(raw, free);
   std::vector<Mesh> meshes;
   meshes.reserve(found->count);
-  try {
+  naming(path.string(), [&] {
     for (std::size_t i = 0; i < found->count; ++i) meshes.push_back(copied(found->meshes[i]));
-  } catch (Error const& error) {
-    throw Error(fmt::format("{}: {}", path.string(), error.what()));
-  }
+  });
   if (meshes.empty()) throw Error(fmt::format("{}: holds no triangles", path.string()));
   return meshes;
 }

@@ -8,6 +8,7 @@
 
 #include "files/whole_file.h"
 #include "gpu_shading/error.h"
+#include "input/naming.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -26,11 +27,7 @@ View read_view(std::string const& line, std::string const& place) {
   if (view.picture.find('/') != std::string::npos) {
     throw Error(fmt::format("{}: {}: expected a file's name without folders", place, view.picture));
   }
-  try {
-    view.sun = direction_of_degrees(azimuth, altitude);
-  } catch (Error const& error) {
-    throw Error(fmt::format("{}: {}", place, error.what()));
-  }
+  view.sun = naming(place, [&] { return direction_of_degrees(azimuth, altitude); });
   return view;
 }
 

@@ -9,6 +9,7 @@
 #include "gpu_shading/error.h"
 #include "gpu_shading/sun_position.h"
 #include "input/fields.h"
+#include "input/naming.h"
 #include "input/text.h"
 #include "site/calendar_date.h"
 
@@ -21,17 +22,6 @@ InputObject const* find(std::vector<InputObject> const& objects, std::string_vie
   auto const found = std::find_if(objects.begin(), objects.end(),
                                   [&](InputObject const& object) { return object.type == type; });
   return found == objects.end() ? nullptr : &*found;
-}
-
-// Runs `action` with the object's name before its errors.
-template <typename Action>
-auto of_object(InputObject const& object, Action const& action) {
-  try {
-    return action();
-  } catch (Error const& error) {
-    throw Error(fmt::format("{}{}{}: {}", object.type, object.name.empty() ? "" : " ", object.name,
-                            error.what()));
-  }
 }
 
 chrono::year year_of(InputObject const& period) {
@@ -78,7 +68,7 @@ SiteClock::SiteClock(std::vector<InputObject> const& objects,
   if (location == nullptr) {
     throw Error("Site:Location is missing, expected it for the sun's position at a time");
   }
-  of_object(*location, [&] {
+  naming(location->title(), [&] {
     auto const degrees = [&](Field const& field) { return number(*location, field).value_or(0.0); };
     constexpr double degrees_an_hour = 15.0;
     latitude_ = glm::radians(degrees({"latitude", "Latitude"}));
@@ -87,11 +77,11 @@ SiteClock::SiteClock(std::vector<InputObject> const& objects,
   });
   auto const* const period = find(objects, "RunPeriod");
   if (period != nullptr) {
-    year_ = of_object(*period, [&] { return year_of(*period); });
+    year_ = naming(period->title(), [&] { return year_of(*period); });
   }
   if (auto const* const own = find(objects, "RunPeriodControl:DaylightSavingTime")) {
     saving_ = {(*own)["start_date"], (*own)["end_date"]};
-    of_object(*own, [&] { saves_daylight({}); });
+    naming(own->title(), [&] { saves_daylight({}); });
   } else if (weather && (period == nullptr ||
                          !same_name((*period)["use_weather_file_daylight_saving_period"], "No"))) {
     saving_ = saving_in(*weather);
