@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "images/guarded.h"
+#include "host/c_interface.h"
 #include "images/image_library.h"
 
 namespace {
@@ -111,8 +111,9 @@ int epsg_of(Header const& header) {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) int gpu_shading_probe_elevations(
-    char const* path, gpu_shading_elevation_info* info, char* message, std::size_t message_size) {
+extern "C" EXPORTED int gpu_shading_probe_elevations(char const* path,
+                                                     gpu_shading_elevation_info* info,
+                                                     char* message, std::size_t message_size) {
   return guarded(message, message_size, [&] {
     Header const header(path);
     info->columns = header.size(TIFFTAG_IMAGEWIDTH);
@@ -134,9 +135,9 @@ extern "C" __attribute__((visibility("default"))) int gpu_shading_probe_elevatio
   });
 }
 
-extern "C" __attribute__((visibility("default"))) int gpu_shading_read_elevations(
-    char const* path, int columns, int rows, double* elevations, char* message,
-    std::size_t message_size) {
+extern "C" EXPORTED int gpu_shading_read_elevations(char const* path, int columns, int rows,
+                                                    double* elevations, char* message,
+                                                    std::size_t message_size) {
   return guarded(message, message_size, [&] {
     OIIO::ImageBuf image(path);
     if (!image.read(0, 0, true, OIIO::TypeDesc::DOUBLE)) fail(image.geterror());

@@ -10,9 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "images/guarded.h"
-
-#define EXPORTED __attribute__((visibility("default")))
+#include "host/c_interface.h"
 
 namespace {
 

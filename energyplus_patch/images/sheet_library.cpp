@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "images/guarded.h"
+#include "host/c_interface.h"
 #include "images/image_library.h"
 
 namespace {
@@ -126,8 +126,8 @@ void write_frames(char const* path, std::vector<ImageBuf> const& frames, float p
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) int gpu_shading_write_sheet(
-    char const* path, gpu_shading_sheet const* sheet, char* message, std::size_t message_size) {
+extern "C" EXPORTED int gpu_shading_write_sheet(char const* path, gpu_shading_sheet const* sheet,
+                                                char* message, std::size_t message_size) {
   return guarded(message, message_size, [&] {
     std::vector<ImageBuf> pictures;
     for (int i = 0; i < sheet->count; ++i) {

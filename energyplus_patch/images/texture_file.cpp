@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "files/required_file.h"
 #include "gpu_shading/error.h"
 #include "host/helper_library.h"
 #include "images/image_library.h"
@@ -13,11 +14,7 @@ namespace gpu_shading::energyplus {
 TextureInfo probe_texture(std::filesystem::path const& path) {
   static auto const probe = reinterpret_cast<decltype(&gpu_shading_probe_image)>(
       helper_function(gpu_shading_image_library, "textures", "gpu_shading_probe_image"));
-  if (!std::filesystem::exists(path)) throw Error(fmt::format("{}: no such file", path.string()));
-  // Others (a pipe, a device) may never come to an end.
-  if (!std::filesystem::is_regular_file(path)) {
-    throw Error(fmt::format("{}: is not a file", path.string()));
-  }
+  require_file(path);
   gpu_shading_image_info info{};
   std::array<char, 512> message{};
   if (probe(path.c_str(), &info, message.data(), message.size()) != 0) {

@@ -2,16 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "input/text.h"
+
 namespace gpu_shading::energyplus {
-namespace {
-
-std::string trimmed(std::string_view text) {
-  auto const first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1));
-}
-
-}  // namespace
 
 std::vector<IdfObject> parse_idf(std::string_view text) {
   std::vector<IdfObject> objects;

@@ -27,6 +27,8 @@ std::string const& InputObject::operator[](std::string const& field) const {
   return found == fields.end() ? blank : found->second;
 }
 
+std::string InputObject::title() const { return name.empty() ? type : type + " " + name; }
+
 std::vector<ObjectType> const& known_types() {
   // Field names and their order: the Energy+.schema.epJSON of EnergyPlus 25.2.0.
   static std::vector<ObjectType> const types{

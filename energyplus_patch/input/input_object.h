@@ -23,6 +23,9 @@ struct InputObject {
 
   // The field's text, "" where it is blank or absent.
   std::string const& operator[](std::string const& field) const;
+
+  // "TYPE NAME", as messages begin; "TYPE" where it has no name.
+  std::string title() const;
 };
 
 // The types that are read, with their fields in the IDF's order ("name" first where there is one).

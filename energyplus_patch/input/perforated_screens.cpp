@@ -10,6 +10,7 @@
 #include "gpu_shading/error.h"
 #include "input/fields.h"
 #include "input/name_pattern.h"
+#include "input/naming.h"
 #include "input/number.h"
 
 namespace gpu_shading::energyplus {
@@ -84,11 +85,7 @@ ScreenTexture read_texture(InputObject const& object, std::filesystem::path cons
     throw Error("Texture File Name is blank, expected the name of an image");
   }
   texture.path = folder / texture.name;
-  try {
-    texture.info = probe_texture(texture.path);
-  } catch (Error const& error) {
-    throw Error(fmt::format("{}: {}", texture_file_name.title, error.what()));
-  }
+  texture.info = naming(texture_file_name.title, [&] { return probe_texture(texture.path); });
   bool const fractional =
       choice(object, opacity, {Key<bool>{"Threshold", false}, {"Fractional", true}}, false);
   auto const threshold = number(object, opacity_threshold);

@@ -9,6 +9,8 @@
 #include <limits>
 #include <numeric>
 
+#include "input/naming.h"
+
 namespace gpu_shading::energyplus {
 namespace {
 
@@ -206,12 +208,8 @@ ScreenMaker::Made ScreenMaker::make_of(ScreenTexture const& texture, double widt
 }
 
 std::vector<std::uint16_t> ScreenMaker::read_texture(ScreenTexture const& texture) {
-  std::vector<std::uint16_t> texels;
-  try {
-    texels = read_opacity(texture.path, texture.info);
-  } catch (Error const& error) {
-    throw Error(fmt::format("Texture File Name: {}", error.what()));
-  }
+  auto texels =
+      naming("Texture File Name", [&] { return read_opacity(texture.path, texture.info); });
   if (texture.invert) {
     for (auto& texel : texels) texel = static_cast<std::uint16_t>(solid - texel);
   }

@@ -75,10 +75,14 @@ Casting ShadingInput::casting(std::string const& surface) const {
   return zone_of.contains(surface) ? Casting::turned_away : Casting::always;
 }
 
+std::string ShadingInput::base_surface(std::string const& surface) const {
+  auto const base = base_of.find(surface);
+  return base == base_of.end() ? surface : base->second;
+}
+
 bool ShadingInput::receives(std::string const& surface) const {
   if (shading_surfaces.contains(surface)) return wants(surface);
-  auto const base = base_of.find(surface);
-  return !not_exterior.contains(base == base_of.end() ? surface : base->second);
+  return !not_exterior.contains(base_surface(surface));
 }
 
 ShadingInput read_shading_input(std::vector<InputObject> const& objects) {

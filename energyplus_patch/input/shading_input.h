@@ -55,6 +55,9 @@ struct ShadingInput {
     return all_shading_wanted || wanted_shading.contains(shading_surface);
   }
 
+  // The one that a window or door lies in; any other surface is its own.
+  std::string base_surface(std::string const& surface) const;
+
   // Whether EnergyPlus may ask for the surface's sunlit area and has a use for it.
   bool receives(std::string const& surface) const;
 };

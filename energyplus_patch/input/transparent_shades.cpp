@@ -5,6 +5,7 @@
 #include "gpu_shading/error.h"
 #include "input/glazing_construction.h"
 #include "input/name_pattern.h"
+#include "input/naming.h"
 #include "input/number.h"
 
 namespace gpu_shading::energyplus {
@@ -115,11 +116,7 @@ TransparentShades read_transparent_shades(std::vector<InputObject> const& object
   TransparentShades shades;
   for (auto const& object : objects) {
     if (object.type != "GPUShading:TransparentShade") continue;
-    try {
-      add_object(object, objects, input, folder, shades);
-    } catch (Error const& error) {
-      throw Error(fmt::format("{} {}: {}", object.type, object.name, error.what()));
-    }
+    naming(object.title(), [&] { add_object(object, objects, input, folder, shades); });
   }
   return shades;
 }

@@ -50,8 +50,7 @@ std::string reason_against(std::vector<InputObject> const& objects, ShadingInput
     auto const found = std::find_if(forbidding_types.begin(), forbidding_types.end(),
                                     [&](auto const& entry) { return entry.first == object.type; });
     if (found != forbidding_types.end()) {
-      return fmt::format("{}{}{}: {}", object.type, object.name.empty() ? "" : " ", object.name,
-                         found->second);
+      return fmt::format("{}: {}", object.title(), found->second);
     }
     if (object.type == "Compliance:Building" &&
         !object["building_rotation_for_appendix_g"].empty()) {
@@ -86,9 +85,7 @@ std::optional<Ring> vertices_of(InputObject const& object) {
 
 std::optional<GeometryRules::Zone> zone_of(InputObject const& object, ShadingInput const& input,
                                            GeometryRules const& rules) {
-  auto base = upper(object["base_surface_name"]);
-  if (auto const wall = input.base_of.find(base); wall != input.base_of.end()) base = wall->second;
-  auto const name = input.zone_of.find(base);
+  auto const name = input.zone_of.find(input.base_surface(upper(object["base_surface_name"])));
   if (name == input.zone_of.end()) return std::nullopt;
   auto const zone = rules.zones.find(name->second);
   return zone == rules.zones.end() ? std::nullopt : std::optional(zone->second);

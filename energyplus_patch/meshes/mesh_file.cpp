@@ -6,9 +6,11 @@
 #include <cmath>
 #include <memory>
 
+#include "files/required_file.h"
 #include "gpu_shading/error.h"
 #include "host/helper_library.h"
 #include "input/input_object.h"
+#include "input/naming.h"
 #include "meshes/mesh_library.h"
 
 namespace gpu_shading::energyplus {
@@ -55,11 +57,7 @@ std::vector<Mesh> read_meshes(std::filesystem::path const& path) {
       helper_function(gpu_shading_mesh_library, "meshes", "gpu_shading_read_meshes"));
   static auto const free = reinterpret_cast<FreeMeshes>(
       helper_function(gpu_shading_mesh_library, "meshes", "gpu_shading_free_meshes"));
-  if (!std::filesystem::exists(path)) throw Error(fmt::format("{}: no such file", path.string()));
-  // Others (a pipe, a device) may never come to an end.
-  if (!std::filesystem::is_regular_file(path)) {
-    throw Error(fmt::format("{}: is not a file", path.string()));
-  }
+  require_file(path);
   gpu_shading_meshes const* raw = nullptr;
   std::array<char, 512> message{};
   if (read(path.c_str(), &raw, message.data(), message.size()) != 0) {
@@ -68,11 +66,9 @@ std::vector<Mesh> read_meshes(std::filesystem::path const& path) {
   std::unique_ptr<gpu_shading_meshes const, FreeMeshes> const found(raw, free);
   std::vector<Mesh> meshes;
   meshes.reserve(found->count);
-  try {
+  naming(path.string(), [&] {
     for (std::size_t i = 0; i < found->count; ++i) meshes.push_back(copied(found->meshes[i]));
-  } catch (Error const& error) {
-    throw Error(fmt::format("{}: {}", path.string(), error.what()));
-  }
+  });
   if (meshes.empty()) throw Error(fmt::format("{}: holds no triangles", path.string()));
   return meshes;
 }

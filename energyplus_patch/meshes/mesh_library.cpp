@@ -3,15 +3,12 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-#include <algorithm>
 #include <assimp/Importer.hpp>
-#include <exception>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#define EXPORTED __attribute__((visibility("default")))
+#include "host/c_interface.h"
 
 namespace {
 
@@ -82,9 +79,9 @@ std::unique_ptr<Meshes> read(char const* path) {
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   auto const* const scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_SortByPType);
-  if (scene == nullptr) throw std::runtime_error(importer.GetErrorString());
+  if (scene == nullptr) fail(importer.GetErrorString());
   if (scene->mRootNode == nullptr || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0) {
-    throw std::runtime_error("it holds no complete scene");
+    fail("it holds no complete scene");
   }
   auto meshes = std::make_unique<Meshes>();
   add_node(*scene, *scene->mRootNode, Matrix(), meshes->owned);
@@ -104,18 +101,7 @@ std::unique_ptr<Meshes> read(char const* path) {
 
 extern "C" EXPORTED int gpu_shading_read_meshes(char const* path, gpu_shading_meshes const** meshes,
                                                 char* message, std::size_t message_size) {
-  std::string why = "unknown error";
-  try {
-    *meshes = read(path).release();
-    return 0;
-  } catch (std::exception const& error) {
-    why = error.what();
-  } catch (...) {  // NOLINT(bugprone-empty-catch): the reason is set
-  }
-  std::replace(why.begin(), why.end(), '\n', ' ');
-  if (message_size == 0) return 1;
-  message[why.copy(message, message_size - 1)] = '\0';
-  return 1;
+  return guarded(message, message_size, [&] { *meshes = read(path).release(); });
 }
 
 extern "C" EXPORTED void gpu_shading_free_meshes(gpu_shading_meshes const* meshes) {

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <fstream>
 
+#include "files/required_file.h"
+#include "files/whole_file.h"
 #include "gpu_shading/error.h"
 #include "program/launcher.h"
 #include "scheduled/scheduled_model.h"
@@ -15,11 +16,10 @@ namespace {
 void say(std::string const& line) { fmt::print(stderr, "gpu_shading: {}\n", line); }
 
 void complete(EnergyPlusCall& call) {
-  if (!std::filesystem::exists(call.model)) {
-    throw Error(fmt::format("{}: no such file", call.model.string()));
-  }
-  if (!call.weather)
+  require_file(call.model);
+  if (!call.weather) {
     throw Error("-w: a weather file is needed, whose place and days the sun keeps to");
+  }
   call.program = find_launcher();
 }
 
@@ -40,13 +40,7 @@ void export_imported(EnergyPlusCall call, Choices const& choices,
                      std::filesystem::path const& file) {
   complete(call);
   auto const table = sunlit_fractions(call, choices, say);
-  auto unfinished = file;
-  unfinished += ".part";
-  std::ofstream out(unfinished, std::ios::binary);
-  write_imported_file(table, out);
-  out.close();
-  if (!out) throw Error(fmt::format("{}: cannot be written", unfinished.string()));
-  std::filesystem::rename(unfinished, file);
+  write_whole_file(file, [&](std::ostream& out) { write_imported_file(table, out); });
 }
 
 }  // namespace gpu_shading::energyplus

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string_view>
 
+#include "files/required_file.h"
+#include "files/text_file.h"
 #include "gpu_shading/error.h"
 #include "host/own_folder.h"
 #include "host/version.h"
@@ -29,11 +30,6 @@ Path some_weather() {
     }
   }
   throw Error(fmt::format("{}: no weather file; name one with -w", folder.string()));
-}
-
-std::string read_text(Path const& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 // What a run has printed of ours: "warning" or "error".
@@ -62,9 +58,7 @@ std::vector<std::string> run_to_shading(ModelRun const& run,
                                         std::vector<std::string> const& environment,
                                         Path const& folder, Path const& product) {
   auto const& [model, weather, choices] = run;
-  if (!std::filesystem::exists(model)) {
-    throw Error(fmt::format("{}: no such file", model.string()));
-  }
+  require_file(model);
   if (!is_idf(model) && !is_epjson(model)) {
     throw Error(fmt::format("{}: expected an .idf or .epJSON file", model.string()));
   }
@@ -75,7 +69,7 @@ std::vector<std::string> run_to_shading(ModelRun const& run,
                                    (weather ? *weather : some_weather()).string()};
   std::istringstream flags(flags_of(choices));
   for (std::string flag; std::getline(flags, flag);) command.push_back(flag);
-  if (is_idf(model) && read_text(model).find("HVACTemplate:") != std::string::npos) {
+  if (is_idf(model) && read_text_file(model).find("HVACTemplate:") != std::string::npos) {
     command.emplace_back("-x");
   }
   command.push_back(model.string());

@@ -8,6 +8,8 @@
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "files/text_file.h"
+#include "files/whole_file.h"
 #include "gpu_shading/error.h"
 #include "host/own_folder.h"
 #include "host/version.h"
@@ -17,12 +19,10 @@
 #include "samples/sample_request.h"
 #include "samples/sample_tables.h"
 #include "samples/weather_site.h"
-#include "samples/whole_file.h"
 #include "scheduled/rendered_fractions.h"
 #include "scheduled/short_runs.h"
 #include "session/digest.h"
 #include "session/session.h"
-#include "site/text_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "files/text_file.h"
+#include "files/whole_file.h"
 #include "gpu_shading/error.h"
-#include "samples/whole_file.h"
-#include "site/text_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -96,6 +96,13 @@ std::size_t share(std::size_t directions, Shard const& shard) {
 }
 
 }  // namespace
+
+std::vector<glm::dvec3> SampledScene::areas() const {
+  std::vector<glm::dvec3> areas;
+  areas.reserve(receivers.size());
+  for (auto const& receiver : receivers) areas.push_back(receiver.area);
+  return areas;
+}
 
 SampleParts::SampleParts(Path folder, int shards) : folder_(std::move(folder)), shards_(shards) {}
 

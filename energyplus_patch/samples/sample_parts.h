@@ -26,6 +26,8 @@ struct SampledScene {
   std::vector<SampledReceiver> receivers;
   std::vector<std::string> schedules;  // whose numbers answers have
 
+  std::vector<glm::dvec3> areas() const;  // of the receivers
+
   bool operator==(SampledScene const&) const = default;
 };
 

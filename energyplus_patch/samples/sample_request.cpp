@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "samples/whole_file.h"
-#include "site/text_file.h"
+#include "files/text_file.h"
+#include "files/whole_file.h"
 
 namespace gpu_shading::energyplus {
 

@@ -36,10 +36,7 @@ SampleSet gather_samples(SampleParts const& parts, std::string const& asked, Sam
   auto scene = scene_of(parts, asked);
   std::vector<std::string> devices;
   std::vector<std::size_t> counts;
-  std::vector<glm::dvec3> areas;
-  areas.reserve(scene.receivers.size());
-  for (auto const& receiver : scene.receivers) areas.push_back(receiver.area);
-  SampleRounds rounds(sampling, latitude, std::move(areas));
+  SampleRounds rounds(sampling, latitude, scene.areas());
   for (int round = 1; !rounds.directions().empty(); ++round) {
     auto const found = find_round(parts, scene, round, rounds.directions());
     if (!found.missing.empty()) {

@@ -11,17 +11,13 @@
 #include <numeric>
 #include <ostream>
 
+#include "input/text.h"
+
 namespace gpu_shading::energyplus {
 namespace {
 
 std::string quoted(std::string const& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string field = "\"";
-  for (char const letter : text) {
-    if (letter == '"') field += '"';
-    field += letter;
-  }
-  return field + '"';
+  return text.find_first_of(",\"\r\n") == std::string::npos ? text : csv_quoted(text);
 }
 
 struct Degrees {

@@ -54,11 +54,8 @@ std::string take_samples(SampleRequest const& request, Sampling sampling, Sample
                          std::string const& device, SunlitSource const& source) {
   std::unique_ptr<std::FILE, Close> const progress(
       request.progress < 0 ? nullptr : fdopen(dup(request.progress), "w"));
-  std::vector<glm::dvec3> areas;
-  areas.reserve(scene.receivers.size());
-  for (auto const& receiver : scene.receivers) areas.push_back(receiver.area);
   SampleParts const parts(request.parts, request.shard.shards);
-  SampleRounds rounds(sampling, request.latitude, std::move(areas));
+  SampleRounds rounds(sampling, request.latitude, scene.areas());
   std::size_t rendered = 0;
   int round = 1;
   for (; !rounds.directions().empty(); ++round) {

@@ -4,12 +4,11 @@
 
 #include <cmath>
 #include <fstream>
-#include <sstream>
-#include <vector>
 
 #include "gpu_shading/error.h"
 #include "input/input_object.h"
 #include "input/number.h"
+#include "input/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -24,13 +23,6 @@ double number(std::filesystem::path const& weather, std::string const& text, std
   return *value;
 }
 
-std::string trimmed(std::string const& text) {
-  auto const first = text.find_first_not_of(" \t\r");
-  return first == std::string::npos
-             ? ""
-             : text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
-}
-
 }  // namespace
 
 WeatherSite read_weather_site(std::filesystem::path const& weather) {
@@ -39,9 +31,7 @@ WeatherSite read_weather_site(std::filesystem::path const& weather) {
   if (!file || !std::getline(file, line)) {
     throw Error(fmt::format("{}: cannot be read", weather.string()));
   }
-  std::vector<std::string> fields;
-  std::istringstream text(line);
-  for (std::string field; std::getline(text, field, ',');) fields.push_back(trimmed(field));
+  auto const fields = comma_separated(line);
   constexpr std::size_t all = 10;
   if (fields.size() < all || !same_name(fields.front(), "LOCATION")) {
     throw Error(

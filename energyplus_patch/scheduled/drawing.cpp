@@ -5,15 +5,10 @@
 
 #include "gpu_shading/error.h"
 #include "input/number.h"
+#include "input/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {
-
-std::string trimmed(std::string const& text) {
-  auto const first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 // Comments before a polyline: "Building Shading:NAME", "Fixed Shading:NAME" or "ZONE:NAME"; zones
 // were listed before, as "Zone=1:ZONE".

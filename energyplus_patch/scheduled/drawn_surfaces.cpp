@@ -71,9 +71,7 @@ std::vector<Surface> surfaces_of(std::vector<DrawnSurface> const& drawing,
 }
 
 bool is_exterior(std::string const& surface, ShadingInput const& input) {
-  auto const name = upper(surface);
-  auto const base = input.base_of.find(name);
-  auto const& wall = base == input.base_of.end() ? name : base->second;
+  auto const wall = input.base_surface(upper(surface));
   return input.zone_of.contains(wall) && !input.not_exterior.contains(wall);
 }
 

@@ -9,12 +9,12 @@
 #include <map>
 #include <numbers>
 #include <optional>
-#include <sstream>
 #include <unordered_map>
 
 #include "gpu_shading/error.h"
 #include "input/input_object.h"
 #include "input/number.h"
+#include "input/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -23,18 +23,6 @@ constexpr double degree = std::numbers::pi / 180.0;
 
 // See sun_is_up().
 constexpr double least_cosine = 1e-5;
-
-std::vector<std::string> split(std::string const& line) {
-  std::vector<std::string> words;
-  std::istringstream text(line);
-  for (std::string word; std::getline(text, word, ',');) {
-    auto const first = word.find_first_not_of(" \r");
-    words.push_back(first == std::string::npos
-                        ? ""
-                        : word.substr(first, word.find_last_not_of(" \r") + 1 - first));
-  }
-  return words;
-}
 
 double number(std::string const& text) {
   auto const value = parse_number(text);
@@ -53,7 +41,7 @@ Dictionary read_dictionary(std::istream& eso, RunTimes& run) {
   Dictionary dictionary;
   for (std::string line; std::getline(eso, line);) {
     if (line.starts_with("End of Data Dictionary")) break;
-    auto const words = split(line);
+    auto const words = comma_separated(line);
     if (words.size() < 4) continue;
     if (words[3].starts_with("Site Solar Azimuth Angle")) dictionary.azimuth = words[0];
     if (words[3].starts_with("Site Solar Altitude Angle")) dictionary.altitude = words[0];
@@ -122,7 +110,7 @@ RunTimes read_run_times(std::istream& eso) {
     current.reset();
   };
   for (std::string line; std::getline(eso, line);) {
-    auto const words = split(line);
+    auto const words = comma_separated(line);
     if (words.size() < 2) continue;
     auto const& kind = words[0];
     if (kind == "2" && words.size() >= 8) {

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <glm/trigonometric.hpp>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
+#include "files/whole_file.h"
 #include "gpu_shading/error.h"
 #include "host/version.h"
 #include "input/model_reader.h"
@@ -152,13 +152,6 @@ void add_schedules(ModelEditor& editor, SunlitTable const& table, std::string co
   }
 }
 
-void write_fractions(SunlitTable const& table, Path const& path) {
-  std::ofstream file(path, std::ios::binary);
-  write_schedule_file(table, file);
-  file.close();
-  if (!file) throw Error(fmt::format("{}: cannot be written", path.string()));
-}
-
 }  // namespace
 
 ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choices,
@@ -181,7 +174,8 @@ ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choi
       // With Periodic a day's schedule values would stand for the whole period.
       set_method(*editor, "Scheduled", "Timestep");
       constexpr char const* fractions = "gpu_shading_sunlit.csv";
-      write_fractions(table, folder / fractions);
+      write_whole_file(folder / fractions,
+                       [&](std::ostream& file) { write_schedule_file(table, file); });
       add_schedules(*editor, table, fractions);
     }
   }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "files/whole_file.h"
 #include "gpu_shading/error.h"
 #include "input/input_object.h"
 #include "input/number.h"
@@ -185,10 +186,7 @@ Path place_model(ModelEditor& model, Path const& original, Path const& folder) {
     std::filesystem::create_symlink(entry.path(), link, exists);
   }
   auto path = folder / source.filename();
-  std::ofstream file(path, std::ios::binary);
-  file << model.text();
-  file.close();
-  if (!file) throw Error(fmt::format("{}: cannot be written", path.string()));
+  write_whole_file(path, [&](std::ostream& file) { file << model.text(); });
   return path;
 }
 

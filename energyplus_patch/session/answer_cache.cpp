@@ -9,11 +9,10 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
 #include <memory>
-#include <random>
 #include <thread>
 
+#include "files/whole_file.h"
 #include "gpu_shading/error.h"
 #include "session/cache_folder.h"
 
@@ -66,27 +65,15 @@ class Lock {
   int file_ = -1;
 };
 
-// All or nothing, in one step.
 void write_file(Path const& path, std::vector<std::byte> const& bytes) {
-  auto temporary = path;
-  temporary += fmt::format(".{:08x}.tmp", std::random_device{}());
-  std::string trouble;
-  if (auto* const file = std::fopen(temporary.c_str(), "wbx")) {
-    bool const written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-    if (!written) trouble = std::strerror(errno);
-    if (std::fclose(file) != 0 && written) trouble = std::strerror(errno);
-    std::error_code failure;
-    if (trouble.empty()) std::filesystem::rename(temporary, path, failure);
-    if (failure) trouble = failure.message();
-    if (!trouble.empty()) std::filesystem::remove(temporary, failure);
-  } else {
-    trouble = std::strerror(errno);
-  }
-  if (!trouble.empty()) {
+  try {
+    write_whole_file(path, [&](std::ostream& out) {
+      out.write(reinterpret_cast<char const*>(bytes.data()),
+                static_cast<std::streamsize>(bytes.size()));
+    });
+  } catch (Error const& error) {
     throw Error(
-        fmt::format("--gpu-shading-cache: {}: cannot be written ({}), this run's answers "
-                    "are not kept",
-                    path.string(), trouble));
+        fmt::format("--gpu-shading-cache: {}, this run's answers are not kept", error.what()));
   }
 }
 

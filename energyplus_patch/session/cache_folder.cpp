@@ -8,13 +8,13 @@
 #include <chrono>
 #include <vector>
 
+#include "files/whole_file.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 constexpr std::string_view extension = ".sunlit";
-constexpr std::string_view unfinished = ".tmp";
 constexpr std::size_t hash_digits = 32;
 
 bool starts_as_ours(std::string_view name) {
@@ -75,7 +75,7 @@ void bound_cache_folder(std::filesystem::path const& folder, std::uint64_t most_
     if (name.size() == hash_digits + extension.size()) {
       bytes += file.bytes;
       files.push_back(file);
-    } else if (name.ends_with(unfinished) && file.used < long_ago) {
+    } else if (name.ends_with(unfinished_ending) && file.used < long_ago) {
       std::filesystem::remove(file.path, ignored);
     }
   });

@@ -3,22 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <glm/geometric.hpp>
 #include <optional>
 
 #include "gpu_shading/error.h"
 #include "gpu_shading/scene_view.h"
 #include "images/image_file.h"
+#include "input/input_object.h"
 
 namespace gpu_shading::energyplus {
 namespace {
-
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
 
 SurfaceId find(Drawing const& drawing, std::string const& name) {
   auto const wanted = upper(name);

@@ -11,8 +11,10 @@
 #include <glm/trigonometric.hpp>
 #include <tuple>
 
+#include "files/whole_file.h"
 #include "gpu_shading/error.h"
 #include "images/image_file.h"
+#include "input/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -85,16 +87,6 @@ std::string file_name(std::string const& surface, SunDirection sun,
   return name + ".png";
 }
 
-// CSV's own quoting: names of surfaces may hold commas.
-std::string quoted(std::string const& text) {
-  std::string result = "\"";
-  for (char const c : text) {
-    if (c == '"') result += '"';
-    result += c;
-  }
-  return result + '"';
-}
-
 auto const loaded = std::chrono::steady_clock::now();
 
 }  // namespace
@@ -123,11 +115,10 @@ Stages stages_of(RendererStatistics const& statistics) {
 }
 
 void write_stages(std::filesystem::path const& file, Stages const& stages) {
-  std::ofstream csv(file);
-  csv << "stage,seconds\n";
-  for (auto const& [stage, seconds] : stages) csv << fmt::format("{},{:.3f}\n", stage, seconds);
-  csv.close();
-  if (!csv) throw Error(fmt::format("{}: cannot be written", file.string()));
+  write_whole_file(file, [&](std::ostream& csv) {
+    csv << "stage,seconds\n";
+    for (auto const& [stage, seconds] : stages) csv << fmt::format("{},{:.3f}\n", stage, seconds);
+  });
 }
 
 std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer,
@@ -138,7 +129,8 @@ std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer
   std::ofstream csv(table);
   csv << "receiver,sun azimuth [deg],sun altitude [deg],projected sunlit area [m2],sunlit "
          "fraction";
-  for (auto const& schedule : deployments.schedules) csv << ',' << quoted("share by " + schedule);
+  for (auto const& schedule : deployments.schedules)
+    csv << ',' << csv_quoted("share by " + schedule);
   csv << '\n';
   std::vector<Row> pictures;
   for (ReceiverNumber number = 0; number < receivers.size(); ++number) {
@@ -146,9 +138,9 @@ std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer
     if (!asked[receiver]) continue;
     auto const rows = collect(renderer, receiver, number, answers, factors);
     for (auto const& row : rows) {
-      csv << fmt::format("{},{:.4f},{:.4f},{:.7g},{:.6f}", quoted(renderer.scene()[receiver].name),
-                         azimuth_degrees(row.sun), glm::degrees(row.sun.altitude),
-                         row.projected_area, row.fraction);
+      csv << fmt::format("{},{:.4f},{:.4f},{:.7g},{:.6f}",
+                         csv_quoted(renderer.scene()[receiver].name), azimuth_degrees(row.sun),
+                         glm::degrees(row.sun.altitude), row.projected_area, row.fraction);
       for (double const share : deployments.states[row.state]) csv << fmt::format(",{:.6g}", share);
       csv << '\n';
     }

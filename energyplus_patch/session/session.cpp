@@ -10,9 +10,9 @@
 #include <set>
 #include <string_view>
 
+#include "files/whole_file.h"
 #include "gpu_shading/error.h"
 #include "samples/take_samples.h"
-#include "samples/whole_file.h"
 #include "session/build_id.h"
 #include "session/cache_folder.h"
 #include "session/draw_views.h"
@@ -408,11 +408,12 @@ std::vector<std::vector<Sunlit>> Session::sample(std::span<SunDirection const> d
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < directions.size(); ++i) {
     auto& direction = run_.answers.at(directions[i], state_);
-    if (cache_) cache_->recall(run_, direction);
-    bool const known = std::all_of(receivers.begin(), receivers.end(), [&](SurfaceId receiver) {
-      return direction.knows(number_of(receiver));
-    });
-    if (!known) {
+    auto const known = [&] {
+      return std::all_of(receivers.begin(), receivers.end(),
+                         [&](SurfaceId receiver) { return direction.knows(number_of(receiver)); });
+    };
+    if (cache_ && !known()) cache_->recall(run_, direction);
+    if (!known()) {
       unknown.push_back(directions[i]);
       places.push_back(i);
       continue;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "gpu_shading/error.h"
 #include "gpu_shading/transmittance.h"
+#include "input/naming.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -13,11 +13,7 @@ namespace {
 // Of a schedule that an object's field names.
 std::pair<double, double> range_of(Schedules const& schedules, std::string const& name,
                                    std::string const& object, std::string_view field) {
-  try {
-    return schedules.range(name);
-  } catch (Error const& error) {
-    throw Error(fmt::format("{}: {}: {}", object, field, error.what()));
-  }
+  return naming(fmt::format("{}: {}", object, field), [&] { return schedules.range(name); });
 }
 
 // What screens a surface, nullptr where nothing does. One without an area has no place for it.

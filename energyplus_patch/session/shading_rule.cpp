@@ -18,12 +18,6 @@ std::string reveal_owner(std::string const& name) {
   return at == std::string::npos ? std::string{} : name.substr(0, at);
 }
 
-template <typename Map>
-std::string value_or_blank(Map const& map, std::string const& key) {
-  auto const found = map.find(key);
-  return found == map.end() ? std::string{} : found->second;
-}
-
 // What the rule needs of each surface.
 struct Place {
   std::string name;
@@ -43,9 +37,10 @@ Place find_place(ShadingInput const& input, std::set<std::string_view> const& na
   place.open = names.contains(without_openings(name));
   std::string surface = place.window.empty() ? name : place.window;
   if (place.closed) surface.resize(surface.size() - no_openings.size());
-  place.base = value_or_blank(input.base_of, surface);
-  if (place.base.empty()) place.base = surface;
-  place.zone = value_or_blank(input.zone_of, place.base);
+  place.base = input.base_surface(surface);
+  if (auto const zone = input.zone_of.find(place.base); zone != input.zone_of.end()) {
+    place.zone = zone->second;
+  }
   return place;
 }
 

@@ -6,7 +6,9 @@
 #include <glm/trigonometric.hpp>
 #include <sstream>
 
+#include "files/whole_file.h"
 #include "gpu_shading/error.h"
+#include "input/naming.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -25,11 +27,7 @@ View read_view(std::string const& line, std::string const& place) {
   if (view.picture.find('/') != std::string::npos) {
     throw Error(fmt::format("{}: {}: expected a file's name without folders", place, view.picture));
   }
-  try {
-    view.sun = direction_of_degrees(azimuth, altitude);
-  } catch (Error const& error) {
-    throw Error(fmt::format("{}: {}", place, error.what()));
-  }
+  view.sun = naming(place, [&] { return direction_of_degrees(azimuth, altitude); });
   return view;
 }
 
@@ -63,13 +61,12 @@ std::vector<View> read_views(std::filesystem::path const& list) {
 }
 
 void write_views(std::filesystem::path const& list, std::vector<View> const& views) {
-  std::ofstream file(list);
-  for (auto const& view : views) {
-    file << fmt::format("{} {:.9g} {:.9g} {}\n", view.picture, glm::degrees(view.sun.azimuth),
-                        glm::degrees(view.sun.altitude), view.receiver);
-  }
-  file.close();
-  if (!file) throw Error(fmt::format("{}: cannot be written", list.string()));
+  write_whole_file(list, [&](std::ostream& file) {
+    for (auto const& view : views) {
+      file << fmt::format("{} {:.9g} {:.9g} {}\n", view.picture, glm::degrees(view.sun.azimuth),
+                          glm::degrees(view.sun.altitude), view.receiver);
+    }
+  });
 }
 
 }  // namespace gpu_shading::energyplus

@@ -6,9 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "files/text_file.h"
 #include "gpu_shading/error.h"
+#include "input/naming.h"
 #include "input/number.h"
-#include "site/text_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -134,11 +135,7 @@ class Reader {
     } else {
       building.label += fmt::format(" ({})", building.name);
     }
-    try {
-      read(feature, building);
-    } catch (Error const& error) {
-      throw Error(fmt::format("{}: {}", building.label, error.what()));
-    }
+    naming(building.label, [&] { read(feature, building); });
     if (building.parts.empty()) {
       ++file_.others;
     } else {
@@ -201,15 +198,15 @@ void read_root(Json const& root, HeightRule const& heights,
 BuildingFile read_buildings(std::filesystem::path const& path, HeightRule const& heights,
                             std::optional<MapCoordinates> const& coordinates) {
   auto const text = read_text_file(path);
-  BuildingFile file;
-  try {
-    read_root(Json::parse(text), heights, coordinates, file);
-  } catch (Json::exception const& error) {
-    throw Error(fmt::format("{}: is not GeoJSON: {}", path.string(), error.what()));
-  } catch (Error const& error) {
-    throw Error(fmt::format("{}: {}", path.string(), error.what()));
-  }
-  return file;
+  return naming(path.string(), [&] {
+    BuildingFile file;
+    try {
+      read_root(Json::parse(text), heights, coordinates, file);
+    } catch (Json::exception const& error) {
+      throw Error(fmt::format("is not GeoJSON: {}", error.what()));
+    }
+    return file;
+  });
 }
 
 }  // namespace gpu_shading::energyplus

@@ -8,6 +8,7 @@
 #include "gpu_shading/error.h"
 #include "gpu_shading/local_axes.h"
 #include "input/fields.h"
+#include "input/naming.h"
 #include "meshes/mesh_file.h"
 #include "site/extent.h"
 #include "site/left_out.h"
@@ -151,18 +152,9 @@ void read_geometry(InputObject const& object, std::filesystem::path const& folde
   if (file.empty()) {
     throw Error(fmt::format("{} is blank, expected the name of a mesh", file_name.title));
   }
-  bool stated = false;
-  std::vector<Mesh> meshes;
-  auto const of_file = [&](auto const& action) {
-    try {
-      action();
-    } catch (Error const& error) {
-      throw Error(fmt::format("{}: {}", file_name.title, error.what()));
-    }
-  };
-  of_file([&] { stated = states_its_axes(file); });
+  bool const stated = naming(file_name.title, [&] { return states_its_axes(file); });
   auto const placement = read_placement(object, stated, origin);
-  of_file([&] { meshes = read_meshes(folder / file); });
+  auto const meshes = naming(file_name.title, [&] { return read_meshes(folder / file); });
   Builder builder(object, surroundings);
   for (auto const& mesh : meshes) builder.add(mesh, placement);
   surroundings.remarks.push_back(builder.describe(file));
@@ -180,11 +172,7 @@ void read_geometries(std::vector<InputObject> const& objects, std::filesystem::p
                      std::optional<SiteOrigin> const& origin, Surroundings& surroundings) {
   for (auto const& object : objects) {
     if (object.type != type) continue;
-    try {
-      read_geometry(object, folder, origin, surroundings);
-    } catch (Error const& error) {
-      throw Error(fmt::format("{} {}: {}", type, object.name, error.what()));
-    }
+    naming(object.title(), [&] { read_geometry(object, folder, origin, surroundings); });
   }
 }
 

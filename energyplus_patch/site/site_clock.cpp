@@ -5,11 +5,12 @@
 #include <fstream>
 #include <glm/trigonometric.hpp>
 #include <numbers>
-#include <sstream>
 
 #include "gpu_shading/error.h"
 #include "gpu_shading/sun_position.h"
 #include "input/fields.h"
+#include "input/naming.h"
+#include "input/text.h"
 #include "site/calendar_date.h"
 
 namespace gpu_shading::energyplus {
@@ -21,17 +22,6 @@ InputObject const* find(std::vector<InputObject> const& objects, std::string_vie
   auto const found = std::find_if(objects.begin(), objects.end(),
                                   [&](InputObject const& object) { return object.type == type; });
   return found == objects.end() ? nullptr : &*found;
-}
-
-// Runs `action` with the object's name before its errors.
-template <typename Action>
-auto of_object(InputObject const& object, Action const& action) {
-  try {
-    return action();
-  } catch (Error const& error) {
-    throw Error(fmt::format("{}{}{}: {}", object.type, object.name.empty() ? "" : " ", object.name,
-                            error.what()));
-  }
 }
 
 chrono::year year_of(InputObject const& period) {
@@ -62,15 +52,10 @@ std::optional<Days> saving_in(std::filesystem::path const& weather) {
   std::string line;
   for (int number = 0; number < header_lines && std::getline(file, line); ++number) {
     if (!upper(line).starts_with("HOLIDAYS/DAYLIGHT SAVING")) continue;
-    std::istringstream words(line);
-    std::string skipped;
-    Days days;
-    std::getline(words, skipped, ',');
-    std::getline(words, skipped, ',');
-    std::getline(words, days.first, ',');
-    std::getline(words, days.second, ',');
-    if (days.first.find_first_not_of("0 ") == std::string::npos) return {};
-    return days;
+    auto fields = comma_separated(line);
+    fields.resize(4);
+    if (fields[2].find_first_not_of('0') == std::string::npos) return {};
+    return Days{fields[2], fields[3]};
   }
   return {};
 }
@@ -83,7 +68,7 @@ SiteClock::SiteClock(std::vector<InputObject> const& objects,
   if (location == nullptr) {
     throw Error("Site:Location is missing, expected it for the sun's position at a time");
   }
-  of_object(*location, [&] {
+  naming(location->title(), [&] {
     auto const degrees = [&](Field const& field) { return number(*location, field).value_or(0.0); };
     constexpr double degrees_an_hour = 15.0;
     latitude_ = glm::radians(degrees({"latitude", "Latitude"}));
@@ -92,11 +77,11 @@ SiteClock::SiteClock(std::vector<InputObject> const& objects,
   });
   auto const* const period = find(objects, "RunPeriod");
   if (period != nullptr) {
-    year_ = of_object(*period, [&] { return year_of(*period); });
+    year_ = naming(period->title(), [&] { return year_of(*period); });
   }
   if (auto const* const own = find(objects, "RunPeriodControl:DaylightSavingTime")) {
     saving_ = {(*own)["start_date"], (*own)["end_date"]};
-    of_object(*own, [&] { saves_daylight({}); });
+    naming(own->title(), [&] { saves_daylight({}); });
   } else if (weather && (period == nullptr ||
                          !same_name((*period)["use_weather_file_daylight_saving_period"], "No"))) {
     saving_ = saving_in(*weather);

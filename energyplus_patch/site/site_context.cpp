@@ -10,6 +10,7 @@
 #include "gpu_shading/footprint.h"
 #include "gpu_shading/terrain.h"
 #include "input/fields.h"
+#include "input/naming.h"
 #include "site/building_file.h"
 #include "site/extent.h"
 #include "site/left_out.h"
@@ -56,16 +57,6 @@ HeightRule read_heights(InputObject const& object) {
   return rule;
 }
 
-// Adds what a message of a file's contents begins with.
-template <typename Action>
-auto of_file(Field const& field, Action const& action) {
-  try {
-    return action();
-  } catch (Error const& error) {
-    throw Error(fmt::format("{}: {}", field.title, error.what()));
-  }
-}
-
 // One object, its files read.
 struct Context {
   std::string name;
@@ -95,7 +86,7 @@ Context read_context(InputObject const& object, std::filesystem::path const& fol
     auto const coordinates = read_coordinates(object, buildings_coordinates);
     auto const heights = read_heights(object);
     context.file = buildings;
-    context.buildings = of_file(buildings_file_name, [&] {
+    context.buildings = naming(buildings_file_name.title, [&] {
       return read_buildings(folder / buildings, heights, coordinates);
     });
   }
@@ -105,8 +96,8 @@ Context read_context(InputObject const& object, std::filesystem::path const& fol
   } else {
     auto const coordinates = read_coordinates(object, terrain_coordinates);
     context.clear_distance = positive(object, terrain_clear_distance).value_or(0.0);
-    context.terrain =
-        of_file(terrain_file_name, [&] { return read_terrain(folder / terrain, coordinates); });
+    context.terrain = naming(terrain_file_name.title,
+                             [&] { return read_terrain(folder / terrain, coordinates); });
   }
   return context;
 }
@@ -134,10 +125,10 @@ class Builder {
 
   void build() {
     if (context_.terrain) {
-      of_file(terrain_file_name, [&] { add_terrain(*context_.terrain); });
+      naming(terrain_file_name.title, [&] { add_terrain(*context_.terrain); });
     }
     if (context_.buildings) {
-      of_file(buildings_file_name, [&] { add_buildings(*context_.buildings); });
+      naming(buildings_file_name.title, [&] { add_buildings(*context_.buildings); });
     }
     constexpr double near = 5e4;  // m
     if (extent_.distance() > near) {
@@ -170,15 +161,10 @@ class Builder {
     add_name(name);
     auto polygons = ground(terrain, axes_, context_.clear_distance);
     describe(fmt::format("terrain of {} x {} nodes ({} cells drawn{})", terrain.columns,
-                         terrain.rows, polygons.size(), describe_grid(terrain)));
+                         terrain.rows, polygons.size(), describe_north(terrain.coordinates)));
     surroundings_.casters.reserve(surroundings_.casters.size() + polygons.size());
     for (auto& polygon : polygons) add(name, std::move(polygon));
     warn_of_elevation(terrain);
-  }
-
-  std::string describe_grid(TerrainGrid const& terrain) const {
-    if (terrain.coordinates.geographic()) return {};
-    return describe_north(terrain.coordinates);
   }
 
   std::string describe_north(MapCoordinates const& coordinates) const {
@@ -211,11 +197,8 @@ class Builder {
       add_name(name);
       ++drawn;
       for (auto part : building.parts) {
-        try {
-          faces += add_part(name, std::move(part));
-        } catch (Error const& error) {
-          throw Error(fmt::format("{}: {}: {}", context_.file, building.label, error.what()));
-        }
+        faces += naming(fmt::format("{}: {}", context_.file, building.label),
+                        [&] { return add_part(name, std::move(part)); });
       }
     }
     describe(fmt::format("{} building{} ({} walls and roofs{}{}{})", drawn, drawn == 1 ? "" : "s",
@@ -273,16 +256,9 @@ void read_site_contexts(std::vector<InputObject> const& objects,
                         std::filesystem::path const& folder, SiteOrigin& origin,
                         Surroundings& surroundings) {
   std::vector<Context> contexts;
-  auto const of_object = [](std::string const& name, auto const& action) {
-    try {
-      action();
-    } catch (Error const& error) {
-      throw Error(fmt::format("{} {}: {}", type, name, error.what()));
-    }
-  };
   for (auto const& object : objects) {
     if (object.type != type) continue;
-    of_object(object.name, [&] {
+    naming(object.title(), [&] {
       contexts.push_back(read_context(object, folder));
       constexpr double tallest_storey = 20.0;
       constexpr double tallest_building = 1000.0;
@@ -293,7 +269,8 @@ void read_site_contexts(std::vector<InputObject> const& objects,
   }
   if (origin.at_terrain) stand_on_terrain(contexts, origin);
   for (auto const& context : contexts) {
-    of_object(context.name, [&] { Builder(context, origin, surroundings).build(); });
+    naming(fmt::format("{} {}", type, context.name),
+           [&] { Builder(context, origin, surroundings).build(); });
   }
 }
 

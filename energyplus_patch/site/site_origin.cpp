@@ -2,6 +2,7 @@
 
 #include "gpu_shading/error.h"
 #include "input/fields.h"
+#include "input/naming.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -38,19 +39,13 @@ Statement read_statement(InputObject const& object) {
 Statement read_location(std::vector<InputObject> const& objects) {
   for (auto const& object : objects) {
     if (object.type != "Site:Location") continue;
-    try {
-      return {number(object, {"latitude", "Latitude"}).value_or(0.0),
-              number(object, {"longitude", "Longitude"}).value_or(0.0),
-              number(object, {"elevation", "Elevation"}).value_or(0.0)};
-    } catch (Error const& error) {
-      throw Error(fmt::format("Site:Location {}: {}", object.name, error.what()));
-    }
+    return naming(object.title(), [&] {
+      return Statement{number(object, {"latitude", "Latitude"}).value_or(0.0),
+                       number(object, {"longitude", "Longitude"}).value_or(0.0),
+                       number(object, {"elevation", "Elevation"}).value_or(0.0)};
+    });
   }
   return {};
-}
-
-std::string title(InputObject const& object) {
-  return fmt::format("{} {}", object.type, object.name);
 }
 
 }  // namespace
@@ -60,18 +55,16 @@ SiteOrigin find_site_origin(std::vector<InputObject> const& objects) {
   std::string first;  // which object said so
   for (auto const& object : objects) {
     if (object.type != "GPUShading:SiteContext") continue;
-    try {
+    naming(object.title(), [&] {
       auto const statement = read_statement(object);
-      if (statement.empty()) continue;
+      if (statement.empty()) return;
       if (!first.empty() && statement != stated) {
         throw Error(
             fmt::format("its origin is not that of {}: a model has one place on earth", first));
       }
       stated = statement;
-      if (first.empty()) first = title(object);
-    } catch (Error const& error) {
-      throw Error(fmt::format("{}: {}", title(object), error.what()));
-    }
+      if (first.empty()) first = object.title();
+    });
   }
   auto const location = read_location(objects);
   SiteOrigin origin;
@@ -86,11 +79,7 @@ SiteOrigin find_site_origin(std::vector<InputObject> const& objects) {
   }
   origin.place = {*latitude, *longitude, elevation.value_or(0.0)};
   origin.at_terrain = stated.at_terrain;
-  try {
-    LocalAxes const check(origin.place);
-  } catch (Error const& error) {
-    throw Error(fmt::format("{}: {}", origin.source, error.what()));
-  }
+  naming(origin.source, [&] { LocalAxes const check(origin.place); });
   return origin;
 }
 

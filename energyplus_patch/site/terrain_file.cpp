@@ -11,11 +11,12 @@
 #include <string>
 #include <string_view>
 
+#include "files/text_file.h"
 #include "gpu_shading/error.h"
 #include "input/input_object.h"
+#include "input/naming.h"
 #include "input/number.h"
 #include "site/geotiff.h"
-#include "site/text_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -164,7 +165,7 @@ TerrainGrid read_terrain(std::filesystem::path const& path,
                          std::optional<MapCoordinates> const& coordinates) {
   auto const tiff = is_tiff(path);
   auto const text = tiff ? std::string() : read_text_file(path);
-  try {
+  return naming(path.string(), [&] {
     auto grid = tiff ? read_geotiff(path, coordinates)
                      : read_grid(text, coordinates.value_or(MapCoordinates()));
     if (std::none_of(grid.elevations.begin(), grid.elevations.end(),
@@ -172,9 +173,7 @@ TerrainGrid read_terrain(std::filesystem::path const& path,
       throw Error("holds no elevation: all of it is NODATA");
     }
     return grid;
-  } catch (Error const& error) {
-    throw Error(fmt::format("{}: {}", path.string(), error.what()));
-  }
+  });
 }
 
 }  // namespace gpu_shading::energyplus

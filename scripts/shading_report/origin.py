@@ -2,21 +2,12 @@
 
 import csv
 import hashlib
-import os
 import platform
 import re
 from datetime import datetime
 from pathlib import Path
 
-from shading_runs import methods
-
-
-def processor():
-    try:
-        found = re.search(r"^model name\s*:\s*(.*)$", Path("/proc/cpuinfo").read_text(), re.MULTILINE)
-    except OSError:
-        found = None
-    return f"{found.group(1) if found else platform.processor()}, {len(os.sched_getaffinity(0))} cores"
+from shading_runs import energyplus, methods
 
 
 def system():
@@ -62,7 +53,7 @@ def rows(runs, weather, further):
         ("Model", lambda run: described(run.model)),
         ("Extension file", lambda run: described(run.extension_file)),
         ("Weather", lambda run: described(weather)),
-        ("Machine", lambda run: f"{processor()}; {system()}"),
+        ("Machine", lambda run: f"{energyplus.processor()}; {system()}"),
     ]
     return [(title, [of(run) for run in runs]) for title, of in columns]
 

@@ -2,6 +2,7 @@
 
 import importlib.util
 import os
+import platform
 import re
 import shutil
 import signal
@@ -19,11 +20,24 @@ def official_prefix():
     return REPOSITORY / ".venv" / "EnergyPlus"
 
 
+def build_folder():
+    """Where scripts/build builds."""
+    return REPOSITORY / os.environ.get("GPU_SHADING_BUILD", "build")
+
+
 def patched_prefix():
     """The EnergyPlus that the build has made; GPU_SHADING_PREFIX names another."""
     chosen = os.environ.get("GPU_SHADING_PREFIX")
-    build = os.environ.get("GPU_SHADING_BUILD", "build")
-    return Path(chosen) if chosen else REPOSITORY / build / "EnergyPlus"
+    return Path(chosen) if chosen else build_folder() / "EnergyPlus"
+
+
+def processor():
+    """This machine's, by name and number of cores."""
+    try:
+        found = re.search(r"^model name\s*:\s*(.*)$", Path("/proc/cpuinfo").read_text(), re.MULTILINE)
+    except OSError:
+        found = None
+    return f"{found.group(1) if found else platform.processor()}, {len(os.sched_getaffinity(0))} cores"
 
 
 def use_own_python(needed):
@@ -31,6 +45,13 @@ def use_own_python(needed):
     own = REPOSITORY / ".venv" / "bin" / "python"
     if not importlib.util.find_spec(needed) and own.is_file() and Path(sys.prefix) != own.parents[1]:
         os.execv(own, [str(own), *sys.argv])
+
+
+def parse_arguments(parser):
+    """(what the parser makes of the words before --, the words behind it, which are for the program that is run)."""
+    words = sys.argv[1:]
+    cut = words.index("--") if "--" in words else len(words)
+    return parser.parse_args(words[:cut]), words[cut + 1:]
 
 
 def models_folder():

@@ -7,12 +7,12 @@
 #include <glm/geometric.hpp>
 #include <sstream>
 
+#include "files/text_file.h"
 #include "gpu_shading/error.h"
 #include "program/process.h"
 #include "samples/sample_set.h"
 #include "samples/sample_tables.h"
 #include "samples/take_samples.h"
-#include "site/text_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -6,12 +6,15 @@
 #include <stdexcept>
 #include <string>
 
-// What every function of libgpu_shading_images.so ends with: no exception leaves it.
+// What functions share that our libraries export: they answer 0, or 1 with the reason, one line.
+
+#define EXPORTED __attribute__((visibility("default")))
+
 [[noreturn]] inline void fail(std::string const& why) {
-  throw std::runtime_error(why.empty() ? "OpenImageIO gives no reason" : why);
+  throw std::runtime_error(why.empty() ? "no reason is given" : why);
 }
 
-// Runs what may throw behind the C interface.
+// Runs what may throw: no exception leaves it.
 template <typename Action>
 int guarded(char* message, std::size_t message_size, Action const& action) {
   std::string why = "unknown error";
