@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "gpu_shading/error.h"
+#include "gpu_shading/renderer.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -46,9 +47,9 @@ double parse_error(std::string const& text) {
   double value = 0.0;
   auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() ||
-      !(value >= Choices::least_error && value <= Choices::most_error)) {
+      !(value >= RendererOptions::least_error && value <= RendererOptions::most_error)) {
     throw Error(fmt::format("is \"{}\", expected a share of a receiver from {} to {}", text,
-                            Choices::least_error, Choices::most_error));
+                            RendererOptions::least_error, RendererOptions::most_error));
   }
   return value;
 }

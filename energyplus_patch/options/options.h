@@ -44,9 +44,6 @@ enum class Method {
 
 // The user's choices from one source; what it does not say is empty.
 struct Choices {
-  static constexpr double least_error = 1e-5;
-  static constexpr double most_error = 0.1;
-
   std::optional<Mode> mode;
   // How fine: one of the two at most.
   std::optional<int> resolution;

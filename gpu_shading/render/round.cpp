@@ -33,7 +33,9 @@ void Round::ask(Question const& question) {
   double const cosine = glm::dot(seen.frame->normal, question.towards_sun);
   if (cosine <= edge_on) return;
   asked_.push_back({question, &seen, cosine});
-  if (asked_.size() >= most_asked) look();
+  if (asked_.size() < most_asked) return;
+  look();
+  if (drawn_.size() >= most_drawn) finish();
 }
 
 void Round::look() {
@@ -49,7 +51,6 @@ void Round::look() {
   for (std::size_t i = 0; i < asked_.size(); ++i) take(asked_[i], std::move(in_view[i]));
   asked_.clear();
   if (counted_) counted_->count();
-  if (drawn_.size() >= most_drawn) finish();
 }
 
 void Round::take(FacedQuestion const& faced, InView in_view) {

@@ -224,6 +224,22 @@ TEST(Batches, OfCountedViewsAreEqualToTheBitToOneAtATime) {
   EXPECT_GT(together.statistics().count_seconds, 0.0);
 }
 
+TEST(Batches, OfMoreViewsThanAreWaitedForAtATime) {
+  Scene scene;
+  scene.add({"window", south_facing(0, 0, 0, 3, 2)});
+  scene.add({"shade", level(-1, -2, 2.1, 5, 2), Casting::always, half()});
+  Renderer together = renderer_with(scene, 0, LuminanceSum::automatic, 8);
+  Renderer apart = renderer_with(scene, 1, LuminanceSum::automatic, 8);
+  std::vector<SunDirection> many;
+  for (int i = 0; i < 17'000; ++i) many.push_back(sun_at(150 + 60 * (i / 17e3), 30));
+  SurfaceId const window = 0;
+  auto const got = together.projected_sunlit_areas(many, {&window, 1});
+  EXPECT_EQ(together.statistics().luminance_views, many.size());
+  for (std::size_t i = 0; i < many.size(); i += 500) {
+    expect_equal(got[i][0], sunlit(apart, many[i], window));
+  }
+}
+
 TEST(Batches, StagesAddUpToNoMoreThanAllOfTheTime) {
   Site const site(6, Finish::mixed);
   Renderer renderer = renderer_with(site.scene, 0, LuminanceSum::automatic, 128);
