@@ -16,19 +16,16 @@ constexpr std::size_t worth_sharing = 200;
 
 }  // namespace
 
-void CountedViews::add(FacedQuestion const& faced, Tile& tile, std::vector<SurfaceId> casters) {
-  measure(faced.question.receiver, tile);
-  views_.push_back({faced, &tile, std::move(casters), {}});
+bool CountedViews::can_take(Question const& question, std::span<SurfaceId const> casters) const {
+  if (!transmission_.any_transmits(casters)) return true;
+  return !question.through && !transmission_.any_schedule(casters) &&
+         !transmission_.any_screen(casters);
 }
 
-void CountedViews::measure(SurfaceId receiver, Tile& tile) {
-  if (tile.counted_pixels) return;
-  std::uint64_t pixels = coverage_.lit(tile);
-  if (pixels == 0) {
-    receivers_.bound(receiver, tile);
-    pixels = coverage_.lit(tile);
-  }
-  tile.counted_pixels = pixels;
+void CountedViews::add(FacedQuestion const& faced, Tile const& tile,
+                       std::vector<SurfaceId> casters) {
+  bool const transmits = transmission_.any_transmits(casters);
+  views_.push_back({faced, &tile, std::move(casters), transmits, {}});
 }
 
 void CountedViews::count() {
@@ -40,13 +37,14 @@ void CountedViews::count() {
   });
   for (View const& view : views_) {
     Question const& question = view.faced.question;
-    for (std::size_t i = 0; i < view.lit.size(); ++i) {
-      set_areas(question.answers[i], view.faced, *view.tile, static_cast<double>(view.lit[i]),
-                *view.tile->counted_pixels);
+    for (std::size_t i = 0; i < view.sums.size(); ++i) {
+      set_areas(question.answers[i], view.faced, *view.tile, view.sums[i],
+                view.tile->counted_pixels);
     }
     if (question.through) continue;
     ++statistics_.receivers_drawn;
     statistics_.casters_drawn += view.casters.size();
+    if (view.transmits) ++statistics_.luminance_views;
   }
   views_.clear();
 }
@@ -57,9 +55,17 @@ void CountedViews::count(View& view, int threads) const {
   auto const before = view_in_front(view.faced.frame(), tile.map, question.towards_sun);
   if (question.through) {
     auto const behind = view_behind(view.faced.frame(), tile.map, question.towards_sun, 1.0);
-    view.lit = coverage_.lit_inside(tile, before, view.casters, behind, question.interiors);
+    auto const lit = coverage_.lit_inside(tile, before, view.casters, behind, question.interiors);
+    view.sums.assign(lit.begin(), lit.end());
+  } else if (view.transmits) {
+    std::vector<float> shares;
+    shares.reserve(view.casters.size());
+    for (SurfaceId const id : view.casters) {
+      shares.push_back(transmission_.shade(id, question.towards_sun).transmittance);
+    }
+    view.sums = {coverage_.luminance(tile, before, view.casters, shares)};
   } else {
-    view.lit = {coverage_.lit(tile, before, view.casters, threads)};
+    view.sums = {static_cast<double>(coverage_.lit(tile, before, view.casters, threads))};
   }
 }
 

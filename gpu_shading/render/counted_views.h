@@ -1,23 +1,26 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "gpu_shading/renderer.h"
 #include "render/coverage.h"
 #include "render/question.h"
-#include "render/receivers.h"
+#include "render/transmission.h"
 
 namespace gpu_shading {
 
-// Opaque views to be counted on the CPU, on all its cores.
+// Plain views (PlainViews) to be counted on the CPU, on all its cores.
 class CountedViews {
  public:
   // What it refers to must outlive it.
-  CountedViews(Coverage const& coverage, Receivers& receivers, RendererStatistics& statistics)
-      : coverage_(coverage), receivers_(receivers), statistics_(statistics) {}
+  CountedViews(Coverage const& coverage, Transmission const& transmission,
+               RendererStatistics& statistics)
+      : coverage_(coverage), transmission_(transmission), statistics_(statistics) {}
 
-  void add(FacedQuestion const& faced, Tile& tile, std::vector<SurfaceId> casters);
+  // Whether what is asked behind these casters can be counted.
+  bool can_take(Question const& question, std::span<SurfaceId const> casters) const;
+
+  void add(FacedQuestion const& faced, Tile const& tile, std::vector<SurfaceId> casters);
   // Answers all that was added.
   void count();
 
@@ -26,14 +29,14 @@ class CountedViews {
     FacedQuestion faced;
     Tile const* tile;
     std::vector<SurfaceId> casters;
-    std::vector<std::uint64_t> lit;  // once counted, of each answer
+    bool transmits;
+    std::vector<double> sums;  // once counted, of each answer
   };
 
-  void measure(SurfaceId receiver, Tile& tile);
   void count(View& view, int threads) const;
 
   Coverage const& coverage_;
-  Receivers& receivers_;
+  Transmission const& transmission_;
   RendererStatistics& statistics_;
   std::vector<View> views_;
 };

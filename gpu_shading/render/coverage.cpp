@@ -11,15 +11,11 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
+#include "render/luminance_tile.h"
 #include "scene/triangulation.h"
 
 namespace gpu_shading {
 namespace {
-
-// From the places of a view or a tile, -1 .. 1, to pixels.
-glm::dvec2 to_pixels(glm::dvec2 const& place, int side) {
-  return (0.5 * place + 0.5) * static_cast<double>(side);
-}
 
 double at(glm::dvec4 const& row, glm::dvec3 const& p) {
   return row.x * p.x + row.y * p.y + row.z * p.z + row.w;
@@ -114,25 +110,20 @@ Coverage::Coverage(Scene const& scene) {
   }
 }
 
-void Coverage::light(PixelMask& mask, Tile const& tile) const {
-  for (std::size_t i = 0; i < tile.triangles.size(); i += 3) {
-    std::array<glm::dvec2, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) corners[k] = to_pixels(tile.triangles[i + k], tile.side);
-    mask.light(area_within(corners, tile.side));
-  }
-}
-
 void Coverage::darken(PixelMask& mask, Tile const& tile, View const& view,
                       std::span<SurfaceId const> casters) const {
   View const pixels = in_pixels(view, tile.side);
   for (SurfaceId const id : casters) {
-    for (glm::uvec4 const& piece : pieces(id)) {
-      mask.darken(Projected(points_, piece, pixels).area(tile.side));
-    }
+    each_area(id, pixels, tile.side, [&](ConvexArea const& area) { mask.darken(area); });
   }
 }
 
-std::uint64_t Coverage::lit(Tile const& tile) const { return lit(tile, {}, {}, 1); }
+template <typename Use>
+void Coverage::each_area(SurfaceId caster, View const& pixels, int side, Use use) const {
+  for (glm::uvec4 const& piece : pieces(caster)) {
+    use(Projected(points_, piece, pixels).area(side));
+  }
+}
 
 std::uint64_t Coverage::lit(Tile const& tile, View const& view, std::span<SurfaceId const> casters,
                             int threads) const {
@@ -150,6 +141,26 @@ std::uint64_t Coverage::lit(Tile const& tile, View const& view, std::span<Surfac
       Rows(0, tile.side, share), std::uint64_t{0},
       [&](Rows const& rows, std::uint64_t sum) { return sum + of_rows(rows.begin(), rows.end()); },
       std::plus<>());
+}
+
+double Coverage::luminance(Tile const& tile, View const& view, std::span<SurfaceId const> casters,
+                           std::span<float const> shares) const {
+  static thread_local PixelMask mask;
+  static thread_local LuminanceTile shaded;
+  mask.start(tile.side, 0, tile.side);
+  light(mask, tile);
+  shaded.start(tile.side);
+  View const pixels = in_pixels(view, tile.side);
+  for (std::size_t i = 0; i < casters.size(); ++i) {
+    each_area(casters[i], pixels, tile.side, [&](ConvexArea const& area) {
+      if (shares[i] > 0.0F) {
+        shaded.multiply(area, shares[i]);
+      } else {
+        mask.darken(area);
+      }
+    });
+  }
+  return shaded.sum(mask);
 }
 
 std::vector<std::uint64_t> Coverage::lit_inside(Tile const& tile, View const& view,

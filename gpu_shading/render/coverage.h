@@ -14,23 +14,25 @@
 
 namespace gpu_shading {
 
-// Counts the pixels that opaque casters leave lit, on the CPU: what a rasterizer in software does,
-// but with a bit a pixel, without triangles, and in double precision up to the edges. Where there
-// is no GPU it takes the place of OpenGL for views in which nothing transmits, at a fifth to a
-// tenth of the time (tests/bench/opaque_cost). Any number of threads may ask.
+// Counts the pixels that casters leave lit, on the CPU: what a rasterizer in software does, but
+// with a bit a pixel, without triangles, and in double precision up to the edges. Where there is no
+// GPU it takes the place of OpenGL for plain views, at a tenth of the time
+// (tests/bench/opaque_cost). Any number of threads may ask.
 class Coverage {
  public:
   // Refers to nothing of the scene.
   explicit Coverage(Scene const& scene);
 
-  // Of a tile with nothing before it.
-  std::uint64_t lit(Tile const& tile) const;
   // Of a tile as `view`, in front of its receiver, has the casters. On so many threads at most; the
   // same on any number.
   std::uint64_t lit(Tile const& tile, View const& view, std::span<SurfaceId const> casters,
                     int threads) const;
-  // Of these, those where each of `interiors` is the nearest in the view `behind`; of surfaces in
-  // the same place the first has them.
+  // The sum over the lit pixels of what reaches them, where each caster lets a share through, 0 for
+  // an opaque one.
+  double luminance(Tile const& tile, View const& view, std::span<SurfaceId const> casters,
+                   std::span<float const> shares) const;
+  // Of the lit pixels, those where each of `interiors` is the nearest in the view `behind`; of
+  // surfaces in the same place the first has them.
   std::vector<std::uint64_t> lit_inside(Tile const& tile, View const& view,
                                         std::span<SurfaceId const> casters, View const& behind,
                                         std::span<SurfaceId const> interiors) const;
@@ -39,9 +41,11 @@ class Coverage {
   std::span<glm::uvec4 const> pieces(SurfaceId id) const {
     return {pieces_.data() + ranges_[id].first, ranges_[id].count};
   }
-  void light(PixelMask& mask, Tile const& tile) const;
   void darken(PixelMask& mask, Tile const& tile, View const& view,
               std::span<SurfaceId const> casters) const;
+  // The caster's areas in a view whose x and y are in pixels, one after another.
+  template <typename Use>
+  void each_area(SurfaceId caster, View const& pixels, int side, Use use) const;
 
   std::vector<glm::dvec3> points_;
   std::vector<glm::uvec4> pieces_;  // corners, the last twice where there are three

@@ -44,8 +44,8 @@ RendererOptions settled(RendererOptions options, DeviceInfo const& device) {
   if (options.luminance_sum == LuminanceSum::automatic) {
     options.luminance_sum = device.software ? LuminanceSum::readback : LuminanceSum::compute;
   }
-  if (options.opaque_views == OpaqueViews::automatic) {
-    options.opaque_views = device.software ? OpaqueViews::counted : OpaqueViews::drawn;
+  if (options.plain_views == PlainViews::automatic) {
+    options.plain_views = device.software ? PlainViews::counted : PlainViews::drawn;
   }
   return options;
 }
@@ -139,7 +139,7 @@ Renderer::Implementation::Implementation(Scene scene, RendererOptions options)
       options_(settled(options, device_.info)),
       receivers_(scene_, tile_size(options_, device_.info), device_.info.max_resolution) {
   Stopwatch const watch(statistics_.seconds);
-  if (options_.opaque_views == OpaqueViews::counted) coverage_.emplace(scene_);
+  if (options_.plain_views == PlainViews::counted) coverage_.emplace(scene_);
   egl::Current const current = device_.context.make_current();
   on_device_ = std::make_unique<OnDevice>(scene_, transmission_, bounds_of(options_, device_.info),
                                           options_.luminance_sum, statistics_);

@@ -22,7 +22,7 @@ constexpr std::size_t most_asked = 64;
 Round::Round(Parts const& parts) : parts_(parts) {
   parts_.submissions.clear();
   if (parts_.coverage != nullptr) {
-    counted_.emplace(*parts_.coverage, parts_.receivers, parts_.statistics);
+    counted_.emplace(*parts_.coverage, parts_.transmission, parts_.statistics);
   }
 }
 
@@ -67,7 +67,7 @@ void Round::take(FacedQuestion const& faced, InView in_view) {
   int const side =
       parts_.receivers.side_for(seen, in_view, parts_.transmission.any_screen(in_view.casters));
   Tile& tile = parts_.receivers.tile(question.receiver, side);
-  if (counted_ && !parts_.transmission.any_transmits(in_view.casters)) {
+  if (counted_ && counted_->can_take(question, in_view.casters)) {
     counted_->add(faced, tile, std::move(in_view.casters));
   } else {
     draw(faced, tile, in_view.casters);

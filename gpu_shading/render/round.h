@@ -30,7 +30,7 @@ class Round {
     Geometry const& geometry;
     Receivers& receivers;
     Submissions& submissions;
-    Coverage const* coverage;  // where it counts opaque views
+    Coverage const* coverage;  // where it counts plain views
     RendererStatistics& statistics;
   };
 
@@ -71,7 +71,7 @@ class Round {
 
   Parts parts_;
   std::vector<FacedQuestion> asked_;
-  std::optional<CountedViews> counted_;  // where opaque views are
+  std::optional<CountedViews> counted_;  // where plain views are
   std::vector<Drawn> drawn_;
   std::unordered_map<Tile*, Measured> measured_;
 };

@@ -14,6 +14,11 @@ bool Transmission::any_transmits(std::span<SurfaceId const> casters) const {
                      [&](SurfaceId id) { return shades_.transmits(id); });
 }
 
+bool Transmission::any_schedule(std::span<SurfaceId const> casters) const {
+  return std::any_of(casters.begin(), casters.end(),
+                     [&](SurfaceId id) { return shades_.schedule(id) != Shades::unscheduled; });
+}
+
 bool Transmission::any_screen(std::span<SurfaceId const> casters) const {
   return std::any_of(casters.begin(), casters.end(),
                      [&](SurfaceId id) { return screens_.number(id) != Screens::none; });

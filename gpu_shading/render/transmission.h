@@ -26,6 +26,7 @@ class Transmission {
   std::span<double const> deployments() const { return deployments_; }
 
   bool any_transmits(std::span<SurfaceId const> casters) const;
+  bool any_schedule(std::span<SurfaceId const> casters) const;
   bool any_screen(std::span<SurfaceId const> casters) const;
   // Those that are more than screens.
   std::vector<SurfaceId> plain_among(std::span<SurfaceId const> casters) const;

@@ -46,10 +46,11 @@ Scene canopy(Panes panes) {
 
 constexpr int receivers = 20;
 
-void print_row(char const* name, Panes panes, LuminanceSum how, int resolution) {
+void print_row(char const* name, Panes panes, PlainViews views, LuminanceSum how, int resolution) {
   RendererOptions options;
   options.resolution = resolution;
   options.luminance_sum = how;
+  options.plain_views = views;
   Renderer renderer(canopy(panes), options);
   std::array<SurfaceId, receivers> asked{};
   for (SurfaceId id = 0; id < receivers; ++id) asked[id] = id;
@@ -72,11 +73,16 @@ void print_table() {
   std::printf("%s\n", renderer_of(canopy(Panes::opaque)).device().renderer.c_str());
   std::printf("500 panes                resolution  a direction\n");
   for (int const resolution : {256, 512, 1024}) {
-    print_row("opaque", Panes::opaque, LuminanceSum::automatic, resolution);
-    print_row("transparent, compute", Panes::transparent, LuminanceSum::compute, resolution);
-    print_row("transparent, mipmaps", Panes::transparent, LuminanceSum::mipmaps, resolution);
-    print_row("transparent, readback", Panes::transparent, LuminanceSum::readback, resolution);
-    print_row("3 schedules", Panes::scheduled, LuminanceSum::automatic, resolution);
+    auto const print = [&](char const* name, Panes panes, PlainViews views, LuminanceSum how) {
+      print_row(name, panes, views, how, resolution);
+    };
+    print("opaque, counted", Panes::opaque, PlainViews::counted, LuminanceSum::automatic);
+    print("opaque, drawn", Panes::opaque, PlainViews::drawn, LuminanceSum::automatic);
+    print("transparent, counted", Panes::transparent, PlainViews::counted, LuminanceSum::automatic);
+    print("transparent, compute", Panes::transparent, PlainViews::drawn, LuminanceSum::compute);
+    print("transparent, mipmaps", Panes::transparent, PlainViews::drawn, LuminanceSum::mipmaps);
+    print("transparent, readback", Panes::transparent, PlainViews::drawn, LuminanceSum::readback);
+    print("3 schedules", Panes::scheduled, PlainViews::automatic, LuminanceSum::automatic);
   }
 }
 

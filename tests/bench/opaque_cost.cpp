@@ -41,9 +41,9 @@ struct Cost {
   std::vector<double> fractions;
 };
 
-Cost cost(Scene const& scene, OpaqueViews how) {
+Cost cost(Scene const& scene, PlainViews how) {
   RendererOptions options;
-  options.opaque_views = how;
+  options.plain_views = how;
   Renderer renderer(scene, options);
   sunlit(renderer, sun_at(180, 45), 0);  // makes the target, and the receiver's tile
   Cost cost;
@@ -64,8 +64,8 @@ void print_table() {
   std::printf("louvres         drawn            counted    drawn/counted     mean      most\n");
   for (int const count : {1, 20, 200, 1000, 8000, 32000}) {
     Scene const scene = louvres(count);
-    Cost const drawn = cost(scene, OpaqueViews::drawn);
-    Cost const counted = cost(scene, OpaqueViews::counted);
+    Cost const drawn = cost(scene, PlainViews::drawn);
+    Cost const counted = cost(scene, PlainViews::counted);
     double mean = 0.0;
     double most = 0.0;
     for (std::size_t i = 0; i < drawn.fractions.size(); ++i) {

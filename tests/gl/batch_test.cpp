@@ -65,7 +65,7 @@ Renderer renderer_with(Scene const& scene, int most_layers, LuminanceSum sum,
   options.resolution = resolution;
   options.luminance_sum = sum;
   options.most_layers = most_layers;
-  options.opaque_views = OpaqueViews::drawn;
+  options.plain_views = PlainViews::drawn;
   return Renderer(scene, options);
 }
 
@@ -204,7 +204,7 @@ TEST(Batches, AnErrorLeavesNothingBehind) {
 TEST(Batches, OfCountedViewsAreEqualToTheBitToOneAtATime) {
   Site const site(16, Finish::mixed);
   RendererOptions options;
-  options.opaque_views = OpaqueViews::counted;
+  options.plain_views = PlainViews::counted;
   Renderer together(site.scene, options);
   Renderer apart(site.scene, options);
   auto const batched = together.projected_sunlit_areas(suns, site.all);

@@ -91,7 +91,7 @@ TEST(Resolution, AnErrorOutOfRangeIsNamed) {
   for (double const error : {0.0, -1.0, 0.2, 1e-6, std::nan("")}) {
     RendererOptions options;
     options.error = error;
-    EXPECT_NE(message_of(options).find("expected 1e-5 to 0.1"), std::string::npos) << error;
+    EXPECT_NE(message_of(options).find("expected 1e-05 to 0.1"), std::string::npos) << error;
   }
 }
 

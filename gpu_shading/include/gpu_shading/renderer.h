@@ -22,8 +22,9 @@ enum class LuminanceSum {
   readback,   // on the CPU
 };
 
-// How the lit pixels of views with opaque casters alone are had.
-enum class OpaqueViews {
+// How views are answered whose casters are opaque or transmit, without schedules or holes; and
+// those through windows that have opaque casters alone.
+enum class PlainViews {
   automatic,  // counted in software, where that is the faster by far; drawn on a GPU
   drawn,      // by OpenGL, as all others are
   counted,    // on the CPU, on all its cores (render/coverage.h)
@@ -45,7 +46,7 @@ struct RendererOptions {
   // Views that are drawn at once, at most; 0: as many as the bounds of the class allow. Answers are
   // the same to the bit.
   int most_layers = 0;
-  OpaqueViews opaque_views = OpaqueViews::automatic;
+  PlainViews plain_views = PlainViews::automatic;
 };
 
 // What the sun lights through one combination of scheduled shades.
@@ -90,7 +91,7 @@ struct RendererStatistics {
   double seconds = 0.0;             // wall time spent in the renderer; of it:
   double cull_seconds = 0.0;        // finding what is in view
   double submit_seconds = 0.0;      // gathering, uploading and issuing draws
-  double count_seconds = 0.0;       // counting opaque views on the CPU
+  double count_seconds = 0.0;       // counting plain views on the CPU
   double wait_seconds = 0.0;        // waiting for the device
   double read_seconds = 0.0;        // sums on the CPU
 
@@ -122,8 +123,9 @@ struct Image {
 // Greenberg); opaque ones by 0. Its mean over the receiver's pixels takes the place of their lit
 // share, and equals it where all are opaque.
 //
-// In software, views in which nothing transmits are not drawn but counted on the CPU, by the same
-// rule and on the same lattice: a bit a pixel, convex pieces row by row, on all cores. OpenGL
+// In software, plain views (PlainViews) are not drawn but counted on the CPU, by the same rule and
+// on the same lattice: a bit a pixel, and a luminance of 32 bits where something transmits, convex
+// pieces row by row, on all cores. OpenGL
 // rounds corners to parts of a pixel first, so that the two differ where shadows' edges meet the
 // middles of pixels: by 1e-5 in the mean of random scenes at 512 pixels.
 //
