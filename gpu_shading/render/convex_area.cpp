@@ -5,9 +5,12 @@
 namespace gpu_shading {
 namespace {
 
+// Of a pixel, from where it begins.
+constexpr float middle = 0.5F;
+
 // Rows, or pixels of a row, are numbered so that this is the first whose middle is beyond `place`.
 int first_beyond(double place, int side) {
-  return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(side)) + 0.5);
+  return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(side)) + double{middle});
 }
 
 double cross(glm::dvec2 const& a, glm::dvec2 const& b) { return a.x * b.y - a.y * b.x; }
@@ -49,8 +52,8 @@ template <std::size_t limits>
     }
     from = from < width ? from : width;
     to = to > 0.0F ? to : 0.0F;
-    auto const first = static_cast<std::int32_t>(from + 0.5F);
-    auto const end = static_cast<std::int32_t>(to + 0.5F);
+    auto const first = static_cast<std::int32_t>(from + middle);
+    auto const end = static_cast<std::int32_t>(to + middle);
     std::int32_t const length = end > first ? end - first : 0;
     spans.first[static_cast<std::size_t>(i)] = first;
     spans.length[static_cast<std::size_t>(i)] = length;

@@ -8,7 +8,7 @@ namespace gpu_shading {
 void LuminanceTile::start(int side) {
   constexpr int word = PixelMask::word_bits;
   side_ = side;
-  stride_ = static_cast<std::size_t>((side + word - 1) / word * word);
+  stride_ = static_cast<std::size_t>((side + word - 1) / word) * std::size_t{word};
   pixels_.assign(static_cast<std::size_t>(side) * stride_, 1.0F);
 }
 

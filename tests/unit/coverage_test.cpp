@@ -201,6 +201,7 @@ TEST(Coverage, IsTheSameOnAnyNumberOfThreads) {
   Scene scene;
   scene.add({"window", south_facing(0, 0, 0, 3, 2)});
   std::vector<SurfaceId> casters;
+  casters.reserve(300);
   for (int i = 0; i < 300; ++i) {
     casters.push_back(scene.add(
         {"louvre", parallelogram({-0.2, -0.1, i / 150.0}, {3.4, 0, 0}, {0, -0.005, 0.002})}));
