@@ -230,8 +230,10 @@ TEST(Batches, OfMoreViewsThanAreWaitedForAtATime) {
   scene.add({"shade", level(-1, -2, 2.1, 5, 2), Casting::always, half()});
   Renderer together = renderer_with(scene, 0, LuminanceSum::automatic, 8);
   Renderer apart = renderer_with(scene, 1, LuminanceSum::automatic, 8);
+  constexpr int questions = 17'000;
   std::vector<SunDirection> many;
-  for (int i = 0; i < 17'000; ++i) many.push_back(sun_at(150 + 60 * (i / 17e3), 30));
+  many.reserve(questions);
+  for (int i = 0; i < questions; ++i) many.push_back(sun_at(150 + 60 * i / double{questions}, 30));
   SurfaceId const window = 0;
   auto const got = together.projected_sunlit_areas(many, {&window, 1});
   EXPECT_EQ(together.statistics().luminance_views, many.size());
