@@ -10,9 +10,7 @@
 #include <limits>
 #include <utility>
 
-#include "gpu_shading/error.h"
 #include "render/luminance_tile.h"
-#include "scene/triangulation.h"
 
 namespace gpu_shading {
 namespace {
@@ -95,13 +93,9 @@ void share_out(std::span<std::uint64_t const> pixels, std::span<InteriorPiece co
 
 }  // namespace
 
-Coverage::Coverage(Scene const& scene) {
-  ranges_.reserve(scene.size());
-  for (SurfaceId id = 0; id < scene.size(); ++id) {
-    Mesh const mesh = triangulate(scene[id].polygon);
-    if (points_.size() + mesh.vertices.size() > std::numeric_limits<std::uint32_t>::max()) {
-      throw Error("the scene has more vertices than can be numbered with 32 bits");
-    }
+Coverage::Coverage(std::span<Mesh const> meshes) {
+  ranges_.reserve(meshes.size());
+  for (Mesh const& mesh : meshes) {
     auto const base = static_cast<std::uint32_t>(points_.size());
     std::vector<glm::uvec4> const pieces = convex_pieces(mesh);
     ranges_.push_back({pieces_.size(), pieces.size()});

@@ -11,6 +11,7 @@
 #include "render/pixel_mask.h"
 #include "render/receiver.h"
 #include "render/view.h"
+#include "scene/triangulation.h"
 
 namespace gpu_shading {
 
@@ -20,8 +21,8 @@ namespace gpu_shading {
 // (tests/bench/opaque_cost). Any number of threads may ask.
 class Coverage {
  public:
-  // Refers to nothing of the scene.
-  explicit Coverage(Scene const& scene);
+  // `meshes`: of all surfaces, by id. Refers to nothing of them.
+  explicit Coverage(std::span<Mesh const> meshes);
 
   // Of a tile as `view`, in front of its receiver, has the casters. On so many threads at most; the
   // same on any number.

@@ -1,7 +1,6 @@
 #include "render/geometry.h"
 
 #include <cstddef>
-#include <limits>
 
 #include "gl/check.h"
 #include "gl/draw.h"
@@ -9,7 +8,6 @@
 #include "gpu_shading/error.h"
 #include "render/twice_float.h"
 #include "render/view_records.h"
-#include "scene/triangulation.h"
 #include "shaders/sources.h"
 
 namespace gpu_shading {
@@ -31,17 +29,14 @@ glm::dvec3 some_point(Scene const& scene) {
 
 }  // namespace
 
-Geometry::Geometry(Scene const& scene, Screens const& screens)
+Geometry::Geometry(Scene const& scene, std::span<Mesh const> meshes, Screens const& screens)
     : scene_origin_(some_point(scene)),
       views_(gl::Buffer::create()),
       screens_(screens, scene_origin_, views_) {
   std::vector<Vertex> vertices;
   ranges_.reserve(scene.size());
   for (SurfaceId id = 0; id < scene.size(); ++id) {
-    Mesh const mesh = triangulate(scene[id].polygon);
-    if (vertices.size() + mesh.vertices.size() > std::numeric_limits<std::uint32_t>::max()) {
-      throw Error("the scene has more vertices than can be numbered with 32 bits");
-    }
+    Mesh const& mesh = meshes[id];
     auto const base = static_cast<std::uint32_t>(vertices.size());
     ranges_.push_back({indices_.size(), mesh.indices.size()});
     for (std::uint32_t const index : mesh.indices) indices_.push_back(base + index);

@@ -14,6 +14,7 @@
 #include "render/draw_list.h"
 #include "render/screen_geometry.h"
 #include "scene/screens.h"
+#include "scene/triangulation.h"
 
 namespace gpu_shading {
 
@@ -21,7 +22,8 @@ namespace gpu_shading {
 // up all it needs but for the target, depth and blending.
 class Geometry {
  public:
-  Geometry(Scene const& scene, Screens const& screens);
+  // `meshes`: of all of the scene's surfaces, by id.
+  Geometry(Scene const& scene, std::span<Mesh const> meshes, Screens const& screens);
 
   // Triangles of a surface, to be added to a DrawList. Empty for a degenerate one.
   std::span<std::uint32_t const> triangles(SurfaceId id) const;

@@ -1,7 +1,9 @@
 #include "render/luminance_tile.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstdint>
 
 namespace gpu_shading {
 

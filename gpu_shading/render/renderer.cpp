@@ -20,6 +20,7 @@
 #include "render/tile_size.h"
 #include "render/transmission.h"
 #include "scene/casters.h"
+#include "scene/triangulation.h"
 
 namespace gpu_shading {
 namespace {
@@ -105,9 +106,9 @@ class Renderer::Implementation {
  private:
   // What lives on the device, made and ended with its context current.
   struct OnDevice {
-    OnDevice(Scene const& scene, Transmission const& transmission, Bounds const& bounds,
-             LuminanceSum how, RendererStatistics& statistics)
-        : geometry(scene, transmission.screens()),
+    OnDevice(Scene const& scene, std::span<Mesh const> meshes, Transmission const& transmission,
+             Bounds const& bounds, LuminanceSum how, RendererStatistics& statistics)
+        : geometry(scene, meshes, transmission.screens()),
           submissions(geometry, transmission, bounds, how, statistics) {}
 
     Geometry geometry;
@@ -139,10 +140,12 @@ Renderer::Implementation::Implementation(Scene scene, RendererOptions options)
       options_(settled(options, device_.info)),
       receivers_(scene_, tile_size(options_, device_.info), device_.info.max_resolution) {
   Stopwatch const watch(statistics_.seconds);
-  if (options_.plain_views == PlainViews::counted) coverage_.emplace(scene_);
+  std::vector<Mesh> const meshes = triangulate_all(scene_);
+  if (options_.plain_views == PlainViews::counted) coverage_.emplace(meshes);
   egl::Current const current = device_.context.make_current();
-  on_device_ = std::make_unique<OnDevice>(scene_, transmission_, bounds_of(options_, device_.info),
-                                          options_.luminance_sum, statistics_);
+  on_device_ =
+      std::make_unique<OnDevice>(scene_, meshes, transmission_, bounds_of(options_, device_.info),
+                                 options_.luminance_sum, statistics_);
 }
 
 Renderer::Implementation::~Implementation() {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <deque>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -148,6 +149,20 @@ Mesh triangulate(Polygon const& polygon) {
   glm::dvec3 const up = glm::normalize(vector);
   if (polygon.holes.empty() && is_convex(outline, up)) return fan(outline);
   return tessellate(outline, polygon.holes, up);
+}
+
+std::vector<Mesh> triangulate_all(Scene const& scene) {
+  std::vector<Mesh> meshes;
+  meshes.reserve(scene.size());
+  std::size_t vertices = 0;
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    meshes.push_back(triangulate(scene[id].polygon));
+    vertices += meshes.back().vertices.size();
+    if (vertices > std::numeric_limits<std::uint32_t>::max()) {
+      throw Error("the scene has more vertices than can be numbered with 32 bits");
+    }
+  }
+  return meshes;
 }
 
 std::vector<glm::uvec4> convex_pieces(Mesh const& mesh) {

@@ -206,7 +206,7 @@ TEST(Coverage, IsTheSameOnAnyNumberOfThreads) {
     casters.push_back(scene.add(
         {"louvre", parallelogram({-0.2, -0.1, i / 150.0}, {3.4, 0, 0}, {0, -0.005, 0.002})}));
   }
-  Coverage const coverage(scene);
+  Coverage const coverage(triangulate_all(scene));
   PlaneFrame const frame = *plane_frame(scene[0].polygon);
   for (int const side : {96, 512}) {
     Tile const tile = make_tile(scene[0].polygon, frame, side, 4096);
