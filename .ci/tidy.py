@@ -22,7 +22,7 @@ def digest(*parts):
 
 def main():
     build = (ROOT / sys.argv[1]).resolve()
-    listing = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "--", "*.h", ".clang-tidy"],
+    listing = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "--", "*.h", "*.clang-tidy"],
                              cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\n")
     common = digest(*((ROOT / name).read_bytes() for name in sorted(filter(None, listing)) if (ROOT / name).is_file()))
     passed = build / "clang-tidy"
