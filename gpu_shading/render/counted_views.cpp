@@ -14,26 +14,51 @@ namespace {
 // Casters from which on several cores share a view.
 constexpr std::size_t worth_sharing = 200;
 
+// Textures have layers on a device alone.
+constexpr int texels_of_a_layer = 4096;
+
 }  // namespace
 
 bool CountedViews::can_take(Question const& question, std::span<SurfaceId const> casters) const {
   if (!transmission_.any_transmits(casters)) return true;
-  return !question.through && !transmission_.any_schedule(casters) &&
-         !transmission_.any_screen(casters);
+  return !question.through && !transmission_.any_schedule(casters);
 }
 
 void CountedViews::add(FacedQuestion const& faced, Tile const& tile,
                        std::vector<SurfaceId> casters) {
-  bool const transmits = transmission_.any_transmits(casters);
-  views_.push_back({faced, &tile, std::move(casters), transmits, {}});
+  View view{faced, &tile, std::move(casters), false, {}, 0, {}};
+  view.transmits = transmission_.any_transmits(view.casters);
+  if (view.transmits) view.screens = transmission_.screens_among(view.casters);
+  if (!view.screens.empty()) view.direction = note_screens(view);
+  views_.push_back(std::move(view));
+}
+
+std::size_t CountedViews::note_screens(View const& view) {
+  glm::dvec3 const& towards_sun = view.faced.question.towards_sun;
+  if (directions_.empty() || directions_.back().towards_sun != towards_sun) {
+    directions_.push_back({towards_sun, 0, {}, {}});
+  }
+  double const pixel_area = view.tile->map.pixel_area(view.tile->side) * view.faced.cosine;
+  for (int const number : view.screens) {
+    Screens::Entry const& screen = transmission_.screens()[number];
+    directions_.back().add_screen(
+        number, may_see_effect(*screen.screen, screen.normal, towards_sun, pixel_area));
+  }
+  return directions_.size() - 1;
 }
 
 void CountedViews::count() {
   Stopwatch const watch(statistics_.count_seconds);
+  std::vector<ScreenView> seen(directions_.size());
+  tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
+    seen[i] = transmission_.see({&directions_[i], 1}, texels_of_a_layer);
+  });
   int const cores = tbb::this_task_arena::max_concurrency();
   bool const few = views_.size() < static_cast<std::size_t>(cores);
   tbb::parallel_for(std::size_t{0}, views_.size(), [&](std::size_t i) {
-    count(views_[i], few && views_[i].casters.size() >= worth_sharing ? cores : 1);
+    View& view = views_[i];
+    bool const shared = few && (view.casters.size() >= worth_sharing || !view.screens.empty());
+    count(view, seen, shared ? cores : 1);
   });
   for (View const& view : views_) {
     Question const& question = view.faced.question;
@@ -47,9 +72,10 @@ void CountedViews::count() {
     if (view.transmits) ++statistics_.luminance_views;
   }
   views_.clear();
+  directions_.clear();
 }
 
-void CountedViews::count(View& view, int threads) const {
+void CountedViews::count(View& view, std::span<ScreenView const> seen, int threads) const {
   Question const& question = view.faced.question;
   Tile const& tile = *view.tile;
   auto const before = view_in_front(view.faced.frame(), tile.map, question.towards_sun);
@@ -58,12 +84,17 @@ void CountedViews::count(View& view, int threads) const {
     auto const lit = coverage_.lit_inside(tile, before, view.casters, behind, question.interiors);
     view.sums.assign(lit.begin(), lit.end());
   } else if (view.transmits) {
+    std::vector<SurfaceId> const plain = transmission_.plain_among(view.casters);
     std::vector<float> shares;
-    shares.reserve(view.casters.size());
-    for (SurfaceId const id : view.casters) {
+    shares.reserve(plain.size());
+    for (SurfaceId const id : plain) {
       shares.push_back(transmission_.shade(id, question.towards_sun).transmittance);
     }
-    view.sums = {coverage_.luminance(tile, before, view.casters, shares)};
+    ScreensInView screens;
+    if (!view.screens.empty()) {
+      screens = {&transmission_.screens(), &seen[view.direction], view.screens};
+    }
+    view.sums = {coverage_.luminance(tile, before, plain, shares, screens, threads)};
   } else {
     view.sums = {static_cast<double>(coverage_.lit(tile, before, view.casters, threads))};
   }

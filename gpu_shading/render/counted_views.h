@@ -30,15 +30,20 @@ class CountedViews {
     Tile const* tile;
     std::vector<SurfaceId> casters;
     bool transmits;
+    std::vector<int> screens;  // of the casters
+    std::size_t direction;     // where there are any
     std::vector<double> sums;  // once counted, of each answer
   };
 
-  void count(View& view, int threads) const;
+  // The place of what is known of the screens at a view's direction.
+  std::size_t note_screens(View const& view);
+  void count(View& view, std::span<ScreenView const> seen, int threads) const;
 
   Coverage const& coverage_;
   Transmission const& transmission_;
   RendererStatistics& statistics_;
   std::vector<View> views_;
+  std::vector<DirectionTables> directions_;
 };
 
 }  // namespace gpu_shading

@@ -1,13 +1,14 @@
 #include "render/coverage.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
+#include <tbb/parallel_for.h>
 
 #include <array>
+#include <atomic>
 #include <bit>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "render/luminance_tile.h"
@@ -91,6 +92,15 @@ void share_out(std::span<std::uint64_t const> pixels, std::span<InteriorPiece co
   }
 }
 
+// Calls use(first, end) for parts of a tile's rows, on so many threads at most.
+template <typename Use>
+void in_rows(int side, int threads, Use use) {
+  if (threads <= 1) return use(0, side);
+  using Rows = tbb::blocked_range<int>;
+  auto const share = static_cast<std::size_t>((side + threads - 1) / threads);
+  tbb::parallel_for(Rows(0, side, share), [&](Rows const& rows) { use(rows.begin(), rows.end()); });
+}
+
 }  // namespace
 
 Coverage::Coverage(std::span<Mesh const> meshes) {
@@ -121,40 +131,41 @@ void Coverage::each_area(SurfaceId caster, View const& pixels, int side, Use use
 
 std::uint64_t Coverage::lit(Tile const& tile, View const& view, std::span<SurfaceId const> casters,
                             int threads) const {
-  auto const of_rows = [&](int first, int end) {
+  std::atomic<std::uint64_t> sum = 0;
+  in_rows(tile.side, threads, [&](int first, int end) {
     static thread_local PixelMask mask;
     mask.start(tile.side, first, end);
     light(mask, tile);
     darken(mask, tile, view, casters);
-    return mask.lit();
-  };
-  if (threads <= 1) return of_rows(0, tile.side);
-  using Rows = tbb::blocked_range<int>;
-  auto const share = static_cast<std::size_t>((tile.side + threads - 1) / threads);
-  return tbb::parallel_reduce(
-      Rows(0, tile.side, share), std::uint64_t{0},
-      [&](Rows const& rows, std::uint64_t sum) { return sum + of_rows(rows.begin(), rows.end()); },
-      std::plus<>());
+    sum += mask.lit();
+  });
+  return sum;
 }
 
 double Coverage::luminance(Tile const& tile, View const& view, std::span<SurfaceId const> casters,
-                           std::span<float const> shares) const {
-  static thread_local PixelMask mask;
-  static thread_local LuminanceTile shaded;
-  mask.start(tile.side, 0, tile.side);
-  light(mask, tile);
-  shaded.start(tile.side);
+                           std::span<float const> shares, ScreensInView const& screens,
+                           int threads) const {
   View const pixels = in_pixels(view, tile.side);
-  for (std::size_t i = 0; i < casters.size(); ++i) {
-    each_area(casters[i], pixels, tile.side, [&](ConvexArea const& area) {
-      if (shares[i] > 0.0F) {
-        shaded.multiply(area, shares[i]);
-      } else {
-        mask.darken(area);
-      }
-    });
-  }
-  return shaded.sum(mask);
+  std::vector<double> sums(static_cast<std::size_t>(tile.side));
+  in_rows(tile.side, threads, [&](int first, int end) {
+    static thread_local PixelMask mask;
+    static thread_local LuminanceTile shaded;
+    mask.start(tile.side, first, end);
+    light(mask, tile);
+    shaded.start(tile.side, first, end);
+    for (std::size_t i = 0; i < casters.size(); ++i) {
+      each_area(casters[i], pixels, tile.side, [&](ConvexArea const& area) {
+        if (shares[i] > 0.0F) {
+          shaded.multiply(area, shares[i]);
+        } else {
+          mask.darken(area);
+        }
+      });
+    }
+    shade_by_screens(shaded, mask, pixels, screens);
+    shaded.sum_rows(mask, std::span(sums).subspan(static_cast<std::size_t>(first)));
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 std::vector<std::uint64_t> Coverage::lit_inside(Tile const& tile, View const& view,

@@ -10,6 +10,7 @@
 #include "render/draw_list.h"
 #include "render/pixel_mask.h"
 #include "render/receiver.h"
+#include "render/screen_shading.h"
 #include "render/view.h"
 #include "scene/triangulation.h"
 
@@ -29,9 +30,9 @@ class Coverage {
   std::uint64_t lit(Tile const& tile, View const& view, std::span<SurfaceId const> casters,
                     int threads) const;
   // The sum over the lit pixels of what reaches them, where each caster lets a share through, 0 for
-  // an opaque one.
+  // an opaque one, and screens what they do. On so many threads at most; the same on any number.
   double luminance(Tile const& tile, View const& view, std::span<SurfaceId const> casters,
-                   std::span<float const> shares) const;
+                   std::span<float const> shares, ScreensInView const& screens, int threads) const;
   // Of the lit pixels, those where each of `interiors` is the nearest in the view `behind`; of
   // surfaces in the same place the first has them.
   std::vector<std::uint64_t> lit_inside(Tile const& tile, View const& view,

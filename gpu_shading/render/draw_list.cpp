@@ -18,6 +18,16 @@ std::size_t bytes_of(std::vector<T> const& values) {
 
 }  // namespace
 
+void DirectionTables::add_screen(int number, bool may_see_effect) {
+  auto const place = static_cast<std::size_t>(number);
+  if (place >= screens.size()) {
+    screens.resize(place + 1, false);
+    by_effect.resize(place + 1, false);
+  }
+  screens[place] = true;
+  if (may_see_effect) by_effect[place] = true;
+}
+
 void DrawList::clear() {
   tile_vertices_.clear();
   views_.clear();

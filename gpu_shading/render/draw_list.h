@@ -66,6 +66,8 @@ struct DirectionTables {
   std::size_t first_shade = 0;
   std::vector<bool> screens;    // by number, those in some view; none where too short
   std::vector<bool> by_effect;  // of these, whose effect some view may see
+
+  void add_screen(int number, bool may_see_effect);
 };
 
 // What the draws of one submission read, gathered here to be uploaded at once: views, each on a

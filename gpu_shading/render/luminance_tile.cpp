@@ -1,39 +1,37 @@
 #include "render/luminance_tile.h"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 
 namespace gpu_shading {
 
-void LuminanceTile::start(int side) {
+void LuminanceTile::start(int side, int first_row, int end_row) {
   constexpr int word = PixelMask::word_bits;
   side_ = side;
+  first_row_ = first_row;
+  end_row_ = end_row;
   stride_ = static_cast<std::size_t>((side + word - 1) / word) * std::size_t{word};
-  pixels_.assign(static_cast<std::size_t>(side) * stride_, 1.0F);
+  pixels_.assign(static_cast<std::size_t>(end_row - first_row) * stride_, 1.0F);
+}
+
+std::span<float> LuminanceTile::row(int number) {
+  return {pixels_.data() + static_cast<std::size_t>(number - first_row_) * stride_, stride_};
 }
 
 void LuminanceTile::multiply(ConvexArea const& area, float by) {
-  RowSpans spans;
-  for (int row = area.first_row; row < area.end_row; row += RowSpans::rows) {
-    find_spans(area, row, side_, spans);
-    if (spans.longest == 0) continue;
-    int const rows = std::min(RowSpans::rows, area.end_row - row);
-    for (int i = 0; i < rows; ++i) {
-      auto const at = static_cast<std::size_t>(i);
-      float* const first = pixels_.data() + static_cast<std::size_t>(row + i) * stride_ +
-                           static_cast<std::size_t>(spans.first[at]);
-      std::for_each(first, first + spans.length[at], [by](float& pixel) { pixel *= by; });
-    }
-  }
+  each_span(area, [&](int number, int first, int length) {
+    float* const pixel = row(number).data() + first;
+    std::for_each(pixel, pixel + length, [by](float& luminance) { luminance *= by; });
+  });
 }
 
-double LuminanceTile::sum(PixelMask const& lit) const {
+void LuminanceTile::sum_rows(PixelMask const& lit, std::span<double> sums) const {
   constexpr auto width = static_cast<std::size_t>(PixelMask::word_bits);
-  double sum = 0.0;
   auto const words = lit.words();
+  std::size_t const words_a_row = stride_ / width;
   for (std::size_t word = 0; word < words.size(); ++word) {
+    double& sum = sums[word / words_a_row];
     float const* const pixels = pixels_.data() + word * width;
     if (words[word] == ~std::uint64_t{0}) {
       std::array<double, 8> lanes{};
@@ -49,7 +47,6 @@ double LuminanceTile::sum(PixelMask const& lit) const {
       sum += static_cast<double>(pixels[std::countr_zero(rest)]);
     }
   }
-  return sum;
 }
 
 }  // namespace gpu_shading

@@ -29,6 +29,11 @@ class PixelMask {
   // Row after row, each from a word of its own on; of a word the lowest bit is the leftmost pixel.
   std::span<std::uint64_t> words() { return {words_.data(), words_.size() - spare}; }
   std::span<std::uint64_t const> words() const { return {words_.data(), words_.size() - spare}; }
+  // The word with a row's pixel.
+  std::uint64_t word(int row, int column) const {
+    return words_[static_cast<std::size_t>(row - first_row_) * stride_ +
+                  static_cast<std::size_t>(column / word_bits)];
+  }
   // Of the lowest bit of a word.
   int row(std::size_t word) const { return first_row_ + static_cast<int>(word / stride_); }
   int column(std::size_t word) const { return word_bits * static_cast<int>(word % stride_); }

@@ -138,16 +138,12 @@ ScreenLook ScreenGeometry::look_of(Look const& look, bool by_effect) const {
 
 Range ScreenGeometry::add_to(DrawList& list, DirectionTables& tables, std::uint32_t view,
                              std::span<int const> numbers, double pixel_area) const {
-  tables.screens.resize(looks_.size(), false);
-  tables.by_effect.resize(looks_.size(), false);
   std::map<ScreenLook, std::vector<int>> by_look;
   for (int const number : numbers) {
-    auto const place = static_cast<std::size_t>(number);
-    Look const& look = looks_[place];
-    double const cosine = std::abs(glm::dot(look.normal, tables.towards_sun));
-    bool const by_effect = may_see_effect(*look.screen, std::sqrt(pixel_area / cosine));
-    tables.screens[place] = true;
-    if (by_effect) tables.by_effect[place] = true;
+    Look const& look = looks_[static_cast<std::size_t>(number)];
+    bool const by_effect =
+        may_see_effect(*look.screen, look.normal, tables.towards_sun, pixel_area);
+    tables.add_screen(number, by_effect);
     by_look[look_of(look, by_effect)].push_back(number);
   }
   std::size_t const first = list.screen_draws().size();

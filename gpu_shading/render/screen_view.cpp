@@ -8,11 +8,6 @@
 namespace gpu_shading {
 namespace {
 
-// As in screen.frag.
-enum Shape { texture, round_hole, square_hole, hexagonal_hole };
-constexpr int solid = 0;
-constexpr int exactly = -1;
-
 // Below this cosine between the beam and the sheet it is seen from the side: solid.
 constexpr double from_the_side = 1e-3;
 
@@ -33,7 +28,7 @@ double deployed(Screens::Entry const& entry, std::span<double const> shares) {
   return entry.deployment < 0 || share >= shares.size() ? 1.0 : shares[share];
 }
 
-Shape shape_of(Hole hole) {
+SheetShape shape_of(Hole hole) {
   switch (hole) {
     case Hole::Square:
       return square_hole;
@@ -48,11 +43,11 @@ Shape shape_of(Hole hole) {
 
 int layers_of(PerforatedScreen const& screen, double shift) {
   if (screen.sheet().layers) return *screen.sheet().layers;
-  if (screen.pattern()) return exactly;
+  if (screen.pattern()) return exact_sheet;
   constexpr int most = 64;
   // Where so many are not enough and nothing passes but at the sheet's sides.
   if (shift > (most - 1) * screen.web() && shift >= screen.transmittance().longest_chord()) {
-    return solid;
+    return solid_sheet;
   }
   // Past the longest chord layers are for the sides, where the way in the sheet is short.
   return layers_for(shift, screen.web(), std::numeric_limits<double>::infinity(), most);
@@ -107,7 +102,7 @@ void describe_pattern(HolePattern const& pattern, SheetBlock& sheet) {
 
 void describe_tile(OpacityTile const& tile, int most_texels, SheetBlock& sheet) {
   TextureCells const cells = texture_cells(tile, most_texels);
-  sheet.kind.x = texture;
+  sheet.kind.x = texture_sheet;
   sheet.tile.x = static_cast<float>(tile.width());
   sheet.tile.y = static_cast<float>(tile.height());
   sheet.hole.w = static_cast<float>(tile.threshold().value_or(-1.0));
@@ -133,9 +128,11 @@ TextureCells texture_cells(OpacityTile const& tile, int most_texels) {
   return cells;
 }
 
-bool may_see_effect(PerforatedScreen const& screen, double pixel) {
+bool may_see_effect(PerforatedScreen const& screen, glm::dvec3 const& normal,
+                    glm::dvec3 const& towards_sun, double pixel_area) {
   // Fragments find the size of pixels for themselves, in single precision.
   constexpr double margin = 1.1;
+  double const pixel = std::sqrt(pixel_area / std::abs(glm::dot(normal, towards_sun)));
   return margin * pixel > static_cast<double>(blend_of(screen).x);
 }
 
@@ -168,7 +165,7 @@ ScreenView see_screens(Screens const& screens, std::span<int const> numbers,
     glm::vec2 const blend = has_effect ? blend_of(screen) : glm::vec2(never, 2.0F * never);
     sheet.tile.z = blend.x;
     sheet.tile.w = blend.y;
-    sheet.kind.y = aside ? solid : layers_of(screen, glm::length(shift));
+    sheet.kind.y = aside ? solid_sheet : layers_of(screen, glm::length(shift));
     if (!has_effect) continue;
     std::vector<glm::vec4> const thirds = effective(screen, shift);
     sheet.effective = thirds.front();

@@ -10,6 +10,12 @@
 
 namespace gpu_shading {
 
+// A sheet's kind.x.
+enum SheetShape { texture_sheet, round_hole, square_hole, hexagonal_hole };
+// Its kind.y in place of a number of layers: nothing passes, and what does is found without layers.
+constexpr int solid_sheet = 0;
+constexpr int exact_sheet = -1;
+
 // A screen at one direction of the sun: Sheet of screen.vert, std430.
 struct SheetBlock {
   glm::vec4 normal{0.0F};
@@ -35,9 +41,10 @@ TextureCells texture_cells(OpacityTile const& tile, int most_texels);
 // Whether the effective transmittance is another from region to region. Takes the screen's table.
 bool varies(PerforatedScreen const& screen);
 
-// Whether pixels of this size in the sheet's plane, m, may see a screen's effect. Where none do,
-// its table is not made.
-bool may_see_effect(PerforatedScreen const& screen, double pixel);
+// Whether pixels of this area across the beam, m2, may see a screen's effect. Where none do, its
+// table is not made.
+bool may_see_effect(PerforatedScreen const& screen, glm::dvec3 const& normal,
+                    glm::dvec3 const& towards_sun, double pixel_area);
 
 // What the screens of a scene are to the sun at one direction: each entry right for those asked
 // for, nothing for the others.

@@ -201,8 +201,7 @@ TEST(Batches, AnErrorLeavesNothingBehind) {
   }
 }
 
-TEST(Batches, OfCountedViewsAreEqualToTheBitToOneAtATime) {
-  Site const site(16, Finish::mixed);
+void expect_counted_equal_one_at_a_time(Site const& site) {
   RendererOptions options;
   options.plain_views = PlainViews::counted;
   Renderer together(site.scene, options);
@@ -222,6 +221,12 @@ TEST(Batches, OfCountedViewsAreEqualToTheBitToOneAtATime) {
     }
   }
   EXPECT_GT(together.statistics().count_seconds, 0.0);
+}
+
+TEST(Batches, OfCountedViewsAreEqualToTheBitToOneAtATime) {
+  for (Finish const finish : {Finish::mixed, Finish::screened}) {
+    expect_counted_equal_one_at_a_time(Site(16, finish));
+  }
 }
 
 TEST(Batches, OfMoreViewsThanAreWaitedForAtATime) {

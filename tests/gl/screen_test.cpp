@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <memory>
@@ -9,10 +11,12 @@
 
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
+#include "random_scene.h"
 #include "room.h"
 #include "shapes.h"
 
-// Perforated sheets as the renderer draws them, against what is known of them in closed form.
+// Perforated sheets as the renderer draws and counts them, against what is known of them in closed
+// form.
 namespace gpu_shading {
 namespace {
 
@@ -71,9 +75,24 @@ double closed_form(HolePattern const& holes, double thickness, SunDirection sun)
   return holes.transmittance(thickness * s.y / s.z, -thickness * s.x / s.z);
 }
 
+// Drawn, and counted on the CPU.
+class Screened : public testing::TestWithParam<PlainViews> {
+ protected:
+  static Renderer renderer_of(Scene scene, int resolution = 512) {
+    return gpu_shading::renderer_of(std::move(scene), resolution, GetParam());
+  }
+};
+
+std::string name_of(testing::TestParamInfo<PlainViews> const& info) {
+  return info.param == PlainViews::drawn ? "drawn" : "counted";
+}
+
+INSTANTIATE_TEST_SUITE_P(Is, Screened, testing::Values(PlainViews::drawn, PlainViews::counted),
+                         name_of);
+
 constexpr double altitudes[] = {90.0, 75.0, 60.0, 45.0, 35.0};
 
-TEST(Screen, OfHolesLetsTheClosedFormThrough) {
+TEST_P(Screened, OfHolesLetsTheClosedFormThrough) {
   double const thickness = 30 * mm;
   for (Hole const hole : {Hole::Round, Hole::Square, Hole::Hexagonal}) {
     HolePattern const holes({.hole = hole, .size = 50 * mm, .pitch = 80 * mm});
@@ -90,7 +109,7 @@ TEST(Screen, OfHolesLetsTheClosedFormThrough) {
   }
 }
 
-TEST(Screen, OfARasterLetsWhatItsHolesDoThrough) {
+TEST_P(Screened, OfARasterLetsWhatItsHolesDoThrough) {
   double const thickness = 30 * mm;
   HolePattern const holes = round_holes(50 * mm, 80 * mm);
   for (auto const detail : {ScreenDetail::holes, ScreenDetail::effective}) {
@@ -107,7 +126,7 @@ TEST(Screen, OfARasterLetsWhatItsHolesDoThrough) {
 }
 
 // Ten layers of a thick sheet leave gaps under low sun, which its walls close.
-TEST(Screen, OfFewLayersLeaksWhereASheetDoesNot) {
+TEST_P(Screened, OfFewLayersLeaksWhereASheetDoesNot) {
   HolePattern const holes = round_holes(50 * mm, 52 * mm);
   SunDirection const sun = sun_at(33.0, 15.0);
   Sheet sheet{.thickness = 100 * mm};
@@ -126,7 +145,7 @@ TEST(Screen, OfFewLayersLeaksWhereASheetDoesNot) {
 
 // Wider than a layer of a texture may be, so that it is cut into two: a bar of open texels at the
 // seam and one at the image's ends.
-TEST(Screen, OfALargeImageIsWhole) {
+TEST_P(Screened, OfALargeImageIsWhole) {
   constexpr int columns = 6000;
   std::vector<float> opacity(columns, 1.0F);
   for (int i = 4000; i < 4200; ++i) opacity[static_cast<std::size_t>(i)] = 0.0F;
@@ -149,7 +168,7 @@ TEST(Screen, OfALargeImageIsWhole) {
 
 // Bars of 8 texels in every 16, of 4, and so on, from west to east: what passes is another from
 // place to place, and the same whether bars are drawn or their effect.
-TEST(Screen, OfAnImageThatVariesHasItsEffectInPlace) {
+TEST_P(Screened, OfAnImageThatVariesHasItsEffectInPlace) {
   constexpr int side = 1024;
   std::vector<float> opacity;
   for (int row = 0; row < side; ++row) {
@@ -177,7 +196,7 @@ TEST(Screen, OfAnImageThatVariesHasItsEffectInPlace) {
 }
 
 // Small pixels see holes, large ones their effect, and what is between, something between.
-TEST(Screen, IsDrawnAsTheSizeOfPixelsAsks) {
+TEST_P(Screened, IsDrawnAsTheSizeOfPixelsAsks) {
   HolePattern const holes = round_holes(50 * mm, 80 * mm);
   OpacityTile const small(holes, 2 * mm);
   // Of more than one region.
@@ -208,7 +227,7 @@ struct Slot {
   glm::dvec2 dark;
 };
 
-TEST(Screen, LiesWhereItIsPlaced) {
+TEST_P(Screened, LiesWhereItIsPlaced) {
   HolePattern const slot({.hole = Hole::Slotted,
                           .arrangement = Arrangement::Straight,
                           .size = 0.2,
@@ -240,7 +259,7 @@ TEST(Screen, LiesWhereItIsPlaced) {
 
 // A solid sheet is a block: from the side it covers its height times its length, and more than its
 // polygon from everywhere else, above or below it as its plane is.
-TEST(Screen, HasTheThicknessOfItsSides) {
+TEST_P(Screened, HasTheThicknessOfItsSides) {
   HolePattern const far_apart = square_holes(0.01, 50.0);
   for (SheetPlane const plane : {SheetPlane::centre, SheetPlane::outside, SheetPlane::inside}) {
     Sheet sheet{.thickness = 0.2, .plane = plane};
@@ -268,7 +287,7 @@ TEST(Screen, HasTheThicknessOfItsSides) {
 }
 
 // Rays from one piece into its neighbour pass both.
-TEST(Screen, IsTheSameInPieces) {
+TEST_P(Screened, IsTheSameInPieces) {
   Screen const screen = sheet_of(round_holes(0.3, 0.4), 0.2);
   Screen const raster = sheet_of(OpacityTile(round_holes(0.3, 0.4), 0.01), 0.2);
   Polygon const ell{{{3, 0, 1}, {3, 1, 1}, {1, 1, 1}, {1, 3, 1}, {0, 3, 1}, {0, 0, 1}},
@@ -303,7 +322,7 @@ struct Mixed {
   Polygon sheet(double height) const { return level(-2, -2, height, 5, 5); }
 };
 
-TEST(Screen, MixesWithAllOtherCasters) {
+TEST_P(Screened, MixesWithAllOtherCasters) {
   Mixed mixed;
   mixed.scene.add(screened("screen", mixed.sheet(0.3), sheet_of(mixed.holes, 1 * mm)));
   double const quarter = 0.25;
@@ -346,7 +365,7 @@ TEST(Screen, MixesWithAllOtherCasters) {
 }
 
 // The fraction counts once, whatever the layers.
-TEST(Screen, OfFractionalOpacityMultiplies) {
+TEST_P(Screened, OfFractionalOpacityMultiplies) {
   Scene scene;
   scene.add({"receiver", level(0, 0, 0, 1, 1)});
   scene.add(
@@ -358,7 +377,68 @@ TEST(Screen, OfFractionalOpacityMultiplies) {
   }
 }
 
-TEST(Screen, WithAScheduleIsKeptApart) {
+// Of every kind, on polygons of every kind, some of them through the receiver's plane.
+TEST(CountedScreens, AreAsDrawn) {
+  Perforation const staggered{.hole = Hole::Round, .size = 0.12, .pitch = 0.17};
+  Perforation const slots{.hole = Hole::Slotted,
+                          .arrangement = Arrangement::Straight,
+                          .size = 0.05,
+                          .length = 0.3,
+                          .pitch = 0.4,
+                          .row_pitch = 0.1};
+  Perforation const squares{
+      .hole = Hole::Square, .arrangement = Arrangement::Straight, .size = 0.06, .pitch = 0.1};
+  Perforation const hexagons{.hole = Hole::Hexagonal, .size = 0.03, .pitch = 0.04};
+  constexpr std::size_t side = 300;
+  std::vector<float> ramp(side * side);
+  for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = static_cast<float>(i % side) / side;
+  std::vector<Screen> screens;
+  for (auto const& perforation : {staggered, slots, squares, hexagons}) {
+    HolePattern const holes(perforation);
+    for (auto const detail :
+         {ScreenDetail::automatic, ScreenDetail::holes, ScreenDetail::effective}) {
+      screens.push_back(sheet_of(holes, 20 * mm, detail));
+    }
+    screens.push_back(
+        std::make_shared<PerforatedScreen const>(holes, Sheet{50 * mm, SheetPlane::outside, 5}));
+    screens.push_back(sheet_of(OpacityTile(holes, 5 * mm), 15 * mm));
+  }
+  for (auto const detail : {ScreenDetail::automatic, ScreenDetail::effective}) {
+    screens.push_back(sheet_of(OpacityTile(2, 2, 300, 300, ramp), 30 * mm, detail));
+    screens.push_back(sheet_of(OpacityTile(2, 2, 300, 300, ramp, std::nullopt), 10 * mm, detail));
+  }
+  double sum = 0.0;
+  double worst = 0.0;
+  constexpr std::uint32_t scenes = 64;
+  for (std::uint32_t seed = 1; seed <= scenes; ++seed) {
+    RandomScene const random = random_scene(seed);
+    Scene scene;
+    for (SurfaceId id = 0; id < random.scene.size(); ++id) {
+      Surface surface = random.scene[id];
+      if (id % 4 != 0) surface.screen = screens[(seed + 5 * id) % screens.size()];
+      if (id % 4 == 2) surface.deployment = 0;
+      scene.add(surface);
+    }
+    double const whole =
+        area(scene[0].polygon) * glm::dot(normal(scene[0].polygon), to_vector(random.sun));
+    double lit[2];
+    for (PlainViews const how : {PlainViews::drawn, PlainViews::counted}) {
+      Renderer renderer = renderer_of(scene, 256, how);
+      renderer.set_deployments({0.7});
+      lit[how == PlainViews::counted ? 1 : 0] =
+          sunlit(renderer, random.sun, 0).projected_area / whole;
+    }
+    double const difference = std::abs(lit[1] - lit[0]);
+    EXPECT_LE(difference, 2e-4) << seed;
+    sum += difference;
+    worst = std::max(worst, difference);
+  }
+  std::printf("counted and drawn differ by %.1e in the mean, %.1e at most\n", sum / scenes, worst);
+  EXPECT_LE(sum / scenes, 3e-5);
+  EXPECT_GT(worst, 0.0);  // they are two
+}
+
+TEST_P(Screened, WithAScheduleIsKeptApart) {
   Mixed mixed;
   Surface scheduled = screened("screen", mixed.sheet(0.3), sheet_of(mixed.holes, 1 * mm));
   scheduled.schedule = 0;
@@ -371,7 +451,7 @@ TEST(Screen, WithAScheduleIsKeptApart) {
   EXPECT_NEAR(got.at(std::vector<double>{0.2}) / whole, 0.05, 3e-4);
 }
 
-TEST(Screen, ThatSlidesAwayLetsTheRestPass) {
+TEST_P(Screened, ThatSlidesAwayLetsTheRestPass) {
   Mixed mixed;
   Surface sliding = screened("screen", mixed.sheet(0.3), sheet_of(mixed.holes, 1 * mm));
   sliding.deployment = 1;
@@ -384,7 +464,7 @@ TEST(Screen, ThatSlidesAwayLetsTheRestPass) {
   }
 }
 
-TEST(Screen, ShadesWhatLiesBehindAWindow) {
+TEST_P(Screened, ShadesWhatLiesBehindAWindow) {
   Room room;
   std::vector<SurfaceId> const inside = room.surfaces;
   Renderer bare = renderer_of(room.scene, 1024);
@@ -402,7 +482,7 @@ TEST(Screen, ShadesWhatLiesBehindAWindow) {
   }
 }
 
-TEST(Screen, ShowsItsHolesInThePicture) {
+TEST_P(Screened, ShowsItsHolesInThePicture) {
   Scene scene;
   scene.add({"receiver", level(0, 0, 0, 1, 1)});
   HolePattern const holes = square_holes(0.25, 0.5);

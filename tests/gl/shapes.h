@@ -33,9 +33,11 @@ inline Sunlit sunlit(Renderer& renderer, SunDirection sun, SurfaceId receiver) {
   return renderer.projected_sunlit_areas(sun, std::span<SurfaceId const>(&receiver, 1)).front();
 }
 
-inline Renderer renderer_of(Scene scene, int resolution = 512) {
+inline Renderer renderer_of(Scene scene, int resolution = 512,
+                            PlainViews views = PlainViews::automatic) {
   RendererOptions options;
   options.resolution = resolution;
+  options.plain_views = views;
   return Renderer(std::move(scene), options);
 }
 

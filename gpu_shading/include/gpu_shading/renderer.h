@@ -22,7 +22,7 @@ enum class LuminanceSum {
   readback,   // on the CPU
 };
 
-// How views are answered whose casters are opaque or transmit, without schedules or holes; and
+// How views are answered whose casters are opaque, transmit or are screens, without schedules; and
 // those through windows that have opaque casters alone.
 enum class PlainViews {
   automatic,  // counted in software, where that is the faster by far; drawn on a GPU
@@ -125,9 +125,9 @@ struct Image {
 //
 // In software, plain views (PlainViews) are not drawn but counted on the CPU, by the same rule and
 // on the same lattice: a bit a pixel, and a luminance of 32 bits where something transmits, convex
-// pieces row by row, on all cores. OpenGL rounds corners to parts of a pixel first, so that the two
-// differ where shadows' edges meet the middles of pixels: by 1e-5 in the mean of random scenes at
-// 512 pixels.
+// pieces row by row, screens ray by ray, on all cores. OpenGL rounds corners to parts of a pixel
+// first, so that the two differ where shadows' edges meet the middles of pixels: by 1e-5 in the
+// mean of random scenes at 512 pixels.
 //
 // Views are drawn many at once, each to a layer of its own of an array of textures, so that a view
 // has the same pixels whatever it is drawn with: answers do not depend on what else is asked. The
