@@ -1,8 +1,12 @@
 """Runs the variants of a large model for a year and prints what they admit, as Markdown."""
 
 import argparse
+import json
 import re
+import shutil
+import subprocess
 import sys
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -59,11 +63,45 @@ def cells_of(study, run):
     return [*values, f"{run.wall:.1f}", f"{did.seconds:.1f}", f"{did.receivers:,}", f"{did.casters:,}"]
 
 
-def run_variant(study, variant, folder, arguments):
+def write_model(study, variant, folder, arguments):
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{study.name}.idf"
     path.write_text("".join(study.model_of(variant, arguments.small)))
     study.write_files(variant, arguments.small, folder)
+    return path
+
+
+def take_samples(study, variant, mode, folder, arguments):
+    """Wall seconds of the samples of a detail, and how many directions they are."""
+    path = write_model(study, variant, folder, arguments)
+    shutil.rmtree(folder / mode, ignore_errors=True)  # samples that are there are not taken again
+    command = [energyplus.patched_prefix() / "gpu_shading", "sample", path.resolve(),
+               "-w", energyplus.find_weather(arguments.weather), "-o", folder / mode, "--mode", mode,
+               f"--gpu-shading-device={arguments.device}"]  # fmt: skip
+    began = time.monotonic()
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=arguments.timeout)
+    except subprocess.TimeoutExpired:
+        sys.exit(f"{variant}, {mode}: not done in {arguments.timeout} s")
+    seconds = time.monotonic() - began
+    if done.returncode != 0:
+        sys.exit(f"{variant}, {mode}: {done.stderr.strip()}")
+    return seconds, json.loads((folder / mode / "samples.json").read_text())["directions"]
+
+
+def print_samples(study, arguments):
+    header = [study.name.replace("_", " "), *(f"{mode}, s (directions)" for mode in arguments.samples)]
+    print(f"| {' | '.join(header)} |")
+    print(f"|---|{'---:|' * len(arguments.samples)}")
+    for number, (words, variant) in enumerate(study.variants.items()):
+        taken = [take_samples(study, variant, mode, arguments.output / str(number), arguments)
+                 for mode in arguments.samples]  # fmt: skip
+        cells = [f"{seconds:.1f} ({directions})" for seconds, directions in taken]
+        print(f"| {' | '.join([words, *cells])} |", flush=True)
+
+
+def run_variant(study, variant, folder, arguments):
+    path = write_model(study, variant, folder, arguments)
     options = ["--gpu-shading", f"--gpu-shading-device={arguments.device}",
                f"--gpu-shading-update={arguments.update}"]
     return energyplus.run(energyplus.patched_prefix() / "energyplus", path,
@@ -71,16 +109,7 @@ def run_variant(study, variant, folder, arguments):
                           timeout=arguments.timeout)  # fmt: skip
 
 
-def main(study):
-    parser = argparse.ArgumentParser(description="Runs each variant for a year and prints a table.")
-    parser.add_argument("-o", "--output", type=Path, default=Path("out") / study.name, metavar="DIR",
-                        help="for the runs (default: %(default)s)")  # fmt: skip
-    parser.add_argument("-w", "--weather", default=study.weather, metavar="EPW", help="(default: %(default)s)")
-    parser.add_argument("--device", default="auto", metavar="NAME", help="as --gpu-shading-device (default: auto)")
-    parser.add_argument("--update", default="idf", metavar="HOW", help="as --gpu-shading-update (default: idf)")
-    parser.add_argument("--timeout", type=float, metavar="SECONDS", help="limit for one run (default: none)")
-    parser.add_argument("--small", action="store_true", help="the small model of the same kind")
-    arguments = parser.parse_args()
+def print_years(study, arguments):
     header = [study.name.replace("_", " "), "all kWh", *study.groups, *OF_RUN]
     print(f"| {' | '.join(header)} |")
     print(f"|---|{'---:|' * (len(header) - 1)}")
@@ -90,3 +119,21 @@ def main(study):
             sys.exit(f"{words}: {run.why()}")
         print(f"| {' | '.join([words, *cells_of(study, run)])} |", flush=True)
         print(f"{words}: {run.device}", file=sys.stderr, flush=True)
+
+
+def main(study):
+    parser = argparse.ArgumentParser(description="Runs each variant for a year and prints a table.")
+    parser.add_argument("-o", "--output", type=Path, default=Path("out") / study.name, metavar="DIR",
+                        help="for the runs (default: %(default)s)")  # fmt: skip
+    parser.add_argument("-w", "--weather", default=study.weather, metavar="EPW", help="(default: %(default)s)")
+    parser.add_argument("--device", default="auto", metavar="NAME", help="as --gpu-shading-device (default: auto)")
+    parser.add_argument("--update", default="idf", metavar="HOW", help="as --gpu-shading-update (default: idf)")
+    parser.add_argument("--samples", nargs="+", metavar="DETAIL",
+                        help="seconds of fine, medium or coarse samples, in place of years")  # fmt: skip
+    parser.add_argument("--timeout", type=float, metavar="SECONDS", help="limit for one run (default: none)")
+    parser.add_argument("--small", action="store_true", help="the small model of the same kind")
+    arguments = parser.parse_args()
+    if arguments.samples:
+        print_samples(study, arguments)
+    else:
+        print_years(study, arguments)

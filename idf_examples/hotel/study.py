@@ -2,6 +2,7 @@
 """Runs the hotel under each of its shells for a year and prints the sun in it, as Markdown.
 
     study.py [--small] [--device NAME] [-w EPW] [--timeout SECONDS] [-o DIR]
+    study.py --samples fine medium coarse ...          # what samples take, in place of years
 """
 
 import sys

@@ -218,3 +218,17 @@ def test_triple_glass_admits_less(ran):
         # No sheet of three lets through less than a third of what one does before the sun stands along it.
         assert beam(triple, rooms) > 0.3 * beam(single, rooms)
         assert beam(upright, rooms) != pytest.approx(beam(single, rooms), rel=1e-3)
+
+
+def test_study_times_samples_of_every_variant(tmp_path, patched):
+    command = [sys.executable, EXAMPLES / "academic_building" / "study.py", "--small", "--samples", "coarse",
+               "--device", "software", "-o", tmp_path]  # fmt: skip
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    rows = re.findall(r"^\| (.+) \| ([\d.]+) \((\d+)\) \|$", done.stdout, re.MULTILINE)
+    assert [name for name, *_ in rows] == ["holes of 6.35 mm", "holes of 25.4 mm", "gradient"]
+    for number, (_, seconds, directions) in enumerate(rows):
+        assert float(seconds) > 0
+        samples = (tmp_path / str(number) / "coarse" / "samples.csv").read_text().splitlines()[1:]
+        assert len({tuple(line.split(",")[1:3]) for line in samples}) <= int(directions)
+        assert samples
