@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -9,6 +8,8 @@
 #include <vector>
 
 #include "gpu_shading/perforated_screen.h"
+#include "render/image_rays.h"
+#include "render/pattern_rays.h"
 #include "render/screen_view.h"
 
 namespace gpu_shading {
@@ -17,8 +18,8 @@ namespace gpu_shading {
 // screen.frag, in which the terms are explained.
 class SheetRays {
  public:
-  // `regions`: as the sheet's numbers are. `pixel`: the size of pixels in the sheet's plane, m. The
-  // screen and the regions must outlive it.
+  // `regions`: as the sheet's numbers are. `pixel`: the size of pixels in the sheet's plane, m. All
+  // must outlive it.
   SheetRays(PerforatedScreen const& screen, SheetBlock const& sheet,
             std::span<glm::vec4 const> regions, double pixel);
 
@@ -28,8 +29,8 @@ class SheetRays {
   // Of the way from face to face of rays that pass the inside face at `first` and at equal steps
   // from there, m in the sheet's plane; of those whose bit is set in `wanted`, the lowest bit
   // first.
-  static constexpr int most_ways = 64;
-  using Ways = std::array<float, most_ways>;
+  static constexpr int most_ways = PatternRays::most;
+  using Ways = PatternRays::Ways;
   void whole_ways(glm::dvec2 const& first, glm::dvec2 const& step, std::uint64_t wanted,
                   Ways& passed) const;
 
@@ -37,29 +38,20 @@ class SheetRays {
   float part_of_way(glm::dvec2 const& place, double begin, double end) const;
 
  private:
-  // In the same hole of the pattern at both ends of a way; rays as for whole_ways.
-  void through_pattern(glm::dvec2 const& first, glm::dvec2 const& step, glm::dvec2 const& ray,
-                       Ways& passed) const;
-  bool in_hole(glm::dvec2 const& from_centre) const;
-  std::optional<glm::dvec2> from_centre_of_hole(glm::dvec2 const& place) const;
-  // Places in an image are in texels, from 0 up to its columns and rows.
-  glm::dvec2 in_image(glm::dvec2 const& place) const;
-  float opacity(glm::dvec2 const& texel) const;
-  float solid(float opacity) const;
+  bool is_whole(double begin, double end) const { return begin <= 0.0 && end >= 1.0; }
   float solid_at(glm::dvec2 const& place) const;
-  float through_all_layers(glm::dvec2 const& place) const;
   float through_layers(glm::dvec2 const& place, double begin, double end) const;
   float through_holes(glm::dvec2 const& place, double begin, double end) const;
   float through_effective(glm::dvec2 const& place, double begin, double end) const;
 
   SheetBlock const& sheet_;
-  OpacityTile const* image_;  // none of a pattern
   std::span<glm::vec4 const> regions_;
   glm::dvec2 ray_;
   glm::dvec2 tile_;
-  float blend_;                     // share of the effect, 0 .. 1; the rest is holes
-  glm::dvec2 size_{0.0};            // of the image, texels
-  std::vector<glm::dvec2> layers_;  // from a ray's place at the inside face, in the image
+  float blend_;                 // share of the effect, 0 .. 1; the rest is holes
+  std::vector<double> depths_;  // of layers
+  std::optional<PatternRays> pattern_;
+  std::optional<ImageRays> image_;  // where there is no pattern
 };
 
 }  // namespace gpu_shading
