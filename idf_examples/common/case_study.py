@@ -46,18 +46,18 @@ def rendered(run):
     return Rendered(int(found[1]), int(found[2]), float(found[3]))
 
 
-def admitted(folder, group_of):
-    """{group: solar radiation through its windows in kWh}."""
-    sums = {}
-    for window, energy in results.energies(folder, results.SOLAR).items():
-        sums[group_of(window)] = sums.get(group_of(window), 0.0) + energy
-    return sums
+def admitted(study, run, variable):
+    """kWh through all windows, then through those of each group."""
+    energies = results.energies(run.folder, variable)
+    sums = dict.fromkeys(study.groups, 0.0)
+    for window, energy in energies.items():
+        sums[study.group_of(window)] += energy
+    return [sum(energies.values()), *sums.values()]
 
 
 def cells_of(study, run):
-    sums = admitted(run.folder, study.group_of)
     did = rendered(run)
-    values = [f"{sum(sums.values()):,.0f}", *(f"{sums.get(group, 0.0):,.0f}" for group in study.groups)]
+    values = [f"{energy:,.0f}" for energy in admitted(study, run, results.SOLAR)]
     values += [f"{sum(results.energies(run.folder, variable).values()):,.0f}"
                for variable in (results.IDEAL_HEATING, results.IDEAL_COOLING)]  # fmt: skip
     return [*values, f"{run.wall:.1f}", f"{did.seconds:.1f}", f"{did.receivers:,}", f"{did.casters:,}"]
@@ -109,16 +109,39 @@ def run_variant(study, variant, folder, arguments):
                           timeout=arguments.timeout)  # fmt: skip
 
 
+def change(value, before):
+    return f"{100 * (value / before - 1):+.1f} %" if before > 0 else "-"
+
+
+def print_changes(study, runs):
+    """Each variant against the first."""
+    names = list(study.variants)
+    print(f"\nAgainst {names[0]}, in brackets of the beam alone:\n")
+    print(f"| {' | '.join([study.name.replace('_', ' '), 'all', *study.groups])} |")
+    print(f"|---|{'---:|' * (len(study.groups) + 1)}")
+
+    def changes(variable):
+        first, *others = [admitted(study, run, variable) for run in runs]
+        return [[change(value, before) for value, before in zip(sums, first, strict=True)] for sums in others]
+
+    for words, solar, beam in zip(names[1:], changes(results.SOLAR), changes(results.BEAM), strict=True):
+        cells = [f"{both} ({alone})" for both, alone in zip(solar, beam, strict=True)]
+        print(f"| {' | '.join([words, *cells])} |")
+
+
 def print_years(study, arguments):
     header = [study.name.replace("_", " "), "all kWh", *study.groups, *OF_RUN]
     print(f"| {' | '.join(header)} |")
     print(f"|---|{'---:|' * (len(header) - 1)}")
+    runs = []
     for number, (words, variant) in enumerate(study.variants.items()):
         run = run_variant(study, variant, arguments.output / str(number), arguments)
         if not run.completed or run.severe:
             sys.exit(f"{words}: {run.why()}")
         print(f"| {' | '.join([words, *cells_of(study, run)])} |", flush=True)
         print(f"{words}: {run.device}", file=sys.stderr, flush=True)
+        runs.append(run)
+    print_changes(study, runs)
 
 
 def main(study):
