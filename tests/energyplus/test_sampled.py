@@ -1,5 +1,6 @@
 """Sampled sun positions: whole runs against rendering every timestep, and our sun against EnergyPlus's."""
 
+import csv
 import datetime
 import math
 import os
@@ -7,7 +8,9 @@ import sqlite3
 import subprocess
 
 import pytest
+from eso_file import EsoFile
 from shading_runs import energyplus, input_file, results
+from shading_runs.weather import move
 
 LATITUDES = (0.0, 42.0, 66.5, 80.0, -35.0)
 LONGITUDE, ZONE = -105.18, -7.0  # of the weather file
@@ -17,17 +20,8 @@ NORTH_AXIS = (1, "north_axis")
 
 @pytest.fixture
 def weather_at(weather, tmp_path):
-    """The weather file moved to another latitude; EnergyPlus takes the sun's positions from there."""
-
-    def call(latitude):
-        first, rest = weather.read_text(encoding="latin-1").split("\n", 1)
-        fields = first.split(",")
-        fields[6] = f"{latitude:.2f}"
-        path = tmp_path / f"at{latitude}.epw"
-        path.write_text(",".join(fields) + "\n" + rest, encoding="latin-1")
-        return path
-
-    return call
+    """The weather file moved to another latitude."""
+    return lambda latitude: move(weather, latitude, tmp_path)
 
 
 def of_days(text, days):
@@ -81,6 +75,44 @@ def test_turned_building_and_the_papers_grid(shade, weather_at, courtyard):
                    for name in ("medium", "paper-medium"))
     assert ours < 5e-3
     assert ours < paper / 3
+
+
+def test_compare_sampling_says_what_its_runs_reported(patched, weather, box, tmp_path):
+    """Its table against the reports that it does not read."""
+    of_days(box, [(6, 18)]).write(tmp_path / "box.idf")
+    subprocess.run([energyplus.REPOSITORY / "scripts" / "compare_sampling", tmp_path / "box.idf", "-w", weather,
+                    "--latitudes", "30", "--updates", "coarse", "-o", tmp_path / "out",
+                    "--", "--gpu-shading-resolution=128"], check=True, capture_output=True, text=True)
+    exact, sampled = (EsoFile(tmp_path / "out" / "box_at_30" / folder / "eplusout.eso", "TimeStep").values
+                      for folder in ("exact", "coarse"))
+    errors, suns = {}, set()
+    for (variable, name), fractions in exact.items():
+        if variable == results.SUNLIT and "LOUVRE" not in name:
+            facing = [when for when, cosine in exact[results.COSINE, name].items() if cosine > results.FACING]
+            if any(fractions[when] < 0.999 for when in facing):
+                suns.update(facing)
+                errors[name] = [abs(sampled[variable, name][when] - fractions[when]) for when in facing]
+    assert errors
+    all_errors = sum(errors.values(), [])
+    ((_, window),) = [place for place in exact if place[0] == results.BEAM]
+    beam = [sum(values[results.BEAM, window].values()) for values in (exact, sampled)]
+    beam_error = 100 * (beam[1] / beam[0] - 1)
+
+    row = [each.strip() for each in (tmp_path / "out" / "compare_sampling.md").read_text().splitlines()[-1].split("|")]
+    assert row[1:4] == ["box at 30", "coarse", str(len(errors))]
+    assert float(row[4]) == pytest.approx(sum(all_errors) / len(all_errors), rel=0.05)
+    assert float(row[5]) == pytest.approx(max(sum(each) / len(each) for each in errors.values()), rel=0.05)
+    assert float(row[6]) == pytest.approx(max(all_errors), abs=0.006)
+    assert float(row[7]) == float(row[8]) == pytest.approx(beam_error, abs=0.006)
+    assert row[9] == "238"
+    assert float(row[10]) == pytest.approx(100 * 238 / len(suns), rel=1e-3)
+    with open(tmp_path / "out" / "receivers.csv", newline="", encoding="utf-8") as file:
+        of_receivers = {row["receiver"]: row for row in csv.DictReader(file)}
+    assert set(of_receivers) == set(errors)
+    assert float(of_receivers[window]["beam %"]) == pytest.approx(beam_error, abs=1e-3)
+    for name, each in errors.items():
+        assert float(of_receivers[name]["mean"]) == pytest.approx(sum(each) / len(each), abs=2e-6)
+        assert float(of_receivers[name]["max"]) == pytest.approx(max(each), abs=2e-6)
 
 
 def vector(azimuth, altitude):
