@@ -1,17 +1,20 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "solar/disagreement.h"
 #include "solar/interpolant.h"
+#include "solar/radial_spline.h"
 #include "solar/sunlit_table.h"
-#include "solar/thin_plate.h"
 
 namespace gpu_shading {
 
-// Thin-plate splines through a table, one fit for all receivers that the sun faces at the same
-// samples.
+// Splines through a table, over where shadows fall on a receiver's plane or over the sun's
+// direction: for each column over that which tells its samples better from one another, shadows
+// where neither does. One fit for all receivers that look the same way.
 class SunlitSplines : public Interpolant {
  public:
   explicit SunlitSplines(SunlitTable const& table);
@@ -22,12 +25,15 @@ class SunlitSplines : public Interpolant {
 
  private:
   struct Group {
+    std::optional<glm::dvec3> normal;  // over where shadows fall on it; none: over directions
     std::vector<std::size_t> samples;
     std::vector<std::size_t> columns;
-    ThinPlate splines;
-    Eigen::MatrixXd values;
     Eigen::MatrixXd fitted;
+    Eigen::MatrixXd missed;  // by sample and column
+    RadialSpline splines;
   };
+
+  void add_better(SunlitTable const& table, std::vector<std::size_t> const& columns);
 
   std::size_t columns_;
   std::vector<Group> groups_;

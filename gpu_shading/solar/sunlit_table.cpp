@@ -4,12 +4,6 @@
 #include <glm/geometric.hpp>
 
 namespace gpu_shading {
-namespace {
-
-// Below a tenth of a degree above its plane a receiver's fraction is a quotient of two nothings.
-constexpr double least_cosine = 0.002;
-
-}  // namespace
 
 SunlitTable::SunlitTable(std::vector<glm::dvec3> receivers) {
   lit_.resize(receivers.size());

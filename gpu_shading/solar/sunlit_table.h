@@ -13,6 +13,9 @@
 
 namespace gpu_shading {
 
+// Below a tenth of a degree above its plane a receiver's fraction is a quotient of two nothings.
+constexpr double least_cosine = 0.002;
+
 // Sunlit fractions at sampled directions, in columns: for each receiver one of what passes
 // unscheduled shades alone, and one for each combination of scheduled ones that was met.
 class SunlitTable {
@@ -30,6 +33,9 @@ class SunlitTable {
   std::vector<glm::dvec3> const& towards_sun() const { return towards_sun_; }
   std::vector<Column> const& columns() const { return columns_; }
   std::size_t receivers() const { return receivers_.size(); }
+
+  // Unit vector; zero where the area is.
+  glm::dvec3 const& normal(std::size_t receiver) const { return receivers_[receiver].normal; }
 
   // Whether a fraction can be told from a rendering.
   bool faces(std::size_t receiver, glm::dvec3 const& sun) const;

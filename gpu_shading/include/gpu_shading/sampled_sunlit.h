@@ -71,12 +71,13 @@ class SampleRounds {
 // schedules and any weather.
 //
 // What is interpolated is the sunlit fraction, without the cosine of incidence, of each receiver
-// and of each combination of scheduled shades: by thin-plate splines (Duchon 1977) through the
+// and of each combination of scheduled shades: by radial splines (Duchon 1977) through the
 // directions at which the sun faces the receiver, so that nothing is pieced together at sunrise, at
-// midnight in polar day, or where the sun turns away. Six tenths of the directions lie on arcs of
-// equal declination, every other arc half a step on; the others go where a spline through all the
-// other samples misses a sample most (leave-one-out, over all receivers), in three rounds.
-// Fractions are held within 0 .. 1, and so are their sums.
+// midnight in polar day, or where the sun turns away. Over where shadows fall on the receiver's
+// plane or over the direction, whichever tells a sample better from all the others (leave-one-out).
+// Six tenths of the directions lie on arcs of equal declination, every other arc half a step on;
+// the others go where all the other samples miss a sample most, over all receivers, in three
+// rounds. Fractions are held within 0 .. 1, and so are their sums.
 //
 // The paper's grid instead has cubic B-splines along the azimuth and then across the days.
 class SampledSunlit {

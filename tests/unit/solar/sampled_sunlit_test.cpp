@@ -224,18 +224,10 @@ TEST(SampledSunlit, TellsTheSunsDirectionsFromOthers) {
   EXPECT_TRUE(in_suns_range({1.0, 20 * degree}, 90 * degree));
 }
 
-struct Place {
-  double latitude;
-  // Of the louvres, which are dense and have no ends: their largest mean error, more where a window
-  // hardly sees the sun, and the part of the paper's grid's.
-  double louvres;
-  double of_paper;
-};
-
-class ClosedForms : public testing::TestWithParam<Place> {};
+class ClosedForms : public testing::TestWithParam<double> {};
 
 TEST_P(ClosedForms, MediumIsWithinWhatIsWantedAndAThirdOfThePapersGrid) {
-  double const latitude = GetParam().latitude * degree;
+  double const latitude = GetParam() * degree;
   auto const suns = year_of_suns(latitude, 14);
   for (auto const& scene : scenes()) {
     auto const errors = [&](bool paper) {
@@ -244,18 +236,15 @@ TEST_P(ClosedForms, MediumIsWithinWhatIsWantedAndAThirdOfThePapersGrid) {
                        scene.windows, suns);
     };
     auto const ours = errors(false);
-    bool const louvres = scene.name == "louvres";
-    EXPECT_LT(ours.mean, louvres ? GetParam().louvres : scene.wanted_mean) << scene.name;
-    EXPECT_LT(ours.mean, errors(true).mean * (louvres ? GetParam().of_paper : 1.0 / 3.0))
-        << scene.name;
+    EXPECT_LT(ours.mean, scene.wanted_mean) << scene.name;
+    // Missed where louvres leave a twelfth of the beam: behind those to the north at 35 S.
+    bool const missed = scene.name == "louvres" && GetParam() == -35.0;
+    EXPECT_LT(ours.beam, missed ? 3.5e-2 : scene.wanted_beam) << scene.name;
+    EXPECT_LT(ours.mean, errors(true).mean / 3.0) << scene.name;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Latitudes, ClosedForms,
-                         testing::Values(Place{0.0, 1.8e-2, 1.0 / 3.0},
-                                         Place{42.0, 1.5e-2, 1.0 / 3.0},
-                                         Place{66.5, 1.5e-2, 1.0 / 3.0}, Place{80.0, 1.5e-2, 0.45},
-                                         Place{-35.0, 2.5e-2, 1.0 / 3.0}));
+INSTANTIATE_TEST_SUITE_P(Latitudes, ClosedForms, testing::Values(0.0, 42.0, 66.5, 80.0, -35.0));
 
 TEST(PaperGrid, IsPoorAsItWasFound) {
   // Mean errors at 42 N, windows to the south: 0.0096 (overhang and fin), 0.019 (a neighbour),

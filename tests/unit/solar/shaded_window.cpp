@@ -87,10 +87,10 @@ std::vector<Scene> make_scenes() {
   for (int i = 0; i < 20; ++i) {
     slats.push_back(Rectangle{0.6, 0.3 * i - 1.5, 0.3 * i - 1.35, -0.5, 2.5});
   }
-  std::vector<Scene> made{{"overhang and fins", 5e-3, {}},
-                          {"neighbour", 5e-3, {}},
-                          {"louvres", 1.5e-2, {}},
-                          {"slats", 1.5e-2, {}}};
+  std::vector<Scene> made{{"overhang and fins", 5e-3, 5e-3, {}},
+                          {"neighbour", 5e-3, 5e-3, {}},
+                          {"louvres", 1.5e-2, 2e-2, {}},
+                          {"slats", 1.5e-2, 2e-2, {}}};
   for (double const azimuth : {180.0, 250.0, 90.0, 0.0}) {
     made[0].windows.push_back({3.0, 2.0, azimuth * degree, overhang_and_fins});
     made[1].windows.push_back({3.0, 2.0, azimuth * degree, neighbour});

@@ -57,6 +57,7 @@ struct Window {
 struct Scene {
   std::string name;
   double wanted_mean;  // largest mean error of the sunlit fraction at medium density
+  double wanted_beam;  // and of the beam
   std::vector<Window> windows;
 };
 

@@ -1,0 +1,85 @@
+#include "solar/radial_spline.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "gpu_shading/sun_direction.h"
+#include "solar/shadow_fall.h"
+
+namespace gpu_shading {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+std::vector<glm::dvec3> places(std::size_t count) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> within(-2.0, 2.0);
+  std::vector<glm::dvec3> made;
+  for (std::size_t i = 0; i < count; ++i) {
+    double const x = within(random);
+    double const y = within(random);
+    made.emplace_back(x, y, within(random));
+  }
+  return made;
+}
+
+MatrixXd values_at(std::vector<glm::dvec3> const& nodes) {
+  MatrixXd values(static_cast<Index>(nodes.size()), 2);
+  for (Index i = 0; i < values.rows(); ++i) {
+    auto const& node = nodes[static_cast<std::size_t>(i)];
+    values.row(i) << std::sin(node.x) * node.y + node.z, 0.7;
+  }
+  return values;
+}
+
+TEST(RadialSpline, GoesThroughItsNodesAndKeepsConstants) {
+  for (std::size_t const count : {1U, 2U, 40U}) {
+    auto const nodes = places(count);
+    auto const values = values_at(nodes);
+    RadialSpline const spline(nodes);
+    auto const fitted = spline.fit(values);
+    for (Index i = 0; i < values.rows(); ++i) {
+      Eigen::VectorXd const got = spline.at(nodes[static_cast<std::size_t>(i)], fitted);
+      EXPECT_NEAR(got(0), values(i, 0), 1e-10);
+    }
+    EXPECT_NEAR(spline.at({9.0, -5.0, 1.0}, fitted)(1), 0.7, 1e-9);
+  }
+}
+
+TEST(RadialSpline, SaysWhatItWouldMissWithoutANode) {
+  for (std::size_t const count : {2U, 40U}) {
+    auto const nodes = places(count);
+    auto const values = values_at(nodes);
+    MatrixXd const misses = RadialSpline(nodes).leave_one_out(values);
+    for (std::size_t i = 0; i < count; ++i) {
+      auto others = nodes;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+      RadialSpline const without(others);
+      double const got = without.at(nodes[i], without.fit(values_at(others)))(0);
+      auto const row = static_cast<Index>(i);
+      EXPECT_NEAR(misses(row, 0), values(row, 0) - got, 1e-9);
+    }
+  }
+}
+
+TEST(ShadowFall, IsWhereTheRayThroughAPointMeetsThePlane) {
+  constexpr double degree = 3.14159265358979323846 / 180.0;
+  // Facing south, sun in the south-east: the shadow falls to the west and down.
+  double const altitude = 35 * degree;
+  glm::dvec2 const fall = shadow_fall({0, -1, 0}, to_vector(SunDirection{150 * degree, altitude}));
+  EXPECT_NEAR(std::abs(std::sinh(fall.x)), std::tan(30 * degree), 1e-12);
+  EXPECT_NEAR(std::abs(std::sinh(fall.y)), std::tan(altitude) / std::cos(30 * degree), 1e-12);
+  // A roof's shadows point away from the sun, as long as its altitude tells.
+  glm::dvec2 const flat = shadow_fall({0, 0, 1}, to_vector(SunDirection{210 * degree, altitude}));
+  EXPECT_NEAR(std::hypot(std::sinh(flat.x), std::sinh(flat.y)), 1.0 / std::tan(altitude), 1e-12);
+  EXPECT_NEAR(std::abs(std::sinh(flat.x) / std::sinh(flat.y)), std::tan(30 * degree), 1e-12);
+  // In the plane, and behind it, there is an answer all the same.
+  glm::dvec2 const behind = shadow_fall({0, -1, 0}, to_vector(SunDirection{1.0, 0.2}));
+  EXPECT_TRUE(std::isfinite(behind.x) && std::isfinite(behind.y));
+}
+
+}  // namespace
+}  // namespace gpu_shading
