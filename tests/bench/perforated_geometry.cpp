@@ -67,10 +67,12 @@ class SheetModel {
     glm::dvec2 const high = centre + half_;
     if (low.x > 0.0 && low.y > 0.0 && high.x < 1.0 && high.y < 1.0) {
       add_faces({low, {high.x, low.y}, high, {low.x, high.y}}, hole);
-      for (int i = 0; i < sides; ++i) add_wall(hole[i], hole[(i + 1) % sides]);
+      for (std::size_t i = 0; i < sides; ++i) add_wall(hole[i], hole[(i + 1) % sides]);
       return;
     }
-    for (int i = 0; i < sides; ++i) add_cut_sector(centre, hole[i], hole[(i + 1) % sides]);
+    for (std::size_t i = 0; i < sides; ++i) {
+      add_cut_sector(centre, hole[i], hole[(i + 1) % sides]);
+    }
   }
 
   // Of a cell over the sheet's edge: from a side of the hole outwards.
