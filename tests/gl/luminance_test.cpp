@@ -163,13 +163,6 @@ TEST(Luminance, OpaqueAndTransparentTogether) {
 }
 
 // The luminance of what lets nothing through against the count of what is opaque.
-Renderer renderer_with(Scene const& scene, PlainViews how, int resolution = 512) {
-  RendererOptions options;
-  options.resolution = resolution;
-  options.plain_views = how;
-  return Renderer(scene, options);
-}
-
 TEST(Luminance, OfOpaqueShadesIsTheirCount) {
   for (PlainViews const how : {PlainViews::drawn, PlainViews::counted}) {
     std::size_t views = 0;
@@ -181,8 +174,8 @@ TEST(Luminance, OfOpaqueShadesIsTheirCount) {
         surface.transmittance = constant(0.0);
         scene.add(surface);
       }
-      Renderer counting = renderer_with(random.scene, how);
-      Renderer summing = renderer_with(scene, how);
+      Renderer counting = renderer_of(random.scene, 512, how);
+      Renderer summing = renderer_of(scene, 512, how);
       Sunlit const counted = sunlit(counting, random.sun, 0);
       Sunlit const summed = sunlit(summing, random.sun, 0);
       EXPECT_NEAR(summed.projected_area, counted.projected_area, 1e-6) << seed;
@@ -205,8 +198,8 @@ TEST(Luminance, CountedIsAsDrawn) {
       if (id % 3 != 0) surface.transmittance = constant(0.5);
       scene.add(surface);
     }
-    Renderer drawing = renderer_with(scene, PlainViews::drawn);
-    Renderer counting = renderer_with(scene, PlainViews::counted);
+    Renderer drawing = renderer_of(scene, 512, PlainViews::drawn);
+    Renderer counting = renderer_of(scene, 512, PlainViews::counted);
     double const whole = area(scene[0].polygon);
     double const difference = sunlit(drawing, random.sun, 0).projected_area -
                               sunlit(counting, random.sun, 0).projected_area;
@@ -349,7 +342,7 @@ TEST(Schedules, ChangedFactorsAgainstAFreshRender) {
          {std::vector<double>{0.3, 9, 9, 9, 0.5, 9, 9, 0.8},
           std::vector<double>{1.0, 9, 9, 9, 1.0, 9, 9, 1.0},
           std::vector<double>{0.0, 9, 9, 9, 0.25, 9, 9, 0.0}}) {
-      Renderer fresh = renderer_with(at_factors(scheduled, factors), PlainViews::drawn);
+      Renderer fresh = renderer_of(at_factors(scheduled, factors), 512, PlainViews::drawn);
       EXPECT_NEAR(kept.at(factors), sunlit(fresh, sun, 0).projected_area, 1e-6);
     }
   }
@@ -366,7 +359,7 @@ TEST(Schedules, MultiplyWithTransmittancesOfTheSameSurfaces) {
     }
   }
   // With every factor 1 it is the view of the same shades without schedules.
-  Renderer unscheduled = renderer_with(stack(5), PlainViews::drawn, 1024);
+  Renderer unscheduled = renderer_of(stack(5), 1024, PlainViews::drawn);
   for (SunDirection const sun : around) {
     EXPECT_NEAR(sunlit(renderer, sun, 0).at(std::vector<double>{1, 1, 1}),
                 sunlit(unscheduled, sun, 0).projected_area, 1e-6);
@@ -469,7 +462,7 @@ TEST(Luminance, InteriorOfOpaqueShadesIsTheirCount) {
     if (id > room.surfaces.back()) surface.transmittance = constant(0.0);
     summed.add(surface);
   }
-  Renderer counting = renderer_with(counted, PlainViews::drawn);
+  Renderer counting = renderer_of(counted, 512, PlainViews::drawn);
   Renderer summing = renderer_of(summed);
   for (SunDirection const sun : {sun_at(180, 45), sun_at(140, 20), sun_at(230, 35)}) {
     auto const a = interior_areas(counting, sun, room.window, room.surfaces);
