@@ -482,7 +482,8 @@ TEST_P(Screened, ShadesWhatLiesBehindAWindow) {
   }
 }
 
-TEST_P(Screened, ShowsItsHolesInThePicture) {
+// Pictures are always drawn.
+TEST(DrawnScreens, ShowTheirHolesInThePicture) {
   Scene scene;
   scene.add({"receiver", level(0, 0, 0, 1, 1)});
   HolePattern const holes = square_holes(0.25, 0.5);
