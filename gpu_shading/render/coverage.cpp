@@ -16,10 +16,6 @@
 namespace gpu_shading {
 namespace {
 
-double at(glm::dvec4 const& row, glm::dvec3 const& p) {
-  return row.x * p.x + row.y * p.y + row.z * p.z + row.w;
-}
-
 // A convex piece as a view has it.
 class Projected {
  public:

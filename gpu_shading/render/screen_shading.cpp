@@ -18,10 +18,6 @@ constexpr std::size_t corners = 4;
 
 double crossed(glm::dvec2 const& a, glm::dvec2 const& b) { return a.x * b.y - a.y * b.x; }
 
-double at(glm::dvec4 const& row, glm::dvec3 const& p) {
-  return glm::dot(glm::dvec3(row), p) + row.w;
-}
-
 // Twice the area of four corners.
 double turn(std::array<glm::dvec2, corners> const& p) { return crossed(p[2] - p[0], p[3] - p[1]); }
 

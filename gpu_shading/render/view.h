@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -36,6 +37,11 @@ struct View {
   glm::dvec4 z{0.0};
   glm::dvec4 cut{0.0, 0.0, 0.0, 1.0};
 };
+
+// What a row gives of a point relative to the view's origin.
+inline double at(glm::dvec4 const& row, glm::dvec3 const& p) {
+  return glm::dot(glm::dvec3(row), p) + row.w;
+}
 
 // What stands in front of the receiver's plane, slid along the sun's rays onto it, at z 0.
 View view_in_front(PlaneFrame const& frame, TileMap const& map, glm::dvec3 const& towards_sun);
