@@ -13,8 +13,6 @@ int first_beyond(double place, int side) {
   return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(side)) + double{middle});
 }
 
-double cross(glm::dvec2 const& a, glm::dvec2 const& b) { return a.x * b.y - a.y * b.x; }
-
 // Through an edge of an area, which is on its left when the corners go anticlockwise.
 void add_limit(ConvexArea& area, std::ptrdiff_t& lefts, std::ptrdiff_t& rights,
                glm::dvec2 const& from, glm::dvec2 const& to, bool anticlockwise) {

@@ -27,6 +27,10 @@ struct ConvexArea {
   std::array<RowLimit, most_limits> right{};
 };
 
+// The area of the parallelogram that two edges span, positive where the second lies anticlockwise
+// of the first.
+inline double cross(glm::dvec2 const& a, glm::dvec2 const& b) { return a.x * b.y - a.y * b.x; }
+
 // Of three or four corners, in pixels of a tile of `side`, either way round.
 ConvexArea area_within(std::span<glm::dvec2 const> corners, int side);
 

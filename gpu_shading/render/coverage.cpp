@@ -38,7 +38,7 @@ class Projected {
   glm::dvec3 depth() const {
     glm::dvec2 const a = corners_[1] - corners_[0];
     glm::dvec2 const b = corners_[2] - corners_[0];
-    double const twice_area = a.x * b.y - a.y * b.x;
+    double const twice_area = cross(a, b);
     double const up_a = depths_[1] - depths_[0];
     double const up_b = depths_[2] - depths_[0];
     glm::dvec2 const slope =

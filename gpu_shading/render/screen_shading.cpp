@@ -16,10 +16,8 @@ namespace {
 
 constexpr std::size_t corners = 4;
 
-double crossed(glm::dvec2 const& a, glm::dvec2 const& b) { return a.x * b.y - a.y * b.x; }
-
 // Twice the area of four corners.
-double turn(std::array<glm::dvec2, corners> const& p) { return crossed(p[2] - p[0], p[3] - p[1]); }
+double turn(std::array<glm::dvec2, corners> const& p) { return cross(p[2] - p[0], p[3] - p[1]); }
 
 // A quadrilateral of a sheet, both of its faces as a view has them.
 struct Faces {
@@ -49,7 +47,7 @@ struct Faces {
     double const hand = turn(inside) < 0.0 ? -1.0 : 1.0;
     for (std::size_t i = 0; i < corners; ++i) {
       std::size_t const next = (i + 1) % corners;
-      if (crossed(inside[next] - inside[i], slide) * hand >= 0.0) continue;
+      if (cross(inside[next] - inside[i], slide) * hand >= 0.0) continue;
       std::array const strip{inside[i], inside[next], outside[next], outside[i]};
       std::array const distances{kept[i], kept[next], kept[next], kept[i]};
       use(area_in_front(strip, distances, side));
@@ -74,7 +72,7 @@ class Part {
     double const hand = turn(part.places) < 0.0 ? -1.0 : 1.0;
     for (std::size_t i = 0; i < corners; ++i) {
       edges_[i] = hand * (part.places[(i + 1) % corners] - part.places[i]);
-      steps_[i] = crossed(edges_[i], ray_);
+      steps_[i] = cross(edges_[i], ray_);
     }
   }
 
@@ -98,7 +96,7 @@ class Part {
   }
   // A ray's distance from an edge at the inside face, times the edge's length; positive within.
   double within(std::size_t edge, glm::dvec2 const& place) const {
-    return crossed(edges_[edge], place - part_.places[edge]);
+    return cross(edges_[edge], place - part_.places[edge]);
   }
   float kept(float passed) const { return 1.0F - in_place_ * (1.0F - passed); }
 
@@ -109,7 +107,7 @@ class Part {
     glm::dvec2 const start = place(row, 0);
     for (std::size_t i = 0; i < corners; ++i) {
       double const spare = within(i, start) - std::max(0.0, -steps_[i]);
-      double const change = crossed(edges_[i], to_place_[0]);
+      double const change = cross(edges_[i], to_place_[0]);
       if (change > 0.0) {
         low = std::max(low, -spare / change);
       } else if (change < 0.0) {
