@@ -38,7 +38,7 @@ std::size_t CountedViews::note_screens(View const& view) {
   if (directions_.empty() || directions_.back().towards_sun != towards_sun) {
     directions_.push_back({towards_sun, 0, {}, {}});
   }
-  double const pixel_area = view.tile->map.pixel_area(view.tile->side) * view.faced.cosine;
+  double const pixel_area = pixel_area_across_beam(view.faced, *view.tile);
   for (int const number : view.screens) {
     Screens::Entry const& screen = transmission_.screens()[number];
     directions_.back().add_screen(

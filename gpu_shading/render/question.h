@@ -27,6 +27,12 @@ struct FacedQuestion {
   PlaneFrame const& frame() const { return *receiver->frame; }
 };
 
+// What a pixel of a tile covers across the beam, m2: of a bounding tile, too, all that is seen
+// through it.
+inline double pixel_area_across_beam(FacedQuestion const& faced, Tile const& tile) {
+  return tile.map.pixel_area(tile.side) * faced.cosine;
+}
+
 // Areas of so many lit pixels, or of luminance summed over them, where the receiver has `pixels` on
 // its tile.
 inline void set_areas(Sunlit& answer, FacedQuestion const& faced, Tile const& tile, double lit,

@@ -134,9 +134,8 @@ void Round::gather_casters(DrawList& list, int layer, Drawn const& drawn,
   if (tables == nullptr) return;
   std::vector<int> const screens = transmission.screens_among(casters);
   if (screens.empty()) return;
-  parts_.geometry.screens().add_to(
-      list, *tables, view, screens,
-      drawn.tile->map.pixel_area(drawn.tile->side) * drawn.faced.cosine);
+  parts_.geometry.screens().add_to(list, *tables, view, screens,
+                                   pixel_area_across_beam(drawn.faced, *drawn.tile));
 }
 
 double Round::reach(Question const& question, PlaneFrame const& frame) {
