@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/processor.h"
+
 namespace gpu_shading {
 namespace {
 
@@ -86,10 +88,7 @@ void find_on_any_processor(ConvexArea const& area, int first_row, int side, RowS
   find_all(area, first_row, side, spans);
 }
 
-FindSpans* fastest() {
-  bool const wide = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
-  return wide ? find_with_avx2 : find_on_any_processor;
-}
+FindSpans* fastest() { return has_avx2() ? find_with_avx2 : find_on_any_processor; }
 #else
 FindSpans* fastest() { return find_on_any_processor; }
 #endif

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "render/processor.h"
+
 namespace gpu_shading {
 namespace {
 
@@ -98,10 +100,7 @@ void find_on_any_processor(Holes const& holes, Rays const& rays, Ways& passed) {
   find_all(holes, rays, passed);
 }
 
-Find* fastest() {
-  bool const wide = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
-  return wide ? find_with_avx2 : find_on_any_processor;
-}
+Find* fastest() { return has_avx2() ? find_with_avx2 : find_on_any_processor; }
 #else
 Find* fastest() { return find_on_any_processor; }
 #endif
