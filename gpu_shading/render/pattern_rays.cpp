@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/common.hpp>
+#include <type_traits>
 
 #include "render/processor.h"
 
@@ -67,25 +68,27 @@ template <int shape, bool staggered>
   }
 }
 
-template <int shape>
-[[gnu::always_inline]] inline void find_of_shape(Holes const& holes, Rays const& rays,
-                                                 Ways& passed) {
-  if (holes.staggered) {
-    find_some<shape, true>(holes, rays, passed);
-  } else {
-    find_some<shape, false>(holes, rays, passed);
+// Calls use(shape, staggered) with what the holes are, as constants of the compiler's.
+template <typename Use>
+[[gnu::always_inline]] inline auto with_kind(Holes const& holes, Use use) {
+  auto const of_shape = [&](auto shape) __attribute__((always_inline)) {
+    return holes.staggered ? use(shape, std::true_type()) : use(shape, std::false_type());
+  };
+  switch (holes.shape) {
+    case square_hole:
+      return of_shape(std::integral_constant<int, square_hole>());
+    case hexagonal_hole:
+      return of_shape(std::integral_constant<int, hexagonal_hole>());
+    default:
+      return of_shape(std::integral_constant<int, round_hole>());
   }
 }
 
 [[gnu::always_inline]] inline void find_all(Holes const& holes, Rays const& rays, Ways& passed) {
-  switch (holes.shape) {
-    case square_hole:
-      return find_of_shape<square_hole>(holes, rays, passed);
-    case hexagonal_hole:
-      return find_of_shape<hexagonal_hole>(holes, rays, passed);
-    default:
-      return find_of_shape<round_hole>(holes, rays, passed);
-  }
+  auto const find = [&](auto shape, auto staggered) __attribute__((always_inline)) {
+    find_some<shape, staggered>(holes, rays, passed);
+  };
+  with_kind(holes, find);
 }
 
 using Find = void(Holes const& holes, Rays const& rays, Ways& passed);
@@ -105,12 +108,6 @@ Find* fastest() { return has_avx2() ? find_with_avx2 : find_on_any_processor; }
 Find* fastest() { return find_on_any_processor; }
 #endif
 
-template <int shape>
-bool passes_any(Holes const& holes, glm::vec2 const& way, glm::vec2 const& place) {
-  return holes.staggered ? passes_some_hole<shape, true>(holes, way, place.x, place.y)
-                         : passes_some_hole<shape, false>(holes, way, place.x, place.y);
-}
-
 }  // namespace
 
 PatternRays::PatternRays(SheetBlock const& sheet)
@@ -122,14 +119,9 @@ bool PatternRays::is_open(glm::dvec2 const& place) const { return passes(place, 
 
 bool PatternRays::passes(glm::dvec2 const& place, glm::dvec2 const& way) const {
   glm::vec2 const in_tile(glm::fract(place / tile_));
-  switch (holes_.shape) {
-    case square_hole:
-      return passes_any<square_hole>(holes_, way, in_tile);
-    case hexagonal_hole:
-      return passes_any<hexagonal_hole>(holes_, way, in_tile);
-    default:
-      return passes_any<round_hole>(holes_, way, in_tile);
-  }
+  return with_kind(holes_, [&](auto shape, auto staggered) {
+    return passes_some_hole<shape, staggered>(holes_, way, in_tile.x, in_tile.y);
+  });
 }
 
 void PatternRays::find_passing(glm::dvec2 const& first, glm::dvec2 const& step,
