@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "render/mix.h"
+
 namespace gpu_shading {
 namespace {
-
-float mix(float a, float b, float part) { return a + part * (b - a); }
 
 // Without a call, which std::floor is on processors of old.
 double round_down(double x) {

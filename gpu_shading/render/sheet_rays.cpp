@@ -4,13 +4,10 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "render/mix.h"
+
 namespace gpu_shading {
 namespace {
-
-float smoothstep(float from, float to, float x) {
-  float const t = std::clamp((x - from) / (to - from), 0.0F, 1.0F);
-  return t * t * (3.0F - 2.0F * t);
-}
 
 // Between the values for thirds of the way, straight.
 float along(glm::vec4 const& thirds, float way) {
@@ -21,8 +18,6 @@ float along(glm::vec4 const& thirds, float way) {
   }
   return sum;
 }
-
-float mix(float a, float b, float part) { return a + part * (b - a); }
 
 int around(int place, int count) {
   int const rest = place % count;
@@ -45,7 +40,7 @@ SheetRays::SheetRays(PerforatedScreen const& screen, SheetBlock const& sheet,
       regions_(regions),
       ray_(sheet.ray.x, sheet.ray.y),
       tile_(sheet.tile.x, sheet.tile.y),
-      blend_(smoothstep(sheet.tile.z, sheet.tile.w, static_cast<float>(pixel))),
+      blend_(glm::smoothstep(sheet.tile.z, sheet.tile.w, static_cast<float>(pixel))),
       depths_(depths_of(sheet.kind.y)) {
   if (screen.pattern()) {
     pattern_.emplace(sheet);
@@ -80,14 +75,14 @@ void SheetRays::whole_ways(glm::dvec2 const& first, glm::dvec2 const& step, std:
     }
   }
   if (blend_ == 0.0F) return;
-  for (float& way : passed) way += blend_ * (sheet_.effective[3] - way);
+  for (float& way : passed) way = mix(way, sheet_.effective[3], blend_);
 }
 
 float SheetRays::part_of_way(glm::dvec2 const& place, double begin, double end) const {
   float passed = 0.0F;
   if (sheet_.kind.y == solid_sheet) return passed;
   if (blend_ < 1.0F) passed = through_holes(place, begin, end);
-  if (blend_ > 0.0F) passed += blend_ * (through_effective(place, begin, end) - passed);
+  if (blend_ > 0.0F) passed = mix(passed, through_effective(place, begin, end), blend_);
   return passed;
 }
 
