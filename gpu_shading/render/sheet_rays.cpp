@@ -50,7 +50,6 @@ SheetRays::SheetRays(PerforatedScreen const& screen, SheetBlock const& sheet,
 }
 
 std::optional<float> SheetRays::everywhere() const {
-  if (sheet_.kind.y == solid_sheet) return 0.0F;
   if (blend_ == 1.0F && sheet_.kind.w == 0) return sheet_.effective[3];
   return std::nullopt;
 }
@@ -80,7 +79,6 @@ void SheetRays::whole_ways(glm::dvec2 const& first, glm::dvec2 const& step, std:
 
 float SheetRays::part_of_way(glm::dvec2 const& place, double begin, double end) const {
   float passed = 0.0F;
-  if (sheet_.kind.y == solid_sheet) return passed;
   if (blend_ < 1.0F) passed = through_holes(place, begin, end);
   if (blend_ > 0.0F) passed = mix(passed, through_effective(place, begin, end), blend_);
   return passed;

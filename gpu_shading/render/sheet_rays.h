@@ -18,8 +18,8 @@ namespace gpu_shading {
 // screen.frag, in which the terms are explained.
 class SheetRays {
  public:
-  // `regions`: as the sheet's numbers are. `pixel`: the size of pixels in the sheet's plane, m. All
-  // must outlive it.
+  // `sheet`: not a solid one. `regions`: as the sheet's numbers are. `pixel`: the size of pixels in
+  // the sheet's plane, m. All must outlive it.
   SheetRays(PerforatedScreen const& screen, SheetBlock const& sheet,
             std::span<glm::vec4 const> regions, double pixel);
 
