@@ -71,6 +71,15 @@ def write_model(study, variant, folder, arguments):
     return path
 
 
+def print_row(*cells):
+    print(f"| {' | '.join(cells)} |", flush=True)
+
+
+def print_head(study, *columns):
+    print_row(study.name.replace("_", " "), *columns)
+    print(f"|---|{'---:|' * len(columns)}")
+
+
 def take_samples(study, variant, mode, folder, arguments):
     """Wall seconds of the samples of a detail, and how many directions they are."""
     path = write_model(study, variant, folder, arguments)
@@ -90,14 +99,11 @@ def take_samples(study, variant, mode, folder, arguments):
 
 
 def print_samples(study, arguments):
-    header = [study.name.replace("_", " "), *(f"{mode}, s (directions)" for mode in arguments.samples)]
-    print(f"| {' | '.join(header)} |")
-    print(f"|---|{'---:|' * len(arguments.samples)}")
+    print_head(study, *(f"{mode}, s (directions)" for mode in arguments.samples))
     for number, (words, variant) in enumerate(study.variants.items()):
         taken = [take_samples(study, variant, mode, arguments.output / str(number), arguments)
                  for mode in arguments.samples]  # fmt: skip
-        cells = [f"{seconds:.1f} ({directions})" for seconds, directions in taken]
-        print(f"| {' | '.join([words, *cells])} |", flush=True)
+        print_row(words, *(f"{seconds:.1f} ({directions})" for seconds, directions in taken))
 
 
 def run_variant(study, variant, folder, arguments):
@@ -117,28 +123,24 @@ def print_changes(study, runs):
     """Each variant against the first."""
     names = list(study.variants)
     print(f"\nAgainst {names[0]}, in brackets of the beam alone:\n")
-    print(f"| {' | '.join([study.name.replace('_', ' '), 'all', *study.groups])} |")
-    print(f"|---|{'---:|' * (len(study.groups) + 1)}")
+    print_head(study, "all", *study.groups)
 
     def changes(variable):
         first, *others = [admitted(study, run, variable) for run in runs]
         return [[change(value, before) for value, before in zip(sums, first, strict=True)] for sums in others]
 
     for words, solar, beam in zip(names[1:], changes(results.SOLAR), changes(results.BEAM), strict=True):
-        cells = [f"{both} ({alone})" for both, alone in zip(solar, beam, strict=True)]
-        print(f"| {' | '.join([words, *cells])} |")
+        print_row(words, *(f"{both} ({alone})" for both, alone in zip(solar, beam, strict=True)))
 
 
 def print_years(study, arguments):
-    header = [study.name.replace("_", " "), "all kWh", *study.groups, *OF_RUN]
-    print(f"| {' | '.join(header)} |")
-    print(f"|---|{'---:|' * (len(header) - 1)}")
+    print_head(study, "all kWh", *study.groups, *OF_RUN)
     runs = []
     for number, (words, variant) in enumerate(study.variants.items()):
         run = run_variant(study, variant, arguments.output / str(number), arguments)
         if not run.completed or run.severe:
             sys.exit(f"{words}: {run.why()}")
-        print(f"| {' | '.join([words, *cells_of(study, run)])} |", flush=True)
+        print_row(words, *cells_of(study, run))
         print(f"{words}: {run.device}", file=sys.stderr, flush=True)
         runs.append(run)
     print_changes(study, runs)
