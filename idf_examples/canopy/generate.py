@@ -11,6 +11,11 @@ by --turn about the pane's own middle line that runs east.
 import argparse
 import math
 import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from common import idf  # noqa: E402
 
 COLUMNS, ROWS = 25, 20
 CELL = 1.0
@@ -59,18 +64,12 @@ Output:SQLite,Simple;
 """
 
 
-def points(corners):
-    return ",\n".join("  " + ",".join(f"{value:.5f}" for value in corner) for corner in corners) + ";\n"
-
-
 def surface(name, kind, zone, boundary, corners):
-    sun = "SunExposed,WindExposed" if boundary == "Outdoors" else "NoSun,NoWind"
-    return (f"\nBuildingSurface:Detailed,\n  {name},{kind},Outer Wall,{zone},,{boundary},,{sun},,{len(corners)},\n"
-            + points(corners))  # fmt: skip
+    return idf.surface(name, kind, "Outer Wall", zone, boundary, corners)
 
 
 def glazing(name, wall, corners):
-    return f"\nFenestrationSurface:Detailed,\n  {name},Window,Window,{wall},,,,1,4,\n" + points(corners)
+    return idf.opening(name, "Window", "Window", wall, corners)
 
 
 def room(zone, x):
@@ -121,8 +120,7 @@ def model(glass="single", turn=0.0):
         yield from room(zone, x)
     for column in range(COLUMNS):
         for row in range(ROWS):
-            yield (f"\nShading:Building:Detailed,\n  Canopy {column + 1} {row + 1},,4,\n"
-                   + points(pane(column, row, turn)))  # fmt: skip
+            yield idf.shade(f"Canopy {column + 1} {row + 1}", pane(column, row, turn))
 
 
 def main():

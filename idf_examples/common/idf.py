@@ -6,7 +6,7 @@ def points(corners):
 
 
 def surface(name, kind, construction, zone, boundary, corners, other=""):
-    """boundary: Outdoors, Ground, or Surface with the name of the other side."""
+    """boundary: Outdoors, Ground, Adiabatic, or Surface with the name of the other side."""
     sun = "SunExposed,WindExposed" if boundary == "Outdoors" else "NoSun,NoWind"
     return (f"\nBuildingSurface:Detailed,\n  {name},{kind},{construction},{zone},,{boundary},{other},{sun},,"
             f"{len(corners)},\n" + points(corners))  # fmt: skip
