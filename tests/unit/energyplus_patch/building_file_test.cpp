@@ -7,6 +7,7 @@
 
 #include "gpu_shading/error.h"
 #include "program/process.h"
+#include "refusal.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -33,13 +34,7 @@ BuildingFile read(std::string const& text, HeightRule const& heights = {},
 }
 
 std::string refusal(std::string const& text) {
-  try {
-    read(text);
-  } catch (Error const& error) {
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    return error.what();
-  }
-  return "accepted";
+  return refusal_of([&] { read(text); });
 }
 
 TEST(BuildingFile, HeightsAsTheyAreGiven) {

@@ -7,11 +7,11 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
-#include "gpu_shading/error.h"
 #include "gpu_shading/local_axes.h"
 #include "input/model_file.h"
 #include "input/model_reader.h"
 #include "program/process.h"
+#include "refusal.h"
 #include "site/texture_axes.h"
 #include "test_images.h"
 
@@ -56,17 +56,6 @@ class Geometry : public testing::Test {
     Choices choices;
     choices.folder = folder_.path();
     return understand(read_idf(text), folder_.path() / "model.idf", choices);
-  }
-
-  template <typename Action>
-  std::string refusal_of(Action const& action) {
-    try {
-      action();
-    } catch (Error const& error) {
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-      return error.what();
-    }
-    return "accepted";
   }
 
   std::string refusal(std::string const& text) {

@@ -17,6 +17,7 @@
 #include "gpu_shading/error.h"
 #include "gpu_shading/local_axes.h"
 #include "program/process.h"
+#include "refusal.h"
 #include "site/terrain_file.h"
 
 namespace gpu_shading::energyplus {
@@ -146,14 +147,7 @@ TEST(GeoTiff, GivenCoordinatesComeFirst) {
 }
 
 TEST(GeoTiff, SaysWhatIsWrong) {
-  auto const refusal = [](Tiff const& what) -> std::string {
-    try {
-      read(what);
-    } catch (Error const& error) {
-      return error.what();
-    }
-    return "accepted";
-  };
+  auto const refusal = [](Tiff const& what) { return refusal_of([&] { read(what); }); };
   EXPECT_THAT(refusal({.epsg = 0}), HasSubstr("hill.tif: does not say what its coordinates are"));
   EXPECT_THAT(refusal({.epsg = 2154}), HasSubstr("is in EPSG:2154, expected WGS84 or UTM"));
   EXPECT_THAT(refusal({.channels = 3}), HasSubstr("3 channels, expected one"));

@@ -7,6 +7,7 @@
 
 #include "gpu_shading/error.h"
 #include "program/process.h"
+#include "refusal.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -22,13 +23,7 @@ class MeshFile : public testing::Test {
   }
 
   std::string refusal(std::string const& name, std::string const& text) {
-    try {
-      read_meshes(write(name, text));
-    } catch (Error const& error) {
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-      return error.what();
-    }
-    return "accepted";
+    return refusal_of([&] { read_meshes(write(name, text)); });
   }
 
   TemporaryFolder folder_;

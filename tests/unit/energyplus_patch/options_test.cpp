@@ -8,6 +8,7 @@
 
 #include "gpu_shading/error.h"
 #include "input/model_file.h"
+#include "refusal.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -18,12 +19,7 @@ Choices take(std::vector<std::string> arguments) { return take_flags(arguments);
 
 // The one-line message of a refused command line.
 std::string refusal(std::vector<std::string> const& arguments) {
-  try {
-    take(arguments);
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusal_of([&] { take(arguments); });
 }
 
 TEST(Options, OurFlagsAreTakenAndEnergyPlusKeepsItsOwn) {

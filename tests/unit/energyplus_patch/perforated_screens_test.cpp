@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "gpu_shading/error.h"
 #include "input/model_file.h"
 #include "input/model_reader.h"
+#include "refusal.h"
 #include "test_images.h"
 
 namespace gpu_shading::energyplus {
@@ -75,16 +75,6 @@ PerforatedScreen const& made(PerforatedScreens const& screens) {
 
 std::string described(std::string const& text, Polygon const& polygon = panel) {
   return read(text).by_surface.at("PANEL 1").maker->describe(polygon);
-}
-
-template <typename Action>
-std::string refusal_of(Action const& action) {
-  try {
-    action();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 std::string refusal(std::string const& text) {

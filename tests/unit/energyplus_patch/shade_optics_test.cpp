@@ -8,6 +8,7 @@
 #include "gpu_shading/error.h"
 #include "gpu_shading/transmittance.h"
 #include "input/model_file.h"
+#include "refusal.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -150,18 +151,13 @@ TEST(ShadeOptics, ScreenOfASurfaceWithoutAreaIsLeftOut) {
 }
 
 TEST(ShadeOptics, MissingScheduleIsSaidWithItsField) {
-  auto const refusal = [](std::string const& idf) -> std::string {
+  auto const refusal = [](std::string const& idf) {
     auto const model = model_of(idf);
     Schedules const none{[](std::string const& name) -> std::pair<double, double> {
                            throw Error("EnergyPlus has no schedule \"" + name + "\"");
                          },
                          {}};
-    try {
-      ShadeOptics const optics(model, none);
-    } catch (Error const& error) {
-      return error.what();
-    }
-    return "accepted";
+    return refusal_of([&] { ShadeOptics const optics(model, none); });
   };
   EXPECT_EQ(refusal("Shading:Site:Detailed,Tree,Leaves;"),
             "Shading:Site:Detailed TREE: Transmittance Schedule Name: EnergyPlus has no schedule "

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <glm/trigonometric.hpp>
 
-#include "gpu_shading/error.h"
 #include "input/model_file.h"
 #include "program/process.h"
+#include "refusal.h"
 #include "site/calendar_date.h"
 
 namespace gpu_shading::energyplus {
@@ -25,16 +25,6 @@ SiteClock clock_of(std::string const& idf) { return {read_idf(idf), std::nullopt
 
 ClockTime at(chrono::year_month_day date, chrono::minutes time) {
   return chrono::local_days(date) + time;
-}
-
-template <typename Action>
-std::string refusal(Action const& action) {
-  try {
-    action();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 // The calendar's own, as published.
@@ -53,7 +43,7 @@ TEST(CalendarDate, AllForms) {
 TEST(CalendarDate, SaysWhatIsNone) {
   for (auto const* const text : {"2/29", "13/1", "31 April", "6th Sunday in May", "Sunday in May",
                                  "5th Sunday in February", "April", "", "4/30/2017"}) {
-    EXPECT_THAT(refusal([&] { date_in(text, 2017y); }),
+    EXPECT_THAT(refusal_of([&] { date_in(text, 2017y); }),
                 HasSubstr(fmt::format("\"{}\" is no day of 2017, expected", text)));
   }
 }
@@ -116,13 +106,13 @@ TEST(SiteClock, SunOfWellKnownDays) {
 }
 
 TEST(SiteClock, SaysWhatIsWrong) {
-  EXPECT_THAT(refusal([] { clock_of(""); }), HasSubstr("Site:Location is missing"));
-  EXPECT_THAT(refusal([] { clock_of("Site:Location,Golden,north;"); }),
+  EXPECT_THAT(refusal_of([] { clock_of(""); }), HasSubstr("Site:Location is missing"));
+  EXPECT_THAT(refusal_of([] { clock_of("Site:Location,Golden,north;"); }),
               HasSubstr("Site:Location Golden: Latitude is \"north\", not a number"));
   EXPECT_THAT(
-      refusal([] { clock_of(golden + "RunPeriodControl:DaylightSavingTime,spring,autumn;"); }),
+      refusal_of([] { clock_of(golden + "RunPeriodControl:DaylightSavingTime,spring,autumn;"); }),
       HasSubstr("RunPeriodControl:DaylightSavingTime: \"spring\" is no day"));
-  EXPECT_THAT(refusal([] { SiteClock(read_idf(golden), "/nowhere/w.epw"); }),
+  EXPECT_THAT(refusal_of([] { SiteClock(read_idf(golden), "/nowhere/w.epw"); }),
               HasSubstr("/nowhere/w.epw: cannot be read"));
 }
 

@@ -9,6 +9,7 @@
 #include "input/model_file.h"
 #include "input/model_reader.h"
 #include "program/process.h"
+#include "refusal.h"
 #include "site/own_building.h"
 #include "site/surroundings.h"
 
@@ -44,13 +45,7 @@ class SiteContext : public testing::Test {
   }
 
   std::string refusal(std::string const& text) {
-    try {
-      read(text);
-    } catch (Error const& error) {
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-      return error.what();
-    }
-    return "accepted";
+    return refusal_of([&] { read(text); });
   }
 
   TemporaryFolder folder_;

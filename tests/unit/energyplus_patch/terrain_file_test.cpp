@@ -8,6 +8,7 @@
 
 #include "gpu_shading/error.h"
 #include "program/process.h"
+#include "refusal.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -22,12 +23,7 @@ TerrainGrid read(std::string const& text) {
 }
 
 std::string refusal(std::string const& text) {
-  try {
-    read(text);
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusal_of([&] { read(text); });
 }
 
 std::string const header = "ncols 3\nnrows 2\nxllcorner 1000\nyllcorner 2000\ncellsize 10\n";

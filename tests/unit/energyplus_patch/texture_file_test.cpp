@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "gpu_shading/error.h"
+#include "refusal.h"
 #include "test_images.h"
 
 namespace gpu_shading::energyplus {
@@ -24,12 +24,7 @@ Texels opacity_of(std::filesystem::path const& path) {
 }
 
 std::string refusal(std::filesystem::path const& path) {
-  try {
-    opacity_of(path);
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusal_of([&] { opacity_of(path); });
 }
 
 TEST(TextureFile, RowsAreCountedFromTheBottom) {

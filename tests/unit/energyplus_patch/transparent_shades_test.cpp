@@ -7,9 +7,9 @@
 #include <fstream>
 #include <numbers>
 
-#include "gpu_shading/error.h"
 #include "input/model_file.h"
 #include "input/name_pattern.h"
+#include "refusal.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -41,12 +41,7 @@ double tau(TransparentShades const& shades, std::string const& surface, double a
 }
 
 std::string refusal(std::string const& shade) {
-  try {
-    read(shade);
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusal_of([&] { read(shade); });
 }
 
 TEST(NamePattern, StarsStandForAnyRunWithoutRegardToCase) {
