@@ -4,15 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
 
 #include "gpu_shading/local_axes.h"
 #include "input/model_file.h"
 #include "input/model_reader.h"
-#include "program/process.h"
-#include "refusal.h"
 #include "site/texture_axes.h"
+#include "surroundings_test.h"
 #include "test_images.h"
 
 namespace gpu_shading::energyplus {
@@ -26,7 +24,7 @@ void expect_at(glm::dvec3 const& point, glm::dvec3 const& place) {
 }
 
 // A triangle whose first corner tells the axes apart: (1, 2, 3).
-class Geometry : public testing::Test {
+class Geometry : public SurroundingsTest {
  protected:
   Geometry() {
     write("t.obj",
@@ -34,14 +32,6 @@ class Geometry : public testing::Test {
     write("two.obj",
           "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 4 4 0\nvt 0 0\nvt 2 0\nvt 0 2\nvt 1 3\n"
           "o A\nusemtl M\nf 1/1 2/2 3/3\no B\nusemtl N\nf 1 2 3\no C\nusemtl N\nf 1/1 2/4 3/3\n");
-  }
-
-  void write(std::string const& name, std::string const& text) {
-    std::ofstream(folder_.path() / name) << text;
-  }
-
-  Surroundings read(std::string const& text) {
-    return read_surroundings(read_idf(text), folder_.path());
   }
 
   Ring corners(std::string const& fields) {
@@ -57,12 +47,6 @@ class Geometry : public testing::Test {
     choices.folder = folder_.path();
     return understand(read_idf(text), folder_.path() / "model.idf", choices);
   }
-
-  std::string refusal(std::string const& text) {
-    return refusal_of([&] { read(text); });
-  }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(Geometry, AxesAndUnits) {

@@ -3,15 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "gpu_shading/error.h"
 #include "input/model_file.h"
 #include "input/model_reader.h"
-#include "program/process.h"
-#include "refusal.h"
 #include "site/own_building.h"
-#include "site/surroundings.h"
+#include "surroundings_test.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -22,7 +18,7 @@ using testing::HasSubstr;
 std::string const location = "Site:Location,Here,0,20,0,100;";
 
 // At the equator, where 0.001 degrees of longitude are 111.3 m.
-class SiteContext : public testing::Test {
+class SiteContext : public SurroundingsTest {
  protected:
   SiteContext() {
     write("town.geojson", R"({"type": "FeatureCollection", "features": [
@@ -35,20 +31,6 @@ class SiteContext : public testing::Test {
           "ncols 3\nnrows 3\nxllcenter 19.99\nyllcenter -0.01\ncellsize 0.01\n"
           "18.7 130 241.3\n18.7 130 241.3\n18.7 130 241.3\n");
   }
-
-  void write(std::string const& name, std::string const& text) {
-    std::ofstream(folder_.path() / name) << text;
-  }
-
-  Surroundings read(std::string const& text) {
-    return read_surroundings(read_idf(text), folder_.path());
-  }
-
-  std::string refusal(std::string const& text) {
-    return refusal_of([&] { read(text); });
-  }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(SiteContext, WarnsOfMillimetres) {

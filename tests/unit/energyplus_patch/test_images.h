@@ -2,36 +2,20 @@
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
+#include "program/process.h"
+
 // Image files that tests write.
 namespace gpu_shading::energyplus {
 
-// A folder of this process alone, since ctest runs tests side by side.
-class TemporaryImages {
- public:
-  TemporaryImages() { std::filesystem::create_directories(path_); }
-  TemporaryImages(TemporaryImages const&) = delete;
-  TemporaryImages& operator=(TemporaryImages const&) = delete;
-  ~TemporaryImages() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-
-  std::filesystem::path const& path() const { return path_; }
-
- private:
-  std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) /
-                                ("gpu_shading_images_" + std::to_string(getpid()));
-};
-
+// In a folder of this process alone, since ctest runs tests side by side.
 inline std::filesystem::path temporary(std::string const& name) {
-  static TemporaryImages const folder;
+  static TemporaryFolder const folder;
   return folder.path() / name;
 }
 
