@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "gl/check.h"
@@ -19,19 +20,33 @@ constexpr glm::vec4 dark{0.0F};
 constexpr glm::vec4 lit{1.0F};
 constexpr glm::vec4 lit_without_key{0.0F, 0.0F, 0.0F, 1.0F};
 
-// Receivers of luminance 1 and the casters before them, each of which multiplies by what it lets
-// through (Jones & Greenberg). Multiplication commutes: nothing is sorted.
-void draw_luminance(Geometry& geometry, gl::Framebuffer const& target, glm::vec4 const& receivers,
-                    gl::Blend how) {
+void draw_receivers(Geometry& geometry, gl::Framebuffer const& target, glm::vec4 const& luminance) {
   target.bind();
   target.clear_colour(dark);
   gl::no_depth();
   gl::no_stencil();
   gl::blend(gl::Blend::replace);
-  geometry.draw_tiles(receivers);
+  geometry.draw_tiles(luminance);
+}
+
+// 1 where a receiver is lit.
+void draw_lit(Geometry& geometry, gl::Framebuffer const& target) {
+  draw_receivers(geometry, target, lit);
+  geometry.draw_casters();
+}
+
+// Receivers of luminance 1 and the casters before them, each of which multiplies by what it lets
+// through (Jones & Greenberg). Multiplication commutes: nothing is sorted.
+void draw_luminance(Geometry& geometry, gl::Framebuffer const& target, glm::vec4 const& receivers,
+                    gl::Blend how) {
+  draw_receivers(geometry, target, receivers);
   gl::blend(how);
   geometry.draw_shades();
   gl::blend(gl::Blend::replace);
+}
+
+void draw_unscheduled(Geometry& geometry, gl::Framebuffer const& target) {
+  draw_luminance(geometry, target, lit, gl::Blend::multiply);
 }
 
 std::size_t count_of(std::uint8_t value, std::span<std::uint8_t const> values) {
@@ -89,22 +104,19 @@ class StencilTarget : public Target {
   std::uint8_t mark_ = 0xFF;
 };
 
-// For a compute shader to sum.
-class UnitTarget : public Target {
+// For the device to sum.
+class SummedTarget : public Target {
  public:
-  UnitTarget(int side, int layers, Summing& summing)
-      : texture_(gl::LayeredTexture::create(gl::Pixel::unit, side, layers)),
+  using Draw = void(Geometry& geometry, gl::Framebuffer const& target);
+
+  SummedTarget(gl::LayeredTexture texture, Summing& summing, Draw* draw_to)
+      : texture_(std::move(texture)),
         layers_(gl::Framebuffer::of_layers({&texture_})),
-        reduction_(summing.make(texture_)) {}
+        reduction_(summing.make(texture_)),
+        draw_to_(draw_to) {}
 
   void draw(Geometry& geometry, int layers) override {
-    layers_.bind();
-    layers_.clear_colour(dark);
-    gl::no_depth();
-    gl::no_stencil();
-    gl::blend(gl::Blend::replace);
-    geometry.draw_tiles(lit);
-    geometry.draw_casters();
+    draw_to_(geometry, layers_);
     reduction_->start(layers);
   }
 
@@ -116,29 +128,7 @@ class UnitTarget : public Target {
   gl::LayeredTexture texture_;
   gl::Framebuffer layers_;
   std::unique_ptr<Reduction> reduction_;
-};
-
-class UnscheduledTarget : public Target {
- public:
-  UnscheduledTarget(int side, int layers, Summing& summing)
-      : texture_(gl::LayeredTexture::create(gl::Pixel::real, side, layers,
-                                            summing.levels(gl::Pixel::real))),
-        layers_(gl::Framebuffer::of_layers({&texture_})),
-        reduction_(summing.make(texture_)) {}
-
-  void draw(Geometry& geometry, int layers) override {
-    draw_luminance(geometry, layers_, lit, gl::Blend::multiply);
-    reduction_->start(layers);
-  }
-
-  void read(int layer, std::span<LuminanceByKey> parts) override {
-    parts.front()[{}] = reduction_->sum(layer);
-  }
-
- private:
-  gl::LayeredTexture texture_;
-  gl::Framebuffer layers_;
-  std::unique_ptr<Reduction> reduction_;
+  Draw* draw_to_;
 };
 
 class ScheduledTarget : public Target {
@@ -269,7 +259,10 @@ std::unique_ptr<Target> make_target(Kind kind, int side, int layers, Summing& su
   Way const way = summing.way();
   switch (kind) {
     case Kind::unscheduled:
-      return std::make_unique<UnscheduledTarget>(side, layers, summing);
+      return std::make_unique<SummedTarget>(
+          gl::LayeredTexture::create(gl::Pixel::real, side, layers,
+                                     summing.levels(gl::Pixel::real)),
+          summing, draw_unscheduled);
     case Kind::scheduled:
       return std::make_unique<ScheduledTarget>(side, layers, way);
     case Kind::interior:
@@ -280,7 +273,8 @@ std::unique_ptr<Target> make_target(Kind kind, int side, int layers, Summing& su
       break;
   }
   if (way == Way::when_asked) return std::make_unique<StencilTarget>(side, layers);
-  return std::make_unique<UnitTarget>(side, layers, summing);
+  return std::make_unique<SummedTarget>(gl::LayeredTexture::create(gl::Pixel::unit, side, layers),
+                                        summing, draw_lit);
 }
 
 std::size_t layer_bytes(Kind kind, int side, Summing const& summing) {
