@@ -31,6 +31,7 @@ class Answers {
     std::unordered_map<ReceiverNumber, std::vector<ScheduledPart>> scheduled;
     std::unordered_map<std::uint64_t, std::vector<Sunlit>> interior;  // by window and list
     bool recalled = false;  // some of it is from earlier runs (AnswerCache)
+    bool asked = false;     // by EnergyPlus; else it was rendered ahead or as a sample
 
     bool knows(ReceiverNumber receiver) const {
       return receiver < projected_area.size() &&

@@ -1,19 +1,10 @@
 #include "session/sampled_answers.h"
 
-#include <cmath>
-#include <numbers>
 #include <utility>
 
-namespace gpu_shading::energyplus {
+#include "session/foreseen_directions.h"
 
-bool is_sky_patch(SunDirection sun) {
-  constexpr double step = std::numbers::pi / 12.0;
-  constexpr double tolerance = 1e-6;  // EnergyPlus hands over single precision
-  auto const on_grid = [](double angle) {
-    return std::abs(std::remainder(angle, step)) < tolerance;
-  };
-  return on_grid(sun.altitude - 0.5 * step) && on_grid(sun.azimuth);
-}
+namespace gpu_shading::energyplus {
 
 SampledAnswers::SampledAnswers(Sampling sampling, std::vector<glm::dvec3> areas)
     : sampling_(sampling), areas_(std::move(areas)) {}

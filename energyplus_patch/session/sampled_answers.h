@@ -81,9 +81,4 @@ class SampledAnswers {
   std::size_t answered_ = 0;
 };
 
-// Whether EnergyPlus takes the direction for a patch of the sky: 7.5 degrees of altitude and steps
-// of 15 from there, multiples of 15 degrees of azimuth. That the sun stands there exactly is as
-// good as impossible, and does no harm.
-bool is_sky_patch(SunDirection sun);
-
 }  // namespace gpu_shading::energyplus

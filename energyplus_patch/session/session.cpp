@@ -27,12 +27,12 @@ namespace {
 
 constexpr int default_view_size = 800;
 
-std::uint64_t hash_of(SurfaceId window, std::vector<SurfaceId> const& interiors) {
+std::uint64_t hash_of(InteriorQuestion const& question) {
   // FNV-1a
   std::uint64_t hash = 0xcbf29ce484222325;
   auto const mix = [&](std::uint64_t value) { hash = (hash ^ value) * 0x100000001b3; };
-  mix(window);
-  for (auto const id : interiors) mix(id);
+  mix(question.window);
+  for (auto const id : question.interiors) mix(id);
   return hash;
 }
 
@@ -353,8 +353,8 @@ void Session::warn_of_actuated_schedules() const {
 }
 
 void Session::set_sun(SunDirection sun) {
-  sun_ = sun;
-  towards_sun_ = to_vector(sun);
+  sun_ = foreseen_.settle(sun, latitude_);
+  towards_sun_ = to_vector(sun_);
 }
 
 void Session::set_time(Moment moment) {
@@ -379,59 +379,69 @@ ReceiverNumber Session::number_of(SurfaceId receiver) {
   return *number;
 }
 
-void Session::render(Answers::Direction& direction) {
-  std::vector<ReceiverNumber> batch;
-  std::vector<SurfaceId> surfaces;
-  for (ReceiverNumber number = 0; number < run_.receivers.size(); ++number) {
-    if (direction.knows(number)) continue;
-    batch.push_back(number);
-    surfaces.push_back(run_.receivers[number]);
-  }
-  auto sunlit = renderer_->projected_sunlit_areas(direction.sun, surfaces);
-  for (std::size_t i = 0; i < batch.size(); ++i) {
-    run_.answers.keep(direction, batch[i], std::move(sunlit[i]));
-  }
-  to_store_ = true;
+std::vector<SunDirection> Session::directions_ahead(std::size_t views) const {
+  // Where screens move, what is ahead may find them elsewhere.
+  bool const days = !samples_ && run_.states.size() == 1;
+  auto ahead = days || is_sky_patch(sun_) ? foreseen_.ahead() : std::span<SunDirection const>();
+  // More in one call is no faster.
+  constexpr std::size_t most_views = std::size_t{1} << 16U;
+  ahead = ahead.first(std::min(ahead.size(), most_views / std::max(views, std::size_t{1})));
+  std::vector<SunDirection> directions(ahead.begin(), ahead.end());
+  directions.push_back(sun_);
+  return directions;
 }
 
-Answers::Direction& Session::answers_at(SunDirection sun, ReceiverNumber receiver) {
-  auto& direction = run_.answers.at(sun, state_);
-  if (!direction.knows(receiver) && cache_) cache_->recall(run_, direction);
-  if (!direction.knows(receiver)) render(direction);
+Answers::Direction& Session::answers_now(ReceiverNumber receiver) {
+  auto& known = run_.answers.at(sun_, state_);
+  if (!known.knows(receiver) && cache_) cache_->recall(run_, known);
+  if (!known.knows(receiver)) sample(directions_ahead(run_.receivers.size()), run_.receivers);
+  auto& direction = run_.answers.at(sun_, state_);
+  if (!direction.asked && !direction.recalled) ++directions_;
+  direction.asked = true;
   return direction;
 }
 
 std::vector<std::vector<Sunlit>> Session::sample(std::span<SunDirection const> directions,
                                                  std::vector<SurfaceId> const& receivers) {
-  std::vector<std::vector<Sunlit>> rows(directions.size());
+  std::vector<std::vector<Sunlit>> rows;
   std::vector<SunDirection> unknown;
   std::vector<std::size_t> places;
-  for (std::size_t i = 0; i < directions.size(); ++i) {
-    auto& direction = run_.answers.at(directions[i], state_);
-    auto const known = [&] {
-      return std::all_of(receivers.begin(), receivers.end(),
-                         [&](SurfaceId receiver) { return direction.knows(number_of(receiver)); });
-    };
-    if (cache_ && !known()) cache_->recall(run_, direction);
-    if (!known()) {
-      unknown.push_back(directions[i]);
-      places.push_back(i);
-      continue;
+  std::vector<bool> lacking(receivers.size(), false);
+  for (auto const sun : directions) {
+    auto& direction = run_.answers.at(sun, state_);
+    auto const lacks = [&](SurfaceId receiver) { return !direction.knows(number_of(receiver)); };
+    auto const lacks_any = [&] { return std::any_of(receivers.begin(), receivers.end(), lacks); };
+    if (cache_ && lacks_any()) cache_->recall(run_, direction);
+    if (lacks_any()) {
+      unknown.push_back(sun);
+      places.push_back(rows.size());
     }
-    for (auto const receiver : receivers) {
-      rows[i].push_back(direction.sunlit(number_of(receiver)));
+    auto& row = rows.emplace_back(receivers.size());
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+      if (lacks(receivers[i])) {
+        lacking[i] = true;
+      } else {
+        row[i] = direction.sunlit(number_of(receivers[i]));
+      }
     }
   }
   if (unknown.empty()) return rows;
   to_store_ = true;
-  auto rendered = renderer_->projected_sunlit_areas(unknown, receivers);
+  std::vector<SurfaceId> wanted;
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < receivers.size(); ++i) {
+    if (!lacking[i]) continue;
+    wanted.push_back(receivers[i]);
+    columns.push_back(i);
+  }
+  auto rendered = renderer_->projected_sunlit_areas(unknown, wanted);
   for (std::size_t i = 0; i < unknown.size(); ++i) {
     auto& direction = run_.answers.at(unknown[i], state_);
-    for (std::size_t j = 0; j < receivers.size(); ++j) {
-      auto const number = number_of(receivers[j]);
-      run_.answers.keep(direction, number, std::move(rendered[i][j]));
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      auto const number = number_of(wanted[k]);
+      run_.answers.keep(direction, number, std::move(rendered[i][k]));
       // As it is kept, which is how it comes back from the cache.
-      rows[places[i]].push_back(direction.sunlit(number));
+      rows[places[i]][columns[k]] = direction.sunlit(number);
     }
   }
   return rows;
@@ -449,45 +459,82 @@ float Session::projected_sunlit_area(SurfaceId receiver) {
   if (auto const* const sunlit = find_sampled(receiver)) {
     return static_cast<float>(sunlit->at(optics_.factors()));
   }
-  return static_cast<float>(answers_at(sun_, number).area(number, optics_.factors()));
+  return static_cast<float>(answers_now(number).area(number, optics_.factors()));
 }
 
 Sunlit const* Session::find_sampled(SurfaceId receiver) {
   if (!samples_) return nullptr;
   number_of(receiver);
-  return samples_->find(
-      receiver, {sun_, state_, latitude_()}, run_.receivers,
-      [this](auto directions, auto const& receivers) { return sample(directions, receivers); });
+  return samples_->find(receiver, {sun_, state_, latitude_()}, run_.receivers,
+                        [this](auto directions, auto const& receivers) {
+                          auto const before = renderer_->statistics().directions;
+                          auto rows = sample(directions, receivers);
+                          directions_ += renderer_->statistics().directions - before;
+                          return rows;
+                        });
 }
 
-std::vector<Sunlit> const& Session::render_interior(SunDirection sun, SurfaceId window,
-                                                    std::vector<SurfaceId> const& interiors) {
+std::vector<Sunlit> const* Session::find_interior(SunDirection sun,
+                                                  InteriorQuestion const& question) {
   auto& direction = run_.answers.at(sun, state_);
-  auto const question = hash_of(window, interiors);
-  auto const known = direction.interior.find(question);
-  if (known != direction.interior.end()) return known->second;
-  if (cache_) {
-    auto const* const recalled = cache_->recall_interior(run_, direction, question);
-    if (recalled != nullptr) return *recalled;
-  }
-  to_store_ = true;
-  return run_.answers.keep_interior(direction, question,
-                                    renderer_->interior_sunlit_areas(sun, window, interiors));
+  auto const hash = hash_of(question);
+  auto const known = direction.interior.find(hash);
+  if (known != direction.interior.end()) return &known->second;
+  return cache_ ? cache_->recall_interior(run_, direction, hash) : nullptr;
 }
 
-std::vector<float> Session::sampled_interior_areas(SurfaceId window,
-                                                   std::vector<SurfaceId> const& interiors) {
-  auto const* const through = find_sampled(window);
+std::vector<std::vector<Sunlit>> Session::sample_interior(std::span<SunDirection const> directions,
+                                                          InteriorQuestion const& question) {
+  interiors_[question.window] = question;
+  std::vector<std::vector<Sunlit>> rows;
+  std::vector<SunDirection> unknown;
+  std::vector<std::size_t> places;
+  for (auto const sun : directions) {
+    auto const* const row = find_interior(sun, question);
+    rows.push_back(row == nullptr ? std::vector<Sunlit>() : *row);
+    if (row != nullptr) continue;
+    unknown.push_back(sun);
+    places.push_back(rows.size() - 1);
+  }
+  if (unknown.empty()) return rows;
+  to_store_ = true;
+  std::vector<InteriorQuestion> wanted{question};
+  for (auto const& each : interiors_) {
+    auto const& other = each.second;
+    if (other.window == question.window) continue;
+    bool const lacking = std::any_of(unknown.begin(), unknown.end(), [&](SunDirection sun) {
+      return find_interior(sun, other) == nullptr;
+    });
+    if (lacking) wanted.push_back(other);
+  }
+  auto rendered = renderer_->interior_sunlit_areas(unknown, wanted);
+  for (std::size_t i = 0; i < unknown.size(); ++i) {
+    auto& direction = run_.answers.at(unknown[i], state_);
+    rows[places[i]] = rendered[i].front();
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      auto const hash = hash_of(wanted[k]);
+      if (direction.interior.contains(hash)) continue;
+      run_.answers.keep_interior(direction, hash, std::move(rendered[i][k]));
+    }
+  }
+  return rows;
+}
+
+std::vector<Sunlit> Session::interior_now(InteriorQuestion const& question) {
+  if (auto const* const known = find_interior(sun_, question)) return *known;
+  return std::move(sample_interior(directions_ahead(interiors_.size() + 1), question).back());
+}
+
+std::vector<float> Session::sampled_interior_areas(InteriorQuestion const& question) {
+  auto const* const through = find_sampled(question.window);
   if (through == nullptr) return {};
   double const most = through->at(optics_.factors());
   auto const source = [&](std::span<SunDirection const> directions) {
-    std::vector<std::vector<Sunlit>> rows;
-    rows.reserve(directions.size());
-    for (auto const sun : directions) rows.push_back(render_interior(sun, window, interiors));
-    return rows;
+    return sample_interior(directions, question);
   };
-  auto const* const row = samples_->find_interior(
-      window, hash_of(window, interiors), interiors.size(), {sun_, state_, latitude_()}, source);
+  auto const* const row =
+      samples_->find_interior(question.window, hash_of(question), question.interiors.size(),
+                              {sun_, state_, latitude_()}, source);
   if (row == nullptr) return {};
   auto areas = areas_of(*row);
   // Each is interpolated by itself: together they get no more than the window does.
@@ -512,8 +559,9 @@ std::vector<float> Session::interior_areas(SurfaceId window,
   if (!renderer_) {
     throw Error("EnergyPlus asks for interior areas before its surfaces are complete");
   }
-  auto areas = sampled_interior_areas(window, interiors);
-  if (areas.empty()) areas = areas_of(render_interior(sun_, window, interiors));
+  InteriorQuestion const question{window, interiors};
+  auto areas = sampled_interior_areas(question);
+  if (areas.empty()) areas = areas_of(interior_now(question));
   keep_largest(areas, max_back_surfaces);
   return areas;
 }
@@ -524,7 +572,7 @@ void Session::finish() {
   auto did = earlier_;
   did += renderer_->statistics();
   auto const asked = std::count(asked_.begin(), asked_.end(), true);
-  if (asked == 0 && did.directions == 0) return;  // ended before the first question
+  if (asked == 0 && directions_ == 0) return;  // ended before the first question
   auto const from_cache = cache_ ? fmt::format(" rendered, {} from the cache",
                                                recalled_earlier_ + cache_->directions_recalled())
                                  : "";
@@ -532,7 +580,7 @@ void Session::finish() {
       "shading rendered by {} ({}), {}: {} receivers, {} casters, {} directions{}, {} "
       "views drawn, {} clear, {:.2f} s",
       device.renderer, device.version, describe_fineness(model_.options), asked, casters_,
-      did.directions, from_cache, did.receivers_drawn, did.receivers_clear, did.seconds));
+      directions_, from_cache, did.receivers_drawn, did.receivers_clear, did.seconds));
   if (samples_) {
     messages_.remark(
         fmt::format("{} directions of the sun answered from samples at {}, --gpu-shading-update {}",

@@ -5,12 +5,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "gpu_shading/renderer.h"
 #include "input/model_reader.h"
 #include "samples/sample_parts.h"
 #include "session/answer_cache.h"
+#include "session/foreseen_directions.h"
 #include "session/sampled_answers.h"
 #include "session/schedules.h"
 #include "session/shade_optics.h"
@@ -71,7 +73,7 @@ class Session {
   void set_sun(SunDirection sun);
 
   // m2 normal to the beam. The first call for a direction renders for every receiver that was asked
-  // for before, in one go.
+  // for before, in one go, and with it the directions that EnergyPlus will ask for next.
   float projected_sunlit_area(SurfaceId receiver);
 
   // The same of interior surfaces that the sun reaches through a window, in order; at most
@@ -83,21 +85,26 @@ class Session {
 
  private:
   ReceiverNumber number_of(SurfaceId receiver);
-  // For every receiver that the direction does not know.
-  void render(Answers::Direction& direction);
   void add_outside_casters();
   bool is_site_context(SurfaceId id) const;
+  // The sun's direction, last, and before it those that follow, as many as are worth one call to
+  // the renderer with so many views of each.
+  std::vector<SunDirection> directions_ahead(std::size_t views) const;
   // With the receiver known. Valid until the next call.
-  Answers::Direction& answers_at(SunDirection sun, ReceiverNumber receiver);
+  Answers::Direction& answers_now(ReceiverNumber receiver);
+  // By direction; rendered where they are not known.
   std::vector<std::vector<Sunlit>> sample(std::span<SunDirection const> directions,
                                           std::vector<SurfaceId> const& receivers);
   // nullptr where it has to be rendered.
   Sunlit const* find_sampled(SurfaceId receiver);
-  std::vector<Sunlit> const& render_interior(SunDirection sun, SurfaceId window,
-                                             std::vector<SurfaceId> const& interiors);
+  std::vector<Sunlit> interior_now(InteriorQuestion const& question);
+  // nullptr where they are not known. Valid until the next call.
+  std::vector<Sunlit> const* find_interior(SunDirection sun, InteriorQuestion const& question);
+  // By direction; rendered where they are not known, and with them what was asked of other windows.
+  std::vector<std::vector<Sunlit>> sample_interior(std::span<SunDirection const> directions,
+                                                   InteriorQuestion const& question);
   // Empty where they have to be rendered.
-  std::vector<float> sampled_interior_areas(SurfaceId window,
-                                            std::vector<SurfaceId> const& interiors);
+  std::vector<float> sampled_interior_areas(InteriorQuestion const& question);
   std::vector<float> areas_of(std::vector<Sunlit> const& answers) const;
   void describe_surfaces();
   void draw(std::filesystem::path const& folder, int size, std::vector<bool> wanted);
@@ -131,6 +138,9 @@ class Session {
   AnswerSet run_;
   std::uint32_t state_ = 0;  // which is set
   std::function<double()> latitude_;
+  ForeseenDirections foreseen_;
+  std::unordered_map<SurfaceId, InteriorQuestion> interiors_;  // asked last, by window
+  std::size_t directions_ = 0;  // rendered: samples, and of others those asked for
   std::optional<SampledAnswers> samples_;
   std::optional<AnswerCache> cache_;
   bool to_store_ = false;             // something was rendered that the cache lacks

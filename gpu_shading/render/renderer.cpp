@@ -91,8 +91,8 @@ class Renderer::Implementation {
 
   std::vector<std::vector<Sunlit>> projected_sunlit_areas(std::span<SunDirection const> suns,
                                                           std::span<SurfaceId const> receivers);
-  std::vector<std::vector<Sunlit>> interior_sunlit_areas(
-      SunDirection sun, std::span<InteriorQuestion const> questions);
+  std::vector<std::vector<std::vector<Sunlit>>> interior_sunlit_areas(
+      std::span<SunDirection const> suns, std::span<InteriorQuestion const> questions);
   Image sun_view(SunDirection sun, SurfaceId receiver, int size, std::span<double const> factors);
 
   void set_deployments(std::vector<double> shares) {
@@ -175,18 +175,21 @@ std::vector<std::vector<Sunlit>> Renderer::Implementation::projected_sunlit_area
   return answers;
 }
 
-std::vector<std::vector<Sunlit>> Renderer::Implementation::interior_sunlit_areas(
-    SunDirection sun, std::span<InteriorQuestion const> questions) {
+std::vector<std::vector<std::vector<Sunlit>>> Renderer::Implementation::interior_sunlit_areas(
+    std::span<SunDirection const> suns, std::span<InteriorQuestion const> questions) {
   Stopwatch const watch(statistics_.seconds);
-  std::vector<std::vector<Sunlit>> answers;
-  answers.reserve(questions.size());
-  for (InteriorQuestion const& question : questions)
-    answers.emplace_back(question.interiors.size());
-  glm::dvec3 const towards_sun = to_vector(sun);
+  std::vector<std::vector<Sunlit>> unlit;
+  unlit.reserve(questions.size());
+  for (InteriorQuestion const& question : questions) unlit.emplace_back(question.interiors.size());
+  std::vector<std::vector<std::vector<Sunlit>>> answers(suns.size(), unlit);
   egl::Current const current = device_.context.make_current();
   Round round = new_round();
-  for (std::size_t i = 0; i < questions.size(); ++i) {
-    round.ask({questions[i].window, towards_sun, true, questions[i].interiors, answers[i]});
+  for (std::size_t direction = 0; direction < suns.size(); ++direction) {
+    glm::dvec3 const towards_sun = to_vector(suns[direction]);
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+      round.ask(
+          {questions[i].window, towards_sun, true, questions[i].interiors, answers[direction][i]});
+    }
   }
   round.finish();
   return answers;
@@ -252,12 +255,13 @@ std::vector<std::vector<Sunlit>> Renderer::projected_sunlit_areas(
 std::vector<Sunlit> Renderer::interior_sunlit_areas(SunDirection sun, SurfaceId window,
                                                     std::span<SurfaceId const> interiors) {
   InteriorQuestion const question{window, {interiors.begin(), interiors.end()}};
-  return std::move(implementation_->interior_sunlit_areas(sun, {&question, 1}).front());
+  return std::move(
+      implementation_->interior_sunlit_areas({&sun, 1}, {&question, 1}).front().front());
 }
 
-std::vector<std::vector<Sunlit>> Renderer::interior_sunlit_areas(
-    SunDirection sun, std::span<InteriorQuestion const> questions) {
-  return implementation_->interior_sunlit_areas(sun, questions);
+std::vector<std::vector<std::vector<Sunlit>>> Renderer::interior_sunlit_areas(
+    std::span<SunDirection const> suns, std::span<InteriorQuestion const> questions) {
+  return implementation_->interior_sunlit_areas(suns, questions);
 }
 
 Image Renderer::sun_view(SunDirection sun, SurfaceId receiver, int size,

@@ -196,7 +196,7 @@ def test_interrupt_ends_the_run(patched, courtyard, weather, tmp_path):
         deadline = time.monotonic() + 60
         while not (tmp_path / "eplusout.eso").exists() and process.poll() is None and time.monotonic() < deadline:
             time.sleep(0.1)
-        time.sleep(1.5)  # into the shading of the first days
+        time.sleep(0.5)  # into the shading of the first days
         assert process.poll() is None, "the run was over too soon to be interrupted"
         process.send_signal(signal.SIGINT)
         output, _ = process.communicate(timeout=30)

@@ -116,15 +116,16 @@ TEST_P(Batches, OfWindowsAreEqualToTheBitToOneAtATime) {
   for (SurfaceId const window : site.receivers) questions.push_back({window, site.all});
   questions.push_back({site.receivers.front(), {}});
   double inside = 0.0;
-  for (SunDirection const sun : suns) {
-    auto const batched = together.interior_sunlit_areas(sun, questions);
-    ASSERT_EQ(batched.size(), questions.size());
+  auto const batched = together.interior_sunlit_areas(suns, questions);
+  ASSERT_EQ(batched.size(), suns.size());
+  for (std::size_t n = 0; n < suns.size(); ++n) {
+    ASSERT_EQ(batched[n].size(), questions.size());
     for (std::size_t i = 0; i < questions.size(); ++i) {
       auto const one =
-          apart.interior_sunlit_areas(sun, questions[i].window, questions[i].interiors);
-      ASSERT_EQ(batched[i].size(), one.size());
+          apart.interior_sunlit_areas(suns[n], questions[i].window, questions[i].interiors);
+      ASSERT_EQ(batched[n][i].size(), one.size());
       for (std::size_t k = 0; k < one.size(); ++k) {
-        expect_equal(batched[i][k], one[k]);
+        expect_equal(batched[n][i][k], one[k]);
         inside += one[k].projected_area;
       }
     }
@@ -209,11 +210,12 @@ void expect_counted_equal_one_at_a_time(Site const& site) {
   auto const batched = together.projected_sunlit_areas(suns, site.all);
   std::vector<InteriorQuestion> questions;
   for (SurfaceId const window : site.receivers) questions.push_back({window, site.all});
+  auto const all_inside = together.interior_sunlit_areas(suns, questions);
   for (std::size_t i = 0; i < suns.size(); ++i) {
     for (std::size_t k = 0; k < site.all.size(); ++k) {
       expect_equal(batched[i][k], sunlit(apart, suns[i], site.all[k]));
     }
-    auto const inside = together.interior_sunlit_areas(suns[i], questions);
+    auto const& inside = all_inside[i];
     for (std::size_t k = 0; k < questions.size(); ++k) {
       auto const alone =
           apart.interior_sunlit_areas(suns[i], questions[k].window, questions[k].interiors);

@@ -170,9 +170,10 @@ class Renderer {
   std::vector<Sunlit> interior_sunlit_areas(SunDirection sun, SurfaceId window,
                                             std::span<SurfaceId const> interiors);
 
-  // The same for each window, in order.
-  std::vector<std::vector<Sunlit>> interior_sunlit_areas(
-      SunDirection sun, std::span<InteriorQuestion const> questions);
+  // The same for each direction, and of each for each window, in order: faster than one after
+  // another.
+  std::vector<std::vector<std::vector<Sunlit>>> interior_sunlit_areas(
+      std::span<SunDirection const> suns, std::span<InteriorQuestion const> questions);
 
   // What the sun sees of a receiver: lit receiver pixels yellow, shaded ones blue, casters grey by
   // their tilt to the sun. Where a caster in view transmits, the receiver is grey by its luminance,

@@ -7,8 +7,11 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <numbers>
+#include <regex>
 
 #include "gpu_shading/error.h"
+#include "gpu_shading/sun_position.h"
 #include "input/model_file.h"
 #include "program/process.h"
 #include "session/report.h"
@@ -106,6 +109,97 @@ TEST(Session, SameDirectionIsRenderedOnce) {
   ASSERT_EQ(said.remarks.size(), 1U);
   EXPECT_NE(said.remarks[0].find("1 receivers, 2 casters, 2 directions"), std::string::npos)
       << said.remarks[0];
+}
+
+// A skylight under a plate, over two halves of a floor, on a day at 42 degrees north.
+struct WithDay {
+  explicit WithDay(std::function<double()> site) : session(model_of("")) {
+    skylight = session.add(surface_of("SKYLIGHT", rectangle({0, 0, 3}, {2, 0, 0}, {0, 1, 0})));
+    for (double const x : {-9.0, 1.0}) {
+      floor.push_back(
+          session.add(surface_of("FLOOR", rectangle({x, 0, 0}, {0, 9, 0}, {10, 0, 0}))));
+    }
+    session.add(surface_of("PLATE", rectangle({0, 0, 4}, {1, 0, 0}, {0, 1, 0})));
+    session.start(said.messages(), {}, std::move(site));
+  }
+
+  Scene scene() const {
+    Scene all;
+    for (SurfaceId id = 0; id < session.size(); ++id) all.add(session.surface(id));
+    return all;
+  }
+
+  // At so many quarters of an hour past noon, as EnergyPlus hands it over.
+  std::vector<float> at(int quarters) {
+    auto const sun = to_direction(HourDirection{0.1, quarters * std::numbers::pi / 48.0}, latitude);
+    session.set_sun({static_cast<float>(sun.azimuth), static_cast<float>(sun.altitude)});
+    std::vector<float> areas{session.projected_sunlit_area(skylight)};
+    for (float const area : session.interior_areas(skylight, floor)) areas.push_back(area);
+    return areas;
+  }
+
+  // "6 views drawn, 0 clear"
+  std::string rendered() {
+    session.finish();
+    std::smatch views;
+    EXPECT_TRUE(std::regex_search(said.remarks.back(), views, std::regex("\\d+ views.*clear")));
+    return views[0];
+  }
+
+  std::string directions() {
+    session.finish();
+    std::smatch directions;
+    EXPECT_TRUE(
+        std::regex_search(said.remarks.back(), directions, std::regex("(\\d+) directions")));
+    return directions[1];
+  }
+
+  static constexpr double latitude = 0.73;
+  Said said;
+  Session session;
+  SurfaceId skylight = 0;
+  std::vector<SurfaceId> floor;
+};
+
+TEST(Session, TheRestOfADayIsRenderedInOneGo) {
+  WithDay ahead([] { return WithDay::latitude; });
+  WithDay one_at_a_time({});
+  ahead.at(-20);
+  ahead.at(-19);
+  auto const rendered = ahead.rendered();
+  EXPECT_EQ(ahead.directions(), "2");  // were asked for
+  double inside = 0.0;
+  for (int quarters = -20; quarters <= 25; ++quarters) {
+    auto const areas = ahead.at(quarters);
+    auto const expected = one_at_a_time.at(quarters);
+    for (std::size_t i = 0; i < areas.size(); ++i) EXPECT_NEAR(areas[i], expected[i], 1e-5) << i;
+    inside += areas[1] + areas[2];
+  }
+  EXPECT_GT(inside, 10.0);
+  // Until the last quarter before sunset, 0.09 radians past six.
+  EXPECT_EQ(ahead.directions(), "46");
+  EXPECT_EQ(ahead.rendered(), rendered);
+  EXPECT_EQ(one_at_a_time.rendered(), rendered);
+}
+
+TEST(Session, TheSkyIsRenderedInOneGo) {
+  WithDay sky({});
+  Renderer renderer(sky.scene(), {});
+  sky.session.set_sun({1.308997F, 0.65449847F});
+  sky.session.projected_sunlit_area(sky.skylight);
+  auto const rendered = sky.rendered();
+  for (int i = 0; i < 144; ++i) {
+    int const row = i / 24;
+    double const azimuth = i % 24 * std::numbers::pi / 12.0;
+    double const altitude = (row + 0.5) * std::numbers::pi / 12.0;
+    sky.session.set_sun({static_cast<float>(azimuth), static_cast<float>(altitude)});
+    auto const expected = renderer.projected_sunlit_areas(SunDirection{azimuth, altitude},
+                                                          std::span(&sky.skylight, 1));
+    EXPECT_FLOAT_EQ(sky.session.projected_sunlit_area(sky.skylight),
+                    static_cast<float>(expected.front().projected_area));
+  }
+  EXPECT_EQ(sky.directions(), "144");
+  EXPECT_EQ(sky.rendered(), rendered);
 }
 
 TEST(Session, ReportHoldsEveryAnswerAndPictures) {
