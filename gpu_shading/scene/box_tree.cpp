@@ -16,41 +16,38 @@ void Box::include(Box const& other) {
 }
 
 BoxTree::BoxTree(std::vector<Box> const& boxes) {
-  std::vector<std::uint32_t> numbers;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (!boxes[i].empty()) numbers.push_back(static_cast<std::uint32_t>(i));
+    if (!boxes[i].empty()) numbers_.push_back(static_cast<std::uint32_t>(i));
   }
-  if (numbers.empty()) return;
-  nodes_.reserve(2 * numbers.size());
+  if (numbers_.empty()) return;
+  nodes_.reserve(2 * numbers_.size());
   nodes_.emplace_back();
-  build(0, boxes, numbers.data(), numbers.data() + numbers.size());
+  build(0, boxes, 0, static_cast<std::uint32_t>(numbers_.size()));
 }
 
-void BoxTree::build(std::uint32_t node, std::vector<Box> const& boxes, std::uint32_t* begin,
-                    std::uint32_t* end) {
+void BoxTree::build(std::uint32_t node, std::vector<Box> const& boxes, std::uint32_t first,
+                    std::uint32_t count) {
+  auto const begin = numbers_.begin() + first;
+  auto const end = begin + count;
   Box box;
   Box centres;
-  for (std::uint32_t const* number = begin; number != end; ++number) {
+  for (auto number = begin; number != end; ++number) {
     box.include(boxes[*number]);
     centres.include(boxes[*number].centre());
   }
-  nodes_[node].box = box;
-  if (end - begin == 1) {
-    nodes_[node].next = *begin;
-    nodes_[node].leaf = true;
-    return;
-  }
+  nodes_[node] = {box.centre(), box.reach(), first, count, 0};
+  if (count == 1) return;
   glm::dvec3 const reach = centres.reach();
   int const axis = reach.x >= reach.y && reach.x >= reach.z ? 0 : reach.y >= reach.z ? 1 : 2;
-  std::uint32_t* const middle = begin + (end - begin) / 2;
-  std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) {
+  std::uint32_t const half = count / 2;
+  std::nth_element(begin, begin + half, end, [&](std::uint32_t a, std::uint32_t b) {
     return boxes[a].low[axis] + boxes[a].high[axis] < boxes[b].low[axis] + boxes[b].high[axis];
   });
   auto const children = static_cast<std::uint32_t>(nodes_.size());
-  nodes_[node].next = children;
+  nodes_[node].children = children;
   nodes_.resize(nodes_.size() + 2);
-  build(children, boxes, begin, middle);
-  build(children + 1, boxes, middle, end);
+  build(children, boxes, first, half);
+  build(children + 1, boxes, first + half, count - half);
 }
 
 }  // namespace gpu_shading

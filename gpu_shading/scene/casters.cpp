@@ -34,11 +34,19 @@ double depth(PlaneFrame const& frame, glm::dvec3 const& point) {
 class Casters::Shadow {
  public:
   Shadow(PlaneFrame const& frame, glm::dvec3 const& towards_sun)
-      : half_width_(0.5 * frame.width), half_height_(0.5 * frame.height) {
+      : half_width_(0.5 * frame.width),
+        half_height_(0.5 * frame.height),
+        of_width_(1.0 / frame.width),
+        of_height_(1.0 / frame.height) {
     double const cosine = glm::dot(frame.normal, towards_sun);
     slide_u_ = frame.u - frame.normal * (glm::dot(frame.u, towards_sun) / cosine);
     slide_v_ = frame.v - frame.normal * (glm::dot(frame.v, towards_sun) / cosine);
     origin_ = frame.origin;
+    normal_ = frame.normal;
+    abs_u_ = glm::abs(slide_u_);
+    abs_v_ = glm::abs(slide_v_);
+    abs_normal_ = glm::abs(normal_);
+    steepness_ = 1.0 + std::max(glm::length(slide_u_), glm::length(slide_v_));
   }
 
   void clear() {
@@ -64,41 +72,36 @@ class Casters::Shadow {
     include(a + (b - a) * (depth_a / (depth_a - depth_b)));
   }
 
-  // Of the edge from a to b, what lies in the receiver's rectangle.
-  Detail edge(glm::dvec3 const& a, glm::dvec3 const& b) const {
-    glm::dvec2 const from = in_rectangle(a);
-    glm::dvec2 const step = in_rectangle(b) - from;
-    double enters = 0.0;
-    double leaves = 1.0;
-    for (int axis = 0; axis < 2; ++axis) {
-      constexpr double rounding = 1e-9;
-      if (std::abs(step[axis]) < rounding) {
-        if (std::abs(from[axis]) > 0.5 - rounding) return {};
-        continue;
-      }
-      double const low = (-0.5 - from[axis]) / step[axis];
-      double const high = (0.5 - from[axis]) / step[axis];
-      enters = std::max(enters, std::min(low, high));
-      leaves = std::min(leaves, std::max(low, high));
+  // Of a ring's edges, what lies in the receiver's rectangle; `within` it, all of them.
+  Detail edges(std::span<glm::dvec3 const> ring, bool within) const {
+    Detail detail;
+    if (ring.empty()) return detail;
+    glm::dvec2 from = in_rectangle(ring.back());
+    for (glm::dvec3 const& vertex : ring) {
+      glm::dvec2 const to = in_rectangle(vertex);
+      detail += detail_of((within ? 1.0 : part_within(from, to - from)) * glm::abs(to - from));
+      from = to;
     }
-    if (leaves <= enters) return {};
-    glm::dvec2 const length = (leaves - enters) * glm::abs(step);
-    // Within a pixel of a row from end to end of the finest tile that is chosen by detail.
-    constexpr double parallel = 1e-3;
-    bool const along = std::min(length.x, length.y) < parallel * std::max(length.x, length.y);
-    return along ? Detail{glm::length(length), 0.0} : Detail{0.0, glm::length(length)};
+    return detail;
   }
 
-  // Whether a box may throw one on the rectangle: all of it is taken, in front of the plane or not.
-  bool may_come_from(Box const& box) const {
-    glm::dvec3 const c = box.centre() - origin_;
-    glm::dvec3 const r = box.reach();
-    double const room = 1e-9 * (glm::length(c) + glm::length(r)) + 2.0 * slack();
-    auto const misses = [&](glm::dvec3 const& slide, double half) {
-      return std::abs(glm::dot(slide, c)) >
-             glm::dot(glm::abs(slide), r) + half + room * (1.0 + glm::length(slide));
-    };
-    return !misses(slide_u_, half_width_) && !misses(slide_v_, half_height_);
+  // Of a box, how much may throw one on the rectangle. A part, too, where rounding has the word.
+  Wanted of(glm::dvec3 const& centre, glm::dvec3 const& reach) const {
+    glm::dvec3 const c = centre - origin_;
+    double const size = glm::dot(glm::abs(c) + reach, glm::dvec3(1.0));
+    double const rounding = 1e-12 * size;
+    double const height = glm::dot(normal_, c);
+    double const height_reach = glm::dot(abs_normal_, reach);
+    if (height + height_reach <= coplanar - rounding) return Wanted::none;
+    double const u = std::abs(glm::dot(slide_u_, c));
+    double const v = std::abs(glm::dot(slide_v_, c));
+    double const u_reach = glm::dot(abs_u_, reach);
+    double const v_reach = glm::dot(abs_v_, reach);
+    double const room = (1e-9 * size + 2.0 * slack()) * steepness_;
+    if (u > u_reach + half_width_ + room || v > v_reach + half_height_ + room) return Wanted::none;
+    bool const all = height - height_reach > coplanar + rounding &&
+                     u + u_reach < half_width_ - room && v + v_reach < half_height_ - room;
+    return all ? Wanted::all : Wanted::part;
   }
 
   bool overlaps() const {
@@ -108,10 +111,35 @@ class Casters::Shadow {
   }
 
  private:
-  // Sides of the rectangle, from its middle.
+  // In sides of the rectangle, from its middle.
   glm::dvec2 in_rectangle(glm::dvec3 const& point) const {
     glm::dvec3 const p = point - origin_;
-    return {0.5 * glm::dot(slide_u_, p) / half_width_, 0.5 * glm::dot(slide_v_, p) / half_height_};
+    return {glm::dot(slide_u_, p) * of_width_, glm::dot(slide_v_, p) * of_height_};
+  }
+
+  // Of a line in the rectangle's sides, the part that lies in it.
+  static double part_within(glm::dvec2 const& from, glm::dvec2 const& step) {
+    double enters = 0.0;
+    double leaves = 1.0;
+    for (int axis = 0; axis < 2; ++axis) {
+      constexpr double rounding = 1e-9;
+      if (std::abs(step[axis]) < rounding) {
+        if (std::abs(from[axis]) > 0.5 - rounding) return 0.0;
+        continue;
+      }
+      double const low = (-0.5 - from[axis]) / step[axis];
+      double const high = (0.5 - from[axis]) / step[axis];
+      enters = std::max(enters, std::min(low, high));
+      leaves = std::min(leaves, std::max(low, high));
+    }
+    return std::max(leaves - enters, 0.0);
+  }
+
+  static Detail detail_of(glm::dvec2 const& length) {
+    // Within a pixel of a row from end to end of the finest tile that is chosen by detail.
+    constexpr double parallel = 1e-3;
+    bool const along = std::min(length.x, length.y) < parallel * std::max(length.x, length.y);
+    return along ? Detail{glm::length(length), 0.0} : Detail{0.0, glm::length(length)};
   }
 
   // Against rounding, here and in the float32 of the GPU.
@@ -119,9 +147,16 @@ class Casters::Shadow {
 
   double half_width_;
   double half_height_;
+  double of_width_;
+  double of_height_;
   glm::dvec3 origin_;
+  glm::dvec3 normal_;
   glm::dvec3 slide_u_;
   glm::dvec3 slide_v_;
+  glm::dvec3 abs_normal_;
+  glm::dvec3 abs_u_;
+  glm::dvec3 abs_v_;
+  double steepness_;
   double low_u_ = 0.0;
   double high_u_ = 0.0;
   double low_v_ = 0.0;
@@ -159,47 +194,41 @@ InView Casters::in_view(Scene const& scene, SurfaceId receiver, PlaneFrame const
                         glm::dvec3 const& towards_sun, double enough) const {
   InView found;
   Shadow shadow(frame, towards_sun);
-  auto const wanted = [&](Box const& box) {
-    glm::dvec3 const c = box.centre() - frame.origin;
-    double const highest =
-        glm::dot(frame.normal, c) + glm::dot(glm::abs(frame.normal), box.reach());
-    return highest > coplanar - 1e-12 * glm::length(c) && shadow.may_come_from(box);
+  auto const wanted = [&](glm::dvec3 const& centre, glm::dvec3 const& reach) {
+    return shadow.of(centre, reach);
   };
-  auto const add_edges = [&](std::span<glm::dvec3 const> ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      found.detail += shadow.edge(ring[i], ring[(i + 1) % ring.size()]);
-    }
-  };
-  tree_.search(wanted, [&](SurfaceId id) {
+  tree_.search(wanted, [&](SurfaceId id, Wanted how_much) {
     Caster const& caster = casters_[id];
-    if (!is_in_view(caster, frame, towards_sun, shadow) || !scene.may_shade(receiver, id)) return;
+    if (caster.only_turned_away && glm::dot(caster.normal, towards_sun) > in_the_sun) return;
+    if (how_much == Wanted::part && !is_in_view(caster, frame, shadow)) return;
+    if (!scene.may_shade(receiver, id)) return;
     found.casters.push_back(id);
     if (found.detail.total() >= enough) return;
-    add_edges(points(caster));
-    for (Ring const& hole : holes(caster)) add_edges(hole);
+    bool const within = how_much == Wanted::all;
+    found.detail += shadow.edges(points(caster), within);
+    for (Ring const& hole : holes(caster)) found.detail += shadow.edges(hole, within);
   });
   std::sort(found.casters.begin(), found.casters.end());
   return found;
 }
 
-bool Casters::is_in_view(Caster const& caster, PlaneFrame const& frame,
-                         glm::dvec3 const& towards_sun, Shadow& shadow) const {
-  if (caster.only_turned_away && glm::dot(caster.normal, towards_sun) > in_the_sun) return false;
+bool Casters::is_in_view(Caster const& caster, PlaneFrame const& frame, Shadow& shadow) const {
   auto const ring = points(caster);
+  bool const thick = caster.faces.inside != caster.faces.outside;
   shadow.clear();
   bool clearly_in_front = false;
   bool cut = false;
   for (glm::dvec3 const& vertex : ring) {
-    clearly_in_front = clearly_in_front || height_above(frame, vertex) > coplanar;
-    if (depth(frame, vertex) > 0.0) {
+    double const height = height_above(frame, vertex);
+    clearly_in_front = clearly_in_front || height > coplanar;
+    if (height > clearance) {
       shadow.include(vertex + caster.faces.inside * caster.normal);
-      shadow.include(vertex + caster.faces.outside * caster.normal);
+      if (thick) shadow.include(vertex + caster.faces.outside * caster.normal);
     } else {
       cut = true;
     }
   }
   if (!clearly_in_front) return false;
-  bool const thick = caster.faces.inside != caster.faces.outside;
   if (cut && thick) return true;
   if (cut && caster.planar) {
     for (std::size_t i = 0; i < ring.size(); ++i) {

@@ -65,8 +65,7 @@ class Casters {
     return {holes_.data() + caster.first_hole, caster.holes};
   }
 
-  bool is_in_view(Caster const& caster, PlaneFrame const& frame, glm::dvec3 const& towards_sun,
-                  Shadow& shadow) const;
+  bool is_in_view(Caster const& caster, PlaneFrame const& frame, Shadow& shadow) const;
 
   std::vector<Caster> casters_;
   std::vector<glm::dvec3> points_;

@@ -122,21 +122,47 @@ TEST(BoxTree, LooksAtFewBoxesThatAreNotWanted) {
   int looked = 0;
   std::vector<std::uint32_t> found;
   tree.search(
-      [&](Box const& box) {
+      [&](glm::dvec3 const& centre, glm::dvec3 const& reach) {
         ++looked;
-        return box.low.x < 3.0 && box.high.x > 2.0 && box.low.y < 1.0;
+        auto const low = centre - reach;
+        auto const high = centre + reach;
+        return low.x < 3.0 && high.x > 2.0 && low.y < 1.0 ? Wanted::part : Wanted::none;
       },
-      [&](std::uint32_t number) { found.push_back(number); });
+      [&](std::uint32_t number, Wanted) { found.push_back(number); });
   EXPECT_EQ(found, std::vector<std::uint32_t>{2});
   EXPECT_LT(looked, 100);
-  int all = 0;
-  tree.search([](Box const&) { return true; }, [&](std::uint32_t) { ++all; });
-  EXPECT_EQ(all, 9999);
+}
+
+TEST(BoxTree, LooksNotIntoBoxesThatAreWantedAltogether) {
+  std::vector<Box> boxes(10000);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    boxes[i].include(glm::dvec3(static_cast<double>(i)));
+    boxes[i].include(glm::dvec3(static_cast<double>(i) + 0.5));
+  }
+  boxes[77] = Box();
+  BoxTree const tree(boxes);
+  int looked = 0;
+  std::vector<int> found(boxes.size(), 0);
+  std::size_t parts = 0;
+  tree.search(
+      [&](glm::dvec3 const& centre, glm::dvec3 const& reach) {
+        ++looked;
+        if (centre.x + reach.x < 50.25) return Wanted::none;
+        return centre.x - reach.x > 50.25 ? Wanted::all : Wanted::part;
+      },
+      [&](std::uint32_t number, Wanted how_much) {
+        ++found[number];
+        if (how_much == Wanted::part) parts = number;
+      });
+  EXPECT_LT(looked, 100);
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i], i >= 50 && i != 77) << i;
+  EXPECT_EQ(parts, 50U);
 }
 
 TEST(BoxTree, OfNothingFindsNothing) {
   BoxTree const tree(std::vector<Box>(3));
-  tree.search([](Box const&) { return true; }, [](std::uint32_t) { ADD_FAILURE(); });
+  tree.search([](glm::dvec3 const&, glm::dvec3 const&) { return Wanted::all; },
+              [](std::uint32_t, Wanted) { ADD_FAILURE(); });
 }
 
 }  // namespace
