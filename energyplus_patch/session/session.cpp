@@ -91,19 +91,21 @@ void Session::start(Messages messages, Schedules schedules, std::function<double
   latitude_ = std::move(latitude);
   surfaces_ = scene_.size();
   auto const& input = model_.shading;
-  unshaded_.assign(surfaces_, std::nullopt);
+  areas_.clear();
+  unshaded_.assign(surfaces_, false);
   numbers_.assign(surfaces_, std::nullopt);
   asked_.assign(surfaces_, false);
   std::vector<bool> wanted(surfaces_, true);
   for (SurfaceId id = 0; id < surfaces_; ++id) {
     auto const& name = scene_[id].name;
     auto const& polygon = scene_[id].polygon;
+    areas_.push_back(area(polygon) * normal(polygon));
     wanted[id] = input.receives(name) && !is_reveal(name) && !model_.lean.is_placeholder(name);
     if (wanted[id]) {
       // All of them are rendered at the first question, at one go.
       if (area(polygon) > 0.0) number_of(id);
     } else if (input.shading_surfaces.contains(name) || model_.lean.is_placeholder(name)) {
-      unshaded_[id] = area(polygon) * normal(polygon);
+      unshaded_[id] = true;
     }
   }
   add_outside_casters();
@@ -175,8 +177,7 @@ SampledScene Session::sampled_scene(std::string const& asked) const {
   sampled.fineness = describe_fineness(model_.options);
   sampled.schedules = optics_.factor_names();
   for (auto const id : run_.receivers) {
-    auto const& [name, polygon] = std::tie(scene_[id].name, scene_[id].polygon);
-    sampled.receivers.push_back({name, area(polygon) * normal(polygon)});
+    sampled.receivers.push_back({scene_[id].name, areas_[id]});
   }
   return sampled;
 }
@@ -237,13 +238,7 @@ Hash Session::hash_of_scene(DeviceInfo const& device) const {
 void Session::open_samples() {
   auto const& sampling = model_.options.update.sampling;
   if (!sampling) return;
-  std::vector<glm::dvec3> areas;
-  areas.reserve(surfaces_);
-  for (SurfaceId id = 0; id < surfaces_; ++id) {
-    auto const& polygon = scene_[id].polygon;
-    areas.push_back(area(polygon) * normal(polygon));
-  }
-  samples_.emplace(*sampling, std::move(areas));
+  samples_.emplace(*sampling, areas_);
 }
 
 void Session::store_answers() {
@@ -354,7 +349,8 @@ void Session::warn_of_actuated_schedules() const {
 
 void Session::set_sun(SunDirection sun) {
   sun_ = foreseen_.settle(sun, latitude_);
-  towards_sun_ = to_vector(sun_);
+  towards_kept_ = to_vector(sun_);
+  towards_sun_ = to_vector(sun);
 }
 
 void Session::set_time(Moment moment) {
@@ -452,14 +448,21 @@ float Session::projected_sunlit_area(SurfaceId receiver) {
     throw Error(fmt::format("EnergyPlus asks for surface {} of {}", receiver, surfaces_));
   }
   if (unshaded_[receiver]) {
-    return static_cast<float>(std::max(glm::dot(*unshaded_[receiver], towards_sun_), 0.0));
+    return static_cast<float>(std::max(glm::dot(areas_[receiver], towards_sun_), 0.0));
   }
   auto const number = number_of(receiver);
   asked_[receiver] = true;
-  if (auto const* const sunlit = find_sampled(receiver)) {
-    return static_cast<float>(sunlit->at(optics_.factors()));
-  }
-  return static_cast<float>(answers_now(number).area(number, optics_.factors()));
+  auto const* const sampled = find_sampled(receiver);
+  double const kept = sampled != nullptr ? sampled->at(optics_.factors())
+                                         : answers_now(number).area(number, optics_.factors());
+  return static_cast<float>(kept * for_this_sun(receiver));
+}
+
+// EnergyPlus divides by the cosine of incidence, so that at grazing incidence the rounding between
+// the two directions would count for much.
+double Session::for_this_sun(SurfaceId surface) const {
+  double const kept = glm::dot(areas_[surface], towards_kept_);
+  return kept > 0.0 ? std::max(glm::dot(areas_[surface], towards_sun_) / kept, 0.0) : 1.0;
 }
 
 Sunlit const* Session::find_sampled(SurfaceId receiver) {
@@ -562,6 +565,8 @@ std::vector<float> Session::interior_areas(SurfaceId window,
   InteriorQuestion const question{window, interiors};
   auto areas = sampled_interior_areas(question);
   if (areas.empty()) areas = areas_of(interior_now(question));
+  auto const factor = static_cast<float>(for_this_sun(window));
+  for (float& area : areas) area *= factor;
   keep_largest(areas, max_back_surfaces);
   return areas;
 }

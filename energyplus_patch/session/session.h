@@ -105,6 +105,8 @@ class Session {
                                                    InteriorQuestion const& question);
   // Empty where they have to be rendered.
   std::vector<float> sampled_interior_areas(InteriorQuestion const& question);
+  // What the sun as it was handed over gives a surface that gets 1 from where answers are kept.
+  double for_this_sun(SurfaceId surface) const;
   std::vector<float> areas_of(std::vector<Sunlit> const& answers) const;
   void describe_surfaces();
   void draw(std::filesystem::path const& folder, int size, std::vector<bool> wanted);
@@ -128,13 +130,14 @@ class Session {
   std::size_t surfaces_ = 0;
   std::size_t casters_ = 0;
   std::optional<Renderer> renderer_;
-  RendererStatistics earlier_;  // of renderers before it
-  // By surface, where its own fraction has no use: normal x area, for an answer without shadows.
-  std::vector<std::optional<glm::dvec3>> unshaded_;
+  RendererStatistics earlier_;                          // of renderers before it
+  std::vector<glm::dvec3> areas_;                       // unit normal x net area, by surface
+  std::vector<bool> unshaded_;                          // whose own fraction has no use, by surface
   std::vector<std::optional<ReceiverNumber>> numbers_;  // of receivers, by surface
   std::vector<bool> asked_;                             // for by EnergyPlus, by surface
-  SunDirection sun_;
-  glm::dvec3 towards_sun_{0.0, 0.0, 1.0};
+  SunDirection sun_;                                    // that answers are kept by
+  glm::dvec3 towards_kept_{0.0, 0.0, 1.0};
+  glm::dvec3 towards_sun_{0.0, 0.0, 1.0};  // as EnergyPlus hands it over
   AnswerSet run_;
   std::uint32_t state_ = 0;  // which is set
   std::function<double()> latitude_;

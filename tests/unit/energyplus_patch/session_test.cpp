@@ -182,6 +182,33 @@ TEST(Session, TheRestOfADayIsRenderedInOneGo) {
   EXPECT_EQ(one_at_a_time.rendered(), rendered);
 }
 
+// EnergyPlus divides by a cosine of incidence of its own.
+TEST(Session, GrazingSunIsTakenAsItIsHandedOver) {
+  constexpr double from_edge_on = 0.003;
+  for (int i = 0; i < 20; ++i) {
+    double const last = -1.0 + 0.1 * i;
+    auto const at = [&](int step) {
+      auto const sun = to_direction(HourDirection{0.1, last + step * std::numbers::pi / 48.0},
+                                    WithDay::latitude);
+      return SunDirection{static_cast<float>(sun.azimuth), static_cast<float>(sun.altitude)};
+    };
+    auto const sun = at(0);
+    double const heading = sun.azimuth - from_edge_on;
+    Session session(model_of(""));
+    auto const wall = session.add(surface_of(
+        "WALL", rectangle({}, {std::sin(heading), std::cos(heading), 0.0}, {0.0, 0.0, 1.0})));
+    Said said;
+    session.start(said.messages(), {}, [] { return WithDay::latitude; });
+    for (int step = -3; step < 0; ++step) {
+      session.set_sun(at(step));
+      session.projected_sunlit_area(wall);
+    }
+    session.set_sun(sun);
+    double const cosine = std::cos(sun.altitude) * std::sin(from_edge_on);
+    EXPECT_NEAR(session.projected_sunlit_area(wall), cosine, 1e-6 * cosine);
+  }
+}
+
 TEST(Session, TheSkyIsRenderedInOneGo) {
   WithDay sky({});
   Renderer renderer(sky.scene(), {});
