@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <numeric>
 #include <set>
 #include <string_view>
@@ -388,13 +389,15 @@ std::vector<SunDirection> Session::directions_ahead(std::size_t views) const {
 }
 
 Answers::Direction& Session::answers_now(ReceiverNumber receiver) {
-  auto& known = run_.answers.at(sun_, state_);
-  if (!known.knows(receiver) && cache_) cache_->recall(run_, known);
-  if (!known.knows(receiver)) sample(directions_ahead(run_.receivers.size()), run_.receivers);
-  auto& direction = run_.answers.at(sun_, state_);
-  if (!direction.asked && !direction.recalled) ++directions_;
-  direction.asked = true;
-  return direction;
+  auto* direction = &run_.answers.at(sun_, state_);
+  if (!direction->knows(receiver) && cache_) cache_->recall(run_, *direction);
+  if (!direction->knows(receiver)) {
+    sample(directions_ahead(run_.receivers.size()), run_.receivers);
+    direction = &run_.answers.at(sun_, state_);
+  }
+  if (!direction->asked && !direction->recalled) ++directions_;
+  direction->asked = true;
+  return *direction;
 }
 
 std::vector<std::vector<Sunlit>> Session::sample(std::span<SunDirection const> directions,
@@ -486,14 +489,13 @@ std::vector<Sunlit> const* Session::find_interior(SunDirection sun,
   return cache_ ? cache_->recall_interior(run_, direction, hash) : nullptr;
 }
 
-std::vector<std::vector<Sunlit>> Session::sample_interior(std::span<SunDirection const> directions,
-                                                          InteriorQuestion const& question) {
-  interiors_[question.window] = question;
+std::vector<std::vector<Sunlit>> Session::sample_interior(
+    std::span<SunDirection const> directions, std::span<InteriorQuestion const> questions) {
   std::vector<std::vector<Sunlit>> rows;
   std::vector<SunDirection> unknown;
   std::vector<std::size_t> places;
   for (auto const sun : directions) {
-    auto const* const row = find_interior(sun, question);
+    auto const* const row = find_interior(sun, questions.front());
     rows.push_back(row == nullptr ? std::vector<Sunlit>() : *row);
     if (row != nullptr) continue;
     unknown.push_back(sun);
@@ -501,15 +503,13 @@ std::vector<std::vector<Sunlit>> Session::sample_interior(std::span<SunDirection
   }
   if (unknown.empty()) return rows;
   to_store_ = true;
-  std::vector<InteriorQuestion> wanted{question};
-  for (auto const& each : interiors_) {
-    auto const& other = each.second;
-    if (other.window == question.window) continue;
-    bool const lacking = std::any_of(unknown.begin(), unknown.end(), [&](SunDirection sun) {
-      return find_interior(sun, other) == nullptr;
-    });
-    if (lacking) wanted.push_back(other);
-  }
+  std::vector<InteriorQuestion> wanted;
+  std::copy_if(questions.begin(), questions.end(), std::back_inserter(wanted),
+               [&](InteriorQuestion const& question) {
+                 return std::any_of(unknown.begin(), unknown.end(), [&](SunDirection sun) {
+                   return find_interior(sun, question) == nullptr;
+                 });
+               });
   auto rendered = renderer_->interior_sunlit_areas(unknown, wanted);
   for (std::size_t i = 0; i < unknown.size(); ++i) {
     auto& direction = run_.answers.at(unknown[i], state_);
@@ -524,8 +524,13 @@ std::vector<std::vector<Sunlit>> Session::sample_interior(std::span<SunDirection
 }
 
 std::vector<Sunlit> Session::interior_now(InteriorQuestion const& question) {
+  interiors_[question.window] = question;
   if (auto const* const known = find_interior(sun_, question)) return *known;
-  return std::move(sample_interior(directions_ahead(interiors_.size() + 1), question).back());
+  std::vector<InteriorQuestion> questions{question};
+  for (auto const& [window, other] : interiors_) {
+    if (window != question.window) questions.push_back(other);
+  }
+  return std::move(sample_interior(directions_ahead(questions.size()), questions).back());
 }
 
 std::vector<float> Session::sampled_interior_areas(InteriorQuestion const& question) {
@@ -533,7 +538,7 @@ std::vector<float> Session::sampled_interior_areas(InteriorQuestion const& quest
   if (through == nullptr) return {};
   double const most = through->at(optics_.factors());
   auto const source = [&](std::span<SunDirection const> directions) {
-    return sample_interior(directions, question);
+    return sample_interior(directions, {&question, 1});
   };
   auto const* const row =
       samples_->find_interior(question.window, hash_of(question), question.interiors.size(),

@@ -100,9 +100,10 @@ class Session {
   std::vector<Sunlit> interior_now(InteriorQuestion const& question);
   // nullptr where they are not known. Valid until the next call.
   std::vector<Sunlit> const* find_interior(SunDirection sun, InteriorQuestion const& question);
-  // By direction; rendered where they are not known, and with them what was asked of other windows.
+  // Of the first question, by direction; rendered where it is not known, with those of the others
+  // that are not either.
   std::vector<std::vector<Sunlit>> sample_interior(std::span<SunDirection const> directions,
-                                                   InteriorQuestion const& question);
+                                                   std::span<InteriorQuestion const> questions);
   // Empty where they have to be rendered.
   std::vector<float> sampled_interior_areas(InteriorQuestion const& question);
   // What the sun as it was handed over gives a surface that gets 1 from where answers are kept.
