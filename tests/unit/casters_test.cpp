@@ -131,6 +131,10 @@ TEST(BoxTree, LooksAtFewBoxesThatAreNotWanted) {
       [&](std::uint32_t number, Wanted) { found.push_back(number); });
   EXPECT_EQ(found, std::vector<std::uint32_t>{2});
   EXPECT_LT(looked, 100);
+  int all = 0;
+  tree.search([](glm::dvec3 const&, glm::dvec3 const&) { return Wanted::part; },
+              [&](std::uint32_t, Wanted) { ++all; });
+  EXPECT_EQ(all, 9999);
 }
 
 TEST(BoxTree, LooksNotIntoBoxesThatAreWantedAltogether) {
