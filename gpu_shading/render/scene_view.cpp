@@ -5,25 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 #include <vector>
 
 #include "egl/device.h"
-#include "gl/buffer.h"
 #include "gl/check.h"
 #include "gl/draw.h"
 #include "gl/framebuffer.h"
-#include "gl/program.h"
-#include "gl/vertex_array.h"
 #include "gpu_shading/error.h"
 #include "render/sun_axes.h"
-#include "scene/triangulation.h"
-#include "shaders/sources.h"
+#include "render/whole_scene.h"
+#include "scene/box_tree.h"
 
 namespace gpu_shading {
 namespace {
@@ -32,11 +27,6 @@ namespace {
 constexpr int samples = 2;
 // Around all that is shown, as a share of its longer side.
 constexpr double border = 0.04;
-
-struct Vertex {
-  glm::vec3 point;
-  std::uint32_t identity;  // of the surface, counted from 1; 0 is the sky
-};
 
 bool transmits(Surface const& surface) {
   return surface.transmittance || surface.screen || surface.schedule >= 0;
@@ -82,18 +72,14 @@ class SceneView::Implementation {
     std::stable_partition(shown_.begin(), shown_.end(),
                           [&](SurfaceId id) { return !transmits(scene_[id]); });
     find_middle();
-    std::vector<Vertex> vertices;
+    std::vector<WholeScene::Vertex> vertices;
     for (SurfaceId const id : shown_) {
-      Mesh const mesh = triangulate(scene_[id].polygon);
-      for (auto const index : mesh.indices) {
-        vertices.push_back({glm::vec3(mesh.vertices[index] - middle_), id + 1});
-      }
+      WholeScene::add(vertices, id, scene_[id].polygon, middle_);
       if (!transmits(scene_[id])) opaque_ = vertices.size();
     }
     vertices_ = vertices.size();
     auto const current = device_.context.make_current();
     on_device_.emplace(vertices);
-    gl::set_depth_convention();
     gl::check("uploading a scene to view");
   }
 
@@ -110,8 +96,7 @@ class SceneView::Implementation {
                               device_.info.max_resolution / samples));
     }
     auto const towards_sun = to_vector(sun);
-    SunAxes const axes(towards_sun);
-    PictureFrame const frame = find_frame(axes, fractions);
+    PictureFrame const frame = find_frame(SunAxes(towards_sun), fractions);
     double const scale = size / frame.longer();
     auto const pixels = [&](double length) {
       return std::clamp(static_cast<int>(std::lround(scale * length)), 1, size);
@@ -125,20 +110,7 @@ class SceneView::Implementation {
     int const rows = samples * image.height;
     auto const target =
         gl::Framebuffer::create({gl::Format::identity, gl::Format::depth_stencil}, columns, rows);
-    target.bind();
-    target.clear_identity();
-    target.clear_depth(1.0F);
-    gl::blend(gl::Blend::replace);
-    gl::write_colour(true);
-    gl::no_stencil();
-    gl::cut_at_plane(false);
-    gl::depth(gl::Test::less, true);
-    auto& program = on_device_->program;
-    program.use();
-    program.set(0, glm::vec4(clip_row(axes.right, frame.low.x, frame.high.x)));
-    program.set(1, glm::vec4(clip_row(axes.up, frame.low.y, frame.high.y)));
-    program.set(2, glm::vec4(glm::dvec4(-0.5 * towards_sun / reach_, 0.5)));
-    on_device_->array.bind();
+    on_device_->begin(target, towards_sun, frame, reach_);
     gl::draw_vertices(0, opaque_);
     auto const behind = target.read_identity();
     gl::draw_vertices(opaque_, vertices_ - opaque_);
@@ -160,23 +132,6 @@ class SceneView::Implementation {
   }
 
  private:
-  // What lives on the device, made and ended with its context current.
-  struct OnDevice {
-    explicit OnDevice(std::vector<Vertex> const& contents)
-        : program(gl::Program::link("whole", shaders::whole_vert, shaders::whole_frag)),
-          vertices(gl::Buffer::create()),
-          array(gl::VertexArray::create()) {
-      vertices.set(std::span<Vertex const>(contents));
-      array.set_vertices(vertices, sizeof(Vertex));
-      array.add_floats(gl::VertexArray::Of::vertices, 0, 3, offsetof(Vertex, point));
-      array.add_integers(gl::VertexArray::Of::vertices, 1, 1, offsetof(Vertex, identity));
-    }
-
-    gl::Program program;
-    gl::Buffer vertices;
-    gl::VertexArray array;
-  };
-
   template <typename Action>
   void for_each_point(Action const& action) const {
     for (SurfaceId const id : shown_) {
@@ -185,15 +140,11 @@ class SceneView::Implementation {
   }
 
   void find_middle() {
-    glm::dvec3 low(std::numeric_limits<double>::infinity());
-    glm::dvec3 high(-std::numeric_limits<double>::infinity());
-    for_each_point([&](SurfaceId, glm::dvec3 const& point) {
-      low = glm::min(low, point);
-      high = glm::max(high, point);
-    });
-    if (!(low.x <= high.x)) throw Error("there is no surface to view");
-    middle_ = 0.5 * (low + high);
-    reach_ = std::max(1.0, glm::distance(low, high));
+    Box all;
+    for_each_point([&](SurfaceId, glm::dvec3 const& point) { all.include(point); });
+    if (all.empty()) throw Error("there is no surface to view");
+    middle_ = all.centre();
+    reach_ = std::max(1.0, glm::distance(all.low, all.high));
   }
 
   PictureFrame find_frame(SunAxes const& axes,
@@ -258,7 +209,7 @@ class SceneView::Implementation {
   Scene const& scene_;
   std::vector<SurfaceId> shown_;
   egl::Device device_;
-  std::optional<OnDevice> on_device_;
+  std::optional<WholeScene> on_device_;
   glm::dvec3 middle_{0.0};
   double reach_ = 1.0;
   std::size_t opaque_ = 0;  // vertices

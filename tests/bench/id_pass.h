@@ -8,14 +8,12 @@
 #include <vector>
 
 #include "egl/device.h"
-#include "gl/buffer.h"
 #include "gl/framebuffer.h"
-#include "gl/program.h"
 #include "gl/readback.h"
 #include "gl/texture.h"
-#include "gl/vertex_array.h"
 #include "gpu_shading/renderer.h"
 #include "gpu_shading/sun_direction.h"
+#include "render/whole_scene.h"
 
 namespace gpu_shading {
 
@@ -36,18 +34,11 @@ class IdPass {
   std::vector<double> sunlit_fractions(SunDirection sun);
 
  private:
-  struct Vertex {
-    glm::vec3 point;
-    std::uint32_t identity;  // of the surface, counted from 1; 0 is the sky
-  };
-
   // What lives on the device, made and ended with its context current.
   struct OnDevice {
-    OnDevice(std::vector<Vertex> const& contents, int side);
+    OnDevice(std::vector<WholeScene::Vertex> const& vertices, int side);
 
-    gl::Program program;
-    gl::Buffer vertices;
-    gl::VertexArray array;
+    WholeScene scene;
     gl::LayeredTexture identities;
     gl::LayeredTexture depth;
     gl::Framebuffer target;
