@@ -1,45 +1,127 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy over our sources in a build's compile_commands.json, those again that may differ.
+"""Runs clang-tidy over the sources in a build's compile_commands.json that a change can affect.
 
-A file is skipped when nothing that its outcome depends on has changed since it passed: itself, its
-command, the checks, and (all of) our headers.
+.ci/tidy.py BUILD [--all]
+
+A file is checked if it, or a header that it includes, differs from the base: by commits, in the work
+tree, or not yet tracked. What a file includes is read from the build, so build first; a file whose
+includes are unknown is checked. The base is the commit named by GPU_SHADING_TIDY_BASE, else the merge
+base with origin/main, else with main. Each commit on main has passed this check, so the files that
+equal the base have passed as well.
+
+All files are checked if there is no base, if HEAD is the base itself (then there is no telling which
+commits are new; set GPU_SHADING_TIDY_BASE to the last commit that passed), if the checks changed
+(.clang-tidy, this script, or scripts/setup, which chooses clang-tidy's version), and with --all.
+
+Changed compiler options are not seen as changes of a file: the build itself, with warnings as errors,
+judges those. A file is skipped, too, if it passed in this build folder with the same content, headers,
+command and checks.
 """
 
 import hashlib
 import json
 import os
+import re
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
+CHECKS = re.compile(r"(^|/)\.clang-tidy$|^\.ci/tidy\.py$|^scripts/setup$")
+
+
+def git(*arguments):
+    """Output of git in the work tree, or None if it fails."""
+    done = subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, text=True)
+    return done.stdout.strip() if done.returncode == 0 else None
+
+
+def find_base():
+    """The commit to compare with and why, or None and why all files are checked."""
+    head = git("rev-parse", "HEAD")
+    named = os.environ.get("GPU_SHADING_TIDY_BASE")
+    if named:
+        base = git("merge-base", "HEAD", named)
+        if base is None:
+            sys.exit(f"tidy: GPU_SHADING_TIDY_BASE: there is no commit {named}")
+        return base, named
+    for name in ("origin/main", "main"):
+        base = git("merge-base", "HEAD", name)
+        if base is not None and base != head:
+            return base, name
+    return None, "no earlier commit is known to have passed"
+
+
+def changed_since(base):
+    """Paths, from the root, that differ from `base`."""
+    differing = git("diff", "--name-only", "--no-renames", base)
+    untracked = git("ls-files", "-o", "--exclude-standard")
+    return set(differing.splitlines()) | set(untracked.splitlines())
+
+
+def read_dependencies(build):
+    """By object file, the paths from the root of the sources of ours that it is compiled from."""
+    listing = subprocess.run(["ninja", "-C", build, "-t", "deps"], capture_output=True, text=True).stdout
+    dependencies = {}
+    current = None
+    for line in listing.splitlines():
+        if line.startswith(" "):
+            path = Path(os.path.normpath(build / line.strip()))
+            if ROOT in path.parents:
+                current.add(str(path.relative_to(ROOT)))
+        elif ": #deps" in line:
+            current = dependencies.setdefault(line.split(": #deps")[0], set())
+    return dependencies
 
 
 def digest(*parts):
     return hashlib.sha256(b"\0".join(parts)).hexdigest()
 
 
-def main():
-    build = (ROOT / sys.argv[1]).resolve()
-    listing = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "--", "*.h", "*.clang-tidy"],
-                             cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\n")
-    common = digest(*((ROOT / name).read_bytes() for name in sorted(filter(None, listing)) if (ROOT / name).is_file()))
-    passed = build / "clang-tidy"
-    passed.mkdir(exist_ok=True)
+def select(build, everything):
+    """Sources to check, each with the key under which a pass is remembered, and the reason."""
+    base, name = find_base()
+    changed = changed_since(base) if base else set()
+    if everything:
+        base, name = None, "as asked"
+    elif any(CHECKS.search(path) for path in changed):
+        base, name = None, "the checks changed"
+    reason = f"what differs from {name} ({base[:9]})" if base else f"all files ({name})"
 
+    dependencies = read_dependencies(build)
+    checks = b"".join((ROOT / path).read_bytes() for path in (".clang-tidy", "tests/.clang-tidy", ".ci/tidy.py"))
     work = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
         source = Path(entry["directory"], entry["file"]).resolve()
-        if ROOT in source.parents and build not in source.parents:
-            key = digest(common.encode(), source.read_bytes(), entry["command"].encode())
-            if not (passed / key).exists():
-                work[source] = key
+        if ROOT not in source.parents or build in source.parents:
+            continue
+        path = str(source.relative_to(ROOT))
+        found = re.search(r" -o (\S+)", entry["command"])
+        included = dependencies.get(found.group(1)) if found else None
+        if base and included is not None and not changed & (included | {path}):
+            continue
+        contents = [(ROOT / name).read_bytes() for name in sorted(included or ()) if (ROOT / name).is_file()]
+        # Without known includes there is nothing to remember a pass by.
+        key = digest(checks, source.read_bytes(), entry["command"].encode(), *contents) if included else None
+        work[source] = key
+    return work, reason
+
+
+def main():
+    build = (ROOT / sys.argv[1]).resolve()
+    passed = build / "clang-tidy"
+    passed.mkdir(exist_ok=True)
+    work, reason = select(build, "--all" in sys.argv[2:])
+    remembered = [source for source, key in work.items() if key and (passed / key).exists()]
+    for source in remembered:
+        del work[source]
+    print(f"clang-tidy: {reason}: {len(work)} files to check, {len(remembered)} passed before", flush=True)
 
     def check(item):
         source, key = item
         done = subprocess.run(["clang-tidy", "-p", build, "--quiet", source], capture_output=True, text=True)
-        if done.returncode == 0:
+        if done.returncode == 0 and key:
             (passed / key).touch()
         return source, done
 
@@ -48,7 +130,7 @@ def main():
         for source, done in pool.map(check, work.items()):
             if done.returncode != 0:
                 failed += 1
-                print(f"{source.relative_to(ROOT)}:\n{done.stdout}{done.stderr}")
+                print(f"{source.relative_to(ROOT)}:\n{done.stdout}{done.stderr}", flush=True)
     print(f"clang-tidy: {len(work)} files checked, {failed} with findings")
     return 1 if failed else 0
 

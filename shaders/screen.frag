@@ -1,7 +1,7 @@
 #version 450 core
-// What a ray keeps that goes through a perforated sheet, to multiply the luminance by. For each way
-// of making out holes there is a program, with one of these defined: PATTERN; TEXTURE; TEXTURE and
-// REGIONS, over which the effective transmittance varies.
+// The transmittance of a ray through a perforated sheet, which multiplies the luminance. Each kind
+// of holes has its own program, with one of these defined: PATTERN; TEXTURE; TEXTURE and REGIONS,
+// over which the effective transmittance varies.
 
 // As in screen.vert.
 flat in vec4 ray;
@@ -27,7 +27,7 @@ float opacity(vec2 p) {
   vec2 texel = fract(p / tile.xy) * texels.xy;
   vec2 side = vec2(image.yz);
   vec2 layer = floor(texel / side);
-  // A border of one texel around each layer.
+  // Each layer has a border of one texel.
   vec2 at = (texel - layer * side + 1.0) / (side + 2.0);
   return textureLod(opacity_layers, vec3(at, layer.y * float(image.w) + layer.x), 0.0).r;
 }
@@ -67,7 +67,7 @@ float solid(vec2 p) {
   return find_hole(p, centre) ? 0.0 : 1.0;
 }
 
-// Holes are convex: who is in one at both ends has been in it all the way.
+// Holes are convex: a ray that is in a hole at both ends is in it all the way.
 float through_hole(float begin, float end) {
   vec2 centre;
   return find_hole(place + begin * ray.xy, centre) && in_hole(place + end * ray.xy - centre) ? 1.0
@@ -76,8 +76,8 @@ float through_hole(float begin, float end) {
 
 #endif
 
-// Layers at equal steps, those of them that are within the outline, and where the ray crosses that,
-// so that it steps over nothing between the sheet's side and the next layer.
+// Layers at equal steps that are inside the outline, and the points where the ray crosses the
+// outline, so that it steps over nothing between the sheet's side and the next layer.
 float through_layers(float begin, float end) {
   int layers = kind.y;
   float most = 0.0;
@@ -96,7 +96,7 @@ float through_holes(float begin, float end) {
   return through_layers(begin, end);
 }
 
-// Between the values for thirds of the way, straight.
+// Linear interpolation between the values for thirds of the path.
 float along(vec4 thirds, float way) {
   vec3 part = clamp(vec3(3.0 * way) - vec3(0.0, 1.0, 2.0), 0.0, 1.0);
   return thirds.x + dot(thirds.yzw - thirds.xyz, part);
@@ -130,7 +130,7 @@ float through_effective(float begin, float end) { return along(effective, end - 
 
 float through(float pixel) {
   if (kind.y == 0) return 0.0;
-  // The part of the way that is within the outline.
+  // The part of the path inside the outline.
   vec4 last = within + within_step;
   vec4 crossing = within / (within - last);
   vec4 from = mix(vec4(0.0), crossing, lessThan(within, vec4(0.0)));

@@ -1,7 +1,8 @@
 #version 450 core
-// Of a convex quadrilateral of a sheet, all that its thickness covers as the sun sees it: the
-// inside face, and from each of its edges that looks that way the strip to the outside face. These
-// do not overlap, so that every ray meets one fragment, which looks for its way through the layers.
+// For a convex quadrilateral of a sheet, emits everything that its thickness covers as the sun sees
+// it: the inside face, and the strip to the outside face from each of its edges that faces the sun.
+// These do not overlap, so every ray meets one fragment, which searches for its path through the
+// layers.
 
 layout(lines_adjacency) in;
 layout(triangle_strip, max_vertices = 20) out;
@@ -22,7 +23,7 @@ in Corner {
 }
 corners[];
 
-// As screen.vert has them: for fragments to read one value each.
+// As in screen.vert; fragments read one value each.
 flat out vec4 ray;
 flat out vec4 tile;
 flat out vec4 hole;
@@ -33,16 +34,16 @@ flat out vec4 texels;
 
 out vec2 place;             // where the ray passes the inside face, m in the sheet's plane
 out vec4 within;            // there, its distance from each edge times the edge's length
-flat out vec4 within_step;  // how that changes from face to face
+flat out vec4 within_step;  // change of this distance from face to face
 
 float crossed(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
 vec2 edge(int i) { return corners[(i + 1) % 4].place - corners[i].place; }
 
-// Twice the area of the four corners' places.
+// Twice the area of the quadrilateral.
 float turn(vec2 a, vec2 b, vec2 c, vec2 d) { return crossed(c - a, d - b); }
 
-float handed;  // 1 where the corners run counter-clockwise in the sheet's plane, else -1
+float handed;  // 1 if the corners run counterclockwise in the sheet's plane, otherwise -1
 
 void send(int i, bool outside) {
   vec2 shift = corners[i].ray.xy;

@@ -1,5 +1,5 @@
 #version 450 core
-// Sums squares of 16 x 16 pixels, one an invocation, always in the same order.
+// Sums squares of 16 x 16 pixels, one per invocation, always in the same order.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -1,6 +1,6 @@
 #version 450 core
 #extension GL_ARB_shader_viewport_layer_array : enable
-// A receiver on its own tile, at the far end: the same pixels at every direction of the sun.
+// Draws a receiver on its own tile, at the far end: the same pixels at every sun direction.
 
 layout(location = 0) in vec2 place;
 layout(location = 1) in int layer;

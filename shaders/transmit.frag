@@ -1,5 +1,5 @@
 #version 450 core
-// Key to add and transmittance to multiply by; blending does both.
+// Outputs the key to add and the transmittance to multiply by; blending does both.
 
 flat in vec4 weight;
 out vec4 fragment;

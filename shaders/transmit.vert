@@ -1,20 +1,20 @@
 #version 450 core
 #extension GL_ARB_shader_viewport_layer_array : enable
-// slide.vert for surfaces that let part of the sun through: the same place, and what the surface
-// does to the luminance of a pixel.
+// slide.vert for surfaces that transmit: the same position, and the surface's factor on the
+// luminance of a pixel.
 
 layout(location = 0) in vec3 high;
 layout(location = 1) in vec3 low;
 layout(location = 2) in int surface;
 
-// The view, of each instance.
+// The view, per instance.
 layout(location = 4) in vec4 row_x;
 layout(location = 5) in vec4 row_y;
 layout(location = 6) in vec4 row_z;
 layout(location = 7) in vec4 cut;
 layout(location = 8) in vec4 origin_high;
 layout(location = 9) in vec4 origin_low;
-// Keys: one for each schedule; shades: of the direction of the sun, one for each surface.
+// Keys: one per schedule; shades: one per surface, at the sun direction.
 layout(location = 10) in ivec4 numbers;  // layer; first key, -1 none; first shade
 
 struct Shade {
@@ -24,7 +24,7 @@ struct Shade {
 layout(std430, binding = 0) readonly buffer Shades { Shade shades[]; };
 layout(std430, binding = 1) readonly buffer Keys { vec4 keys[]; };
 
-// As in slide.vert: both paths cover the same pixels.
+// As in slide.vert: both programs must cover the same pixels.
 invariant gl_Position;
 
 flat out vec4 weight;

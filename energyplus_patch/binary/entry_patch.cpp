@@ -35,12 +35,13 @@ void protect(std::byte* begin, std::size_t size, int protection) {
   auto const last = (reinterpret_cast<std::uintptr_t>(begin) + size + page - 1) & ~(page - 1);
   // NOLINTNEXTLINE(performance-no-int-to-ptr)
   if (mprotect(reinterpret_cast<void*>(first), last - first, protection) != 0) {
-    throw Error(fmt::format("mprotect: {}: the system does not let code be changed in memory",
+    throw Error(fmt::format("mprotect: {}: the system does not allow code to be changed in memory",
                             std::strerror(errno)));
   }
 }
 
-// Memory for the ways to the originals, near the library so that 32-bit displacements reach.
+// Memory for trampolines to the original functions, close enough to the library for 32-bit
+// displacements.
 class TrampolinePage {
  public:
   explicit TrampolinePage(std::byte* near) {
@@ -59,7 +60,7 @@ class TrampolinePage {
         munmap(got, page_size());
       }
     }
-    if (page_ == nullptr) throw Error("mmap: no memory near EnergyPlus's code");
+    if (page_ == nullptr) throw Error("mmap: no free memory near EnergyPlus's code");
   }
 
   void* add(std::byte const* from, RelocatedCode code) {
@@ -70,14 +71,14 @@ class TrampolinePage {
       std::int64_t const moved = displacement - (at - from);
       if (moved < std::numeric_limits<std::int32_t>::min() ||
           moved > std::numeric_limits<std::int32_t>::max()) {
-        throw Error("EnergyPlus's data is out of reach of the moved code");
+        throw Error("EnergyPlus's data is out of reach of the relocated code");
       }
       displacement = static_cast<std::int32_t>(moved);
       std::memcpy(code.bytes.data() + offset, &displacement, sizeof displacement);
     }
     auto const back = jump_to(from + code.bytes.size());
     if (used_ + code.bytes.size() + back.size() > page_size()) {
-      throw Error("too many entries for one page");
+      throw Error("too many redirected functions for one page");
     }
     std::memcpy(at, code.bytes.data(), code.bytes.size());
     std::memcpy(at + code.bytes.size(), back.data(), back.size());
@@ -89,7 +90,7 @@ class TrampolinePage {
   void seal() { protect(page_, page_size(), PROT_READ | PROT_EXEC); }
 
  private:
-  // Kept for as long as the process lives: EnergyPlus runs through it.
+  // Never freed, because EnergyPlus runs through it.
   std::byte* page_ = nullptr;
   std::size_t used_ = 0;
 };
@@ -109,12 +110,12 @@ bool unchanged(std::ifstream& file, Symbol const& symbol) {
 }
 
 struct Checked {
-  Entry const* entry;
+  EntryPatch const* entry;
   Symbol const* symbol;
   RelocatedCode start;
 };
 
-std::vector<Checked> check(SymbolTable const& symbols, std::vector<Entry> const& entries) {
+std::vector<Checked> check(SymbolTable const& symbols, std::vector<EntryPatch> const& entries) {
   std::vector<Checked> checked;
   std::string problems;
   std::ifstream file(symbols.library(), std::ios::binary);
@@ -132,7 +133,7 @@ std::vector<Checked> check(SymbolTable const& symbols, std::vector<Entry> const&
       continue;
     }
     if (!unchanged(file, *symbol)) {
-      fail("changed in memory already");
+      fail("already changed in memory");
       continue;
     }
     RelocatedCode start;
@@ -148,7 +149,7 @@ std::vector<Checked> check(SymbolTable const& symbols, std::vector<Entry> const&
     checked.push_back({&entry, symbol, std::move(start)});
   }
   if (!problems.empty()) {
-    throw Error(fmt::format("{}: its shading interface cannot be taken over:{}",
+    throw Error(fmt::format("{}: its shading interface cannot be redirected:{}",
                             symbols.library().string(), problems));
   }
   return checked;
@@ -156,11 +157,11 @@ std::vector<Checked> check(SymbolTable const& symbols, std::vector<Entry> const&
 
 }  // namespace
 
-void check_entries(SymbolTable const& symbols, std::vector<Entry> const& entries) {
+void check_entries(SymbolTable const& symbols, std::vector<EntryPatch> const& entries) {
   check(symbols, entries);
 }
 
-void patch_entries(SymbolTable const& symbols, std::vector<Entry> const& entries) {
+void patch_entries(SymbolTable const& symbols, std::vector<EntryPatch> const& entries) {
   auto const checked = check(symbols, entries);
   if (checked.empty()) return;
 

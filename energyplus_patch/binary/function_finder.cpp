@@ -16,7 +16,7 @@ std::byte* FunctionFinder::look_up(std::string const& name) {
 void FunctionFinder::check() const {
   if (missing_.empty()) return;
   throw Error(
-      fmt::format("{}: functions are not in this build:{}", symbols_.library().string(), missing_));
+      fmt::format("{}: functions missing in this build:{}", symbols_.library().string(), missing_));
 }
 
 }  // namespace gpu_shading::energyplus

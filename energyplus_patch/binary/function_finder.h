@@ -6,18 +6,18 @@
 
 namespace gpu_shading::energyplus {
 
-// Looks functions up and remembers which a build lacks, so that all are named at once.
+// Looks up functions and collects those that a build lacks, so that all are reported at once.
 class FunctionFinder {
  public:
   explicit FunctionFinder(SymbolTable const& symbols) : symbols_(symbols) {}
 
-  // Leaves `function` as it is where the build lacks it.
+  // Leaves `function` unchanged if the build lacks it.
   template <typename Function>
   void find(std::string const& name, Function*& function) {
     if (auto* const address = look_up(name)) function = reinterpret_cast<Function*>(address);
   }
 
-  // Throws Error with the list of what is missing, if anything is.
+  // Throws Error with the list of missing functions, if any.
   void check() const;
 
  private:

@@ -8,13 +8,13 @@
 
 namespace gpu_shading::energyplus {
 
-// The first instructions of a function, to be run somewhere else: at least `length` bytes of whole
-// instructions from `code`. Empty, with the reason in `problem`, where one of them cannot be moved
-// (a relative jump or call) or cannot be decoded.
+// The first instructions of a function, to be run elsewhere: at least `length` bytes of whole
+// instructions from `code`. Empty, with the reason in `problem`, if one of them cannot be relocated
+// (a relative jump or call) or decoded.
 struct RelocatedCode {
   std::vector<std::uint8_t> bytes;
-  // Offsets in `bytes` of 32-bit displacements relative to the instruction pointer, each to be
-  // lowered by the distance the code is moved.
+  // Offsets in `bytes` of 32-bit displacements relative to the instruction pointer. Each must be
+  // reduced by the distance that the code is moved.
   std::vector<std::size_t> displacements;
 };
 

@@ -29,7 +29,7 @@ struct Instruction {
   }
 };
 
-// The instructions after the last call of the callee, a few of them.
+// A few instructions after the last call of the callee.
 std::vector<Instruction> after_last_call(Symbol const& caller, Symbol const& callee) {
   constexpr std::size_t window = 12;
   ZydisDecoder decoder;
@@ -66,7 +66,7 @@ std::optional<StoredResult> find_stored_result(Symbol const& caller, Symbol cons
                                   [](Instruction const& i) { return i.stores_result(); });
   if (store == code.end()) return std::nullopt;
 
-  // Backwards: what loaded the array's address, and what loaded the address of its holder.
+  // Searches backwards for the loads of the array's address and of its holder's address.
   auto const find_load = [&](auto before, ZydisRegister target) {
     return std::find_if(std::make_reverse_iterator(before), code.rend(),
                         [&](Instruction const& i) { return i.loads(target); });

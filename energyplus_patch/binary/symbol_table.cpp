@@ -4,28 +4,14 @@
 #include <fmt/format.h>
 #include <gelf.h>
 #include <libelf.h>
-#include <unistd.h>
 
 #include <memory>
 
+#include "base/file_descriptor.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
 namespace {
-
-class FileDescriptor {
- public:
-  explicit FileDescriptor(char const* path) : value_(open(path, O_RDONLY | O_CLOEXEC)) {}
-  ~FileDescriptor() {
-    if (value_ >= 0) close(value_);
-  }
-  FileDescriptor(FileDescriptor const&) = delete;
-  FileDescriptor& operator=(FileDescriptor const&) = delete;
-  int get() const { return value_; }
-
- private:
-  int value_;
-};
 
 using ElfHandle = std::unique_ptr<Elf, decltype(&elf_end)>;
 
@@ -47,7 +33,8 @@ Elf_Scn* find_symbol_section(Elf* elf) {
 SymbolTable::SymbolTable(std::filesystem::path library, std::byte* base)
     : library_(std::move(library)) {
   elf_version(EV_CURRENT);
-  FileDescriptor const file(library_.c_str());
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
+  FileDescriptor const file(open(library_.c_str(), O_RDONLY | O_CLOEXEC));
   ElfHandle const elf(elf_begin(file.get(), ELF_C_READ_MMAP, nullptr), &elf_end);
   if (!elf) throw Error(fmt::format("{}: cannot be read as an ELF file", library_.string()));
   Elf_Scn* const section = find_symbol_section(elf.get());

@@ -13,17 +13,17 @@ namespace gpu_shading::energyplus {
 struct Symbol {
   std::byte* address = nullptr;  // in this process
   std::size_t size = 0;
-  std::uint64_t file_offset = 0;  // of its code in the library's file
+  std::uint64_t file_offset = 0;  // offset of its code in the library's file
 };
 
-// The functions of a loaded shared library by their mangled names, local ones included: read from
-// .symtab of its file, which ELF keeps apart from the .dynsym that dlsym searches.
+// The functions of a loaded shared library by their mangled names, including local ones. They are
+// read from .symtab in its file; dlsym searches .dynsym only.
 class SymbolTable {
  public:
-  // `base`: where the library is loaded. Throws Error when the file cannot be read or is stripped.
+  // `base`: the library's load address. Throws Error if the file cannot be read or is stripped.
   SymbolTable(std::filesystem::path library, std::byte* base);
 
-  // Null when there is no such function.
+  // nullptr if there is no such function.
   Symbol const* find(std::string_view name) const;
 
   std::filesystem::path const& library() const { return library_; }

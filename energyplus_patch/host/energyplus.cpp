@@ -10,7 +10,7 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-// Of a function that writes a message, by its own name with its length before it.
+// The mangled name of a function that writes a message, from its own name with its length in front.
 std::string show_name(char const* function) {
   return fmt::format(
       "_ZN10EnergyPlus{}ERNS_14EnergyPlusDataERKNSt7__cxx1112basic_stringIcSt11char_"
@@ -46,8 +46,9 @@ void EnergyPlusFunctions::text(State& state, std::string const& message) const {
 }
 
 double EnergyPlusFunctions::latitude(State const& state) const {
-  // A sun in the celestial pole stands as high as the latitude, in the north or in the south. Of
-  // one below the horizon EnergyPlus tells the depth alone, and so of one on it, at the equator.
+  // A sun at the celestial pole is as high as the latitude, in the north or in the south. If it is
+  // below the horizon, EnergyPlus returns its depth alone; the same holds on the horizon, at the
+  // equator.
   for (double const sine : {1.0, -1.0}) {
     Cosines pole{};
     sun_cosines_(state, 12.0, 0.0, sine, 0.0, pole);

@@ -6,7 +6,7 @@
 
 #include "binary/symbol_table.h"
 
-// EnergyPlus's own types, only ever passed by reference.
+// EnergyPlus's own types, always passed by reference.
 namespace EnergyPlus {
 struct EnergyPlusData;
 class InputOutputFile;
@@ -16,16 +16,16 @@ namespace gpu_shading::energyplus {
 
 using State = EnergyPlus::EnergyPlusData;
 
-// The shape of EnergyPlus's functions that write a message to its .err, and to up to two other
+// The signature of EnergyPlus's functions that write a message to its .err file and up to two other
 // files.
 using OtherFile = std::optional<std::reference_wrapper<EnergyPlus::InputOutputFile>>;
 using ShowFunction = void(State&, std::string const&, OtherFile, OtherFile);
 
-// The functions of EnergyPlus that we call, found by name.
+// The functions of EnergyPlus that we call, looked up by name.
 class EnergyPlusFunctions {
  public:
   EnergyPlusFunctions() = default;
-  // Throws Error with the list of what the build lacks.
+  // Throws Error with the list of functions that the build lacks.
   explicit EnergyPlusFunctions(SymbolTable const& symbols);
 
   // Ends the run as EnergyPlus does: a fatal message, then its own exception.
@@ -33,7 +33,8 @@ class EnergyPlusFunctions {
   void warning(State& state, std::string const& message) const;
   void text(State& state, std::string const& message) const;
 
-  // Of the site, radians, as EnergyPlus has it: the weather file's, else that of Site:Location.
+  // Latitude of the site in radians, as in EnergyPlus: from the weather file, or from Site:Location
+  // without one.
   double latitude(State const& state) const;
 
  private:

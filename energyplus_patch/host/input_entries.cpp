@@ -8,13 +8,15 @@
 #include <set>
 #include <string>
 
+#include "base/naming.h"
 #include "host/run.h"
-#include "input/model_file.h"
+#include "idf/model_file.h"
 
 namespace gpu_shading::energyplus {
 
-// EnergyPlus's print of its line on shading, watched for the file that it goes to. Its arguments go
-// on untouched, in registers and on the stack, so it is entered by assembly.
+// EnergyPlus's function that prints its line about shading, watched to get the file that it writes
+// to. Its arguments are passed on unchanged in registers and on the stack, so the entry is written
+// in assembly.
 extern "C" {
 __attribute__((visibility("hidden"))) void* gpu_shading_original_print = nullptr;
 __attribute__((visibility("hidden"))) void gpu_shading_note_eio(std::ostream* eio) {
@@ -58,15 +60,15 @@ Rewrite rewrite_for(Model const& model) {
           model.lean.placeholders};
 }
 
-// What polygon clipping does not know of.
+// Objects that polygon clipping ignores.
 void warn_of_missing_surroundings(Run const& run) {
   if (run.model->surroundings.empty()) return;
   messages_of(run).warning(
-      "shading is off: GPUShading:SiteContext and GPUShading:Geometry are left out, nothing of "
-      "theirs casts a shadow");
+      "rendering is off: GPUShading:SiteContext and GPUShading:Geometry are ignored, so their "
+      "geometry casts no shadow");
 }
 
-// What polygon clipping makes of shades that only our objects open.
+// Shades that are opaque to polygon clipping because only our objects make them transparent.
 void warn_of_opaque_shades(Run const& run) {
   std::set<std::string> opaque;
   for (auto const& [surface, shade] : run.model->shades.by_surface) opaque.insert(surface);
@@ -74,13 +76,13 @@ void warn_of_opaque_shades(Run const& run) {
   for (auto const& [surface, type] : run.model->surroundings.types) opaque.erase(surface);
   if (opaque.empty()) return;
   auto const more = opaque.size() - 1;
-  messages_of(run).warning(fmt::format(
-      "shading is off: GPUShading objects are left out, no beam passes {}{} but by a transmittance "
-      "schedule",
-      *opaque.begin(), more == 0 ? "" : fmt::format(" and {} more", more)));
+  messages_of(run).warning(
+      fmt::format("rendering is off: GPUShading objects are ignored, so these surfaces are opaque "
+                  "except for transmittance schedules: {}{}",
+                  *opaque.begin(), more == 0 ? "" : fmt::format(" and {} more", more)));
 }
 
-// Understands the model and says what EnergyPlus shall read in its place.
+// Reads the model and returns the text that EnergyPlus is to read instead.
 Rewrite take_model(std::vector<InputObject> objects, Path const& path,
                    MentionFinder const& find_mentions) {
   auto& run = this_run();
@@ -94,15 +96,15 @@ Rewrite take_model(std::vector<InputObject> objects, Path const& path,
   return rewrite_for(*run.model);
 }
 
-// The state is handed over here, before the input is read.
+// EnergyPlus passes the state here, before the input is read.
 void process_input(void* self, State& state) {
   this_run() = {};
   this_run().state = &state;
   original_process_input(self, state);
 }
 
-// The first file that EnergyPlus reads in a run is its model, whatever a preprocessor calls it
-// (.expidf, .epmidf); schedules and the like come later.
+// The first file that EnergyPlus reads in a run is its model, whatever name a preprocessor gives it
+// (.expidf, .epmidf); schedules and other files come later.
 bool is_model() {
   auto const& run = this_run();
   return run.state != nullptr && !run.model;
@@ -114,18 +116,20 @@ std::string read_file(Path const& path, std::ios_base::openmode mode) {
   return guarded([&] {
     auto const parsed = parse_idf(text);
     auto const find = [&](Names const& names) { return find_mentions(parsed, names); };
-    return rewrite_idf(text, parsed, take_model(read_idf(parsed), path, find));
+    auto objects = naming(path.string(), [&] { return read_idf(parsed); });
+    return rewrite_idf(text, parsed, take_model(std::move(objects), path, find));
   });
 }
 
-// EnergyPlus's JSON value has the layout of ours: the library's, whose versions 3.x differ in none
-// of the members.
+// EnergyPlus's JSON value has the same layout as ours: it is the same library, and its versions 3.x
+// do not differ in any member.
 nlohmann::json read_json(Path const& path, std::ios_base::openmode mode) {
   auto json = original_read_json(path, mode);
   if (!is_model()) return json;
   return guarded([&] {
     auto const find = [&](Names const& names) { return find_mentions(json, names); };
-    rewrite_epjson(json, take_model(read_epjson(json), path, find));
+    auto objects = naming(path.string(), [&] { return read_epjson(json); });
+    rewrite_epjson(json, take_model(std::move(objects), path, find));
     return std::move(json);
   });
 }
@@ -138,6 +142,7 @@ void finish_run() {
   } catch (std::exception const& error) {
     print_line(std::string("error: ") + error.what());
     installation().functions.warning(*run.state, std::string("gpu_shading: ") + error.what());
+    run.unwritten = error.what();
   }
   run.session = nullptr;
 }
@@ -159,9 +164,9 @@ constexpr char const* print_shading_line =
 
 }  // namespace
 
-std::vector<Entry> input_entries() {
-  Entry print{print_shading_line, reinterpret_cast<void*>(&gpu_shading_watch_print),
-              &gpu_shading_original_print};
+std::vector<EntryPatch> input_entries() {
+  EntryPatch print{print_shading_line, reinterpret_cast<void*>(&gpu_shading_watch_print),
+                   &gpu_shading_original_print};
   print.needed = false;
   return {
       watch("_ZN10EnergyPlus14InputProcessor12processInputERNS_14EnergyPlusDataE", &process_input,

@@ -5,25 +5,25 @@
 #include <filesystem>
 #include <mutex>
 #include <string>
+#include <vector>
 
+#include "base/c_interface.h"
 #include "binary/entry_patch.h"
 #include "binary/symbol_table.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading_energyplus.h"
-#include "host/given_choices.h"
 #include "host/input_entries.h"
 #include "host/penumbra_entries.h"
 #include "host/run.h"
 #include "host/shading_entries.h"
-#include "host/version.h"
+#include "options/options.h"
+#include "runs/installation.h"
 #include "scheduled/scheduled_run.h"
-
-#define EXPORTED __attribute__((visibility("default")))
 
 namespace gpu_shading::energyplus {
 namespace {
 
-// Where a library is in this process.
+// The load address of a library in this process.
 struct Loaded {
   std::filesystem::path path;
   std::byte* base = nullptr;
@@ -57,7 +57,16 @@ Loaded find_loaded(char const* wanted) {
   return search.found;
 }
 
-// Why a library's shading cannot be taken over; another way may do.
+// What a host hands over, over the environment. Throws Error.
+Choices given_choices(int count, char const* const* options) {
+  std::vector<std::string> arguments(options, options + count);
+  auto choices = take_flags(arguments);
+  if (!arguments.empty()) throw Error(fmt::format("{}: no such flag", arguments.front()));
+  choices.fill_from(read_environment());
+  return choices;
+}
+
+// The reason why a library's shading cannot be redirected; another method may work.
 class CannotPatch : public Error {
   using Error::Error;
 };
@@ -80,7 +89,7 @@ void patch(Loaded const& loaded, Installation& installed) {
   EnergyPlusFunctions const functions(symbols);
   ScheduleFunctions const schedules(symbols);
   auto const version = read_version(loaded.path.parent_path());
-  // Before the entries change: it reads the code that calls them.
+  // Must come before the entries are changed, because it reads the code that calls them.
   installed.surface_ids = find_surface_ids(symbols);
   patch_entries(symbols, entries);
   installed.library = loaded.path;
@@ -89,10 +98,9 @@ void patch(Loaded const& loaded, Installation& installed) {
   installed.schedules = schedules;
 }
 
-void install(char const* library, char const* options) {
+void install(char const* library, Choices choices) {
   static std::mutex mutex;
   std::scoped_lock const lock(mutex);
-  auto choices = given_choices(options);
   auto const loaded = find_loaded(library);
   auto& installed = installation();
   if (installed.library.empty()) {
@@ -102,9 +110,11 @@ void install(char const* library, char const* options) {
       throw CannotPatch(error.what());
     }
   } else if (installed.library != loaded.path) {
-    throw Error(fmt::format("{}: GPU shading is installed for {} already", loaded.path.string(),
+    throw Error(fmt::format("{}: GPU shading is already installed for {}", loaded.path.string(),
                             installed.library.string()));
   }
+  installed.task.reset();
+  if (choices.task) installed.task.emplace(*choices.task);
   installed.choices = std::move(choices);
 }
 
@@ -113,10 +123,12 @@ thread_local std::string message;
 }  // namespace
 }  // namespace gpu_shading::energyplus
 
-extern "C" EXPORTED int gpu_shading_install(char const* energyplus_library, char const* options) {
+extern "C" EXPORTED int gpu_shading_install(char const* energyplus_library, int count,
+                                            char const* const* options) {
   using gpu_shading::energyplus::message;
   try {
-    gpu_shading::energyplus::install(energyplus_library, options);
+    gpu_shading::energyplus::install(energyplus_library,
+                                     gpu_shading::energyplus::given_choices(count, options));
     message.clear();
     return 0;
   } catch (gpu_shading::energyplus::CannotPatch const& error) {
@@ -128,18 +140,23 @@ extern "C" EXPORTED int gpu_shading_install(char const* energyplus_library, char
   }
 }
 
-extern "C" EXPORTED int gpu_shading_run_scheduled(char const* energyplus_library,
-                                                  char const* options, int argc,
+extern "C" EXPORTED int gpu_shading_run_scheduled(char const* energyplus_library, int count,
+                                                  char const* const* options, int argc,
                                                   char const* const* argv) {
   using gpu_shading::energyplus::message;
   try {
     message.clear();
     return gpu_shading::energyplus::run_scheduled(
-        energyplus_library, gpu_shading::energyplus::given_choices(options), {argv, argv + argc});
+        energyplus_library, gpu_shading::energyplus::given_choices(count, options),
+        {argv, argv + argc});
   } catch (std::exception const& error) {
     message = error.what();
     return gpu_shading::energyplus::not_run;
   }
+}
+
+extern "C" EXPORTED char const* gpu_shading_unwritten(void) {
+  return gpu_shading::energyplus::this_run().unwritten.c_str();
 }
 
 extern "C" EXPORTED char const* gpu_shading_message(void) {

@@ -10,7 +10,7 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-// Reads this process's own memory; false, not a fault, where there is none.
+// Reads this process's own memory. Returns false instead of faulting if the address is invalid.
 bool read_memory(std::byte const* from, void* to, std::size_t size) {
   iovec const local{to, size};
   iovec const remote{const_cast<std::byte*>(from), size};
@@ -42,7 +42,7 @@ std::optional<std::size_t> hand_over_mirrored_surfaces(State& state, Session& se
   auto const shading = session.shading_surfaces();
   std::vector<std::int32_t> kept(2 * shading.size());
   if (!read_memory(array, kept.data(), kept.size() * sizeof(std::int32_t))) return std::nullopt;
-  std::vector<std::pair<std::size_t, SurfaceId>> copies;  // place in the array, original
+  std::vector<std::pair<std::size_t, SurfaceId>> copies;  // index in the array, original surface
   std::size_t at = 0;
   for (auto const id : shading) {
     if (kept[at++] != static_cast<std::int32_t>(id)) return std::nullopt;

@@ -8,12 +8,12 @@
 
 namespace gpu_shading::energyplus {
 
-// EnergyPlus makes a mirrored copy of every shading surface for the sun on its other side, but does
-// not hand it over, and with pixel counting takes its sunlit fraction as 0: what the back of a
-// shading surface reflects is lost (EnergyPlus issue 10366). This adds the copies to the session
-// and writes their ids to where EnergyPlus keeps the ids of all surfaces, so that it asks for them
-// too. `ids`: the path to that array from the state. Returns the number of copies; nothing where
-// the array does not hold what it must.
+// EnergyPlus creates a mirrored copy of every shading surface for the sun on its other side. With
+// pixel counting, it does not pass these copies on and takes their sunlit fraction as 0, so that
+// what the back of a shading surface reflects is lost (EnergyPlus issue 10366). This function adds
+// the copies to the session and writes their ids to EnergyPlus's array of surface ids, so that it
+// asks about them too. `ids`: the path to that array from the state. Returns the number of copies,
+// or nothing if the array does not have the expected contents.
 std::optional<std::size_t> hand_over_mirrored_surfaces(State& state, Session& session,
                                                        StoredResult const& ids);
 

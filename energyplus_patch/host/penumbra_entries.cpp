@@ -9,13 +9,13 @@
 #include "host/mirrored_surfaces.h"
 #include "host/run.h"
 
-// Functions that stand in for the member functions of Penumbra::Penumbra and Penumbra::Surface:
-// same arguments in the same registers (`this` first), same objects by size. What they do is ours.
+// Functions that replace the member functions of Penumbra::Penumbra and Penumbra::Surface: same
+// arguments in the same registers (`this` first), and objects of the same size.
 
 namespace gpu_shading::energyplus {
 namespace {
 
-using Coordinates = std::vector<float>;  // x, y, z of every vertex in turn
+using Coordinates = std::vector<float>;  // x, y, z of every vertex, one vertex after another
 
 Ring to_ring(Coordinates const& xyz) {
   Ring ring;
@@ -26,7 +26,7 @@ Ring to_ring(Coordinates const& xyz) {
   return ring;
 }
 
-// EnergyPlus keeps 16 bytes for a surface and one pointer for the calculation.
+// EnergyPlus reserves 16 bytes for a surface and one pointer for the calculation.
 struct SurfaceObject {
   std::shared_ptr<Surface> surface;
 };
@@ -38,13 +38,11 @@ struct PenumbraObject {
 static_assert(sizeof(PenumbraObject) == 8);
 
 void surface_construct(SurfaceObject* self, Coordinates const& outline, std::string const& name) {
-  guarded([&] {
-    new (self) SurfaceObject{std::make_shared<Surface>(Surface{name, {to_ring(outline), {}}})};
-  });
+  new (self) SurfaceObject{std::make_shared<Surface>(Surface{name, {to_ring(outline), {}}})};
 }
 
 void surface_construct_default(SurfaceObject* self) {
-  guarded([&] { new (self) SurfaceObject{std::make_shared<Surface>()}; });
+  new (self) SurfaceObject{std::make_shared<Surface>()};
 }
 
 void surface_copy(SurfaceObject* self, SurfaceObject const& other) {
@@ -54,20 +52,18 @@ void surface_copy(SurfaceObject* self, SurfaceObject const& other) {
 void surface_destroy(SurfaceObject* self) { self->~SurfaceObject(); }
 
 void surface_add_hole(SurfaceObject* self, Coordinates const& hole) {
-  guarded([&] { self->surface->polygon.holes.push_back(to_ring(hole)); });
+  self->surface->polygon.holes.push_back(to_ring(hole));
 }
 
-// A device is opened once the surfaces are known, and its absence is then a fatal error; EnergyPlus
-// must not fall back to another method by itself.
+// The device is opened once the surfaces are known. If there is none, that is a fatal error,
+// because EnergyPlus must not fall back to another method by itself.
 bool is_valid_context() { return true; }
 
 void construct(PenumbraObject* self, unsigned /*size*/, void const* /*logger*/) {
-  guarded([&] {
-    auto& run = this_run();
-    if (!run.model) throw Error("EnergyPlus starts shading before its input was read");
-    new (self) PenumbraObject{std::make_unique<Session>(*run.model)};
-    run.session = self->session.get();
-  });
+  auto& run = this_run();
+  if (!run.model) throw Error("EnergyPlus starts shading before its input was read");
+  new (self) PenumbraObject{std::make_unique<Session>(*run.model)};
+  run.session = self->session.get();
 }
 
 void destroy(PenumbraObject* self) {
@@ -76,15 +72,15 @@ void destroy(PenumbraObject* self) {
 }
 
 unsigned add_surface(PenumbraObject* self, SurfaceObject const& surface) {
-  return guarded([&] { return self->session->add(*surface.surface); });
+  return self->session->add(*surface.surface);
 }
 
 unsigned get_number_of_surfaces(PenumbraObject* self) {
   return static_cast<unsigned>(self->session->size());
 }
 
-// Needed only where what shading surfaces reflect counts.
-void add_mirrored_surfaces(Session& session, Session::Messages const& messages) {
+// Only needed if light reflected by shading surfaces is modelled.
+void add_mirrored_surfaces(Session& session, Messages const& messages) {
   auto const& ids = installation().surface_ids;
   if (!session.input().reflections || session.shading_surfaces().empty()) return;
   if (!ids || !hand_over_mirrored_surfaces(*this_run().state, session, *ids)) {
@@ -96,65 +92,68 @@ void add_mirrored_surfaces(Session& session, Session::Messages const& messages) 
 }
 
 void set_model(PenumbraObject* self) {
-  guarded([&] {
-    auto const messages = messages_of(this_run());
-    add_mirrored_surfaces(*self->session, messages);
-    State& state = *this_run().state;
-    self->session->start(messages, installation().schedules.of(state),
-                         [&state] { return installation().functions.latitude(state); });
-  });
+  auto& session = *self->session;
+  auto& installed = installation();
+  State& state = *this_run().state;
+  auto const messages = messages_of(this_run());
+  add_mirrored_surfaces(session, messages);
+  auto schedules = installed.schedules.of(state);
+  if (auto& task = installed.task) {
+    task->finish(session.perform(task->task(), messages, std::move(schedules)));
+    throw TaskDone();
+  }
+  session.start(messages, std::move(schedules),
+                [&] { return installed.functions.latitude(state); });
 }
 
 void set_sun_position(PenumbraObject* self, float azimuth, float altitude) {
   self->session->set_sun({azimuth, altitude});
 }
 
-// Rendering waits for the first question, when it is known what is wanted.
+// Rendering waits for the first question, when the wanted receivers are known.
 void submit_pssa(PenumbraObject* /*self*/) {}
 
 float retrieve_pssa(PenumbraObject* self, unsigned id) {
-  return guarded([&] { return self->session->projected_sunlit_area(id); });
+  return self->session->projected_sunlit_area(id);
 }
 
 std::unordered_map<unsigned, float> calculate_interior_pssas(
     PenumbraObject* self, std::vector<unsigned> const& windows,
     std::vector<unsigned> const& interiors) {
-  return guarded([&] {
-    std::unordered_map<unsigned, float> areas;
-    if (windows.size() != 1) throw Error("EnergyPlus asks for interior areas of several windows");
-    auto const answers = self->session->interior_areas(windows.front(), interiors);
-    for (std::size_t i = 0; i < interiors.size(); ++i) areas[interiors[i]] += answers[i];
-    return areas;
-  });
+  std::unordered_map<unsigned, float> areas;
+  if (windows.size() != 1) throw Error("EnergyPlus asks for interior areas of several windows");
+  auto const answers = self->session->interior_areas(windows.front(), interiors);
+  for (std::size_t i = 0; i < interiors.size(); ++i) areas[interiors[i]] += answers[i];
+  return areas;
 }
 
-template <typename Function>
-void* address(Function* function) {
-  return reinterpret_cast<void*>(function);
+template <auto function>
+EntryPatch guarded_entry(char const* symbol) {
+  return {symbol, reinterpret_cast<void*>(&Guarded<function>::call)};
 }
 
 }  // namespace
 
-std::vector<Entry> penumbra_entries() {
+std::vector<EntryPatch> penumbra_entries() {
   return {
-      {"_ZN8Penumbra7SurfaceC1ERKSt6vectorIfSaIfEERKNSt7__cxx1112basic_stringIcSt11char_"
-       "traitsIcESaIcEEE",
-       address(&surface_construct)},
-      {"_ZN8Penumbra7SurfaceC1Ev", address(&surface_construct_default)},
-      {"_ZN8Penumbra7SurfaceC1ERKS0_", address(&surface_copy)},
-      {"_ZN8Penumbra7SurfaceD1Ev", address(&surface_destroy)},
-      {"_ZN8Penumbra7Surface8add_holeERKSt6vectorIfSaIfEE", address(&surface_add_hole)},
-      {"_ZN8Penumbra8Penumbra16is_valid_contextEv", address(&is_valid_context)},
-      {"_ZN8Penumbra8PenumbraC1EjRKSt10shared_ptrIN8Courierr8CourierrEE", address(&construct)},
-      {"_ZN8Penumbra8PenumbraD1Ev", address(&destroy)},
-      {"_ZN8Penumbra8Penumbra11add_surfaceERKNS_7SurfaceE", address(&add_surface)},
-      {"_ZN8Penumbra8Penumbra22get_number_of_surfacesEv", address(&get_number_of_surfaces)},
-      {"_ZN8Penumbra8Penumbra9set_modelEv", address(&set_model)},
-      {"_ZN8Penumbra8Penumbra16set_sun_positionEff", address(&set_sun_position)},
-      {"_ZN8Penumbra8Penumbra11submit_pssaEv", address(&submit_pssa)},
-      {"_ZN8Penumbra8Penumbra13retrieve_pssaEj", address(&retrieve_pssa)},
-      {"_ZN8Penumbra8Penumbra24calculate_interior_pssasERKSt6vectorIjSaIjEES5_",
-       address(&calculate_interior_pssas)},
+      guarded_entry<&surface_construct>(
+          "_ZN8Penumbra7SurfaceC1ERKSt6vectorIfSaIfEERKNSt7__cxx1112basic_stringIcSt11char_"
+          "traitsIcESaIcEEE"),
+      guarded_entry<&surface_construct_default>("_ZN8Penumbra7SurfaceC1Ev"),
+      guarded_entry<&surface_copy>("_ZN8Penumbra7SurfaceC1ERKS0_"),
+      guarded_entry<&surface_destroy>("_ZN8Penumbra7SurfaceD1Ev"),
+      guarded_entry<&surface_add_hole>("_ZN8Penumbra7Surface8add_holeERKSt6vectorIfSaIfEE"),
+      guarded_entry<&is_valid_context>("_ZN8Penumbra8Penumbra16is_valid_contextEv"),
+      guarded_entry<&construct>("_ZN8Penumbra8PenumbraC1EjRKSt10shared_ptrIN8Courierr8CourierrEE"),
+      guarded_entry<&destroy>("_ZN8Penumbra8PenumbraD1Ev"),
+      guarded_entry<&add_surface>("_ZN8Penumbra8Penumbra11add_surfaceERKNS_7SurfaceE"),
+      guarded_entry<&get_number_of_surfaces>("_ZN8Penumbra8Penumbra22get_number_of_surfacesEv"),
+      guarded_entry<&set_model>("_ZN8Penumbra8Penumbra9set_modelEv"),
+      guarded_entry<&set_sun_position>("_ZN8Penumbra8Penumbra16set_sun_positionEff"),
+      guarded_entry<&submit_pssa>("_ZN8Penumbra8Penumbra11submit_pssaEv"),
+      guarded_entry<&retrieve_pssa>("_ZN8Penumbra8Penumbra13retrieve_pssaEj"),
+      guarded_entry<&calculate_interior_pssas>(
+          "_ZN8Penumbra8Penumbra24calculate_interior_pssasERKSt6vectorIjSaIjEES5_"),
   };
 }
 

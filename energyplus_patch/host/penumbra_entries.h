@@ -7,6 +7,6 @@
 namespace gpu_shading::energyplus {
 
 // The replaced class, through which EnergyPlus asks for sunlit areas.
-std::vector<Entry> penumbra_entries();
+std::vector<EntryPatch> penumbra_entries();
 
 }  // namespace gpu_shading::energyplus

@@ -19,7 +19,7 @@ void print_line(std::string const& line) {
   std::fprintf(stderr, "gpu_shading: %s\n", line.c_str());
 }
 
-Session::Messages messages_of(Run const& run) {
+Messages messages_of(Run const& run) {
   auto& functions = installation().functions;
   State* const state = run.state;
   std::ostream* const eio = run.eio;
@@ -27,6 +27,7 @@ Session::Messages messages_of(Run const& run) {
       [&functions, state](std::string const& line) {
         print_line("warning: " + line);
         functions.warning(*state, "gpu_shading: " + line);
+        if (auto& task = installation().task) task->warn(line);
       },
       [&functions, state](std::string const& line) {
         print_line(line);
@@ -36,6 +37,21 @@ Session::Messages messages_of(Run const& run) {
         if (eio != nullptr) *eio << line;
       },
   };
+}
+
+void end_run(std::exception_ptr const& thrown) {
+  auto& installed = installation();
+  std::string why;
+  try {
+    std::rethrow_exception(thrown);
+  } catch (TaskDone const&) {
+    why = "done; no simulation was asked for";
+  } catch (std::exception const& error) {
+    why = error.what();
+    print_line("error: " + why);
+    if (installed.task) installed.task->fail(why);
+  }
+  installed.functions.fatal(*this_run().state, "gpu_shading: " + why);
 }
 
 }  // namespace gpu_shading::energyplus

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <iosfwd>
 #include <memory>
@@ -7,8 +8,9 @@
 #include <string>
 
 #include "binary/stored_result.h"
+#include "host/asked_task.h"
 #include "host/energyplus.h"
-#include "host/schedules.h"
+#include "host/schedule_functions.h"
 #include "session/session.h"
 
 namespace gpu_shading::energyplus {
@@ -21,6 +23,7 @@ struct Installation {
   ScheduleFunctions schedules;
   std::optional<StoredResult> surface_ids;  // where EnergyPlus keeps what add_surface returned
   Choices choices;                          // command line over environment
+  std::optional<AskedTask> task;            // that EnergyPlus is run for
 };
 Installation& installation();
 
@@ -31,6 +34,7 @@ struct Run {
   std::optional<Model> model;   // once the input is read
   std::ostream* eio = nullptr;  // once EnergyPlus has written its own line on shading
   Session* session = nullptr;   // while EnergyPlus has one
+  std::string unwritten;        // why its output is not complete, "" where it is
 };
 Run& this_run();
 
@@ -38,20 +42,35 @@ Run& this_run();
 void print_line(std::string const& line);
 
 // Where a session's messages go: this run's .err and .eio.
-Session::Messages messages_of(Run const& run);
+Messages messages_of(Run const& run);
 
-// Calls `action`; an exception of ours ends EnergyPlus's run with a fatal message. EnergyPlus's own
-// pass.
+// Thrown when the task that EnergyPlus is run for is done.
+class TaskDone : public std::exception {};
+
+// Ends EnergyPlus's run: with a fatal message, which is EnergyPlus's own way. An exception other
+// than TaskDone is an error, printed and replied to a task.
+[[noreturn]] void end_run(std::exception_ptr const& thrown);
+
+// Calls `action`; an exception of ours ends EnergyPlus's run.
 template <typename Action>
 auto guarded(Action const& action) {
-  std::string message;
+  std::exception_ptr thrown;
   try {
     return action();
-  } catch (std::exception const& error) {
-    message = error.what();
+  } catch (std::exception const&) {
+    thrown = std::current_exception();
   }
-  print_line("error: " + message);
-  installation().functions.fatal(*this_run().state, "gpu_shading: " + message);
+  end_run(thrown);
 }
+
+// A function as EnergyPlus may call it: guarded.
+template <auto function>
+struct Guarded;
+template <typename Result, typename... Arguments, Result (*function)(Arguments...)>
+struct Guarded<function> {
+  static Result call(Arguments... arguments) {
+    return guarded([&] { return function(arguments...); });
+  }
+};
 
 }  // namespace gpu_shading::energyplus

@@ -18,21 +18,21 @@ void set_time(Moment moment) {
   if (auto* const session = this_run().session) guarded([&] { session->set_time(moment); });
 }
 
-// Shadows of the beam at a timestep and, with varying schedules, of every patch of the sky.
+// Shading of the beam at a timestep and, with varying schedules, of every patch of the sky.
 void solar_beam(State& state, int hour, int timestep) {
   set_time({hour, timestep});
   original_solar_beam(state, hour, timestep);
 }
 
-// Shadows of the sky for the whole simulation.
+// Shading of the sky for the whole simulation.
 void sky_shading(State& state) {
   set_time({});
   original_sky_shading(state);
 }
 
-// EnergyPlus says there of its own pixel counting that shades are opaque to it.
+// Here EnergyPlus warns that shades are opaque to its own pixel counting.
 struct Silence {
-  bool allowed = false;  // within the function that says so, in a run that we shade
+  bool allowed = false;  // inside the function that warns, in a run that we shade
   bool active = false;   // the message has begun
 };
 
@@ -61,7 +61,7 @@ void show_continue(State& state, std::string const& message, OtherFile first, Ot
 
 }  // namespace
 
-std::vector<Entry> shading_entries() {
+std::vector<EntryPatch> shading_entries() {
   return {
       watch("_ZN10EnergyPlus12SolarShading25FigureSolarBeamAtTimestepERNS_14EnergyPlusDataEii",
             &solar_beam, &original_solar_beam),

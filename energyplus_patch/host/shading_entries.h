@@ -6,8 +6,8 @@
 
 namespace gpu_shading::energyplus {
 
-// The watched functions of the shading calculation: which hour and timestep it is for, and the
-// message that transmittance schedules are not applied, which is not so.
-std::vector<Entry> shading_entries();
+// The watched functions of the shading calculation: those that give the hour and timestep, and the
+// warning that transmittance schedules are ignored, which does not apply here.
+std::vector<EntryPatch> shading_entries();
 
 }  // namespace gpu_shading::energyplus

@@ -11,25 +11,30 @@ extern "C" {
 #endif
 
 /* Takes over the shading calculation of the EnergyPlus library loaded from `energyplus_library`, or
- * of the one libenergyplusapi in the process when NULL. `options`: the launcher's flags, one a line
- * or separated by blanks, e.g.
- * "--gpu-shading=require --gpu-shading-resolution=1024"; NULL or empty for none. What they leave
- * open comes from the environment (GPU_SHADING_...), the model, and the built-in defaults, in this
- * order. Returns 0, or with nothing changed and the reason in gpu_shading_message() 2 where this
- * library cannot be patched, and 1 for anything else. Calling it
- * again for the same library replaces the options. Not while a run is in progress. */
-int gpu_shading_install(char const* energyplus_library, char const* options);
+ * of the one libenergyplusapi in the process when NULL. `options`: `count` flags of the launcher,
+ * e.g.
+ * "--gpu-shading=require" and "--gpu-shading-resolution=1024"; may be NULL if count is 0. What they
+ * leave open comes from the environment (GPU_SHADING_...), the model, and the built-in defaults, in
+ * this order. Returns 0, or with nothing changed and the reason in gpu_shading_message() 2 where
+ * this library cannot be patched, and 1 for anything else. Calling it again for the same library
+ * replaces the options. Not while a run is in progress. */
+int gpu_shading_install(char const* energyplus_library, int count, char const* const* options);
 
 /* Why the last of these functions failed in this thread; one or more lines. Never NULL. */
 char const* gpu_shading_message(void);
+
+/* Why not all that GPU shading was to write of this thread's last run is there, such as a report on
+ * a full disk: one line, empty where all is. EnergyPlus's own results are not concerned. Never
+ * NULL. */
+char const* gpu_shading_unwritten(void);
 
 /* A whole run of an EnergyPlus library that cannot be patched, which need not be loaded: sunlit
  * fractions are rendered first and go in as schedules. `options` as above; `argv`: EnergyPlus's own
  * arguments without the program. The folder of this process's program has to hold one by the name
  * of energyplus that runs the library as it is, as in a folder made by patch_energyplus. Returns
  * EnergyPlus's exit status, or -1 with the reason in gpu_shading_message(). */
-int gpu_shading_run_scheduled(char const* energyplus_library, char const* options, int argc,
-                              char const* const* argv);
+int gpu_shading_run_scheduled(char const* energyplus_library, int count, char const* const* options,
+                              int argc, char const* const* argv);
 
 #ifdef __cplusplus
 }

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "gpu_shading/error.h"
-#include "input/number.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -28,7 +28,7 @@ double number(InputObject const& object, std::string const& field, std::string_v
   return *value;
 }
 
-// Adds what a layer lets through to the panes; gases let everything through.
+// Adds the panes of a layer; gas layers transmit everything.
 void add_layer(InputObject const& material, std::vector<GlassLayer>& panes, double& dirt,
                std::vector<std::string>& warnings) {
   if (!same_name(material["optical_data_type"], "SpectralAverage")) {
@@ -53,9 +53,8 @@ void add_layer(InputObject const& material, std::vector<GlassLayer>& panes, doub
   }
   if (same_name(material["solar_diffusing"], "Yes")) {
     warnings.push_back(
-        fmt::format("{} {}: Solar Diffusing is Yes: as a shade it passes its beam undeviated, "
-                    "scattering is not "
-                    "modelled",
+        fmt::format("{} {}: Solar Diffusing is Yes, but a shade transmits the beam undeviated: "
+                    "scattering is not modelled",
                     material.type, material.name));
   }
 }

@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "gpu_shading/transmittance.h"
-#include "input/input_object.h"
+#include "idf/input_object.h"
 
 namespace gpu_shading::energyplus {
 
 // Beam transmittance of a Construction of WindowMaterial:Glazing, :Gas, :GasMixture or
-// :SimpleGlazingSystem layers. `warnings` gets a line for each material that scatters light, of
-// which only what passes undeviated is modelled. Throws Error, naming construction, material, field
+// :SimpleGlazingSystem layers. `warnings` gets a line for each material that scatters light,
+// because only the undeviated beam is modelled. Throws Error, naming construction, material, field
 // and value.
 Transmittance construction_transmittance(std::vector<InputObject> const& objects,
                                          std::string const& construction,

@@ -9,14 +9,15 @@
 #include <limits>
 #include <numeric>
 
-#include "input/naming.h"
+#include "base/naming.h"
+#include "extensions/extension_fields.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 constexpr std::uint16_t solid = 65535;
 
-// A surface's rectangle along a tile's axes, from the tile's (0, 0).
+// The bounding rectangle of a surface along a tile's axes, relative to the tile's (0, 0).
 struct Bounds {
   double low_u = std::numeric_limits<double>::infinity();
   double low_v = std::numeric_limits<double>::infinity();
@@ -87,7 +88,7 @@ std::string describe_sheet(PerforatedScreen const& screen) {
 
 }  // namespace
 
-Error screen_error(std::string const& object, std::string message) {
+Error screen_error(std::string const& where, std::string message) {
   auto const field = message.substr(0, message.find(" is "));
   if (!message.empty() && std::islower(static_cast<unsigned char>(message.front())) != 0) {
     for (std::size_t i = 0; i < field.size(); ++i) {
@@ -95,17 +96,21 @@ Error screen_error(std::string const& object, std::string message) {
       message[i] = static_cast<char>(std::toupper(static_cast<unsigned char>(message[i])));
     }
   }
-  return Error(fmt::format("GPUShading:PerforatedScreen {}: {}", object, message));
+  return Error(fmt::format("{}: {}", where, message));
 }
 
-ScreenMaker::ScreenMaker(std::string object, Holes holes, Sheet const& sheet,
+ScreenMaker::ScreenMaker(std::string object, std::string where, Holes holes, Sheet const& sheet,
                          ScreenPlacement const& placement)
-    : object_(std::move(object)), holes_(std::move(holes)), sheet_(sheet), placement_(placement) {
+    : object_(std::move(object)),
+      where_(std::move(where)),
+      holes_(std::move(holes)),
+      sheet_(sheet),
+      placement_(placement) {
   if (auto const* const pattern = std::get_if<HolePattern>(&holes_)) {
     made_.push_back(make_of(*pattern));
     return;
   }
-  // A texel stands for the image, so that numbers are refused before it is read.
+  // One texel stands for the image, so that invalid numbers are rejected before it is read.
   auto const& texture = std::get<ScreenTexture>(holes_);
   PerforatedScreen const check(
       OpacityTile(texture.width.value_or(1.0), texture.height.value_or(1.0), 1, 1,
@@ -132,7 +137,7 @@ ScreenPlacement ScreenMaker::placement(Polygon const& polygon,
                                        std::optional<TextureAxes> const& texture) const {
   if (texture) return placement_on(*texture, polygon);
   if (!stretches()) return placement_;
-  // Its bounding rectangle begins at the second vertex where it is a rectangle, and not turned.
+  // On a rectangle, without rotation, the bounding rectangle begins at the second vertex.
   auto const bounds = bounds_of(polygon, placement_.rotation);
   double const c = std::cos(placement_.rotation);
   double const s = std::sin(placement_.rotation);
@@ -144,7 +149,7 @@ ScreenPlacement ScreenMaker::placement_on(TextureAxes const& texture,
                                           Polygon const& polygon) const {
   auto from = texture.origin;
   if (stretches()) {
-    // Tiles alike repeat: the one nearest to the polygon errs the least where scales differ.
+    // Tiles repeat: using the one nearest to the polygon minimises the error if scales differ.
     auto const& outline = polygon.outline;
     auto const middle = std::accumulate(outline.begin(), outline.end(), glm::dvec3(0.0)) /
                         static_cast<double>(outline.size());
@@ -165,7 +170,7 @@ ScreenMaker::Made const& ScreenMaker::find_or_make(Polygon const& polygon,
   auto const* const texture = std::get_if<ScreenTexture>(&holes_);
   if (texture == nullptr) return made_.front();
   auto const [width, height] = tile_size(*texture, polygon, placement_.rotation, axes);
-  // Equal surfaces differ by the rounding of their vertices.
+  // Equal surfaces can differ by the rounding of their vertices.
   constexpr double rounding = 1e-4;
   auto const same = [&](double a, double b) {
     return std::abs(a - b) <= (axes ? std::max(rounding, same_scale * b) : rounding);
@@ -176,7 +181,7 @@ ScreenMaker::Made const& ScreenMaker::find_or_make(Polygon const& polygon,
   try {
     made_.push_back(make_of(*texture, width, height));
   } catch (Error const& error) {
-    throw screen_error(object_, error.what());
+    throw screen_error(where_, error.what());
   }
   return made_.back();
 }
@@ -196,9 +201,10 @@ ScreenMaker::Made ScreenMaker::make_of(ScreenTexture const& texture, double widt
   auto const screen = std::make_shared<PerforatedScreen const>(std::move(tile), sheet_);
   double const open = screen->open_fraction();
   if (warnings_.empty() && (open <= 0.0 || open >= 1.0)) {
-    warnings_.push_back(fmt::format(
-        "GPUShading:PerforatedScreen {}: {} is {} everywhere, by its {}", object_, texture.name,
-        open <= 0.0 ? "solid" : "open", texture.info.alpha ? "alpha channel" : "luminance"));
+    warnings_.push_back(fmt::format("{} {}: {} is {} everywhere, by its {}",
+                                    extension::perforated_screen::type, object_, texture.name,
+                                    open <= 0.0 ? "solid" : "open",
+                                    texture.info.alpha ? "alpha channel" : "luminance"));
   }
   return {width, height, screen,
           fmt::format("perforated (texture {} {} x {}, {} over {:.4g} x {:.4g} m tiles, {} mm "
@@ -208,8 +214,8 @@ ScreenMaker::Made ScreenMaker::make_of(ScreenTexture const& texture, double widt
 }
 
 std::vector<std::uint16_t> ScreenMaker::read_texture(ScreenTexture const& texture) {
-  auto texels =
-      naming("Texture File Name", [&] { return read_opacity(texture.path, texture.info); });
+  auto texels = naming(extension::perforated_screen::texture_file_name.title,
+                       [&] { return read_opacity(texture.path, texture.info); });
   if (texture.invert) {
     for (auto& texel : texels) texel = static_cast<std::uint16_t>(solid - texel);
   }

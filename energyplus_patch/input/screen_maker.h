@@ -9,66 +9,68 @@
 #include <variant>
 #include <vector>
 
+#include "assets/texture_file.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/scene.h"
-#include "images/texture_file.h"
 
 namespace gpu_shading::energyplus {
 
-// The image of a tile, and how it lies on surfaces.
+// The image of a tile, and its placement on surfaces.
 struct ScreenTexture {
   std::string name;  // as the user wrote it
   std::filesystem::path path;
   TextureInfo info;
   bool invert = false;
   std::optional<double> threshold = 0.5;  // none: fractional opacity
-  // Of a tile, m. One of them: texels are square. None: the bounding rectangle of each surface
-  // along the tile's axes.
+  // Size of a tile, m. If only one is given, texels are square; if neither is, the tile is the
+  // bounding rectangle of each surface along its axes.
   std::optional<double> width = std::nullopt;
   std::optional<double> height = std::nullopt;
 };
 
-// Where texture coordinates lie on a mesh, in world axes: (0, 0), and what they grow along, of the
-// length that makes them 1.
+// The texture coordinates of a mesh in world axes: the point (0, 0), and the vectors along which
+// each coordinate grows by 1.
 struct TextureAxes {
   glm::dvec3 origin;
   glm::dvec3 u;
   glm::dvec3 v;
 };
 
-// Tiles of a mesh whose width and height differ by less than this share are one.
+// Tiles of a mesh are treated as equal if their width and height differ by less than this fraction.
 inline constexpr double same_scale = 5e-3;
 
-// Makes the screens of one GPUShading:PerforatedScreen, which has one for all its surfaces, but for
-// a texture that each surface has in its own size. For one thread at a time. Every function throws
-// Error, naming object, field and value, the constructor without the object.
+// Creates the screens of one GPUShading:PerforatedScreen: one for all its surfaces, or one per
+// surface for a texture sized by the surface. Not thread-safe. Every function throws Error, naming
+// object, field and value; the constructor does not name the object.
 class ScreenMaker {
  public:
   using Holes = std::variant<HolePattern, ScreenTexture>;
 
-  // Everything is checked but what only the image's texels can tell.
-  ScreenMaker(std::string object, Holes holes, Sheet const& sheet,
+  // `where`: what errors begin with. Everything is checked but what only the image's texels can
+  // tell.
+  ScreenMaker(std::string object, std::string where, Holes holes, Sheet const& sheet,
               ScreenPlacement const& placement);
 
   std::string const& object() const { return object_; }
+  std::string const& where() const { return where_; }
 
-  // Equal screens are one. A texture's file is read at the first call. On a mesh, which has texture
-  // coordinates, these take the place of the surface's lower left corner and lower edge, and unless
-  // the tile has a size one unit of them is one tile.
+  // Equal screens are shared. A texture's file is read at the first call. On a mesh, texture
+  // coordinates replace the surface's lower left corner and lower edge; one unit of them is one
+  // tile, unless the tile has a size.
   std::shared_ptr<PerforatedScreen const> make(
       Polygon const& polygon, std::optional<TextureAxes> const& texture = std::nullopt);
 
   ScreenPlacement placement(Polygon const& polygon,
                             std::optional<TextureAxes> const& texture = std::nullopt) const;
 
-  // "perforated (round holes 5 mm, ...)": what make() gives.
+  // "perforated (round holes 5 mm, ...)": describes the result of make().
   std::string describe(Polygon const& polygon,
                        std::optional<TextureAxes> const& texture = std::nullopt);
 
-  // Whether tiles are of the size of each surface, or of a unit of a mesh's texture coordinates.
+  // Whether tiles take the size of each surface, or of a unit of a mesh's texture coordinates.
   bool stretches() const;
 
-  // One line for what is odd about the screens that were made.
+  // One line for each peculiarity of the screens created so far.
   std::vector<std::string> const& warnings() const { return warnings_; }
 
  private:
@@ -86,6 +88,7 @@ class ScreenMaker {
   static std::vector<std::uint16_t> read_texture(ScreenTexture const& texture);
 
   std::string object_;
+  std::string where_;
   Holes holes_;
   Sheet sheet_;
   ScreenPlacement placement_;
@@ -93,7 +96,7 @@ class ScreenMaker {
   std::vector<std::string> warnings_;
 };
 
-// An error of the object: the field that the message begins with as the user writes it.
-Error screen_error(std::string const& object, std::string message);
+// An error of an object: the field that the message begins with as the user writes it.
+Error screen_error(std::string const& where, std::string message);
 
 }  // namespace gpu_shading::energyplus

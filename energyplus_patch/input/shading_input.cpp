@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "gpu_shading/error.h"
-#include "input/number.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -60,7 +60,7 @@ void read_shading_surface(InputObject const& object, ShadingInput& input) {
                                              upper(object["transmittance_schedule_name"])};
   auto const name = upper(object.name);
   if (object.type.starts_with("Shading:Fin")) {
-    // EnergyPlus makes two surfaces of one object, and names them so.
+    // EnergyPlus creates two surfaces from one object, with these names.
     input.shading_surfaces[name + " Left"] = surface;
     input.shading_surfaces[name + " Right"] = surface;
   } else {
@@ -97,7 +97,7 @@ ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
       input.minimal_shadowing = distribution == "MINIMALSHADOWING";
       input.reflections = distribution.ends_with("WITHREFLECTIONS");
     } else if (object.type == "ShadowCalculation") {
-      // EnergyPlus takes the first and warns of the others.
+      // EnergyPlus uses the first one and warns about the others.
       if (!shadow_calculation_read) read_shadow_calculation(object, input);
       shadow_calculation_read = true;
     } else if (object.type == "ZoneList") {

@@ -2,21 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "base/naming.h"
+#include "base/text.h"
+#include "extensions/extension_fields.h"
 #include "gpu_shading/error.h"
+#include "idf/fields.h"
 #include "input/glazing_construction.h"
-#include "input/name_pattern.h"
-#include "input/naming.h"
-#include "input/number.h"
 
 namespace gpu_shading::energyplus {
 namespace {
+
+namespace field = extension::transparent_shade;
 
 std::vector<double> numbers(std::vector<std::string> const& texts) {
   std::vector<double> result;
   for (auto const& text : texts) {
     auto const value = parse_number(text);
-    if (!value)
-      throw Error(fmt::format("Value {} is \"{}\", not a number", result.size() + 1, text));
+    if (!value || !std::isfinite(*value)) {
+      throw Error(fmt::format("{} {} is {}, expected a number", field::value.title,
+                              result.size() + 1, in_quotes(text)));
+    }
     result.push_back(*value);
   }
   return result;
@@ -48,49 +55,41 @@ struct Made {
   std::string description;
 };
 
-Made make(std::string const& model, std::vector<std::string> const& values,
+Made make(field::TransmittanceModel model, std::vector<std::string> const& values,
           std::vector<InputObject> const& objects, std::filesystem::path const& folder,
           std::vector<std::string>& warnings) {
-  if (same_name(model, "Constant")) {
-    only_value(values, "the transmittance");
-    auto const value = numbers(values).front();
-    return {Transmittance::constant(value), fmt::format("constant {}", value)};
+  using enum field::TransmittanceModel;
+  switch (model) {
+    case constant: {
+      only_value(values, "the transmittance");
+      auto const value = numbers(values).front();
+      return {Transmittance::constant(value), fmt::format("constant {}", value)};
+    }
+    case polynomial_in_degrees:
+      return {Transmittance::polynomial_in_degrees(numbers(values)), "polynomial in the angle"};
+    case polynomial_in_cosine:
+      return {Transmittance::polynomial_in_cosine(numbers(values)), "polynomial in the cosine"};
+    case table:
+      return {from_table(numbers(values)), "table"};
+    case table_file: {
+      auto const& file = only_value(values, "the file's name");
+      return {read_angular_csv(folder / file), fmt::format("table {}", file)};
+    }
+    case construction:
+      break;
   }
-  if (same_name(model, "PolynomialInDegrees")) {
-    return {Transmittance::polynomial_in_degrees(numbers(values)), "polynomial in the angle"};
-  }
-  if (same_name(model, "PolynomialInCosine")) {
-    return {Transmittance::polynomial_in_cosine(numbers(values)), "polynomial in the cosine"};
-  }
-  if (same_name(model, "Table")) return {from_table(numbers(values)), "table"};
-  if (same_name(model, "TableFile")) {
-    auto const& file = only_value(values, "the file's name");
-    return {read_angular_csv(folder / file), fmt::format("table {}", file)};
-  }
-  if (same_name(model, "Construction")) {
-    auto const& name = only_value(values, "the construction's name");
-    return {construction_transmittance(objects, name, warnings),
-            fmt::format("construction {}", name)};
-  }
-  throw Error(
-      fmt::format("Transmittance Model is \"{}\", expected Constant, PolynomialInDegrees, "
-                  "PolynomialInCosine, Table, TableFile or Construction",
-                  model));
-}
-
-// Blank fields at the end of an IDF object mean nothing.
-std::vector<std::string> without_blank_end(std::vector<std::string> values) {
-  while (!values.empty() && values.back().empty()) values.pop_back();
-  return values;
+  auto const& name = only_value(values, "the construction's name");
+  return {construction_transmittance(objects, name, warnings),
+          fmt::format("construction {}", name)};
 }
 
 void add_object(InputObject const& object, std::vector<InputObject> const& objects,
                 ShadingInput const& input, std::filesystem::path const& folder,
                 TransparentShades& shades) {
-  auto made = make(object["transmittance_model"], without_blank_end(object.list), objects, folder,
-                   shades.warnings);
+  auto made = make(read(object, field::transmittance_model), read(object, field::value), objects,
+                   folder, shades.warnings);
   auto const transmittance = std::make_shared<Transmittance const>(std::move(made.transmittance));
-  auto const& pattern = object["surface_name"];
+  auto const pattern = read(object, field::surface_name);
   bool found = false;
   for (auto const& [surface, unused] : input.shading_surfaces) {
     if (!matches(pattern, surface)) continue;
@@ -98,13 +97,13 @@ void add_object(InputObject const& object, std::vector<InputObject> const& objec
     auto const [place, added] = shades.by_surface.try_emplace(
         surface, TransparentShade{object.name, made.description, transmittance});
     if (!added) {
-      throw Error(fmt::format("Surface Name \"{}\": {} is named by {} already", pattern, surface,
-                              place->second.object));
+      throw Error(fmt::format("{} {}: {} is named by {} already", field::surface_name.title,
+                              in_quotes(pattern), surface, place->second.object));
     }
   }
   if (!found) {
-    throw Error(fmt::format("Surface Name is \"{}\", which no shading surface of the model matches",
-                            pattern));
+    throw Error(fmt::format("{} is {}, which no shading surface of the model matches",
+                            field::surface_name.title, in_quotes(pattern)));
   }
 }
 
@@ -115,8 +114,8 @@ TransparentShades read_transparent_shades(std::vector<InputObject> const& object
                                           std::filesystem::path const& folder) {
   TransparentShades shades;
   for (auto const& object : objects) {
-    if (object.type != "GPUShading:TransparentShade") continue;
-    naming(object.title(), [&] { add_object(object, objects, input, folder, shades); });
+    if (object.type != field::type) continue;
+    naming(object.where(), [&] { add_object(object, objects, input, folder, shades); });
   }
   return shades;
 }

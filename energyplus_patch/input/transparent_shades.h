@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "gpu_shading/transmittance.h"
-#include "input/input_object.h"
+#include "idf/input_object.h"
 #include "input/shading_input.h"
 
 namespace gpu_shading::energyplus {
 
-// What GPUShading:TransparentShade says of a surface.
+// The GPUShading:TransparentShade of a surface.
 struct TransparentShade {
   std::string object;       // its name
-  std::string description;  // of the model, e.g. "construction Double Clear"
+  std::string description;  // description of the model, e.g. "construction Double Clear"
   std::shared_ptr<Transmittance const> transmittance;
 };
 
@@ -25,8 +25,8 @@ struct TransparentShades {
 };
 
 // Reads every GPUShading:TransparentShade of a model. `folder`: where relative file names start.
-// Throws Error, naming object, field and value: a pattern that matches no shading surface, a
-// surface named twice, a model that cannot be understood or leaves 0 .. 1, a construction or
+// Throws Error, naming object, field and value, for a pattern that matches no shading surface, a
+// surface named twice, a transmittance model that is invalid or leaves 0 .. 1, or a construction or
 // material that cannot be used.
 TransparentShades read_transparent_shades(std::vector<InputObject> const& objects,
                                           ShadingInput const& input,

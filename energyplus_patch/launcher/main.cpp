@@ -1,5 +1,5 @@
-// energyplus: the official program where --gpu-shading is not asked for, else EnergyPlus's own
-// library with its shading calculation taken over.
+// energyplus: runs the official program or, with --gpu-shading, EnergyPlus's own library with its
+// shading calculation redirected.
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -15,12 +15,13 @@
 #include <string>
 #include <vector>
 
+#include "base/process.h"
+#include "cache/cache_folder.h"
 #include "gpu_shading/error.h"
-#include "host/own_folder.h"
-#include "host/version.h"
-#include "input/model_reader.h"
-#include "launcher/command_line.h"
-#include "session/cache_folder.h"
+#include "idf/model_file.h"
+#include "model/model_reader.h"
+#include "options/command_line.h"
+#include "runs/installation.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -34,22 +35,21 @@ Path find_energyplus_library(Path const& folder) {
   Path found;
   for (auto const& entry : std::filesystem::directory_iterator(folder)) {
     auto const name = entry.path().filename().string();
-    // The versioned name is the one that the official program loads.
+    // The official program loads the versioned name.
     if (name.starts_with("libenergyplusapi.so") && name > found.filename().string()) {
       found = entry.path();
     }
   }
   if (found.empty()) {
-    throw Error(
-        fmt::format("{}: has no libenergyplusapi.so; make this prefix again with "
-                    "patch_energyplus",
-                    folder.string()));
+    throw Error(fmt::format(
+        "{}: has no libenergyplusapi.so; create this folder again with patch_energyplus",
+        folder.string()));
   }
   return std::filesystem::canonical(found);
 }
 
 void* load(Path const& library) {
-  // Local: what one library exports must not be taken for another's (EnergyPlus's carries an old
+  // RTLD_LOCAL: symbols of one library must not resolve to another's (EnergyPlus contains an old
   // expat and sqlite, which Mesa would bind to).
   void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) throw Error(dlerror());
@@ -63,13 +63,13 @@ Function* find(void* library, char const* name) {
   return reinterpret_cast<Function*>(function);
 }
 
-// What EnergyPlus's own program does.
+// The same calls as in EnergyPlus's own program.
 using RunEnergyPlus = int(std::vector<std::string> const&, std::string const&);
 constexpr char const* run_energyplus =
     "_Z13EnergyPlusPgmRKSt6vectorINSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEESaIS5_EERKS5"
     "_";
 
-// In a folder made of an installation without a program.
+// For a folder created from an installation without a program.
 [[noreturn]] void run_library(char** argv) {
   std::vector<std::string> arguments;
   for (char** argument = argv; *argument != nullptr; ++argument) arguments.emplace_back(*argument);
@@ -81,11 +81,11 @@ constexpr char const* run_energyplus =
   auto const program = std::filesystem::weakly_canonical(own_folder() / official_program);
   if (!std::filesystem::exists(program)) run_library(argv);
   execv(program.c_str(), argv);
-  throw Error(fmt::format("{}: {}; make this prefix again with patch_energyplus", program.string(),
-                          std::strerror(errno)));
+  throw Error(fmt::format("{}: {}; create this folder again with patch_energyplus",
+                          program.string(), std::strerror(errno)));
 }
 
-// Errors of the model come before anything is written.
+// Errors in the model are reported before anything is written.
 void check_model(Path const& path, Choices const& choices) {
   if (!std::filesystem::exists(path) || (!is_idf(path) && !is_epjson(path))) return;
   auto const model = read_model(path, choices);
@@ -95,33 +95,47 @@ void check_model(Path const& path, Choices const& choices) {
   }
 }
 
+// As C has a list of words.
+class Words {
+ public:
+  explicit Words(std::vector<std::string> const& words) {
+    for (auto const& word : words) pointers_.push_back(word.c_str());
+  }
+
+  int count() const { return static_cast<int>(pointers_.size()); }
+  char const* const* data() const { return pointers_.data(); }
+
+ private:
+  std::vector<char const*> pointers_;
+};
+
 // Our module's functions, include/gpu_shading_energyplus.h.
 struct Module {
   Module() {
     void* const library = load(own_folder() / patch_library);
-    install = find<int(char const*, char const*)>(library, "gpu_shading_install");
-    run_scheduled = find<int(char const*, char const*, int, char const* const*)>(
+    install = find<int(char const*, int, char const* const*)>(library, "gpu_shading_install");
+    run_scheduled = find<int(char const*, int, char const* const*, int, char const* const*)>(
         library, "gpu_shading_run_scheduled");
     message = find<char const*()>(library, "gpu_shading_message");
+    unwritten = find<char const*()>(library, "gpu_shading_unwritten");
   }
 
-  int (*install)(char const*, char const*);
-  int (*run_scheduled)(char const*, char const*, int, char const* const*);
+  int (*install)(char const*, int, char const* const*);
+  int (*run_scheduled)(char const*, int, char const* const*, int, char const* const*);
   char const* (*message)();
+  char const* (*unwritten)();
 };
 
 int run_scheduled(Path const& energyplus, Module const& module,
-                  std::vector<std::string> const& arguments, std::string const& flags) {
-  std::vector<char const*> words;
-  words.reserve(arguments.size());
-  for (auto const& argument : arguments) words.push_back(argument.c_str());
-  int const status = module.run_scheduled(energyplus.c_str(), flags.c_str(),
-                                          static_cast<int>(words.size()), words.data());
+                  std::vector<std::string> const& arguments, Words const& flags) {
+  Words const words(arguments);
+  int const status = module.run_scheduled(energyplus.c_str(), flags.count(), flags.data(),
+                                          words.count(), words.data());
   if (status < 0) throw Error(module.message());
   return status;
 }
 
-// A reason and what it lists on lines of their own, of which the first will do.
+// The first line of a reason that lists further details on lines of their own.
 std::string in_one_line(std::string const& message) {
   std::istringstream text(message);
   std::vector<std::string> lines;
@@ -135,22 +149,25 @@ std::string in_one_line(std::string const& message) {
 // The program's name and EnergyPlus's arguments.
 int run_shaded(char const* program, std::vector<std::string> arguments, Choices const& choices) {
   auto const energyplus = find_energyplus_library(own_folder());
-  auto const flags = to_flags(choices);
+  auto const texts = to_flags(choices);
+  Words const flags(texts);
   auto const method = choices.method.value_or(Method::automatic);
   Module const module;
   if (method == Method::scheduled) return run_scheduled(energyplus, module, arguments, flags);
 
   void* const library = load(energyplus);
   constexpr int cannot_patch = 2;
-  int const installed = module.install(energyplus.c_str(), flags.c_str());
+  int const installed = module.install(energyplus.c_str(), flags.count(), flags.data());
   if (installed == cannot_patch && method == Method::automatic) {
-    fmt::print(stderr, "gpu_shading: sunlit fractions go in as schedules: {}\n",
+    fmt::print(stderr, "gpu_shading: sunlit fractions are passed as schedules: {}\n",
                in_one_line(module.message()));
     return run_scheduled(energyplus, module, arguments, flags);
   }
   if (installed != 0) throw Error(module.message());
   arguments.insert(arguments.begin(), program);
-  return find<RunEnergyPlus>(library, run_energyplus)(arguments, {});
+  int const status = find<RunEnergyPlus>(library, run_energyplus)(arguments, {});
+  // The user has been told why.
+  return status == EXIT_SUCCESS && *module.unwritten() != '\0' ? EXIT_FAILURE : status;
 }
 
 int launch(int argc, char** argv) {
@@ -164,7 +181,8 @@ int launch(int argc, char** argv) {
   if (line.help) std::fputs(std::string(flags_help()).c_str(), stdout);
   if (line.model) {
     check_model(*line.model, choices);
-    // A preprocessor (-x) hands EnergyPlus another file; what lies beside the user's still counts.
+    // A preprocessor (-x) passes another file to EnergyPlus, but files beside the user's model
+    // still apply.
     choices.folder = std::filesystem::absolute(*line.model).parent_path();
     choices.file = find_side_file(*line.model, choices);
   }

@@ -3,15 +3,20 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cstdlib>
 #include <functional>
+#include <variant>
 
+#include "base/text.h"
+#include "extensions/extension_fields.h"
+#include "extensions/field_text.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/renderer.h"
 
 namespace gpu_shading::energyplus {
 namespace {
+
+namespace settings = extension::settings;
 
 Mode parse_mode(std::string const& text) {
   if (same_name(text, "auto")) return Mode::automatic;
@@ -34,65 +39,41 @@ Method parse_method(std::string const& text) {
   throw Error(fmt::format("is \"{}\", expected auto, patched or scheduled", text));
 }
 
-int parse_resolution(std::string const& text) {
-  int value = 0;
-  auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || value < 1) {
-    throw Error(fmt::format("is \"{}\", expected a number of pixels from 1", text));
-  }
-  return value;
-}
-
-double parse_error(std::string const& text) {
-  double value = 0.0;
-  auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() ||
-      !(value >= RendererOptions::least_error && value <= RendererOptions::most_error)) {
-    throw Error(fmt::format("is \"{}\", expected a share of a receiver from {} to {}", text,
-                            RendererOptions::least_error, RendererOptions::most_error));
-  }
-  return value;
-}
-
-struct NamedUpdate {
-  std::string_view name;
-  Update update;
-};
-
-std::array<NamedUpdate, 8> const& all_updates() {
+Update update_of(settings::UpdateFrequency frequency) {
+  using enum settings::UpdateFrequency;
   using enum Sampling::Density;
-  static std::array<NamedUpdate, 8> const updates{{
-      {"idf", {}},
-      {"timestep", {true}},
-      {"sampled:fine", {true, Sampling{fine, false}}},
-      {"sampled:medium", {true, Sampling{medium, false}}},
-      {"sampled:coarse", {true, Sampling{coarse, false}}},
-      {"sampled:paper-fine", {true, Sampling{fine, true}}},
-      {"sampled:paper-medium", {true, Sampling{medium, true}}},
-      {"sampled:paper-coarse", {true, Sampling{coarse, true}}},
-  }};
-  return updates;
+  switch (frequency) {
+    case timestep:
+      return {true};
+    case sampled_fine:
+      return {true, Sampling{fine, false}};
+    case sampled_medium:
+      return {true, Sampling{medium, false}};
+    case sampled_coarse:
+      return {true, Sampling{coarse, false}};
+    case sampled_paper_fine:
+      return {true, Sampling{fine, true}};
+    case sampled_paper_medium:
+      return {true, Sampling{medium, true}};
+    case sampled_paper_coarse:
+      return {true, Sampling{coarse, true}};
+    case idf:
+      break;
+  }
+  return {};
 }
 
-Update parse_update(std::string const& text) {
-  for (auto const& [name, update] : all_updates()) {
-    if (same_name(text, name)) return update;
+DeviceChoice device_of(std::variant<int, settings::Device> const& device) {
+  using Kind = DeviceChoice::Kind;
+  if (auto const* const index = std::get_if<int>(&device)) return {Kind::index, *index};
+  switch (std::get<settings::Device>(device)) {
+    case settings::Device::cpu:
+    case settings::Device::software:
+      return {Kind::cpu, 0};
+    case settings::Device::automatic:
+      break;
   }
-  throw Error(
-      fmt::format("is \"{}\", expected idf, timestep, or sampled: with fine, medium, coarse, "
-                  "paper-fine, paper-medium or paper-coarse behind it",
-                  text));
-}
-
-DeviceChoice parse_device(std::string const& text) {
-  try {
-    return parse_device_choice(text);
-  } catch (Error const&) {
-    throw Error(
-        fmt::format("is \"{}\", expected auto, software or a device's number (see "
-                    "gpu_shading devices)",
-                    text));
-  }
+  return {Kind::automatic, 0};
 }
 
 std::filesystem::path parse_cache(std::string const& text) {
@@ -100,45 +81,66 @@ std::filesystem::path parse_cache(std::string const& text) {
   return same_name(text, "off") ? std::filesystem::path() : std::filesystem::absolute(text);
 }
 
-// One choice, by all the names that it goes by.
+// One option under all its names.
 struct Choice {
   std::string_view flag;
   char const* variable;    // nullptr: none
-  std::string_view field;  // of GPUShading:Settings, or ""
-  std::string_view title;  // the field's name as the user writes it
+  FieldInfo const* field;  // of GPUShading:Settings, or nullptr
+  // From a text that is not blank where there is a field, and that `field` allows.
   std::function<void(Choices&, std::string const&)> set;
 };
 
-std::array<Choice, 11> const& all_choices() {
-  static std::array<Choice, 11> const choices{{
-      {"--gpu-shading", "GPU_SHADING", "", "",
+// What a field of the settings holds, for a text that was checked.
+template <typename Value>
+auto value_of(Field<Value> const& field, std::string const& text) {
+  return parse(field, text, field.title);
+}
+
+std::array<Choice, 13> const& all_choices() {
+  static std::array<Choice, 13> const choices{{
+      {"--gpu-shading", "GPU_SHADING", nullptr,
        [](Choices& c, std::string const& v) { c.mode = parse_mode(v); }},
-      {"--gpu-shading-resolution", "GPU_SHADING_RESOLUTION", "resolution", "Resolution",
-       [](Choices& c, std::string const& v) { c.resolution = parse_resolution(v); }},
-      {"--gpu-shading-error", "GPU_SHADING_ERROR", "error", "Error",
-       [](Choices& c, std::string const& v) { c.error = parse_error(v); }},
-      {"--gpu-shading-update", "GPU_SHADING_UPDATE", "update_frequency", "Update Frequency",
-       [](Choices& c, std::string const& v) { c.update = parse_update(v); }},
-      {"--gpu-shading-device", "GPU_SHADING_DEVICE", "device", "Device",
-       [](Choices& c, std::string const& v) { c.device = parse_device(v); }},
-      {"--gpu-shading-file", "GPU_SHADING_FILE", "", "",
+      {"--gpu-shading-resolution", "GPU_SHADING_RESOLUTION", &settings::resolution,
+       [](Choices& c, std::string const& v) { c.resolution = value_of(settings::resolution, v); }},
+      {"--gpu-shading-error", "GPU_SHADING_ERROR", &settings::error,
+       [](Choices& c, std::string const& v) { c.error = value_of(settings::error, v); }},
+      {"--gpu-shading-update", "GPU_SHADING_UPDATE", &settings::update_frequency,
+       [](Choices& c, std::string const& v) {
+         c.update = update_of(value_of(settings::update_frequency, v));
+       }},
+      {"--gpu-shading-device", "GPU_SHADING_DEVICE", &settings::device,
+       [](Choices& c, std::string const& v) {
+         c.device = device_of(value_of(settings::device, v));
+       }},
+      {"--gpu-shading-file", "GPU_SHADING_FILE", nullptr,
        [](Choices& c, std::string const& v) { c.file = std::filesystem::absolute(v); }},
-      {"--gpu-shading-report", "GPU_SHADING_REPORT", "", "",
+      {"--gpu-shading-report", "GPU_SHADING_REPORT", nullptr,
        [](Choices& c, std::string const& v) { c.report = std::filesystem::absolute(v); }},
-      {"--gpu-shading-cache", "GPU_SHADING_CACHE", "", "",
+      {"--gpu-shading-cache", "GPU_SHADING_CACHE", nullptr,
        [](Choices& c, std::string const& v) { c.cache = parse_cache(v); }},
-      {"--gpu-shading-model-folder", nullptr, "", "",
+      {"--gpu-shading-model-folder", nullptr, nullptr,
        [](Choices& c, std::string const& v) { c.folder = std::filesystem::absolute(v); }},
-      {"--gpu-shading-lean", "GPU_SHADING_LEAN", "", "",
+      {"--gpu-shading-lean", "GPU_SHADING_LEAN", nullptr,
        [](Choices& c, std::string const& v) { c.lean = parse_lean(v); }},
-      {"--gpu-shading-method", "GPU_SHADING_METHOD", "", "",
+      {"--gpu-shading-method", "GPU_SHADING_METHOD", nullptr,
        [](Choices& c, std::string const& v) { c.method = parse_method(v); }},
+      {"--gpu-shading-stages", "GPU_SHADING_STAGES", nullptr,
+       [](Choices& c, std::string const& v) { c.stages = std::filesystem::absolute(v); }},
+      {"--gpu-shading-task", nullptr, nullptr,
+       [](Choices& c, std::string const& v) { c.task = std::filesystem::absolute(v); }},
   }};
   return choices;
 }
 
+// `source`: what the value goes by for the user.
 void set(Choice const& choice, Choices& choices, std::string_view source,
          std::string const& value) {
+  if (choice.field != nullptr) {
+    if (value.empty()) {
+      throw Error(fmt::format("{} is blank, expected {}", source, expectation(*choice.field)));
+    }
+    check(*choice.field, value, source);
+  }
   try {
     choice.set(choices, value);
   } catch (Error const& error) {
@@ -173,16 +175,19 @@ std::string name_of(Mode mode) {
 }
 
 std::string name_of(Update const& wanted) {
-  for (auto const& [name, update] : all_updates()) {
-    if (update == wanted) return std::string(name);
+  auto const& names = settings::update_frequency.words;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (update_of(static_cast<settings::UpdateFrequency>(i)) == wanted) {
+      return std::string(names[i]);
+    }
   }
-  return "idf";
+  return std::string(settings::update_frequency.blank);
 }
 
 std::string name_of(DeviceChoice const& device) {
   switch (device.kind) {
-    case DeviceChoice::Kind::software:
-      return "software";
+    case DeviceChoice::Kind::cpu:
+      return "cpu";
     case DeviceChoice::Kind::index:
       return std::to_string(device.index);
     case DeviceChoice::Kind::automatic:
@@ -229,6 +234,8 @@ void Choices::fill_from(Choices const& lower) {
   fill(folder, lower.folder);
   fill(lean, lower.lean);
   fill(method, lower.method);
+  fill(stages, lower.stages);
+  fill(task, lower.task);
 }
 
 bool Choices::any() const {
@@ -271,10 +278,10 @@ Choices take_flags(std::vector<std::string>& arguments) {
   return choices;
 }
 
-std::string to_flags(Choices const& choices) {
-  std::string flags;
+std::vector<std::string> to_flags(Choices const& choices) {
+  std::vector<std::string> flags;
   auto const add = [&](std::string_view flag, std::string const& value) {
-    flags += fmt::format("{}={}\n", flag, value);
+    flags.push_back(fmt::format("{}={}", flag, value));
   };
   if (choices.mode) add("--gpu-shading", name_of(*choices.mode));
   if (choices.resolution) add("--gpu-shading-resolution", std::to_string(*choices.resolution));
@@ -289,6 +296,8 @@ std::string to_flags(Choices const& choices) {
   if (choices.folder) add("--gpu-shading-model-folder", choices.folder->string());
   if (choices.lean) add("--gpu-shading-lean", name_of(*choices.lean));
   if (choices.method) add("--gpu-shading-method", name_of(*choices.method));
+  if (choices.stages) add("--gpu-shading-stages", choices.stages->string());
+  if (choices.task) add("--gpu-shading-task", choices.task->string());
   return flags;
 }
 
@@ -304,20 +313,18 @@ Choices read_environment() {
 }
 
 Choices read_settings(std::vector<InputObject> const& objects) {
-  constexpr std::string_view type = "GPUShading:Settings";
   Choices choices;
-  bool found = false;
   for (auto const& object : objects) {
-    if (object.type != type) continue;
-    if (found) throw Error(fmt::format("{}: given twice, expected once at most", type));
-    found = true;
+    if (object.type != settings::type) continue;
     for (auto const& choice : all_choices()) {
-      if (choice.field.empty()) continue;
-      auto const& value = object[std::string(choice.field)];
-      if (!value.empty()) set(choice, choices, fmt::format("{}: {}", type, choice.title), value);
+      if (choice.field == nullptr) continue;
+      auto const& value = object[choice.field->key];
+      if (value.empty()) continue;
+      set(choice, choices, fmt::format("{}: {}", object.where(), choice.field->title), value);
     }
+    expect_one_fineness(choices, fmt::format("{}: {}", object.where(), settings::resolution.title),
+                        settings::error.title);
   }
-  expect_one_fineness(choices, "GPUShading:Settings: Resolution", "Error");
   return choices;
 }
 
@@ -331,6 +338,7 @@ Options resolve(Choices choices, Choices const& settings, ShadingInput const& in
   options.update = choices.update.value_or(Update{});
   options.device = choices.device.value_or(DeviceChoice{});
   options.report = choices.report;
+  options.stages = choices.stages;
   options.lean = choices.lean.value_or(Lean::automatic);
   if (choices.cache && !choices.cache->empty()) options.cache = choices.cache;
   return options;
@@ -338,7 +346,7 @@ Options resolve(Choices choices, Choices const& settings, ShadingInput const& in
 
 std::string_view flags_help() {
   return R"(GPU shading (each also as an environment variable: GPU_SHADING, GPU_SHADING_RESOLUTION, ...):
-  --gpu-shading[=auto|require|off]     Shade by rendering. auto (the bare flag): in software, with a
+  --gpu-shading[=auto|require|off]     Shade by rendering. auto (the bare flag): on the CPU, with a
                                        warning, where there is no GPU; require: no GPU is an error;
                                        off: stock PolygonClipping, for comparison
   --gpu-shading-error E                What 99 of a hundred sunlit fractions are to be right within,
@@ -350,7 +358,8 @@ std::string_view flags_help() {
                                        asks). sampled:fine, :medium or :coarse: at every timestep, from
                                        samples of the sun's positions over the year; sampled:paper-fine,
                                        :paper-medium or :paper-coarse: from a poorer grid, to compare
-  --gpu-shading-device auto|N|software Which device renders (default: auto; see gpu_shading devices)
+  --gpu-shading-device auto|cpu|N      Which device renders (default: auto, a GPU if there is one; N as
+                                       gpu_shading devices numbers them)
   --gpu-shading-file F                 Extension objects in a file of their own
                                        (default: MODEL.gpu-shading.idf, where it is)
   --gpu-shading-report DIR             Write pictures of what the sun sees, and counts, to DIR

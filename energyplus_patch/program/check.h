@@ -4,9 +4,9 @@
 
 namespace gpu_shading::energyplus {
 
-// Reads a model and its extensions and prints what each surface will be to the shading calculation,
-// and every error. The surfaces come from EnergyPlus itself, run as far as it hands them over.
-// `vertices`: prints their vertices, in world axes, instead. Throws Error.
+// Reads a model and its extensions, and prints how each surface takes part in the shading
+// calculation, or every error. The surfaces come from EnergyPlus itself, which runs until it has
+// passed them. `vertices`: print their vertices in world axes instead. Throws Error.
 void check(ModelRun const& run, bool vertices);
 
 }  // namespace gpu_shading::energyplus

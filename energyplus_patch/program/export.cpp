@@ -4,10 +4,10 @@
 
 #include <cstdio>
 
-#include "files/required_file.h"
-#include "files/whole_file.h"
+#include "base/files.h"
+#include "base/staged_files.h"
 #include "gpu_shading/error.h"
-#include "program/launcher.h"
+#include "runs/installation.h"
 #include "scheduled/scheduled_model.h"
 
 namespace gpu_shading::energyplus {
@@ -18,7 +18,7 @@ void say(std::string const& line) { fmt::print(stderr, "gpu_shading: {}\n", line
 void complete(EnergyPlusCall& call) {
   require_file(call.model);
   if (!call.weather) {
-    throw Error("-w: a weather file is needed, whose place and days the sun keeps to");
+    throw Error("-w: a weather file is required (it sets site and calendar)");
   }
   call.program = find_launcher();
 }
@@ -31,9 +31,17 @@ void export_scheduled(EnergyPlusCall call, Choices const& choices,
   if (std::filesystem::exists(folder) && !std::filesystem::is_empty(folder)) {
     throw Error(fmt::format("{}: exists and is not empty: choose another folder", folder.string()));
   }
-  std::filesystem::create_directories(folder);
-  auto const model = prepare_scheduled(call, choices, folder, say);
-  fmt::print("{}\n", model.path.string());
+  auto const target = std::filesystem::absolute(folder / "").parent_path();
+  StagedFiles files(target.parent_path());
+  auto const staged = files.add(target.filename().string());
+  std::filesystem::create_directory(staged);
+  auto const model = prepare_scheduled(call, choices, staged, say);
+  // The folder itself is one of those beside the model, if it lies there.
+  if (auto const link = staged / target.filename(); std::filesystem::is_symlink(link)) {
+    std::filesystem::remove(link);
+  }
+  files.commit();
+  fmt::print("{}\n", (folder / model.path.filename()).string());
 }
 
 void export_imported(EnergyPlusCall call, Choices const& choices,

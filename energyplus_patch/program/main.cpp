@@ -1,4 +1,4 @@
-// gpu_shading: what is not a simulation.
+// gpu_shading: devices, checks, pictures, samples and exports.
 
 #include <fmt/format.h>
 
@@ -15,11 +15,13 @@
 #include <utility>
 #include <vector>
 
+#include "assets/picture_sheet.h"
+#include "base/process.h"
+#include "base/text.h"
 #include "gpu_shading/device.h"
 #include "gpu_shading/error.h"
-#include "images/picture_sheet.h"
-#include "input/model_reader.h"
-#include "input/number.h"
+#include "idf/model_file.h"
+#include "model/model_reader.h"
 #include "options/options.h"
 #include "program/check.h"
 #include "program/export.h"
@@ -38,21 +40,18 @@ void print_devices() {
                device.vendor, device.version, device.software ? "software" : "GPU",
                device.max_resolution, device.max_resolution);
   }
+  fmt::print("cpu  {}\n", describe(cpu_device()));
   for (auto const& failure : failures) fmt::print(stderr, "gpu_shading: {}\n", failure);
-  if (devices.empty()) {
-    throw DeviceError(
-        "no EGL device gives an OpenGL 4.5 core context; for rendering in software "
-        "install Mesa (Debian: libegl-mesa0, libgl1-mesa-dri)");
-  }
 }
 
-// What every subcommand that reads a model takes.
+// Arguments of every subcommand that reads a model.
 class ModelArguments {
  public:
-  // `choices`: of the flags that energyplus takes, too.
+  // `choices`: from the flags shared with energyplus.
   ModelArguments(CLI::App& command, Choices choices) : choices_(std::move(choices)) {
     command.add_option("model", model_, "IDF or epJSON file")->required();
-    command.add_option("-w,--weather", weather_, "Weather file (default: one of EnergyPlus's)");
+    command.add_option("-w,--weather", weather_,
+                       "Weather file (default: one that comes with EnergyPlus)");
     command.footer(std::string(flags_help()));
   }
 
@@ -72,17 +71,17 @@ class ModelArguments {
 };
 
 void add_check(CLI::App& app, Choices const& choices) {
-  auto* const command = app.add_subcommand(
-      "check",
-      "Read a model and its extension objects; print what each surface will be to the "
-      "shading calculation, or every error");
+  auto* const command =
+      app.add_subcommand("check",
+                         "Read a model and its extension objects, and print how each surface takes "
+                         "part in the shading calculation, or every error");
   auto const arguments = std::make_shared<ModelArguments>(*command, choices);
   auto const vertices = std::make_shared<bool>(false);
-  command->add_flag("--vertices", *vertices, "Print every surface's vertices instead");
+  command->add_flag("--vertices", *vertices, "Print the vertices of every surface instead");
   command->callback([arguments, vertices] { check(arguments->run(), *vertices); });
 }
 
-// What the subcommand "view" is told, besides the model.
+// Arguments of the subcommand "view" besides the model.
 struct ViewArguments {
   std::string receiver;
   std::vector<double> sun;
@@ -100,7 +99,7 @@ std::vector<SunTime> view_times(ModelRun const& model, ViewArguments const& argu
   }
   SiteClock const clock(read_objects(model.model), model.weather);
   if (!arguments.at.empty()) return {sun_time(arguments.at, clock)};
-  // As many as a page has room for, or as make a film.
+  // As many as fit on a page, or as an animation needs.
   std::chrono::minutes const step(is_animation(arguments.output) ? 15 : 60);
   return sun_times(arguments.day, clock, step);
 }
@@ -109,12 +108,7 @@ void run_view(ModelRun const& model, ViewArguments const& arguments) {
   std::filesystem::path const output = arguments.output;
   constexpr int usual = 800;
   if (!arguments.list.empty()) {
-    std::vector<Picture> pictures;
-    for (auto& view : read_views(arguments.list)) {
-      auto file = output / view.picture;
-      pictures.push_back({std::move(view), std::move(file)});
-    }
-    draw(model, pictures, arguments.size.value_or(usual));
+    draw(model, read_views(arguments.list), output, arguments.size.value_or(usual));
     return;
   }
   if (arguments.sun.empty() && arguments.at.empty() && arguments.day.empty()) {
@@ -138,33 +132,35 @@ void run_view(ModelRun const& model, ViewArguments const& arguments) {
 void add_view(CLI::App& app, Choices const& choices) {
   auto* const command = app.add_subcommand(
       "view",
-      "Draw the model as the sun sees it, receivers from dark blue to yellow by their sunlit "
-      "fraction; or one receiver, its sunlit parts yellow, shaded ones blue, grey by what reaches "
-      "it where a caster transmits. Schedules at their least transmittance, screens all in place");
+      "Draw the model as the sun sees it, with receivers coloured from dark blue to yellow by "
+      "their sunlit fraction; or one receiver, with sunlit parts yellow, shaded parts blue, and "
+      "parts behind transparent casters grey. Transmittance schedules are at their lowest value, "
+      "and screens fully deployed");
   auto const model = std::make_shared<ModelArguments>(*command, choices);
   auto const arguments = std::make_shared<ViewArguments>();
-  command->add_option("--receiver", arguments->receiver, "Name of the one to show");
+  command->add_option("--receiver", arguments->receiver, "Name of the receiver to draw");
   auto* const when = command->add_option_group("sun");
   when->add_option("--at", arguments->at,
-                   "Month, day and time by the clock at Site:Location, with daylight saving where "
-                   "the model has it, as in \"06-21 15:00\"")
+                   "Month, day and clock time at Site:Location, with daylight saving if the model "
+                   "has it, as in \"06-21 15:00\"")
       ->type_name("\"MM-DD HH:MM\"");
   when->add_option("--day", arguments->day,
-                   "The hours of a day from sunrise to sunset, together; every quarter of an hour "
-                   "of it, one after another, where the picture's name ends in .gif")
+                   "The hours of a day from sunrise to sunset in one picture; an animation in "
+                   "steps of 15 minutes if the picture's name ends in .gif")
       ->type_name("MM-DD");
   when->add_option("--sun", arguments->sun,
-                   "Degrees: azimuth clockwise from true north, altitude above the horizon")
+                   "Azimuth clockwise from true north and altitude above the horizon, in degrees")
       ->delimiter(',')
       ->expected(2)
       ->type_name("AZIMUTH,ALTITUDE");
   when->add_option("--list", arguments->list,
-                   "Many bare pictures, one a line: FILE AZIMUTH ALTITUDE [RECEIVER]");
+                   "A file that lists pictures to draw without captions, one per line: PICTURE "
+                   "AZIMUTH ALTITUDE [RECEIVER]");
   when->require_option(0, 1);
   command
       ->add_option("-o,--output", arguments->output,
-                   "The picture, in the format that its name's ending tells; with --list the "
-                   "folder of all")
+                   "The picture, in the format of its file name extension; with --list, the folder "
+                   "for all pictures")
       ->required();
   constexpr int least = 16;
   constexpr int most = 8192;
@@ -187,12 +183,13 @@ void add_export(CLI::App& app, Choices const& choices) {
   auto const model = std::make_shared<ModelArguments>(*command, choices);
   auto const arguments = std::make_shared<Arguments>();
   command->add_flag("-x,--expandobjects", arguments->call.expand, "Run ExpandObjects first");
-  command->add_flag("-a,--annual", arguments->call.annual, "A year, whatever the run periods");
+  command->add_flag("-a,--annual", arguments->call.annual,
+                    "Simulate a whole year, whatever the run periods");
   auto* const outputs = command->add_option_group("output");
   outputs->add_option("--scheduled", arguments->folder,
-                      "Write the model, with the fractions as schedules, into this folder");
+                      "Write the model, with its sunlit fractions as schedules, into this folder");
   outputs->add_option("--imported", arguments->imported,
-                      "Write the file of Schedule:File:Shading (not for EnergyPlus 25.2.0, whose "
+                      "Write the file for Schedule:File:Shading (not for EnergyPlus 25.2.0, whose "
                       "method Imported does not find its surfaces)");
   outputs->require_option(1);
   command->callback([model, arguments] {
@@ -231,24 +228,24 @@ void add_sample(CLI::App& app, Choices const& choices) {
   };
   auto* const command = app.add_subcommand(
       "sample",
-      "Sample sunlit fractions at the sun's positions, as --gpu-shading-update sampled:... does, "
-      "without a run: a table of samples, and of every 15 minutes of the year");
+      "Sample sunlit fractions as --gpu-shading-update sampled:... does, without a run, and write "
+      "tables of the samples and of every 15 minutes of the year");
   auto const model = std::make_shared<ModelArguments>(*command, choices);
   auto const arguments = std::make_shared<Arguments>();
   command->add_option("-o,--output", arguments->folder, "Folder for samples.csv and year.csv")
       ->required();
-  command->add_option("--mode", arguments->mode, "How densely")
+  command->add_option("--mode", arguments->mode, "Density of the samples")
       ->check(
           CLI::IsMember({"fine", "medium", "coarse", "paper-fine", "paper-medium", "paper-coarse"}))
       ->capture_default_str();
   auto* const shard = command->add_option(
       "--shard", arguments->shard,
-      "Render the I-th of N shares of one round, and keep it in the folder: to be repeated for all "
-      "shares, then for the next round, until it says that all are there");
+      "Render the I-th of N shares of one round and keep it in the folder; repeat for all shares, "
+      "then for the next round, until all rounds are complete");
   constexpr int most_shards = 10000;
   command
       ->add_option("--merge", arguments->merge,
-                   "Put together what N shards have rendered; renders nothing")
+                   "Write the tables from the parts that N shards have rendered; render nothing")
       ->check(CLI::Range(1, most_shards))
       ->excludes(shard)
       ->type_name("N");
@@ -268,18 +265,19 @@ int run(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   auto choices = take_flags(arguments);
   choices.fill_from(read_environment());
-  CLI::App app{"Devices, checks, pictures, samples and exports for EnergyPlus with GPU shading",
-               "gpu_shading"};
+  CLI::App app{
+      "List devices, check and draw models, sample and export sunlit fractions for EnergyPlus with "
+      "GPU shading",
+      "gpu_shading"};
   app.require_subcommand(1);
-  app.add_subcommand("devices",
-                     "List the devices that can render; the number is what "
-                     "--gpu-shading-device takes")
+  app.add_subcommand(
+         "devices", "List the devices that can render, with their numbers for --gpu-shading-device")
       ->callback(print_devices);
   add_check(app, choices);
   add_view(app, choices);
   add_sample(app, choices);
   add_export(app, choices);
-  // As it wants them.
+  // CLI11 expects them in reverse order.
   std::reverse(arguments.begin(), arguments.end());
   try {
     app.parse(std::move(arguments));
@@ -294,7 +292,14 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return gpu_shading::energyplus::run(argc, argv);
+    int const status = gpu_shading::energyplus::run(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      throw gpu_shading::Error("standard output: cannot be written");
+    }
+    return status;
+  } catch (gpu_shading::energyplus::Interrupted const& interrupted) {
+    interrupted.raise();
+    return EXIT_FAILURE;
   } catch (std::exception const& error) {
     std::fprintf(stderr, "gpu_shading: error: %s\n", error.what());
     return EXIT_FAILURE;

@@ -3,25 +3,25 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <sstream>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
-#include "files/required_file.h"
-#include "files/text_file.h"
+#include "base/files.h"
+#include "base/process.h"
 #include "gpu_shading/error.h"
-#include "host/own_folder.h"
-#include "host/version.h"
-#include "input/model_reader.h"
-#include "program/launcher.h"
-#include "program/process.h"
-#include "program/stop_reasons.h"
+#include "idf/model_file.h"
+#include "runs/installation.h"
+#include "runs/stop_reasons.h"
+#include "session/task_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 using Path = std::filesystem::path;
 
-// Any will do: only the geometry is wanted.
+// Any weather file works, because only the geometry is used.
 Path some_weather() {
   auto const folder = own_folder() / "WeatherData";
   if (std::filesystem::exists(folder)) {
@@ -32,52 +32,63 @@ Path some_weather() {
   throw Error(fmt::format("{}: no weather file; name one with -w", folder.string()));
 }
 
-// What a run has printed of ours: "warning" or "error".
-std::vector<std::string> own_messages(Path const& log, std::string_view kind) {
-  auto const mark = fmt::format("gpu_shading: {}: ", kind);
+// The last error of ours that a run has printed: of the launcher's, which writes no reply.
+std::optional<std::string> last_error(Path const& log) {
+  constexpr std::string_view mark = "gpu_shading: error: ";
   std::ifstream file(log);
-  std::vector<std::string> found;
+  std::optional<std::string> found;
   for (std::string line; std::getline(file, line);) {
     if (!line.starts_with(mark)) continue;
     if (line.ends_with(':')) line.pop_back();  // a list follows
-    found.push_back(line.substr(mark.size()));
+    found = line.substr(mark.size());
   }
   return found;
 }
 
-// Of our flags those that EnergyPlus is run by here: rendering is on, and in its own process.
-std::string flags_of(Choices choices) {
+// The flags with which EnergyPlus is run here: rendering is on, in its own process.
+std::vector<std::string> flags_of(Choices choices, Path const& task) {
   if (choices.mode != Mode::require) choices.mode = Mode::automatic;
   choices.method = Method::patched;
+  choices.task = task;
   return to_flags(choices);
 }
 
-}  // namespace
-
-std::vector<std::string> run_to_shading(ModelRun const& run,
-                                        std::vector<std::string> const& environment,
-                                        Path const& folder, Path const& product) {
+// EnergyPlus, as the model needs it, for a task.
+std::vector<std::string> command_for(ModelRun const& run, Path const& task, Path const& folder) {
   auto const& [model, weather, choices] = run;
-  require_file(model);
-  if (!is_idf(model) && !is_epjson(model)) {
-    throw Error(fmt::format("{}: expected an .idf or .epJSON file", model.string()));
-  }
-  check_supported(read_model(model, choices).shading, read_version(own_folder()));
-
-  auto const log = folder / "log.txt";
+  auto const epw = weather ? *weather : some_weather();
   std::vector<std::string> command{find_launcher().string(), "-d", folder.string(), "-w",
-                                   (weather ? *weather : some_weather()).string()};
-  std::istringstream flags(flags_of(choices));
-  for (std::string flag; std::getline(flags, flag);) command.push_back(flag);
+                                   epw.string()};
+  for (auto const& flag : flags_of(choices, task)) command.push_back(flag);
   if (is_idf(model) && read_text_file(model).find("HVACTemplate:") != std::string::npos) {
     command.emplace_back("-x");
   }
   command.push_back(model.string());
-  run_process(command, environment, log);
-  if (std::filesystem::exists(product)) return own_messages(log, "warning");
-  if (auto const errors = own_messages(log, "error"); !errors.empty()) throw Error(errors.back());
-  throw Error(fmt::format("{}: EnergyPlus does not get as far as its shading calculation:{}",
-                          model.string(), stop_reasons(folder)));
+  return command;
+}
+
+}  // namespace
+
+TaskReply run_task(ModelRun const& run, Task const& task) {
+  auto const& model = run.model;
+  require_file(model);
+  if (!is_idf(model) && !is_epjson(model)) {
+    throw Error(fmt::format("{}: expected an .idf or .epJSON file", model.string()));
+  }
+  TemporaryFolder const folder;
+  auto const request = folder.path() / "task";
+  auto const reply = folder.path() / "reply";
+  auto const log = folder.path() / "log.txt";
+  write_request(request, {task, reply});
+  int const status = run_process(command_for(run, request, folder.path()), {}, log);
+  if (auto found = find_reply(reply)) {
+    if (!found->error.empty()) throw Error(found->error);
+    return std::move(*found);
+  }
+  if (auto const error = last_error(log)) throw Error(*error);
+  require_room(folder.path());
+  throw Error(fmt::format("{}: EnergyPlus does not get as far as its shading calculation ({}):{}",
+                          model.string(), describe_status(status), stop_reasons(folder.path())));
 }
 
 }  // namespace gpu_shading::energyplus

@@ -2,27 +2,22 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "options/options.h"
+#include "session/task.h"
 
 namespace gpu_shading::energyplus {
 
-// What is run, and how.
+// The model to run, and how.
 struct ModelRun {
   std::filesystem::path model;                                  // IDF or epJSON
-  std::optional<std::filesystem::path> weather = std::nullopt;  // none: one of EnergyPlus's own
+  std::optional<std::filesystem::path> weather = std::nullopt;  // empty: one of EnergyPlus's own
   Choices choices;
 };
 
-// Reads a model and its extensions, then has EnergyPlus hand over its surfaces; the `environment`
-// ("NAME=value") tells our module to write `product` then and to end. EnergyPlus writes into
-// `folder`. Returns the run's warnings of ours. Throws Error with every error of the model, or why
-// there is no product.
-std::vector<std::string> run_to_shading(ModelRun const& run,
-                                        std::vector<std::string> const& environment,
-                                        std::filesystem::path const& folder,
-                                        std::filesystem::path const& product);
+// Has EnergyPlus, in a process of its own, read a model and hand over its surfaces, and a task done
+// with them. Throws Error: an error of the model, why the task could not be done, or how
+// EnergyPlus's process ended without a reply.
+TaskReply run_task(ModelRun const& run, Task const& task);
 
 }  // namespace gpu_shading::energyplus

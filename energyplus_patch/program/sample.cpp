@@ -8,21 +8,16 @@
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "files/text_file.h"
-#include "files/whole_file.h"
+#include "base/files.h"
+#include "base/process.h"
+#include "cache/digest.h"
 #include "gpu_shading/error.h"
-#include "host/own_folder.h"
-#include "host/version.h"
-#include "input/model_reader.h"
-#include "program/launcher.h"
-#include "program/process.h"
-#include "samples/sample_request.h"
+#include "model/model_reader.h"
+#include "runs/installation.h"
+#include "runs/short_runs.h"
 #include "samples/sample_tables.h"
-#include "samples/weather_site.h"
 #include "scheduled/rendered_fractions.h"
-#include "scheduled/short_runs.h"
-#include "session/digest.h"
-#include "session/session.h"
+#include "site/weather_site.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -40,7 +35,7 @@ std::string hash_of(Path const& file) {
   return to_text(digest.result());
 }
 
-// What is sampled, and where from.
+// The model and site to sample.
 struct Source {
   ModelRun const& run;
   Path weather;
@@ -60,7 +55,7 @@ struct Source {
 
 Source read_source(ModelRun const& run) {
   if (!run.weather) {
-    throw Error("-w: a weather file is needed, whose place and days the sun keeps to");
+    throw Error("-w: a weather file is required (it sets site and calendar)");
   }
   constexpr std::string_view prefix = "sampled:";
   auto const& update = run.choices.update.value();
@@ -76,7 +71,7 @@ Source read_source(ModelRun const& run) {
   return source;
 }
 
-// A second descriptor of standard error, which a process that is started inherits.
+// A duplicate of standard error, which a child process inherits.
 class StandardError {
  public:
   StandardError() : descriptor_(dup(STDERR_FILENO)) {}
@@ -93,20 +88,12 @@ class StandardError {
 };
 
 std::string render(Source const& source, Path const& parts, Shard const& shard) {
-  TemporaryFolder const folder;
   StandardError const progress;
-  auto const request = folder.path() / "request.json";
-  auto const done = folder.path() / "done.txt";
-  write_sample_request(request,
-                       {source.asked(), source.latitude(), std::filesystem::absolute(parts), shard,
-                        progress.descriptor(), done});
-  auto const environment = std::string(Session::samples_variable) + "=" + request.string();
-  for (auto const& warning : run_to_shading(source.run, {environment}, folder.path(), done)) {
-    say("warning: " + warning);
-  }
-  auto line = read_text_file(done);
-  line.pop_back();  // its end
-  return line;
+  SamplesTask const task{source.asked(), source.latitude(), std::filesystem::absolute(parts), shard,
+                         progress.descriptor()};
+  auto const reply = run_task(source.run, task);
+  for (auto const& warning : reply.warnings) say("warning: " + warning);
+  return reply.text;
 }
 
 Json describe_file(Path const& file, std::string const& hash) {

@@ -8,18 +8,18 @@
 
 namespace gpu_shading::energyplus {
 
-// What is wanted of samples.
+// What to do with samples.
 struct SampleTask {
   std::filesystem::path folder;
-  // One share of one round is rendered; nothing is put together.
+  // Render one share of one round; do not write tables.
   std::optional<Shard> shard = std::nullopt;
-  // What so many shards have rendered is put together; nothing is rendered.
+  // Write tables from the parts of this many shards; do not render.
   std::optional<int> merge = std::nullopt;
 };
 
-// The samples of a model that --gpu-shading-update sampled:... renders, without a year's run: into
-// samples.csv, year.csv and samples.json, each written whole, the last last; what is rendered, into
-// parts/ there. How densely, choices.update says. Throws Error.
+// Renders the samples of a model that --gpu-shading-update sampled:... uses, without a year's run,
+// and writes samples.csv, year.csv and, last, samples.json, each completely or not at all; rendered
+// parts are in parts/. choices.update sets the density. Throws Error.
 void sample(ModelRun const& run, SampleTask const& task);
 
 }  // namespace gpu_shading::energyplus

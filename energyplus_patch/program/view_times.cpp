@@ -71,7 +71,7 @@ std::vector<SunTime> sun_times(std::string const& text, SiteClock const& clock,
   }
   auto const day = day_of("--day", words, clock);
   auto times = times_of(day, clock, step);
-  // The sun may be up between two steps alone.
+  // The sun may be up only between two steps.
   if (times.empty()) times = times_of(day, clock, chrono::minutes(1));
   if (times.empty()) throw Error(fmt::format("--day \"{}\": the sun does not rise", text));
   return times;

@@ -7,18 +7,18 @@
 
 namespace gpu_shading::energyplus {
 
-// A time that is drawn.
+// A time to draw.
 struct SunTime {
   std::string caption;  // "06-21 15:00"
   SunDirection sun;     // above the horizon
 };
 
-// "MM-DD HH:MM" by the site's clock, a year and a hyphen before it at will. Throws Error where it
-// is none, and where the sun is down.
+// "MM-DD HH:MM" in the site's clock time, optionally preceded by a year and a hyphen. Throws Error
+// if it is invalid, or if the sun is down.
 SunTime sun_time(std::string const& text, SiteClock const& clock);
 
-// From sunrise to sunset of "MM-DD", or with its year: the times of the clock that are whole
-// multiples of the step. Throws Error where it is no day, and where the sun does not rise.
+// The multiples of the step in clock time from sunrise to sunset of "MM-DD", optionally with a
+// year. Throws Error if it is not a day, or if the sun does not rise.
 std::vector<SunTime> sun_times(std::string const& text, SiteClock const& clock,
                                std::chrono::minutes step);
 

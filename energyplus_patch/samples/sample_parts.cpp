@@ -6,8 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "files/text_file.h"
-#include "files/whole_file.h"
+#include "base/files.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
@@ -18,7 +17,7 @@ using Path = std::filesystem::path;
 
 constexpr int format = 1;
 
-// A number where nothing is scheduled, which is nearly everywhere.
+// A plain number if nothing is scheduled, which is nearly always.
 Json to_json(Sunlit const& answer) {
   if (answer.scheduled.empty()) return answer.projected_area;
   Json parts = Json::array();
@@ -69,7 +68,7 @@ Json to_json(SamplePart const& part) {
 
 SamplePart part_from(Json const& json) {
   SamplePart part;
-  if (json.at("format") != format) throw Error("is of another version");
+  if (json.at("format") != format) throw Error("has another version");
   part.scene = {json.at("asked"), json.at("scene"), json.at("fineness"), {}, json.at("schedules")};
   part.device = json.at("device");
   part.round = json.at("round");
@@ -117,12 +116,12 @@ std::optional<SamplePart> SampleParts::find(int round, int shard) const {
     auto part = part_from(Json::parse(read_text_file(path)));
     if (part.round != round || !(part.shard == Shard{shard, shards_}) ||
         part.answers.size() != share(part.directions.size(), part.shard)) {
-      throw Error("is of another round or shard");
+      throw Error("belongs to another round or shard");
     }
     return part;
   } catch (std::exception const& error) {
     throw Error(
-        fmt::format("{}: is no part of samples; remove it ({})", path.string(), error.what()));
+        fmt::format("{}: is not a part of samples ({}); delete it", path.string(), error.what()));
   }
 }
 
@@ -144,10 +143,9 @@ RenderedRound find_round(SampleParts const& parts, SampledScene const& scene, in
       continue;
     }
     if (part->directions != directions) {
-      throw Error(fmt::format(
-          "{}: has other directions than the rounds before it lead to, as another kind of "
-          "processor may; remove it",
-          parts.file(round, number).string()));
+      throw Error(
+          fmt::format("{}: does not match the earlier rounds (another CPU model?); delete it",
+                      parts.file(round, number).string()));
     }
     auto& devices = found.devices;
     if (std::find(devices.begin(), devices.end(), part->device) == devices.end()) {

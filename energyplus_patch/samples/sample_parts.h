@@ -18,21 +18,22 @@ struct SampledReceiver {
   bool operator==(SampledReceiver const&) const = default;
 };
 
-// What samples are of: the same for all parts of them.
+// The scene of the samples, which is the same for all parts.
 struct SampledScene {
-  std::string asked;     // in the asker's words: what differs there is other samples
-  std::string hash;      // of geometry, optics, fineness and build: hash_scene() of no device
+  std::string asked;  // as the caller describes it; a different description means different samples
+  std::string
+      hash;  // hash of geometry, optics, resolution and build: hash_scene() without a device
   std::string fineness;  // "error 0.001", "512 x 512 pixels"
   std::vector<SampledReceiver> receivers;
-  std::vector<std::string> schedules;  // whose numbers answers have
+  std::vector<std::string> schedules;  // which answers refer to by index
 
   std::vector<glm::dvec3> areas() const;  // of the receivers
 
   bool operator==(SampledScene const&) const = default;
 };
 
-// One of `shards` equal shares of the samples: every so many-th direction of each round, from the
-// number-th on; from 1.
+// One of `shards` equal shares of the samples: every shards-th direction of each round, starting
+// with the number-th, counted from 1.
 struct Shard {
   int number = 1;
   int shards = 1;
@@ -43,29 +44,29 @@ struct Shard {
   bool operator==(Shard const&) const = default;
 };
 
-// What a shard has rendered of a round.
+// The answers of one shard in one round.
 struct SamplePart {
   SampledScene scene;
   std::string device;  // "RENDERER (VERSION)"
   int round = 1;
   Shard shard;
   std::vector<SunDirection> directions;      // of the whole round
-  std::vector<std::vector<Sunlit>> answers;  // at the shard's, of every receiver
+  std::vector<std::vector<Sunlit>> answers;  // at the shard's directions, for every receiver
 };
 
-// A folder of parts, a file for each: written whole or not at all, by any number of processes.
-// Numbers come back to the last digit.
+// A folder with one file per part. Each is written completely or not at all, by any number of
+// processes. Numbers are read back to the last digit.
 class SampleParts {
  public:
-  // Of so many shards.
+  // The folder's parts for this number of shards.
   SampleParts(std::filesystem::path folder, int shards);
 
   std::filesystem::path file(int round, int shard) const;
 
-  // Nothing where there is no such file. Throws Error where it is something else.
+  // Empty if there is no such file. Throws Error if the file is not such a part.
   std::optional<SamplePart> find(int round, int shard) const;
 
-  // Makes the folder where it is missing. Throws Error where that or the file cannot be written.
+  // Creates the folder if it is missing. Throws Error if the folder or the file cannot be written.
   void write(SamplePart const& part) const;
 
   int shards() const { return shards_; }
@@ -75,14 +76,14 @@ class SampleParts {
   int shards_;
 };
 
-// What the shards have rendered of a round of a scene.
+// The answers of all shards in a round of a scene.
 struct RenderedRound {
-  std::vector<int> missing;                  // shards; parts of other scenes count as missing
-  std::vector<std::string> devices;          // each once
-  std::vector<std::vector<Sunlit>> answers;  // by direction, where no shard is missing
+  std::vector<int> missing;          // missing shards; parts of other scenes count as missing
+  std::vector<std::string> devices;  // each once
+  std::vector<std::vector<Sunlit>> answers;  // by direction, if no shard is missing
 };
 
-// Throws Error where a shard has rendered other directions.
+// Throws Error if a shard has rendered other directions.
 RenderedRound find_round(SampleParts const& parts, SampledScene const& scene, int round,
                          std::vector<SunDirection> const& directions);
 

@@ -7,18 +7,16 @@
 
 namespace gpu_shading::energyplus {
 
-// What `gpu_shading sample` wants of a session in EnergyPlus; how the sun is sampled is among the
-// session's own options.
+// What is sampled of a session in EnergyPlus, and where to; how densely is among the session's own
+// options.
 struct SampleRequest {
   std::string asked;      // for SampledScene
   double latitude = 0.0;  // radians
   std::filesystem::path parts;
   Shard shard;
-  int progress = -1;  // the file descriptor that tells how far it is; none where it is negative
-  std::filesystem::path done;  // gets one line on what was done, at the end
-};
+  int progress = -1;  // the file descriptor for progress; none if negative
 
-SampleRequest read_sample_request(std::filesystem::path const& file);
-void write_sample_request(std::filesystem::path const& file, SampleRequest const& request);
+  bool operator==(SampleRequest const&) const = default;
+};
 
 }  // namespace gpu_shading::energyplus

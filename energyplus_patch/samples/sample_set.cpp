@@ -10,13 +10,13 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-// Which scene it is, the first part says.
+// The scene is that of the first part.
 SampledScene scene_of(SampleParts const& parts, std::string const& asked) {
   auto first = parts.find(1, 1);
   auto const file = parts.file(1, 1).string();
   if (!first) throw Error(fmt::format("{}: is missing; render it first", file));
   if (first->scene.asked != asked) {
-    throw Error(fmt::format("{}: is of {}; expected {}", file, first->scene.asked, asked));
+    throw Error(fmt::format("{}: belongs to {}; expected {}", file, first->scene.asked, asked));
   }
   return std::move(first->scene);
 }
@@ -41,8 +41,8 @@ SampleSet gather_samples(SampleParts const& parts, std::string const& asked, Sam
     auto const found = find_round(parts, scene, round, rounds.directions());
     if (!found.missing.empty()) {
       throw Error(fmt::format(
-          "{}: is missing, or of another model or build; render shards {} of "
-          "round {} first",
+          "{}: is missing, or belongs to another model or build; render shards {} of round {} "
+          "first",
           parts.file(round, found.missing.front()).string(), list_shards(found.missing), round));
     }
     add(found.devices, devices);

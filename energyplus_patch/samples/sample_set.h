@@ -8,16 +8,16 @@
 
 namespace gpu_shading::energyplus {
 
-// All parts of a scene's samples, put together.
+// All parts of a scene's samples, merged.
 struct SampleSet {
   SampledScene scene;
-  std::vector<std::string> devices;  // that rendered, each once
+  std::vector<std::string> devices;  // devices that rendered, each once
   std::vector<std::size_t> rounds;   // directions of each
   SampledSunlit samples;
 };
 
-// Latitude in radians. Renders nothing. Throws Error where a part is missing, or is not of what was
-// asked, or of another scene than the others.
+// Latitude in radians. Renders nothing. Throws Error if a part is missing, or belongs to another
+// request or another scene.
 SampleSet gather_samples(SampleParts const& parts, std::string const& asked, Sampling sampling,
                          double latitude);
 

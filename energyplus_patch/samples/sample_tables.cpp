@@ -11,7 +11,7 @@
 #include <numeric>
 #include <ostream>
 
-#include "input/text.h"
+#include "base/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {

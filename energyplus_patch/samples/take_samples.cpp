@@ -9,7 +9,7 @@
 #include <memory>
 #include <utility>
 
-#include "session/progress.h"
+#include "base/progress.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -18,7 +18,7 @@ struct Close {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-// In lots, of which each tells how far it is. They do not change an answer.
+// Rendered in batches, each of which reports progress; this does not change an answer.
 std::vector<std::vector<Sunlit>> render(std::vector<SunDirection> const& directions,
                                         SunlitSource const& source, std::string const& work,
                                         std::FILE* out) {
@@ -68,19 +68,19 @@ std::string take_samples(SampleRequest const& request, Sampling sampling, Sample
       parts.write({scene, device, round, request.shard, directions, answers});
       rendered += own.size();
       if (request.shard.shards > 1) {
-        return fmt::format("round {}: {} directions rendered, {} of {} shards to come", round,
+        return fmt::format("round {}: {} directions rendered, {} of {} shards left", round,
                            rendered, found.missing.size() - 1, request.shard.shards);
       }
       found.answers = std::move(answers);
       found.missing.clear();
     }
     if (!found.missing.empty()) {
-      return fmt::format("round {}: nothing to render, it waits for shards {}", round,
+      return fmt::format("round {}: nothing to render, waiting for shards {}", round,
                          list_shards(found.missing));
     }
     rounds.add(found.answers);
   }
-  return fmt::format("{} directions rendered, all of {} rounds are there", rendered, round - 1);
+  return fmt::format("{} directions rendered, all {} rounds are complete", rendered, round - 1);
 }
 
 }  // namespace gpu_shading::energyplus

@@ -8,10 +8,10 @@
 
 namespace gpu_shading::energyplus {
 
-// Renders samples into parts. A single shard goes through all rounds; one of several renders its
-// share of the first round that lacks it, once all shares of the rounds before are there. What is
-// there is not rendered again; parts of other scenes count as missing, and are replaced. Returns
-// one line on what was done, and what is to be done next. Throws what `source` throws, and Error.
+// Renders samples into parts. A single shard goes through all rounds. One of several renders its
+// share of the first round that lacks it, once all shares of the earlier rounds are there. Existing
+// parts are not rendered again; parts of other scenes count as missing and are replaced. Returns
+// one line on what was done and what to do next. Throws Error and what `source` throws.
 std::string take_samples(SampleRequest const& request, Sampling sampling, SampledScene const& scene,
                          std::string const& device, SunlitSource const& source);
 

@@ -3,12 +3,14 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
+#include <cstdio>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "base/progress.h"
 #include "gpu_shading/error.h"
-#include "session/progress.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -25,7 +27,7 @@ void find(void* library, char const* name, Function*& function) {
 
 struct Api {
   explicit Api(std::filesystem::path const& path) {
-    // Local: what it exports must not be taken for another library's. It stays loaded.
+    // RTLD_LOCAL: its symbols must not resolve to another library's. It stays loaded.
     void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) throw Error(dlerror());
     find(library, "stateNew", new_state);
@@ -48,10 +50,10 @@ struct Api {
   void (*on_progress)(State, void (*)(int)) = nullptr;
 };
 
-// What the callbacks, which are handed no data of ours, work on: the thread's run.
+// The run of this thread, for callbacks, which receive no data of ours.
 struct Hosted {
   Api const* api = nullptr;
-  RunMessages messages;  // not told yet
+  RunMessages messages;  // not written yet
   std::optional<Progress> progress;
 };
 
@@ -60,7 +62,17 @@ Hosted& hosted() {
   return instance;
 }
 
-void tell_messages(State state) {
+// No exception of ours may pass through EnergyPlus, which calls what follows.
+template <typename Action>
+void guarded(Action const& action) {
+  try {
+    action();
+  } catch (std::exception const& error) {
+    std::fprintf(stderr, "gpu_shading: error: %s\n", error.what());
+  }
+}
+
+void issue_messages(State state) {
   auto const messages = std::exchange(hosted().messages, {});
   for (auto const& line : messages.warnings) {
     hosted().api->issue_warning(state, ("gpu_shading: " + line).c_str());
@@ -70,8 +82,14 @@ void tell_messages(State state) {
   }
 }
 
+void tell_messages(State state) {
+  guarded([&] { issue_messages(state); });
+}
+
 void show_progress(int percent) {
-  if (hosted().progress) hosted().progress->at(static_cast<std::size_t>(percent));
+  guarded([&] {
+    if (hosted().progress) hosted().progress->at(static_cast<std::size_t>(percent));
+  });
 }
 
 }  // namespace
@@ -82,7 +100,7 @@ int run_hosted(std::filesystem::path const& library, std::vector<std::string> co
   auto& run = hosted();
   run.api = &api;
   run.messages = messages;
-  // On a terminal EnergyPlus's own lines show how far it is, unless they go elsewhere.
+  // On a terminal, EnergyPlus's own lines show progress, unless they are redirected.
   constexpr std::size_t percent = 100;
   if (isatty(STDERR_FILENO) != 0 && isatty(STDOUT_FILENO) == 0) {
     run.progress.emplace("EnergyPlus", percent);

@@ -6,15 +6,15 @@
 
 namespace gpu_shading::energyplus {
 
-// What a run tells in its .err, from the beginning of its first environment on.
+// Messages for a run's .err, from the beginning of its first environment on.
 struct RunMessages {
   std::vector<std::string> warnings;
   std::vector<std::string> remarks;
 };
 
-// Runs an EnergyPlus library, unpatched, through its C API. `arguments`: EnergyPlus's own, without
-// the program. `messages` are told with our prefix. Returns EnergyPlus's exit status. Throws Error
-// where the library lacks the API.
+// Runs an unpatched EnergyPlus library through its C API. `arguments`: EnergyPlus's own, without
+// the program. `messages` are written with our prefix. Returns EnergyPlus's exit status. Throws
+// Error if the library lacks the API.
 int run_hosted(std::filesystem::path const& library, std::vector<std::string> const& arguments,
                RunMessages const& messages);
 

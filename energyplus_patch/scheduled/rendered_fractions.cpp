@@ -8,8 +8,8 @@
 #include <set>
 #include <utility>
 
-#include "scheduled/drawn_surfaces.h"
-#include "session/progress.h"
+#include "base/progress.h"
+#include "runs/drawn_surfaces.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -19,7 +19,7 @@ struct Receiver {
   glm::dvec3 area;  // times the unit normal
 };
 
-// A run's schedules at the time of `now`; 0 for those that EnergyPlus does not know.
+// A run's schedules at the time `now`; 0 for schedules that EnergyPlus does not know.
 Schedules schedules_of(RunTimes const& run, std::shared_ptr<RunTime const*> const& now) {
   return {
       [&run](std::string const& name) {
@@ -42,11 +42,11 @@ float fraction(Session& session, Receiver const& receiver, glm::dvec3 const& sun
 
 }  // namespace
 
-SunlitTable render_fractions(Model model, std::vector<Surface> const& surfaces, RunTimes const& run,
-                             Session::Messages const& messages,
-                             std::function<double()> const& latitude) {
+SunlitFractions render_fractions(Model model, std::vector<Surface> const& surfaces,
+                                 RunTimes const& run, Messages const& messages,
+                                 std::function<double()> const& latitude) {
   auto const now = std::make_shared<RunTime const*>(nullptr);
-  SunlitTable table;
+  SunlitFractions table;
   table.steps_per_hour = run.steps_per_hour;
   model.options.update.every_timestep = true;
   Session session(std::move(model));
@@ -90,8 +90,8 @@ std::vector<std::string> unknown_schedules(Model const& model, RunTimes const& r
 
 std::string describe_unknown(std::vector<std::string> const& schedules) {
   return fmt::format(
-      "Transmittance or Deployment Schedule {}: its values are another program's or an EMS "
-      "actuator's, which are not known ahead; those of the schedule itself count, or none",
+      "Transmittance or Deployment Schedule {}: its values are set by an EMS actuator or another "
+      "program and not known in advance; the schedule's own values are used, if it has any",
       fmt::join(schedules, ", "));
 }
 

@@ -8,14 +8,15 @@
 #include <unordered_map>
 #include <utility>
 
-#include "files/whole_file.h"
+#include "base/files.h"
+#include "base/text.h"
 #include "gpu_shading/error.h"
-#include "host/version.h"
-#include "input/model_reader.h"
-#include "samples/weather_site.h"
-#include "scheduled/drawn_surfaces.h"
-#include "scheduled/model_editor.h"
+#include "idf/model_editor.h"
+#include "model/model_reader.h"
+#include "runs/drawn_surfaces.h"
+#include "runs/installation.h"
 #include "scheduled/rendered_fractions.h"
+#include "site/weather_site.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -23,23 +24,23 @@ namespace {
 using Path = std::filesystem::path;
 
 constexpr std::string_view shadow_calculation = "ShadowCalculation";
-constexpr FieldPlace method_field{0, "shading_calculation_method"};
-constexpr FieldPlace frequency_field{1, "shading_calculation_update_frequency_method"};
+constexpr FieldPosition method_field{0, "shading_calculation_method"};
+constexpr FieldPosition frequency_field{1, "shading_calculation_update_frequency_method"};
 constexpr std::string_view local_environment = "SurfaceProperty:LocalEnvironment";
-constexpr FieldPlace exterior_surface{1, "exterior_surface_name"};
-constexpr FieldPlace sunlit_schedule{2, "sunlit_fraction_schedule_name"};
+constexpr FieldPosition exterior_surface{1, "exterior_surface_name"};
+constexpr FieldPosition sunlit_schedule{2, "sunlit_fraction_schedule_name"};
 
-// The one warning of what fractions in schedules leave to EnergyPlus.
+// The warning about what the scheduled method cannot do.
 std::string describe_limits(Model const& model) {
   std::string text =
-      "sunlit fractions are scheduled: those of the beam, in run periods. The sky's diffuse light "
-      "and sizing periods stay with EnergyPlus's polygon clipping, the beam through windows is not "
-      "traced to interior surfaces but spread over them";
+      "scheduled sunlit fractions apply to the beam in run periods only: EnergyPlus "
+      "computes the sky's diffuse light and sizing periods by polygon clipping, and spreads the "
+      "beam through windows over interior surfaces instead of tracing it";
   if (!model.shades.by_surface.empty() || !model.screens.by_surface.empty()) {
-    text += "; the sky does not see what GPUShading objects let through";
+    text += "; GPUShading objects are opaque to the sky's diffuse light";
   }
   if (model.shading.all_shading_wanted || !model.shading.wanted_shading.empty()) {
-    text += "; shading surfaces count as sunlit themselves";
+    text += "; shading surfaces themselves count as sunlit";
   }
   if (model.options.lean == Lean::on) text += "; lean input is off";
   return text;
@@ -57,7 +58,7 @@ class Collected {
     say_(line);
     remarks.push_back(line);
   }
-  Session::Messages messages() {
+  Messages messages() {
     return {[this](std::string const& line) { warn(line); },
             [this](std::string const& line) { remark(line); }, [](std::string const&) {}};
   }
@@ -84,14 +85,14 @@ bool runs_periods(EnergyPlusCall const& call, ModelEditor& model) {
   return runs;
 }
 
-// Of the place that the sun of run periods keeps to; radians.
+// Latitude of the site that determines the sun in run periods; radians.
 double latitude_of(EnergyPlusCall const& call) {
   if (!call.weather)
-    throw Error("-w: a weather file is needed, for whose place the sun is sampled");
+    throw Error("-w: a weather file is required (it sets the site at which the sun is sampled)");
   return glm::radians(read_weather_site(*call.weather).latitude);
 }
 
-SunlitTable render(EnergyPlusCall const& call, Model model, Collected& out) {
+SunlitFractions render(EnergyPlusCall const& call, Model model, Collected& out) {
   auto const run = run_for_times(call, shade_schedules(model));
   if (run.times.empty()) return {};
   auto const unknown = unknown_schedules(model, run);
@@ -112,8 +113,8 @@ void set_method(ModelEditor& editor, std::string_view method, std::string_view f
   editor.add(shadow_calculation, {{method_field.name, method}, {frequency_field.name, frequency}});
 }
 
-// `file`: beside the model, so that both may be taken elsewhere together.
-void add_schedules(ModelEditor& editor, SunlitTable const& table, std::string const& file) {
+// `file`: beside the model, so that both can be copied together.
+void add_schedules(ModelEditor& editor, SunlitFractions const& table, std::string const& file) {
   constexpr int minutes_of_hour = 60;
   constexpr int hours_of_leap_year = 8784;
   constexpr std::string_view limits = "GPU SHADING SUNLIT FRACTION";
@@ -136,7 +137,7 @@ void add_schedules(ModelEditor& editor, SunlitTable const& table, std::string co
                                  {"minutes_per_item", minutes_of_hour / table.steps_per_hour},
                                  {"adjust_schedule_for_daylight_savings", "No"}});
   }
-  // A surface may have the object for other properties already.
+  // A surface may already have the object for other properties.
   editor.edit(local_environment, [&](EditedObject& object) {
     auto const found = schedule_of.find(upper(object.get(exterior_surface)));
     if (found == schedule_of.end()) return;
@@ -165,13 +166,15 @@ ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choi
   } else {
     check_supported(model.shading, read_version(call.program.parent_path()));
     out.warn(describe_limits(model));
-    SunlitTable table;
+    SunlitFractions table;
     if (runs_periods(call, *editor)) table = render(call, std::move(model), out);
     if (table.empty()) {
-      out.warn("no run period with the sun up is run: polygon clipping answers all of it");
+      out.warn(
+          "no run period with the sun above the horizon is run: all shading is computed by polygon "
+          "clipping");
       set_method(*editor, "PolygonClipping", "");
     } else {
-      // With Periodic a day's schedule values would stand for the whole period.
+      // With Periodic, a day's schedule values would apply to the whole period.
       set_method(*editor, "Scheduled", "Timestep");
       constexpr char const* fractions = "gpu_shading_sunlit.csv";
       write_whole_file(folder / fractions,
@@ -186,11 +189,13 @@ ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choi
   return done;
 }
 
-SunlitTable sunlit_fractions(EnergyPlusCall const& call, Choices const& choices, Say const& say) {
+SunlitFractions sunlit_fractions(EnergyPlusCall const& call, Choices const& choices,
+                                 Say const& say) {
   Collected out(say);
   auto table = render(call, read_supported(call, choices), out);
   if (table.empty()) {
-    throw Error(fmt::format("{}: has no run period with the sun up", call.model.string()));
+    throw Error(
+        fmt::format("{}: has no run period with the sun above the horizon", call.model.string()));
   }
   return table;
 }

@@ -4,10 +4,9 @@
 
 #include <cstdio>
 
+#include "base/process.h"
 #include "gpu_shading/error.h"
-#include "host/own_folder.h"
-#include "launcher/command_line.h"
-#include "program/process.h"
+#include "options/command_line.h"
 #include "scheduled/hosted_run.h"
 #include "scheduled/scheduled_model.h"
 
@@ -18,7 +17,7 @@ int run_scheduled(std::filesystem::path const& library, Choices const& choices,
   auto const line = read_command_line(arguments);
   if (line.preprocessed) {
     throw Error(
-        "-m: a model that EPMacro makes cannot have its sunlit fractions scheduled; make the IDF "
+        "-m: sunlit fractions of an EPMacro model cannot be passed as schedules; create its IDF "
         "first");
   }
   if (!line.model) return run_hosted(library, arguments, {});

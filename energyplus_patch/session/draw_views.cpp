@@ -6,10 +6,11 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "assets/image_file.h"
+#include "base/staged_files.h"
+#include "base/text.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/scene_view.h"
-#include "images/image_file.h"
-#include "input/input_object.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -24,7 +25,7 @@ SurfaceId find(Drawing const& drawing, std::string const& name) {
       fmt::format("receiver {}: the model has no such surface; see gpu_shading check", name));
 }
 
-// By surface, of those that face the sun.
+// By surface, for those that face the sun.
 std::vector<std::optional<double>> sunlit_fractions(Drawing const& drawing, SunDirection sun) {
   auto const& scene = drawing.renderer.scene();
   auto const towards_sun = to_vector(sun);
@@ -46,20 +47,22 @@ std::vector<std::optional<double>> sunlit_fractions(Drawing const& drawing, SunD
 
 }  // namespace
 
-void draw_views(std::vector<View> const& views, std::filesystem::path const& folder,
+void draw_views(std::vector<SunView> const& views, std::filesystem::path const& folder,
                 Drawing const& drawing) {
+  StagedFiles files(folder);
   std::optional<SceneView> whole;
   for (auto const& view : views) {
+    Image image;
     if (view.receiver.empty()) {
       if (!whole) whole.emplace(drawing.renderer.scene(), drawing.shown, drawing.device);
-      write_image(folder / view.picture,
-                  whole->draw(view.sun, sunlit_fractions(drawing, view.sun), drawing.size));
+      image = whole->draw(view.sun, sunlit_fractions(drawing, view.sun), drawing.size);
     } else {
       auto const receiver = find(drawing, view.receiver);
-      write_image(folder / view.picture,
-                  drawing.renderer.sun_view(view.sun, receiver, drawing.size, drawing.factors));
+      image = drawing.renderer.sun_view(view.sun, receiver, drawing.size, drawing.factors);
     }
+    files.write(view.picture, encode_image(view.picture, image));
   }
+  files.commit();
 }
 
 }  // namespace gpu_shading::energyplus

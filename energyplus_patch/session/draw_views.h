@@ -12,14 +12,15 @@ namespace gpu_shading::energyplus {
 struct Drawing {
   Renderer& renderer;
   DeviceChoice device;
-  std::vector<SurfaceId> shown;        // the model's surfaces, which can be named
-  std::vector<bool> receives;          // by surface, whether its sunlit fraction is a colour
+  std::vector<SurfaceId> shown;        // the model's surfaces, which the user can name
+  std::vector<bool> receives;          // by surface: whether it is coloured by its sunlit fraction
   std::vector<double> const& factors;  // what schedules let pass
   int size;                            // pixels on the longer side
 };
 
-// Into a folder. Throws Error where a receiver is not there or a picture cannot be written.
-void draw_views(std::vector<View> const& views, std::filesystem::path const& folder,
+// Into a folder: all of them, or none. Throws Error if a receiver does not exist or a picture
+// cannot be written.
+void draw_views(std::vector<SunView> const& views, std::filesystem::path const& folder,
                 Drawing const& drawing);
 
 }  // namespace gpu_shading::energyplus

@@ -11,7 +11,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double patch_step = pi / 12.0;
 constexpr std::size_t patch_azimuths = 24;
 constexpr std::size_t patches = 6 * patch_azimuths;
-// Of angles in single precision, up to 2 pi, several times over.
+// Tolerance of angles up to 2 pi in single precision, several times the rounding.
 constexpr double rounding = 1e-6;
 
 // In the order in which EnergyPlus asks for them, twice, so that those after any of them follow it.
@@ -46,7 +46,7 @@ bool is_sky_patch(SunDirection sun) {
   return sun.altitude > 0.0 && on_grid(sun.altitude - 0.5 * patch_step) && on_grid(sun.azimuth);
 }
 
-std::optional<ForeseenDirections::Place> ForeseenDirections::find(SunDirection sun) const {
+std::optional<ForeseenDirections::DayStep> ForeseenDirections::find(SunDirection sun) const {
   auto const towards_sun = to_vector(sun);
   auto const last = by_altitude_.upper_bound(sun.altitude + rounding);
   for (auto found = by_altitude_.lower_bound(sun.altitude - rounding); found != last; ++found) {
@@ -75,7 +75,7 @@ SunDirection ForeseenDirections::settle(SunDirection sun, Latitude const& latitu
   return sun;
 }
 
-// An hour's part, as EnergyPlus has 1 to 60 steps an hour, from two directions of one day.
+// The timestep, from two directions of one day; EnergyPlus has 1 to 60 timesteps per hour.
 void ForeseenDirections::learn_step(HourDirection now, double latitude) {
   if (!last_) return;
   auto const before = to_hour_direction(*last_, latitude);
@@ -101,7 +101,7 @@ void ForeseenDirections::foresee_day(SunDirection sun, double latitude) {
   for (now.hour_angle += *step_; now.hour_angle <= pi; now.hour_angle += *step_) {
     auto const next = to_direction(now, latitude);
     if (next.altitude <= 0.0) break;
-    // The first day was foreseen from its second direction on, and comes back.
+    // The first day was predicted from its second direction on, and is repeated.
     auto const known = find(next);
     if (!known) ++foreseen_;
     day.push_back(known ? days_[known->day][known->step] : next);
@@ -110,7 +110,8 @@ void ForeseenDirections::foresee_day(SunDirection sun, double latitude) {
   days_.push_back(std::move(day));
   auto const& kept = days_.back();
   for (std::size_t step = 0; step < kept.size(); ++step) {
-    if (!find(kept[step])) by_altitude_.emplace(kept[step].altitude, Place{days_.size() - 1, step});
+    if (!find(kept[step]))
+      by_altitude_.emplace(kept[step].altitude, DayStep{days_.size() - 1, step});
   }
   ahead_ = std::span(kept).subspan(1);
 }

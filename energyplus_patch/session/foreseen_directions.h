@@ -12,46 +12,48 @@
 
 namespace gpu_shading::energyplus {
 
-// The directions that EnergyPlus will ask for after those it has asked for: it goes through all
-// patches of the sky in a row, and through each day by equal steps of the hour angle at one
-// declination. What is foreseen depends on what was asked alone, so that the same run foresees the
-// same. Where less than half of what was foreseen came true, no further days are.
+// Predicts the directions that EnergyPlus will ask for next: it goes through all patches of the sky
+// in a row, and through each day in equal steps of the hour angle at one declination. Predictions
+// depend only on earlier questions, so equal runs make equal predictions. If fewer than half of the
+// predictions come true, no further days are predicted.
 class ForeseenDirections {
  public:
-  // Of the site, radians; none: no days are foreseen.
+  // Latitude of the site, radians; empty: no days are predicted.
   using Latitude = std::function<double()>;
 
-  // EnergyPlus asks for `sun`, in single precision. Returns what it is a rounding of: a patch of
-  // the sky, or the direction that was foreseen for it; itself where none was.
+  // Takes the direction `sun` that EnergyPlus asks for, in single precision. Returns the exact
+  // direction of which it is a rounding: a patch of the sky or a predicted direction; otherwise
+  // `sun` itself.
   SunDirection settle(SunDirection sun, Latitude const& latitude);
 
-  // Those to follow the one settled last, in their order. Valid until the next call of settle().
+  // The directions predicted to follow the last one, in order. Valid until the next call of
+  // settle().
   std::span<SunDirection const> ahead() const { return ahead_; }
 
  private:
   using Day = std::vector<SunDirection>;
-  struct Place {
+  struct DayStep {
     std::size_t day;
     std::size_t step;
   };
 
-  std::optional<Place> find(SunDirection sun) const;
+  std::optional<DayStep> find(SunDirection sun) const;
   bool in_vain() const;
   void foresee_day(SunDirection sun, double latitude);
   void learn_step(HourDirection now, double latitude);
 
   std::deque<Day> days_;
-  std::multimap<double, Place> by_altitude_;
+  std::multimap<double, DayStep> by_altitude_;
   std::span<SunDirection const> ahead_;
   std::optional<SunDirection> last_;  // of a day
-  std::optional<double> step_;        // of the hour angle, radians
+  std::optional<double> step_;        // step of the hour angle, radians
   std::size_t foreseen_ = 0;          // directions of days
-  std::size_t met_ = 0;               // of those asked for, how often one had been foreseen
+  std::size_t met_ = 0;               // number of these that had been predicted
 };
 
-// Whether EnergyPlus takes the direction for a patch of the sky: 7.5 degrees of altitude and steps
-// of 15 from there, multiples of 15 degrees of azimuth. That the sun stands there exactly is as
-// good as impossible, and does no harm.
+// Whether EnergyPlus uses the direction as a patch of the sky: altitudes of 7.5 degrees and steps
+// of 15 from there, azimuths in multiples of 15 degrees. It is practically impossible for the sun
+// to be exactly there, and harmless.
 bool is_sky_patch(SunDirection sun);
 
 }  // namespace gpu_shading::energyplus

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "base/text.h"
+#include "extensions/extension_fields.h"
 #include "session/shade_optics.h"
 #include "session/shading_rule.h"
 
@@ -14,7 +16,7 @@ namespace gpu_shading::energyplus {
 namespace {
 
 std::string kind_of(std::string const& name, ShadingInput const& input) {
-  if (is_reveal(name)) return "reveal";
+  if (window_of_reveal(name)) return "reveal";
   if (auto const found = input.shading_surfaces.find(name); found != input.shading_surfaces.end()) {
     return found->second.type;
   }
@@ -29,7 +31,7 @@ std::string place(glm::dvec3 const& point, int digits) {
                      rounded(point.z), digits);
 }
 
-// Where a screen's texture or pattern lies, for the user who has to align it.
+// The position of a screen's texture or pattern, for users who have to align it.
 std::string describe_tile(Model const& model, Surface const& surface) {
   auto const screen = model.screens.by_surface.find(surface.name);
   if (screen == model.screens.by_surface.end()) return {};
@@ -38,7 +40,7 @@ std::string describe_tile(Model const& model, Surface const& surface) {
                      place(axes.u, 4), place(axes.v, 4));
 }
 
-// All but what stands in for casters that EnergyPlus does not know, and the surroundings.
+// All surfaces except placeholders and surroundings.
 std::vector<SurfaceId> listed(Scene const& scene, Model const& model) {
   std::vector<SurfaceId> ids;
   for (SurfaceId id = 0; id < scene.size(); ++id) {
@@ -50,7 +52,7 @@ std::vector<SurfaceId> listed(Scene const& scene, Model const& model) {
   return ids;
 }
 
-// All triangles of one name.
+// All triangles with one name.
 struct MeshRow {
   SurfaceId first;
   double area = 0.0;
@@ -62,7 +64,8 @@ std::vector<MeshRow> meshes_of(Scene const& scene, Model const& model) {
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     auto const& surface = scene[id];
     auto const type = model.surroundings.types.find(surface.name);
-    if (type == model.surroundings.types.end() || type->second != "GPUShading:Geometry") continue;
+    if (type == model.surroundings.types.end() || type->second != extension::geometry::type)
+      continue;
     auto const size = area(surface.polygon);
     if (size <= 0.0) continue;
     auto const [row, added] = known.try_emplace(surface.name, rows.size());
@@ -72,7 +75,7 @@ std::vector<MeshRow> meshes_of(Scene const& scene, Model const& model) {
   return rows;
 }
 
-// Before the table.
+// The lines before the table.
 std::string remarks_of(Model const& model) {
   std::string text;
   if (!model.lean.remark.empty()) text += model.lean.remark + "\n";
@@ -119,6 +122,7 @@ std::string list_surfaces(Scene const& scene, Model const& model, std::vector<bo
                         kind_of(surface.name, input), kind_width, mesh.area, "no",
                         describe_optics(model, surface, model.surroundings.texture_of(mesh.first)));
   }
+  text += describe(make_shading_rule(input, scene, {}));
   text += fmt::format("{} surfaces\n", ids.size() + meshes.size());
   return text;
 }
@@ -128,8 +132,8 @@ std::string list_vertices(Scene const& scene, Model const& model) {
   for (auto const id : listed(scene, model)) {
     int number = 0;
     for (auto const& vertex : scene[id].polygon.outline) {
-      text += fmt::format("\"{}\",{},{:.9g},{:.9g},{:.9g}\n", scene[id].name, ++number, vertex.x,
-                          vertex.y, vertex.z);
+      text += fmt::format("{},{},{:.9g},{:.9g},{:.9g}\n", csv_quoted(scene[id].name), ++number,
+                          vertex.x, vertex.y, vertex.z);
     }
   }
   return text;

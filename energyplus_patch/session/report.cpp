@@ -3,23 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <tuple>
 
-#include "files/whole_file.h"
+#include "assets/image_file.h"
+#include "base/file_names.h"
+#include "base/files.h"
+#include "base/staged_files.h"
+#include "base/text.h"
 #include "gpu_shading/error.h"
-#include "images/image_file.h"
-#include "input/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
-constexpr char const* table_name = "sunlit.csv";
+constexpr char const* sunlit_table = "sunlit.csv";
+constexpr char const* pictures_table = "pictures.csv";
+constexpr char const* stages_table = "stages.csv";
 constexpr int picture_size = 800;
 
 struct Row {
@@ -76,15 +78,41 @@ double azimuth_degrees(SunDirection sun) {
   return degrees < 0.0 ? degrees + 360.0 : degrees;
 }
 
-std::string file_name(std::string const& surface, SunDirection sun,
-                      DeploymentStates::Shares const& shares) {
-  std::string name = surface;
-  std::replace_if(
-      name.begin(), name.end(),
-      [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-'; }, '_');
-  name += fmt::format("_{:05.1f}_{:04.1f}", azimuth_degrees(sun), glm::degrees(sun.altitude));
+std::string stem_of(std::string const& surface, SunDirection sun,
+                    DeploymentStates::Shares const& shares) {
+  auto name = fmt::format("{}_{:05.1f}_{:04.1f}", surface, azimuth_degrees(sun),
+                          glm::degrees(sun.altitude));
   for (double const share : shares) name += fmt::format("_{:.6g}", 100.0 * share);
-  return name + ".png";
+  return name;
+}
+
+std::string heads_of(Deployments const& deployments) {
+  std::string text;
+  for (auto const& schedule : deployments.schedules) {
+    text += ',' + csv_quoted("share by " + schedule);
+  }
+  return text;
+}
+
+std::string list(DeploymentStates::Shares const& shares) {
+  std::string text;
+  for (double const share : shares) text += fmt::format(",{:.6g}", share);
+  return text;
+}
+
+void write_table(std::ostream& csv, Stages const& stages) {
+  csv << "stage,seconds\n";
+  for (auto const& [stage, seconds] : stages) csv << fmt::format("{},{:.3f}\n", stage, seconds);
+}
+
+// A report that cannot be written is an error of the option.
+template <typename Action>
+void naming_the_option(Action const& action) {
+  try {
+    action();
+  } catch (Error const& error) {
+    throw Error(fmt::format("--gpu-shading-report: {}", error.what()));
+  }
 }
 
 auto const loaded = std::chrono::steady_clock::now();
@@ -92,11 +120,10 @@ auto const loaded = std::chrono::steady_clock::now();
 }  // namespace
 
 void prepare_report(std::filesystem::path const& folder) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (!std::ofstream(folder / table_name)) {
-    throw Error(fmt::format("--gpu-shading-report: {}: cannot be written to", folder.string()));
-  }
+  naming_the_option([&] {
+    StagedFiles files(folder);
+    for (auto const* const name : {sunlit_table, pictures_table, stages_table}) files.add(name);
+  });
 }
 
 Stages stages_of(RendererStatistics const& statistics) {
@@ -115,50 +142,57 @@ Stages stages_of(RendererStatistics const& statistics) {
 }
 
 void write_stages(std::filesystem::path const& file, Stages const& stages) {
-  write_whole_file(file, [&](std::ostream& csv) {
-    csv << "stage,seconds\n";
-    for (auto const& [stage, seconds] : stages) csv << fmt::format("{},{:.3f}\n", stage, seconds);
-  });
+  write_whole_file(file, [&](std::ostream& csv) { write_table(csv, stages); });
 }
 
 std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer,
                          std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
                          Answers const& answers, std::vector<double> const& factors,
-                         Deployments const& deployments) {
-  auto const table = folder / table_name;
-  std::ofstream csv(table);
-  csv << "receiver,sun azimuth [deg],sun altitude [deg],projected sunlit area [m2],sunlit "
-         "fraction";
-  for (auto const& schedule : deployments.schedules)
-    csv << ',' << csv_quoted("share by " + schedule);
-  csv << '\n';
+                         Deployments const& deployments, Stages const& stages) {
   std::vector<Row> pictures;
-  for (ReceiverNumber number = 0; number < receivers.size(); ++number) {
-    auto const receiver = receivers[number];
-    if (!asked[receiver]) continue;
-    auto const rows = collect(renderer, receiver, number, answers, factors);
-    for (auto const& row : rows) {
-      csv << fmt::format("{},{:.4f},{:.4f},{:.7g},{:.6f}",
-                         csv_quoted(renderer.scene()[receiver].name), azimuth_degrees(row.sun),
-                         glm::degrees(row.sun.altitude), row.projected_area, row.fraction);
-      for (double const share : deployments.states[row.state]) csv << fmt::format(",{:.6g}", share);
-      csv << '\n';
+  auto const write_sunlit = [&](std::ostream& csv) {
+    csv << "receiver,sun azimuth [deg],sun altitude [deg],projected sunlit area [m2],sunlit "
+           "fraction"
+        << heads_of(deployments) << '\n';
+    for (ReceiverNumber number = 0; number < receivers.size(); ++number) {
+      auto const receiver = receivers[number];
+      if (!asked[receiver]) continue;
+      auto const rows = collect(renderer, receiver, number, answers, factors);
+      for (auto const& row : rows) {
+        csv << fmt::format("{},{:.4f},{:.4f},{:.7g},{:.6f}{}\n",
+                           csv_quoted(renderer.scene()[receiver].name), azimuth_degrees(row.sun),
+                           glm::degrees(row.sun.altitude), row.projected_area, row.fraction,
+                           list(deployments.states[row.state]));
+      }
+      auto const chosen = choose(rows);
+      pictures.insert(pictures.end(), chosen.begin(), chosen.end());
     }
-    auto const chosen = choose(rows);
-    pictures.insert(pictures.end(), chosen.begin(), chosen.end());
-  }
-  csv.close();
-  if (!csv) throw Error(fmt::format("--gpu-shading-report: {}: cannot be written", table.string()));
+  };
+  std::size_t left_out = 0;
+  naming_the_option([&] {
+    StagedFiles files(folder);
+    files.write(stages_table, [&](std::ostream& csv) { write_table(csv, stages); });
+    files.write(sunlit_table, write_sunlit);
+    left_out = pictures.size() - std::min(pictures.size(), max_report_pictures);
+    pictures.resize(pictures.size() - left_out);
 
-  auto const left_out = pictures.size() - std::min(pictures.size(), max_report_pictures);
-  pictures.resize(pictures.size() - left_out);
-  for (auto const& picture : pictures) {
-    auto const& shares = deployments.states[picture.state];
-    renderer.set_deployments(shares);
-    auto const path =
-        folder / file_name(renderer.scene()[picture.receiver].name, picture.sun, shares);
-    write_image(path, renderer.sun_view(picture.sun, picture.receiver, picture_size, factors));
-  }
+    std::string drawn = "picture,receiver,sun azimuth [deg],sun altitude [deg]";
+    drawn += heads_of(deployments) + '\n';
+    FileNames names;
+    for (auto const& picture : pictures) {
+      auto const& shares = deployments.states[picture.state];
+      auto const& receiver = renderer.scene()[picture.receiver].name;
+      auto const name = names.add(stem_of(receiver, picture.sun, shares), ".png");
+      renderer.set_deployments(shares);
+      files.write(name, encode_image(name, renderer.sun_view(picture.sun, picture.receiver,
+                                                             picture_size, factors)));
+      drawn += fmt::format("{},{},{:.4f},{:.4f}{}\n", csv_quoted(name), csv_quoted(receiver),
+                           azimuth_degrees(picture.sun), glm::degrees(picture.sun.altitude),
+                           list(shares));
+    }
+    files.write(pictures_table, drawn);
+    files.commit();
+  });
   return left_out;
 }
 

@@ -5,16 +5,23 @@
 #include <utility>
 #include <vector>
 
+#include "cache/answers.h"
+#include "cache/deployment_states.h"
 #include "gpu_shading/renderer.h"
-#include "session/answers.h"
-#include "session/deployment_states.h"
 
 namespace gpu_shading::energyplus {
 
-// Makes the folder where it is missing. Throws Error when nothing can be written to it.
+// Creates the folder if it is missing, and changes nothing in it. Throws Error if a report cannot
+// be written there.
 void prepare_report(std::filesystem::path const& folder);
 
-// The deployments that answers were given at.
+// Wall-clock seconds of a run by stage.
+using Stages = std::vector<std::pair<std::string, double>>;
+
+// The renderer's own stages, and the remaining time since this module was loaded.
+Stages stages_of(RendererStatistics const& statistics);
+
+// The deployments at which answers were given.
 struct Deployments {
   std::vector<std::string> const& schedules;
   DeploymentStates const& states;
@@ -27,24 +34,20 @@ struct Deployments {
 //   NAME_AZ_ALT.png  what the sun sees of a receiver, at up to three of its answers: the one most
 //                    shaded but lit, the one nearest to half sunlit, and the one at the highest
 //                    sun. With deployments NAME_AZ_ALT_SHARE[_SHARE ...].png, shares in percent.
+//   pictures.csv     picture, receiver, sun azimuth and altitude (degrees), shares: every picture
+//   of
+//                    this report; others in the folder are of earlier ones
+//   stages.csv       stage, wall-clock seconds
 // `receivers`: by their numbers; those that were asked for, by surface, are reported. Returns how
 // many pictures were left out, being more than max_report_pictures. Throws Error when the folder
-// cannot be written.
+// cannot be written; all files in it are those of before then.
 inline constexpr std::size_t max_report_pictures = 300;
 std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer,
                          std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
                          Answers const& answers, std::vector<double> const& factors,
-                         Deployments const& deployments);
+                         Deployments const& deployments, Stages const& stages);
 
-// Where the time of a run goes, wall seconds by stage.
-using Stages = std::vector<std::pair<std::string, double>>;
-
-// The renderer's own stages, and the rest of what passed since this module was loaded.
-Stages stages_of(RendererStatistics const& statistics);
-
-inline constexpr char const* stages_table = "stages.csv";
-
-// Columns: stage, seconds. Throws Error when the file cannot be written.
+// The table alone. Columns: stage, seconds. Throws Error when the file cannot be written.
 void write_stages(std::filesystem::path const& file, Stages const& stages);
 
 }  // namespace gpu_shading::energyplus

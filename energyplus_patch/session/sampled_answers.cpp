@@ -6,10 +6,11 @@
 
 namespace gpu_shading::energyplus {
 
-SampledAnswers::SampledAnswers(Sampling sampling, std::vector<glm::dvec3> areas)
-    : sampling_(sampling), areas_(std::move(areas)) {}
+SampledAnswers::SampledAnswers(Sampling sampling, std::vector<glm::dvec3> areas,
+                               RenderedAnswers& rendered)
+    : sampling_(sampling), areas_(std::move(areas)), rendered_(&rendered) {}
 
-void SampledAnswers::sample(State& state, std::vector<SurfaceId> receivers, Source const& source) {
+void SampledAnswers::sample(State& state, std::vector<SurfaceId> receivers) {
   std::erase_if(receivers, [&](SurfaceId id) { return state.places.contains(id); });
   std::vector<glm::dvec3> areas;
   areas.reserve(receivers.size());
@@ -19,14 +20,14 @@ void SampledAnswers::sample(State& state, std::vector<SurfaceId> receivers, Sour
   }
   state.batches.emplace_back(
       sampling_, latitude_, std::move(areas),
-      [&](std::span<SunDirection const> directions) { return source(directions, receivers); });
+      [&](std::span<SunDirection const> suns) { return rendered_->at(suns, receivers); });
   sampled_ += state.batches.back().directions().size();
   state.sun.reset();
 }
 
-// The first state is. Of the others, which may be as many as there are times of day, one is when as
-// many directions were rendered for it as it would take samples: then no choice costs more than
-// twice what the better one would have.
+// The first state is always sampled. There may be as many others as times of day; each is sampled
+// once the number of directions rendered for it equals that of its samples. No choice then costs
+// more than twice the better one.
 bool SampledAnswers::worth_samples(State& state, SunDirection sun) {
   if (states_.size() == 1 || !state.batches.empty()) return true;
   if (!last_rendered_ || !(*last_rendered_ == sun)) ++state.rendered;
@@ -34,15 +35,14 @@ bool SampledAnswers::worth_samples(State& state, SunDirection sun) {
   return state.rendered > most_directions(sampling_.density);
 }
 
-Sunlit const* SampledAnswers::find(SurfaceId receiver, Question const& question,
-                                   std::vector<SurfaceId> const& receivers, Source const& source) {
-  auto const& [sun, number, latitude] = question;
+Sunlit const* SampledAnswers::find(SurfaceId receiver, Question const& question) {
+  auto const& [sun, latitude] = question;
   if (is_sky_patch(sun) || !in_suns_range(sun, latitude)) return nullptr;
   if (latitude != latitude_) states_.clear();
   latitude_ = latitude;
-  auto& state = states_[number];
+  auto& state = states_[rendered_->state()];
   if (!worth_samples(state, sun)) return nullptr;
-  if (!state.places.contains(receiver)) sample(state, receivers, source);
+  if (!state.places.contains(receiver)) sample(state, rendered_->receivers_with(receiver));
   if (!state.sun || !(*state.sun == sun)) {
     state.rows.clear();
     for (auto const& batch : state.batches) state.rows.push_back(batch.at(sun));
@@ -54,27 +54,27 @@ Sunlit const* SampledAnswers::find(SurfaceId receiver, Question const& question,
   return &state.rows[place.batch][place.row];
 }
 
-std::vector<Sunlit> const* SampledAnswers::find_interior(SurfaceId window,
-                                                         std::uint64_t window_and_list,
-                                                         std::size_t interiors,
-                                                         Question const& question,
-                                                         SunlitSource const& source) {
-  auto& state = states_[question.state];
+std::vector<Sunlit> const* SampledAnswers::find_interior(InteriorKey const& key, SunDirection sun) {
+  auto& state = states_[rendered_->state()];
+  auto const window = key.question.window;
   auto const place = state.places.find(window);
-  if (place == state.places.end() || !state.sun || !(*state.sun == question.sun)) return nullptr;
+  if (place == state.places.end() || !state.sun || !(*state.sun == sun)) return nullptr;
   auto const& batch = state.batches[place->second.batch];
   if (!batch.knows(place->second.row)) return nullptr;
-  auto found = state.interiors.find(window_and_list);
+  auto found = state.interiors.find(key.hash);
   if (found == state.interiors.end()) {
-    // What falls on an interior surface is a share of what the window might let in.
-    std::vector<glm::dvec3> areas(interiors, areas_[window]);
+    // The area lit on an interior surface is a fraction of what the window could let in.
+    std::vector<glm::dvec3> areas(key.question.interiors.size(), areas_[window]);
+    auto const source = [&](std::span<SunDirection const> suns) {
+      return rendered_->interior_at(suns, key);
+    };
     Interior interior{batch.with(std::move(areas), source), std::nullopt, {}};
-    found = state.interiors.emplace(window_and_list, std::move(interior)).first;
+    found = state.interiors.emplace(key.hash, std::move(interior)).first;
   }
   auto& interior = found->second;
-  if (!interior.sun || !(*interior.sun == question.sun)) {
-    interior.row = interior.samples.at(question.sun);
-    interior.sun = question.sun;
+  if (!interior.sun || !(*interior.sun == sun)) {
+    interior.row = interior.samples.at(sun);
+    interior.sun = sun;
   }
   return &interior.row;
 }

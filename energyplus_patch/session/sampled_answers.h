@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
@@ -9,7 +8,7 @@
 #include <vector>
 
 #include "gpu_shading/sampled_sunlit.h"
-#include "gpu_shading/scene.h"
+#include "session/rendered_answers.h"
 
 namespace gpu_shading::energyplus {
 
@@ -17,33 +16,25 @@ namespace gpu_shading::energyplus {
 // the screens' deployments.
 class SampledAnswers {
  public:
-  // What to sample: every receiver at every direction, rendered or known.
-  using Source = std::function<std::vector<std::vector<Sunlit>>(
-      std::span<SunDirection const> directions, std::vector<SurfaceId> const& receivers)>;
-
   // `areas`: unit normal times net area (m2) of every surface that may be a receiver, by its id.
-  SampledAnswers(Sampling sampling, std::vector<glm::dvec3> areas);
+  // What is sampled comes from `rendered`, which has to outlive this.
+  SampledAnswers(Sampling sampling, std::vector<glm::dvec3> areas, RenderedAnswers& rendered);
 
   struct Question {
     SunDirection sun;
-    std::uint32_t state;  // of the deployments
-    double latitude;      // of the site, radians
+    double latitude;  // of the site, radians
   };
 
   // nullptr where the answer has to be rendered: for patches of the sky, for directions that the
   // sun never has, for receivers that the sun faces at no sample, and for a state of deployments
-  // that few directions are asked of. The first direction has the samples taken, of `receivers`,
-  // the asked one among them; others that turn up later have theirs taken together. Valid until the
-  // next call.
-  Sunlit const* find(SurfaceId receiver, Question const& question,
-                     std::vector<SurfaceId> const& receivers, Source const& source);
+  // that few directions are asked of. The first direction has the samples taken, of all receivers
+  // so far; others that turn up later have theirs taken together. Valid until the next call.
+  Sunlit const* find(SurfaceId receiver, Question const& question);
 
   // The same of interior surfaces that the sun reaches through a window, sampled at the window's
   // directions: their areas in the order of the question's list. nullptr where find() has not
   // answered for the window at this sun and state.
-  std::vector<Sunlit> const* find_interior(SurfaceId window, std::uint64_t window_and_list,
-                                           std::size_t interiors, Question const& question,
-                                           SunlitSource const& source);
+  std::vector<Sunlit> const* find_interior(InteriorKey const& key, SunDirection sun);
 
   // Directions that samples were taken at, those of each state and of later receivers apart.
   std::size_t sampled() const { return sampled_; }
@@ -51,7 +42,7 @@ class SampledAnswers {
   std::size_t answered() const { return answered_; }
 
  private:
-  struct Place {
+  struct BatchRow {
     std::size_t batch;
     std::size_t row;
   };
@@ -62,18 +53,19 @@ class SampledAnswers {
   };
   struct State {
     std::vector<SampledSunlit> batches;
-    std::unordered_map<SurfaceId, Place> places;
+    std::unordered_map<SurfaceId, BatchRow> places;
     std::optional<SunDirection> sun;  // of the rows
     std::vector<std::vector<Sunlit>> rows;
-    std::unordered_map<std::uint64_t, Interior> interiors;  // by window and list
+    std::unordered_map<std::uint64_t, Interior> interiors;  // by InteriorKey::hash
     std::size_t rendered = 0;  // directions, before it is worth samples
   };
 
-  void sample(State& state, std::vector<SurfaceId> receivers, Source const& source);
+  void sample(State& state, std::vector<SurfaceId> receivers);
   bool worth_samples(State& state, SunDirection sun);
 
   Sampling sampling_;
   std::vector<glm::dvec3> areas_;
+  RenderedAnswers* rendered_;
   double latitude_ = 0.0;
   std::map<std::uint32_t, State> states_;
   std::optional<SunDirection> last_rendered_;

@@ -6,21 +6,22 @@
 
 namespace gpu_shading::energyplus {
 
-// The time that EnergyPlus is computing for.
+// The time for which EnergyPlus is computing.
 struct Moment {
   int hour = 0;  // 1 .. 24
-  // Of the hour, from 1; 0: the whole simulation, whose least transmittance and largest deployment
-  // count.
+  // Timestep of the hour, from 1; 0: the whole simulation, for which the lowest transmittance and
+  // the largest deployment apply.
   int timestep = 0;
 
   bool operator==(Moment const&) const = default;
 };
 
-// How a session reads schedules, by upper-case names; values within 0 .. 1. They throw Error where
-// there is no such schedule, without the field that names it.
+// How a session reads schedules, by upper-case name; values are within 0 .. 1. Functions throw
+// Error if there is no such schedule, without naming the field.
 struct Schedules {
   std::function<std::pair<double, double>(std::string const& name)> range;  // of the simulation
-  std::function<double(std::string const& name, Moment)> value;  // the least where all of it counts
+  std::function<double(std::string const& name, Moment)>
+      value;  // the lowest value for the whole simulation
 };
 
 }  // namespace gpu_shading::energyplus

@@ -4,19 +4,20 @@
 
 #include <algorithm>
 
+#include "base/naming.h"
+#include "extensions/extension_fields.h"
 #include "gpu_shading/transmittance.h"
-#include "input/naming.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
-// Of a schedule that an object's field names.
+// The value of a schedule that an object's field names.
 std::pair<double, double> range_of(Schedules const& schedules, std::string const& name,
                                    std::string const& object, std::string_view field) {
   return naming(fmt::format("{}: {}", object, field), [&] { return schedules.range(name); });
 }
 
-// What screens a surface, nullptr where nothing does. One without an area has no place for it.
+// The screen of a surface, nullptr if it has none. A surface without area cannot have one.
 SurfaceScreen const* screen_of(Model const& model, Surface const& surface) {
   auto const found = model.screens.by_surface.find(surface.name);
   if (found == model.screens.by_surface.end() || area(surface.polygon) <= 0.0) return nullptr;
@@ -52,9 +53,8 @@ void ShadeOptics::add_deployments() {
     auto const& name = screen.deployment_schedule;
     auto const& known = deployment_names_;
     if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) continue;
-    auto const range =
-        range_of(schedules_, name, "GPUShading:PerforatedScreen " + screen.maker->object(),
-                 "Deployment Schedule Name");
+    auto const range = range_of(schedules_, name, screen.maker->where(),
+                                extension::perforated_screen::deployment_schedule_name.title);
     deployment_names_.push_back(name);
     deployments_.push_back(range.second);
   }

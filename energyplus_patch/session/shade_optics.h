@@ -8,30 +8,32 @@
 #include <vector>
 
 #include "gpu_shading/scene.h"
-#include "input/model_reader.h"
+#include "model/model_reader.h"
 #include "session/schedules.h"
 
 namespace gpu_shading::energyplus {
 
-// What shading surfaces let through: GPUShading:TransparentShade or :PerforatedScreen, times the
-// surface's own Transmittance Schedule. A transmittance schedule of one value all the simulation
-// long is taken for a number, so that the renderer has less to keep apart; where an EMS or a
-// program overrides it all the same, it becomes a factor.
+// The optics of shading surfaces: GPUShading:TransparentShade or :PerforatedScreen, times the
+// surface's own Transmittance Schedule. A transmittance schedule with one constant value is treated
+// as a number, so that the renderer has less to count separately; if an EMS or a program overrides
+// it, it becomes a factor.
 class ShadeOptics {
  public:
   ShadeOptics() = default;
-  // Throws Error, naming object and field, where EnergyPlus lacks a schedule.
+  // Throws Error, naming object and field, if EnergyPlus lacks a schedule.
   ShadeOptics(Model const& model, Schedules schedules);
 
-  // Sets a surface's casting, transmittance, schedule, screen and deployment. `texture`: of a
-  // mesh. Throws Error where a screen's texture cannot be read.
+  // Sets a surface's casting, transmittance, schedule, screen and deployment. `texture`: of a mesh.
+  // Throws Error if a screen's texture cannot be read.
   void apply(Surface& surface, std::optional<TextureAxes> const& texture = std::nullopt) const;
 
-  // Reads the schedules. True where one that was taken for a number has another value: optics have
-  // to be applied anew.
+  // Reads the schedules. Returns true if one that was treated as a number has another value: optics
+  // must then be applied again.
   bool update(Moment moment);
 
-  // By the numbers that apply() gives out.
+  Schedules const& schedules() const { return schedules_; }
+
+  // Indexed by the numbers that apply() assigns.
   std::vector<double> const& factors() const { return factors_; }
   std::vector<std::string> const& factor_names() const { return factor_names_; }
   std::vector<double> const& deployments() const { return deployments_; }
@@ -39,7 +41,7 @@ class ShadeOptics {
 
  private:
   struct Schedule {
-    std::optional<double> held;  // the number it is taken for
+    std::optional<double> held;  // the number that replaces it
     int factor = -1;             // else
   };
 
@@ -55,12 +57,12 @@ class ShadeOptics {
   std::vector<double> factors_;
   std::vector<std::string> deployment_names_;
   std::vector<double> deployments_;
-  // What schedules of one value make of transmittances: made once, so that surfaces share it.
+  // Transmittances multiplied by constant schedules, created once so that surfaces share them.
   mutable std::map<std::pair<Transmittance const*, double>, std::shared_ptr<Transmittance const>>
       products_;
 };
 
-// "transparent (construction Double)", "opaque", ...: for listings. Throws Error where a screen's
+// "transparent (construction Double)", "opaque", ..., for listings. Throws Error if a screen's
 // texture cannot be read.
 std::string describe_optics(Model const& model, Surface const& surface,
                             std::optional<TextureAxes> const& texture = std::nullopt);

@@ -1,79 +1,19 @@
 #include "session/shading_rule.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string_view>
+#include <tuple>
 #include <unordered_map>
 
 namespace gpu_shading::energyplus {
 namespace {
 
-constexpr std::string_view reveal_mark = " reveal ";
-
-constexpr std::string_view no_openings = " without openings";
-
-// The window that a reveal belongs to, or "".
-std::string reveal_owner(std::string const& name) {
-  auto const at = name.rfind(reveal_mark);
-  return at == std::string::npos ? std::string{} : name.substr(0, at);
-}
-
-// What the rule needs of each surface.
-struct Place {
-  std::string name;
-  std::string window;   // that this is a reveal of, or ""
-  std::string base;     // the base surface that it lies in; itself for a base surface
-  std::string zone;     // "" for shading surfaces
-  bool closed = false;  // a wall's copy without openings
-  bool open = false;    // a wall that has such a copy
-};
-
-Place find_place(ShadingInput const& input, std::set<std::string_view> const& names,
-                 std::string const& name) {
-  Place place;
-  place.name = name;
-  place.window = reveal_owner(name);
-  place.closed = name.ends_with(no_openings);
-  place.open = names.contains(without_openings(name));
-  std::string surface = place.window.empty() ? name : place.window;
-  if (place.closed) surface.resize(surface.size() - no_openings.size());
-  place.base = input.base_surface(surface);
-  if (auto const zone = input.zone_of.find(place.base); zone != input.zone_of.end()) {
-    place.zone = zone->second;
-  }
-  return place;
-}
-
-std::vector<Place> find_places(ShadingInput const& input, std::vector<std::string> const& names) {
-  std::set<std::string_view> const all(names.begin(), names.end());
-  std::vector<Place> places;
-  places.reserve(names.size());
-  for (auto const& name : names) places.push_back(find_place(input, all, name));
-  return places;
-}
-
-// For each zone of a group, the zones whose surfaces do not shade it. A zone in several groups
-// counts for the last, as in EnergyPlus.
-std::unordered_map<std::string, std::set<std::string>> find_disabled(ShadingInput const& input) {
-  std::unordered_map<std::string, std::string> group_of;
-  for (auto const& group : input.shading_zone_groups) {
-    auto const zones = input.zone_lists.find(group);
-    if (zones == input.zone_lists.end()) continue;
-    for (auto const& zone : zones->second) group_of[zone] = group;
-  }
-  std::unordered_map<std::string, std::set<std::string>> disabled;
-  for (auto const& [zone, own] : group_of) {
-    for (auto const& group : input.shading_zone_groups) {
-      bool const off = group == own ? input.disable_within_groups : input.disable_between_groups;
-      auto const zones = input.zone_lists.find(group);
-      if (!off || zones == input.zone_lists.end()) continue;
-      disabled[zone].insert(zones->second.begin(), zones->second.end());
-    }
-  }
-  return disabled;
-}
-
-// Numbers names in the order in which they come.
+// Numbers names in order of appearance.
 class Numbering {
  public:
   std::uint32_t operator[](std::string const& name) {
@@ -84,59 +24,139 @@ class Numbering {
   std::unordered_map<std::string, std::uint32_t> numbers_;
 };
 
-}  // namespace
+// The shading zone groups that a zone is in; the last of them is its own, as in EnergyPlus.
+struct Groups {
+  std::set<std::string_view> in;
+  std::string_view own;
 
-bool is_reveal(std::string const& name) { return name.find(reveal_mark) != std::string::npos; }
+  bool operator<(Groups const& other) const {
+    return std::tie(in, own) < std::tie(other.in, other.own);
+  }
+};
 
-std::string without_openings(std::string const& wall) { return wall + std::string(no_openings); }
-
-ShadingRule make_shading_rule(ShadingInput const& input, std::vector<std::string> const& names) {
-  bool const all_disabled = input.disable_within_groups && input.disable_between_groups;
-  auto const places = std::make_shared<std::vector<Place> const>(find_places(input, names));
-  auto const disabled = find_disabled(input);
-  return [places, disabled, all_disabled, minimal = input.minimal_shadowing](SurfaceId receiver,
-                                                                             SurfaceId caster) {
-    Place const& r = (*places)[receiver];
-    Place const& c = (*places)[caster];
-    // What is in one wall: whatever the model's rules say, a set-back window lies behind its
-    // openings.
-    if (!c.window.empty()) return c.window == r.name;
-    if (c.base == r.base) return !c.closed;
-    if (c.open) return false;
-    if (minimal) return false;  // no shadows but of reveals
-    if (c.zone.empty()) return true;
-    if (all_disabled) return false;
-    auto const zones = disabled.find(r.zone);
-    return zones == disabled.end() || !zones->second.contains(c.zone);
-  };
+Groups groups_of(ShadingInput const& input, std::string const& zone) {
+  Groups groups;
+  for (auto const& group : input.shading_zone_groups) {
+    auto const zones = input.zone_lists.find(group);
+    if (zones == input.zone_lists.end() || !zones->second.contains(zone)) continue;
+    groups.in.insert(group);
+    groups.own = group;
+  }
+  return groups;
 }
 
-std::vector<std::uint32_t> describe_shading_rule(ShadingInput const& input,
-                                                 std::vector<std::string> const& names) {
-  auto const flag = [](bool value) { return static_cast<std::uint32_t>(value ? 1 : 0); };
-  auto const disabled = find_disabled(input);
-  Numbering surfaces;
-  Numbering zones;
-  surfaces[""];
-  zones[""];
-  std::vector<std::uint32_t> numbers{flag(input.minimal_shadowing),
-                                     flag(input.disable_within_groups),
-                                     flag(input.disable_between_groups)};
-  auto const places = find_places(input, names);
-  std::vector<std::string> in_order{""};  // zones, by number
-  for (auto const& place : places) {
-    numbers.insert(numbers.end(),
-                   {surfaces[place.name], surfaces[place.window], surfaces[place.base],
-                    zones[place.zone], flag(place.closed), flag(place.open)});
-    if (zones[place.zone] == in_order.size()) in_order.push_back(place.zone);
+// Numbers the model's zones: the same for those in the same groups, so that the rule's matrix is
+// small however many there are. 0 stands for no zone.
+class ZoneNumbering {
+ public:
+  explicit ZoneNumbering(ShadingInput const& input) : input_(input) {}
+
+  std::uint32_t number_of_wall(std::string const& wall) {
+    auto const zone = input_.zone_of.find(wall);
+    if (zone == input_.zone_of.end() || zone->second.empty()) return 0;
+    auto const [known, added] = numbers_.try_emplace(zone->second, 0);
+    if (!added) return known->second;
+    auto const groups = groups_of(input_, zone->second);
+    auto const [number, first] =
+        by_groups_.try_emplace(groups, static_cast<std::uint32_t>(groups_.size()));
+    if (first) {
+      groups_.push_back(groups);
+      zones_.emplace_back();
+    }
+    zones_[number->second].push_back(zone->second);
+    return known->second = number->second;
   }
-  for (auto const& receiver : in_order) {
-    auto const found = disabled.find(receiver);
-    for (auto const& caster : in_order) {
-      numbers.push_back(flag(found != disabled.end() && found->second.contains(caster)));
+
+  std::size_t size() const { return groups_.size(); }
+  std::vector<std::vector<std::string>> const& zones() const { return zones_; }
+
+  bool shades(std::size_t receiver, std::size_t caster) const {
+    if (input_.minimal_shadowing) return false;  // only reveals cast shadows
+    if (caster == 0) return true;
+    if (input_.disable_within_groups && input_.disable_between_groups) return false;
+    auto const& own = groups_[receiver].own;
+    if (own.empty()) return true;
+    auto const& in = groups_[caster].in;
+    return std::none_of(in.begin(), in.end(), [&](std::string_view group) {
+      return group == own ? input_.disable_within_groups : input_.disable_between_groups;
+    });
+  }
+
+ private:
+  ShadingInput const& input_;
+  std::unordered_map<std::string, std::uint32_t> numbers_;  // by zone
+  std::map<Groups, std::uint32_t> by_groups_;
+  std::vector<Groups> groups_{Groups()};
+  std::vector<std::vector<std::string>> zones_{{}};
+};
+
+std::string describe_zones(std::vector<std::string> const& zones) {
+  if (zones.empty()) return "shading surfaces";
+  constexpr std::size_t most = 10;
+  if (zones.size() <= most) return fmt::format("{}", fmt::join(zones, ", "));
+  return fmt::format("{} and {} more zones", fmt::join(zones.begin(), zones.begin() + most, ", "),
+                     zones.size() - most);
+}
+
+}  // namespace
+
+std::optional<std::string> window_of_reveal(std::string const& surface) {
+  // EnergyPlus's names are upper case otherwise.
+  constexpr std::string_view mark = " reveal ";
+  auto const at = surface.rfind(mark);
+  if (at == std::string::npos) return std::nullopt;
+  return surface.substr(0, at);
+}
+
+ModelRule make_shading_rule(ShadingInput const& input, Scene const& scene,
+                            std::vector<WallCopy> const& copies) {
+  std::unordered_map<std::string_view, SurfaceId> ids;
+  for (SurfaceId id = 0; id < scene.size(); ++id) ids.try_emplace(scene[id].name, id);
+  ModelRule made;
+  Numbering walls;
+  ZoneNumbering zones(input);
+  made.rule.roles.resize(scene.size());
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    auto const& name = scene[id].name;
+    auto& role = made.rule.roles[id];
+    auto const window = window_of_reveal(name);
+    auto const wall = input.base_surface(window.value_or(name));
+    role.wall = walls[wall];
+    role.zone = zones.number_of_wall(wall);
+    if (!window) continue;
+    // Within one wall, a set-back window is behind its openings, whatever the model's rules say.
+    role.shades = ShadingRule::Shades::one_surface;
+    auto const found = ids.find(*window);
+    role.target = found == ids.end() ? id : found->second;
+  }
+  for (auto const& [wall, copy] : copies) {
+    made.rule.roles[wall].shades = ShadingRule::Shades::own_wall;
+    made.rule.roles[copy].shades = ShadingRule::Shades::other_walls;
+  }
+  made.zones = zones.zones();
+  made.rule.zones = zones.size();
+  for (std::size_t receiver = 0; receiver < zones.size(); ++receiver) {
+    for (std::size_t caster = 0; caster < zones.size(); ++caster) {
+      made.rule.zone_shades.push_back(zones.shades(receiver, caster) ? 1 : 0);
     }
   }
-  return numbers;
+  return made;
+}
+
+std::string describe(ModelRule const& made) {
+  std::string text;
+  auto const& rule = made.rule;
+  for (std::size_t receiver = 0; receiver < rule.zones; ++receiver) {
+    std::vector<std::string> others;
+    for (std::size_t caster = 0; caster < rule.zones; ++caster) {
+      if (rule.zone_shades[receiver * rule.zones + caster] != 0) continue;
+      others.push_back(describe_zones(made.zones[caster]));
+    }
+    if (others.empty()) continue;
+    text += fmt::format("no shadows on {} from {}\n", describe_zones(made.zones[receiver]),
+                        fmt::join(others, "; "));
+  }
+  return text;
 }
 
 }  // namespace gpu_shading::energyplus

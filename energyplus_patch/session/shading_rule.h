@@ -1,7 +1,6 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,23 +9,31 @@
 
 namespace gpu_shading::energyplus {
 
-// Whether a surface's name says that EnergyPlus has made it of a window's edge.
-bool is_reveal(std::string const& name);
+// The window that a reveal belongs to, or nothing. EnergyPlus hands over the sides of a set-back
+// window's opening as surfaces that it names "WINDOW reveal 1", "WINDOW reveal 2", ...
+std::optional<std::string> window_of_reveal(std::string const& surface);
 
-// A wall shades the windows in it through its own openings, and everything else as if it had none,
-// as in EnergyPlus's PolygonClipping: set-back windows and their reveals then cast on nothing
-// outside. Such a wall has a second surface in the scene, without openings, by this name.
-std::string without_openings(std::string const& wall);
+// A wall that shades the windows in it through its openings, and its copy without openings, which
+// shades everything else, as in EnergyPlus's PolygonClipping: set-back windows and their reveals
+// then cast no shadows outside.
+struct WallCopy {
+  SurfaceId wall = 0;
+  SurfaceId copy = 0;
+};
 
-// Which casters EnergyPlus's PolygonClipping leaves out: walls with openings, their copies without,
-// and reveals, where the other is meant; and, as the model asks, Disable Self-Shading Within and
-// From Shading Zone Groups, and MinimalShadowing. `names`: of every surface, by id; a reveal is
-// named "WINDOW reveal N".
-ShadingRule make_shading_rule(ShadingInput const& input, std::vector<std::string> const& names);
+// The casters that EnergyPlus's PolygonClipping leaves out: walls with openings and their copies
+// where the other is meant; reveals for all but their window; and, as the model asks, Disable
+// Self-Shading Within and From Shading Zone Groups, and MinimalShadowing.
+struct ModelRule {
+  ShadingRule rule;
+  // What each of the rule's zones stands for: zones of the model that shade and are shaded alike.
+  // None for the first, which is that of shading surfaces.
+  std::vector<std::vector<std::string>> zones;
+};
+ModelRule make_shading_rule(ShadingInput const& input, Scene const& scene,
+                            std::vector<WallCopy> const& copies);
 
-// All that the rule depends on, in numbers that stand for names: where they are equal, so are the
-// rules, whatever the surfaces are called.
-std::vector<std::uint32_t> describe_shading_rule(ShadingInput const& input,
-                                                 std::vector<std::string> const& names);
+// Lines that say which zones do not shade which; "" where all zones shade each other.
+std::string describe(ModelRule const& rule);
 
 }  // namespace gpu_shading::energyplus

@@ -5,27 +5,29 @@
 #include <fstream>
 #include <glm/trigonometric.hpp>
 #include <sstream>
+#include <unordered_map>
 
-#include "files/whole_file.h"
+#include "base/naming.h"
 #include "gpu_shading/error.h"
-#include "input/naming.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
-View read_view(std::string const& line, std::string const& place) {
+SunView read_view(std::string const& line, std::string const& place) {
   std::istringstream words(line);
   double azimuth = 0.0;
   double altitude = 0.0;
-  View view;
+  SunView view;
   if (!(words >> view.picture >> azimuth >> altitude)) {
-    throw Error(fmt::format(
-        "{}: {}: expected a picture's name, azimuth, altitude and, of one, its receiver", place,
-        line));
+    throw Error(
+        fmt::format("{}: {}: expected the name of a picture, azimuth, altitude and, for a single "
+                    "receiver, its name",
+                    place, line));
   }
   std::getline(words >> std::ws, view.receiver);
   if (view.picture.find('/') != std::string::npos) {
-    throw Error(fmt::format("{}: {}: expected a file's name without folders", place, view.picture));
+    throw Error(
+        fmt::format("{}: {}: expected the name of a file without folders", place, view.picture));
   }
   view.sun = naming(place, [&] { return direction_of_degrees(azimuth, altitude); });
   return view;
@@ -41,32 +43,30 @@ SunDirection direction_of_degrees(double azimuth_degrees, double altitude_degree
         fmt::format("sun altitude {}: expected degrees above 0, up to 90", altitude_degrees));
   }
   if (!(azimuth_degrees >= -circle) || azimuth_degrees > circle) {
-    throw Error(fmt::format("sun azimuth {}: expected degrees of -360 to 360", azimuth_degrees));
+    throw Error(fmt::format("sun azimuth {}: expected degrees from -360 to 360", azimuth_degrees));
   }
   return {glm::radians(azimuth_degrees), glm::radians(altitude_degrees)};
 }
 
-std::vector<View> read_views(std::filesystem::path const& list) {
+std::vector<SunView> read_views(std::filesystem::path const& list) {
   std::ifstream file(list);
   if (!file) throw Error(fmt::format("{}: cannot be read", list.string()));
-  std::vector<View> views;
+  std::vector<SunView> views;
+  std::unordered_map<std::string, int> lines;  // by picture
   int number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     if (line.back() == '\r') line.pop_back();
-    views.push_back(read_view(line, fmt::format("{}, line {}", list.string(), number)));
+    auto const place = fmt::format("{}, line {}", list.string(), number);
+    views.push_back(read_view(line, place));
+    auto const& picture = views.back().picture;
+    if (auto const [found, is_new] = lines.try_emplace(picture, number); !is_new) {
+      throw Error(fmt::format("{}: {}: expected a name of its own; line {} has the same", place,
+                              picture, found->second));
+    }
   }
   return views;
-}
-
-void write_views(std::filesystem::path const& list, std::vector<View> const& views) {
-  write_whole_file(list, [&](std::ostream& file) {
-    for (auto const& view : views) {
-      file << fmt::format("{} {:.9g} {:.9g} {}\n", view.picture, glm::degrees(view.sun.azimuth),
-                          glm::degrees(view.sun.altitude), view.receiver);
-    }
-  });
 }
 
 }  // namespace gpu_shading::energyplus

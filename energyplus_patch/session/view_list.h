@@ -9,19 +9,21 @@
 namespace gpu_shading::energyplus {
 
 // A picture to draw: a receiver as the sun sees it, or the whole scene.
-struct View {
-  std::string picture;   // a file's name, without folders and blanks
+struct SunView {
+  std::string picture;   // name of a file, without folders and blanks
   SunDirection sun;      // above the horizon
   std::string receiver;  // its name, in any case; empty: the whole scene
+
+  bool operator==(SunView const&) const = default;
 };
 
-// One picture a line, in text: its file's name, the sun's azimuth (clockwise from north) and
-// altitude in degrees, then the receiver's name unless all is shown; parted by blanks, of which a
-// receiver's name may hold some.
-std::vector<View> read_views(std::filesystem::path const& list);
-void write_views(std::filesystem::path const& list, std::vector<View> const& views);
+// A text with one picture per line: its file name, the sun's azimuth (clockwise from north) and
+// altitude in degrees, and the receiver's name unless the whole scene is drawn; separated by
+// blanks, which a receiver's name may contain. No two pictures have the same name. Throws Error
+// with the line.
+std::vector<SunView> read_views(std::filesystem::path const& list);
 
-// From degrees. Throws Error where the sun is not above the horizon, at most in the zenith.
+// From degrees. Throws Error if the sun is not above the horizon, or above the zenith.
 SunDirection direction_of_degrees(double azimuth_degrees, double altitude_degrees);
 
 }  // namespace gpu_shading::energyplus

@@ -6,17 +6,17 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "files/text_file.h"
+#include "base/files.h"
+#include "base/naming.h"
+#include "base/text.h"
 #include "gpu_shading/error.h"
-#include "input/naming.h"
-#include "input/number.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 using Json = nlohmann::json;
 
-// The member, or null.
+// The member, or nullptr.
 Json const& member(Json const& object, std::string const& name) {
   static Json const none;
   if (!object.is_object()) return none;
@@ -45,7 +45,7 @@ std::string name_of(Json const& feature) {
   return {};
 }
 
-// A property's number, as a number or as text: "12", "12.5 m".
+// The value of a property, as a number or as text: "12", "12.5 m".
 std::optional<double> measure(Json const& properties, std::string const& name,
                               std::string_view expected) {
   auto const& value = member(properties, name);
@@ -190,7 +190,7 @@ void read_root(Json const& root, HeightRule const& heights,
   } else {
     reader.add(root);
   }
-  if (file.buildings.empty()) throw Error("holds no Polygon and no MultiPolygon");
+  if (file.buildings.empty()) throw Error("has no Polygon or MultiPolygon");
 }
 
 }  // namespace

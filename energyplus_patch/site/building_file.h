@@ -10,34 +10,34 @@
 
 namespace gpu_shading::energyplus {
 
-// How tall a building is: its height in metres; else its levels times a storey's height; else the
-// default.
+// How the height of a building is determined: its height in metres, or its levels times the storey
+// height, or the default.
 struct HeightRule {
-  std::string height = "height";  // names of properties
-  std::string levels = "building:levels";
-  double storey = 3.0;  // m
-  std::optional<double> otherwise = std::nullopt;
+  std::string height;  // names of properties
+  std::string levels;
+  double storey;                    // m
+  std::optional<double> otherwise;  // m
 };
 
-// A feature of a file of buildings: one or more areas of one height.
+// A feature in a file of buildings: one or more areas of equal height.
 struct Building {
-  // Its id, else its property @id, id, osm_id or name; else the feature's number, from 1.
+  // Its id, or its property @id, id, osm_id or name, or its number, from 1.
   std::string name;
   std::string label;  // for messages: "feature 3 (way/17)"
-  // Base and top above the ground there, m.
+  // Base and top above the ground, m.
   std::vector<Footprint> parts;
 };
 
 struct BuildingFile {
   MapCoordinates coordinates;
   std::vector<Building> buildings;
-  std::size_t others = 0;  // features that are no areas
+  std::size_t others = 0;  // features that are not areas
 };
 
-// Reads GeoJSON (RFC 7946): Polygon and MultiPolygon features of a FeatureCollection, or one
-// feature or geometry. `coordinates`: none takes those that the file names (the older "crs"
-// member), else WGS84. The property min_height lifts a building's base off the ground. Throws
-// Error: "FILE: feature 3 (way/17): ...".
+// Reads GeoJSON (RFC 7946): Polygon and MultiPolygon features of a FeatureCollection, or a single
+// feature or geometry. `coordinates`: if empty, those that the file names (the older "crs" member),
+// or WGS84. The property min_height raises a building's base above the ground. Throws Error: "FILE:
+// feature 3 (way/17): ...".
 BuildingFile read_buildings(std::filesystem::path const& path, HeightRule const& heights,
                             std::optional<MapCoordinates> const& coordinates);
 

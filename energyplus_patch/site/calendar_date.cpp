@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "base/text.h"
 #include "gpu_shading/error.h"
-#include "input/input_object.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -40,7 +40,7 @@ std::optional<unsigned> number_of(std::string const& word) {
   return static_cast<unsigned>(std::strtoul(word.c_str(), nullptr, 10));
 }
 
-// By the first three letters, counted from 0.
+// Index of a month or weekday by its first three letters, from 0.
 template <std::size_t count>
 std::optional<unsigned> find(std::array<char const*, count> const& names, std::string_view word) {
   for (unsigned i = 0; i < count; ++i) {
@@ -56,7 +56,7 @@ std::optional<chrono::month> month_of(std::string const& word) {
   return found ? std::optional(chrono::month(*found + 1)) : std::nullopt;
 }
 
-// "[2] [nd] Sunday in March", or "Last" in the number's place.
+// "[2] [nd] Sunday in March", or "Last" instead of the number.
 std::optional<chrono::year_month_day> weekday_in(std::vector<std::string> const& words,
                                                  chrono::year year) {
   if (words.size() < 4 || !same_name(words[words.size() - 2], "in")) return {};
@@ -97,10 +97,9 @@ std::optional<chrono::weekday> weekday_of(std::string_view word) {
 std::chrono::year_month_day date_in(std::string_view text, std::chrono::year year) {
   auto const date = read(words_of(text), year);
   if (!date || !date->ok()) {
-    throw Error(
-        fmt::format("\"{}\" is no day of {}, expected one as in 4/30, 30 April or Last "
-                    "Sunday in October",
-                    text, static_cast<int>(year)));
+    throw Error(fmt::format(
+        "\"{}\" is not a day of {}, expected one as in 4/30, 30 April or Last Sunday in October",
+        text, static_cast<int>(year)));
   }
   return *date;
 }

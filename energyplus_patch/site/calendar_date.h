@@ -6,8 +6,8 @@
 
 namespace gpu_shading::energyplus {
 
-// The day that EnergyPlus's objects and weather files name so, in a year: "4/30" (the month first),
-// "30 April", "Apr 30", "2nd Sunday in March", "Last Sunday in October". Throws Error.
+// The day of a year from the notations of EnergyPlus's objects and weather files: "4/30" (month
+// first), "30 April", "Apr 30", "2nd Sunday in March", "Last Sunday in October". Throws Error.
 std::chrono::year_month_day date_in(std::string_view text, std::chrono::year year);
 
 // "Sunday" or its first three letters, in any case.

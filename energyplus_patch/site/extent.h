@@ -7,12 +7,12 @@
 
 namespace gpu_shading::energyplus {
 
-// How far casters reach along the world axes.
+// The extent of casters along the world axes.
 class Extent {
  public:
   void include(Ring const& ring);
 
-  // In plan, from the world axes' origin to the box about them; 0 where there is none.
+  // Distance in plan from the origin of the world axes to the bounding box; 0 if there are none.
   double distance() const;
 
   // "x -12.0 to 30.5, y 0.0 to 8.0, z 0.0 to 12.0 m".

@@ -9,22 +9,21 @@
 #include <limits>
 #include <string_view>
 
+#include "assets/elevation_file.h"
 #include "gpu_shading/error.h"
-#include "images/elevation_file.h"
 #include "site/terrain_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 MapCoordinates coordinates_of(gpu_shading_elevation_info const& info) {
-  if (info.epsg == 0)
-    throw Error("does not say what its coordinates are: give Terrain Coordinates");
+  if (info.epsg == 0) throw Error("does not state its coordinates: give Terrain Coordinates");
   try {
     return MapCoordinates::parse(fmt::format("EPSG:{}", info.epsg));
   } catch (Error const&) {
     throw Error(
-        fmt::format("is in EPSG:{}, expected WGS84 or UTM (gdalwarp -t_srs EPSG:4326 makes it "
-                    "so), or Terrain Coordinates that are near enough",
+        fmt::format("is in EPSG:{}, expected WGS84 or UTM (convert it with gdalwarp -t_srs "
+                    "EPSG:4326), or Terrain Coordinates that are close enough",
                     info.epsg));
   }
 }
@@ -36,7 +35,7 @@ bool is_tiff(std::filesystem::path const& path) {
   std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
   std::string_view const start(bytes.data(), bytes.size());
   using std::string_view_literals::operator""sv;
-  // Of either byte order; + is BigTIFF's.
+  // In either byte order; + is for BigTIFF.
   return start == "II*\0"sv || start == "MM\0*"sv || start == "II+\0"sv || start == "MM\0+"sv;
 }
 

@@ -7,12 +7,12 @@
 
 namespace gpu_shading::energyplus {
 
-// By its first bytes.
+// Recognised by its first bytes.
 bool is_tiff(std::filesystem::path const& path);
 
-// Reads a GeoTIFF of one channel of elevations in metres, up to max_terrain_nodes of them, whose
-// rows run east or west. `coordinates`: nothing: as the file says, which has to be WGS84 or UTM.
-// Throws Error: why, in one line.
+// Reads a GeoTIFF with one channel of elevations in metres, up to max_terrain_nodes of them, whose
+// rows run east or west. `coordinates`: if empty, those that the file states, which must be WGS84
+// or UTM. Throws Error with the reason in one line.
 TerrainGrid read_geotiff(std::filesystem::path const& path,
                          std::optional<MapCoordinates> const& coordinates);
 

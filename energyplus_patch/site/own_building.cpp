@@ -11,24 +11,24 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-struct Place {
+struct InnerPoint {
   std::string const* surface;
   glm::dvec3 point;
 };
 
-// A point behind each base surface, so that a neighbour wall to wall does not hold it.
-std::vector<Place> places_inside(Scene const& scene, ShadingInput const& input) {
+// A point behind each base surface, so that a neighbour wall to wall does not contain it.
+std::vector<InnerPoint> inner_points(Scene const& scene, ShadingInput const& input) {
   constexpr double behind = 0.1;  // m
-  std::vector<Place> places;
+  std::vector<InnerPoint> points;
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     auto const& polygon = scene[id].polygon;
     if (!input.zone_of.contains(scene[id].name) || area(polygon) <= 0.0) continue;
     auto const& outline = polygon.outline;
     auto const middle = std::accumulate(outline.begin(), outline.end(), glm::dvec3(0.0)) /
                         static_cast<double>(outline.size());
-    places.push_back({&scene[id].name, middle - behind * normal(polygon)});
+    points.push_back({&scene[id].name, middle - behind * normal(polygon)});
   }
-  return places;
+  return points;
 }
 
 bool is_near(Polygon const& roof, glm::dvec3 const& point) {
@@ -50,18 +50,18 @@ bool holds(ContextBuilding const& building, glm::dvec3 const& point) {
 std::vector<std::string> warn_of_own_buildings(std::vector<ContextBuilding> const& buildings,
                                                Scene const& scene, ShadingInput const& input,
                                                std::size_t most) {
-  auto const places = places_inside(scene, input);
+  auto const points = inner_points(scene, input);
   std::set<std::string> known;
   std::vector<std::string> lines;
   for (auto const& building : buildings) {
     if (lines.size() == most) break;
-    auto const inside = std::find_if(places.begin(), places.end(), [&](Place const& place) {
-      return holds(building, place.point);
+    auto const inside = std::find_if(points.begin(), points.end(), [&](InnerPoint const& inner) {
+      return holds(building, inner.point);
     });
-    if (inside == places.end() || !known.insert(building.name).second) continue;
+    if (inside == points.end() || !known.insert(building.name).second) continue;
     lines.push_back(
-        fmt::format("{} stands where the model's {} is: where it is the modelled building itself, "
-                    "take it out by a Left Out Name",
+        fmt::format("{} encloses the model's {}: if it is the modelled building itself, leave it "
+                    "out with a Left Out Name",
                     building.name, *inside->surface));
   }
   return lines;

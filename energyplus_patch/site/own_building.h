@@ -9,9 +9,9 @@
 
 namespace gpu_shading::energyplus {
 
-// Maps have the building that is modelled too, which then stands in its own sun. One line for each
-// neighbouring building inside which a wall, roof or floor of the model lies, but for `most` of
-// them no more.
+// Map data usually contains the modelled building, which would then shade itself. Returns one line
+// for each neighbouring building that contains a wall, roof or floor of the model, but at most
+// `most` lines.
 std::vector<std::string> warn_of_own_buildings(std::vector<ContextBuilding> const& buildings,
                                                Scene const& scene, ShadingInput const& input,
                                                std::size_t most = 3);

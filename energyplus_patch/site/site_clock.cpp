@@ -1,17 +1,20 @@
 #include "site/site_clock.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
+#include "base/naming.h"
+#include "base/text.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/sun_position.h"
-#include "input/fields.h"
-#include "input/naming.h"
-#include "input/text.h"
+#include "idf/fields.h"
 #include "site/calendar_date.h"
+#include "site/location_fields.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -26,17 +29,15 @@ InputObject const* find(std::vector<InputObject> const& objects, std::string_vie
 
 chrono::year year_of(InputObject const& period) {
   constexpr chrono::year usual{2017};
-  if (auto const year = number(period, {"begin_year", "Begin Year"})) {
-    return chrono::year(static_cast<int>(*year));
-  }
-  auto const month = number(period, {"begin_month", "Begin Month"}).value_or(1.0);
-  auto const day = number(period, {"begin_day_of_month", "Begin Day of Month"}).value_or(1.0);
+  if (auto const year = read(period, run_period::begin_year)) return chrono::year(*year);
+  auto const month = read(period, run_period::begin_month);
+  auto const day = read(period, run_period::begin_day);
   auto const weekday = weekday_of(period["day_of_week_for_start_day"]);
   if (!weekday) return usual;
-  // After so many years weekdays come again.
+  // The number of years after which weekdays repeat.
   constexpr chrono::years cycle{28};
   for (chrono::year year = usual; year > usual - cycle; --year) {
-    auto const start = date_in(fmt::format("{:.0f}/{:.0f}", month, day), year);
+    auto const start = date_in(fmt::format("{}/{}", month, day), year);
     if (!year.is_leap() && chrono::weekday(chrono::sys_days(start)) == *weekday) return year;
   }
   return usual;
@@ -64,24 +65,23 @@ std::optional<Days> saving_in(std::filesystem::path const& weather) {
 
 SiteClock::SiteClock(std::vector<InputObject> const& objects,
                      std::optional<std::filesystem::path> const& weather) {
-  auto const* const location = find(objects, "Site:Location");
+  auto const* const location = find(objects, site_location::type);
   if (location == nullptr) {
-    throw Error("Site:Location is missing, expected it for the sun's position at a time");
+    throw Error("Site:Location is missing; it is required for the sun's position");
   }
-  naming(location->title(), [&] {
-    auto const degrees = [&](Field const& field) { return number(*location, field).value_or(0.0); };
+  naming(location->where(), [&] {
     constexpr double degrees_an_hour = 15.0;
-    latitude_ = glm::radians(degrees({"latitude", "Latitude"}));
-    hours_ahead_ =
-        degrees({"longitude", "Longitude"}) / degrees_an_hour - degrees({"time_zone", "Time Zone"});
+    latitude_ = glm::radians(read(*location, site_location::latitude));
+    hours_ahead_ = read(*location, site_location::longitude) / degrees_an_hour -
+                   read(*location, site_location::time_zone);
   });
-  auto const* const period = find(objects, "RunPeriod");
+  auto const* const period = find(objects, run_period::type);
   if (period != nullptr) {
-    year_ = naming(period->title(), [&] { return year_of(*period); });
+    year_ = naming(period->where(), [&] { return year_of(*period); });
   }
   if (auto const* const own = find(objects, "RunPeriodControl:DaylightSavingTime")) {
     saving_ = {(*own)["start_date"], (*own)["end_date"]};
-    naming(own->title(), [&] { saves_daylight({}); });
+    naming(own->where(), [&] { saves_daylight({}); });
   } else if (weather && (period == nullptr ||
                          !same_name((*period)["use_weather_file_daylight_saving_period"], "No"))) {
     saving_ = saving_in(*weather);
@@ -94,7 +94,7 @@ bool SiteClock::saves_daylight(ClockTime time) const {
   auto const year = chrono::year_month_day(day).year();
   chrono::local_days const first(date_in(saving_->first, year));
   chrono::local_days const last(date_in(saving_->second, year));
-  // South of the equator it lasts over the new year.
+  // South of the equator, it includes the turn of the year.
   return first <= last ? first <= day && day <= last : day >= first || day <= last;
 }
 

@@ -8,34 +8,35 @@
 #include <vector>
 
 #include "gpu_shading/sun_direction.h"
-#include "input/input_object.h"
+#include "idf/input_object.h"
 
 namespace gpu_shading::energyplus {
 
-// What the clocks at a model's site show, to the minute.
+// Clock time at a model's site, to the minute.
 using ClockTime = std::chrono::local_time<std::chrono::minutes>;
 
-// A model's site and clock, by which EnergyPlus has the sun.
+// A model's site and clock, from which EnergyPlus computes the sun's position.
 class SiteClock {
  public:
-  // The place and the zone are Site:Location's. Daylight saving is RunPeriodControl:
-  // DaylightSavingTime's, else the weather file's, where there is one and the first RunPeriod does
-  // not say No to it. The year is that RunPeriod's: its own, else the last one up to 2017 in which
-  // it begins on its Day of Week for Start Day, else 2017. Throws Error.
+  // The location and the time zone are those of Site:Location. Daylight saving time is that of
+  // RunPeriodControl:DaylightSavingTime, or that of the weather file, if there is one, unless the
+  // first RunPeriod excludes it. The year is that RunPeriod's: its own, or the last one up to 2017
+  // in which it begins on its Day of Week for Start Day, or 2017. Throws Error.
   SiteClock(std::vector<InputObject> const& objects,
             std::optional<std::filesystem::path> const& weather);
 
   std::chrono::year year() const { return year_; }
 
-  // The clock is an hour ahead then; all day, on the first and the last one too.
+  // Whether the clock is an hour ahead, which it is for whole days, including the first and the
+  // last one.
   bool saves_daylight(ClockTime time) const;
 
-  // As EnergyPlus has it at the end of a timestep, in any year; below the horizon at night.
+  // EnergyPlus's sun position at the end of a timestep, in any year; below the horizon at night.
   SunDirection sun(ClockTime time) const;
 
  private:
   double latitude_ = 0.0;     // radians
-  double hours_ahead_ = 0.0;  // mean solar time less standard time
+  double hours_ahead_ = 0.0;  // mean solar time minus standard time
   std::chrono::year year_{2017};
   std::optional<std::pair<std::string, std::string>> saving_;  // the first and last day
 };

@@ -1,16 +1,20 @@
 #include "site/site_context.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 #include <utility>
 
+#include "base/naming.h"
+#include "base/text.h"
+#include "extensions/extension_fields.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/footprint.h"
 #include "gpu_shading/terrain.h"
-#include "input/fields.h"
-#include "input/naming.h"
+#include "idf/fields.h"
 #include "site/building_file.h"
 #include "site/extent.h"
 #include "site/left_out.h"
@@ -19,48 +23,32 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-constexpr std::string_view type = "GPUShading:SiteContext";
+namespace field = extension::site_context;
 
-constexpr Field buildings_file_name{"buildings_file_name", "Buildings File Name"};
-constexpr Field buildings_coordinates{"buildings_coordinates", "Buildings Coordinates"};
-constexpr Field height_property{"height_property", "Height Property"};
-constexpr Field levels_property{"levels_property", "Levels Property"};
-constexpr Field storey_height{"storey_height", "Storey Height"};
-constexpr Field default_height{"default_height", "Default Height"};
-constexpr Field terrain_file_name{"terrain_file_name", "Terrain File Name"};
-constexpr Field terrain_coordinates{"terrain_coordinates", "Terrain Coordinates"};
-constexpr Field terrain_clear_distance{"terrain_clear_distance", "Terrain Clear Distance"};
-
-std::optional<double> positive(InputObject const& object, Field const& field) {
-  auto const value = number(object, field);
-  if (value && *value <= 0.0) {
-    throw Error(fmt::format("{} is {} m, expected more than 0", field.title, *value));
-  }
-  return value;
-}
-
-std::optional<MapCoordinates> read_coordinates(InputObject const& object, Field const& field) {
-  if (object[field.name].empty()) return std::nullopt;
+std::optional<MapCoordinates> read_map_coordinates(InputObject const& object,
+                                                   Field<std::string> const& coordinates) {
+  auto const text = read(object, coordinates);
+  if (text.empty()) return std::nullopt;
   try {
-    return MapCoordinates::parse(object[field.name]);
+    return MapCoordinates::parse(text);
   } catch (Error const& error) {
-    throw Error(fmt::format("{} is {}", field.title, error.what()));
+    throw Error(fmt::format("{} is {}", coordinates.title, error.what()));
   }
 }
 
 HeightRule read_heights(InputObject const& object) {
   HeightRule rule;
-  if (auto const& name = object[height_property.name]; !name.empty()) rule.height = name;
-  if (auto const& name = object[levels_property.name]; !name.empty()) rule.levels = name;
-  rule.storey = positive(object, storey_height).value_or(rule.storey);
-  rule.otherwise = positive(object, default_height);
+  rule.height = read(object, field::height_property);
+  rule.levels = read(object, field::levels_property);
+  rule.storey = read(object, field::storey_height);
+  rule.otherwise = read(object, field::default_height);
   return rule;
 }
 
-// One object, its files read.
+// One object with the contents of its files.
 struct Context {
   std::string name;
-  std::string file;  // of buildings, as the user wrote it
+  std::string file;  // file of buildings, as the user wrote it
   std::optional<BuildingFile> buildings;
   std::optional<TerrainGrid> terrain;
   double clear_distance = 0.0;
@@ -70,40 +58,40 @@ struct Context {
 Context read_context(InputObject const& object, std::filesystem::path const& folder) {
   Context context;
   context.name = object.name;
-  context.left_out = read_left_out(object);
-  auto const& buildings = object[buildings_file_name.name];
-  auto const& terrain = object[terrain_file_name.name];
+  context.left_out = read(object, field::left_out_name);
+  auto const buildings = read(object, field::buildings_file_name);
+  auto const terrain = read(object, field::terrain_file_name);
   if (buildings.empty() && terrain.empty()) {
     throw Error(fmt::format("{} and {} are blank, expected one of them or both",
-                            buildings_file_name.title, terrain_file_name.title));
+                            field::buildings_file_name.title, field::terrain_file_name.title));
   }
   if (buildings.empty()) {
-    expect_blank(
-        object,
-        {buildings_coordinates, height_property, levels_property, storey_height, default_height},
-        "without Buildings File Name");
+    expect_blank(object,
+                 {field::buildings_coordinates, field::height_property, field::levels_property,
+                  field::storey_height, field::default_height},
+                 "without Buildings File Name");
   } else {
-    auto const coordinates = read_coordinates(object, buildings_coordinates);
+    auto const coordinates = read_map_coordinates(object, field::buildings_coordinates);
     auto const heights = read_heights(object);
     context.file = buildings;
-    context.buildings = naming(buildings_file_name.title, [&] {
+    context.buildings = naming(field::buildings_file_name.title, [&] {
       return read_buildings(folder / buildings, heights, coordinates);
     });
   }
   if (terrain.empty()) {
-    expect_blank(object, {terrain_coordinates, terrain_clear_distance},
+    expect_blank(object, {field::terrain_coordinates, field::terrain_clear_distance},
                  "without Terrain File Name");
   } else {
-    auto const coordinates = read_coordinates(object, terrain_coordinates);
-    context.clear_distance = positive(object, terrain_clear_distance).value_or(0.0);
-    context.terrain = naming(terrain_file_name.title,
+    auto const coordinates = read_map_coordinates(object, field::terrain_coordinates);
+    context.clear_distance = read(object, field::terrain_clear_distance).value_or(0.0);
+    context.terrain = naming(field::terrain_file_name.title,
                              [&] { return read_terrain(folder / terrain, coordinates); });
   }
   return context;
 }
 
-// Of the ground below a building: the lowest of its corners, so that no side of it is in the air.
-// Corners where the terrain has no data do not count.
+// Elevation of the ground below a building: the lowest of its corners, so that no side is in the
+// air. Corners where the terrain has no data are ignored.
 double ground_below(Footprint const& part, TerrainGrid const& terrain) {
   double lowest = std::numeric_limits<double>::infinity();
   for (auto const& corner : part.outline) {
@@ -117,7 +105,7 @@ double ground_below(Footprint const& part, TerrainGrid const& terrain) {
   return lowest;
 }
 
-// Puts up one context's casters.
+// Creates the casters of one context.
 class Builder {
  public:
   Builder(Context const& context, SiteOrigin const& origin, Surroundings& surroundings)
@@ -125,20 +113,21 @@ class Builder {
 
   void build() {
     if (context_.terrain) {
-      naming(terrain_file_name.title, [&] { add_terrain(*context_.terrain); });
+      naming(field::terrain_file_name.title, [&] { add_terrain(*context_.terrain); });
     }
     if (context_.buildings) {
-      naming(buildings_file_name.title, [&] { add_buildings(*context_.buildings); });
+      naming(field::buildings_file_name.title, [&] { add_buildings(*context_.buildings); });
     }
     constexpr double near = 5e4;  // m
     if (extent_.distance() > near) {
       surroundings_.warnings.push_back(
           fmt::format("{} {}: all of it is farther than {:.0f} km from the model: is the origin "
                       "right, and the longitude first?",
-                      type, context_.name, near / 1000.0));
+                      field::type, context_.name, near / 1000.0));
     }
-    surroundings_.remarks.push_back(fmt::format("{} {}: {}; {}; origin {}", type, context_.name,
-                                                described_, extent_.describe(), describe_origin()));
+    surroundings_.remarks.push_back(fmt::format("{} {}: {}; {}; origin {}", field::type,
+                                                context_.name, described_, extent_.describe(),
+                                                describe_origin()));
   }
 
  private:
@@ -151,7 +140,7 @@ class Builder {
   }
 
   void add_name(std::string const& name) {
-    surroundings_.types.try_emplace(name, std::string(type));
+    surroundings_.types.try_emplace(name, std::string(field::type));
   }
 
   void describe(std::string const& part) { described_ += (described_.empty() ? "" : ", ") + part; }
@@ -181,7 +170,7 @@ class Builder {
     surroundings_.warnings.push_back(
         fmt::format("{} {}: at the origin the terrain is at {:.1f} m, the model's ground at {:.1f} "
                     "m: give Origin Elevation, or Terrain for it",
-                    type, context_.name, *there, origin_.place.elevation));
+                    field::type, context_.name, *there, origin_.place.elevation));
   }
 
   void add_buildings(BuildingFile const& file) {
@@ -247,7 +236,7 @@ void stand_on_terrain(std::vector<Context> const& contexts, SiteOrigin& origin) 
   throw Error(
       fmt::format("{}: Origin Elevation is Terrain, but no terrain has data at latitude {}, "
                   "longitude {}",
-                  type, origin.place.latitude, origin.place.longitude));
+                  field::type, origin.place.latitude, origin.place.longitude));
 }
 
 }  // namespace
@@ -257,19 +246,19 @@ void read_site_contexts(std::vector<InputObject> const& objects,
                         Surroundings& surroundings) {
   std::vector<Context> contexts;
   for (auto const& object : objects) {
-    if (object.type != type) continue;
-    naming(object.title(), [&] {
+    if (object.type != field::type) continue;
+    naming(object.where(), [&] {
       contexts.push_back(read_context(object, folder));
       constexpr double tallest_storey = 20.0;
       constexpr double tallest_building = 1000.0;
-      auto const odd = lengths_beyond(
-          object, {{storey_height, tallest_storey}, {default_height, tallest_building}});
+      auto const odd = lengths_beyond(object, {{field::storey_height, tallest_storey},
+                                               {field::default_height, tallest_building}});
       surroundings.warnings.insert(surroundings.warnings.end(), odd.begin(), odd.end());
     });
   }
   if (origin.at_terrain) stand_on_terrain(contexts, origin);
   for (auto const& context : contexts) {
-    naming(fmt::format("{} {}", type, context.name),
+    naming(fmt::format("{} {}", field::type, context.name),
            [&] { Builder(context, origin, surroundings).build(); });
   }
 }

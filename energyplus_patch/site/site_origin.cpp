@@ -1,17 +1,22 @@
 #include "site/site_origin.h"
 
+#include <fmt/format.h>
+
+#include <variant>
+
+#include "base/naming.h"
+#include "base/text.h"
+#include "extensions/extension_fields.h"
 #include "gpu_shading/error.h"
-#include "input/fields.h"
-#include "input/naming.h"
+#include "idf/fields.h"
+#include "site/location_fields.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
-constexpr Field origin_latitude{"origin_latitude", "Origin Latitude"};
-constexpr Field origin_longitude{"origin_longitude", "Origin Longitude"};
-constexpr Field origin_elevation{"origin_elevation", "Origin Elevation"};
+namespace field = extension::site_context;
 
-// What one object says of the origin.
+// The origin that one object gives.
 struct Statement {
   std::optional<double> latitude;
   std::optional<double> longitude;
@@ -24,25 +29,25 @@ struct Statement {
 
 Statement read_statement(InputObject const& object) {
   Statement statement;
-  statement.latitude = number(object, origin_latitude);
-  statement.longitude = number(object, origin_longitude);
-  if (statement.latitude.has_value() != statement.longitude.has_value()) {
-    throw Error(fmt::format("{} is blank, expected degrees as {} is given",
-                            statement.latitude ? origin_longitude.title : origin_latitude.title,
-                            statement.latitude ? origin_latitude.title : origin_longitude.title));
+  if (auto const place =
+          read_coordinates(object, field::origin_latitude, field::origin_longitude)) {
+    statement.latitude = place->latitude;
+    statement.longitude = place->longitude;
   }
-  statement.at_terrain = same_name(object[origin_elevation.name], "Terrain");
-  if (!statement.at_terrain) statement.elevation = number(object, origin_elevation);
+  if (auto const elevation = read(object, field::origin_elevation)) {
+    statement.at_terrain = std::holds_alternative<field::OriginElevation>(*elevation);
+    if (!statement.at_terrain) statement.elevation = std::get<double>(*elevation);
+  }
   return statement;
 }
 
 Statement read_location(std::vector<InputObject> const& objects) {
   for (auto const& object : objects) {
-    if (object.type != "Site:Location") continue;
-    return naming(object.title(), [&] {
-      return Statement{number(object, {"latitude", "Latitude"}).value_or(0.0),
-                       number(object, {"longitude", "Longitude"}).value_or(0.0),
-                       number(object, {"elevation", "Elevation"}).value_or(0.0)};
+    if (object.type != site_location::type) continue;
+    return naming(object.where(), [&] {
+      return Statement{read(object, site_location::latitude),
+                       read(object, site_location::longitude),
+                       read(object, site_location::elevation)};
     });
   }
   return {};
@@ -52,15 +57,15 @@ Statement read_location(std::vector<InputObject> const& objects) {
 
 SiteOrigin find_site_origin(std::vector<InputObject> const& objects) {
   Statement stated;
-  std::string first;  // which object said so
+  std::string first;  // the object that gives it
   for (auto const& object : objects) {
-    if (object.type != "GPUShading:SiteContext") continue;
-    naming(object.title(), [&] {
+    if (object.type != field::type) continue;
+    naming(object.where(), [&] {
       auto const statement = read_statement(object);
       if (statement.empty()) return;
       if (!first.empty() && statement != stated) {
         throw Error(
-            fmt::format("its origin is not that of {}: a model has one place on earth", first));
+            fmt::format("its origin differs from that of {}: a model has only one origin", first));
       }
       stated = statement;
       if (first.empty()) first = object.title();
@@ -75,7 +80,8 @@ SiteOrigin find_site_origin(std::vector<InputObject> const& objects) {
   if (!latitude || (!elevation && !stated.at_terrain)) {
     throw Error(fmt::format(
         "Site:Location is missing, expected it or a GPUShading:SiteContext with {}, {} and {}",
-        origin_latitude.title, origin_longitude.title, origin_elevation.title));
+        field::origin_latitude.title, field::origin_longitude.title,
+        field::origin_elevation.title));
   }
   origin.place = {*latitude, *longitude, elevation.value_or(0.0)};
   origin.at_terrain = stated.at_terrain;

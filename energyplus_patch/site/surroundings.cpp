@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <string_view>
 
-#include "site/geometry.h"
+#include "base/text.h"
+#include "extensions/extension_fields.h"
+#include "site/imported_geometry.h"
 #include "site/site_context.h"
 #include "site/site_origin.h"
 
@@ -19,7 +21,7 @@ bool any_of_type(std::vector<InputObject> const& objects, std::string_view type)
 
 void warn_of_rays(std::vector<InputObject> const& objects, Surroundings& surroundings) {
   constexpr std::string_view whom =
-      "GPUShading:SiteContext and GPUShading:Geometry: EnergyPlus knows nothing of their casters";
+      "GPUShading:SiteContext and GPUShading:Geometry, which EnergyPlus does not know";
   bool const daylight = std::any_of(objects.begin(), objects.end(), [](InputObject const& object) {
     return object.type.starts_with("Daylighting");
   });
@@ -44,7 +46,7 @@ Surroundings read_surroundings(std::vector<InputObject> const& objects,
                                std::filesystem::path const& folder) {
   Surroundings surroundings;
   std::optional<SiteOrigin> origin;
-  if (any_of_type(objects, "GPUShading:SiteContext") || needs_origin(objects)) {
+  if (any_of_type(objects, extension::site_context::type) || needs_origin(objects)) {
     origin = find_site_origin(objects);
     read_site_contexts(objects, folder, *origin, surroundings);
   }

@@ -11,17 +11,16 @@
 #include <string>
 #include <string_view>
 
-#include "files/text_file.h"
+#include "base/files.h"
+#include "base/naming.h"
+#include "base/text.h"
 #include "gpu_shading/error.h"
-#include "input/input_object.h"
-#include "input/naming.h"
-#include "input/number.h"
 #include "site/geotiff.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
-// The words of a text, in turn.
+// Returns the words of a text one by one.
 class Words {
  public:
   explicit Words(std::string_view text) : rest_(text) {}
@@ -51,13 +50,13 @@ bool is_number(std::string_view word) { return parse_number(std::string(word)).h
 
 class Header {
  public:
-  // Takes key and value pairs, up to the first elevation.
+  // Reads pairs of key and value up to the first elevation.
   explicit Header(Words& words) {
     while (!words.peek().empty() && !is_number(words.peek())) {
       auto const key = upper(words.next());
       auto const text = std::string(words.next());
       auto const value = parse_number(text);
-      // A grid may say nan for what it lacks.
+      // A grid may contain nan where it has no data.
       if (!value) throw Error(fmt::format("{} is \"{}\", not a number", key, text));
       values_[key] = *value;
     }
@@ -79,8 +78,8 @@ class Header {
   int count(std::string const& key) const {
     double const value = need(key);
     if (!(value >= 2.0 && value <= max_terrain_nodes) || value != std::floor(value)) {
-      throw Error(fmt::format("{} is {}, expected a whole number from 2 to {}", key, value,
-                              max_terrain_nodes));
+      throw Error(
+          fmt::format("{} is {}, expected an integer from 2 to {}", key, value, max_terrain_nodes));
     }
     return static_cast<int>(value);
   }
@@ -94,7 +93,7 @@ class Header {
     return value;
   }
 
-  // Of the south-western cell's centre.
+  // Position of the centre of the south-west cell.
   double first(std::string const& axis, double size) const {
     if (auto const centre = get(axis + "LLCENTER")) return *centre;
     return need(axis + "LLCORNER") + 0.5 * size;
@@ -112,7 +111,7 @@ void read_elevations(Words& words, double no_data, TerrainGrid& grid) {
                                                   static_cast<std::size_t>(grid.columns);
     for (int column = 0; column < grid.columns; ++column) {
       auto word = words.next();
-      // from_chars knows no plus sign.
+      // from_chars does not accept a plus sign.
       if (word.starts_with('+')) word.remove_prefix(1);
       double value = 0.0;
       auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -129,7 +128,7 @@ void read_elevations(Words& words, double no_data, TerrainGrid& grid) {
     }
   }
   if (!words.next().empty()) {
-    throw Error(fmt::format("holds more than {} x {} elevations", grid.columns, grid.rows));
+    throw Error(fmt::format("has more than {} x {} elevations", grid.columns, grid.rows));
   }
 }
 
@@ -149,6 +148,21 @@ TerrainGrid read_grid(std::string_view text, MapCoordinates const& coordinates) 
   return grid;
 }
 
+// What no place on earth has is a damaged file, another unit, or NODATA that is not declared.
+void check_range(TerrainGrid const& grid) {
+  constexpr double least = -500.0;
+  constexpr double most = 9000.0;
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      double const value = grid.elevation(column, row);
+      if (std::isnan(value) || (value >= least && value <= most)) continue;
+      throw Error(fmt::format(
+          "the elevation in row {} from the south, column {} is {} m, expected {} to {} or NODATA",
+          row + 1, column + 1, value, least, most));
+    }
+  }
+}
+
 }  // namespace
 
 void check_terrain_size(int columns, int rows) {
@@ -157,7 +171,7 @@ void check_terrain_size(int columns, int rows) {
   }
   if (columns <= max_terrain_nodes / rows) return;
   throw Error(
-      fmt::format("is {} x {} cells, expected at most {} (gdal_translate -outsize makes fewer)",
+      fmt::format("is {} x {} cells, expected at most {} (reduce it with gdal_translate -outsize)",
                   columns, rows, max_terrain_nodes));
 }
 
@@ -170,8 +184,9 @@ TerrainGrid read_terrain(std::filesystem::path const& path,
                      : read_grid(text, coordinates.value_or(MapCoordinates()));
     if (std::none_of(grid.elevations.begin(), grid.elevations.end(),
                      [](double value) { return std::isfinite(value); })) {
-      throw Error("holds no elevation: all of it is NODATA");
+      throw Error("has no elevations: all cells are NODATA");
     }
+    check_range(grid);
     return grid;
   });
 }

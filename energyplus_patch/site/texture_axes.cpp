@@ -13,16 +13,14 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-// Degrees that an angle between axes may differ from a right one: of a tile of 100 holes a row it
-// moves the last ones by a hole.
+// Tolerance of right angles between axes, in degrees: for a tile with 100 holes per row, it moves
+// the last one by a hole.
 constexpr double askew = 0.5;
 
 void check_axes(std::string const& name, std::optional<TextureAxes> const& axes) {
   if (!axes) {
-    throw Error(
-        fmt::format("{} has triangles without texture coordinates, by which a screen lies "
-                    "on a mesh",
-                    name));
+    throw Error(fmt::format(
+        "{} has triangles without texture coordinates, which a screen on a mesh needs", name));
   }
   double const cosine = glm::dot(glm::normalize(axes->u), glm::normalize(axes->v));
   double const angle = glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
@@ -34,7 +32,7 @@ void check_axes(std::string const& name, std::optional<TextureAxes> const& axes)
   }
 }
 
-// The sizes of a screen's tiles, each of which is a screen of its own to the renderer.
+// The sizes of a screen's tiles; the renderer treats each size as a separate screen.
 class TileSizes {
  public:
   void add(TextureAxes const& axes) {
@@ -47,13 +45,13 @@ class TileSizes {
     constexpr std::size_t most = 64;
     sizes_.emplace_back(width, height);
     if (sizes_.size() > most) {
-      throw Error(fmt::format(
-          "the mesh's texture coordinates make tiles of more than {} sizes, from {:.4g} "
-          "x {:.4g} m to {:.4g} x {:.4g} m: give Tile Width and Tile Height",
-          most, std::min_element(sizes_.begin(), sizes_.end())->first,
-          std::min_element(sizes_.begin(), sizes_.end())->second,
-          std::max_element(sizes_.begin(), sizes_.end())->first,
-          std::max_element(sizes_.begin(), sizes_.end())->second));
+      throw Error(
+          fmt::format("the mesh's texture coordinates give tiles of more than {} sizes, from "
+                      "{:.4g} x {:.4g} m to {:.4g} x {:.4g} m: give Tile Width and Tile Height",
+                      most, std::min_element(sizes_.begin(), sizes_.end())->first,
+                      std::min_element(sizes_.begin(), sizes_.end())->second,
+                      std::max_element(sizes_.begin(), sizes_.end())->first,
+                      std::max_element(sizes_.begin(), sizes_.end())->second));
     }
   }
 
@@ -90,7 +88,7 @@ void check_textures(Surroundings const& surroundings, PerforatedScreens const& s
       check_axes(name, caster.texture);
       if (maker.stretches()) sizes[&maker].add(*caster.texture);
     } catch (Error const& error) {
-      throw screen_error(maker.object(), error.what());
+      throw screen_error(maker.where(), error.what());
     }
   }
 }

@@ -25,13 +25,13 @@ EGLConfig find_config(EGLDisplay display, std::string const& label) {
   EGLConfig config = nullptr;
   EGLint count = 0;
   if (eglChooseConfig(display, any.data(), &config, 1, &count) != EGL_TRUE || count == 0) {
-    fail(label, "eglChooseConfig", "the driver has no OpenGL without a screen");
+    fail(label, "eglChooseConfig", "the driver does not support OpenGL without a screen");
   }
   return config;
 }
 
 EGLContext create(EGLDisplay display, EGLConfig config) {
-  // A context that says when the device was lost, where the driver can; else a plain one.
+  // A context that reports a lost device, if the driver supports that; otherwise a plain one.
   constexpr std::array<EGLint, 9> told = {EGL_CONTEXT_MAJOR_VERSION,
                                           4,
                                           EGL_CONTEXT_MINOR_VERSION,
@@ -49,12 +49,12 @@ EGLContext create(EGLDisplay display, EGLConfig config) {
   return eglCreateContext(display, config, EGL_NO_CONTEXT, plain.data());
 }
 
-// EGL's current context is one per thread and client API: a host may have bound OpenGL ES.
+// EGL has one current context per thread and client API: a host may have bound OpenGL ES.
 class BoundApi {
  public:
   explicit BoundApi(std::string const& label) : previous_(eglQueryAPI()) {
     if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) {
-      fail(label, "eglBindAPI(EGL_OPENGL_API)", "the driver has no desktop OpenGL");
+      fail(label, "eglBindAPI(EGL_OPENGL_API)", "the driver does not support desktop OpenGL");
     }
   }
   BoundApi(BoundApi const&) = delete;
@@ -120,7 +120,7 @@ Current::~Current() {
     eglBindAPI(previous_api_);
     eglMakeCurrent(previous_display_, previous_draw_, previous_read_, previous_context_);
   } else {
-    // Let go of ours, so that another thread may take it.
+    // Releases our context, so that another thread may use it.
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglBindAPI(previous_api_);
   }

@@ -4,7 +4,7 @@
 
 namespace gpu_shading::egl {
 
-// Puts back, at the end of its scope, the context that this thread had before.
+// Restores the previous context of this thread at the end of its scope.
 class Current {
  public:
   Current(Current const&) = delete;
@@ -26,7 +26,7 @@ class Current {
 // An OpenGL 4.5 core context without a surface. Empty when moved from.
 class Context {
  public:
-  // Throws DeviceError naming the display, the function, the decoded error and what to try.
+  // Throws DeviceError, naming the display, the function, the decoded error and what to try.
   explicit Context(Display const& display);
   ~Context();
   Context(Context const&) = delete;
@@ -34,7 +34,7 @@ class Context {
   Context(Context&& other) noexcept;
   Context& operator=(Context&& other) noexcept;
 
-  // Makes it this thread's context as long as the result lives. Throws DeviceError.
+  // Makes it the current context of this thread for the lifetime of the result. Throws DeviceError.
   [[nodiscard]] Current make_current() const;
 
  private:

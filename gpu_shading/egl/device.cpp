@@ -5,14 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <string_view>
 
 #include "gl/limits.h"
 #include "gpu_shading/error.h"
 
-namespace gpu_shading {
-namespace egl {
+namespace gpu_shading::egl {
 namespace {
 
 bool is_software_renderer(std::string_view renderer) {
@@ -43,7 +41,8 @@ std::optional<Device> DeviceWalk::next() {
         device.info.version = limits.version;
         device.info.max_resolution = limits.max_target_size;
       }
-      // The surfaceless platform opens one of the devices again, unless EGL could not list it.
+      // The surfaceless platform opens one of the devices a second time, unless EGL could not list
+      // it.
       if (display.surfaceless_platform && is_known(device.info.renderer)) continue;
       device.info.software = display.software || is_software_renderer(device.info.renderer);
       device.info.index = static_cast<int>(renderers_.size());
@@ -56,69 +55,31 @@ std::optional<Device> DeviceWalk::next() {
   return std::nullopt;
 }
 
-Device open_device(DeviceChoice const& choice) {
+std::optional<Device> open_gpu() {
   DeviceWalk walk;
-  std::optional<Device> software;
+  while (std::optional<Device> device = walk.next()) {
+    if (!device->info.software) return device;
+  }
+  return std::nullopt;
+}
+
+Device open_device(int index) {
+  DeviceWalk walk;
   int count = 0;
   while (std::optional<Device> device = walk.next()) {
+    if (device->info.index == index) return std::move(*device);
     ++count;
-    bool wanted = false;
-    switch (choice.kind) {
-      case DeviceChoice::Kind::automatic:
-        wanted = !device->info.software;
-        break;
-      case DeviceChoice::Kind::software:
-        wanted = device->info.software;
-        break;
-      case DeviceChoice::Kind::index:
-        wanted = device->info.index == choice.index;
-        break;
-    }
-    if (wanted) return std::move(*device);
-    if (device->info.software && !software) software = std::move(device);
   }
-  if (choice.kind == DeviceChoice::Kind::automatic && software) return std::move(*software);
-
   std::string const failures =
       walk.failures().empty() ? "" : fmt::format(" ({})", fmt::join(walk.failures(), "; "));
   if (count == 0) {
     throw DeviceError(
         "no device gives an OpenGL 4.5 context without a display; install a graphics driver or "
-        "Mesa's software renderer (libegl1, libgl1-mesa-dri)" +
+        "Mesa's software renderer (libegl1, libgl1-mesa-dri), or use the device cpu" +
         failures);
   }
-  if (choice.kind == DeviceChoice::Kind::index) {
-    throw DeviceError(fmt::format("there is no device {}: {} found, numbered from 0{}",
-                                  choice.index, count == 1 ? "1 is" : fmt::format("{} are", count),
-                                  failures));
-  }
-  throw DeviceError(
-      "there is no software renderer; install Mesa's (libegl-mesa0, libgl1-mesa-dri)" + failures);
+  throw DeviceError(fmt::format("there is no device {}: {} found, numbered from 0{}", index,
+                                count == 1 ? "1 is" : fmt::format("{} are", count), failures));
 }
 
-}  // namespace egl
-
-DeviceChoice parse_device_choice(std::string const& text) {
-  if (text == "auto") return {DeviceChoice::Kind::automatic, 0};
-  if (text == "software") return {DeviceChoice::Kind::software, 0};
-  int index = -1;
-  char const* const end = text.data() + text.size();
-  auto const [last, error] = std::from_chars(text.data(), end, index);
-  if (error != std::errc() || last != end || index < 0) {
-    throw Error(fmt::format(
-        "device '{}': expected 'auto', 'software' or the number of a device, from 0", text));
-  }
-  return {DeviceChoice::Kind::index, index};
-}
-
-std::vector<DeviceInfo> list_devices(std::vector<std::string>* failures) {
-  egl::DeviceWalk walk;
-  std::vector<DeviceInfo> devices;
-  while (std::optional<egl::Device> const device = walk.next()) devices.push_back(device->info);
-  if (failures != nullptr) {
-    failures->insert(failures->end(), walk.failures().begin(), walk.failures().end());
-  }
-  return devices;
-}
-
-}  // namespace gpu_shading
+}  // namespace gpu_shading::egl

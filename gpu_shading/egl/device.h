@@ -15,15 +15,15 @@ struct Device {
   DeviceInfo info;
 };
 
-// Devices one after the other, each with a context opened on it, so that no more are opened than
-// needed. The order and the indices are those of list_devices().
+// Opens devices one after the other, each with a context, so that no more are opened than needed.
+// Order and indices are those of list_devices().
 class DeviceWalk {
  public:
   DeviceWalk();
 
-  // Nothing at the end.
+  // The next device, empty at the end.
   std::optional<Device> next();
-  // A line for each that could not be opened so far.
+  // One line for each device that could not be opened so far.
   std::vector<std::string> const& failures() const { return failures_; }
 
  private:
@@ -35,7 +35,10 @@ class DeviceWalk {
   std::vector<std::string> renderers_;
 };
 
-// Throws DeviceError: nothing of that kind, with why.
-Device open_device(DeviceChoice const& choice);
+// The first GPU; nothing where there is none.
+std::optional<Device> open_gpu();
+
+// The one of this index in list_devices(). Throws DeviceError: there is none, with why.
+Device open_device(int index);
 
 }  // namespace gpu_shading::egl

@@ -1,8 +1,10 @@
 #include "egl/display.h"
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <string_view>
 
 #include "egl/error.h"
@@ -25,6 +27,22 @@ void report(std::vector<std::string>* failures, std::string line) {
   if (failures != nullptr) failures->push_back(std::move(line));
 }
 
+// libepoxy loads the driver's libraries at its first call, and ends the process where one is
+// missing.
+bool has_libraries(std::vector<std::string>* failures) {
+  constexpr std::array<std::array<char const*, 2>, 2> wanted{
+      {{"libEGL.so.1", "libEGL.so.1"}, {"libOpenGL.so.0", "libGL.so.1"}}};
+  for (auto const& [name, other] : wanted) {
+    if (dlopen(name, RTLD_LAZY | RTLD_LOCAL) != nullptr) continue;
+    if (dlopen(other, RTLD_LAZY | RTLD_LOCAL) != nullptr) continue;
+    report(failures, fmt::format("{}; install a graphics driver, or Mesa (libegl1, "
+                                 "libgl1-mesa-dri)",
+                                 dlerror()));
+    return false;
+  }
+  return true;
+}
+
 void add_devices(std::vector<Display>& displays, std::vector<std::string>* failures) {
   EGLint count = 0;
   if (eglQueryDevicesEXT(0, nullptr, &count) != EGL_TRUE) {
@@ -44,7 +62,7 @@ void add_devices(std::vector<Display>& displays, std::vector<std::string>* failu
     if (display.handle == EGL_NO_DISPLAY) {
       report(failures, display.label + ": " +
                            describe_failure("eglGetPlatformDisplayEXT",
-                                            "the driver of this device gives no display"));
+                                            "the driver of this device provides no display"));
       continue;
     }
     display.software =
@@ -57,6 +75,7 @@ void add_devices(std::vector<Display>& displays, std::vector<std::string>* failu
 
 std::vector<Display> find_displays(std::vector<std::string>* failures) {
   std::vector<Display> displays;
+  if (!has_libraries(failures)) return displays;
   char const* const extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   if (!lists(extensions, "EGL_EXT_platform_base")) {
     report(failures, describe_failure("eglQueryString(EGL_EXT_platform_base)",

@@ -31,7 +31,7 @@ char const* name_of(EGLint error) {
     case EGL_CONTEXT_LOST:
       return "EGL_CONTEXT_LOST";
     default:
-      return "an EGL error without a name";
+      return "unknown EGL error";
   }
 }
 

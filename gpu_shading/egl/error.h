@@ -7,7 +7,7 @@
 
 namespace gpu_shading::egl {
 
-// "FUNCTION failed: EGL_NAME (0xCODE); HINT", of this thread's last EGL error, which it clears.
+// "FUNCTION failed: EGL_NAME (0xCODE); HINT" for this thread's last EGL error, which it clears.
 std::string describe_failure(std::string_view function, std::string_view hint);
 
 }  // namespace gpu_shading::egl

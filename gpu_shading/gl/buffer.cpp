@@ -23,7 +23,7 @@ std::byte const* Buffer::set_shared_size(std::size_t bytes) {
   auto const size = static_cast<GLsizeiptr>(bytes);
   glNamedBufferStorage(name(), size, nullptr, shared);
   void const* const address = glMapNamedBufferRange(name(), 0, size, shared);
-  check("making room for what is read back");
+  check("allocating a read-back buffer");
   return static_cast<std::byte const*>(address);
 }
 

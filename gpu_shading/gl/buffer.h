@@ -15,11 +15,11 @@ class Buffer : public Object<destroy_buffer> {
   Buffer() = default;
   static Buffer create();
 
-  // Replaces the contents. Storage in use by earlier draws is left to them.
+  // Replaces the contents. Earlier draws keep the old storage.
   void set_data(std::span<std::byte const> bytes);
 
-  // Room for as many bytes, for the device to write and this side to see: the address stays good as
-  // long as the buffer. Once.
+  // Allocates this many bytes that the device writes and the CPU reads; the address is valid for
+  // the lifetime of the buffer. Call it once.
   std::byte const* set_shared_size(std::size_t bytes);
 
   template <typename T>
@@ -27,7 +27,7 @@ class Buffer : public Object<destroy_buffer> {
     set_data(std::as_bytes(values));
   }
 
-  // All of it as the storage block of this binding.
+  // Binds the whole buffer as a shader storage block.
   void bind_storage(std::uint32_t binding) const;
 
  private:

@@ -19,7 +19,7 @@ char const* name_of(GLenum error) {
     case GL_INVALID_FRAMEBUFFER_OPERATION:
       return "GL_INVALID_FRAMEBUFFER_OPERATION";
     default:
-      return "a GL error without a name";
+      return "unknown GL error";
   }
 }
 

@@ -5,19 +5,7 @@
 namespace gpu_shading::gl {
 namespace {
 
-GLenum function_of(Test test) {
-  switch (test) {
-    case Test::equal:
-      return GL_EQUAL;
-    case Test::not_equal:
-      return GL_NOTEQUAL;
-    case Test::less:
-      return GL_LESS;
-    case Test::always:
-      break;
-  }
-  return GL_ALWAYS;
-}
+GLenum function_of(Test test) { return test == Test::less ? GL_LESS : GL_ALWAYS; }
 
 GLenum operation_of(OnPass on_pass) { return on_pass == OnPass::replace ? GL_REPLACE : GL_KEEP; }
 

@@ -23,8 +23,8 @@ void Fence::wait() const {
   for (;;) {
     GLenum const found = glClientWaitSync(static_cast<GLsync>(sync_), 0, a_second);
     if (found == GL_ALREADY_SIGNALED || found == GL_CONDITION_SATISFIED) return;
-    check("waiting for what it draws");
-    if (found == GL_WAIT_FAILED) throw DeviceError("the device did not finish what it draws");
+    check("waiting for the device");
+    if (found == GL_WAIT_FAILED) throw DeviceError("the device did not finish drawing");
   }
 }
 

@@ -4,12 +4,13 @@
 
 namespace gpu_shading::gl {
 
-// The device's arrival at where its work stood when this was made. The context has to be current to
-// make, ask or end one. Move-only; empty when made by default or moved from.
+// Signals when the device has done the work submitted before its creation. Creating, querying and
+// destroying it require the current context. Move-only; empty when default-constructed or moved
+// from.
 class Fence {
  public:
   Fence() = default;
-  // Sends the work before it to the device.
+  // Submits the work before it to the device.
   static Fence here();
 
   Fence(Fence&& other) noexcept : sync_(std::exchange(other.sync_, nullptr)) {}
@@ -21,7 +22,7 @@ class Fence {
   Fence& operator=(Fence const&) = delete;
   ~Fence();
 
-  // Throws DeviceError when the device is lost.
+  // Throws DeviceError if the device is lost.
   void wait() const;
 
  private:

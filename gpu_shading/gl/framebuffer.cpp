@@ -87,7 +87,7 @@ Framebuffer Framebuffer::of_layers(std::initializer_list<LayeredTexture const*> 
 }
 
 void Framebuffer::check_complete() const {
-  check("making an offscreen target");
+  check("creating an offscreen target");
   GLenum const status = glCheckNamedFramebufferStatus(name(), GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
     throw DeviceError(fmt::format(
@@ -108,7 +108,7 @@ void Framebuffer::clear_stencil() const {
 }
 
 void Framebuffer::clear_depth(float depth) const {
-  // As draws, it writes where the mask lets it.
+  // Like draws, it respects the write mask.
   glDepthMask(GL_TRUE);
   glClearNamedFramebufferfv(name(), GL_DEPTH, 0, &depth);
 }

@@ -33,23 +33,23 @@ class Renderbuffer : public Object<destroy_renderbuffer> {
 class Framebuffer : public Object<destroy_framebuffer> {
  public:
   Framebuffer() = default;
-  // Owns what is attached to it. Throws DeviceError when the driver cannot draw to this.
+  // Owns its attachments. Throws DeviceError if the driver cannot draw to this target.
   static Framebuffer create(std::vector<Format> const& formats, int width, int height);
 
-  // All layers of textures, which must outlive it, at most one each for colour, depth and stencil;
-  // draws choose theirs by gl_Layer.
+  // Attaches all layers of textures, which must outlive it: at most one each for colour, depth and
+  // stencil. Draws select a layer with gl_Layer.
   static Framebuffer of_layers(std::initializer_list<LayeredTexture const*> textures);
 
-  // Draws go here, over all of it.
+  // Makes it the target of draws, with a viewport over all of it.
   void bind() const;
 
-  // Every layer of it.
+  // Clears every layer.
   void clear_stencil() const;  // to 0
   void clear_depth(float depth) const;
   void clear_colour(glm::vec4 const& colour) const;
   void clear_identity() const;  // to 0
 
-  // RGBA, 8 bits a channel, rows from the bottom. Waits for the draws.
+  // RGBA, 8 bits per channel, rows from the bottom. Waits for the draws.
   std::vector<std::uint8_t> read_colour() const;
   std::vector<std::uint32_t> read_identity() const;
 

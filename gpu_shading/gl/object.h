@@ -5,8 +5,8 @@
 
 namespace gpu_shading::gl {
 
-// Owner of one GL object; move-only. Empty (name 0) when made by default or moved from. Whoever
-// creates or ends one has the context current. `Destroy` deletes the object of a name.
+// Owner of one GL object; move-only. Empty (name 0) when default-constructed or moved from.
+// Creating and destroying it require the current context. `Destroy` deletes the object with a name.
 template <void (*Destroy)(std::uint32_t)>
 class Object {
  public:

@@ -12,7 +12,7 @@ void destroy_program(std::uint32_t name);
 class Program : public Object<destroy_program> {
  public:
   Program() = default;
-  // Throws Error with the driver's log when it does not compile or link; `label` names it there.
+  // Throws Error with the driver's log if it does not compile or link; `label` names it there.
   static Program link(char const* label, char const* vertex, char const* fragment);
   static Program link(char const* label, char const* vertex, char const* geometry,
                       char const* fragment);

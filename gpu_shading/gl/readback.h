@@ -9,21 +9,21 @@
 
 namespace gpu_shading::gl {
 
-// The pixels of a texture's layers on their way to this side.
+// Asynchronous read-back of the pixels of a texture's layers.
 class Readback {
  public:
   enum class Way {
-    when_asked,  // where device memory is the CPU's own
-    ahead,       // copied by the device as soon as they are drawn, so that nothing waits
+    when_asked,  // if device memory is the CPU's own
+    ahead,       // copied by the device right after drawing, so that nothing waits
   };
 
-  // Of layers of a level of the texture, which must outlive it.
+  // Starts reading layers of one level of the texture, which must outlive it.
   Readback(LayeredTexture const& texture, int level, Way way);
 
   static std::size_t bytes(LayeredTexture const& texture, int level, Way way);
 
   void start(int layers);
-  // After what start() came after has been waited for; good until the next.
+  // The pixels, once a fence after start() has been waited for; valid until the next start().
   template <typename T>
   std::span<T const> layer(int layer) {
     return {reinterpret_cast<T const*>(find(layer)), texture_.layer_size(level_) / sizeof(T)};

@@ -51,7 +51,7 @@ LayeredTexture LayeredTexture::create(Pixel pixel, int side, int layers, Levels 
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTextureParameteri(name, GL_TEXTURE_MAX_LEVEL, texture.levels_ - 1);
-  check("making targets");
+  check("creating render targets");
   return texture;
 }
 
@@ -94,7 +94,7 @@ ValueTexture ValueTexture::create(int width, int height, int layers) {
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  check("making textures of screens");
+  check("creating screen textures");
   return texture;
 }
 
@@ -102,7 +102,7 @@ void ValueTexture::set(int layer, std::span<std::uint16_t const> texels) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 2);
   glTextureSubImage3D(name(), 0, 0, 0, layer, width_, height_, 1, GL_RED, GL_UNSIGNED_SHORT,
                       texels.data());
-  check("filling textures of screens");
+  check("uploading screen textures");
 }
 
 void ValueTexture::bind(std::uint32_t unit) const { glBindTextureUnit(unit, name()); }

@@ -11,7 +11,7 @@ namespace gpu_shading::gl {
 
 void destroy_texture(std::uint32_t name);
 
-// What a texture keeps of a pixel.
+// The pixel format of a texture.
 enum class Pixel {
   unit,      // 0 .. 1 in 8 bits
   real,      // a 32-bit float
@@ -23,13 +23,14 @@ enum class Pixel {
 
 std::size_t size_of(Pixel pixel);  // bytes
 
-// Square layers of pixels, with as many mipmap levels as halve without a rest, or the first alone.
+// Square layers of pixels, with as many mipmap levels as can be halved without remainder, or the
+// first level alone.
 class LayeredTexture : public Object<destroy_texture> {
  public:
   enum class Levels { one, all };
 
   LayeredTexture() = default;
-  // Throws DeviceError when there is no memory for it.
+  // Throws DeviceError if there is not enough memory.
   static LayeredTexture create(Pixel pixel, int side, int layers, Levels levels = Levels::one);
 
   Pixel pixel() const { return pixel_; }
@@ -40,9 +41,9 @@ class LayeredTexture : public Object<destroy_texture> {
 
   void bind(std::uint32_t unit) const;
   void make_mipmaps() const;
-  // The first `layers` layers of a level into a buffer.
+  // Copies the first `layers` layers of a level to a buffer.
   void copy(int level, int layers, Buffer const& buffer) const;
-  // All pixels of a layer of a level. Waits for the draws.
+  // Reads all pixels of a layer of a level. Waits for the draws.
   void read(int level, int layer, std::span<std::byte> pixels) const;
 
  private:
@@ -54,14 +55,14 @@ class LayeredTexture : public Object<destroy_texture> {
   int levels_ = 1;
 };
 
-// Layers of one 16-bit value each texel, 0 .. 1, interpolated bilinearly.
+// Layers with one 16-bit value per texel, 0 .. 1, interpolated bilinearly.
 class ValueTexture : public Object<destroy_texture> {
  public:
   ValueTexture() = default;
-  // Throws DeviceError when there is no memory for it.
+  // Throws DeviceError if there is not enough memory.
   static ValueTexture create(int width, int height, int layers);
 
-  // All texels of a layer, row after row.
+  // Sets all texels of a layer, row after row.
   void set(int layer, std::span<std::uint16_t const> texels);
   void bind(std::uint32_t unit) const;
 

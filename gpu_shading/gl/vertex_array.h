@@ -15,9 +15,9 @@ class VertexArray : public Object<destroy_vertex_array> {
   VertexArray() = default;
   static VertexArray create();
 
-  // What `buffer` has for each vertex, every `stride` bytes; attributes are added from offset 0 on.
+  // Sets per-vertex data in `buffer`, every `stride` bytes; attributes are added from offset 0 on.
   void set_vertices(Buffer const& buffer, std::size_t stride);
-  // And for each instance.
+  // Sets per-instance data likewise.
   void set_records(Buffer const& buffer, std::size_t stride);
 
   enum class Of { vertices, records };

@@ -31,7 +31,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(around) - first + 1);
 }
 
-// Blanks separate only where nothing else does: "Angle (deg), Tsol". WINDOW sets a colon behind the
+// Blanks only separate if nothing else does: "Angle (deg), Tsol". WINDOW puts a colon after the
 // name of a row.
 std::vector<std::string> split(std::string_view text) {
   bool const separated = text.find_first_of(",;\t") != std::string_view::npos;
@@ -83,7 +83,7 @@ bool is_transmittance(std::string_view field) {
 
 using Lines = std::vector<Line>::const_iterator;
 
-// Reads one file; everything it throws names the file and, where there is one, the line.
+// Reads one file; all errors name the file and, if possible, the line.
 class AngularFile {
  public:
   explicit AngularFile(std::filesystem::path const& path) : path_(path), lines_(read_lines(path)) {}
@@ -115,7 +115,7 @@ class AngularFile {
     fail(line.number, fmt::format("\"{}\" is not a number", line.fields[column]));
   }
 
-  // What the line adds to the table is checked with it, so that its number can be told.
+  // The values of each line are checked immediately, so that the error can name the line.
   void add(Line const& line, double angle, double transmittance) {
     if (!(angle >= 0.0 && angle <= 90.0)) {
       fail(line.number, fmt::format("angle is {:.9g} degrees, expected 0 to 90", angle));

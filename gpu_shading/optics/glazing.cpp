@@ -19,10 +19,9 @@ void check(GlassLayer const& layer, std::size_t number) {
   };
   auto const in_sum = [&](std::string_view field, double value) {
     if (layer.transmittance + value <= 1.0 + 1e-9) return;
-    throw Error(
-        fmt::format("pane {}: transmittance {:.9g} and {} {:.9g} add up to {:.9g}, expected "
-                    "1 at most",
-                    number, layer.transmittance, field, value, layer.transmittance + value));
+    throw Error(fmt::format(
+        "pane {}: transmittance {:.9g} and {} {:.9g} add up to {:.9g}, expected at most 1", number,
+        layer.transmittance, field, value, layer.transmittance + value));
   };
   in_range("transmittance", layer.transmittance);
   in_range("front reflectance", layer.front_reflectance);
@@ -31,15 +30,15 @@ void check(GlassLayer const& layer, std::size_t number) {
   in_sum("back reflectance", layer.back_reflectance);
 }
 
-// Engineering Reference, "Glazing System Properties": pane after pane, what the ones before let
-// through and what they send back of light from within.
+// Engineering Reference, "Glazing System Properties": pane by pane, the transmittance of the
+// previous panes and their reflectance for light from inside.
 double through(std::vector<Pane> const& panes, double cosine) {
   double transmittance = 1.0;
   double back_reflectance = 0.0;
   for (Pane const& pane : panes) {
     PaneProperties const p = pane.at(cosine);
     double const kept = 1.0 - p.front_reflectance * back_reflectance;
-    // Between perfect mirrors, at grazing incidence, nothing gets through: T vanishes faster.
+    // Between perfect mirrors, at grazing incidence, nothing is transmitted: T vanishes faster.
     if (kept <= 0.0) return 0.0;
     transmittance *= p.transmittance / kept;
     back_reflectance =
@@ -58,7 +57,7 @@ Transmittance Transmittance::glazing(std::span<GlassLayer const> layers) {
     panes.emplace_back(layer);
   }
   return Transmittance([panes = std::move(panes)](double angle) {
-    // The cosine of the double next to pi/2 is 6e-17.
+    // The cosine of the double closest to pi/2 is 6e-17.
     double const cosine = std::cos(angle);
     return through(panes, cosine < 1e-15 ? 0.0 : cosine);
   });

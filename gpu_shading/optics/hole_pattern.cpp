@@ -19,7 +19,7 @@ using std::numbers::sqrt2;
 using std::numbers::sqrt3;
 
 void check_positive(std::string_view field, double value) {
-  // Written so that what is not a number fails.
+  // Written so that NaN fails.
   if (value > 0.0 && std::isfinite(value)) return;
   throw Error(fmt::format("{} is {:.9g} m, expected more than 0", field, value));
 }
@@ -34,7 +34,7 @@ void check_sizes(Perforation const& given) {
                             given.length, given.size));
   }
   if (!slotted && given.length != 0.0) {
-    throw Error(fmt::format("hole length is {:.9g} m, expected none but with slots", given.length));
+    throw Error(fmt::format("hole length is {:.9g} m, but only slots have one", given.length));
   }
   double const extent = slotted ? given.length : given.size;
   if (!(extent < given.pitch)) {
@@ -55,9 +55,8 @@ double from_nearest(double place, double period) {
 
 double hexagon_area(double across_flats) { return sqrt3 / 2.0 * across_flats * across_flats; }
 
-// What a hexagon has in common with itself, shifted: three strips again, of half widths h about
-// the middle of the shift. Two of them make a rhomboid; the widest cuts two of its corners, or
-// none.
+// The overlap of a hexagon with its shifted copy: three strips again, of half widths h about the
+// middle of the shift. Two of them form a rhomboid; the widest cuts two of its corners, or none.
 double hexagon_overlap(double across_flats, double shift_u, double shift_v) {
   std::array<double, 3> h = across(shift_u, shift_v);
   for (double& width : h) width = (across_flats - std::abs(width)) / 2.0;
@@ -67,10 +66,10 @@ double hexagon_overlap(double across_flats, double shift_u, double shift_v) {
   return 8.0 / sqrt3 * h[0] * h[1] - 2.0 / sqrt3 * cut * cut;
 }
 
-// A slot of radius r whose ends' centres are `straight` apart, along u; a circle where that is 0.
-// At height v it reaches to h(v) = straight / 2 + q(v) either side, q(v) = sqrt(r^2 - v^2), and
-// has min(2 h(v), 2 h(v - sv), h(v) + h(v - sv) - su) in common with itself shifted by (su, sv).
-// That is even about sv / 2; above it the middle term is the larger of the first two.
+// A slot of radius r with the centres of its ends `straight` apart along u; a circle if that is 0.
+// At height v it extends to h(v) = straight / 2 + q(v) on either side, q(v) = sqrt(r^2 - v^2), and
+// its overlap with a copy shifted by (su, sv) has the width min(2 h(v), 2 h(v - sv), h(v) + h(v -
+// sv) - su). This is even about sv / 2; above it, the middle term is the larger of the first two.
 class SlotOverlap {
  public:
   SlotOverlap(double radius, double straight, double shift_u, double shift_v)
@@ -79,23 +78,24 @@ class SlotOverlap {
   double area() const {
     if (sv_ >= 2.0 * r_ || height(sv_ / 2.0) <= 0.0) return 0.0;
     double const from = sv_ / 2.0;
-    // From where the shifted slot's end lies beyond ours, if it does.
+    // From where the shifted slot's end extends beyond ours, if it does.
     if (su_ <= at_top()) {
       double const turn = crossing(su_);
       return 2.0 * (both(from, turn) + straight_ * (r_ - turn) + 2.0 * under(turn, r_));
     }
-    // To where the two ends meet, if they do.
+    // Up to where the two ends meet, if they do.
     bool const closes = straight_ - su_ + at_top() < 0.0;
     return 2.0 * both(from, closes ? crossing(su_ - straight_) : r_);
   }
 
  private:
   double q(double v) const { return std::sqrt(std::max(0.0, r_ * r_ - v * v)); }
-  // q(r - sv), also where sv is lost beside r.
+  // q(r - sv), accurate even if sv is negligible compared with r.
   double at_top() const { return std::sqrt(std::max(0.0, sv_ * (2.0 * r_ - sv_))); }
   double height(double v) const { return straight_ - su_ + q(v) + q(v - sv_); }
 
-  // The upper crossing of two circles of radius r, one `offset` beside and sv above the other.
+  // The upper intersection of two circles of radius r, with centres `offset` apart sideways and sv
+  // apart in height.
   double crossing(double offset) const {
     double const apart = std::hypot(offset, sv_);
     if (apart == 0.0) return 0.0;
@@ -155,14 +155,14 @@ HolePattern::HolePattern(Perforation const& perforation) : perforation_(perforat
     }
   }
   if (!(web_ > 1e-9 * pitch)) {
-    throw Error(fmt::format("{} is {:.9g} m, at which holes overlap or touch, expected more",
+    throw Error(fmt::format("{} is {:.9g} m, so holes overlap or touch; expected more",
                             perforation.row_pitch > 0.0 ? "row pitch" : "pitch",
                             perforation.row_pitch > 0.0 ? row_pitch : pitch));
   }
 }
 
-// Convex outlines that are their own mirror image about their centre are as far apart as the
-// centre of one is from the other, drawn twice as large; 0 where they overlap.
+// The distance between two equal convex outlines that are symmetric about their centres equals the
+// distance of one centre from the other outline at twice the size; 0 if they overlap.
 double HolePattern::distance_to_neighbour(double u, double v) const {
   double const size = perforation_.size;
   u = std::abs(u);
@@ -176,7 +176,7 @@ double HolePattern::distance_to_neighbour(double u, double v) const {
     case Hole::Hexagonal:
       break;
   }
-  // To a side, or to the corner at either end of it.
+  // Distance to a side, or to the corner at either end of it.
   double distance = 0.0;
   double const half_side = size / sqrt3;
   std::array<double, 3> const normal = across(u, v);
@@ -248,7 +248,7 @@ double HolePattern::longest_chord() const {
 }
 
 double HolePattern::transmittance(double shift_u, double shift_v) const {
-  // The difference of two integrals may be rounded to below 0.
+  // Rounding can make the difference of two integrals negative.
   return std::max(0.0, holes_ * overlap(shift_u, shift_v) / (width_ * height_));
 }
 

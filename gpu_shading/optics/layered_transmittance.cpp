@@ -12,9 +12,9 @@
 namespace gpu_shading {
 namespace {
 
-// Where in a texel rays are, u and v: each on its own quarter both ways. An edge along rows or
-// columns is met by all texels at one place, which four rays know to a quarter of a texel; so rows
-// are displaced besides, each differently.
+// Positions of the rays in a texel, u and v, each in its own quarter both ways. An edge along rows
+// or columns crosses all texels at the same position, which four rays resolve to a quarter of a
+// texel; so rows are also displaced, each differently.
 struct Offset {
   double u;
   double v;
@@ -22,13 +22,13 @@ struct Offset {
 constexpr std::array<Offset, 4> offsets{
     {{-0.375, -0.125}, {-0.125, 0.375}, {0.125, -0.375}, {0.375, 0.125}}};
 
-// Multiples of the golden ratio, evenly spread over a texel.
+// Multiples of the golden ratio, spread evenly over a texel.
 double displacement(std::size_t row) {
   double const multiple = static_cast<double>(row) * std::numbers::phi;
   return multiple - std::floor(multiple) - 0.5;
 }
 
-// A row of rays, one for each texel, and what layers of the tile leave of them.
+// A row of rays, one per texel, and what passes the layers of the tile so far.
 class RowOfRays {
  public:
   explicit RowOfRays(OpacityTile const& tile)
@@ -40,7 +40,7 @@ class RowOfRays {
 
   void begin() { std::fill(solid_.begin(), solid_.end(), 0.0F); }
 
-  // A layer that they meet at a place, in texels from the first one's centre.
+  // Applies a layer at a position in texels from the centre of the first texel.
   void pass(double u, double v) {
     interpolate_rows(v);
     Place const place = within(u, columns_);
@@ -75,7 +75,8 @@ class RowOfRays {
     return {static_cast<std::size_t>(whole), static_cast<float>(within - whole)};
   }
 
-  // The row between two of texels, twice and one texel more, so that shifts need no remainder.
+  // The interpolated row between two rows of texels, stored twice plus one texel, so that shifts
+  // need no remainder.
   void interpolate_rows(double v) {
     Place const place = within(v, rows_);
     std::uint16_t const* const lower = tile_.opacity().data() + place.whole * columns_;

@@ -17,7 +17,7 @@
 namespace gpu_shading {
 namespace {
 
-// Of a tile made from a pattern, which takes 256 points for each.
+// Maximum number of texels of a tile made from a pattern, each of which takes 256 points.
 constexpr double most_texels = 1U << 26U;
 constexpr float solid_value = 65535.0F;
 
@@ -27,7 +27,7 @@ void check_positive(std::string_view field, double value) {
 }
 
 void check_threshold(std::optional<double> threshold) {
-  // In floats, as texels are compared with it.
+  // In single precision, like the texels that are compared with it.
   if (!threshold || (*threshold >= 0.0 && static_cast<float>(*threshold) < 1.0F)) return;
   throw Error(fmt::format("opacity threshold is {:.9g}, expected 0 to below 1", *threshold));
 }
@@ -46,8 +46,8 @@ int around(int place, int count) { return (place + count) % count; }
 void check_texels(std::size_t texels, int columns, int rows) {
   constexpr int most = OpacityTile::most_texels_a_side;
   if (columns > most || rows > most) {
-    throw Error(
-        fmt::format("texture is {} x {} texels, expected at most {} a side", columns, rows, most));
+    throw Error(fmt::format("texture is {} x {} texels, expected at most {} per side", columns,
+                            rows, most));
   }
   if (columns < 1 || rows < 1 || texels != index(0, rows, columns)) {
     throw Error(fmt::format("texture has {} texels, expected {} x {}", texels, columns, rows));
@@ -71,7 +71,7 @@ std::vector<std::uint16_t> quantised(std::vector<float> const& opacity) {
   return values;
 }
 
-// The least value that is above a threshold of 0 to below 1 as a shader compares it.
+// The smallest value above a threshold in 0 .. 1 (exclusive) as a shader compares it.
 std::uint16_t least_solid(double threshold) {
   auto const limit = static_cast<float>(threshold);
   int value = std::max(0, static_cast<int>(limit * solid_value) - 1);

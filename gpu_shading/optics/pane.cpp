@@ -1,6 +1,7 @@
 // After the EnergyPlus Engineering Reference, "Window Calculation Module", "Calculation of Angular
-// Properties". The reference averages the interface's reflectivity over the polarisations before it
-// goes through the pane; EnergyPlus and we take each polarisation through and average then.
+// Properties". The reference averages the interface's reflectivity over the polarisations before
+// computing the pane; EnergyPlus and this code compute the pane for each polarisation and then
+// average.
 #include "optics/pane.h"
 
 #include <algorithm>
@@ -30,14 +31,14 @@ double interface_reflectivity(double t, double r) {
   return std::clamp(rho, 0.0, 1.0 - 1e-12);  // a mirror's refractive index is infinite
 }
 
-// exp(-alpha d), the positive root of T = (1 - rho)^2 x / (1 - rho^2 x^2): the same as the
-// reference's logarithm of (R - rho) / (rho T), but for its 0 / 0 at rho = 0.
+// exp(-alpha d), the positive root of T = (1 - rho)^2 x / (1 - rho^2 x^2). Equivalent to the
+// reference's logarithm of (R - rho) / (rho T), but without 0 / 0 at rho = 0.
 double straight_passage(double t, double rho) {
   double const b = square(1.0 - rho);
   return std::min(1.0, 2.0 * t / (b + std::hypot(b, 2.0 * rho * t)));
 }
 
-// Squared, 1 where both are 0: light that grazes glass of index 1.
+// Squared; 1 if both are 0, for grazing light on glass of index 1.
 double fresnel(double difference, double sum) { return sum > 0.0 ? square(difference / sum) : 1.0; }
 
 }  // namespace

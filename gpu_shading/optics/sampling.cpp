@@ -32,7 +32,7 @@ double sampling_error(Transmittance const& model, std::span<float const> samples
   double error = 0.0;
   auto const steps = static_cast<double>(samples.size() - 1);
   for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
-    // A chord is farthest from a smooth curve about half-way; quarters catch a kink.
+    // A chord is farthest from a smooth curve near its middle; the quarters detect a kink.
     for (double const t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
       double const exact = model(angle_at((static_cast<double>(i) + t) / steps));
       double const interpolated =

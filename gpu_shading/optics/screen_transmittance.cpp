@@ -22,7 +22,7 @@ void check_thickness(double thickness) {
   throw Error(fmt::format("thickness is {:.9g} m, expected 0 or more", thickness));
 }
 
-// Between which of a row's `count` values a place is.
+// The two of a row's `count` values between which a position lies.
 struct Between {
   std::size_t below = 0;
   std::size_t above = 0;
@@ -130,7 +130,7 @@ std::vector<float> ScreenTransmittance::at_shift(double shift, double phi) const
 
 double ScreenTransmittance::operator()(double theta, double phi) const {
   if (thickness_ == 0.0) return open_fraction();
-  // The tangent of pi/2 in doubles is finite and large.
+  // The tangent of pi/2 in double precision is finite and large.
   return at(thickness_ * std::tan(std::clamp(theta, 0.0, pi / 2.0)), phi);
 }
 

@@ -52,8 +52,8 @@ Quartic mix(Quartic const& from, Quartic const& to, double t) {
   return mixed;
 }
 
-// Step 7's 28 bins of U and SHGC: three ranges of U in which the curve goes by SHGC alone, and
-// between them, from 1.4195 to 1.7034 and from 3.4068 to 4.5424 W/(m2 K), a blend of both
+// The 28 bins of U and SHGC in step 7: three ranges of U in which the curve depends on SHGC alone
+// and, between them, from 1.4195 to 1.7034 and from 3.4068 to 4.5424 W/(m2 K), a blend of both
 // neighbours.
 Quartic angular_curve(SimpleGlazing const& window) {
   double const shgc = window.shgc;

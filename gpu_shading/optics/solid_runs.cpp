@@ -7,12 +7,12 @@
 namespace gpu_shading {
 namespace {
 
-// How long the runs are that a row of texels meets, each texel on a line of its own.
+// Lengths of the runs that cross a row of texels, each texel on a line of its own.
 class Lines {
  public:
   explicit Lines(std::size_t count) : lengths_(count, none) {}
 
-  // Lines `first` to `end` meet the texels from `texel`. No run begins but behind an open texel.
+  // Lines `first` to `end` cross the texels from `texel` on. A run only begins after an open texel.
   void meet(std::size_t first, std::size_t end, std::uint16_t const* texel, std::uint16_t solid,
             std::vector<std::size_t>& counts) {
     for (std::size_t line = first; line < end; ++line, ++texel) {
@@ -26,7 +26,7 @@ class Lines {
     }
   }
 
-  // From now on no run begins, they only end.
+  // From now on, runs only end and none begins.
   void close() {
     closing_ = true;
     for (int& length : lengths_) {
@@ -38,7 +38,7 @@ class Lines {
   }
 
  private:
-  // So far below 0 that no raster makes a run of it.
+  // So far below 0 that it never becomes a run in any raster.
   static constexpr int none = std::numeric_limits<int>::min() / 2;
 
   std::vector<int> lengths_;
@@ -100,7 +100,7 @@ SolidRuns::Counts SolidRuns::across_rows(std::span<std::uint16_t const> texels,
 
 SolidRuns::Counts SolidRuns::across_columns(std::span<std::uint16_t const> texels,
                                             std::uint16_t solid, int du) const {
-  // As many rows as a diagonal has columns, so that each meets what there is on its way.
+  // As many rows as a diagonal has columns, so that each line crosses everything on its way.
   std::size_t const copies = du == 0 ? 1 : (columns_ + rows_ - 1) / rows_;
   std::size_t const most = copies * rows_;
   Counts counts(2 * most + 1, 0);
@@ -109,7 +109,7 @@ SolidRuns::Counts SolidRuns::across_columns(std::span<std::uint16_t const> texel
     if (step == most) lines.close();
     if (step >= most && lines.all_ended()) break;
     std::uint16_t const* const texel = texels.data() + step % rows_ * columns_;
-    // The line that meets the row's first texel.
+    // The line that crosses the first texel of the row.
     std::size_t const turn = step % columns_;
     std::size_t const first = du == 0 || turn == 0 ? 0 : du > 0 ? columns_ - turn : turn;
     lines.meet(first, columns_, texel, solid, counts);

@@ -15,7 +15,7 @@ std::size_t parts(std::size_t count, int size_log2) {
          static_cast<unsigned>(size_log2);
 }
 
-// The largest value that a shader does not find above the threshold, having divided it.
+// The largest value that a shader, after dividing it, does not find above the threshold.
 float most_open(float threshold) {
   float value = threshold * solid_value;
   while (value / solid_value > threshold) value = std::nextafter(value, 0.0F);
@@ -26,17 +26,17 @@ float most_open(float threshold) {
   return value;
 }
 
-// Into 0 .. count, that excluded, from less than a count away.
+// Wraps into 0 .. count (exclusive), from at most one count away.
 double wrapped(double place, double count) {
   if (place >= count) place -= count;
   if (place < 0.0) place += count;
-  // Just below 0 it may have been rounded.
+  // Rounding may have produced a value just below 0.
   return place < count ? place : 0.0;
 }
 
 }  // namespace
 
-// A point on its way, in texels from the first one's centre.
+// A point on a ray's path, in texels from the centre of the first texel.
 class TileRays::Walk {
  public:
   Walk(TileRays const& rays, double x, double y, Direction const& direction)
@@ -91,7 +91,7 @@ TileRays::TileRays(OpacityTile const& tile)
   while (levels_.back().largest.size() > 1) add_level_above(levels_.back());
 }
 
-// What is interpolated in a block depends on its texels and on one more each way.
+// Interpolated values in a block depend on its texels and on one more each way.
 void TileRays::add_blocks() {
   auto const columns = static_cast<std::size_t>(columns_);
   auto const rows = static_cast<std::size_t>(rows_);
@@ -167,11 +167,11 @@ std::size_t TileRays::follow(double u, double v, Direction const& direction, dou
             wrapped(v / tile_.texel_height() - 0.5, rows_), direction);
   double const texel = std::min(tile_.texel_width(), tile_.texel_height());
   double const beyond_edge = 1e-4 * texel;
-  // The value that is passed, and the sample a texel before, if one was taken.
+  // The value to exceed, and the previous sample, one texel before, if there is one.
   float passed = thresholded_ ? most_open_ : sample(walk.x(), walk.y());
   float before = passed;
   bool has_before = false;
-  // Of fractional opacity, what rises by less is not looked for.
+  // Smaller rises of fractional opacity are ignored.
   float const negligible = thresholded_ ? 0.0F : (1.0F - solid) * solid_value;
   auto const nothing_in = [&](std::uint16_t largest) {
     return static_cast<float>(largest) <= passed + negligible;
@@ -194,7 +194,7 @@ std::size_t TileRays::follow(double u, double v, Direction const& direction, dou
     }
     float const value = sample(walk.x(), walk.y());
     if (value > passed) {
-      // Where between two samples it rose above what is passed.
+      // Where between two samples it rose above the value to exceed.
       double const back =
           has_before ? texel * static_cast<double>((value - passed) / (value - before)) : 0.0;
       if (thresholded_) {

@@ -8,13 +8,13 @@
 
 namespace gpu_shading {
 
-// Rays in a tile's plane and what they meet on their way. Of a thresholded tile opacity is 0 or 1.
+// Rays in a tile's plane and the opacity that they meet. A thresholded tile has opacity 0 or 1.
 class TileRays {
  public:
-  // Refers to the tile.
+  // Keeps a reference to the tile.
   explicit TileRays(OpacityTile const& tile);
 
-  // In texels for a metre, and the other way round.
+  // Conversions between metres and texels.
   struct Direction {
     double along_x;
     double along_y;
@@ -23,29 +23,29 @@ class TileRays {
   };
   Direction direction(double phi) const;
 
-  // Where opacity rises on a ray's way, and to what.
+  // A point where opacity rises on a ray's path, and its new value.
   struct Rise {
     double shift;
     float opacity;
   };
 
-  // Above this, nothing is taken to pass: half a step of 8 bits below solid.
+  // Above this opacity, nothing passes: half an 8-bit step below solid.
   static constexpr float solid = 1.0F - 0.5F / 255.0F;
 
-  // At a point of the tile, m.
+  // Opacity at a point of the tile, in m.
   float opacity(double u, double v) const;
 
-  // Where opacity gets larger than all there was before, on the way from a point that is not solid,
-  // until it is solid or the shift `farthest`. In steps of a texel where there is something to
-  // meet, half the narrowest web or less, and by whole blocks of texels where there is not. Returns
-  // how many steps that were, for an account of the time; `rises` is written over.
+  // Finds where opacity exceeds all earlier values on the path from a point that is not solid,
+  // until it is solid or the shift reaches `farthest`. Steps are one texel near solid texels (half
+  // the narrowest web or less) and whole blocks of texels elsewhere. Returns the number of steps,
+  // to account for the time; overwrites `rises`.
   std::size_t follow(double u, double v, Direction const& direction, double farthest,
                      std::vector<Rise>& rises) const;
 
  private:
   class Walk;
 
-  // Blocks of texels by the opacity of the largest, each level's twice as wide and high.
+  // Blocks of texels with their largest opacity; each level's blocks are twice as wide and high.
   struct Level {
     int size_log2 = 0;
     std::size_t columns = 0;

@@ -20,7 +20,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 // Tangent of the largest angle of incidence that is followed, 89.1 degrees.
 constexpr double most_tangent = 64.0;
 
-// Steps of TileRays in all, of 10 ns or so, and how many a ray takes besides its own.
+// Total number of steps of TileRays, of about 10 ns each, and the overhead of a ray in steps.
 constexpr double most_work = 2.4e8;
 constexpr std::size_t work_of_ray = 4;
 
@@ -31,8 +31,8 @@ struct Extent {
   double height;
 };
 
-// Places n = 0, 1, .. evenly over an area (R2, Roberts 2018), from a start that differs from region
-// to region.
+// Points n = 0, 1, .. spread evenly over an area (R2, Roberts 2018), from a start that differs
+// between regions.
 class Places {
  public:
   Places(Extent const& extent, std::size_t region)
@@ -64,7 +64,7 @@ struct Start {
 };
 
 struct Starts {
-  double openness = 0.0;  // mean of all places, more than there are rays
+  double openness = 0.0;  // mean over all points, which are more than the rays
   std::vector<Start> rays;
 };
 
@@ -85,8 +85,8 @@ Starts open_starts(TileRays const& rays, Extent const& extent, std::size_t regio
   return starts;
 }
 
-// Where a ray ends: `visit(shift, loss)` for each loss of openness on its way. Returns the shift at
-// which nothing is left, and adds to the work.
+// Follows a ray to its end and calls `visit(shift, loss)` for each loss of openness on its path.
+// Returns the shift at which nothing is left, and adds to the work.
 template <typename Visit>
 double follow(TileRays const& rays, Start const& start, TileRays::Direction const& direction,
               double farthest, std::vector<TileRays::Rise>& rises, std::size_t& work,
@@ -122,11 +122,11 @@ class Maker {
   }
 
   void lay_out(int most_directions);
-  // Sets how many rays there are and the step, by what few rays do.
+  // Determines the number of rays and the step from a few trial rays.
   void try_out();
 
-  // Of one region: the shares of the open beam lost up to each step, all directions one after the
-  // other, each of `steps`.
+  // For one region: the fractions of the open beam lost up to each step, all directions one after
+  // the other, with `steps` values each.
   struct Region {
     std::size_t steps = 0;
     double longest_chord = 0.0;
@@ -213,7 +213,7 @@ void Maker::try_out() {
       std::min(2049.0, most_values / (static_cast<double>(regions()) * table_.directions)));
   double const texel = std::min(tile_.texel_width(), tile_.texel_height());
   double const mean = lost > 0.0 ? lost_shifts / lost : texel;
-  // What was tried may have missed the longest way.
+  // The trial rays may have missed the longest path.
   table_.step = std::clamp(1.25 * longest / static_cast<double>(most_steps_ - 1),
                            std::max(mean, texel) / 64.0, std::max(mean, texel) / 16.0);
 }
@@ -238,7 +238,7 @@ Maker::Region Maker::made(std::size_t region) const {
     for (Start const& start : starts.rays) {
       double const end =
           follow(rays_, start, way, farthest_, rises, work, [&](double shift, double loss) {
-            // The first step that lies beyond.
+            // The first step beyond it.
             double const place = std::ceil(shift / table_.step);
             if (place >= static_cast<double>(most_steps_)) return;
             auto const step = static_cast<std::size_t>(place);
@@ -285,7 +285,7 @@ TileTable Maker::make() {
     table_.longest_chord = std::max(table_.longest_chord, region.longest_chord);
   }
   table_.steps = static_cast<int>(steps);
-  // The step from which on nothing is left.
+  // The step from which on nothing passes.
   table_.longest_chord = std::ceil(table_.longest_chord / table_.step) * table_.step;
   auto const directions = static_cast<std::size_t>(table_.directions);
   table_.values.reserve(directions * steps * all.size());

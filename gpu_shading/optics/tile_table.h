@@ -6,8 +6,8 @@
 
 namespace gpu_shading {
 
-// What of the beam passes the regions of a tile, over directions phi = 0, pi / directions, .. and
-// equal steps of the shift.
+// The fraction of the beam that passes the regions of a tile, for directions phi = 0, pi /
+// directions, .. and equal steps of the shift.
 struct TileTable {
   int regions_across = 1;
   int regions_up = 1;
@@ -15,12 +15,12 @@ struct TileTable {
   int steps = 2;
   double step = 0.0;
   double longest_chord = 0.0;  // 0 where nothing passes at all
-  // Regions row after row; of these all at each step; of these all in each direction.
+  // Nested in the order direction, step, region, with regions row after row.
   std::vector<float> values;
 };
 
-// As ScreenTransmittance says it. `most_directions` where there is one region, else a part of
-// them: most_directions is a multiple of `directions`.
+// As described for ScreenTransmittance. With one region, there are `most_directions`; otherwise
+// fewer, of which most_directions is a multiple.
 TileTable make_tile_table(OpacityTile const& tile, double thickness, int most_directions);
 
 }  // namespace gpu_shading

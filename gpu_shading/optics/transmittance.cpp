@@ -19,7 +19,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180.0;
 
 void check(double value, double degrees, double tolerance = 0.0) {
-  // Written so that what is not a number fails.
+  // Written so that NaN fails.
   if (value >= -tolerance && value <= 1.0 + tolerance) return;
   throw Error(
       fmt::format("transmittance is {:.9g} at {:.4g} degrees, expected 0 to 1", value, degrees));
@@ -41,7 +41,7 @@ void check_everywhere(Model const& model) {
 
 void check_table(std::vector<double> const& angles, std::vector<double> const& values) {
   if (angles.size() != values.size()) {
-    throw Error(fmt::format("table has {} angles and {} transmittances, expected as many",
+    throw Error(fmt::format("table has {} angles and {} transmittances, expected equal numbers",
                             angles.size(), values.size()));
   }
   if (angles.size() < 2) {
@@ -59,7 +59,7 @@ void check_table(std::vector<double> const& angles, std::vector<double> const& v
   }
 }
 
-// Of the points at either side of x, which lies within them.
+// The points on either side of x, which lies within their range.
 double straight(std::vector<double> const& xs, std::vector<double> const& ys, double x) {
   auto const above = std::upper_bound(xs.begin() + 1, xs.end() - 1, x);
   auto const i = static_cast<std::size_t>(above - xs.begin());

@@ -22,7 +22,7 @@ Receiver& Receivers::find(SurfaceId id) {
 }
 
 int Receivers::side_for(Receiver const& receiver, InView const& in_view, bool screened) const {
-  // Of the rectangle's edges and pixels the receiver has its share.
+  // The receiver has its share of the rectangle's edges and pixels.
   double const share = receiver.area / (receiver.frame->width * receiver.frame->height);
   int const side = size_.side((1.0 / share) * in_view.detail);
   return screened ? size_.side_with_screens(side) : side;

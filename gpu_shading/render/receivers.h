@@ -1,33 +1,43 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <map>
+#include <optional>
 #include <unordered_map>
 
 #include "gpu_shading/scene.h"
-#include "render/receiver.h"
-#include "render/tile_size.h"
-#include "render/transmission.h"
 #include "scene/casters.h"
+#include "view/tile.h"
+#include "view/tile_size.h"
+#include "view/transmission.h"
 
 namespace gpu_shading {
 
-// The surfaces of a scene, which must outlive it, as receivers, laid out as they are asked for.
+// Properties of a receiver that do not depend on the sun direction.
+struct Receiver {
+  std::optional<PlaneFrame> frame;  // empty if it has no area
+  double area = 0.0;                // exact, m2
+  std::map<int, Tile> tiles;        // tiles created so far, by requested resolution
+};
+
+// The surfaces of a scene, which must outlive it, as receivers. Their tiles are created when first
+// needed.
 class Receivers {
  public:
-  // `most`: pixels a side of any tile.
+  // `most`: maximum number of pixels per side of a tile.
   Receivers(Scene const& scene, TileSize const& size, int most)
       : scene_(scene), size_(size), most_(most) {}
 
-  // Throws Error when there is no such surface.
+  // Throws Error if there is no such surface.
   Receiver const& operator[](SurfaceId id) { return find(id); }
   Surface const& surface(SurfaceId id) const;
 
   TileSize const& size() const { return size_; }
-  // Pixels a side for what is in view. The receiver has to have an area.
+  // Pixels per side for the casters in view. The receiver must have an area.
   int side_for(Receiver const& receiver, InView const& in_view, bool screened) const;
-  // Its address stays as long as this.
+  // The address is valid for the lifetime of this object.
   Tile& tile(SurfaceId id, int side);
-  // Of one that has turned out to have no pixels: its bounding rectangle's in place.
+  // The tile of the bounding rectangle, for a receiver that turned out to have no pixels.
   void bound(SurfaceId id, Tile& tile);
 
  private:

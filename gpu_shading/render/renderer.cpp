@@ -7,20 +7,16 @@
 #include <optional>
 #include <utility>
 
-#include "egl/device.h"
-#include "gl/limits.h"
+#include "backends/open_backend.h"
 #include "gpu_shading/error.h"
-#include "render/coverage.h"
-#include "render/geometry.h"
-#include "render/picture.h"
+#include "pictures/receiver_picture.h"
+#include "render/question_batch.h"
 #include "render/receivers.h"
-#include "render/round.h"
-#include "render/stopwatch.h"
-#include "render/submissions.h"
-#include "render/tile_size.h"
-#include "render/transmission.h"
 #include "scene/casters.h"
 #include "scene/triangulation.h"
+#include "view/stopwatch.h"
+#include "view/tile_size.h"
+#include "view/transmission.h"
 
 namespace gpu_shading {
 namespace {
@@ -39,30 +35,6 @@ TileSize tile_size(RendererOptions const& options, DeviceInfo const& device) {
                             *options.resolution, device.max_resolution, device.renderer));
   }
   return TileSize::fixed(*options.resolution);
-}
-
-RendererOptions settled(RendererOptions options, DeviceInfo const& device) {
-  if (options.luminance_sum == LuminanceSum::automatic) {
-    options.luminance_sum = device.software ? LuminanceSum::readback : LuminanceSum::compute;
-  }
-  if (options.plain_views == PlainViews::automatic) {
-    options.plain_views = device.software ? PlainViews::counted : PlainViews::drawn;
-  }
-  return options;
-}
-
-// As the public header says. In software device memory is best small enough for the CPU's cache:
-// with 4 MiB and three under way 500 panes over 20 receivers took 10 to 25 % more of the CPU.
-Bounds bounds_of(RendererOptions const& options, DeviceInfo const& device) {
-  constexpr std::size_t mib = std::size_t{1} << 20U;
-  gl::Limits const limits = gl::query_limits();
-  Bounds bounds;
-  bounds.in_flight = device.software ? 1 : 3;
-  bounds.target = (device.software ? 1 : 32) * mib;
-  bounds.all_targets = (device.software ? 64 : 512) * mib;
-  bounds.layers = limits.layers_in_vertex_stage ? limits.max_layers : 1;
-  if (options.most_layers > 0) bounds.layers = std::min(bounds.layers, options.most_layers);
-  return bounds;
 }
 
 }  // namespace
@@ -85,7 +57,7 @@ RendererStatistics& RendererStatistics::operator+=(RendererStatistics const& oth
 class Renderer::Implementation {
  public:
   Implementation(Scene scene, RendererOptions options);
-  ~Implementation();
+  ~Implementation() = default;
   Implementation(Implementation const&) = delete;
   Implementation& operator=(Implementation const&) = delete;
 
@@ -100,78 +72,48 @@ class Renderer::Implementation {
   }
 
   Scene const& scene() const { return scene_; }
-  DeviceInfo const& device() const { return device_.info; }
+  DeviceInfo const& device() const { return backend_->device(); }
   RendererStatistics const& statistics() const { return statistics_; }
 
  private:
-  // What lives on the device, made and ended with its context current.
-  struct OnDevice {
-    OnDevice(Scene const& scene, std::span<Mesh const> meshes, Transmission const& transmission,
-             Bounds const& bounds, LuminanceSum how, RendererStatistics& statistics)
-        : geometry(scene, meshes, transmission.screens()),
-          submissions(geometry, transmission, bounds, how, statistics) {}
-
-    Geometry geometry;
-    Submissions submissions;
-    std::optional<Picture> picture;
-  };
-
-  Round new_round() {
-    return Round({scene_, casters_, transmission_, on_device_->geometry, receivers_,
-                  on_device_->submissions, coverage_ ? &*coverage_ : nullptr, statistics_});
+  QuestionBatch new_batch() {
+    return QuestionBatch({scene_, casters_, transmission_, *receivers_, *backend_, statistics_});
   }
+
+  // Of each caster, with factors for schedules, 1 where those are too few.
+  std::vector<Shade> shades_at(ShadedReceiver const& shaded, std::span<double const> factors) const;
 
   Scene scene_;
   Casters casters_;
   Transmission transmission_;
-  egl::Device device_;
   RendererOptions options_;
-  Receivers receivers_;
-  std::optional<Coverage> coverage_;
   RendererStatistics statistics_;
-  std::unique_ptr<OnDevice> on_device_;
+  std::unique_ptr<ViewBackend> backend_;
+  std::optional<Receivers> receivers_;
+  std::unique_ptr<PictureRaster> picture_raster_;  // once asked for
 };
 
 Renderer::Implementation::Implementation(Scene scene, RendererOptions options)
-    : scene_(std::move(scene)),
-      casters_(scene_),
-      transmission_(scene_),
-      device_(egl::open_device(options.device)),
-      options_(settled(options, device_.info)),
-      receivers_(scene_, tile_size(options_, device_.info), device_.info.max_resolution) {
+    : scene_(std::move(scene)), casters_(scene_), transmission_(scene_), options_(options) {
   Stopwatch const watch(statistics_.seconds);
   std::vector<Mesh> const meshes = triangulate_all(scene_);
-  if (options_.plain_views == PlainViews::counted) coverage_.emplace(meshes);
-  egl::Current const current = device_.context.make_current();
-  on_device_ =
-      std::make_unique<OnDevice>(scene_, meshes, transmission_, bounds_of(options_, device_.info),
-                                 options_.luminance_sum, statistics_);
-}
-
-Renderer::Implementation::~Implementation() {
-  try {
-    egl::Current const current = device_.context.make_current();
-    on_device_.reset();
-  } catch (DeviceError const&) {
-    // A lost device keeps its objects; deleting them without a context would take someone else's.
-    static_cast<void>(on_device_.release());
-  }
+  backend_ = open_backend({scene_, meshes, transmission_, statistics_}, options_);
+  receivers_.emplace(scene_, tile_size(options_, device()), device().max_resolution);
 }
 
 std::vector<std::vector<Sunlit>> Renderer::Implementation::projected_sunlit_areas(
     std::span<SunDirection const> suns, std::span<SurfaceId const> receivers) {
   Stopwatch const watch(statistics_.seconds);
   std::vector<std::vector<Sunlit>> answers(suns.size(), std::vector<Sunlit>(receivers.size()));
-  egl::Current const current = device_.context.make_current();
-  Round round = new_round();
+  QuestionBatch batch = new_batch();
   for (std::size_t direction = 0; direction < suns.size(); ++direction) {
     ++statistics_.directions;
     glm::dvec3 const towards_sun = to_vector(suns[direction]);
     for (std::size_t i = 0; i < receivers.size(); ++i) {
-      round.ask({receivers[i], towards_sun, false, {}, {&answers[direction][i], 1}});
+      batch.ask({receivers[i], towards_sun, false, {}, {&answers[direction][i], 1}});
     }
   }
-  round.finish();
+  batch.finish();
   return answers;
 }
 
@@ -182,50 +124,56 @@ std::vector<std::vector<std::vector<Sunlit>>> Renderer::Implementation::interior
   unlit.reserve(questions.size());
   for (InteriorQuestion const& question : questions) unlit.emplace_back(question.interiors.size());
   std::vector<std::vector<std::vector<Sunlit>>> answers(suns.size(), unlit);
-  egl::Current const current = device_.context.make_current();
-  Round round = new_round();
+  QuestionBatch batch = new_batch();
   for (std::size_t direction = 0; direction < suns.size(); ++direction) {
     glm::dvec3 const towards_sun = to_vector(suns[direction]);
     for (std::size_t i = 0; i < questions.size(); ++i) {
-      round.ask(
+      batch.ask(
           {questions[i].window, towards_sun, true, questions[i].interiors, answers[direction][i]});
     }
   }
-  round.finish();
+  batch.finish();
   return answers;
+}
+
+std::vector<Shade> Renderer::Implementation::shades_at(ShadedReceiver const& shaded,
+                                                       std::span<double const> factors) const {
+  std::vector<Shade> shades;
+  for (SurfaceId const caster : shaded.casters) {
+    Shade shade = transmission_.shade(caster, shaded.towards_sun);
+    int const schedule = scene_[caster].schedule;
+    if (schedule >= 0 && static_cast<std::size_t>(schedule) < factors.size()) {
+      shade.transmittance *= static_cast<float>(factors[static_cast<std::size_t>(schedule)]);
+    }
+    shade.schedule = Shades::unscheduled;
+    shades.push_back(shade);
+  }
+  return shades;
 }
 
 Image Renderer::Implementation::sun_view(SunDirection sun, SurfaceId id, int size,
                                          std::span<double const> factors) {
   Stopwatch const watch(statistics_.seconds);
-  if (size < 1 || size > device_.info.max_resolution) {
+  if (size < 1 || size > device().max_resolution) {
     throw Error(fmt::format("size {} of a sun's view: expected 1 to {} pixels", size,
-                            device_.info.max_resolution));
+                            device().max_resolution));
   }
-  Receiver const& seen = receivers_[id];
+  Receiver const& seen = (*receivers_)[id];
   if (!seen.frame) {
-    throw Error(fmt::format("surface '{}' has no area: there is no view of it", scene_[id].name));
+    throw Error(fmt::format("surface '{}' has no area and cannot be viewed", scene_[id].name));
   }
   glm::dvec3 const towards_sun = to_vector(sun);
   bool const faces_sun = glm::dot(seen.frame->normal, towards_sun) > edge_on;
-  std::vector<SurfaceId> const casters =
-      faces_sun ? casters_.in_view(scene_, id, *seen.frame, towards_sun, 0.0).casters
-                : std::vector<SurfaceId>();
-  Picture::Shading shading;
-  shading.casters = casters;
-  if (transmission_.any_transmits(casters)) {
-    shading.shades.resize(scene_.size());
-    for (SurfaceId const caster : casters) {
-      Shade& shade = shading.shades[caster] = transmission_.shade(caster, towards_sun);
-      auto const schedule = static_cast<std::size_t>(std::max(0, scene_[caster].schedule));
-      if (scene_[caster].schedule < 0 || schedule >= factors.size()) continue;
-      shade.transmittance *= static_cast<float>(factors[schedule]);
-    }
+  ShadedReceiver shaded{id, towards_sun, {}, {}};
+  if (faces_sun) {
+    shaded.casters = casters_.in_view(scene_, id, *seen.frame, towards_sun, 0.0).casters;
   }
-  egl::Current const current = device_.context.make_current();
-  if (!on_device_->picture) on_device_->picture.emplace();
-  return on_device_->picture->draw(on_device_->geometry, scene_, transmission_, id, *seen.frame,
-                                   shading, towards_sun, size);
+  if (transmission_.any_transmits(shaded.casters)) shaded.shades = shades_at(shaded, factors);
+  if (!picture_raster_) {
+    std::vector<Mesh> const meshes = triangulate_all(scene_);
+    picture_raster_ = open_picture_raster({scene_, meshes, transmission_}, options_.device);
+  }
+  return draw_receiver(*picture_raster_, scene_, shaded, *seen.frame, size);
 }
 
 Renderer::Renderer(Scene scene, RendererOptions options)

@@ -2,8 +2,8 @@
 
 namespace gpu_shading {
 
-// Length of the shadow edges that cross a receiver's bounding rectangle, hidden ones too; each in
-// lengths of the rectangle's side that it runs along, so that an edge from end to end counts 1.
+// Length of the shadow edges that cross a receiver's bounding rectangle, including hidden ones, in
+// lengths of the rectangle's side along which they run, so that an edge from end to end counts 1.
 struct Detail {
   double along = 0.0;   // parallel to the rectangle's sides
   double across = 0.0;  // all others

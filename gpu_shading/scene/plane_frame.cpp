@@ -13,7 +13,7 @@ glm::dvec3 longest_edge(Ring const& ring) {
   glm::dvec3 longest(0.0);
   for (std::size_t i = 0; i < ring.size(); ++i) {
     glm::dvec3 const edge = ring[(i + 1) % ring.size()] - ring[i];
-    // Of edges alike the first stays the longest whatever the last digit says.
+    // Among edges of equal length, the first one counts as the longest, whatever the last digit.
     constexpr double clearly = 1.0 + 1e-9;
     if (glm::dot(edge, edge) > clearly * glm::dot(longest, longest)) longest = edge;
   }

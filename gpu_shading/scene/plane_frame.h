@@ -7,8 +7,8 @@
 
 namespace gpu_shading {
 
-// A receiver's own coordinates: u along its longest edge, v = normal x u, both unit vectors in its
-// Newell plane; the origin is the centre of its bounding rectangle along u and v.
+// A receiver's own coordinates: u along its longest edge and v = normal x u, both unit vectors in
+// its Newell plane. The origin is the centre of its bounding rectangle along u and v.
 struct PlaneFrame {
   glm::dvec3 origin;
   glm::dvec3 u;
@@ -18,7 +18,7 @@ struct PlaneFrame {
   double height = 0.0;  // along v
 };
 
-// Nothing for a degenerate polygon.
+// Empty for a degenerate polygon.
 std::optional<PlaneFrame> plane_frame(Polygon const& polygon);
 
 }  // namespace gpu_shading

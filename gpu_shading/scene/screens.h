@@ -13,7 +13,7 @@ namespace gpu_shading {
 // The scene's perforated surfaces, numbered from 0 in its order.
 class Screens {
  public:
-  // Convex and counter-clockwise; of a triangle the last corner comes twice.
+  // Convex and counterclockwise; a triangle has its last corner twice.
   struct Quadrilateral {
     std::array<glm::dvec3, 4> corners;
     std::array<glm::dvec2, 4> places;  // in the tile's axes, m
@@ -42,7 +42,8 @@ class Screens {
   std::vector<Entry> entries_;
 };
 
-// Where the faces of a surface's sheet are, in metres along its normal; both 0 without a screen.
+// The positions of the faces of a surface's sheet in metres along its normal; both 0 without a
+// screen.
 struct SheetFaces {
   double inside = 0.0;
   double outside = 0.0;

@@ -7,14 +7,14 @@
 
 namespace gpu_shading {
 
-// The scene's surfaces by what they let through. Schedules are numbered from 0 here, without gaps.
+// The transmittance of the scene's surfaces. Schedules are numbered from 0 here, without gaps.
 class Shades {
  public:
   explicit Shades(Scene const& scene);
 
   bool any() const { return any_; }
   bool transmits(SurfaceId id) const { return entries_[id].transmits; }
-  // Whether more than its screen's holes dims what passes it.
+  // Whether it has a transmittance or schedule besides its screen.
   bool dims(SurfaceId id) const { return entries_[id].dims; }
 
   // 1 for a surface that only has a schedule or a screen, 0 for an opaque one. `towards_sun` of

@@ -1,23 +1,23 @@
 #include "scene/triangulation.h"
 
-#include <GL/glu.h>
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cmath>
-#include <deque>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <memory>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "gpu_shading/error.h"
+#include "scene/odd_even.h"
 #include "scene/ring.h"
 
 namespace gpu_shading {
 namespace {
 
-// Turns left all the way round, and goes round once.
+// Whether it turns left at every corner and goes round once.
 bool is_convex(Ring const& ring, glm::dvec3 const& up) {
   double turned = 0.0;
   std::size_t const n = ring.size();
@@ -41,82 +41,90 @@ Mesh fan(Ring const& ring) {
   return mesh;
 }
 
-// What the tessellator's callbacks write to. C callbacks: nothing may be thrown through GLU, so an
-// allocation failure ends the program there.
-struct Tessellation {
-  Mesh mesh;
-  std::deque<std::uint32_t> handles;  // stable addresses for GLU to hand back
-  GLenum error = 0;
-
-  std::uint32_t* add(glm::dvec3 const& vertex) {
-    handles.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
-    mesh.vertices.push_back(vertex);
-    return &handles.back();
+// A polygon's rings on an integer grid in its plane, and back.
+class Grid {
+ public:
+  Grid(std::vector<Ring> rings, glm::dvec3 const& up) : rings_(std::move(rings)) {
+    // Along the longest edge, as most openings are: that makes few triangles.
+    glm::dvec3 longest(0.0);
+    Ring const& outline = rings_.front();
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      glm::dvec3 const edge = outline[(i + 1) % outline.size()] - outline[i];
+      if (glm::dot(edge, edge) > glm::dot(longest, longest)) longest = edge;
+    }
+    glm::dvec3 const u = glm::normalize(longest - up * glm::dot(up, longest));
+    glm::dvec3 const v = glm::cross(up, u);
+    auto const place = [&](glm::dvec3 const& vertex) {
+      glm::dvec3 const p = vertex - outline[0];
+      return glm::dvec2(glm::dot(p, u), glm::dot(p, v));
+    };
+    double reach = 0.0;
+    for (Ring const& ring : rings_) {
+      for (glm::dvec3 const& vertex : ring) {
+        glm::dvec2 const p = glm::abs(place(vertex));
+        reach = std::max({reach, p.x, p.y});
+      }
+    }
+    double const scale = grid_limit / reach;
+    for (Ring const& ring : rings_) {
+      std::vector<glm::ivec2>& points = points_.emplace_back();
+      for (glm::dvec3 const& vertex : ring) {
+        glm::ivec2 const point(glm::round(scale * place(vertex)));
+        points.push_back(point);
+        vertices_.try_emplace({point.x, point.y}, vertex);
+      }
+    }
   }
+
+  std::vector<std::vector<glm::ivec2>> const& rings() const { return points_; }
+
+  // The polygon's own vertex, or else the place on the edge that the point was rounded from.
+  glm::dvec3 vertex_at(glm::ivec2 const& point) const {
+    auto const own = vertices_.find({point.x, point.y});
+    if (own != vertices_.end()) return own->second;
+    double nearest = std::numeric_limits<double>::infinity();
+    glm::dvec3 vertex(0.0);
+    for (std::size_t i = 0; i < rings_.size(); ++i) {
+      for (std::size_t k = 0; k < rings_[i].size(); ++k) {
+        std::size_t const next = (k + 1) % rings_[i].size();
+        glm::dvec2 const from(points_[i][k]);
+        glm::dvec2 const along = glm::dvec2(points_[i][next]) - from;
+        double const square = glm::dot(along, along);
+        if (square == 0.0) continue;
+        double const share =
+            std::clamp(glm::dot(glm::dvec2(point) - from, along) / square, 0.0, 1.0);
+        double const distance = glm::distance(from + share * along, glm::dvec2(point));
+        if (distance >= nearest) continue;
+        nearest = distance;
+        vertex = glm::mix(rings_[i][k], rings_[i][next], share);
+      }
+    }
+    return vertex;
+  }
+
+ private:
+  std::vector<Ring> rings_;
+  std::vector<std::vector<glm::ivec2>> points_;
+  std::map<std::pair<int, int>, glm::dvec3> vertices_;
 };
 
-void GLAPIENTRY on_vertex(void* vertex, void* state) noexcept {
-  static_cast<Tessellation*>(state)->mesh.indices.push_back(*static_cast<std::uint32_t*>(vertex));
-}
-
-// Registered so that GLU gives plain triangles, neither strips nor fans.
-void GLAPIENTRY on_edge_flag(GLboolean /*boundary*/, void* /*state*/) noexcept {}
-
-void GLAPIENTRY on_combine(GLdouble* place, void** /*of*/, GLfloat* /*weights*/, void** made,
-                           void* state) noexcept {
-  *made = static_cast<Tessellation*>(state)->add({place[0], place[1], place[2]});
-}
-
-void GLAPIENTRY on_error(GLenum error, void* state) noexcept {
-  static_cast<Tessellation*>(state)->error = error;
-}
-
-template <typename Function>
-void set_callback(GLUtesselator* glu, GLenum which, Function* function) {
-  gluTessCallback(glu, which, reinterpret_cast<_GLUfuncptr>(function));
-}
-
-void add_contour(GLUtesselator* glu, Tessellation& result, Ring const& ring,
-                 glm::dvec3 const& origin) {
-  gluTessBeginContour(glu);
-  for (glm::dvec3 const& vertex : ring) {
-    glm::dvec3 local = vertex - origin;
-    gluTessVertex(glu, &local.x, result.add(local));
-  }
-  gluTessEndContour(glu);
-}
-
-Mesh tessellate(Ring const& outline, std::vector<Ring> const& holes, glm::dvec3 const& up) {
-  std::unique_ptr<GLUtesselator, void (*)(GLUtesselator*)> const glu(gluNewTess(), gluDeleteTess);
-  if (!glu) throw Error("cannot create the polygon tessellator (gluNewTess): out of memory");
-  Tessellation result;
-  set_callback(glu.get(), GLU_TESS_VERTEX_DATA, on_vertex);
-  set_callback(glu.get(), GLU_TESS_EDGE_FLAG_DATA, on_edge_flag);
-  set_callback(glu.get(), GLU_TESS_COMBINE_DATA, on_combine);
-  set_callback(glu.get(), GLU_TESS_ERROR_DATA, on_error);
-  gluTessProperty(glu.get(), GLU_TESS_WINDING_RULE, GLU_TESS_WINDING_ODD);
-  gluTessNormal(glu.get(), up.x, up.y, up.z);
-
-  // GLU works relative to the polygon: it refuses large coordinates and merges at its own
-  // tolerance.
-  glm::dvec3 const origin = outline.front();
-  gluTessBeginPolygon(glu.get(), &result);
-  add_contour(glu.get(), result, outline, origin);
+Mesh cover(Ring const& outline, std::vector<Ring> const& holes, glm::dvec3 const& up) {
+  std::vector<Ring> rings{outline};
   for (Ring const& hole : holes) {
-    Ring const ring = without_repeats(hole);
-    if (ring.size() >= 3) add_contour(glu.get(), result, ring, origin);
+    Ring ring = without_repeats(hole);
+    if (ring.size() >= 3) rings.push_back(std::move(ring));
   }
-  gluTessEndPolygon(glu.get());
-  if (result.error != 0) {
-    throw Error(fmt::format("cannot triangulate a polygon of {} vertices and {} holes: {}",
-                            outline.size(), holes.size(),
-                            reinterpret_cast<char const*>(gluErrorString(result.error))));
-  }
-  for (glm::dvec3& vertex : result.mesh.vertices) vertex += origin;
-  return std::move(result.mesh);
+  Grid const grid(std::move(rings), up);
+  GridMesh const covered = triangulate_odd_even(grid.rings());
+  Mesh mesh;
+  mesh.vertices.reserve(covered.points.size());
+  for (glm::ivec2 const& point : covered.points) mesh.vertices.push_back(grid.vertex_at(point));
+  mesh.indices = covered.indices;
+  return mesh;
 }
 
-// The two as one piece, if they share an edge, lie in one plane, and turn left all the way round.
+// Both triangles as one piece, if they share an edge, lie in one plane, and turn left at every
+// corner.
 std::optional<glm::uvec4> joined(Mesh const& mesh, glm::uvec3 const& a, glm::uvec3 const& b) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
@@ -148,7 +156,7 @@ Mesh triangulate(Polygon const& polygon) {
   if (is_degenerate(outline, vector)) return {};
   glm::dvec3 const up = glm::normalize(vector);
   if (polygon.holes.empty() && is_convex(outline, up)) return fan(outline);
-  return tessellate(outline, polygon.holes, up);
+  return cover(outline, polygon.holes, up);
 }
 
 std::vector<Mesh> triangulate_all(Scene const& scene) {

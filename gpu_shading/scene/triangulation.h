@@ -10,19 +10,20 @@ namespace gpu_shading {
 
 struct Mesh {
   std::vector<glm::dvec3> vertices;
-  std::vector<std::uint32_t> indices;  // three a triangle
+  std::vector<std::uint32_t> indices;  // three per triangle
 };
 
-// Triangles that cover the polygon less its holes once (odd winding, so holes run either way).
-// Their vertices are the polygon's, but where its rings cross. Empty for a degenerate polygon.
+// Triangles that cover the polygon minus its holes exactly once, by the odd-even rule, so that
+// holes may run either way. Their vertices are those of the polygon and, unless it is convex, some
+// on its edges, within 4e-9 of its size. Empty for a degenerate polygon.
 Mesh triangulate(Polygon const& polygon);
 
-// Of every surface, in the scene's order. Throws Error when there are more vertices in all than 32
-// bits number.
+// The triangles of every surface, in the scene's order. Throws Error if the total number of
+// vertices does not fit in 32 bits.
 std::vector<Mesh> triangulate_all(Scene const& scene);
 
-// The mesh as convex pieces of up to four corners, in order; the last is repeated where there are
-// three. Triangles that share an edge and lie in one plane are joined in pairs.
+// The mesh as convex pieces of up to four corners, in order; the last corner is repeated if there
+// are three. Triangles that share an edge and lie in one plane are joined in pairs.
 std::vector<glm::uvec4> convex_pieces(Mesh const& mesh);
 
 }  // namespace gpu_shading

@@ -22,7 +22,7 @@ namespace {
 namespace bg = boost::geometry;
 using Plan = bg::model::polygon<bg::model::d2::point_xy<double>, false>;  // counter-clockwise
 
-// A footprint seen from above, about its first corner, so that neither the antimeridian nor the
+// A footprint in plan, relative to its first corner, so that neither the antimeridian nor the
 // distance from the model matters.
 Plan::ring_type ring_seen_from(LocalAxes const& here, GeographicRing const& ring) {
   Plan::ring_type plan;
@@ -35,7 +35,7 @@ Plan::ring_type ring_seen_from(LocalAxes const& here, GeographicRing const& ring
   return plan;
 }
 
-// Corners 1 mm apart are one.
+// Corners within 1 mm of one another are merged.
 void drop_repeats(Plan::ring_type& ring) {
   constexpr double same = 1e-3;
   auto const near = [](auto const& a, auto const& b) { return bg::distance(a, b) <= same; };
@@ -56,7 +56,7 @@ std::string reason(bg::validity_failure_type failure) {
     case bg::failure_disconnected_interior:
       return "a courtyard is not inside its outline";
     default:
-      return "it is no area";
+      return "it is not a valid area";
   }
 }
 
@@ -105,7 +105,7 @@ Ring raised(Plan::ring_type const& ring, double elevation, LocalAxes const& here
   return raised;
 }
 
-// Faces to the right of a ring's way, seen from above.
+// Faces to the right of a ring's direction, as seen from above.
 void add_walls(Ring const& low, Ring const& high, std::vector<Polygon>& faces) {
   for (std::size_t i = 0; i < low.size(); ++i) {
     std::size_t const next = (i + 1) % low.size();
@@ -116,7 +116,7 @@ void add_walls(Ring const& low, Ring const& high, std::vector<Polygon>& faces) {
 }  // namespace
 
 std::vector<Polygon> upright_prism(Footprint const& footprint, LocalAxes const& axes) {
-  // Negated so that a NaN is refused.
+  // Negated so that NaN is rejected.
   if (!(footprint.top > footprint.base)) {
     throw Error(fmt::format("its top at {} m is not above its base at {} m", footprint.top,
                             footprint.base));

@@ -19,7 +19,7 @@ GeographicLib::LocalCartesian projection(GeographicPoint const& origin) {
 }  // namespace
 
 LocalAxes::LocalAxes(GeographicPoint const& origin) : origin_(origin) {
-  // Negated so that a NaN is refused.
+  // Negated so that NaN is rejected.
   if (!(std::abs(origin.latitude) <= 90.0)) {
     throw Error(fmt::format("latitude is {} degrees, expected -90 to 90", origin.latitude));
   }

@@ -80,7 +80,7 @@ GeographicPoint MapCoordinates::to_geographic(MapPoint const& point, double elev
       throw Error(
           fmt::format("easting {} m, northing {} m are not in {}", point.x, point.y, name()));
     }
-    // It answers NaN for NaN.
+    // It returns NaN for NaN.
     if (std::isfinite(place.latitude)) return place;
   } else if (std::abs(point.y) <= 90.0 && std::abs(point.x) <= 2.0 * turn) {
     return {point.y, point.x, elevation};
@@ -88,8 +88,9 @@ GeographicPoint MapCoordinates::to_geographic(MapPoint const& point, double elev
   if (zone_) {
     throw Error(fmt::format("easting {} m, northing {} m are not in {}", point.x, point.y, name()));
   }
-  throw Error(fmt::format("longitude {}, latitude {} are not degrees of WGS84 (UTM has to be said)",
-                          point.x, point.y));
+  throw Error(fmt::format(
+      "longitude {}, latitude {} are not WGS84 degrees (UTM coordinates need their zone)", point.x,
+      point.y));
 }
 
 MapPoint MapCoordinates::from_geographic(GeographicPoint const& point, double near_x) const {
@@ -108,7 +109,7 @@ MapPoint MapCoordinates::from_geographic(GeographicPoint const& point, double ne
     throw Error(fmt::format("latitude {}, longitude {} is too far from {}", point.latitude,
                             point.longitude, name()));
   }
-  // Across the equator northings go on in the file's own hemisphere.
+  // Across the equator, northings continue in the file's own hemisphere.
   if (north != zone_->north) place.y += (north ? 1.0 : -1.0) * UTMUPS::UTMShift();
   return place;
 }

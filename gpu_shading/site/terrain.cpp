@@ -8,7 +8,7 @@
 namespace gpu_shading {
 namespace {
 
-// A row of nodes in the axes; nothing where the grid has no data.
+// A row of nodes in the axes; empty where the grid has no data.
 std::vector<std::optional<glm::dvec3>> row_of(TerrainGrid const& grid, int row,
                                               LocalAxes const& axes) {
   std::vector<std::optional<glm::dvec3>> nodes(static_cast<std::size_t>(grid.columns));
@@ -27,7 +27,7 @@ std::vector<std::optional<glm::dvec3>> row_of(TerrainGrid const& grid, int row,
 std::optional<double> elevation_at(TerrainGrid const& grid, GeographicPoint const& place) {
   double const middle = grid.first.x + 0.5 * grid.step_x * (grid.columns - 1);
   auto const point = grid.coordinates.from_geographic(place, middle);
-  // A place on the edge is on the grid, whatever the last digit says.
+  // A position on the edge is on the grid, whatever the last digit.
   constexpr double rounding = 1e-6;
   auto const along = [&](double value, double first, double step,
                          int count) -> std::optional<std::pair<int, double>> {

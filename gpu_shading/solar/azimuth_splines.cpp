@@ -12,8 +12,8 @@ namespace {
 
 using Spline = boost::math::interpolators::cardinal_cubic_b_spline<double>;
 
-// Through values at equal steps. Ends of fewer than five, which tell no slope, are level; of fewer
-// than three there is nothing to bend.
+// Interpolates values at equal steps. With fewer than five values, which give no slope at the ends,
+// the ends are level; fewer than three are not interpolated by a spline.
 Spline through(std::vector<double> values, double start, double step) {
   constexpr std::size_t enough = 5;
   if (values.size() == 1) values.push_back(values.front());
@@ -25,7 +25,7 @@ Spline through(std::vector<double> values, double start, double step) {
   return Spline(values.begin(), values.end(), start, step, 0.0, 0.0);
 }
 
-// Position of the nearest to `i` that is true, or none.
+// Index of the nearest to `i` that is true, or none.
 std::optional<std::size_t> nearest(std::vector<bool> const& wanted, std::size_t i) {
   for (std::size_t away = 0; away < wanted.size(); ++away) {
     if (away <= i && wanted[i - away]) return i - away;
@@ -51,7 +51,7 @@ AzimuthSplines::AzimuthSplines(SunlitTable const& table, std::vector<AzimuthDay>
         values.push_back(column.fractions[sample]);
         lit.push_back(all_lit[sample]);
       }
-      // Where the receiver is turned away: as at the nearest azimuth at which it is not.
+      // Where the receiver faces away, the value of the nearest azimuth at which it does not.
       auto filled = values;
       known.push_back(false);
       for (std::size_t i = 0; i < values.size(); ++i) {
@@ -65,7 +65,7 @@ AzimuthSplines::AzimuthSplines(SunlitTable const& table, std::vector<AzimuthDay>
       if (filled.empty()) filled.push_back(0.0);
       of_days.push_back({first, std::max(first, last), through(std::move(filled), first, step)});
     }
-    // Days on which it is turned away all the time: as on the nearest on which it is not.
+    // Days on which it always faces away take the nearest day on which it does not.
     auto all_days = of_days;
     for (std::size_t i = 0; i < all_days.size(); ++i) {
       if (auto const from = nearest(known, i)) all_days[i] = of_days[*from];

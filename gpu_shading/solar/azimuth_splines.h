@@ -9,12 +9,12 @@
 
 namespace gpu_shading {
 
-// The paper's way between samples of its grid: cubic B-splines along each day's azimuths, held at
-// its ends, then across the days. A direction alone does not tell spring from autumn: it is taken
-// at both days of its declination, and their mean counts.
+// The paper's interpolation between samples of its grid: cubic B-splines along each day's azimuths,
+// constant beyond its ends, then across the days. A direction alone does not distinguish spring
+// from autumn: the mean of both days with its declination is used.
 class AzimuthSplines : public Interpolant {
  public:
-  // The table's directions are those of the days in turn.
+  // The directions of the table are those of the days in order.
   AzimuthSplines(SunlitTable const& table, std::vector<AzimuthDay> const& days, double latitude,
                  double step);
 
@@ -33,8 +33,8 @@ class AzimuthSplines : public Interpolant {
 
   double latitude_;
   std::vector<std::vector<Day>> days_of_column_;
-  std::vector<Spline> weight_of_day_;  // each sampled day's in the spline across the days
-  std::vector<double> declinations_;   // by day of the year less one
+  std::vector<Spline> weight_of_day_;  // each sampled day's weight in the spline across the days
+  std::vector<double> declinations_;   // by day of the year minus one
 };
 
 }  // namespace gpu_shading

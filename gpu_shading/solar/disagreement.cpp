@@ -18,7 +18,7 @@ struct Candidate {
   HourDirection direction;
   glm::dvec3 towards_sun{};
   std::array<std::size_t, nearby> samples{};  // nearest first
-  double distance_squared = 0.0;              // to the nearest direction there is
+  double distance_squared = 0.0;              // to the nearest existing direction
   double misses = 0.0;
 };
 
@@ -37,9 +37,9 @@ Candidate candidate_at(HourDirection direction, double latitude, SunlitTable con
   return candidate;
 }
 
-// Mean of the receivers' misses at the samples near the candidate that the sun faces them at.
+// Mean of the receivers' errors at samples near the candidate at which the sun faces them.
 double misses_near(Candidate const& candidate, SunlitTable const& table, Misses const& misses) {
-  // A jump is as large as it is however finely it is sampled.
+  // The size of a jump does not depend on how finely it is sampled.
   constexpr double most = 0.1;
   double sum = 0.0;
   for (std::size_t receiver = 0; receiver < table.receivers(); ++receiver) {
@@ -56,7 +56,8 @@ double misses_near(Candidate const& candidate, SunlitTable const& table, Misses 
   return sum;
 }
 
-// The root of how many days a year the sun spends near a declination, against an equinox.
+// The square root of the number of days per year that the sun spends near a declination, relative
+// to an equinox.
 double weight_of(double declination) {
   constexpr double least = 0.02;
   double const share = declination / most_declination;
@@ -75,7 +76,7 @@ std::vector<HourDirection> where_samples_disagree(SunlitTable const& table, Miss
     candidate.misses = misses_near(candidate, table, misses) * weight_of(direction.declination);
     candidates.push_back(candidate);
   }
-  // Where nothing disagrees, where samples are farthest apart.
+  // If nothing disagrees, choose where samples are farthest apart.
   constexpr double background = 1e-6;
   std::vector<HourDirection> chosen;
   while (chosen.size() < count) {

@@ -6,7 +6,7 @@
 
 namespace gpu_shading {
 
-// What is between the samples of a table.
+// Interpolation between the samples of a table.
 class Interpolant {
  public:
   Interpolant() = default;
@@ -14,7 +14,7 @@ class Interpolant {
   Interpolant& operator=(Interpolant const&) = delete;
   virtual ~Interpolant() = default;
 
-  // By column of the table; may be beyond 0 and 1. 0 where nothing is known.
+  // Values by column of the table, which may be outside 0 .. 1; 0 if nothing is known.
   virtual std::vector<double> at(SunDirection direction) const = 0;
 };
 

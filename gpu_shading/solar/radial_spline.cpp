@@ -15,7 +15,7 @@ double radial(glm::dvec3 const& a, glm::dvec3 const& b) {
   return -r * std::sqrt(r);
 }
 
-// With the constant's row.
+// Including the row of the constant.
 MatrixXd extended(MatrixXd const& values) {
   MatrixXd all = MatrixXd::Zero(values.rows() + 1, values.cols());
   all.topRows(values.rows()) = values;
@@ -41,7 +41,7 @@ MatrixXd RadialSpline::fit(MatrixXd const& values) const { return system_.solve(
 
 MatrixXd RadialSpline::leave_one_out(MatrixXd const& values) const {
   auto const n = values.rows();
-  // One node has nothing to be told by.
+  // A single node cannot be predicted from others.
   if (n < 2) return MatrixXd::Zero(n, values.cols());
   MatrixXd const inverse = system_.inverse();
   MatrixXd errors = (inverse * extended(values)).topRows(n);

@@ -9,7 +9,7 @@
 namespace gpu_shading {
 
 glm::dvec2 shadow_fall(glm::dvec3 const& normal, glm::dvec3 const& towards_sun) {
-  // A level plane has any number of level lines: the one to the east.
+  // A horizontal plane has any number of horizontal lines: use the one to the east.
   constexpr double level = 1e-3;
   glm::dvec3 const along = std::hypot(normal.x, normal.y) > level
                                ? glm::normalize(glm::dvec3(-normal.y, normal.x, 0.0))

@@ -5,15 +5,16 @@
 
 namespace gpu_shading {
 
-// Where on a receiver's plane the shadow falls of a point one metre before it: so far along the
-// plane's level line, and so far across that; the inverse hyperbolic sine of either, metres.
+// The position on a receiver's plane of the shadow of a point one metre in front of it: the
+// distance along the plane's horizontal line and the distance across it, each as its inverse
+// hyperbolic sine, in metres.
 //
-// Behind level slats the sunlit fraction depends on the second alone, behind upright ones on the
-// first, and linearly while shadows are short. When the sun grazes the plane they grow beyond all
-// bounds, which the inverse hyperbolic sine makes a few metres of.
+// Behind horizontal slats, the sunlit fraction depends on the second value alone, behind vertical
+// ones on the first, and linearly while shadows are short. At grazing incidence, shadows grow
+// without bound, which the inverse hyperbolic sine reduces to a few metres.
 //
-// `normal`, to the outside, and `towards_sun` are unit vectors; below least_cosine the angle
-// between them is taken for that of least_cosine.
+// `normal`, pointing outside, and `towards_sun` are unit vectors; the cosine of the angle between
+// them is limited to least_cosine or more.
 glm::dvec2 shadow_fall(glm::dvec3 const& normal, glm::dvec3 const& towards_sun);
 
 }  // namespace gpu_shading

@@ -10,11 +10,11 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double degree = pi / 180.0;
 
-// Steps along the arcs are longer than those between them, by what the closed-form scenes of
-// tests/bench/sampling_error like best.
+// Steps along the arcs are longer than those between them; the ratio works best for the closed-form
+// scenes of tests/bench/sampling_error.
 constexpr double elongation = 1.4;
 
-// Nearer to the horizon than the sun goes in the ten seconds before sunset.
+// Smaller than the sun's motion towards the horizon in the ten seconds before sunset.
 constexpr double from_horizon = 0.04 * degree;
 
 // Declinations at which the sun rises.
@@ -24,7 +24,7 @@ struct Range {
 };
 
 Range lit_declinations(double latitude) {
-  // So much of the arc is then above the horizon that two directions find room.
+  // The part of the arc above the horizon then has room for two directions.
   constexpr double margin = 0.2 * degree;
   double const reach = pi / 2.0 - std::abs(latitude) - margin;
   if (latitude >= 0.0) return {std::max(-most_declination, -reach), most_declination};
@@ -66,7 +66,7 @@ std::vector<HourDirection> spread_on_arcs(double latitude, std::size_t most) {
   std::vector<HourDirection> best;
   constexpr int most_arcs = 60;
   for (int arcs = 3; arcs <= most_arcs; ++arcs) {
-    // Between one number of arcs and the next the steps along them take up the slack.
+    // Steps along the arcs compensate for the whole number of arcs.
     for (double const slack : {0.92, 0.96, 1.0, 1.04, 1.08}) {
       auto directions = spread(latitude, arcs, elongation * slack);
       if (directions.size() <= most && directions.size() > best.size()) best = directions;
@@ -82,7 +82,7 @@ double azimuth_from_noon(SunDirection direction, double latitude) {
 
 std::vector<AzimuthDay> sample_azimuths(double latitude, double step) {
   constexpr int days_apart = 14;
-  constexpr int instants = 8640;  // of a day, to look for azimuths at
+  constexpr int instants = 8640;  // times of a day at which azimuths are searched
   std::vector<AzimuthDay> days;
   for (int day = 1; day <= 365; day += days_apart) {
     double const declination = sun_of_day(day).declination;
@@ -102,7 +102,7 @@ std::vector<AzimuthDay> sample_azimuths(double latitude, double step) {
                      [](auto const& a, auto const& b) { return a.first < b.first; });
     AzimuthDay found{day, crossed.empty() ? 0 : crossed.front().first, {}};
     for (auto const& [multiple, direction] : crossed) {
-      // Between the tropics the sun may pass an azimuth twice a day: the grid has it once.
+      // Between the tropics, the sun may pass an azimuth twice a day; the grid has it once.
       if (multiple == found.first + static_cast<int>(found.directions.size())) {
         found.directions.push_back(direction);
       }

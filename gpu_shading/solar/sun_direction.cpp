@@ -15,7 +15,7 @@ SunDirection to_direction(glm::dvec3 const& towards_sun) {
   double const level = std::hypot(towards_sun.x, towards_sun.y);
   SunDirection direction;
   direction.altitude = std::atan2(towards_sun.z, level);
-  // At the zenith only rounding is left of the level part.
+  // At the zenith, the horizontal part is only rounding error.
   constexpr double no_azimuth = 1e-14;
   if (level > no_azimuth * std::abs(towards_sun.z)) {
     direction.azimuth = std::atan2(towards_sun.x, towards_sun.y);

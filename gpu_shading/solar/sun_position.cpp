@@ -44,7 +44,7 @@ HourDirection to_hour_direction(SunDirection direction, double latitude) {
 }
 
 double sunset_hour_angle(double declination, double latitude) {
-  // Not by the tangents, which the poles have none of.
+  // Without tangents, which are infinite at the poles.
   double const up = -std::sin(latitude) * std::sin(declination);
   double const level = std::cos(latitude) * std::cos(declination);
   if (up >= level) return 0.0;

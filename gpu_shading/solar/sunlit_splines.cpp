@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Index;
 
-// The same for normals that differ in their last digits alone.
+// Equal for normals that differ only in their last digits.
 std::tuple<long, long, long> rounded(glm::dvec3 const& normal) {
   constexpr double steps = 1e6;
   return {std::lround(steps * normal.x), std::lround(steps * normal.y),
@@ -23,8 +23,8 @@ glm::dvec3 place_of(glm::dvec3 const& towards_sun, std::optional<glm::dvec3> con
   return normal ? glm::dvec3(shadow_fall(*normal, towards_sun), 0.0) : towards_sun;
 }
 
-// What samples would be told to be by all the others, less what they are. As answers are, what is
-// told is held within 0 and 1.
+// The prediction of each sample from all the others, minus the sample. Like answers, predictions
+// are limited to 0 .. 1.
 Eigen::MatrixXd missed_by(RadialSpline const& splines, Eigen::MatrixXd const& values) {
   Eigen::ArrayXXd const told = values.array() - splines.leave_one_out(values).array();
   return (told.max(0.0).min(1.0) - values.array()).abs();

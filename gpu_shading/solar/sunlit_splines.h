@@ -12,9 +12,9 @@
 
 namespace gpu_shading {
 
-// Splines through a table, over where shadows fall on a receiver's plane or over the sun's
-// direction: for each column over that which tells its samples better from one another, shadows
-// where neither does. One fit for all receivers that look the same way.
+// Splines through a table, over the position of shadows on a receiver's plane or over the sun
+// direction: for each column, whichever predicts its samples better from one another, or the
+// position of shadows if neither does. One fit serves all receivers that face the same way.
 class SunlitSplines : public Interpolant {
  public:
   explicit SunlitSplines(SunlitTable const& table);
@@ -25,7 +25,7 @@ class SunlitSplines : public Interpolant {
 
  private:
   struct Group {
-    std::optional<glm::dvec3> normal;  // over where shadows fall on it; none: over directions
+    std::optional<glm::dvec3> normal;  // over the position of shadows on it; empty: over directions
     std::vector<std::size_t> samples;
     std::vector<std::size_t> columns;
     Eigen::MatrixXd fitted;

@@ -13,11 +13,12 @@
 
 namespace gpu_shading {
 
-// Below a tenth of a degree above its plane a receiver's fraction is a quotient of two nothings.
+// When the sun is less than a tenth of a degree above a receiver's plane, its fraction is a
+// quotient of two negligible values.
 constexpr double least_cosine = 0.002;
 
-// Sunlit fractions at sampled directions, in columns: for each receiver one of what passes
-// unscheduled shades alone, and one for each combination of scheduled ones that was met.
+// Sunlit fractions at sampled directions, in columns: for each receiver, one column for what passes
+// unscheduled shades alone, and one for each combination of scheduled shades that occurs.
 class SunlitTable {
  public:
   using Column = SampledFractions;
@@ -34,16 +35,16 @@ class SunlitTable {
   std::vector<Column> const& columns() const { return columns_; }
   std::size_t receivers() const { return receivers_.size(); }
 
-  // Unit vector; zero where the area is.
+  // Unit vector; zero if the area is 0.
   glm::dvec3 const& normal(std::size_t receiver) const { return receivers_[receiver].normal; }
 
-  // Whether a fraction can be told from a rendering.
+  // Whether a fraction can be computed from a rendering.
   bool faces(std::size_t receiver, glm::dvec3 const& sun) const;
 
   // By direction.
   std::vector<bool> const& lit(std::size_t receiver) const { return lit_[receiver]; }
 
-  // Areas from fractions by column, which may be somewhat beyond 0 and 1.
+  // Areas from fractions by column, which may be slightly outside 0 .. 1.
   std::vector<Sunlit> compose(std::span<double const> fractions, glm::dvec3 const& sun) const;
 
  private:

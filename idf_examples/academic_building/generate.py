@@ -33,7 +33,7 @@ CORRIDOR_WINDOW = (0.5, 0.9, 2.0, 2.3)
 GROUND_CORRIDOR_WINDOW, CORRIDOR_DOOR = (0.3, 0.9, 1.0, 2.3), (1.5, 0.0, 1.2, 2.2)
 SKYLIGHTS, SKYLIGHT = 4, (4.0, 1.6)
 
-# The screen runs around the building in folds between two lines before its walls, up to the next storey's sills.
+# The screen goes around the building in folds between two lines in front of its walls, up to the next storey's sills.
 SCREEN_NEAR, SCREEN_FAR, SCREEN_ABOVE = 1.0, 1.3, 0.9
 THICKNESS = 0.00635
 OPEN = 0.5
@@ -65,7 +65,7 @@ NEIGHBOURS = [
 @dataclass(frozen=True)
 class Size:
     storeys: int
-    screened: tuple  # storeys, the ground's is 0
+    screened: tuple  # storeys, counted from 0 at the ground
     strip: float  # of the screen, along the wall
     cells: int  # of terrain, along a side
     cell: float
@@ -104,7 +104,7 @@ Output:SQLite,Simple;
 
 
 def storey_rooms(storey):
-    """Rooms along the south and the north side, a corridor between them."""
+    """Rooms along the south and the north side, with a corridor between them."""
     x, y, z, top = -LENGTH / 2, -DEPTH / 2, storey * STOREY, (storey + 1) * STOREY
     name = f"Level {storey + 1}"
     yield rooms.Room(f"{name} Corridor", (x, y + ROOM_DEPTH, z), (-x, y + ROOM_DEPTH + CORRIDOR, top))
@@ -159,7 +159,7 @@ def folds(strip):
 
 
 def strip_size(size):
-    """Width and height; there is a row of strips for each screened storey."""
+    """Width and height of a strip; each screened storey has a row of strips."""
     return math.dist(*folds(size.strip)["South"][:2]), STOREY + SCREEN_ABOVE / len(size.screened)
 
 
@@ -191,14 +191,14 @@ def write_image(path, size=FULL):
 
 
 def height(x, y):
-    """Of the terrain."""
+    """Height of the terrain."""
     share = min(1.0, max(0.0, (math.hypot(x, y) - LEVEL_WITHIN) / (FULL_BEYOND - LEVEL_WITHIN)))
     smooth = share * share * (3 - 2 * share)
     return GROUND + smooth * (SLOPE * x + WAVE * math.sin(x / WAVE_X) * math.cos(y / WAVE_Y))
 
 
 def terrain(size):
-    """Two triangles a cell, but for cells that the building stands on."""
+    """Two triangles per cell, except for cells under the building."""
     half = size.cells * size.cell / 2
 
     def node(column, row):
@@ -222,7 +222,7 @@ def neighbours(size):
 
 
 def casting(size=FULL):
-    """{what: its (name, corners), a generator}."""
+    """{group: generator of its (name, corners)}."""
     return {"screen": screen_strips(size), "terrain": terrain(size), "neighbours": neighbours(size)}
 
 

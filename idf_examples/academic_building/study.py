@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Runs the building behind each of its screens for a year and prints the sun in it, as Markdown.
+"""Runs the building for a year with each of its screens and prints the solar radiation inside as Markdown.
 
     study.py [--small] [--device NAME] [-w EPW] [--timeout SECONDS] [-o DIR]
-    study.py --samples fine medium coarse ...          # what samples take, in place of years
+    study.py --samples fine medium coarse ...          # time of sampling, instead of years
 """
 
 import sys
@@ -18,7 +18,7 @@ SIDES = ["South", "East", "North", "West"]
 
 
 def side_of(window):
-    """By the wall's name; a window's number or nothing follows."""
+    """The group of a window, from the name of its wall, which may be followed by a number."""
     words = window.title().split(" ")
     return next((word for word in reversed(words) if word in SIDES), "Roof")
 

@@ -1,22 +1,22 @@
 #!/usr/bin/env python3
-"""Writes the model of one box with one south window and N louvres before it.
+"""Writes the model of one box with a south window behind N louvres.
 
     generate.py N > box_with_louvres.idf
 
-The louvres are rectangles in up to 20 rows before the window, each row cut into as many pieces as it
-takes to make N; so what shades the window hardly changes with N beyond 20, but the work does.
+The louvres are rectangles in up to 20 rows in front of the window, each row cut into pieces to give N in total. Beyond
+20, the shadows hardly change with N, but the work does.
 """
 
 import sys
 
-# Metres; x east, y north, z up. The box stands with its south-west corner in the origin.
+# Metres; x east, y north, z up. The south-west corner of the box is at the origin.
 WIDTH, DEPTH, HEIGHT = 6.0, 6.0, 3.0
 WINDOW = (1.5, 0.8, 4.5, 2.8)  # x, z, x, z in the south wall
 MAX_ROWS = 20
 BLADE_DEPTH = 0.08
-BLADE_DROP = 0.04  # the outer edge lies lower than the inner one by this
+BLADE_DROP = 0.04  # how much lower the outer edge is than the inner one
 BLADE_DISTANCE = 0.05  # from the wall to the inner edge
-PIECE_SHARE = 0.95  # of its part of a row that a piece covers, where a row has several
+PIECE_SHARE = 0.95  # fraction of its part of a row that a piece covers, if a row has several
 
 HEAD = """\
 ! One box with one south window and {n} louvres before it. Written by generate.py {n}.

@@ -3,9 +3,9 @@
 
     generate.py [--glass single|triple] [--turn DEGREES] > canopy.idf
 
-The canopy stands on the hyperbolic paraboloid z = 9 + (x / 12)^2 - (y / 10)^2 (metres, from its middle)
-over 25 x 20 cells of 1 m. Each pane is a square in its cell, in the surface's tangent plane there, turned
-by --turn about the pane's own middle line that runs east.
+The canopy follows the hyperbolic paraboloid z = 9 + (x / 12)^2 - (y / 10)^2 (metres, from its centre) over 25 x 20
+cells of 1 m. Each pane is a square in its cell, in the surface's tangent plane there, turned by --turn about the
+pane's own east-west centre line.
 """
 
 import argparse
@@ -19,7 +19,7 @@ from common import idf  # noqa: E402
 
 COLUMNS, ROWS = 25, 20
 CELL = 1.0
-PANE = 0.98  # of a cell's side that its pane covers
+PANE = 0.98  # side of a pane, as a fraction of its cell's
 HEIGHT, CURVE_X, CURVE_Y = 9.0, 12.0, 10.0
 
 ROOMS = {"West Room": -8.0, "East Room": 0.0}  # x of the south-west corner
@@ -102,7 +102,7 @@ def pane(column, row, turn):
     slope_x, slope_y = 2 * x / CURVE_X**2, -2 * y / CURVE_Y**2
     length = math.hypot(1, slope_x)
     east = (1 / length, 0, slope_x / length)
-    # Across east in the tangent plane, and the plane's normal.
+    # Perpendicular to east in the tangent plane, and the plane's normal.
     normal_length = math.sqrt(1 + slope_x**2 + slope_y**2)
     normal = (-slope_x / normal_length, -slope_y / normal_length, 1 / normal_length)
     north = (normal[1] * east[2] - normal[2] * east[1], normal[2] * east[0] - normal[0] * east[2],

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the canopy's variants for a year and prints what reaches each room, as Markdown.
+"""Runs the canopy's variants for a year and prints the solar radiation in each room as Markdown.
 
     study.py [-o DIR]
 """
@@ -12,7 +12,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "scripts")]
 
 import generate  # noqa: E402
-from shading_runs import energyplus, results  # noqa: E402
+from shading_runs import energyplus, output_folder, results  # noqa: E402
 
 WEATHER = "USA_CO_Golden-NREL.724666_TMY3.epw"
 VARIANTS = {
@@ -27,14 +27,14 @@ VARIANTS = {
 
 def text_of(variant):
     if variant is None:
-        # Neither panes nor what is said of them.
+        # Without the panes and their TransparentShade.
         head = "".join(generate.model()).split("\nShading:Building:Detailed")[0]
         return head.replace("GPUShading:TransparentShade,Canopy,Canopy *,Construction,Canopy Glass;\n", "")
     return "".join(generate.model(*variant))
 
 
 def run(name, variant, folder):
-    folder.mkdir(parents=True, exist_ok=True)
+    folder.mkdir()
     path = folder / "canopy.idf"
     path.write_text(text_of(variant))
     done = energyplus.run(energyplus.patched_prefix() / "energyplus", path, energyplus.find_weather(WEATHER),
@@ -51,19 +51,27 @@ def run(name, variant, folder):
     return rooms, done.seconds
 
 
-def main():
-    parser = argparse.ArgumentParser(description="Compares glass canopies by the sun in the rooms below.")
-    parser.add_argument("-o", "--output", type=Path, default=Path("out/canopy"), metavar="DIR", help="for the runs")
-    arguments = parser.parse_args()
-    print("| canopy | west room, beam kWh | all kWh | east room, beam kWh | all kWh | of no canopy | seconds |")
+def compare(folder):
+    print("| canopy | west room, beam kWh | total kWh | east room, beam kWh | total kWh | total, % of no canopy "
+          "| seconds |")
     print("|---|---:|---:|---:|---:|---:|---:|")
     whole = None
     for number, (name, variant) in enumerate(VARIANTS.items()):
-        rooms, seconds = run(name, variant, arguments.output / str(number))
+        rooms, seconds = run(name, variant, folder / str(number))
         total = sum(all_ for _, all_ in rooms.values())
         whole = whole or total
         cells = " | ".join(f"{value:,.0f}" for room in generate.ROOMS for value in rooms[room])
         print(f"| {name} | {cells} | {100 * total / whole:.1f} % | {seconds:.1f} |", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Compares glass canopies by the sun in the rooms below.")
+    parser.add_argument("-o", "--output", type=Path, default=Path("out/canopy"), metavar="DIR", help="for the runs")
+    try:
+        with output_folder.replacing(parser.parse_args().output, "canopy_study") as output:
+            compare(output.path)
+    except output_folder.NotOurs as error:
+        sys.exit(f"canopy: {error}")
 
 
 if __name__ == "__main__":

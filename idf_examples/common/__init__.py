@@ -1,1 +1,1 @@
-"""What the generators of large models share. Only Python's standard library is used."""
+"""Code shared by the generators of large models. Only Python's standard library is used."""

@@ -1,9 +1,8 @@
-"""Runs the variants of a large model for a year and prints what they admit, as Markdown."""
+"""Runs the variants of a large model for a year and prints their solar radiation as Markdown."""
 
 import argparse
 import json
 import re
-import shutil
 import subprocess
 import sys
 import time
@@ -12,15 +11,15 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 
-from shading_runs import energyplus, results  # noqa: E402
+from shading_runs import energyplus, output_folder, results  # noqa: E402
 
-OF_RUN = ["heating kWh", "cooling kWh", "seconds", "of it rendering", "receivers", "casters"]
+OF_RUN = ["heating kWh", "cooling kWh", "seconds", "rendering", "receivers", "casters"]
 
 
 @dataclass(frozen=True)
 class CaseStudy:
-    """model_of(variant, is_small) gives a model's text, write_files(variant, is_small, folder) what it needs
-    beside it; group_of(window) says in which column a window counts, by its name in upper case.
+    """model_of(variant, is_small) returns a model's text; write_files(variant, is_small, folder) writes the files
+    that it needs; group_of(window) returns the column of a window, from its name in upper case.
     """
 
     name: str
@@ -34,7 +33,7 @@ class CaseStudy:
 
 @dataclass(frozen=True)
 class Rendered:
-    """What our module said of a run."""
+    """The counts and seconds that our module reports for a run."""
 
     receivers: int
     casters: int
@@ -47,7 +46,7 @@ def rendered(run):
 
 
 def admitted(study, run, variable):
-    """kWh through all windows, then through those of each group."""
+    """kWh through all windows, then through the windows of each group."""
     energies = results.energies(run.folder, variable)
     sums = dict.fromkeys(study.groups, 0.0)
     for window, energy in energies.items():
@@ -64,7 +63,6 @@ def cells_of(study, run):
 
 
 def write_model(study, variant, folder, arguments):
-    folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{study.name}.idf"
     path.write_text("".join(study.model_of(variant, arguments.small)))
     study.write_files(variant, arguments.small, folder)
@@ -81,9 +79,8 @@ def print_head(study, *columns):
 
 
 def take_samples(study, variant, mode, folder, arguments):
-    """Wall seconds of the samples of a detail, and how many directions they are."""
+    """Wall-clock seconds of sampling in a mode, and the number of directions."""
     path = write_model(study, variant, folder, arguments)
-    shutil.rmtree(folder / mode, ignore_errors=True)  # samples that are there are not taken again
     command = [energyplus.patched_prefix() / "gpu_shading", "sample", path.resolve(),
                "-w", energyplus.find_weather(arguments.weather), "-o", folder / mode, "--mode", mode,
                f"--gpu-shading-device={arguments.device}"]  # fmt: skip
@@ -91,22 +88,24 @@ def take_samples(study, variant, mode, folder, arguments):
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=arguments.timeout)
     except subprocess.TimeoutExpired:
-        sys.exit(f"{variant}, {mode}: not done in {arguments.timeout} s")
+        sys.exit(f"{variant}, {mode}: stopped after {arguments.timeout} s")
     seconds = time.monotonic() - began
     if done.returncode != 0:
         sys.exit(f"{variant}, {mode}: {done.stderr.strip()}")
     return seconds, json.loads((folder / mode / "samples.json").read_text())["directions"]
 
 
-def print_samples(study, arguments):
+def print_samples(study, arguments, output):
     print_head(study, *(f"{mode}, s (directions)" for mode in arguments.samples))
     for number, (words, variant) in enumerate(study.variants.items()):
-        taken = [take_samples(study, variant, mode, arguments.output / str(number), arguments)
-                 for mode in arguments.samples]  # fmt: skip
+        folder = output / str(number)
+        folder.mkdir()
+        taken = [take_samples(study, variant, mode, folder, arguments) for mode in arguments.samples]
         print_row(words, *(f"{seconds:.1f} ({directions})" for seconds, directions in taken))
 
 
 def run_variant(study, variant, folder, arguments):
+    folder.mkdir()
     path = write_model(study, variant, folder, arguments)
     options = ["--gpu-shading", f"--gpu-shading-device={arguments.device}",
                f"--gpu-shading-update={arguments.update}"]
@@ -120,9 +119,9 @@ def change(value, before):
 
 
 def print_changes(study, runs):
-    """Each variant against the first."""
+    """Prints each variant compared with the first."""
     names = list(study.variants)
-    print(f"\nAgainst {names[0]}, in brackets of the beam alone:\n")
+    print(f"\nCompared with {names[0]}, with the beam alone in parentheses:\n")
     print_head(study, "all", *study.groups)
 
     def changes(variable):
@@ -133,11 +132,11 @@ def print_changes(study, runs):
         print_row(words, *(f"{both} ({alone})" for both, alone in zip(solar, beam, strict=True)))
 
 
-def print_years(study, arguments):
+def print_years(study, arguments, output):
     print_head(study, "all kWh", *study.groups, *OF_RUN)
     runs = []
     for number, (words, variant) in enumerate(study.variants.items()):
-        run = run_variant(study, variant, arguments.output / str(number), arguments)
+        run = run_variant(study, variant, output / str(number), arguments)
         if not run.completed or run.severe:
             sys.exit(f"{words}: {run.why()}")
         print_row(words, *cells_of(study, run))
@@ -154,11 +153,13 @@ def main(study):
     parser.add_argument("--device", default="auto", metavar="NAME", help="as --gpu-shading-device (default: auto)")
     parser.add_argument("--update", default="idf", metavar="HOW", help="as --gpu-shading-update (default: idf)")
     parser.add_argument("--samples", nargs="+", metavar="DETAIL",
-                        help="seconds of fine, medium or coarse samples, in place of years")  # fmt: skip
-    parser.add_argument("--timeout", type=float, metavar="SECONDS", help="limit for one run (default: none)")
-    parser.add_argument("--small", action="store_true", help="the small model of the same kind")
+                        help="measure the time of sampling (fine, medium, coarse), not of years")  # fmt: skip
+    parser.add_argument("--timeout", type=float, metavar="SECONDS", help="time limit for one run (default: none)")
+    parser.add_argument("--small", action="store_true", help="run the small model of the same kind")
     arguments = parser.parse_args()
-    if arguments.samples:
-        print_samples(study, arguments)
-    else:
-        print_years(study, arguments)
+    print_all = print_samples if arguments.samples else print_years
+    try:
+        with output_folder.replacing(arguments.output, f"{study.name}_study") as output:
+            print_all(study, arguments, output.path)
+    except output_folder.NotOurs as error:
+        sys.exit(f"{study.name}: {error}")

@@ -1,4 +1,4 @@
-"""Solid things that cast shadows, as (name, corners) of each of their faces; outward, metres."""
+"""Solids that cast shadows, as (name, corners) of each of their outward faces, in metres."""
 
 import math
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ def between(start, end):
 
 
 def box(name, low, high, without=()):
-    """The six sides of a box, less those that touch something."""
+    """The six sides of a box, except those that touch something."""
     for side in SIDES:
         if side not in without:
             yield f"{name} {side}", outline(side, low, high)
@@ -45,10 +45,10 @@ def bar(name, start, end, width, depth, out):
 
 @dataclass(frozen=True)
 class Neighbour:
-    """A building of boxes: x, y of its south-west corner, its size, and what it carries.
+    """A building of boxes: x and y of its south-west corner, its size, and its details.
 
-    Around every storey's top runs a ledge, between bays stand fins, and south and west windows have louvres
-    before them; on the roof are boxes of plant and, on frames that are left out, solar panels.
+    Each storey has a ledge around its top, fins between bays, and louvres in front of its south and west windows. On
+    the roof are plant boxes and solar panels, the panels without their frames.
     """
 
     x: float
@@ -72,7 +72,7 @@ class Neighbour:
 
     @property
     def count(self):
-        """How many faces it has."""
+        """The number of its faces."""
         along, across = self.bays
         fins = 2 * (along - 1) + 2 * (across - 1)
         return (5 + self.storeys * (12 + fins + self.louvres * (along + across)) + 5 * self.plant + self.panels)
@@ -131,14 +131,14 @@ def storey_front(name, building, storey, base, facade):
 
 
 def roof_places(building, number, step_x, step_y, row):
-    """Lower left corners of things in rows on a roof, from its south-west."""
+    """Lower left corners of objects in rows on a roof, starting in the south-west."""
     a_row = max(1, int((building.width - 2) // step_x))
     x, y = building.x + 1, building.y + 1 + row
     return [(x + step_x * (i % a_row), y + step_y * (i // a_row)) for i in range(number)]
 
 
 def neighbour(name, building, base):
-    """Its faces; base: the height of its ground floor."""
+    """The building's faces; base: the height of its ground floor."""
     x1, y1 = building.x, building.y
     x2, y2 = x1 + building.width, y1 + building.depth
     top = base + building.storeys * building.STOREY

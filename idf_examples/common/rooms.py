@@ -1,7 +1,7 @@
-"""A building of rooms that are boxes: their surfaces, what lies between them, and what heats and cools them.
+"""A building of box-shaped rooms: their surfaces, the walls between them, and their heating and cooling.
 
-Where two rooms touch there is a wall or a slab between them; a side that touches no other is outside, or on
-the ground at z = 0. No side may do both.
+Where two rooms touch, there is a wall or a slab between them. A side that touches no other room is exposed to the
+outdoors, or to the ground at z = 0. No side may be partly both.
 """
 
 from dataclasses import dataclass
@@ -74,7 +74,7 @@ def part_of(corners, part, parts):
 
 
 def contact(room, other, side):
-    """The part of a room's side that another room's opposite side touches: its low and high corner, or None."""
+    """The part of a room's side that touches another room: its low and high corner, or None."""
     axis, is_high, _ = SIDES[side]
     if abs((room.high if is_high else room.low)[axis] - (other.low if is_high else other.high)[axis]) > LOW:
         return None
@@ -95,9 +95,9 @@ def wall_name(room, side, part):
 
 
 def opening_on(room, side, name, kind, construction, left, bottom, width, height, part=0):
-    """An opening in a part of a wall, left and bottom in metres from the part's lower left corner.
+    """An opening in a part of a wall, with left and bottom in metres from the part's lower left corner.
 
-    Left is as seen from outside, and so parts are counted.
+    Parts are counted from the left, as seen from outside.
     """
     axis, is_high, _ = SIDES[side]
     at = (room.high if is_high else room.low)[axis]
@@ -163,7 +163,7 @@ ThermostatSetpoint:DualSetpoint,Setpoints,Heating Setpoint,Cooling Setpoint;
 
 
 def conditioning(room):
-    """Ideal loads, 10 W/m2 of gains, half an air change an hour from outdoors."""
+    """Ideal loads, internal gains of 10 W/m2, and half an air change per hour."""
     name = room.name
     return (f"\nZone,{name};\n"
             f"ZoneControl:Thermostat,{name} Thermostat,{name},Control Type,ThermostatSetpoint:DualSetpoint,Setpoints;\n"

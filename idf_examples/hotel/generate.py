@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes the model of a hotel under a double-curved grid shell of glass panes that are pivoted.
+"""Writes the model of a hotel under a double-curved grid shell of pivoted glass panes.
 
     generate.py [--glass single|triple] [--turn DEGREES] [--small] > hotel.idf
 
-Two towers stand in a line, west and east of the origin, x east, y north, in metres. The shell is an arch of
-half an ellipse over both, whose width and height vary along them. It is a lattice of diamonds; in each, in the
-tangent plane, there is a pane, turned by --turn about its own middle line that runs along the towers.
+Two towers stand in a line, west and east of the origin; x is east and y north, in metres. The shell over both is a
+half-elliptical arch, whose width and height vary along it. It is a lattice of diamonds, each with a pane in the tangent
+plane, turned by --turn about its own centre line along the towers.
 """
 
 import argparse
@@ -34,18 +34,18 @@ PODIUM_DOOR, MAIN_DOOR = (6.9, 0.0, 1.6, 2.6), (15.9, 0.0, 1.6, 2.6)
 PODIUM_END_WINDOW, PODIUM_SIDE_WINDOW = (4.0, 0.8, 12.0, 3.0), (1.5, 0.8, 5.0, 3.0)
 LOUNGE_SIDES, LOUNGE_WINDOW = 1.0, (0.8, 2.4)  # from the ends; bottom, height
 
-# Balconies before each room.
+# Balconies in front of each room.
 BALCONY, BALCONY_GAP, SLAB, RAIL_HEIGHT, RAIL = 1.6, 0.1, 0.2, 1.1, 0.06
 LOUVRES, LOUVRE, LOUVRE_PITCH = 6, 0.12, 0.1
 
-# The shell: how far it reaches beyond the towers, and of its arch the foot's height and half the width in the
-# mean; how much that and the crown's height vary.
+# The shell: its overhang beyond the towers; the height of its springing and its mean half width; and the variation of
+# its half width and of its crown's height.
 SHELL_BEYOND, SHELL_BASE = 9.5, 9.0
 HALF_WIDTH, HALF_WIDTH_WAVE, CROWN_WAVE = 24.0, 2.5, 3.0
 PANE = 0.88  # of its diamond
 FRAME = 0.06
-MEMBER, MEMBER_DEPTH, NODE = 0.2, 0.3, 0.25  # NODE: what a member leaves free at its ends
-STRUT, STRUT_OUT = 0.5, 4.0  # how far before the lowest nodes its foot is
+MEMBER, MEMBER_DEPTH, NODE = 0.2, 0.3, 0.25  # NODE: gap between a member's end and the node
+STRUT, STRUT_OUT = 0.5, 4.0  # horizontal distance of a strut's foot from the lowest nodes
 
 GLASS = {"single": ["Pane"], "triple": ["Pane", "Gap"] * 2 + ["Pane"]}
 
@@ -65,7 +65,7 @@ class Size:
     bays: int
     columns: int  # of diamonds, along the shell
     rows: int
-    crown: float  # height of the shell in the mean
+    crown: float  # mean height of the shell
     neighbours: int
 
 
@@ -110,7 +110,7 @@ def tower_length(size):
 
 
 def towers(size):
-    """{name: x of its west end}."""
+    """{name of a tower: x of its west end}."""
     return {"West": -BETWEEN / 2 - tower_length(size), "East": BETWEEN / 2}
 
 
@@ -181,7 +181,7 @@ def openings(room):
 
 
 def balcony(name, left, along, out, floor):
-    """Slab, glass balustrade, hand rail and louvres before one guest room; left: on the wall."""
+    """Slab, glass balustrade, hand rail and louvres in front of one guest room; left: its position on the wall."""
     far, top = BAY - BALCONY_GAP, (0, 0, 1)
     corners = [casters.add(left, (a, along), (b, out))
                for a, b in ((BALCONY_GAP, 0), (BALCONY_GAP, BALCONY), (far, BALCONY), (far, 0))]  # fmt: skip
@@ -224,7 +224,7 @@ def balconies(size):
 class Shell:
     """The lattice: nodes at whole numbers (i, j), i along the towers from the west, j over the arch from the south."""
 
-    STEPS = 4000  # of the arch's length, which is counted out in equal parts
+    STEPS = 4000  # points on the arch, which is divided into parts of equal length
 
     def __init__(self, size):
         self.size = size
@@ -242,18 +242,18 @@ class Shell:
 
     def point(self, i, j):
         x = self.length * (i / self.last_i - 0.5)
-        wave = math.cos(4 * math.pi * (abs(x) / self.length - 0.25))  # most over the towers' middle
+        wave = math.cos(4 * math.pi * (abs(x) / self.length - 0.25))  # largest over the middle of the towers
         angle = self._angle(j / self.last_j)
         half, rise = HALF_WIDTH + HALF_WIDTH_WAVE * wave, self.size.crown + CROWN_WAVE * wave - SHELL_BASE
         return x, -half * math.cos(angle), SHELL_BASE + rise * math.sin(angle)
 
     def diamonds(self):
-        """(i, j) of each middle, by rows."""
+        """(i, j) of the centre of each diamond, by rows."""
         for row, column in itertools.product(range(self.size.rows), range(self.size.columns)):
             yield 2 * column + 1 + row % 2, row + 1
 
     def pane(self, i, j, turn):
-        """Corners from the west, and the pane's normal."""
+        """Corners of a pane, starting in the west, and its normal."""
         west, east, south, north = (self.point(i + a, j + b) for a, b in ((-1, 0), (1, 0), (0, -1), (0, 1)))
         middle = tuple(sum(values) / 4 for values in zip(west, east, south, north, strict=True))
         level, up = casters.between(west, east), casters.between(south, north)
@@ -268,7 +268,7 @@ class Shell:
         return corners, casters.cross(level_way, tilted)
 
     def edges(self):
-        """Pairs of nodes, each once, in order."""
+        """Pairs of nodes connected by a member, each once, in order."""
         found = {}
         for i, j in self.diamonds():
             nodes = [(i - 1, j), (i, j - 1), (i + 1, j), (i, j + 1)]
@@ -309,7 +309,7 @@ def members(size):
 
 
 def struts(size):
-    """From the ground to two lowest nodes each."""
+    """Struts from the ground to two lowest nodes each."""
     shell = Shell(size)
     for j, out, side in ((0, -1, "South"), (shell.last_j, 1, "North")):
         nodes = [shell.point(i, j) for i, row in ((a, b) for a, b in shell.diamonds() if b == (1 if j == 0 else j - 1))]
@@ -327,7 +327,7 @@ def neighbours(size):
 
 
 def casting(size=FULL, turn=20.0):
-    """{what: its (name, corners), a generator}."""
+    """{group: generator of its (name, corners)}."""
     return {"panes": panes(size, turn), "frames": frames(size, turn), "members": members(size),
             "struts": struts(size), "balconies": balconies(size), "neighbours": neighbours(size)}  # fmt: skip
 

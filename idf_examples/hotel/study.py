@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Runs the hotel under each of its shells for a year and prints the sun in it, as Markdown.
+"""Runs the hotel for a year with each of its shells and prints the solar radiation inside as Markdown.
 
     study.py [--small] [--device NAME] [-w EPW] [--timeout SECONDS] [-o DIR]
-    study.py --samples fine medium coarse ...          # what samples take, in place of years
+    study.py --samples fine medium coarse ...          # time of sampling, instead of years
 """
 
 import sys
@@ -16,7 +16,7 @@ from common import case_study  # noqa: E402
 
 
 def part_of(window):
-    """Which rooms of the hotel, by the zone's name."""
+    """The group of rooms, from the name of the zone."""
     for part, word in (("podium", "PODIUM"), ("lounges", "LOUNGE"), ("ends", " END ")):
         if word in window:
             return part

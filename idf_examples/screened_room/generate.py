@@ -3,8 +3,8 @@
 
     generate.py [--facing south|east|west] [--screen ...] [--image gradient.png] > screened_room.idf
 
-The screen stands before a window of 4 x 1.8 m and reaches beyond it so far to the sides and above that
-no sun comes in around it at less than 76 degrees of incidence.
+The screen is in front of a window of 4 x 1.8 m and extends beyond it to the sides and above, so that sun comes in
+around it only at 76 degrees of incidence or more.
 """
 
 import argparse
@@ -14,7 +14,7 @@ from pathlib import Path
 
 import random_holes
 
-# Drawn with the window to the south, in metres; then turned.
+# Drawn with the window facing south, in metres, and then turned.
 ROOM = (6.0, 6.0, 3.0)
 WINDOW = (1.0, 0.6, 5.0, 2.4)  # x, z, x, z
 SCREEN = (-0.6, 0.0, 6.6, 4.0)
@@ -77,7 +77,7 @@ Output:SQLite,Simple;
 
 
 def pitch(diameter):
-    """Of round holes, staggered by 60 degrees, that leave the share OPEN open."""
+    """The pitch of round holes, staggered by 60 degrees, with an open fraction of OPEN."""
     return diameter * math.sqrt(math.pi / (2 * math.sqrt(3)) / OPEN)
 
 
@@ -94,7 +94,7 @@ def vertices(corners, facing):
 
 
 def upright(x1, z1, x2, z2, y=0.0):
-    """A rectangle that faces the window's way."""
+    """A rectangle that faces the same way as the window."""
     return [(x1, y, z2), (x1, y, z1), (x2, y, z1), (x2, y, z2)]
 
 

@@ -1,8 +1,7 @@
-"""An image of a sheet with holes at random places, denser towards its top, as a PNG. Black is open.
+"""A PNG image of a sheet with holes at random positions, denser towards the top. Black is open.
 
-Holes may overlap. With a share f of the sheet open, holes of mean area a stand -ln(1 - f) / a to the
-area; f grows evenly from the bottom to the top. Of such a sheet what is solid still hangs together below
-about 67 % open.
+Holes may overlap. For an open fraction f, holes of mean area a have a density of -ln(1 - f) / a per area; f grows
+linearly from the bottom to the top. The solid part of such a sheet is connected below about 67 % open.
 """
 
 import math
@@ -10,7 +9,7 @@ import random
 import struct
 import zlib
 
-DIAMETERS = (0.006, 0.030)  # m, all alike often between these
+DIAMETERS = (0.006, 0.030)  # m, uniformly distributed between these
 OPEN = (0.35, 0.65)  # at the bottom and at the top
 SEED = 1
 
@@ -21,7 +20,7 @@ def holes(width, height):
     small, large = DIAMETERS
     area = math.pi / 4 * (large**3 - small**3) / (3 * (large - small))
     low, high = OPEN
-    # Centres beyond the edges too, whose holes reach over them.
+    # Includes centres beyond the edges, whose holes cross them.
     rim = large / 2
     most = -math.log(1 - high) / area
     for _ in range(round(most * (width + 2 * rim) * (height + 2 * rim))):
@@ -32,7 +31,7 @@ def holes(width, height):
 
 
 def opacity(width, height, texel):
-    """The image's rows from the top, a byte a texel; a texel that a hole's edge crosses is grey."""
+    """The rows of the image from the top, one byte per texel; texels at the edge of a hole are grey."""
     columns, rows = round(width / texel), round(height / texel)
     image = [bytearray(b"\xff" * columns) for _ in range(rows)]
     for x, y, radius in holes(width, height):
@@ -54,7 +53,7 @@ def opacity(width, height, texel):
 
 
 def png(image):
-    """An image of one channel, as the bytes of a file."""
+    """A single-channel image as the bytes of a PNG file."""
     def chunk(name, data):
         return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
 

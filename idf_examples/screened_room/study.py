@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the room behind each screen for a year, facing three ways, and prints the sun in it, as Markdown.
+"""Runs the room for a year with each screen, facing three ways, and prints its solar radiation as Markdown.
 
     study.py [-o DIR]
 """
@@ -12,10 +12,10 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "scripts")]
 
 import generate  # noqa: E402
-from shading_runs import energyplus, results  # noqa: E402
+from shading_runs import energyplus, output_folder, results  # noqa: E402
 
 WEATHER = "USA_CO_Golden-NREL.724666_TMY3.epw"
-# In the table's words; the first two are what the others are compared with.
+# As in the table; the others are compared with the first two.
 SCREENS = {
     "none": "none",
     "schedule": "schedule, 0.5",
@@ -26,7 +26,7 @@ SCREENS = {
 
 
 def run(facing, screen, folder):
-    folder.mkdir(parents=True, exist_ok=True)
+    folder.mkdir()
     path = folder / "screened_room.idf"
     path.write_text("".join(generate.model(facing, screen)))
     if screen == "gradient":
@@ -39,17 +39,14 @@ def run(facing, screen, folder):
     return (values.total(results.BEAM), values.total(results.SOLAR)), done.seconds
 
 
-def main():
-    parser = argparse.ArgumentParser(description="Compares perforated screens by the sun in the room behind them.")
-    parser.add_argument("-o", "--output", type=Path, default=Path("out/screened_room"), metavar="DIR",
-                        help="for the runs")  # fmt: skip
-    arguments = parser.parse_args()
-    print("| facing | screen | beam kWh | of none | of schedule | all kWh | of none | of schedule | seconds |")
+def compare(folder):
+    print("| facing | screen | beam kWh | % of none | % of schedule | total kWh | % of none | % of schedule "
+          "| seconds |")
     print("|---|---|---:|---:|---:|---:|---:|---:|---:|")
     for facing in generate.AZIMUTHS:
         found = []
         for screen, words in SCREENS.items():
-            sun, seconds = run(facing, screen, arguments.output / f"{facing} {screen}".replace(" ", "_"))
+            sun, seconds = run(facing, screen, folder / f"{facing} {screen}".replace(" ", "_"))
             found.append(sun)
             cells = [f"{facing} | {words}"]
             for part in (0, 1):
@@ -57,6 +54,17 @@ def main():
                 cells += [f"{100 * sun[part] / other[part]:.1f} %" if len(found) > number else ""
                           for number, other in enumerate((found[0], found[min(1, len(found) - 1)]))]
             print(f"| {' | '.join(cells)} | {seconds:.1f} |", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Compares perforated screens by the sun in the room behind them.")
+    parser.add_argument("-o", "--output", type=Path, default=Path("out/screened_room"), metavar="DIR",
+                        help="for the runs")  # fmt: skip
+    try:
+        with output_folder.replacing(parser.parse_args().output, "screened_room_study") as output:
+            compare(output.path)
+    except output_folder.NotOurs as error:
+        sys.exit(f"screened_room: {error}")
 
 
 if __name__ == "__main__":

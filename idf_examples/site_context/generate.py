@@ -5,16 +5,21 @@
 
 DIR (out/site_context) gets office.idf; town.geojson, 35 blocks in longitude and latitude, the office's own
 among them; hills.asc, an ESRI ASCII grid in UTM zone 13; sail.obj, N triangles of fabric over the terrace.
-All of it is made up; only the place is Golden's.
+All of it is invented except the location in Golden.
 """
 
 import argparse
 import json
 import math
+import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+
+from shading_runs import output_folder  # noqa: E402
+
 LATITUDE, LONGITUDE = 39.74, -105.18
-EASTING, NORTHING = 484577.134, 4398915.899  # of the same place in UTM zone 13, by GeoConvert -u
+EASTING, NORTHING = 484577.134, 4398915.899  # the same point in UTM zone 13, by GeoConvert -u
 
 # The town: blocks in rows along true north, the office's in the middle. Metres.
 COLUMNS, ROWS = 7, 5
@@ -22,7 +27,7 @@ STREET_X, STREET_Y = 45.0, 40.0
 BLOCK = (28.0, 24.0)
 COURT = (12.0, 8.0)
 
-# The hills: nodes a side and their distance in m.
+# The hills: nodes per side and their distance in m.
 NODES, STEP = 161, 100.0
 GROUND = 1750.0
 
@@ -58,7 +63,7 @@ Output:Variable,*,Surface Window Transmitted Beam Solar Radiation Energy,Monthly
 Output:SQLite,Simple;
 """
 
-# The office stands on the terrain, and its own block is not its neighbour.
+# The office stands on the terrain, and its own block is left out.
 CONTEXT = """
 GPUShading:SiteContext,
   Town,                    !- Name
@@ -83,7 +88,7 @@ GPUShading:TransparentShade,Fabric,Sail:Fabric:*,Constant,0.25;
 
 
 def degrees(x, y):
-    """Longitude and latitude of a place x m east and y m north of the office, on WGS84."""
+    """Longitude and latitude on WGS84 of a point x m east and y m north of the office."""
     s = math.sin(math.radians(LATITUDE))
     a, e2 = 6378137.0, 0.00669437999014
     meridian = a * (1 - e2) / (1 - e2 * s * s) ** 1.5
@@ -122,7 +127,7 @@ def smooth(value):
 
 
 def elevation(east, north):
-    """Level at the town, 600 m of hills from 1.5 km to the west on, a mesa of 180 m to the east."""
+    """Level at the town, hills of 600 m from 1.5 km to the west, and a mesa of 180 m to the east."""
     hills = 600 * smooth((-1500 - east) / 3000) * (1 + 0.15 * math.sin(north / 700) + 0.1 * math.sin(east / 300))
     mesa = 180 * smooth((1500 - math.hypot(east - 2800, north - 600)) / 400)
     return GROUND + hills + mesa
@@ -137,7 +142,7 @@ def hills():
 
 
 def sail(triangles):
-    """A wavy sheet of about so many triangles."""
+    """A wavy sheet with about the given number of triangles."""
     side = max(1, math.isqrt(triangles // 2))
     west, south, east, north = SAIL
     yield "o Sail\nusemtl Fabric\n"
@@ -188,7 +193,7 @@ def context(parts):
 
 
 def write(folder, parts=("town", "hills", "sail"), triangles=800):
-    """The model's path; the files lie beside it."""
+    """Writes the model and the files beside it. Returns the model's path."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "town.geojson").write_text(town())
     with open(folder / "hills.asc", "w") as file:
@@ -207,7 +212,12 @@ def main():
     parser.add_argument("--triangles", type=int, default=800, metavar="N", help="of the sail")
     arguments = parser.parse_args()
     parts = {"town", "hills", "sail"} - set(arguments.without.split(","))
-    print(write(arguments.output, parts, arguments.triangles))
+    try:
+        with output_folder.replacing(arguments.output, "site_context") as output:
+            path = write(output.path, parts, arguments.triangles)
+    except output_folder.NotOurs as error:
+        sys.exit(f"site_context: {error}")
+    print(output.said(path))
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Runs the office for a year with more and more around it, prints what reaches each window, as Markdown.
+"""Runs the office for a year in different surroundings and prints the solar radiation of each window as Markdown.
 
     study.py [-o DIR]             # the year
-    study.py --load [-o DIR]      # seconds that sails of more and more triangles take to load
+    study.py --load [-o DIR]      # seconds to load sails with increasing numbers of triangles
 """
 
 import argparse
@@ -16,7 +16,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "scripts")]
 
 import generate  # noqa: E402
-from shading_runs import energyplus, results  # noqa: E402
+from shading_runs import energyplus, output_folder, results  # noqa: E402
 
 WEATHER = "USA_CO_Golden-NREL.724666_TMY3.epw"
 VARIANTS = {
@@ -31,7 +31,7 @@ TRIANGLES = (0, 1_000, 10_000, 100_352)
 
 
 def year(folder):
-    print("| around it | south, kWh | east | north | west | all | of nothing | seconds |")
+    print("| surroundings | south, kWh | east | north | west | all | % of none | seconds |")
     print("|---|---:|---:|---:|---:|---:|---:|---:|")
     whole = None
     for number, (name, parts) in enumerate(VARIANTS.items()):
@@ -48,7 +48,7 @@ def year(folder):
 
 
 def load(folder, times=5):
-    """Seconds of `gpu_shading check`, which reads the model twice and runs EnergyPlus up to its shading."""
+    """Times `gpu_shading check`, which reads the model twice and runs EnergyPlus up to its shading calculation."""
     print("| triangles | seconds |")
     print("|---:|---:|")
     for triangles in TRIANGLES:
@@ -63,12 +63,16 @@ def load(folder, times=5):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="What surrounds an office, by the sun in its windows.")
-    parser.add_argument("-o", "--output", type=Path, default=Path("out/site_context"), metavar="DIR",
+    parser = argparse.ArgumentParser(description="Compares surroundings of an office by its solar radiation.")
+    parser.add_argument("-o", "--output", type=Path, default=Path("out/site_context_study"), metavar="DIR",
                         help="for the runs")
-    parser.add_argument("--load", action="store_true", help="seconds to load meshes instead")
+    parser.add_argument("--load", action="store_true", help="measure the time to load meshes instead")
     arguments = parser.parse_args()
-    (load if arguments.load else year)(arguments.output)
+    try:
+        with output_folder.replacing(arguments.output, "site_context_study") as output:
+            (load if arguments.load else year)(output.path)
+    except output_folder.NotOurs as error:
+        sys.exit(f"site_context: {error}")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The report of compare_shading: one HTML file, with all it shows inside."""
+"""The report of compare_shading: a self-contained HTML file."""
 
 from shading_report.page import write
 

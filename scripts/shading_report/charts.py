@@ -1,7 +1,7 @@
-"""Charts as SVG text, by matplotlib: no script needed to see them, sharp in print.
+"""Charts as SVG text, drawn by matplotlib: they need no script and are sharp in print.
 
-Colours are for every eye and for grey print: Okabe and Ito's for runs, cividis for amounts, ColorBrewer's PuOr
-for differences; runs differ in hatch and mark too.
+Colours suit colour-blind readers and grey print: Okabe and Ito's for runs, cividis for amounts, ColorBrewer's PuOr
+for differences. Runs also differ in hatch and marker.
 """
 
 import html
@@ -34,7 +34,7 @@ _numbers = itertools.count()
 
 
 def _svg(figure, description):
-    """The figure's SVG element, to stand in a page beside others: its ids are its own, and few."""
+    """The figure as an SVG element, with ids that are unique in the page."""
     file = io.StringIO()
     figure.savefig(file, format="svg", metadata={"Date": None, "Creator": None}, dpi=150)
     text = file.getvalue()
@@ -53,14 +53,14 @@ def _svg(figure, description):
 
 
 def _figure(width, height, left=0.6, right=0.15, bottom=0.45, top=0.25):
-    """A figure and its axes; all lengths in inches. Margins are set: to find them takes longer than to draw."""
+    """A figure and its axes; all lengths in inches. Margins are fixed: computing them is slower than drawing."""
     figure = Figure(figsize=(width, height))
     return figure, figure.add_axes((left / width, bottom / height, 1 - (left + right) / width,
                                     1 - (bottom + top) / height))
 
 
 def _colour_bar(figure, axes, image, gap=0.1, width=0.12, **options):
-    """To the right of the axes, as high as they are; gap and width in inches."""
+    """Adds a colour bar to the right of the axes, at their height; gap and width in inches."""
     place = axes.get_position()
     whole = figure.get_figwidth()
     bar = figure.add_axes((place.x1 + gap / whole, place.y0, width / whole, place.height))
@@ -68,7 +68,7 @@ def _colour_bar(figure, axes, image, gap=0.1, width=0.12, **options):
 
 
 def difference(value):
-    """Of sunlit fractions, in few characters: 0.35, 1.2e-05."""
+    """A sunlit fraction in few characters: 0.35, 1.2e-05."""
     form = ".1e" if 0 < abs(value) < 1e-3 else ".2g"
     return format(value, form).replace("-", "\u2212")
 
@@ -78,7 +78,7 @@ def _plain(value, _=None):
 
 
 def _days(axes, calendar):
-    """Ticks under the days: months of a year, else each day."""
+    """Sets ticks below the days: at months for a year, otherwise at each day."""
     starts = [i for i, day in enumerate(calendar.days)
               if i == 0 or calendar.days[i - 1][:2] != day[:2]]
     if len(calendar.days) > 31:
@@ -94,7 +94,7 @@ def _days(axes, calendar):
 
 
 def heat_map(grid, calendar, title, description, limit=None):
-    """Hours over days; amounts of 0 to 1, or, with a limit, differences of at most that."""
+    """A map of hours over days: amounts of 0 to 1 or, with a limit, differences of at most that."""
     figure, axes = _figure(5.3, 2.0, left=0.5, right=0.95, bottom=0.4)
     colours = mpl.colormaps["cividis" if limit is None else "PuOr"].with_extremes(bad=NOT_FACING)
     low, high = (0.0, 1.0) if limit is None else (-limit, limit)
@@ -109,7 +109,7 @@ def heat_map(grid, calendar, title, description, limit=None):
 
 
 def scatter(reference, others, description):
-    """others: [(label, values)]; places where the receiver faces the sun."""
+    """A scatter plot of the times when the receiver faces the sun. others: [(label, values)]."""
     figure, axes = _figure(3.1, 3.0, left=0.5, bottom=0.45, right=0.1, top=0.1)
     axes.plot([0, 1], [0, 1], color="#444444", linewidth=0.8)
     for number, (label, values) in enumerate(others, start=1):
@@ -129,7 +129,7 @@ def _labelled(figure, axes, description):
 
 
 def density(reference, values, label, description):
-    """How many hours lie where: for all receivers at once, too many for marks."""
+    """A density plot of hours, for all receivers together, which would be too many for markers."""
     figure, axes = _figure(3.7, 3.0, left=0.5, right=0.8)
     _, _, _, image = axes.hist2d(reference, values, bins=60, range=((0, 1), (0, 1)), cmap="cividis_r",
                                  norm=LogNorm(), rasterized=True)
@@ -140,7 +140,7 @@ def density(reference, values, label, description):
 
 
 def histogram(others, description):
-    """others: [(label, differences)]; counts on a logarithmic axis."""
+    """A histogram with counts on a logarithmic axis. others: [(label, differences)]."""
     figure, axes = _figure(3.6, 3.0, left=0.75, top=0.1)
     largest = max((np.abs(values).max(initial=0.0) for _, values in others), default=0.0) or 1e-9
     edges = np.linspace(-largest, largest, 42)
@@ -161,7 +161,7 @@ def histogram(others, description):
 
 
 def months(names, runs, title, description):
-    """runs: [(label, kWh by month)], side by side."""
+    """Bars of each month, side by side. runs: [(label, kWh by month)]."""
     figure, axes = _figure(4.6, 2.5, left=0.7, right=0.1, bottom=0.55)
     width = 0.8 / len(runs)
     for number, (label, values) in enumerate(runs):
@@ -179,7 +179,7 @@ def months(names, runs, title, description):
 
 
 def stages(runs, description):
-    """runs: [(label, [(stage, seconds)])]; the stages of each run end to end."""
+    """A bar for each run with its stages end to end. runs: [(label, [(stage, seconds)])]."""
     names = list(dict.fromkeys(stage for _, parts in runs for stage, _ in parts))
     figure, axes = _figure(6.0, 0.6 + 0.35 * len(runs) + 0.2 * len(names), left=1.4, top=0.1 + 0.2 * len(names))
     shades = mpl.colormaps["cividis"](np.linspace(0.1, 0.95, max(2, len(names))))

@@ -1,4 +1,4 @@
-"""The numbers of a report: what the runs hold, grouped as the page shows them. Energies in kWh, powers in kW."""
+"""The numbers of a report, grouped as the page shows them. Energies in kWh, powers in kW."""
 
 import calendar as gregorian
 from dataclasses import dataclass
@@ -8,12 +8,12 @@ from shading_runs import results
 
 QUANTITIES = (
     ("Transmitted solar radiation", results.SOLAR),
-    ("of it beam", results.BEAM),
+    ("beam alone", results.BEAM),
     ("Heating", results.HEATING),
     ("Cooling", results.COOLING),
 )
 HOURS = 24
-SAME = 9  # decimals to which sunlit fractions of hours are taken for one
+SAME = 9  # decimals in which the sunlit fractions of equal hours agree
 
 
 def month_name(month):
@@ -41,20 +41,20 @@ class Calendar:
         return list(dict.fromkeys(environment for environment, _, _ in self.days))
 
     def grid(self, values, places):
-        """values of the places as hours x days, nan elsewhere."""
+        """The values at these times as an array of hours x days, nan elsewhere."""
         found = np.full((HOURS, len(self.days)), np.nan)
         found[self.row[places], self.column[places]] = values
         return found
 
     def name(self, place):
-        """When an hour is: its end, and the environment where there are several."""
+        """An hour as text, with its environment if there are several."""
         environment, month, day, hour, _ = self.times[place]
         text = f"{day} {month_name(month)}, {hour - 1:02d}–{hour:02d} h"
         return f"{environment}: {text}" if len(self.environments) > 1 else text
 
 
 def building(run_results, variable):
-    """The hourly sum over zones or windows, each as often as the building has it, in kWh."""
+    """The hourly sum over zones or windows in kWh, with multipliers applied."""
     total = np.zeros(len(run_results.times))
     for key, values in run_results.values[variable].items():
         total += run_results.multiplier(variable, key) * np.asarray(values)
@@ -63,7 +63,7 @@ def building(run_results, variable):
 
 @dataclass
 class Amount:
-    """One quantity in each run; the reference first, None where a run has none."""
+    """One quantity in each run, the reference first; None if a run does not have it."""
 
     title: str
     values: list
@@ -98,7 +98,7 @@ def energies(runs, calendar):
 
 @dataclass
 class Peak:
-    """The largest hour of a load in each run: kW, and when."""
+    """The peak hour of a load in each run: kW, and its time."""
 
     title: str
     load: str
@@ -129,7 +129,7 @@ def peaks(runs, calendar):
 
 @dataclass
 class WorstHour:
-    """An hour of a large difference; days: how many days, this one the first, have the same at that hour."""
+    """An hour with a large difference; days: number of days from this one with the same difference at that hour."""
 
     place: int
     change: float
@@ -137,9 +137,9 @@ class WorstHour:
 
 
 def worst_hours(difference, calendar, count=10):
-    """The largest |difference|, largest first; none where it is 0.
+    """The largest non-zero |differences|, largest first.
 
-    Where shading is calculated for periods, days have the same sunlit fractions: of such only the first.
+    If shading is calculated for periods of several days, only the first day of each period is listed.
     """
     values, reference = np.asarray(difference.values), np.asarray(difference.reference)
     found = {}
@@ -158,7 +158,7 @@ def worst_hours(difference, calendar, count=10):
 
 
 def messages(runs):
-    """[(kind, text, [how often in each run])], first those that not all runs have alike."""
+    """[(kind, text, [count in each run])], those that differ between runs first."""
     counts = {}
     for number, run in enumerate(runs):
         for message in run.run.messages:

@@ -1,4 +1,4 @@
-"""What ran where, and how long each stage took."""
+"""Programs, inputs, machine and devices of each run, and the time of each stage."""
 
 import csv
 import hashlib
@@ -26,7 +26,7 @@ def described(path):
 
 
 def rows(runs, weather, further):
-    """[(what, [value in each run])]."""
+    """[(title, [value in each run])]."""
 
     def version(run):
         found = re.search(r"^Program Version,\s*(.*?), YMD=", run.run.text("eplusout.eio"), re.MULTILINE)
@@ -42,12 +42,12 @@ def rows(runs, weather, further):
 
     columns = [
         ("Program", lambda run: version(run)),
-        ("Shading method in force", lambda run: "rendered" if run.is_ours else run.run.method or "not known"),
+        ("Shading method", lambda run: "rendered" if run.is_ours else run.run.method or "unknown"),
         ("Rendered by", lambda run: run.run.device or "–"),
         ("Fineness", lambda run: run.run.fineness or "–"),
         ("Receivers", lambda run: rendered(run, r"(\d+) receivers")),
         ("Casters", lambda run: rendered(run, r"(\d+) casters")),
-        ("Directions of the sun", lambda run: rendered(run, r"(\d+) directions")),
+        ("Sun directions", lambda run: rendered(run, r"(\d+) directions")),
         ("Shading module", module),
         ("Options", lambda run: " ".join([*run.options, *further]) or "none"),
         ("Model", lambda run: described(run.model)),
@@ -63,7 +63,7 @@ def written():
 
 
 def renderer_stages(folder):
-    """[(stage, seconds)] of the rendering, from the table that a run of ours leaves in its folder."""
+    """[(stage, seconds)] of the rendering, from the table that the renderer writes into the run's folder."""
     table = folder / methods.STAGES
     if not table.is_file():
         return []
@@ -72,13 +72,13 @@ def renderer_stages(folder):
 
 
 def stages(run):
-    """[(stage, seconds)] that add up to the program's wall time."""
+    """[(stage, seconds)], which add up to the wall-clock time of the program."""
     rendering = re.search(r"([\d.]+) s$", run.run.rendering)
     inside = float(rendering[1]) if rendering else 0.0
-    parts = renderer_stages(run.run.folder) or [("whole renderer", inside)]
+    parts = renderer_stages(run.run.folder) or [("rendering", inside)]
     named = [(f"rendering: {stage}", seconds) for stage, seconds in parts if seconds > 0]
     rest = inside - sum(seconds for _, seconds in named)
     if rest > 0.005:
-        named.append(("rendering: the rest", rest))
+        named.append(("rendering: other", rest))
     return [("EnergyPlus without rendering", max(0.0, run.run.seconds - inside)), *named,
-            ("start and end of the program", max(0.0, run.run.wall - run.run.seconds))]
+            ("program start and end", max(0.0, run.run.wall - run.run.seconds))]

@@ -1,4 +1,4 @@
-"""Puts numbers, charts and pictures into the page."""
+"""Fills the page with numbers, charts and pictures."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,19 +14,19 @@ HERE = Path(__file__).resolve().parent
 
 @dataclass
 class Hour:
-    """One of a receiver's worst: sunlit fractions of each run, and pictures of those that can draw."""
+    """One of a receiver's worst hours: sunlit fractions of each run, and pictures from runs that can draw."""
 
     when: str
     sun: tuple
     fractions: list
     change: float
-    days: int  # that are like it, itself counted
+    days: int  # days with the same difference, including this one
     pictures: list = field(default_factory=list)  # (run, data URI)
 
 
 @dataclass
 class Detail:
-    """What the page shows of one receiver."""
+    """The charts and hours of one receiver."""
 
     anchor: str
     receiver: results.Receiver
@@ -43,15 +43,15 @@ class Line:
     receiver: results.Receiver
     hours: int
     sunlit: list  # mean of each run
-    differences: list  # of each but the first: results.Difference
-    solar: list  # kWh of each run, None where it is no window
+    differences: list  # of each except the first: results.Difference
+    solar: list  # kWh of each run, None if it is not a window
 
 
 def _number(value, form=",.2f"):
     if value is None:
         return "–"
     text = format(value, form)
-    if not text.strip("+-0.,"):  # no sign before nothing
+    if not text.strip("+-0.,"):  # no sign before 0
         text = text.lstrip("+-")
     return text.replace("-", "\u2212")
 
@@ -108,7 +108,7 @@ def _detail(anchor, name, runs, calendar):
     reference = of_runs[0][1].reference
     parts = [
         charts.scatter(reference, [(title, np.add(found.reference, found.values)) for title, found in of_runs],
-                       f"Sunlit fraction of {name} in each run against the reference"),
+                       f"Sunlit fraction of {name} in each run compared with the reference"),
         charts.histogram([(title, np.asarray(found.values)) for title, found in of_runs],
                          f"Histogram of the differences at {name}"),
     ]
@@ -121,8 +121,8 @@ def _detail(anchor, name, runs, calendar):
 
 
 def _draw(details, runs, weather, output):
-    """Adds the pictures of all hours; returns why there are none, '' where there are."""
-    reason = "no run of these was rendered by this software"
+    """Adds the pictures of all hours. Returns why there are none, or ''."""
+    reason = "none of these runs was rendered by this software"
     for run in runs:
         if not run.is_ours:
             continue
@@ -142,7 +142,7 @@ def _overall(runs):
         if not len(change):
             continue
         found.append(charts.density(reference, reference + change, run.label,
-                                    f"Sunlit fractions of all receivers, {run.label} against the reference"))
+                                    f"Sunlit fractions of all receivers, {run.label} compared with the reference"))
         found.append(charts.histogram([(run.label, change)], f"Histogram of the differences of {run.label}"))
     return found
 
@@ -153,7 +153,7 @@ def _months(runs, by_month):
     names = [name for name, _ in by_month]
     found = []
     for number, amount in enumerate(by_month[0][1]):
-        if amount.title == "of it beam":
+        if amount.title == "beam alone":
             continue
         series = [(run.label, [amounts[number].values[i] for _, amounts in by_month]) for i, run in enumerate(runs)]
         found.append(charts.months(names, series, amount.title, f"{amount.title} by month in each run, kWh"))
@@ -161,9 +161,9 @@ def _months(runs, by_month):
 
 
 def write(output, everything, weather, most, further):
-    """Writes DIR/report.html on the runs that have results, the reference first; returns its path.
+    """Writes DIR/report.html about the runs that have results, the reference first. Returns its path.
 
-    most: how many receivers are shown hour by hour, those that differ most.
+    most: number of receivers shown hour by hour, those that differ most.
     """
     runs = [run for run in everything if run.results]
     calendar = facts.Calendar(runs[0].results)

@@ -1,7 +1,6 @@
-"""What the sun sees of receivers, drawn by the gpu_shading program from the model that a run read."""
+"""Pictures of what the sun sees of receivers, drawn by the gpu_shading program from the model of a run."""
 
 import base64
-import shutil
 import subprocess
 
 SIZE = 240  # pixels on the longer side
@@ -12,12 +11,11 @@ def data_uri(path):
 
 
 def draw(run, weather, wanted, folder):
-    """(data URIs, '') of wanted [(receiver, (azimuth, altitude) in degrees)], or ([None, ...], why not)."""
+    """(data URIs, '') for each wanted (receiver, (azimuth, altitude) in degrees), or ([None, ...], why not)."""
     nothing = [None] * len(wanted)
     if not wanted:
         return nothing, "the runs do not differ"
     program = run.program.parent / "gpu_shading"
-    shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     table = folder / "views.txt"
     table.write_text("".join(f"{number}.png {azimuth:.6f} {altitude:.6f} {receiver}\n"

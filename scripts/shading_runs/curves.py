@@ -1,11 +1,11 @@
-"""Pictures of timings as SVG files, by matplotlib, and how steeply a curve grows."""
+"""Charts of timings as SVG files, drawn by matplotlib, and the exponent of a curve."""
 
 import math
 
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-# Okabe and Ito's colours; marks differ too, for grey print.
+# Okabe and Ito's colours; markers differ too, for grey print.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000")
 MARKS = ("o", "s", "^", "D", "x")
 
@@ -13,7 +13,7 @@ mpl.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "curves", "font.fam
 
 
 def exponent(points):
-    """p of y ~ x^p, by least squares over the logarithms of the upper half of the points."""
+    """p in y ~ x^p, by least squares on the logarithms of the upper half of the points."""
     upper = [(math.log(x), math.log(y)) for x, y in sorted(points)[len(points) // 2 - 1:]]
     mean_x = sum(x for x, _ in upper) / len(upper)
     mean_y = sum(y for _, y in upper) / len(upper)
@@ -22,7 +22,7 @@ def exponent(points):
 
 
 def draw(path, panels, ylabel):
-    """An SVG of panels side by side, {title: (xlabel, {curve: [(x, y), ...]})}, both axes logarithmic."""
+    """Writes an SVG of panels side by side, {title: (xlabel, {curve: [(x, y), ...]})}, with logarithmic axes."""
     figure = Figure(figsize=(4.2 * len(panels), 3.4), layout="constrained")
     for place, (title, (xlabel, curves)) in enumerate(panels.items()):
         axes = figure.add_subplot(1, len(panels), place + 1)

@@ -1,5 +1,6 @@
-"""Runs EnergyPlus and says how it went."""
+"""Runs EnergyPlus and reads how the run ended."""
 
+import ctypes
 import importlib.util
 import os
 import platform
@@ -12,27 +13,29 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+_LIBC = ctypes.CDLL(None)
+
 REPOSITORY = Path(__file__).resolve().parents[2]
 
 
 def official_prefix():
-    """The EnergyPlus that scripts/setup has fetched."""
+    """The EnergyPlus that scripts/setup fetches."""
     return REPOSITORY / ".venv" / "EnergyPlus"
 
 
 def build_folder():
-    """Where scripts/build builds."""
+    """The folder in which scripts/build builds."""
     return REPOSITORY / os.environ.get("GPU_SHADING_BUILD", "build")
 
 
 def patched_prefix():
-    """The EnergyPlus that the build has made; GPU_SHADING_PREFIX names another."""
+    """The patched EnergyPlus of the build, or the one that GPU_SHADING_PREFIX names."""
     chosen = os.environ.get("GPU_SHADING_PREFIX")
     return Path(chosen) if chosen else build_folder() / "EnergyPlus"
 
 
 def processor():
-    """This machine's, by name and number of cores."""
+    """Name and number of cores of this machine's processor."""
     try:
         found = re.search(r"^model name\s*:\s*(.*)$", Path("/proc/cpuinfo").read_text(), re.MULTILINE)
     except OSError:
@@ -41,37 +44,37 @@ def processor():
 
 
 def use_own_python(needed):
-    """Starts the script again with the Python of scripts/setup, where the one that runs lacks a needed package."""
+    """Restarts the script with the Python of scripts/setup if the current one lacks a needed package."""
     own = REPOSITORY / ".venv" / "bin" / "python"
     if not importlib.util.find_spec(needed) and own.is_file() and Path(sys.prefix) != own.parents[1]:
         os.execv(own, [str(own), *sys.argv])
 
 
 def parse_arguments(parser):
-    """(what the parser makes of the words before --, the words behind it, which are for the program that is run)."""
+    """(parsed arguments before --, arguments after it, which are for the program that is run)."""
     words = sys.argv[1:]
     cut = words.index("--") if "--" in words else len(words)
     return parser.parse_args(words[:cut]), words[cut + 1:]
 
 
 def models_folder():
-    """Where the collection of other people's models lies; may not exist."""
+    """The folder with the collection of other people's models, which need not exist."""
     chosen = os.environ.get("GPU_SHADING_MODELS")
     return Path(chosen) if chosen else REPOSITORY.parent / "shared" / "models"
 
 
 def find_weather(name):
-    """The path of a weather file given by path, or by name among the known folders."""
+    """The path of a weather file, given by path or by its name in one of the known folders."""
     folders = (Path(), models_folder() / "weather", official_prefix() / "WeatherData")
     for folder in folders:
         if (folder / name).is_file():
             return (folder / name).resolve()
-    raise FileNotFoundError(f"weather file {name}: found neither here nor in {folders[1]} nor in {folders[2]}")
+    raise FileNotFoundError(f"weather file {name}: not found here, in {folders[1]} or in {folders[2]}")
 
 
 @dataclass
 class Run:
-    """One finished run. seconds is what EnergyPlus says it took, wall what the clock says."""
+    """One finished run. seconds: time reported by EnergyPlus; wall: wall-clock time."""
 
     status: int
     output: str
@@ -113,36 +116,36 @@ class Run:
 
     @property
     def severe(self):
-        """The severe and fatal errors, as they stand in eplusout.err without their stars."""
+        """The severe and fatal errors of eplusout.err, without their asterisks."""
         return [f"{kind}: {text}" for kind, text in self.messages if kind != "Warning"]
 
     @property
     def method(self):
-        """The shading method that was in force, as EnergyPlus reports it, '' if it does not."""
+        """The shading method that EnergyPlus reports, or ''."""
         found = re.search(r"^ *Shadowing/Sun Position Calculations Annual Simulations, *([^,\n]*)",
                           self.text("eplusout.eio"), re.MULTILINE)
         return found.group(1) if found else ""
 
     @property
     def gave_up_on_overlaps(self):
-        """True where polygon clipping met more overlapping shadows than it can hold: its answer is wrong then."""
+        """Whether polygon clipping met more overlapping shadows than it can hold, so that its answer is wrong."""
         return "Too many figures" in self.text("eplusout.err")
 
     @property
     def our_lines(self):
-        """What our module had to say."""
+        """The messages of our module."""
         lines = (self.errors + "\n" + self.text("eplusout.err")).splitlines()
         found = (re.search(r"gpu_shading: .*", line) for line in lines)
         return list(dict.fromkeys(match.group().strip() for match in found if match))
 
     @property
     def device(self):
-        """The device that rendered, in our module's words, '' if it did not say."""
+        """The device that rendered, as our module reports it, or ''."""
         return self._rendered()[0]
 
     @property
     def fineness(self):
-        """The pixels or the error that it rendered with, likewise."""
+        """The resolution or target error that it rendered with, or ''."""
         return self._rendered()[1]
 
     def _rendered(self):
@@ -151,11 +154,11 @@ class Run:
 
     @property
     def rendering(self):
-        """What was rendered, in our module's words: device, resolution, counts, seconds."""
+        """Our module's message about the rendering: device, resolution, counts, seconds."""
         return next((line.removeprefix("gpu_shading: ") for line in self.our_lines if "rendered by" in line), "")
 
     def why(self):
-        """A short reason for a run that failed."""
+        """A short reason why the run failed."""
         if self.timed_out:
             return f"stopped after {self.wall:.0f} s"
         for line in [*self.severe, *reversed(self.errors.splitlines())]:
@@ -164,11 +167,18 @@ class Run:
         return f"exit status {self.status}"
 
 
+def _end_with_parent():
+    """Called in the child process: the kernel kills it when its parent ends, however that ends."""
+    set_parent_death_signal = 1
+    _LIBC.prctl(set_parent_death_signal, signal.SIGKILL)
+
+
 def run(program, model, weather, folder, options=(), environment=None, timeout=None, before=()):
-    """Runs `program options -w weather -d folder model`, with no display unless before gives one."""
+    """Runs `program options -w weather -d folder model`, without a display unless `before` provides one.
+
+    Creates the folder, which must not exist. EnergyPlus is killed when this process ends.
+    """
     folder = Path(folder)
-    if folder.exists():
-        shutil.rmtree(folder)
     folder.mkdir(parents=True)
     command = [*before, os.path.abspath(program), *options, "-w", str(weather), "-d", str(folder.resolve()),
                str(Path(model).resolve())]
@@ -176,9 +186,9 @@ def run(program, model, weather, folder, options=(), environment=None, timeout=N
                  if key != "DISPLAY" and not key.startswith("GPU_SHADING")}
     variables |= environment or {}
     began = time.monotonic()
-    # A session of its own, so that an X server started with the run ends with it.
+    # A separate session, so that an X server started for the run ends with it.
     with subprocess.Popen(command, cwd=folder, env=variables, start_new_session=True, text=True,
-                          errors="replace", stdin=subprocess.DEVNULL,
+                          errors="replace", stdin=subprocess.DEVNULL, preexec_fn=_end_with_parent,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         timed_out = False
         try:
@@ -194,7 +204,7 @@ def run(program, model, weather, folder, options=(), environment=None, timeout=N
 
 
 def x_server_command():
-    """The words that give a command a virtual display, or None where that cannot be had."""
+    """The command prefix that provides a virtual display, or None if it is not available."""
     if shutil.which("xvfb-run") and shutil.which("xauth"):
         return ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24"]
     return None

@@ -1,7 +1,7 @@
-"""Reads an IDF or epJSON file, and writes copies of it with a few things changed.
+"""Reads an IDF or epJSON file and writes copies of it with a few changes.
 
-All else is kept as it stands, comments and layout too: a copy has to be the user's model, not our
-reading of it. Class and field names are compared without regard to case, as EnergyPlus does.
+Everything else is kept, including comments and layout: a copy has to be the user's model, not our interpretation of
+it. Class and field names are not case-sensitive, as in EnergyPlus.
 """
 
 import copy
@@ -19,7 +19,7 @@ RUN_WEATHER = (4, "run_simulation_for_weather_file_run_periods")
 
 
 def read(path):
-    """An InputFile of the kind that the name's ending tells."""
+    """An Idf or EpJson, depending on the file name's extension."""
     path = Path(path)
     text = path.read_text(encoding="utf-8", errors="surrogateescape")
     kind = EpJson if path.suffix.lower() == ".epjson" else Idf
@@ -27,14 +27,14 @@ def read(path):
 
 
 class Idf:
-    """An IDF as text, with the places of its objects and fields."""
+    """An IDF as text, with the positions of its objects and fields."""
 
     def __init__(self, text):
         self.text = text
         self._scan()
 
     def _scan(self):
-        # Comments become blanks of the same length, so that places in both texts agree.
+        # Comments are replaced by blanks of the same length, so that positions in both texts agree.
         bare = re.sub(r"![^\n]*", lambda found: " " * len(found.group()), self.text)
         self.objects = []  # (class in lower case, [(start, end) of each field], start, end)
         start = 0
@@ -55,14 +55,14 @@ class Idf:
         return {name for name, _, _, _ in self.objects}
 
     def field(self, class_name, field, default=""):
-        """A field of the first object of the class."""
+        """The value of a field of the first object of the class."""
         for name, places, _, _ in self.objects:
             if name == class_name.lower() and field[0] < len(places):
                 return self.text[slice(*places[field[0]])] or default
         return default
 
     def set_field(self, class_name, field, value):
-        """Sets a field of the first object of the class, which is made where there is none."""
+        """Sets a field of the first object of the class, which is created if there is none."""
         for name, places, _, end in self.objects:
             if name != class_name.lower():
                 continue
@@ -88,11 +88,11 @@ class Idf:
         self.add("Output:Variable", ["*", variable, frequency])
 
     def remove(self, is_unwanted):
-        """Takes out the objects whose class, in lower case, is_unwanted accepts."""
+        """Removes the objects whose class, in lower case, is_unwanted accepts."""
         self._replace([(start, end, "") for name, _, start, end in self.objects if is_unwanted(name)])
 
     def anchor_paths(self, folder):
-        """Makes fields absolute that name an existing file by a path through '..' from folder."""
+        """Makes paths absolute that lead through '..' from folder to an existing file."""
         edits = []
         for _, places, _, _ in self.objects:
             for start, end in places:
@@ -111,7 +111,7 @@ class Idf:
 
 
 class EpJson:
-    """The same for epJSON; its layout is not kept, only its content."""
+    """The same for epJSON; its content is kept, but not its layout."""
 
     def __init__(self, text):
         self.data = json.loads(text)
@@ -167,17 +167,27 @@ class EpJson:
         Path(path).write_text(json.dumps(self.data, indent=1), encoding="utf-8")
 
 
-def place_copy(model, original, folder):
-    """Writes model into folder under the original's name, with links to all that lies beside the original.
+def _link_contents(source, folder, omitted):
+    """Creates folder with links to the entries of source. An entry that contains an omitted path becomes a folder."""
+    folder.mkdir(parents=True)
+    for entry in source.iterdir():
+        if entry in omitted:
+            continue
+        if any(entry in path.parents for path in omitted):
+            _link_contents(entry, folder / entry.name, omitted)
+        else:
+            (folder / entry.name).symlink_to(entry)
 
-    Relative paths in the model, and a side file MODEL.gpu-shading.idf, are found there as before.
+
+def place_copy(model, original, folder, output=()):
+    """Writes model into a new folder under the original's name, with links to the files beside the original.
+
+    Relative paths in the model and a side file MODEL.gpu-shading.idf therefore still work. Paths in output, which the
+    script writes, and folders that contain one are not linked.
     """
     original, folder = Path(original).resolve(), Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    for entry in original.parent.iterdir():
-        target = folder / entry.name
-        if entry != original and not target.is_symlink():
-            target.symlink_to(entry)
+    omitted = {original, *(Path(path).resolve() for path in (folder, *output))}
+    _link_contents(original.parent, folder, omitted)
     model = model.copy()
     model.anchor_paths(original.parent)
     model.write(folder / original.name)

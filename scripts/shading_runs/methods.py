@@ -1,4 +1,4 @@
-"""The runs that compare_shading compares: how each is started, and what became of it."""
+"""The runs that compare_shading compares: how each is started, and its outcome."""
 
 import shlex
 from pathlib import Path
@@ -6,12 +6,12 @@ from pathlib import Path
 from shading_runs import energyplus, input_file, results
 
 OURS = "gpushading:"
-STAGES = "stages.csv"  # where a run's time went, in its folder
+STAGES = "stages.csv"  # time of each stage, in the run's folder
 LONG = 20  # characters, for a title in a heading
 
 
 class Method:
-    """One way to compute shading, and what became of it."""
+    """One way to compute shading, and its outcome."""
 
     def __init__(self, key, short, title, program, shading_method=None, options=(), before=(), model=None,
                  is_ours=False):
@@ -23,30 +23,33 @@ class Method:
         self.placed = None  # the copy of the model that ran
         self.run = self.results = None
         self.missing = ""  # why there are no results
-        self.found = []  # differences to the reference
+        self.found = []  # differences from the reference
 
     def execute(self, weather, output, further, timeout):
+        """Runs it in an OutputFolder."""
         own = input_file.read(self.model)
         results.instrument(own)
         if self.shading_method:
             own.set_field("ShadowCalculation", input_file.SHADOW_METHOD, self.shading_method)
-        if not self.is_ours:  # EnergyPlus itself knows nothing of our objects
+        if not self.is_ours:  # EnergyPlus itself does not know our objects
             own.remove(lambda name: name.startswith(OURS))
-        self.placed = input_file.place_copy(own, self.model, output / "inputs" / self.key)
-        self.run = energyplus.run(self.program, self.placed, weather, output / self.key,
+        folder = output.path / self.key
+        self.placed = input_file.place_copy(own, self.model, output.path / "inputs" / self.key,
+                                            (output.path, output.target, output.failed))
+        self.run = energyplus.run(self.program, self.placed, weather, folder,
                                   [*self.options, *further], timeout=timeout, before=self.before,
-                                  environment={"GPU_SHADING_STAGES": str((output / self.key / STAGES).resolve())})
+                                  environment={"GPU_SHADING_STAGES": str(folder / STAGES)})
         if not self.run.completed:
             self.missing = self.run.why()
             return
         if self.shading_method and self.run.method and self.run.method != self.shading_method:
             self.missing = f"EnergyPlus fell back to {self.run.method}"
             return
-        self.results = results.Results(output / self.key)
+        self.results = results.Results(folder)
 
     @property
     def extension_file(self):
-        """The side file of extension objects that the run reads, None where there is none."""
+        """The side file of extension objects that the run reads, or None."""
         for word in self.options:
             if word.startswith("--gpu-shading-file="):
                 return Path(word.partition("=")[2])
@@ -88,10 +91,10 @@ def holds_extensions_alone(path):
 
 
 def parse(text, key, model):
-    """The run that a user names with --a or --b: a kind or a file, and further options of EnergyPlus.
+    """The run that --a or --b names: a kind or a file, and further EnergyPlus options.
 
-    A file of extension objects alone is read in place of the model's own side file; any other file is a
-    model to run instead. Throws ValueError or OSError.
+    A file with extension objects only replaces the model's own side file; any other file is a model to run instead.
+    Raises ValueError or OSError.
     """
     first, *options = shlex.split(text) or [""]
     if first in KINDS:
@@ -111,7 +114,7 @@ def parse(text, key, model):
 
 
 def choose(model, a, b, with_xvfb):
-    """The reference first. Methods that cannot be had carry the reason."""
+    """The methods, the reference first. Methods that are not available hold the reason."""
     plain = a in KINDS and b in KINDS and a != b
     names = {"clipping": "stock", "gpu": "gpu", "pixelcounting": "xvfb"}
     chosen = [parse(text, names[text] if plain else key, model) for text, key in ((a, "a"), (b, "b"))]

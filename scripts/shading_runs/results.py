@@ -1,4 +1,4 @@
-"""Reads sunlit fractions and transmitted solar radiation out of eplusout.sql, and compares runs."""
+"""Reads sunlit fractions and transmitted solar radiation from eplusout.sql, and compares runs."""
 
 import sqlite3
 from array import array
@@ -12,7 +12,7 @@ SOLAR = "Surface Window Transmitted Solar Radiation Energy"
 BEAM = "Surface Window Transmitted Beam Solar Radiation Energy"
 HEATING = "Zone Air System Sensible Heating Energy"
 COOLING = "Zone Air System Sensible Cooling Energy"
-# Latent heat and fresh air included, of zones with ideal loads.
+# Including latent heat and outdoor air, for zones with ideal loads.
 IDEAL_HEATING = "Zone Ideal Loads Zone Total Heating Energy"
 IDEAL_COOLING = "Zone Ideal Loads Zone Total Cooling Energy"
 VARIABLES = (SUNLIT, COSINE, SOLAR, BEAM, HEATING, COOLING)
@@ -20,12 +20,12 @@ OF_ZONES = (HEATING, COOLING)
 AZIMUTH, ALTITUDE = "Site Solar Azimuth Angle", "Site Solar Altitude Angle"
 J_PER_KWH = 3.6e6
 
-# Sunlit fractions are compared only where the sun stands higher than this over the receiver's plane:
-# below, an hour's mean mixes steps in front of and behind the plane.
+# Sunlit fractions are compared only while the sun is higher than this above the receiver's plane: below it, an
+# hourly mean mixes timesteps in front of and behind the plane.
 FACING = 1e-3
 
-# A wall of which its windows leave less than this share is no receiver: a few square millimetres' sunlit
-# fraction is noise under every method, and moves nothing.
+# A wall is not compared if its windows leave less than this fraction of it: the sunlit fraction of a few square
+# millimetres is noise with every method, and has no effect.
 SLIVER = 1e-3
 
 WEATHER_PERIOD = 3  # EnvironmentType of a run period with a weather file
@@ -37,7 +37,7 @@ def instrument(model, frequency="Hourly"):
     model.remove(lambda name: name == "outputcontrol:files")
     for variable in VARIABLES:
         model.add_output_variable(variable, frequency)
-    # Of every timestep: an hour's mean azimuth is wrong where the sun passes north.
+    # At every timestep: an hourly mean of the azimuth is wrong where the sun passes north.
     for variable in (AZIMUTH, ALTITUDE):
         model.add_output_variable(variable, "Timestep")
 
@@ -55,7 +55,7 @@ class Receiver:
 
 
 def mean_direction(directions):
-    """(azimuth, altitude) of the mean of those above the horizon, all in degrees; None where none is."""
+    """(azimuth, altitude) of the mean of the directions above the horizon, in degrees, or None."""
     x = y = z = 0.0
     for azimuth, altitude in directions:
         if altitude > 0.0:
@@ -71,7 +71,7 @@ def mean_direction(directions):
 class Results:
     """All values of one run: values[variable][receiver or zone name] is an array over times.
 
-    times are (environment, month, day, hour 1 .. 24, minute), the hour ending then; multipliers are the zones'.
+    times are (environment, month, day, hour 1 .. 24, minute) at the end of the hour; multipliers are those of zones.
     """
 
     def __init__(self, folder, frequency="Hourly"):
@@ -106,7 +106,7 @@ class Results:
         target = {}
         for index, (variable, key) in column.items():
             if key in (self.multipliers if variable in OF_ZONES else self.receivers):
-                # A model that asked for the same output has it twice; the later entry replaces the other.
+                # A model that asks for the same output itself has it twice; the later entry replaces the earlier.
                 target[index] = self.values[variable][key] = array("d")
         angle = {index: (AZIMUTH, ALTITUDE).index(variable) for index, variable in data.execute(
             "SELECT ReportDataDictionaryIndex, Name FROM ReportDataDictionary "
@@ -124,7 +124,7 @@ class Results:
             "SELECT EnvironmentPeriodIndex, EnvironmentName, EnvironmentType FROM EnvironmentPeriods")}
         rows = {row[0]: row[1:] for row in data.execute(
             "SELECT TimeIndex, EnvironmentPeriodIndex, Month, Day, Hour, Minute, WarmupFlag FROM Time")}
-        # A warm-up flag can only be set with Output:Diagnostics, ReportDuringWarmup.
+        # The warm-up flag is only set with Output:Diagnostics, ReportDuringWarmup.
         self.times = [(environments.get(rows[i][0], ("?",))[0], *rows[i][1:5]) for i in time_indices]
         self.is_warmup = [bool(rows[i][5]) for i in time_indices]
         self.weather_periods = {name for name, kind in environments.values() if kind == WEATHER_PERIOD}
@@ -137,20 +137,20 @@ class Results:
         self.sun = {when: mean_direction(directions) for when, directions in steps.items()}
 
     def sun_up(self, receiver):
-        """Places in time at which the sun stands before the receiver."""
+        """Indices of the times when the sun faces the receiver."""
         cosines = self.values[COSINE].get(receiver, ())
         return [i for i, cosine in enumerate(cosines) if cosine > FACING and not self.is_warmup[i]]
 
     def sun_at(self, place):
-        """(azimuth, altitude) in degrees of the hour's mean direction while the sun is up, None while it is not."""
+        """(azimuth, altitude) in degrees of the hour's mean direction while the sun is up, or None."""
         return self.sun.get(self.times[place][:4])
 
     def multiplier(self, variable, key):
-        """How often the building has the zone, or the zone of the surface."""
+        """The multiplier of the zone, or of the surface's zone."""
         return self.multipliers.get(key if variable in OF_ZONES else self.receivers[key].zone, 1.0)
 
     def total(self, variable, receiver=None):
-        """The run's sum of an energy in kWh: of one window, or of the building, zones' multipliers counted."""
+        """The sum of an energy over the run in kWh, for one window or, with multipliers, for the building."""
         columns = self.values[variable]
         if receiver is not None:
             return sum(columns.get(receiver, ())) / J_PER_KWH
@@ -158,7 +158,7 @@ class Results:
 
 
 def energies(folder, variable, frequency="Monthly"):
-    """{surface, zone or whatever has it: the run's sum of an energy in kWh}."""
+    """{name of the surface, zone or other key: sum of an energy over the run in kWh}."""
     with sqlite3.connect(f"file:{Path(folder) / 'eplusout.sql'}?mode=ro", uri=True) as data:
         rows = data.execute(
             "SELECT KeyValue, SUM(Value) FROM ReportData JOIN ReportDataDictionary USING (ReportDataDictionaryIndex) "
@@ -171,7 +171,7 @@ def energies(folder, variable, frequency="Monthly"):
 
 @dataclass
 class Difference:
-    """Sunlit fraction of a run less that of the reference, for one receiver, where the sun faces it."""
+    """Sunlit fraction of a run minus that of the reference, for one receiver, while the sun faces it."""
 
     receiver: Receiver
     times: list = field(default_factory=list)
@@ -188,7 +188,7 @@ class Difference:
 
 
 def differences(reference, other):
-    """A Difference for every receiver that has the sun before it at some time."""
+    """A Difference for every receiver that the sun faces at some time."""
     if reference.times != other.times:
         raise ValueError(f"the runs do not cover the same times ({len(reference.times)}, {len(other.times)})")
     found = []
@@ -204,7 +204,7 @@ def differences(reference, other):
 
 
 def percentile(values, share):
-    """The value below which the share of the values lies, by the nearest rank."""
+    """The percentile of the values by the nearest-rank method."""
     ordered = sorted(values)
     return ordered[min(len(ordered) - 1, max(0, round(share * len(ordered)) - 1))] if ordered else 0.0
 

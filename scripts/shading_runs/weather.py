@@ -4,9 +4,9 @@ LATITUDE = 6  # of the first line's fields
 
 
 def move(path, latitude, folder):
-    """Writes a copy of an EPW file at another latitude (degrees, north positive), and returns its path.
+    """Writes a copy of an EPW file for another latitude (degrees, north positive). Returns its path.
 
-    EnergyPlus takes the sun's positions from there.
+    EnergyPlus takes the sun positions from that file's location.
     """
     first, rest = path.read_text(encoding="latin-1").split("\n", 1)
     fields = first.split(",")

@@ -1,5 +1,5 @@
-// How the cost of a direction of the sun grows: with the casters in view, the casters out of view,
-// the receivers and the pixels, one at a time.
+// Cost of a sun direction as one quantity grows: the casters in view, the casters out of view, the
+// receivers or the pixels.
 
 #include <algorithm>
 #include <chrono>
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "shapes.h"
+#include "support/shapes.h"
 #include "table_main.h"
 
 namespace gpu_shading {
@@ -27,7 +27,7 @@ class Random {
   std::mt19937 generator_{1};
 };
 
-// Leaves between the corners of a box, which cover `cover` of it as seen from one side.
+// Leaves inside a box, which cover the fraction `cover` of it as seen from one side.
 void add_leaves(Scene& scene, Random& random, int count, glm::dvec3 const& low,
                 glm::dvec3 const& high, double cover) {
   double const side = std::sqrt(cover * (high.x - low.x) * (high.z - low.z) / count);
@@ -61,7 +61,7 @@ Scene leaves(int in_view, int out_of_view) {
   Random random;
   scene.add({"window", south_facing(0, 0, 0, 3, 2)});
   add_leaves(scene, random, in_view, {-0.5, -2, -0.5}, {3.5, -0.2, 4}, 0.5);
-  // A town behind the window and to its sides, as trees would stand there.
+  // A town behind the window and to its sides, represented by trees.
   add_leaves(scene, random, out_of_view / 2, {-400, 5, 0}, {400, 400, 20}, 0.5);
   add_leaves(scene, random, out_of_view - out_of_view / 2, {1000, -400, 0}, {1400, 0, 20}, 0.5);
   return scene;
@@ -71,7 +71,7 @@ void print_row(char const* sweep, int value, Scene scene, int receivers, int pix
   Renderer renderer = renderer_of(std::move(scene), pixels);
   std::vector<SurfaceId> asked(static_cast<std::size_t>(receivers));
   for (std::size_t i = 0; i < asked.size(); ++i) asked[i] = static_cast<SurfaceId>(i);
-  renderer.projected_sunlit_areas(sun_at(180, 45), asked);  // makes targets and counts receivers
+  renderer.projected_sunlit_areas(sun_at(180, 45), asked);  // creates targets and counts receivers
   std::size_t const before = renderer.statistics().casters_drawn;
   constexpr int directions = 15;
   std::vector<double> seconds;

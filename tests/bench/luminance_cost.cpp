@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "gpu_shading/transmittance.h"
-#include "shapes.h"
+#include "support/shapes.h"
 #include "table_main.h"
 
 namespace gpu_shading {
@@ -46,11 +46,12 @@ Scene canopy(Panes panes) {
 
 constexpr int receivers = 20;
 
-void print_row(char const* name, Panes panes, PlainViews views, LuminanceSum how, int resolution) {
+void print_row(char const* name, Panes panes, DeviceChoice views, LuminanceSum how,
+               int resolution) {
   RendererOptions options;
   options.resolution = resolution;
   options.luminance_sum = how;
-  options.plain_views = views;
+  options.device = views;
   Renderer renderer(canopy(panes), options);
   std::array<SurfaceId, receivers> asked{};
   for (SurfaceId id = 0; id < receivers; ++id) asked[id] = id;
@@ -73,16 +74,17 @@ void print_table() {
   std::printf("%s\n", renderer_of(canopy(Panes::opaque)).device().renderer.c_str());
   std::printf("500 panes                resolution  a direction\n");
   for (int const resolution : {256, 512, 1024}) {
-    auto const print = [&](char const* name, Panes panes, PlainViews views, LuminanceSum how) {
+    auto const print = [&](char const* name, Panes panes, DeviceChoice views, LuminanceSum how) {
       print_row(name, panes, views, how, resolution);
     };
-    print("opaque, counted", Panes::opaque, PlainViews::counted, LuminanceSum::automatic);
-    print("opaque, drawn", Panes::opaque, PlainViews::drawn, LuminanceSum::automatic);
-    print("transparent, counted", Panes::transparent, PlainViews::counted, LuminanceSum::automatic);
-    print("transparent, compute", Panes::transparent, PlainViews::drawn, LuminanceSum::compute);
-    print("transparent, mipmaps", Panes::transparent, PlainViews::drawn, LuminanceSum::mipmaps);
-    print("transparent, readback", Panes::transparent, PlainViews::drawn, LuminanceSum::readback);
-    print("3 schedules", Panes::scheduled, PlainViews::automatic, LuminanceSum::automatic);
+    print("opaque, counted", Panes::opaque, on_cpu, LuminanceSum::automatic);
+    print("opaque, drawn", Panes::opaque, by_opengl, LuminanceSum::automatic);
+    print("transparent, counted", Panes::transparent, on_cpu, LuminanceSum::automatic);
+    print("transparent, compute", Panes::transparent, by_opengl, LuminanceSum::compute);
+    print("transparent, mipmaps", Panes::transparent, by_opengl, LuminanceSum::mipmaps);
+    print("transparent, readback", Panes::transparent, by_opengl, LuminanceSum::readback);
+    print("3 schedules, counted", Panes::scheduled, on_cpu, LuminanceSum::automatic);
+    print("3 schedules, drawn", Panes::scheduled, by_opengl, LuminanceSum::automatic);
   }
 }
 

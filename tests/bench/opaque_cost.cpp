@@ -1,5 +1,5 @@
-// What a view of louvres costs where it is drawn by OpenGL and where it is counted on the CPU, one
-// view at a time, and how far the two are apart.
+// Cost of a view of louvres drawn by OpenGL and computed on the CPU, one view at a time, and the
+// difference between the two.
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "shapes.h"
+#include "support/shapes.h"
 #include "table_main.h"
 
 namespace gpu_shading {
@@ -28,7 +28,7 @@ Scene louvres(int count) {
   return scene;
 }
 
-// Of all of this process's threads.
+// CPU time of all threads of this process.
 double processor_seconds() {
   std::timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -41,11 +41,11 @@ struct Cost {
   std::vector<double> fractions;
 };
 
-Cost cost(Scene const& scene, PlainViews how) {
+Cost cost(Scene const& scene, DeviceChoice how) {
   RendererOptions options;
-  options.plain_views = how;
+  options.device = how;
   Renderer renderer(scene, options);
-  sunlit(renderer, sun_at(180, 45), 0);  // makes the target, and the receiver's tile
+  sunlit(renderer, sun_at(180, 45), 0);  // creates the target and the receiver's tile
   Cost cost;
   double const before = renderer.statistics().seconds;
   double const processor = processor_seconds();
@@ -64,8 +64,8 @@ void print_table() {
   std::printf("louvres         drawn            counted    drawn/counted     mean      most\n");
   for (int const count : {1, 20, 200, 1000, 8000, 32000}) {
     Scene const scene = louvres(count);
-    Cost const drawn = cost(scene, PlainViews::drawn);
-    Cost const counted = cost(scene, PlainViews::counted);
+    Cost const drawn = cost(scene, by_opengl);
+    Cost const counted = cost(scene, on_cpu);
     double mean = 0.0;
     double most = 0.0;
     for (std::size_t i = 0; i < drawn.fractions.size(); ++i) {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <memory>
 
-#include "perforated_case.h"
+#include "perforated_tables.h"
 
 namespace gpu_shading {
 namespace {
@@ -16,7 +16,8 @@ struct Row {
   std::array<Errors, details.size()> errors;
 };
 
-// Of a pixel of a square receiver's tile, whose lattice is turned by an angle of golden slope.
+// Size of a pixel of a square receiver's tile, whose pixel grid is rotated by an angle of golden
+// slope.
 double pixel_size(int resolution) {
   double const angle = std::atan(1.0 / std::numbers::phi);
   return (std::cos(angle) + std::sin(angle)) / (resolution - 2);

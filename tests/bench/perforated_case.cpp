@@ -5,8 +5,6 @@
 //   perforated_case blend                        error by pixel size over hole size
 //   perforated_case geometry [positions [pixels]]  the sheet as polygons, 500 at 4096
 
-#include "perforated_case.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -15,8 +13,9 @@
 #include <string>
 #include <string_view>
 
+#include "perforated_tables.h"
+#include "support/transparent_case.h"
 #include "table_main.h"
-#include "transparent_case.h"
 
 namespace gpu_shading {
 namespace {
@@ -49,7 +48,7 @@ std::vector<Row> rows_of(PerforatedCase const& given) {
   return rows;
 }
 
-// One row where they say which, else all.
+// The row that the arguments name, or all rows.
 struct Choice {
   int resolution = 0;
   std::string_view screen;
@@ -64,11 +63,11 @@ void print_table(std::span<SunDirection const> suns, Choice const& chosen) {
   std::fflush(stdout);
   for (Row const& row : rows_of(given)) {
     if (!chosen.screen.empty() && chosen.screen != row.name) continue;
-    if (row.screen->tile()) row.screen->transmittance();  // its making is not timed
+    if (row.screen->tile()) row.screen->transmittance();  // its construction is not timed
     for (int const resolution : {256, 512, 1024, 2048}) {
       if (chosen.resolution != 0 && chosen.resolution != resolution) continue;
       Renderer renderer = renderer_of(given.scene(row.screen), resolution);
-      sunlit(renderer, suns.front(), 0);  // makes targets
+      sunlit(renderer, suns.front(), 0);  // creates targets
       Stopwatch const watch;
       Errors const errors = errors_of(renderer, suns, exact);
       std::printf("%-24s %6d %9zu %+11.2e %9.2e %9.2e %8.1f\n", row.name.c_str(), resolution,

@@ -5,22 +5,22 @@
 #include <memory>
 #include <utility>
 
-#include "perforated_case.h"
+#include "perforated_tables.h"
 
 namespace gpu_shading {
 namespace {
 
-constexpr int sides = 24;  // of the polygon that stands for a hole
+constexpr int sides = 24;  // corners of the polygon that represents a hole
 
 using Ring2 = std::vector<glm::dvec2>;
 
-// A sheet from (0, 0) to (1, 1) in the tile's axes: cells of a hole and what is solid around it,
+// A sheet from (0, 0) to (1, 1) in the tile's axes: cells with a hole and the solid part around it,
 // front and back, and walls.
 class SheetModel {
  public:
   explicit SheetModel(PerforatedCase const& given) : given_(given) {
     double const radius = given.hole / 2.0;
-    // Of equal area.
+    // A polygon of equal area.
     double const corners = radius * std::sqrt(2.0 * std::numbers::pi / sides /
                                               std::sin(2.0 * std::numbers::pi / sides));
     for (int i = 0; i < sides; ++i) {
@@ -40,7 +40,7 @@ class SheetModel {
   Scene take() { return std::move(scene_); }
 
  private:
-  // The second corner of the case's sheet is where the tile begins; u runs north.
+  // The tile begins at the second corner of the case's sheet; u runs north.
   glm::dvec3 at(glm::dvec2 const& place, bool top) const {
     glm::dvec3 const& corner = given_.sheet.outline[1];
     return {corner.x - place.y, corner.y + place.x, corner.z + (top ? given_.thickness : 0.0)};
@@ -75,7 +75,7 @@ class SheetModel {
     }
   }
 
-  // Of a cell over the sheet's edge: from a side of the hole outwards.
+  // For a cell across the sheet's edge: from a side of the hole outwards.
   void add_cut_sector(glm::dvec2 const& centre, glm::dvec2 const& a, glm::dvec2 const& b) {
     constexpr double beyond = 10.0;
     Ring2 const side = within_sheet({a, b});
@@ -110,7 +110,7 @@ class SheetModel {
     return ring;
   }
 
-  // What is within sign x coordinate <= limit of a convex ring.
+  // The part of a convex ring with sign x coordinate <= limit.
   static Ring2 cut(Ring2 const& ring, int axis, double sign, double limit) {
     Ring2 kept;
     for (std::size_t i = 0; i < ring.size(); ++i) {

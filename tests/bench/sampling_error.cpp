@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "shaded_window.h"
+#include "support/shaded_window.h"
 #include "table_main.h"
 
 namespace gpu_shading::shaded_window {

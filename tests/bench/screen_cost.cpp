@@ -1,5 +1,5 @@
-// What a direction of the sun costs: one scene with its sheets opaque, transparent, and perforated,
-// of holes as a pattern or as a raster.
+// Cost of a sun direction for one scene with sheets that are opaque, transparent, or perforated by
+// a pattern or a raster.
 
 #include <array>
 #include <chrono>
@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "gpu_shading/transmittance.h"
-#include "shapes.h"
+#include "support/shapes.h"
 #include "table_main.h"
 
 namespace gpu_shading {
@@ -16,10 +16,10 @@ namespace {
 
 constexpr int receivers = 20;
 
-// Makes the surface of a sheet what it is to be.
+// Sets the optics of a sheet's surface.
 using Finish = std::function<void(Surface&)>;
 
-// Level sheets side by side, 24 x 19 m in all, over 20 receivers.
+// Horizontal sheets side by side, 24 x 19 m in total, over 20 receivers.
 Scene roof(int across, int along, Finish const& finish) {
   Scene scene;
   for (int row = 0; row < 4; ++row) {
@@ -43,7 +43,7 @@ void print_row(char const* name, Finish const& finish, int across, int along, in
   Renderer renderer = renderer_of(roof(across, along, finish), resolution);
   std::array<SurfaceId, receivers> asked{};
   for (SurfaceId id = 0; id < receivers; ++id) asked[id] = id;
-  renderer.projected_sunlit_areas(sun_at(180, 45), asked);  // makes targets and counts receivers
+  renderer.projected_sunlit_areas(sun_at(180, 45), asked);  // creates targets and counts receivers
   constexpr int directions = 10;
   auto const start = std::chrono::steady_clock::now();
   for (int i = 0; i < directions; ++i) {
@@ -64,7 +64,7 @@ void print_table() {
   auto const screened = [](auto const& of, ScreenDetail detail) -> Finish {
     auto const screen =
         std::make_shared<PerforatedScreen const>(of, Sheet{.thickness = 0.05, .detail = detail});
-    screen->transmittance();  // its making is not timed
+    screen->transmittance();  // its construction is not timed
     return [screen](Surface& sheet) { sheet.screen = screen; };
   };
   struct Kind {

@@ -1,5 +1,4 @@
-// What the sunlit fractions of all of a scene's shading surfaces cost and how far they are off,
-// where each has a view of its own and where one picture shows the sun's view of them all.
+// What the sunlit fractions of all of a scene's shading surfaces cost and how far they are off.
 
 #include <algorithm>
 #include <array>
@@ -8,13 +7,10 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <string>
-#include <utility>
 #include <vector>
 
-#include "id_pass.h"
 #include "scene/casters.h"
-#include "shapes.h"
+#include "support/shapes.h"
 #include "table_main.h"
 
 namespace gpu_shading {
@@ -130,15 +126,6 @@ Answer by_views(Scene const& scene, std::vector<std::vector<double>> const& area
   });
 }
 
-Answer by_id_pass(Scene const& scene, int side) {
-  IdPass pass(scene, side);
-  return timed(repeats, [&] {
-    Fractions fractions;
-    for (SunDirection const sun : suns()) fractions.push_back(pass.sunlit_fractions(sun));
-    return fractions;
-  });
-}
-
 struct Off {
   double mean = 0.0;
   double of_99 = 0.0;  // 99 of a hundred are off by less
@@ -161,29 +148,22 @@ Off off(Fractions const& fractions, Fractions const& right,
   return {sum / static_cast<double>(errors.size()), *place};
 }
 
-void print_row(int louvres, char const* method, std::string const& at, Answer const& answer,
-               Off const& off) {
-  std::printf("%7d   %-7s %6s %14.1f ms   %.1e   %.1e\n", louvres, method, at.c_str(),
-              answer.milliseconds, off.mean, off.of_99);
+void print_row(int louvres, double error, Answer const& answer, Off const& off) {
+  std::printf("%7d   %6g %14.1f ms   %.1e   %.1e\n", louvres, error, answer.milliseconds, off.mean,
+              off.of_99);
   std::fflush(stdout);
 }
 
 void print_table() {
   std::printf("%s\n", Renderer(louvred_boxes(1), {}).device().renderer.c_str());
-  std::printf("louvres   method      at       a direction      mean   99 of a hundred\n");
+  std::printf("louvres    error       a direction      mean   99 of a hundred\n");
   for (int const louvres : {400, 2000, 8000, 32000}) {
     Scene const scene = louvred_boxes(louvres);
     auto const areas = projected_areas(scene, louvres);
     Fractions const right = by_views(scene, areas, 1e-4, 0).fractions;
-    for (auto const& [error, text] :
-         {std::pair(1e-3, "1e-3"), std::pair(1e-2, "1e-2"), std::pair(1e-1, "1e-1")}) {
+    for (double const error : {1e-3, 1e-2, 1e-1}) {
       Answer const answer = by_views(scene, areas, error, repeats);
-      print_row(louvres, "views", text, answer, off(answer.fractions, right, areas));
-    }
-    for (int const side : {1024, 2048, 4096, 8192}) {
-      Answer const answer = by_id_pass(scene, side);
-      print_row(louvres, "id pass", std::to_string(side), answer,
-                off(answer.fractions, right, areas));
+      print_row(louvres, error, answer, off(answer.fractions, right, areas));
     }
   }
 }

@@ -5,7 +5,7 @@
 
 namespace gpu_shading {
 
-// What a bench's main() returns: prints its table, or says in one line why it cannot.
+// Body of a benchmark's main(): prints its table, or one line that says why it cannot.
 template <typename PrintTable>
 int print_or_say_why(char const* bench, PrintTable print_table) {
   try {

@@ -3,7 +3,7 @@
 //
 //   transparent_case [every]    one position in so many; all when left out
 
-#include "transparent_case.h"
+#include "support/transparent_case.h"
 
 #include <algorithm>
 #include <chrono>

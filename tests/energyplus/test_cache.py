@@ -1,6 +1,7 @@
 """The cache across runs: what it answers, what it must not answer, and what a user is told of it."""
 
 import re
+import shutil
 import subprocess
 
 import pytest
@@ -29,6 +30,7 @@ def shade(patched, weather, tmp_path, cache):
         flags = ["--gpu-shading", *options, "-D", "-r"]
         if folder:
             flags.append(f"--gpu-shading-cache={folder}")
+        shutil.rmtree(tmp_path / "run", ignore_errors=True)
         return energyplus.run(patched, tmp_path / "model.idf", weather, tmp_path / "run", flags, environment)
 
     return call
@@ -194,6 +196,7 @@ def test_runs_at_the_same_time_share_a_folder(patched, box, weather, tmp_path, c
         assert process.returncode == 0, errors
         assert "damaged" not in errors and "warning: --gpu-shading-cache" not in errors
     assert len(stored(cache)) == 1
-    assert not list(cache.glob("*.tmp"))
+    kept = [path.name for path in stored(cache)]
+    assert sorted(path.name for path in cache.iterdir()) == sorted([*kept, "gpu_shading.lock"])
     run = energyplus.run(patched, model, weather, tmp_path / "run", [f"--gpu-shading-cache={cache}", "-D"])
     assert counts(run)[0] == 0

@@ -73,7 +73,7 @@ def test_full_size_is_what_it_is_said_to_be(full, patched):
     done = subprocess.run([patched.parent / "gpu_shading", "check", path], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     first, *rows = done.stdout.splitlines()
-    assert first.startswith(f"lean input: {COUNTS[name][2]} shading surfaces left out")
+    assert first.startswith(f"lean input: {COUNTS[name][2]} shading surfaces hidden")
     assert sum("  Shading:Site:Detailed  " in row for row in rows) == COUNTS[name][2]
     assert not any("no area" in row for row in rows)
 

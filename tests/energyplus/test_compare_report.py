@@ -16,7 +16,7 @@ SUNLIT = "Surface Outside Face Sunlit Fraction"
 COSINE = "Surface Outside Face Beam Solar Incident Angle Cosine Value"
 QUANTITIES = {
     "Transmitted solar radiation": "Surface Window Transmitted Solar Radiation Energy",
-    "of it beam": "Surface Window Transmitted Beam Solar Radiation Energy",
+    "beam alone": "Surface Window Transmitted Beam Solar Radiation Energy",
     "Heating": "Zone Air System Sensible Heating Energy",
     "Cooling": "Zone Air System Sensible Cooling Energy",
 }
@@ -228,6 +228,29 @@ def test_polygon_clipping_is_the_reference_where_none_is_named(official, patched
     assert tables["table-energy"][0][2:4] == ["PolygonClipping kWh", "GPU kWh"]
     assert [row[0] for row in tables["table-energy"][1:] if row[0]] == ["CLEAR AUTUMN DAY"]
     assert "table-months" not in tables  # a design day is no month
+
+
+def test_one_folder_for_one_model_after_another(patched, courtyard, weather, tmp_path):
+    """The second takes the first one's place; the files beside the first stay as they are."""
+    first, second = tmp_path / "v1" / "A.idf", tmp_path / "v2" / "B.idf"
+    for path in (first, second):
+        path.parent.mkdir()
+        path.write_bytes(courtyard.read_bytes())
+    neighbour = first.with_name("B.idf")
+    neighbour.write_text("mine")
+    for model in (first, second):
+        done = compare(model, tmp_path / "out", weather, "--receivers", "1", "--", "-D")
+        assert done.returncode == 0, done.stderr
+        assert [path.name for path in (tmp_path / "out" / "inputs" / "gpu").glob("*.idf") if not path.is_symlink()] == [
+            model.name]
+    assert neighbour.read_text() == "mine"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["out", "v1", "v2"]
+    report = (tmp_path / "out" / "report.html").read_bytes()
+    (tmp_path / "out" / "notes.txt").write_text("mine")
+    done = compare(first, tmp_path / "out", weather)
+    assert done.returncode == 1
+    assert done.stderr.startswith(f"compare_shading: {tmp_path / 'out' / 'notes.txt'} was not created by")
+    assert (tmp_path / "out" / "report.html").read_bytes() == report
 
 
 def test_a_run_that_is_neither_kind_nor_file(model, weather, tmp_path):

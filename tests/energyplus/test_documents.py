@@ -131,7 +131,8 @@ def test_options_are_those_of_the_program(patched, tmp_path):
 
 
 def test_the_reference_has_the_dictionary_s_objects_and_fields():
-    done = subprocess.run([ROOT / "scripts" / "document_fields", "--check"], capture_output=True, text=True)
+    done = subprocess.run([ROOT / "scripts" / "extension_objects", "document", "--check"], capture_output=True,
+                          text=True)
     assert done.returncode == 0, done.stderr
     # By another reading than the script's own.
     page = (ROOT / "gpu_shading" / "docs" / "extensions.md").read_text(encoding="utf-8")

@@ -120,7 +120,7 @@ def test_value_may_follow_as_a_word(shade, model):
     [
         ("GPU_SHADING_RESOLUTION", "16", "--gpu-shading-resolution=16"),
         ("GPU_SHADING_UPDATE", "timestep", "--gpu-shading-update=timestep"),
-        ("GPU_SHADING_DEVICE", "software", "--gpu-shading-device=software"),
+        ("GPU_SHADING_DEVICE", "cpu", "--gpu-shading-device=cpu"),
     ],
 )
 def test_environment_variable_equals_flag(shade, model, variable, value, flag):
@@ -154,6 +154,15 @@ def test_file_of_extension_objects(shade, model, tmp_path):
 def test_extension_objects_in_the_input(shade, box, model, tmp_path):
     own = write_model(box + SETTINGS.format(resolution=16), tmp_path / "own.idf")
     assert sunlit(shade(own)) == sunlit(shade(model, "--gpu-shading-resolution=16"))
+
+
+def test_line_break_in_a_name_makes_no_flag(shade, model, tmp_path):
+    """It ran polygon clipping."""
+    report = tmp_path / "a\n--gpu-shading=off"
+    run = shade(model, f"--gpu-shading-report={report}")
+    assert run.completed, run.why()
+    assert run.method == "PixelCounting"
+    assert (report / "sunlit.csv").is_file()
 
 
 def test_report_folder(shade, model, tmp_path):

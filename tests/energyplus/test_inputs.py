@@ -68,3 +68,15 @@ def test_output_names_do_not_matter(shade, model, tmp_path):
     run = shade(model, "-p", "model", "-s", "C")
     assert run.status == 0, run.why()
     assert "PixelCounting" in next((tmp_path / "out").glob("model*.eio")).read_text()
+
+
+@pytest.mark.parametrize("end", ["", " ! comment", " ! comment\n", "\n"])
+def test_last_object_without_its_semicolon(end, official, shade, model, weather, tmp_path):
+    """EnergyPlus takes the end of the file for it, but a line break for part of the field."""
+    text = model.read_text().rstrip()
+    assert text.endswith(";")
+    model.write_text(text[:-1] + end)
+    stock = energyplus.run(official, model, weather, tmp_path / "stock", ["-D"])
+    ours = shade(model)
+    assert stock.completed == (end != "\n"), stock.why()
+    assert ours.completed == stock.completed, ours.why()

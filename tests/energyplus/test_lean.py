@@ -80,7 +80,7 @@ def remark(run):
 
 def assert_alike(full, lean):
     assert remark(full) == ""
-    assert "left out of what EnergyPlus reads" in remark(lean)
+    assert "hidden from EnergyPlus, but still rendered" in remark(lean)
     reference, answer = results.Results(full.folder), results.Results(lean.folder)
     found = results.differences(reference, answer)
     assert found
@@ -111,7 +111,7 @@ def shade(kind, name, points, fields="", count=""):
 def test_many_louvres(run_both, louvres):
     full, lean = run_both(louvres(120))
     assert_alike(full, lean)
-    assert remark(lean).startswith("lean input: 120 shading surfaces left out")
+    assert remark(lean).startswith("lean input: 120 shading surfaces hidden")
     counted = [re.search(r"(\d+) casters", run.rendering)[1] for run in (full, lean)]
     assert counted[0] == counted[1]
     assert "PLACEHOLDER" not in lean.text("eplusout.err")
@@ -213,7 +213,7 @@ def test_epjson_is_rewritten_too(run_both, patched, official, box, tmp_path):
     assert_same_vertices(patched, converted, STRAIGHT)
     full, lean = run_both(converted)
     assert_alike(full, lean)
-    assert "31 shading surfaces left out" in remark(lean)
+    assert "31 shading surfaces hidden" in remark(lean)
 
 
 def rows_of(run):
@@ -226,7 +226,7 @@ def test_placeholders_are_nothing_but_rows(run_both, box):
     assert_alike(full, lean)
     assert rows_of(full) - rows_of(lean) == {"LOUVRE 1", "Mir-LOUVRE 1"}
     assert len(rows_of(lean) - rows_of(full)) == 8
-    assert "outputs of key * show placeholders" in remark(lean)
+    assert "outputs with key * show placeholders" in remark(lean)
     assert re.search(r"(\d+) casters", full.rendering)[1] == re.search(r"(\d+) casters", lean.rendering)[1]
 
 
@@ -303,8 +303,8 @@ NAMES = {
 def test_named_surface_stays(run_both, louvres, added, variable):
     full, lean = run_both(louvres(12) + added)
     assert_alike(full, lean)
-    assert "11 shading surfaces left out" in remark(lean)
-    assert "1 kept in it (such as LOUVRE 3, which " in remark(lean)
+    assert "11 shading surfaces hidden" in remark(lean)
+    assert "1 kept (such as LOUVRE 3, which " in remark(lean)
     assert "LOUVRE 3" in rows_of(lean) and "LOUVRE 4" not in rows_of(lean)
     before, after = values_of(full, variable), values_of(lean, variable)
     assert after and any(sum(values) > 0 for values in after.values())
@@ -348,10 +348,11 @@ def test_few_surfaces_run_as_ever(patched, weather, box, louvres, tmp_path):
     assert run.completed and remark(run) == ""
     model.write_text(louvres(200))
     run = energyplus.run(patched, model, weather, tmp_path / "many", ["--gpu-shading", "-D"])
-    assert run.completed and "200 shading surfaces left out" in remark(run)
-    for lean_off in ({"environment": {"GPU_SHADING_LEAN": "off"}}, {"options": ["--gpu-shading-lean=off"]}):
+    assert run.completed and "200 shading surfaces hidden" in remark(run)
+    for name, lean_off in (("variable", {"environment": {"GPU_SHADING_LEAN": "off"}}),
+                           ("flag", {"options": ["--gpu-shading-lean=off"]})):
         options = ["--gpu-shading", "-D", *lean_off.get("options", [])]
-        run = energyplus.run(patched, model, weather, tmp_path / "off", options, lean_off.get("environment"))
+        run = energyplus.run(patched, model, weather, tmp_path / name, options, lean_off.get("environment"))
         assert run.completed and remark(run) == ""
     run = energyplus.run(patched, model, weather, tmp_path / "clip", ["--gpu-shading=off", "--gpu-shading-lean=on",
                                                                      "-D"])

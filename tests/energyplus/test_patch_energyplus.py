@@ -2,13 +2,15 @@
 
 import importlib.util
 import os
+import shutil
+import signal
 import stat
 import subprocess
 from importlib.machinery import SourceFileLoader
 from pathlib import Path
 
 import pytest
-from shading_runs import energyplus
+from shading_runs import energyplus, output_folder
 
 SCRIPT = energyplus.REPOSITORY / "scripts" / "patch_energyplus"
 
@@ -64,6 +66,10 @@ def tree(folder):
     return state
 
 
+def temporary(folder):
+    return [path.name for path in folder.iterdir() if path.name.startswith(".")]
+
+
 def test_makes_a_prefix_and_leaves_the_original_alone(prefix, build, tmp_path):
     before = tree(prefix)
     dest = tmp_path / "patched"
@@ -90,13 +96,14 @@ def test_again_makes_the_same_anew(prefix, build, tmp_path):
     assert patch(prefix, dest, "--build", build).returncode == 0
     assert sorted(path.name for path in dest.iterdir()) == sorted([*first, "Energy+.schema.epJSON"])
     assert subprocess.run([dest / "energyplus"], capture_output=True, text=True).stdout == "newer\n"
-    assert [path.name for path in tmp_path.iterdir() if ".new-" in path.name] == []
+    assert temporary(tmp_path) == []
 
 
 @pytest.mark.parametrize(
     "case",
     ["dest in prefix", "dest is prefix", "not an installation", "foreign dest", "other version", "patched prefix",
-     "no build"],
+     "no build", "file added", "file added below", "file changed", "file for a link", "link for a file",
+     "dest is a link", "dest is a file"],
 )
 def test_refuses(case, prefix, build, tmp_path):
     dest = tmp_path / "patched"
@@ -116,6 +123,26 @@ def test_refuses(case, prefix, build, tmp_path):
         prefix, dest = dest, tmp_path / "second"
     elif case == "no build":
         build = tmp_path
+    elif case == "dest is a file":
+        dest.write_text("mine")
+    else:
+        assert patch(prefix, dest, "--build", build).returncode == 0
+        if case == "file added":
+            (dest / "my_model.idf").write_text("mine")
+        elif case == "file added below":
+            (dest / "PostProcess" / "my_notes.txt").write_text("mine")
+        elif case == "file changed":
+            (dest / "energyplus").write_text("#!/bin/sh\necho mine\n")
+        elif case == "file for a link":
+            (dest / "Energy+.idd").unlink()
+            (dest / "Energy+.idd").write_text("mine")
+        elif case == "link for a file":
+            (tmp_path / "mine").write_bytes((dest / "energyplus").read_bytes())
+            (dest / "energyplus").unlink()
+            (dest / "energyplus").symlink_to(tmp_path / "mine")
+        elif case == "dest is a link":
+            dest.rename(tmp_path / "elsewhere")
+            dest.symlink_to(tmp_path / "elsewhere")
     before = tree(tmp_path)
     done = patch(prefix, dest, "--build", build)
     assert done.returncode == 1
@@ -128,15 +155,81 @@ def test_force_accepts_another_version(prefix, build, tmp_path):
     assert patch(prefix, tmp_path / "patched", "--build", build, "--force").returncode == 0
 
 
-def test_a_failure_leaves_the_former_prefix(prefix, build, tmp_path, monkeypatch):
+@pytest.mark.parametrize("step", ["make", "_exchange"])
+def test_a_failure_leaves_the_former_prefix(step, prefix, build, tmp_path, monkeypatch):
     script = load_script()
     dest = script.patch(prefix, tmp_path / "patched", build=build)
     before = tree(dest)
-    monkeypatch.setattr(script, "exchange", lambda *_: (_ for _ in ()).throw(OSError("no space")))
+    monkeypatch.setattr(script if step == "make" else output_folder, step,
+                        lambda *_: (_ for _ in ()).throw(OSError("no space")))
     with pytest.raises(OSError, match="no space"):
         script.patch(prefix, dest, build=build)
     assert tree(dest) == before
-    assert [path.name for path in tmp_path.iterdir() if ".new-" in path.name] == []
+    assert temporary(tmp_path) == []
+
+
+@pytest.mark.parametrize("step", ["make", "_exchange"])
+def test_a_kill_leaves_the_former_prefix(step, prefix, build, tmp_path):
+    dest = tmp_path / "patched"
+    assert patch(prefix, dest, "--build", build).returncode == 0
+    before = tree(dest)
+    child = os.fork()
+    if child == 0:
+        script = load_script()
+
+        def killed(*_):
+            os.kill(os.getpid(), signal.SIGKILL)
+
+        setattr(script if step == "make" else output_folder, step, killed)
+        script.patch(prefix, dest, build=build)
+    _, status = os.waitpid(child, 0)
+    assert os.WTERMSIG(status) == signal.SIGKILL
+    assert tree(dest) == before
+    assert len(temporary(tmp_path)) == 1
+    assert patch(prefix, dest, "--build", build).returncode == 0
+    assert {path for path in tree(dest)} == set(before)
+    assert temporary(tmp_path) == []
+
+
+def made_by_an_earlier_version(prefix, build, dest):
+    """It kept no list of what it made."""
+    assert patch(prefix, dest, "--build", build).returncode == 0
+    (dest / output_folder.MARKER).unlink()
+
+
+def test_a_prefix_of_an_earlier_version_is_made_anew(prefix, build, tmp_path):
+    dest = tmp_path / "patched"
+    made_by_an_earlier_version(prefix, build, dest)
+    (build / "energyplus_patch" / "energyplus").write_text("#!/bin/sh\necho newer\n")
+    done = patch(prefix, dest, "--build", build)
+    assert done.returncode == 0, done.stderr
+    assert subprocess.run([dest / "energyplus"], capture_output=True, text=True).stdout == "newer\n"
+
+
+@pytest.mark.parametrize("name", ["mine", "PostProcess/mine", "runreadvars"])
+def test_users_files_in_a_prefix_of_an_earlier_version_are_refused(name, prefix, build, tmp_path):
+    dest = tmp_path / "patched"
+    made_by_an_earlier_version(prefix, build, dest)
+    (dest / name).write_text("mine")
+    before = tree(tmp_path)
+    done = patch(prefix, dest, "--build", build)
+    assert done.returncode == 1
+    assert done.stderr.startswith(f"patch_energyplus: {dest / name}") or name == "PostProcess/mine"
+    assert done.stderr.count("\n") == 1
+    assert tree(tmp_path) == before
+
+
+def test_runs_where_it_is_installed(prefix, build, tmp_path):
+    """With no more than what is installed beside it."""
+    share = tmp_path / "share"
+    (share / "shading_runs").mkdir(parents=True)
+    for name in ("patch_energyplus", "shading_runs/__init__.py", "shading_runs/output_folder.py"):
+        shutil.copy2(SCRIPT.parent / name, share / name)
+    (share / "lib").mkdir()
+    for path in (build / "energyplus_patch").iterdir():
+        shutil.copy2(path, share / "lib")
+    done = subprocess.run([share / "patch_energyplus", prefix, tmp_path / "patched"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
 
 
 def test_the_official_wheel_is_accepted(official, build, tmp_path):

@@ -1,6 +1,7 @@
 """The same input gives the same outputs: twice with the flag, and without it as the official program."""
 
 import re
+import shutil
 
 import pytest
 from output_files import differing, masked, snapshot
@@ -16,6 +17,7 @@ def model(courtyard, tmp_path):
 
 def run(program, model, weather, folder, options):
     """The run and its outputs; all go to the same folder, since its name is in some of them."""
+    shutil.rmtree(folder, ignore_errors=True)
     done = energyplus.run(program, model, weather, folder, options)
     return done, snapshot(folder)
 

@@ -247,13 +247,14 @@ def test_parts_of_another_model_are_not_taken(patched, box_model, louvres, weath
     again = program(arguments)
     assert "0 directions rendered" in again.stderr
     box_model.write_text(louvres(20))
-    assert "parts/round1-shard1of1.json: is of paper-coarse samples" in last_line(program([*arguments, "--merge", "1"]))
+    refusal = last_line(program([*arguments, "--merge", "1"]))
+    assert "parts/round1-shard1of1.json: belongs to paper-coarse samples" in refusal
     assert (tmp_path / "out" / "year.csv").read_bytes() == before
     assert program(arguments).returncode == 0
     assert (tmp_path / "out" / "year.csv").read_bytes() != before
     part = tmp_path / "out" / "parts" / "round1-shard1of1.json"
     part.write_text(part.read_text()[:1000])
-    assert "round1-shard1of1.json: is no part of samples; remove it" in last_line(program(arguments))
+    assert "round1-shard1of1.json: is not a part of samples (" in last_line(program(arguments))
 
 
 MOVING = """
@@ -263,7 +264,7 @@ GPUShading:PerforatedScreen,Mesh,*,Round,,Staggered60,0.005,,0.008,,0.003,,,,,,,
 
 
 @pytest.mark.parametrize("arguments, words", [
-    ((), "-w: a weather file is needed"),
+    ((), "-w: a weather file is required"),
     (("-w", "WEATHER", "--shard", "9/8"), "--shard 9/8: expected I/N"),
     (("-w", "WEATHER", "--merge", "8"), "parts/round1-shard1of8.json: is missing"),
     (("-w", "model.idf"), "expected a weather file (EPW), with LOCATION"),

@@ -4,6 +4,7 @@ import csv
 import datetime
 import math
 import os
+import shutil
 import sqlite3
 import subprocess
 
@@ -42,6 +43,7 @@ def shade(patched, tmp_path):
         results.instrument(model, "Timestep")
         model.write(tmp_path / "model.idf")
         flags = ["--gpu-shading", "--gpu-shading-resolution=128", f"--gpu-shading-update={update}"]
+        shutil.rmtree(tmp_path / "run", ignore_errors=True)
         run = energyplus.run(patched, tmp_path / "model.idf", weather, tmp_path / "run", flags)
         assert run.completed, run.why()
         return run, results.Results(tmp_path / "run", "Zone Timestep")

@@ -101,7 +101,7 @@ def expect_scheduled(run):
     assert run.method == "Scheduled"
     assert "** Severe" not in run.text("eplusout.err")
     for text in (run.errors, run.text("eplusout.err")):
-        assert text.count("sunlit fractions are scheduled") == 1
+        assert text.count("scheduled sunlit fractions apply") == 1
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -127,7 +127,7 @@ def test_chosen_by_itself_where_the_library_cannot_be_patched(name, by_patch, un
     model, reference = by_patch(name)
     run = energyplus.run(unpatchable, model, weather, tmp_path / "out", ["--gpu-shading"])
     expect_scheduled(run)
-    assert "go in as schedules" in run.errors
+    assert "are passed as schedules" in run.errors
     expect_equal_fractions(reference, run.folder)
 
 
@@ -141,7 +141,7 @@ def test_patching_can_be_insisted_on(unpatchable, write_model, weather, tmp_path
     run = energyplus.run(unpatchable, write_model("louvres"), weather, tmp_path / "out",
                          ["--gpu-shading-method=patched"])
     assert run.status == 1
-    assert "cannot be taken over" in run.errors
+    assert "cannot be redirected" in run.errors
     assert not (tmp_path / "out" / "eplusout.err").exists()
 
 
@@ -190,7 +190,7 @@ def test_schedules_and_summer_time(louvres, patched, weather, tmp_path):
 def test_nothing_is_rendered_without_a_run_period(patched, courtyard, weather, tmp_path):
     run = energyplus.run(patched, courtyard, weather, tmp_path / "out", ["--gpu-shading-method=scheduled", "-D"])
     assert run.completed, run.why()
-    assert "polygon clipping answers all of it" in run.text("eplusout.err")
+    assert "all shading is computed by polygon clipping" in run.text("eplusout.err")
     assert "shading rendered" not in run.errors
 
 
@@ -225,7 +225,7 @@ def test_imported_file_is_as_energyplus_writes_it(official, patched, courtyard, 
 
 
 @pytest.mark.parametrize("arguments, words", [
-    (["--scheduled", "out"], "-w: a weather file is needed"),
+    (["--scheduled", "out"], "-w: a weather file is required"),
     (["-w", "weather"], "--scheduled,--imported"),
     (["-w", "weather", "--scheduled", "."], "choose another folder"),
 ])

@@ -115,10 +115,10 @@ def assert_refused(run, message):
      "GPUShading:PerforatedScreen Mesh: Hole Size is 0.005 m, expected less than the pitch, 0.004 m"),
     (PATTERN.format(surfaces="*").replace("Round", "Oval"),
      'GPUShading:PerforatedScreen Mesh: Hole Shape is "Oval", expected Texture, Round, Square, Slotted or Hexagonal'),
-    # A comma left out: the first field that is wrong is named, not the last.
+    # A comma left out: the first field with a wrong value is named, not the last.
     (PATTERN.format(surfaces="*").replace("Round,,", "Round,"),
      'GPUShading:PerforatedScreen Mesh: Arrangement is "0.005", expected Straight, Staggered45 or Staggered60'),
-    (PATTERN.format(surfaces="*").replace("Round,,,", "Round,Straight,"),
+    (PATTERN.format(surfaces="*").replace("Round,,,", "Round,Straight,,"),
      'GPUShading:PerforatedScreen Mesh: Texture File Name is "Straight", expected blank with Hole Shape Round'),
     (PATTERN.format(surfaces="hood") + "GPUShading:TransparentShade,Glass,*,Constant,0.5;\n",
      'GPUShading:PerforatedScreen Mesh: Surface Name "hood": HOOD is named by GPUShading:TransparentShade Glass '
@@ -127,14 +127,14 @@ def assert_refused(run, message):
      "GPUShading:PerforatedScreen Leaves: Texture File Name: {folder}/none.png: no such file"),
     (TEXTURE.format(surfaces="hood", file="huge.ppm"),
      "GPUShading:PerforatedScreen Leaves: Texture File Name: {folder}/huge.ppm: is 20000 x 20000 texels, expected at "
-     "most 16384 a side"),
-], ids=["surface", "hole", "shape", "comma", "two commas", "named twice", "no file", "huge"])
+     "most 16384 per side"),
+], ids=["surface", "hole", "shape", "comma", "texture", "named twice", "no file", "huge"])
 def test_bad_screen_stops_before_energyplus_starts(screen, message, patched, weather, tmp_path):
     (tmp_path / "huge.ppm").write_bytes(b"P6\n20000 20000\n255\n")
     path = tmp_path / "model.idf"
     path.write_text(model() + screen)
     run = energyplus.run(patched, path, weather, tmp_path / "run", ["--gpu-shading", "-D"])
-    assert_refused(run, message.format(folder=tmp_path))
+    assert_refused(run, f"{path}: {message.format(folder=tmp_path)}")
 
 
 def test_missing_schedule_is_said_with_its_field(patched, tmp_path):
@@ -224,4 +224,4 @@ def test_shading_that_is_off_warns_of_screens(patched, weather, tmp_path):
     path.write_text(model() + PATTERN.format(surfaces="*Panel"))
     run = energyplus.run(patched, path, weather, tmp_path / "run", ["--gpu-shading=off", "-D"])
     assert run.completed, run.why()
-    assert run.text("eplusout.err").count("no beam passes BUILDING PANEL and 3 more but by") == 1
+    assert run.text("eplusout.err").count("except for transmittance schedules: BUILDING PANEL and 3 more") == 1

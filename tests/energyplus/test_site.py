@@ -206,7 +206,7 @@ def test_errors_are_one_line_before_the_run(patched, bare, weather, tmp_path, fi
                           capture_output=True, text=True)
     assert done.returncode == 1
     lines = done.stderr.splitlines()
-    assert len(lines) == 1 and lines[0].startswith("gpu_shading: error: GPUShading:SiteContext Town: ")
+    assert len(lines) == 1 and lines[0].startswith(f"gpu_shading: error: {model}: GPUShading:SiteContext Town: ")
     for word in words:
         assert word in lines[0]
     assert not (tmp_path / "out" / "eplusout.err").exists()

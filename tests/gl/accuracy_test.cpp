@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "exact.h"
 #include "gpu_shading/renderer.h"
-#include "random_scene.h"
-#include "shapes.h"
+#include "support/exact.h"
+#include "support/random_scene.h"
+#include "support/shapes.h"
 
 namespace gpu_shading {
 namespace {
@@ -39,13 +39,13 @@ struct Forms {
 };
 
 // Of the projected sunlit surface fraction, As/At cos(theta).
-Forms errors_at(int resolution, PlainViews how) {
+Forms errors_at(int resolution, DeviceChoice how) {
   Forms forms;
   for (std::uint32_t seed = 1; seed <= scenes; ++seed) {
     RandomScene const random = random_scene(seed);
     RendererOptions options;
     options.resolution = resolution;
-    options.plain_views = how;
+    options.device = how;
     Renderer renderer(random.scene, options);
     SurfaceId const receiver = 0;
     Sunlit const got = renderer.projected_sunlit_areas(random.sun, {&receiver, 1})[0];
@@ -57,7 +57,7 @@ Forms errors_at(int resolution, PlainViews how) {
   for (auto const& [name, errors] :
        {std::pair("lit share", forms.ratio), std::pair("N x Ap", forms.plain)}) {
     std::printf("%4d pixels %s, %-9s: PSSF error mean %.2e, signed mean %+.2e, most %.2e\n",
-                resolution, how == PlainViews::drawn ? "drawn" : "counted", name, errors.mean,
+                resolution, how == by_opengl ? "drawn" : "counted", name, errors.mean,
                 errors.signed_mean, errors.most);
   }
   return forms;
@@ -95,7 +95,7 @@ TEST(Accuracy, MostScenesAreShaded) {
 }
 
 TEST(Accuracy, PssfOfRandomScenesAt512PixelsIsWithinHalfAPerMil) {
-  for (PlainViews const how : {PlainViews::drawn, PlainViews::counted}) {
+  for (DeviceChoice const how : {by_opengl, on_cpu}) {
     Forms const forms = errors_at(512, how);
     Errors const& errors = forms.ratio;
     EXPECT_LT(errors.mean, 5e-4);
@@ -110,9 +110,8 @@ TEST(Accuracy, PssfOfRandomScenesAt512PixelsIsWithinHalfAPerMil) {
 TEST(Accuracy, ErrorFallsWithResolution) {
   std::vector<int> const resolutions{256, 512, 1024, 2048};
   std::vector<double> means(resolutions.size());
-  std::transform(resolutions.begin(), resolutions.end(), means.begin(), [](int resolution) {
-    return errors_at(resolution, PlainViews::counted).ratio.mean;
-  });
+  std::transform(resolutions.begin(), resolutions.end(), means.begin(),
+                 [](int resolution) { return errors_at(resolution, on_cpu).ratio.mean; });
   double const falls = slope(resolutions, means);
   std::printf("mean error ~ resolution^%.2f\n", falls);
   // A pixel's error at the edges alone gives -1, errors that cancel along an edge -1.5.

@@ -7,8 +7,8 @@
 
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
-#include "random_scene.h"
-#include "shapes.h"
+#include "support/random_scene.h"
+#include "support/shapes.h"
 
 namespace gpu_shading {
 namespace {
@@ -65,7 +65,7 @@ Renderer renderer_with(Scene const& scene, int most_layers, LuminanceSum sum,
   options.resolution = resolution;
   options.luminance_sum = sum;
   options.most_layers = most_layers;
-  options.plain_views = PlainViews::drawn;
+  options.device = by_opengl;
   return Renderer(scene, options);
 }
 
@@ -204,7 +204,7 @@ TEST(Batches, AnErrorLeavesNothingBehind) {
 
 void expect_counted_equal_one_at_a_time(Site const& site) {
   RendererOptions options;
-  options.plain_views = PlainViews::counted;
+  options.device = on_cpu;
   Renderer together(site.scene, options);
   Renderer apart(site.scene, options);
   auto const batched = together.projected_sunlit_areas(suns, site.all);

@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "gpu_shading/error.h"
-#include "shapes.h"
+#include "support/shapes.h"
 
 namespace gpu_shading {
 namespace {
@@ -39,6 +39,10 @@ TEST(Devices, AreNumberedFromZeroAndSayWhatTheyAre) {
     std::printf("%zu: %s, %s%s\n", i, devices[i].renderer.c_str(), devices[i].version.c_str(),
                 devices[i].software ? " (software)" : "");
   }
+  // Where the test is run once more by another driver, that is the driver found.
+  if (char const* const driver = std::getenv("GPU_SHADING_TEST_DRIVER")) {
+    EXPECT_NE(devices.front().renderer.find(driver), std::string::npos);
+  }
 }
 
 TEST(Devices, NeedNoDisplay) {
@@ -66,14 +70,21 @@ TEST(Devices, AnIndexTooHighIsNamedWithHowManyThereAre) {
   EXPECT_NE(message.find(std::to_string(found)), std::string::npos) << message;
 }
 
-TEST(Devices, SoftwareIsSoftware) {
-  auto const devices = list_devices();
-  if (std::none_of(devices.begin(), devices.end(),
-                   [](DeviceInfo const& device) { return device.software; })) {
-    GTEST_SKIP() << "no software renderer here: install Mesa's";
-  }
-  Renderer const renderer(some_scene(), {{DeviceChoice::Kind::software}});
+TEST(Devices, TheCpuIsNoneOfThem) {
+  Renderer const renderer(some_scene(), {{DeviceChoice::Kind::cpu}});
   EXPECT_TRUE(renderer.device().software);
+  EXPECT_EQ(renderer.device().index, -1);
+  EXPECT_GE(renderer.device().threads, 1);
+  EXPECT_EQ(describe(renderer.device()), describe(cpu_device()));
+  EXPECT_EQ(describe(renderer.device()).find("CPU ("), 0U);
+}
+
+TEST(Devices, AGpuComesBeforeTheCpu) {
+  auto const devices = list_devices();
+  auto const gpu = std::find_if(devices.begin(), devices.end(),
+                                [](DeviceInfo const& device) { return !device.software; });
+  Renderer const renderer(some_scene(), {});
+  EXPECT_EQ(renderer.device().index, gpu == devices.end() ? -1 : gpu->index);
 }
 
 TEST(Resolution, OutOfRangeIsNamedWithTheRange) {

@@ -4,7 +4,7 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
-#include "shapes.h"
+#include "support/shapes.h"
 
 namespace gpu_shading {
 namespace {
@@ -30,7 +30,7 @@ TEST(HostContext, IsCurrentAgainAfterEveryCall) {
     Scene scene;
     scene.add({"terrace", level(0, 0, 0, 4, 4)});
     scene.add({"canopy", level(-1, -1, 3, 3, 6)});
-    Renderer renderer = renderer_of(scene);
+    Renderer renderer = renderer_of(scene, 512, by_opengl);
     expect_host("construction");
     EXPECT_NEAR(sunlit(renderer, {}, 0).projected_area, 8.0, 0.01);
     expect_host("projected_sunlit_areas");

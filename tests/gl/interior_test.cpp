@@ -4,9 +4,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "exact.h"
+#include "each_backend.h"
 #include "gpu_shading/error.h"
-#include "room.h"
+#include "support/exact.h"
+#include "support/room.h"
 
 namespace gpu_shading {
 namespace {
@@ -30,7 +31,10 @@ double sum(std::vector<double> const& values) {
 std::vector<SunDirection> const suns{sun_at(180, 10), sun_at(180, 45), sun_at(140, 20),
                                      sun_at(230, 35), sun_at(105, 8),  sun_at(260, 60)};
 
-TEST(Interior, BoxRoomAgainstPolygonClipping) {
+class Interior : public EachBackend {};
+INSTANTIATE_TEST_SUITE_P(Is, Interior, backends, name_of);
+
+TEST_P(Interior, BoxRoomAgainstPolygonClipping) {
   BoxRoom const room;
   Renderer renderer = renderer_of(room.scene);
   for (SunDirection const sun : suns) {
@@ -44,7 +48,7 @@ TEST(Interior, BoxRoomAgainstPolygonClipping) {
   }
 }
 
-TEST(Interior, TheSumIsWhatTheWindowGets) {
+TEST_P(Interior, TheSumIsWhatTheWindowGets) {
   BoxRoom const room;
   Renderer renderer = renderer_of(room.scene);
   for (SunDirection const sun : suns) {
@@ -56,7 +60,7 @@ TEST(Interior, TheSumIsWhatTheWindowGets) {
   }
 }
 
-TEST(Interior, TheNearestSurfaceTakesTheRay) {
+TEST_P(Interior, TheNearestSurfaceTakesTheRay) {
   BoxRoom room;
   SurfaceId const table = room.scene.add({"table", level(1.2, 0.5, 0.7, 1.5, 1)});
   SurfaceId const floor = room.surfaces[0];
@@ -74,7 +78,7 @@ TEST(Interior, TheNearestSurfaceTakesTheRay) {
   }
 }
 
-TEST(Interior, RaysGoOnThroughAWindowInTheBackWall) {
+TEST_P(Interior, RaysGoOnThroughAWindowInTheBackWall) {
   BoxRoom room;
   Polygon holed = south_facing(0, 2, 0, 4, 3);
   holed.holes = {{{0.5, 2, 0.2}, {3.5, 2, 0.2}, {3.5, 2, 1.0}, {0.5, 2, 1.0}}};
@@ -89,7 +93,7 @@ TEST(Interior, RaysGoOnThroughAWindowInTheBackWall) {
   EXPECT_GT(got[1] + got[2], 0.1);
 }
 
-TEST(Interior, WhatLiesInTheSamePlaceIsCountedOnce) {
+TEST_P(Interior, WhatLiesInTheSamePlaceIsCountedOnce) {
   BoxRoom const room;
   Renderer renderer = renderer_of(room.scene);
   SunDirection const sun = sun_at(180, 45);
@@ -101,7 +105,7 @@ TEST(Interior, WhatLiesInTheSamePlaceIsCountedOnce) {
   EXPECT_EQ(got[0] + got[1], once[0]);
 }
 
-TEST(Interior, SurfacesWithoutAreaOrBeforeTheWindowGetNothing) {
+TEST_P(Interior, SurfacesWithoutAreaOrBeforeTheWindowGetNothing) {
   BoxRoom room;
   SurfaceId const line = room.scene.add({"line", {{{0, 1, 0}, {4, 1, 0}}, {}}});
   SurfaceId const outside = room.scene.add({"terrace", level(0, -9, -0.1, 4, 9)});
@@ -112,7 +116,7 @@ TEST(Interior, SurfacesWithoutAreaOrBeforeTheWindowGetNothing) {
   }
 }
 
-TEST(Interior, NothingWhenTheWindowFacesAwayAndNoAnswersForNoQuestions) {
+TEST_P(Interior, NothingWhenTheWindowFacesAwayAndNoAnswersForNoQuestions) {
   BoxRoom const room;
   Renderer renderer = renderer_of(room.scene);
   for (double const got : interior_areas(renderer, sun_at(0, 45), room.window, room.surfaces)) {
@@ -121,7 +125,7 @@ TEST(Interior, NothingWhenTheWindowFacesAwayAndNoAnswersForNoQuestions) {
   EXPECT_TRUE(interior_areas(renderer, sun_at(180, 45), room.window, {}).empty());
 }
 
-TEST(Interior, AnUnknownSurfaceIsAnError) {
+TEST_P(Interior, AnUnknownSurfaceIsAnError) {
   BoxRoom const room;
   Renderer renderer = renderer_of(room.scene);
   SurfaceId const unknown = 99;

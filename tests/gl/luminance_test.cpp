@@ -3,18 +3,22 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <map>
 #include <memory>
 #include <random>
+#include <utility>
 
-#include "exact.h"
+#include "each_backend.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/transmittance.h"
-#include "random_scene.h"
-#include "room.h"
-#include "transparent_case.h"
+#include "support/exact.h"
+#include "support/random_scene.h"
+#include "support/room.h"
+#include "support/transparent_case.h"
 
 namespace gpu_shading {
 namespace {
@@ -33,11 +37,16 @@ Renderer renderer_by(Scene scene, LuminanceSum sum, int resolution = 512) {
   RendererOptions options;
   options.resolution = resolution;
   options.luminance_sum = sum;
-  options.plain_views = PlainViews::drawn;
+  options.device = by_opengl;
   return Renderer(std::move(scene), options);
 }
 
-TEST(Luminance, TransparentCaseOfJonesAndGreenberg) {
+class Luminance : public EachBackend {};
+class Schedules : public EachBackend {};
+INSTANTIATE_TEST_SUITE_P(Is, Luminance, backends, name_of);
+INSTANTIATE_TEST_SUITE_P(Are, Schedules, backends, name_of);
+
+TEST_P(Luminance, TransparentCaseOfJonesAndGreenberg) {
   std::vector<SunDirection> suns = year_of_suns(42 * degree);
   std::printf("%zu positions\n", suns.size());
   std::mt19937 engine(20240621);
@@ -69,7 +78,7 @@ TEST(Luminance, TransparentCaseOfJonesAndGreenberg) {
 }
 
 // All the receiver under every shade: no edges, so that only the product counts.
-TEST(Luminance, OverlappingShadesMultiply) {
+TEST_P(Luminance, OverlappingShadesMultiply) {
   std::vector<double> const taus{0.9, 0.62, 0.35, 0.77, 0.81};
   for (std::size_t const stacked : {2U, 5U}) {
     Scene scene;
@@ -105,7 +114,7 @@ Scene stack(std::size_t shades) {
 std::vector<SunDirection> const around{sun_at(10, 60),  sun_at(75, 50),  sun_at(180, 65),
                                        sun_at(230, 45), sun_at(300, 75), {}};
 
-TEST(Luminance, StacksOfTwoAndFiveAgainstExactOverlay) {
+TEST_P(Luminance, StacksOfTwoAndFiveAgainstExactOverlay) {
   for (std::size_t const shades : {2U, 5U}) {
     Scene const scene = stack(shades);
     Renderer renderer = renderer_of(scene, 2048);
@@ -117,7 +126,7 @@ TEST(Luminance, StacksOfTwoAndFiveAgainstExactOverlay) {
   }
 }
 
-TEST(Luminance, TheOrderOfShadesDoesNotMatter) {
+TEST_P(Luminance, TheOrderOfShadesDoesNotMatter) {
   Scene const scene = stack(5);
   Scene backwards;
   backwards.add(scene[0]);
@@ -130,7 +139,7 @@ TEST(Luminance, TheOrderOfShadesDoesNotMatter) {
   }
 }
 
-TEST(Luminance, BothFacesTransmitAlike) {
+TEST_P(Luminance, BothFacesTransmitAlike) {
   Scene up;
   up.add({"receiver", level(0, 0, 0, 1, 1)});
   up.add({"shade", level(0, 0, 0.3, 1, 1), Casting::always, glass()});
@@ -145,7 +154,7 @@ TEST(Luminance, BothFacesTransmitAlike) {
   EXPECT_NEAR(sunlit(one, sun, 0).projected_area, sunlit(other, sun, 0).projected_area, 1e-7);
 }
 
-TEST(Luminance, OpaqueAndTransparentTogether) {
+TEST_P(Luminance, OpaqueAndTransparentTogether) {
   for (std::uint32_t seed = 1; seed <= 100; ++seed) {
     RandomScene const random = random_scene(seed);
     Scene scene;
@@ -164,7 +173,7 @@ TEST(Luminance, OpaqueAndTransparentTogether) {
 
 // The luminance of what lets nothing through against the count of what is opaque.
 TEST(Luminance, OfOpaqueShadesIsTheirCount) {
-  for (PlainViews const how : {PlainViews::drawn, PlainViews::counted}) {
+  for (DeviceChoice const how : {by_opengl, on_cpu}) {
     std::size_t views = 0;
     for (std::uint32_t seed = 1; seed <= 100; ++seed) {
       RandomScene const random = random_scene(seed);
@@ -198,8 +207,8 @@ TEST(Luminance, CountedIsAsDrawn) {
       if (id % 3 != 0) surface.transmittance = constant(0.5);
       scene.add(surface);
     }
-    Renderer drawing = renderer_of(scene, 512, PlainViews::drawn);
-    Renderer counting = renderer_of(scene, 512, PlainViews::counted);
+    Renderer drawing = renderer_of(scene, 512, by_opengl);
+    Renderer counting = renderer_of(scene, 512, on_cpu);
     double const whole = area(scene[0].polygon);
     double const difference = sunlit(drawing, random.sun, 0).projected_area -
                               sunlit(counting, random.sun, 0).projected_area;
@@ -254,7 +263,7 @@ TEST(Luminance, ManyReceiversInOneCall) {
   }
 }
 
-TEST(Luminance, TheSameTwiceToTheBit) {
+TEST_P(Luminance, TheSameTwiceToTheBit) {
   Scene const scene = stack(5);
   Renderer one = renderer_of(scene);
   Renderer other = renderer_of(scene);
@@ -263,7 +272,7 @@ TEST(Luminance, TheSameTwiceToTheBit) {
   }
 }
 
-TEST(Luminance, ThinRingOfWallUnderAGlassOverhang) {
+TEST_P(Luminance, ThinRingOfWallUnderAGlassOverhang) {
   Polygon wall = south_facing(0, 0, 0, 3, 3);
   wall.holes = {south_facing(0.00025, 0, 0.00025, 2.9995, 2.9995).outline};
   Scene scene;
@@ -296,7 +305,7 @@ Scene canopy(int panes_around, int panes_along) {
   return scene;
 }
 
-TEST(Luminance, CurvedCanopyOfManyPanes) {
+TEST_P(Luminance, CurvedCanopyOfManyPanes) {
   Scene const scene = canopy(12, 8);
   Renderer renderer = renderer_of(scene);
   for (SunDirection const sun : {sun_at(180, 60), sun_at(120, 35), sun_at(260, 20)}) {
@@ -330,7 +339,7 @@ Scene at_factors(Scene const& scene, std::vector<double> const& factors) {
   return fixed;
 }
 
-TEST(Schedules, ChangedFactorsAgainstAFreshRender) {
+TEST_P(Schedules, ChangedFactorsAgainstAFreshRender) {
   Scene plain;
   Scene const five = stack(5);
   for (SurfaceId id = 0; id < five.size(); ++id) plain.add({five[id].name, five[id].polygon});
@@ -342,13 +351,13 @@ TEST(Schedules, ChangedFactorsAgainstAFreshRender) {
          {std::vector<double>{0.3, 9, 9, 9, 0.5, 9, 9, 0.8},
           std::vector<double>{1.0, 9, 9, 9, 1.0, 9, 9, 1.0},
           std::vector<double>{0.0, 9, 9, 9, 0.25, 9, 9, 0.0}}) {
-      Renderer fresh = renderer_of(at_factors(scheduled, factors), 512, PlainViews::drawn);
+      Renderer fresh = renderer_of(at_factors(scheduled, factors));
       EXPECT_NEAR(kept.at(factors), sunlit(fresh, sun, 0).projected_area, 1e-6);
     }
   }
 }
 
-TEST(Schedules, MultiplyWithTransmittancesOfTheSameSurfaces) {
+TEST_P(Schedules, MultiplyWithTransmittancesOfTheSameSurfaces) {
   Scene const scene = with_schedules(stack(5), {0, 1, 0, 2, 1});
   Renderer renderer = renderer_of(scene, 1024);
   for (SunDirection const sun : around) {
@@ -359,14 +368,14 @@ TEST(Schedules, MultiplyWithTransmittancesOfTheSameSurfaces) {
     }
   }
   // With every factor 1 it is the view of the same shades without schedules.
-  Renderer unscheduled = renderer_of(stack(5), 1024, PlainViews::drawn);
+  Renderer unscheduled = renderer_of(stack(5), 1024);
   for (SunDirection const sun : around) {
     EXPECT_NEAR(sunlit(renderer, sun, 0).at(std::vector<double>{1, 1, 1}),
                 sunlit(unscheduled, sun, 0).projected_area, 1e-6);
   }
 }
 
-TEST(Schedules, PartsNameEachCombinationOnce) {
+TEST_P(Schedules, PartsNameEachCombinationOnce) {
   Scene scene;
   scene.add({"receiver", level(0, 0, 0, 1, 1)});
   auto const shade = [&](double x, double z, int schedule) {
@@ -389,7 +398,7 @@ TEST(Schedules, PartsNameEachCombinationOnce) {
 }
 
 // Sixty sheets on one schedule, and as many schedules as fit.
-TEST(Schedules, ManyShadesOfOneAndManyOfTheirOwn) {
+TEST_P(Schedules, ManyShadesOfOneAndManyOfTheirOwn) {
   for (bool const shared : {true, false}) {
     Scene scene;
     scene.add({"receiver", level(0, 0, 0, 1, 1)});
@@ -411,7 +420,7 @@ TEST(Schedules, TooManyToTellApartIsAnErrorThatNamesTheReceiver) {
   for (int i = 0; i < 73; ++i) {
     scene.add({"sheet", level(-1, -1, 0.1 + 0.01 * i, 3, 3), Casting::always, nullptr, i});
   }
-  Renderer renderer = renderer_of(scene, 64);
+  Renderer renderer = renderer_of(scene, 64, by_opengl);
   try {
     sunlit(renderer, {}, 0);
     ADD_FAILURE();
@@ -419,6 +428,63 @@ TEST(Schedules, TooManyToTellApartIsAnErrorThatNamesTheReceiver) {
     EXPECT_NE(std::string(error.what()).find("the terrace"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("73"), std::string::npos) << error.what();
   }
+}
+
+TEST(Schedules, TheCpuTellsAnyNumberApart) {
+  Scene scene;
+  scene.add({"receiver", level(0, 0, 0, 1, 1)});
+  constexpr int sheets = 200;
+  for (int i = 0; i < sheets; ++i) {
+    scene.add({"sheet", level(-1 + 2.0 / sheets * (i + 1), -1, 0.1 + 0.01 * i, 3, 3),
+               Casting::always, nullptr, i});
+  }
+  Renderer renderer = renderer_of(scene, 400, on_cpu);
+  Sunlit const answer = sunlit(renderer, {}, 0);
+  // Half of the sheets cover all of it, and the others begin over it one after another.
+  EXPECT_EQ(answer.scheduled.size(), sheets / 2U);
+  std::vector<double> factors(sheets, 1.0);
+  EXPECT_NEAR(answer.at(factors), 1.0, 1e-9);
+  factors[149] = 0.0;  // over all from x = 0.5 on
+  EXPECT_NEAR(answer.at(factors), 0.5, 5e-3);
+}
+
+// The areas of a combination of schedules that two answers have, by its powers.
+std::map<std::vector<std::pair<int, int>>, std::array<double, 2>> by_powers(Sunlit const& a,
+                                                                            Sunlit const& b) {
+  std::map<std::vector<std::pair<int, int>>, std::array<double, 2>> areas;
+  areas[{}] = {a.projected_area, b.projected_area};
+  for (ScheduledPart const& part : a.scheduled) areas[part.powers][0] = part.projected_area;
+  for (ScheduledPart const& part : b.scheduled) areas[part.powers][1] = part.projected_area;
+  return areas;
+}
+
+TEST(Schedules, CountedAreAsDrawn) {
+  double worst = 0.0;
+  std::size_t combinations = 0;
+  for (std::uint32_t seed = 1; seed <= 40; ++seed) {
+    RandomScene const random = random_scene(seed);
+    Scene scene;
+    for (SurfaceId id = 0; id < random.scene.size(); ++id) {
+      Surface surface = random.scene[id];
+      if (id > 0 && id % 4 != 0) surface.schedule = static_cast<int>(id % 3);
+      if (id % 2 == 1) surface.transmittance = constant(0.5);
+      scene.add(surface);
+    }
+    Renderer drawing = renderer_of(scene, 512, by_opengl);
+    Renderer counting = renderer_of(scene, 512, on_cpu);
+    double const whole = area(scene[0].polygon);
+    for (auto const& [powers, areas] :
+         by_powers(sunlit(drawing, random.sun, 0), sunlit(counting, random.sun, 0))) {
+      double const difference = (areas[0] - areas[1]) / whole;
+      EXPECT_NEAR(difference, 0.0, 2e-4) << seed;
+      worst = std::max(worst, std::abs(difference));
+      combinations += powers.empty() ? 0 : 1;
+    }
+    EXPECT_EQ(counting.statistics().luminance_views, drawing.statistics().luminance_views);
+  }
+  std::printf("scheduled: counted and drawn differ by %.1e at most\n", worst);
+  EXPECT_GT(combinations, 100U);
+  EXPECT_GT(worst, 0.0);  // they are two
 }
 
 // With a glass overhang and a screen before the window.
@@ -430,7 +496,7 @@ struct ShadedRoom : Room {
   }
 };
 
-TEST(Luminance, InteriorBehindShades) {
+TEST_P(Luminance, InteriorBehindShades) {
   std::vector<double> const factors{0, 0, 0.37};
   for (bool const scheduled : {false, true}) {
     ShadedRoom const room(scheduled);
@@ -450,8 +516,39 @@ TEST(Luminance, InteriorBehindShades) {
   }
 }
 
+TEST(Luminance, InteriorBehindShadesIsCountedAsDrawn) {
+  double worst = 0.0;
+  for (bool const scheduled : {false, true}) {
+    ShadedRoom room(scheduled);
+    HolePattern const holes({.hole = Hole::Square, .size = 0.05, .pitch = 0.08});
+    Surface sheet{"sheet", south_facing(1, -0.2, 0.8, 0.6, 1.6)};
+    sheet.screen = std::make_shared<PerforatedScreen const>(holes, Sheet{.thickness = 0.01});
+    sheet.schedule = scheduled ? 1 : -1;
+    room.scene.add(sheet);
+    Renderer drawing = renderer_of(room.scene, 512, by_opengl);
+    Renderer counting = renderer_of(room.scene, 512, on_cpu);
+    double const whole = area(room.scene[room.window].polygon);
+    double lit = 0.0;
+    for (SunDirection const sun :
+         {sun_at(180, 10), sun_at(180, 45), sun_at(140, 20), sun_at(230, 35)}) {
+      auto const a = drawing.interior_sunlit_areas(sun, room.window, room.surfaces);
+      auto const b = counting.interior_sunlit_areas(sun, room.window, room.surfaces);
+      for (std::size_t i = 0; i < a.size(); ++i) {
+        for (auto const& [powers, areas] : by_powers(a[i], b[i])) {
+          EXPECT_NEAR(areas[0] / whole, areas[1] / whole, 2e-4) << i;
+          worst = std::max(worst, std::abs(areas[0] - areas[1]) / whole);
+          lit += areas[1];
+        }
+      }
+    }
+    EXPECT_GT(lit, 1.0);
+  }
+  std::printf("inside: counted and drawn differ by %.1e at most\n", worst);
+  EXPECT_GT(worst, 0.0);  // they are two
+}
+
 // The two interior paths take the same pixels.
-TEST(Luminance, InteriorOfOpaqueShadesIsTheirCount) {
+TEST_P(Luminance, InteriorOfOpaqueShadesIsTheirCount) {
   ShadedRoom const room(false);
   Scene counted;
   Scene summed;
@@ -462,7 +559,7 @@ TEST(Luminance, InteriorOfOpaqueShadesIsTheirCount) {
     if (id > room.surfaces.back()) surface.transmittance = constant(0.0);
     summed.add(surface);
   }
-  Renderer counting = renderer_of(counted, 512, PlainViews::drawn);
+  Renderer counting = renderer_of(counted);
   Renderer summing = renderer_of(summed);
   for (SunDirection const sun : {sun_at(180, 45), sun_at(140, 20), sun_at(230, 35)}) {
     auto const a = interior_areas(counting, sun, room.window, room.surfaces);
@@ -471,7 +568,7 @@ TEST(Luminance, InteriorOfOpaqueShadesIsTheirCount) {
   }
 }
 
-TEST(Luminance, SunViewIsGreyByWhatIsLetThrough) {
+TEST_P(Luminance, SunViewIsGreyByWhatIsLetThrough) {
   Scene scene;
   scene.add({"terrace", level(0, 0, 0, 4, 4)});
   scene.add({"shade", level(0, -1, 1, 2, 6), Casting::always, constant(0.6)});

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "shapes.h"
+#include "support/shapes.h"
 
 namespace gpu_shading {
 namespace {

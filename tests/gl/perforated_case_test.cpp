@@ -1,4 +1,4 @@
-#include "perforated_case.h"
+#include "support/perforated_case.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "transparent_case.h"
+#include "support/transparent_case.h"
 
 // The perforated case of Jones & Greenberg: its reference against rays, the renderer against it.
 namespace gpu_shading {
@@ -126,7 +126,7 @@ void expect_near_reference(PerforatedCase const& given, PerforatedScreen const& 
                            double tolerance) {
   PerforatedReference const reference(given);
   Scene const scene = given.scene(std::make_shared<PerforatedScreen const>(screen));
-  for (PlainViews const views : {PlainViews::drawn, PlainViews::counted}) {
+  for (DeviceChoice const views : {by_opengl, on_cpu}) {
     Renderer renderer = renderer_of(scene, 1024, views);
     for (SunDirection const sun : suns()) {
       EXPECT_NEAR(sunlit(renderer, sun, 0).projected_area, reference(sun), tolerance)
@@ -162,7 +162,7 @@ struct Errors {
   double largest = 0.0;
 };
 
-Errors over_the_year(PerforatedScreen const& screen, PlainViews views) {
+Errors over_the_year(PerforatedScreen const& screen, DeviceChoice views) {
   PerforatedCase const given;
   PerforatedReference const reference(given);
   std::vector<SunDirection> const suns = year_of_suns(42 * degree);
@@ -181,7 +181,7 @@ Errors over_the_year(PerforatedScreen const& screen, PlainViews views) {
 }
 
 void expect_small(PerforatedScreen const& screen) {
-  for (PlainViews const views : {PlainViews::drawn, PlainViews::counted}) {
+  for (DeviceChoice const views : {by_opengl, on_cpu}) {
     Errors const errors = over_the_year(screen, views);
     EXPECT_NEAR(errors.signed_mean, 0.0, 5e-4);
     EXPECT_LE(errors.mean, 1e-3);

@@ -3,10 +3,11 @@
 #include <array>
 #include <cmath>
 
-#include "exact.h"
+#include "each_backend.h"
 #include "gpu_shading/error.h"
-#include "random_scene.h"
-#include "shapes.h"
+#include "support/exact.h"
+#include "support/random_scene.h"
+#include "support/shapes.h"
 
 namespace gpu_shading {
 namespace {
@@ -31,7 +32,10 @@ int count(Image const& image, Colour const& wanted) {
   return found;
 }
 
-TEST(SunView, YellowAndBlueAreTheSunlitShare) {
+class SunView : public EachBackend {};
+INSTANTIATE_TEST_SUITE_P(Backends, SunView, backends, name_of);
+
+TEST_P(SunView, YellowAndBlueAreTheSunlitShare) {
   int seen = 0;
   for (std::uint32_t seed = 1; seed <= 30; ++seed) {
     RandomScene const random = random_scene(seed);
@@ -49,7 +53,7 @@ TEST(SunView, YellowAndBlueAreTheSunlitShare) {
   EXPECT_GT(seen, 15);
 }
 
-TEST(SunView, WorldUpIsUpAndEastIsOnTheRightOfASouthFacade) {
+TEST_P(SunView, WorldUpIsUpAndEastIsOnTheRightOfASouthFacade) {
   // From the south one looks north: east is on the right. The overhang shades the top, the fin in
   // the east the right.
   Scene scene;
@@ -71,7 +75,7 @@ TEST(SunView, WorldUpIsUpAndEastIsOnTheRightOfASouthFacade) {
   EXPECT_EQ(colour_at(morning, morning.width / 4, morning.height / 2), yellow);
 }
 
-TEST(SunView, ZenithHasNorthUp) {
+TEST_P(SunView, ZenithHasNorthUp) {
   Scene scene;
   scene.add({"terrace", level(0, 0, 0, 4, 4)});
   scene.add({"canopy over the north half", level(-1, 2, 3, 6, 3)});
@@ -81,7 +85,7 @@ TEST(SunView, ZenithHasNorthUp) {
   EXPECT_EQ(colour_at(image, 100, 140), yellow);
 }
 
-TEST(SunView, CastersAroundTheReceiverAreGrey) {
+TEST_P(SunView, CastersAroundTheReceiverAreGrey) {
   Scene scene;
   scene.add({"terrace", level(0, 0, 0, 4, 4)});
   scene.add({"ground", level(-50, -50, -1, 100, 100)});
@@ -94,7 +98,7 @@ TEST(SunView, CastersAroundTheReceiverAreGrey) {
   EXPECT_LT(corner[0], 240);
 }
 
-TEST(SunView, TurnedAwayThereIsNoYellow) {
+TEST_P(SunView, TurnedAwayThereIsNoYellow) {
   Scene scene;
   scene.add({"wall", south_facing(0, 0, 0, 4, 3)});
   Renderer renderer = renderer_of(scene);
@@ -103,7 +107,7 @@ TEST(SunView, TurnedAwayThereIsNoYellow) {
   EXPECT_GT(count(image, blue), 1000);
 }
 
-TEST(SunView, SizeOutOfRangeIsAnErrorThatSaysWhich) {
+TEST_P(SunView, SizeOutOfRangeIsAnErrorThatSaysWhich) {
   Scene scene;
   scene.add({"wall", south_facing(0, 0, 0, 4, 3)});
   Renderer renderer = renderer_of(scene);

@@ -6,9 +6,10 @@
 #include <cmath>
 #include <map>
 
+#include "each_backend.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/transmittance.h"
-#include "shapes.h"
+#include "support/shapes.h"
 
 namespace gpu_shading {
 namespace {
@@ -44,9 +45,12 @@ struct Case {
   }
 };
 
-TEST(SceneView, ShowsReceiversByTheirFractionAndOthersGrey) {
+class SceneViews : public EachBackend {};
+INSTANTIATE_TEST_SUITE_P(Backends, SceneViews, backends, name_of);
+
+TEST_P(SceneViews, ShowsReceiversByTheirFractionAndOthersGrey) {
   Case const quarter;
-  SceneView view(quarter.scene, quarter.all, {});
+  SceneView view(quarter.scene, quarter.all, GetParam());
   auto const image = view.draw(sun_at(180, 90), quarter.fractions, 540);
   EXPECT_EQ(image.width, 540);
   EXPECT_EQ(image.height, 540);
@@ -57,43 +61,43 @@ TEST(SceneView, ShowsReceiversByTheirFractionAndOthersGrey) {
   EXPECT_NEAR(counts.at({255, 255, 255}), 540 * 540 - 500 * 500, 2100);
 }
 
-TEST(SceneView, SeesThroughWhatTransmits) {
+TEST_P(SceneViews, SeesThroughWhatTransmits) {
   Case const pane(std::make_shared<Transmittance const>(Transmittance::constant(0.5)));
-  SceneView view(pane.scene, pane.all, {});
+  SceneView view(pane.scene, pane.all, GetParam());
   auto const counts = count_colours(view.draw(sun_at(180, 90), pane.fractions, 540));
   auto const both = rounded(0.5 * (fraction_colour(0.75) + glm::dvec3(215.0)));
   EXPECT_NEAR(counts.at(both), 250 * 250, 600);
   EXPECT_FALSE(counts.contains({215, 215, 215}));
 }
 
-TEST(SceneView, TheNearestHidesTheOthers) {
+TEST_P(SceneViews, TheNearestHidesTheOthers) {
   Case sides;
   // From the south at the horizon only a wall in front of both is seen.
   auto const wall = sides.scene.add({"wall", south_facing(-1, -1, -1, 6, 3)});
   sides.all.push_back(wall);
   sides.fractions.emplace_back(0.0);
-  SceneView view(sides.scene, sides.all, {});
+  SceneView view(sides.scene, sides.all, GetParam());
   auto const counts = count_colours(view.draw(sun_at(180, 0), sides.fractions, 300));
   EXPECT_TRUE(counts.contains(rounded(fraction_colour(0.0))));
   EXPECT_FALSE(counts.contains(rounded(fraction_colour(0.75))));
 }
 
-TEST(SceneView, FarSurfacesDoNotMakeReceiversSmall) {
+TEST_P(SceneViews, FarSurfacesDoNotMakeReceiversSmall) {
   Case distant;
   auto const hill = distant.scene.add({"hill", south_facing(-5000, 9000, 0, 10000, 300)});
   distant.all.push_back(hill);
   distant.fractions.emplace_back(std::nullopt);
-  SceneView view(distant.scene, distant.all, {});
+  SceneView view(distant.scene, distant.all, GetParam());
   auto const counts = count_colours(view.draw(sun_at(180, 60), distant.fractions, 300));
   EXPECT_GT(counts.at(rounded(fraction_colour(0.75))), 300 * 300 / 10);
 }
 
-TEST(SceneView, SaysWhatItCannotDraw) {
+TEST_P(SceneViews, SaysWhatItCannotDraw) {
   Case const some;
-  SceneView view(some.scene, some.all, {});
+  SceneView view(some.scene, some.all, GetParam());
   EXPECT_THROW(view.draw(sun_at(180, 45), {}, 300), Error);
   EXPECT_THROW(view.draw(sun_at(180, 45), some.fractions, 0), Error);
-  EXPECT_THROW(SceneView(some.scene, {}, {}), Error);
+  EXPECT_THROW(SceneView(some.scene, {}, GetParam()), Error);
 }
 
 TEST(FractionColour, GrowsLighter) {

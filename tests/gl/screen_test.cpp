@@ -9,11 +9,12 @@
 #include <numeric>
 #include <string>
 
+#include "each_backend.h"
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
-#include "random_scene.h"
-#include "room.h"
-#include "shapes.h"
+#include "support/random_scene.h"
+#include "support/room.h"
+#include "support/shapes.h"
 
 // Perforated sheets as the renderer draws and counts them, against what is known of them in closed
 // form.
@@ -75,20 +76,8 @@ double closed_form(HolePattern const& holes, double thickness, SunDirection sun)
   return holes.transmittance(thickness * s.y / s.z, -thickness * s.x / s.z);
 }
 
-// Drawn, and counted on the CPU.
-class Screened : public testing::TestWithParam<PlainViews> {
- protected:
-  static Renderer renderer_of(Scene scene, int resolution = 512) {
-    return gpu_shading::renderer_of(std::move(scene), resolution, GetParam());
-  }
-};
-
-std::string name_of(testing::TestParamInfo<PlainViews> const& info) {
-  return info.param == PlainViews::drawn ? "drawn" : "counted";
-}
-
-INSTANTIATE_TEST_SUITE_P(Is, Screened, testing::Values(PlainViews::drawn, PlainViews::counted),
-                         name_of);
+class Screened : public EachBackend {};
+INSTANTIATE_TEST_SUITE_P(Is, Screened, backends, name_of);
 
 constexpr double altitudes[] = {90.0, 75.0, 60.0, 45.0, 35.0};
 
@@ -422,11 +411,10 @@ TEST(CountedScreens, AreAsDrawn) {
     double const whole =
         area(scene[0].polygon) * glm::dot(normal(scene[0].polygon), to_vector(random.sun));
     double lit[2];
-    for (PlainViews const how : {PlainViews::drawn, PlainViews::counted}) {
+    for (DeviceChoice const how : {by_opengl, on_cpu}) {
       Renderer renderer = renderer_of(scene, 256, how);
       renderer.set_deployments({0.7});
-      lit[how == PlainViews::counted ? 1 : 0] =
-          sunlit(renderer, random.sun, 0).projected_area / whole;
+      lit[how == on_cpu ? 1 : 0] = sunlit(renderer, random.sun, 0).projected_area / whole;
     }
     double const difference = std::abs(lit[1] - lit[0]);
     EXPECT_LE(difference, 2e-4) << seed;
@@ -483,7 +471,7 @@ TEST_P(Screened, ShadesWhatLiesBehindAWindow) {
 }
 
 // Pictures are always drawn.
-TEST(DrawnScreens, ShowTheirHolesInThePicture) {
+TEST_P(Screened, ShowsItsHolesInThePicture) {
   Scene scene;
   scene.add({"receiver", level(0, 0, 0, 1, 1)});
   HolePattern const holes = square_holes(0.25, 0.5);

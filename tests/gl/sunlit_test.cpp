@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "exact.h"
 #include "gpu_shading/error.h"
-#include "random_scene.h"
-#include "shapes.h"
+#include "support/exact.h"
+#include "support/random_scene.h"
+#include "support/shapes.h"
 
 namespace gpu_shading {
 namespace {
@@ -173,7 +173,8 @@ TEST(Sunlit, TheRuleSaysWhoShadesWhom) {
   Scene scene;
   scene.add({"table", level(0, 0, 0, 2, 2)});
   scene.add({"roof", level(-5, -5, 3, 12, 12)});
-  scene.set_rule([](SurfaceId receiver, SurfaceId caster) { return receiver == 1 && caster == 0; });
+  // The table shades the roof, in a zone that shades no other.
+  scene.set_rule({{{0, 0}, {1, 1}}, 2, {1, 0, 1, 1}});
   EXPECT_NEAR(share_of_window(scene, sun_at(180, 80)), 1.0, 1e-12);
 }
 

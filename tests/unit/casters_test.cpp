@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "exact.h"
 #include "gpu_shading/sun_direction.h"
-#include "random_scene.h"
+#include "support/exact.h"
+#include "support/random_scene.h"
 
 namespace gpu_shading {
 namespace {
@@ -42,17 +42,16 @@ TEST(CastersInView, OnlyWhatReachesClearlyBeforeThePlane) {
   EXPECT_EQ(in_view_of_first(scene, from_the_south), (std::vector<SurfaceId>{overhang, crossing}));
 }
 
-TEST(CastersInView, TheRuleIsAskedAndDegenerateSurfacesAreNot) {
+TEST(CastersInView, FollowTheRuleAndLeaveOutDegenerateSurfaces) {
   Scene scene;
   scene.add({"window", window});
   SurfaceId const allowed = scene.add({"allowed", horizontal(0, -1, 2, 2, 1)});
   SurfaceId const barred = scene.add({"barred", horizontal(0, -1, 2, 2, 1)});
-  SurfaceId const degenerate = scene.add({"degenerate", {{{0, -1, 0}, {1, -1, 0}}, {}}});
-  scene.set_rule([&](SurfaceId receiver, SurfaceId caster) {
-    EXPECT_EQ(receiver, 0U);
-    EXPECT_NE(caster, degenerate);
-    return caster != barred;
-  });
+  scene.add({"degenerate", {{{0, -1, 0}, {1, -1, 0}}, {}}});
+  ShadingRule rule{std::vector<ShadingRule::Role>(scene.size()), 1, {1}};
+  for (SurfaceId id = 0; id < scene.size(); ++id) rule.roles[id].wall = id;
+  rule.roles[barred].shades = ShadingRule::Shades::own_wall;
+  scene.set_rule(rule);
   EXPECT_EQ(in_view_of_first(scene, from_the_south), std::vector<SurfaceId>{allowed});
 }
 
@@ -109,7 +108,7 @@ TEST(CastersInView, ReachAsFarAsTheirSheets) {
   }
 }
 
-TEST(BoxTree, LooksAtFewBoxesThatAreNotWanted) {
+TEST(Bvh, LooksAtFewBoxesOutside) {
   std::vector<Box> boxes(10000);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     std::size_t const row = i / 100;
@@ -118,7 +117,7 @@ TEST(BoxTree, LooksAtFewBoxesThatAreNotWanted) {
     boxes[i].include(corner + 0.5);
   }
   boxes[77] = Box();
-  BoxTree const tree(boxes);
+  Bvh const tree(boxes);
   int looked = 0;
   std::vector<std::uint32_t> found;
   tree.search(
@@ -126,47 +125,66 @@ TEST(BoxTree, LooksAtFewBoxesThatAreNotWanted) {
         ++looked;
         auto const low = centre - reach;
         auto const high = centre + reach;
-        return low.x < 3.0 && high.x > 2.0 && low.y < 1.0 ? Wanted::part : Wanted::none;
+        return low.x < 3.0 && high.x > 2.0 && low.y < 1.0 ? Containment::intersecting
+                                                          : Containment::outside;
       },
-      [&](std::uint32_t number, Wanted) { found.push_back(number); });
+      [&](std::uint32_t first, std::uint32_t count, Containment) {
+        EXPECT_EQ(count, 1U);
+        found.push_back(tree.order()[first]);
+      });
   EXPECT_EQ(found, std::vector<std::uint32_t>{2});
   EXPECT_LT(looked, 100);
-  int all = 0;
-  tree.search([](glm::dvec3 const&, glm::dvec3 const&) { return Wanted::part; },
-              [&](std::uint32_t, Wanted) { ++all; });
-  EXPECT_EQ(all, 9999);
+  std::uint32_t all = 0;
+  tree.search([](glm::dvec3 const&, glm::dvec3 const&) { return Containment::intersecting; },
+              [&](std::uint32_t, std::uint32_t count, Containment) { all += count; });
+  EXPECT_EQ(all, 9999U);
 }
 
-TEST(BoxTree, LooksNotIntoBoxesThatAreWantedAltogether) {
+TEST(Bvh, DoesNotLookIntoBoxesInside) {
   std::vector<Box> boxes(10000);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     boxes[i].include(glm::dvec3(static_cast<double>(i)));
     boxes[i].include(glm::dvec3(static_cast<double>(i) + 0.5));
   }
   boxes[77] = Box();
-  BoxTree const tree(boxes);
+  Bvh const tree(boxes);
   int looked = 0;
   std::vector<int> found(boxes.size(), 0);
-  std::size_t parts = 0;
+  std::size_t crossed = 0;
   tree.search(
       [&](glm::dvec3 const& centre, glm::dvec3 const& reach) {
         ++looked;
-        if (centre.x + reach.x < 50.25) return Wanted::none;
-        return centre.x - reach.x > 50.25 ? Wanted::all : Wanted::part;
+        if (centre.x + reach.x < 50.25) return Containment::outside;
+        return centre.x - reach.x > 50.25 ? Containment::inside : Containment::intersecting;
       },
-      [&](std::uint32_t number, Wanted how_much) {
-        ++found[number];
-        if (how_much == Wanted::part) parts = number;
+      [&](std::uint32_t first, std::uint32_t count, Containment containment) {
+        for (std::uint32_t i = first; i < first + count; ++i) ++found[tree.order()[i]];
+        if (containment == Containment::intersecting) crossed = tree.order()[first];
       });
   EXPECT_LT(looked, 100);
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i], i >= 50 && i != 77) << i;
-  EXPECT_EQ(parts, 50U);
+  EXPECT_EQ(crossed, 50U);
 }
 
-TEST(BoxTree, OfNothingFindsNothing) {
-  BoxTree const tree(std::vector<Box>(3));
-  tree.search([](glm::dvec3 const&, glm::dvec3 const&) { return Wanted::all; },
-              [](std::uint32_t, Wanted) { ADD_FAILURE(); });
+TEST(Bvh, OfEmptyBoxesFindsNothing) {
+  Bvh const tree(std::vector<Box>(3));
+  tree.search([](glm::dvec3 const&, glm::dvec3 const&) { return Containment::inside; },
+              [](std::uint32_t, std::uint32_t, Containment) { ADD_FAILURE(); });
+}
+
+// However many there are, and wherever their boxes lie.
+TEST(CastersInView, ComeInTheOrderOfTheirIds) {
+  for (int const count : {3, 63, 64, 65, 1000}) {
+    Scene scene;
+    scene.add({"window", window});
+    for (int i = 0; i < count; ++i) {
+      double const x = 0.1 + 1.8 * (i * 7919 % count) / count;
+      scene.add({"slat", horizontal(x, -0.5, 2, 0.01, 0.4)});
+    }
+    auto const found = in_view_of_first(scene, from_the_south);
+    ASSERT_EQ(found.size(), static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i], i + 1);
+  }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "render/coverage.h"
+#include "raster_cpu/coverage.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <numeric>
 #include <random>
 
-#include "random_scene.h"
 #include "scene/triangulation.h"
-#include "shapes.h"
+#include "support/random_scene.h"
+#include "support/shapes.h"
 
 namespace gpu_shading {
 namespace {
@@ -197,25 +197,41 @@ TEST(ConvexPieces, AreFlat) {
   EXPECT_EQ(convex_pieces(flat).size(), 1U);
 }
 
+void expect_equal(LuminanceSums const& a, LuminanceSums const& b) {
+  EXPECT_EQ(a.unscheduled, b.unscheduled);
+  ASSERT_EQ(a.scheduled.size(), b.scheduled.size());
+  for (std::size_t i = 0; i < a.scheduled.size(); ++i) {
+    EXPECT_EQ(a.scheduled[i].powers, b.scheduled[i].powers);
+    EXPECT_EQ(a.scheduled[i].sum, b.scheduled[i].sum);
+  }
+}
+
 TEST(Coverage, IsTheSameOnAnyNumberOfThreads) {
   Scene scene;
   scene.add({"window", south_facing(0, 0, 0, 3, 2)});
   std::vector<SurfaceId> casters;
-  casters.reserve(300);
+  std::vector<Shade> shades;
+  std::vector<Shade> scheduled;
   for (int i = 0; i < 300; ++i) {
-    casters.push_back(scene.add(
-        {"louvre", parallelogram({-0.2, -0.1, i / 150.0}, {3.4, 0, 0}, {0, -0.005, 0.002})}));
+    casters.push_back(
+        scene.add({"louvre", parallelogram({-0.2, -0.1, i / 150.0}, {3.4, 0, 0},
+                                           {0, -0.005, i % 10 == 0 ? 0.02 : 0.002})}));
+    shades.push_back({0.1F + 0.003F * static_cast<float>(i % 7), Shades::unscheduled});
+    scheduled.push_back({shades.back().transmittance, i % 5 - 1});
   }
   Coverage const coverage(triangulate_all(scene));
   PlaneFrame const frame = *plane_frame(scene[0].polygon);
-  for (int const side : {96, 512}) {
-    Tile const tile = make_tile(scene[0].polygon, frame, side, 4096);
-    View const view = view_in_front(frame, tile.map, to_vector(sun_at(170, 30)));
-    std::uint64_t const lit = coverage.lit(tile, view, casters, 1);
-    EXPECT_GT(lit, 0U);
-    EXPECT_LT(lit, tile.counted_pixels);
-    for (int const threads : {2, 3, 7, 64}) {
-      EXPECT_EQ(coverage.lit(tile, view, casters, threads), lit);
+  for (CastersInView const& in_view :
+       {CastersInView{casters, {}, {}}, {casters, shades, {}}, {casters, scheduled, {}}}) {
+    for (int const side : {96, 512}) {
+      Tile const tile = make_tile(scene[0].polygon, frame, side, 4096);
+      View const view = view_in_front(frame, tile.map, to_vector(sun_at(170, 30)));
+      LuminanceSums const alone = coverage.sums(tile, view, in_view, 1);
+      EXPECT_LT(alone.unscheduled, static_cast<double>(tile.counted_pixels));
+      EXPECT_EQ(alone.scheduled.empty(), in_view.shades.data() != scheduled.data());
+      for (int const threads : {2, 3, 7, 64}) {
+        expect_equal(coverage.sums(tile, view, in_view, threads), alone);
+      }
     }
   }
 }

@@ -8,9 +8,10 @@
 namespace gpu_shading {
 namespace {
 
-TEST(DeviceChoice, AutoSoftwareOrANumber) {
+TEST(DeviceChoice, AutoCpuOrANumber) {
   EXPECT_EQ(parse_device_choice("auto").kind, DeviceChoice::Kind::automatic);
-  EXPECT_EQ(parse_device_choice("software").kind, DeviceChoice::Kind::software);
+  EXPECT_EQ(parse_device_choice("cpu").kind, DeviceChoice::Kind::cpu);
+  EXPECT_EQ(parse_device_choice("software").kind, DeviceChoice::Kind::cpu);
   DeviceChoice const third = parse_device_choice("2");
   EXPECT_EQ(third.kind, DeviceChoice::Kind::index);
   EXPECT_EQ(third.index, 2);

@@ -72,7 +72,7 @@ TEST(Scene, NoSurfaceShadesItselfWhateverTheRuleSays) {
   SurfaceId const b = scene.add({"b", {square, {}}});
   EXPECT_EQ(a, 0U);
   EXPECT_EQ(b, 1U);
-  scene.set_rule([](SurfaceId, SurfaceId) { return true; });
+  scene.set_rule({{{0, 0}, {0, 0}}, 1, {1}});
   EXPECT_FALSE(scene.may_shade(a, a));
   EXPECT_TRUE(scene.may_shade(a, b));
 }

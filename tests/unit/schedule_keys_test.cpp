@@ -1,4 +1,4 @@
-#include "render/schedule_keys.h"
+#include "raster_gl/schedule_keys.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/tile_size.h"
+#include "view/tile_size.h"
 
 #include <gtest/gtest.h>
 

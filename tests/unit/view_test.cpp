@@ -1,4 +1,4 @@
-#include "render/view.h"
+#include "view/view.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "gpu_shading/sun_direction.h"
-#include "random_scene.h"
 #include "scene/casters.h"
+#include "support/random_scene.h"
 
 namespace gpu_shading {
 namespace {

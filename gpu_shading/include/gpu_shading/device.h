@@ -6,32 +6,43 @@
 
 namespace gpu_shading {
 
-// Which device renders.
+// The device that renders.
 struct DeviceChoice {
   enum class Kind {
-    automatic,  // the first GPU, else software
-    software,   // Mesa's software renderer, whatever else there is
-    index,      // the one of this index in list_devices()
+    automatic,  // the first GPU, else the CPU
+    cpu,        // no OpenGL at all
+    index,      // the device with this index in list_devices()
   };
   Kind kind = Kind::automatic;
   int index = 0;
+
+  bool operator==(DeviceChoice const&) const = default;
 };
 
-// "auto", "software" or a number from 0. Throws Error on anything else.
+// "auto", "cpu", which "software" is another name of, or a number from 0. Throws Error on anything
+// else.
 DeviceChoice parse_device_choice(std::string const& text);
 
 struct DeviceInfo {
-  int index = 0;         // as in list_devices()
-  std::string renderer;  // GL_RENDERER, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"
-  std::string vendor;    // GL_VENDOR
-  std::string version;   // GL_VERSION, which names the driver
-  bool software = false;
-  int max_resolution = 0;  // largest square tile, pixels a side
+  int index = -1;          // as in list_devices(); -1: the CPU
+  std::string renderer;    // GL_RENDERER, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"; "CPU"
+  std::string vendor;      // GL_VENDOR
+  std::string version;     // GL_VERSION, which names the driver; the CPU's instructions
+  int threads = 0;         // of the CPU
+  bool software = false;   // no GPU
+  int max_resolution = 0;  // largest square tile, in pixels per side
 };
 
-// Every EGL device that gives an OpenGL 4.5 core context without a display, in EGL's order, then
-// Mesa's surfaceless platform if that is another way. Devices that fail are left out; `failures`,
-// if given, gets one line for each: the function, the decoded error, a hint.
+// "CPU (2 threads, AVX2)"; of an OpenGL device its renderer and version.
+std::string describe(DeviceInfo const& device);
+
+// The CPU that this runs on.
+DeviceInfo cpu_device();
+
+// Lists every EGL device that supports an OpenGL 4.5 core context without a display, in EGL's
+// order, followed by Mesa's surfaceless platform if it adds another device. Devices that fail are
+// left out; `failures`, if given, gets one line for each: the function, the decoded error, and a
+// hint.
 std::vector<DeviceInfo> list_devices(std::vector<std::string>* failures = nullptr);
 
 }  // namespace gpu_shading

@@ -4,13 +4,13 @@
 
 namespace gpu_shading {
 
-// What went wrong and what to do about it, in one line, ready to be shown to a user.
+// The cause and the remedy in one line that can be shown to a user.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// No device, the wrong device, or a device lost on the way.
+// There is no device, it is unsuitable, or it was lost.
 class DeviceError : public Error {
  public:
   using Error::Error;

@@ -7,27 +7,29 @@
 
 namespace gpu_shading {
 
-// Corners in turn, either way round, the first repeated at the end or not. Elevations do not count.
+// Corners in order, in either direction; the first may be repeated at the end. Elevations are
+// ignored.
 using GeographicRing = std::vector<GeographicPoint>;
 
-// A building as maps have it: what stands upright on its outline, courtyards left open.
+// A building from map data: an upright prism on its outline, with open courtyards.
 struct Footprint {
   GeographicRing outline;
   std::vector<GeographicRing> holes;
-  double base = 0.0;  // elevations, m; the base may be in the air
+  double base = 0.0;  // elevations in m; the base may be above the ground
   double top = 0.0;
 };
 
-// Its roof, level and with the courtyards as holes, and its walls, as polygons in the axes. Walls
-// are upright where the building stands. It has no floor: what comes in from below meets a wall or
-// the roof. Edges are straight; corners within 1 mm of one another are one. Across the antimeridian
-// a ring goes the short way, whichever turn its longitudes are given in.
+// Returns the building's roof, horizontal and with the courtyards as holes, and its walls, as
+// polygons in the axes. Walls are vertical at the building's position. There is no floor, because
+// rays from below meet a wall or the roof. Edges are straight, and corners within 1 mm of one
+// another are merged. Across the antimeridian, a ring takes the short way, whatever turn its
+// longitudes are given in.
 //
-// Throws Error: fewer than three corners, a ring that crosses itself, a hole that is not inside, a
-// top that is not above the base.
+// Throws Error if there are fewer than three corners, if a ring crosses itself, if a hole is not
+// inside, or if the top is not above the base.
 std::vector<Polygon> upright_prism(Footprint const& footprint, LocalAxes const& axes);
 
-// Whether a point lies in a roof's plan, courtyards excepted; heights do not count.
+// Whether a point is inside a roof in plan, courtyards excluded; heights are ignored.
 bool covers(Polygon const& roof, glm::dvec3 const& point);
 
 }  // namespace gpu_shading

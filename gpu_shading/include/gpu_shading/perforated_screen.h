@@ -7,100 +7,101 @@
 
 #include "gpu_shading/perforation.h"
 
-// The optics of a perforated sheet: what of the beam passes it, edges of the sheet aside.
+// The optics of a perforated sheet: the fraction of the beam that passes it, away from its edges.
 //
-// Lengths and places in the sheet's plane are as in perforation.h. Directions are theta, the angle
-// of incidence from the normal, 0 .. pi/2, and phi, the angle in the plane from u towards v of the
-// beam's projection, both in radians. A beam and its reverse pass alike, so that phi and phi + pi
-// are one and both faces have the same transmittance.
+// Lengths and positions in the sheet's plane are as in perforation.h. Directions are theta, the
+// angle of incidence from the normal, 0 .. pi/2, and phi, the angle in the plane from u towards v
+// of the beam's projection, both in radians. A beam and its reverse pass alike, so phi and phi + pi
+// are equivalent and both faces have the same transmittance.
 //
-// Walls are straight and black: a ray passes where every point of its way, (u, v) to (u, v) +
-// thickness tan(theta) (cos(phi), sin(phi)), is open. That length is the shift.
+// Walls are straight and black: a ray passes if every point of its path, (u, v) to (u, v) +
+// thickness tan(theta) (cos(phi), sin(phi)), is open. The length of this displacement is called the
+// shift.
 //
-// Constructors and functions throw Error where what they are given makes no screen; the message
-// begins with the field, as in "thickness is -1 m, expected 0 or more".
+// Constructors and functions throw Error for invalid values; the message begins with the field, as
+// in "thickness is -1 m, expected 0 or more".
 
 namespace gpu_shading {
 
-// Layers that stand for a sheet at a shift, front and back counted: 1 + ceil(shift / web), so that
-// no ray steps over a web of that width, `most` at most; 0 past the longest way through a hole,
-// where the sheet is solid. `web` above 0, infinite allowed, shifts from 0. Round, square and
-// hexagonal holes of 64 texels, drawn so, are within 2e-3 of the closed form over theta 0 .. 85
-// degrees, on average 9e-4. With OpacityTile::web(), which leaves out the narrowest 3 %, images
-// with texels astray take as many layers as clean ones and are as near; where one web is far
-// narrower than the rest, rays step over it.
+// The number of layers that represent a sheet at a shift, front and back included: 1 + ceil(shift /
+// web), at most `most`, so that no ray steps over a web of that width; 0 beyond the longest path
+// through a hole, where the sheet is solid. `web` is above 0 and may be infinite; shifts are 0 or
+// more. Round, square and hexagonal holes of 64 texels drawn in this way are within 2e-3 of the
+// closed form for theta from 0 to 85 degrees, and within 9e-4 on average. With OpacityTile::web(),
+// which ignores the narrowest 3 %, images with stray texels take as many layers as clean ones and
+// are as accurate; if one web is far narrower than the others, rays step over it.
 int layers_for(double shift, double web, double longest_chord, int most = 64);
 
-// Share of the beam that `layers` equidistant copies of the tile over the thickness let pass, at
-// four rays for each texel: what a renderer of layers draws at twice the tile's resolution. No
-// layers: 0.
+// The fraction of the beam that passes `layers` equidistant copies of the tile over the thickness,
+// from four rays per texel. This is what a renderer of layers draws at twice the tile's resolution.
+// 0 without layers.
 double layered_transmittance(OpacityTile const& tile, int layers, double shift, double phi);
 
-// tau(theta, phi) of a sheet as a table of 120 directions phi over pi, equal steps of the shift in
-// each, linear between them.
+// tau(theta, phi) of a sheet as a table: 120 directions phi over pi, equal steps of the shift in
+// each, and linear interpolation.
 //
-// From a pattern: the closed form at 512 steps, within 1e-3 of it, 1e-5 for round holes; squares
-// end at different shifts from one phi to the next.
+// From a pattern: the closed form at 512 steps. The table is within 1e-3 of it, and within 1e-5 for
+// round holes; squares end at different shifts in neighbouring directions phi.
 //
-// From a tile: by following rays from open places, spread evenly over each region, to where they
-// meet a solid place, at steps of a texel where something is near (half a web or less, so that none
-// is stepped over). 4096 rays a region in each direction, fewer where that would take more than a
-// few seconds, 32 at least; of several regions every fourth direction, linear between these. With
-// holes of 40 texels a thousand rays or more are within 5e-3 of the closed form in each region;
-// 400, which 1024 regions get, within 1e-2 where a region holds few holes, 4e-2 at worst where it
-// holds 64 of them. The mean is within 2e-3, on average 5e-4. Rasters of coarser holes are
-// themselves farther from the closed form, 8e-3 at 10 texels. One region takes a tenth of a second,
-// 512 x 512 texels a third, larger ones some 3 to 5 s on one core, shared out to those there are;
-// regions take at most 48 MiB.
+// From a tile: rays from open points, spread evenly over each region, are followed to where they
+// meet a solid point, in steps of one texel near solid points (half a web or less, so that none is
+// stepped over). Each region has 4096 rays in each direction, or fewer if that would take more than
+// a few seconds, but at least 32; if there are several regions, every fourth direction is traced
+// and the others are interpolated linearly. With holes of 40 texels, a thousand rays or more give
+// each region within 5e-3 of the closed form. 400 rays, which 1024 regions get, are within 1e-2
+// where a region holds few holes and within 4e-2 at worst where it holds 64. The mean is within
+// 2e-3, and 5e-4 on average. Rasters of coarser holes themselves differ more from the closed form,
+// by 8e-3 at 10 texels. One region takes a tenth of a second, 512 x 512 texels a third of a second,
+// and larger rasters 3 to 5 s of one core, shared among all cores. Regions take at most 48 MiB.
 //
-// Rays are followed for 64 thicknesses (89.1 degrees), and at most for eight widths and heights of
-// the tile. A way that does not end there (slats, or a hole so long) lets as much pass farther;
-// near such a direction the table is coarse. Steps are a 64th of the mean way, or longer where the
-// longest way asks for it, up to a 16th; the table holds its last value from its end to the longest
-// chord. Of fractional opacity, less than half a step of 8 bits is taken as nothing.
+// Rays are followed for 64 thicknesses (89.1 degrees) and at most for eight widths and heights of
+// the tile. A path that does not end there (slats, or an equally long hole) passes as much beyond;
+// near such a direction the table is coarse. A step is a 64th of the mean path, or longer, up to a
+// 16th, if the longest path requires it; beyond its end, the table keeps its last value up to the
+// longest chord. A fractional opacity of less than half an 8-bit step counts as 0.
 //
-// A value: safe to share between threads.
+// Value type: safe to share between threads.
 class ScreenTransmittance {
  public:
-  // A thickness of 0 is allowed: the open fraction at every angle.
+  // A thickness of 0 is allowed and gives the open fraction at every angle.
   ScreenTransmittance(HolePattern const& pattern, double thickness);
   ScreenTransmittance(OpacityTile const& tile, double thickness);
 
-  // Angles theta outside 0 .. pi/2 are taken at the nearest end; any phi.
+  // theta is clamped to 0 .. pi/2; phi may be any angle.
   double operator()(double theta, double phi) const;
 
   double thickness() const { return thickness_; }
   double open_fraction() const { return values_.front(); }
 
-  // The shift from which nothing passes in any direction phi, anywhere, within a step; 0 where
-  // nothing passes at all, infinite where a way does not end.
+  // The shift beyond which nothing passes in any direction phi, anywhere, within a step; 0 if
+  // nothing passes at all, infinite if a path does not end.
   double longest_chord() const { return longest_chord_; }
   // tan(theta) = longest chord / thickness.
   double cut_off() const;
 
-  // The table as a texture: directions() rows, phi from 0 in steps of pi / directions(), which
-  // repeat, and steps() columns, the shift from 0 in steps of step().
+  // The table as a texture: directions() rows, phi from 0 in steps of pi / directions(), repeating;
+  // and steps() columns, the shift from 0 in steps of step().
   static constexpr int directions() { return 120; }
   int steps() const { return steps_; }
   double step() const { return step_; }
   std::span<float const> values() const { return values_; }
 
-  // Equal parts of the tile, across in u and up in v, whose transmittances differ. One of patterns,
-  // and of tiles of up to 256 texels both ways; else one for 128 texels, to the nearest, 32 at most
-  // each way. What lies between regions' centres is for a reader to interpolate bilinearly, across
-  // the tile's edges too.
+  // Equal parts of the tile, across in u and up in v, with different transmittances. Patterns, and
+  // tiles of up to 256 texels each way, have one; other tiles have one for every 128 texels,
+  // rounded, and at most 32 each way. Readers interpolate bilinearly between the centres of
+  // regions, across the tile's edges too.
   int regions_across() const { return regions_across_; }
   int regions_up() const { return regions_up_; }
 
-  // Each region's transmittance for a shift in m from 0, row after row along u, the first at v = 0:
-  // of rays that begin in it as phi goes from 0 to pi. Interpolated as operator() is, which gives
-  // their mean. With a thickness of 0 as at no shift.
+  // Transmittance of each region for a shift in m, 0 or more, row after row along u, the first row
+  // at v = 0, for rays that begin in the region as phi goes from 0 to pi. Interpolated like
+  // operator(), which gives the mean. A thickness of 0 gives the values at no shift.
   std::vector<float> at_shift(double shift, double phi) const;
 
  private:
   int regions() const { return regions_across_ * regions_up_; }
   double at(double shift, double phi) const;
-  // At a shift of so many steps, where there are several.
+  // Values at a shift of this many steps, if there are several regions.
   std::vector<float> of_regions(double place, double phi) const;
 
   double thickness_ = 0.0;
@@ -111,40 +112,39 @@ class ScreenTransmittance {
   int regions_across_ = 1;
   int regions_up_ = 1;
   int region_directions_ = 0;
-  // Of several regions: all at each step, of these all in each direction.
+  // For several regions: all regions at each step, and all steps in each direction.
   std::vector<float> region_values_;
 };
 
-// Where in a sheet the polygon of its surface lies. The outside is the side that the polygon's
-// normal points to.
+// The plane of the sheet in which the polygon of its surface lies. The outside is the side to which
+// the polygon's normal points.
 enum class SheetPlane { centre, outside, inside };
 
 // How a screen is drawn.
 enum class ScreenDetail {
-  automatic,  // holes up to pixels of one hole, effective from two on; between, a blend
-  holes,      // hole by hole, whatever the size of pixels
+  automatic,  // holes up to pixels of one hole, effective from two, and a blend between
+  holes,      // hole by hole, for any size of pixels
   effective,  // by tau(theta, phi)
 };
 
 struct Sheet {
   double thickness = 0.0;  // m, 0 allowed
   SheetPlane plane = SheetPlane::centre;
-  // Copies of the sheet's holes over its thickness that a ray has to pass, front and back counted,
-  // 1 .. 64. Nothing: as many as are needed. Of a pattern that is none: a ray passes where it is in
-  // the same hole at both faces, which is exact, since holes are convex. Of a raster: layers_for.
+  // Copies of the sheet's holes over its thickness that a ray must pass, front and back included, 1
+  // .. 64. Empty: as many as needed. A pattern needs none: a ray passes if it is in the same hole
+  // at both faces, which is exact for convex holes. A raster takes layers_for().
   std::optional<int> layers = std::nullopt;
   ScreenDetail detail = ScreenDetail::automatic;
 };
 
-// A perforated sheet of any extent, repeated over the surfaces that it is on. Safe to share between
-// threads.
+// A perforated sheet of any extent, repeated over its surfaces. Safe to share between threads.
 class PerforatedScreen {
  public:
   PerforatedScreen(HolePattern const& pattern, Sheet const& sheet);
   PerforatedScreen(OpacityTile tile, Sheet const& sheet);
 
   Sheet const& sheet() const { return sheet_; }
-  // One of them is there.
+  // Exactly one of them is set.
   std::optional<HolePattern> const& pattern() const { return pattern_; }
   std::optional<OpacityTile> const& tile() const { return tile_; }
 
@@ -152,7 +152,7 @@ class PerforatedScreen {
   double hole() const { return hole_; }  // the size of a typical hole, m
   double web() const { return web_; }
 
-  // Made at the first call, of a large raster in a few seconds.
+  // Computed at the first call, which takes a few seconds for a large raster.
   ScreenTransmittance const& transmittance() const;
 
  private:
@@ -165,12 +165,12 @@ class PerforatedScreen {
   std::shared_ptr<Lazy> lazy_;
 };
 
-// Where a screen's tile lies on a surface. Axes before `rotation`: u from the outline's second
-// vertex to its third, v counter-clockwise from it as seen from outside. (0, 0) of the tile is at
-// `origin` along these from the second vertex, and the tile is turned about it by `rotation`,
-// radians, counter-clockwise as seen from outside. A surface that is EnergyPlus's has its lower
-// left corner and its lower edge there. Seen from inside it is the mirror image, being the same
-// sheet.
+// The placement of a screen's tile on a surface. Axes before `rotation`: u from the outline's
+// second vertex to its third, v counterclockwise from u as seen from outside. The tile's (0, 0) is
+// at `origin` along these axes from the second vertex, and the tile is rotated about it by
+// `rotation`, in radians, counterclockwise as seen from outside. On EnergyPlus's surfaces, the
+// second vertex is the lower left corner and u the lower edge. Seen from inside, the tile is
+// mirrored, because it is the same sheet.
 struct ScreenPlacement {
   double origin_u = 0.0;  // m
   double origin_v = 0.0;

@@ -22,14 +22,6 @@ enum class LuminanceSum {
   readback,   // on the CPU
 };
 
-// How views are answered whose casters are opaque, transmit or are screens, without schedules; and
-// those through windows that have opaque casters alone.
-enum class PlainViews {
-  automatic,  // counted in software, where that is the faster by far; drawn on a GPU
-  drawn,      // by OpenGL, as all others are
-  counted,    // on the CPU, on all its cores (render/coverage.h)
-};
-
 struct RendererOptions {
   static constexpr double least_error = 1e-5;
   static constexpr double most_error = 0.1;
@@ -40,57 +32,57 @@ struct RendererOptions {
   // 16, until it has, up to 4096.
   std::optional<int> resolution = std::nullopt;
   // What 99 of a hundred sunlit fractions are to be right within, between those: the side of a tile
-  // follows from it and from the shadows' edges in view (render/tile_size.h).
+  // follows from it and from the shadows' edges in view (view/tile_size.h).
   double error = 1e-3;
   LuminanceSum luminance_sum = LuminanceSum::automatic;
   // Views that are drawn at once, at most; 0: as many as the bounds of the class allow. Answers are
   // the same to the bit.
   int most_layers = 0;
-  PlainViews plain_views = PlainViews::automatic;
 };
 
-// What the sun lights through one combination of scheduled shades.
+// The area that the sun lights through one combination of scheduled shades.
 struct ScheduledPart {
-  std::vector<std::pair<int, int>> powers;  // schedule, and how many of its shades; by schedule
-  double projected_area = 0.0;              // m2 at factors of 1; transmittances are in it
+  std::vector<std::pair<int, int>> powers;  // schedule and number of its shades, sorted by schedule
+  double projected_area = 0.0;              // m2 at factors of 1, transmittances included
 };
 
-// All that passes, with factors[schedule]: each part times the factors of what it passes to their
-// powers. Throws Error when there are too few.
+// The total with factors[schedule]: each part times the factors of its schedules, raised to the
+// numbers of their shades. Throws Error if there are too few factors.
 double through_schedules(std::span<ScheduledPart const> parts, std::span<double const> factors);
 
-// What the sun sees of one receiver.
+// The sunlit area of one receiver.
 struct Sunlit {
   // Projected sunlit surface area (PSSA), m2 normal to the beam: the receiver's exact projected
-  // area times its lit share of its own pixels, each by what unscheduled shades before it let
-  // through. 0 where it is turned away from the sun. What passes scheduled shades comes on top.
+  // area times the sunlit fraction of its own pixels, each weighted by the transmittance of the
+  // unscheduled shades in front of it. 0 if the receiver faces away from the sun. What passes
+  // scheduled shades is added to it.
   double projected_area = 0.0;
   // The same by plain pixel counting, N x Ap (Jones et al. 2012), for comparison.
   double pixel_counted_area = 0.0;
-  // Each combination of schedules once.
+  // One part for each combination of schedules.
   std::vector<ScheduledPart> scheduled;
 
-  // All of it, with factors[schedule]. Throws Error when there are too few.
+  // The total with factors[schedule]. Throws Error if there are too few factors.
   double at(std::span<double const> factors) const {
     return projected_area + through_schedules(scheduled, factors);
   }
 };
 
-// The surfaces that the sun may reach through a window.
+// The interior surfaces that the sun may reach through a window.
 struct InteriorQuestion {
   SurfaceId window = 0;
   std::vector<SurfaceId> interiors;
 };
 
 struct RendererStatistics {
-  std::size_t directions = 0;       // asked for by projected_sunlit_areas
-  std::size_t receivers_drawn = 0;  // receiver and direction pairs that had a caster in view
-  std::size_t receivers_clear = 0;  // pairs answered exactly: lit, with nothing in view
-  std::size_t casters_drawn = 0;    // over all drawn pairs
-  std::size_t luminance_views = 0;  // of the drawn pairs, those with a shade that transmits in view
-  double seconds = 0.0;             // wall time spent in the renderer; of it:
-  double cull_seconds = 0.0;        // finding what is in view
-  double submit_seconds = 0.0;      // gathering, uploading and issuing draws
+  std::size_t directions = 0;       // requested by projected_sunlit_areas
+  std::size_t receivers_drawn = 0;  // pairs of receiver and direction with a caster in view
+  std::size_t receivers_clear = 0;  // pairs answered exactly: sunlit, with nothing in view
+  std::size_t casters_drawn = 0;    // sum over all drawn pairs
+  std::size_t luminance_views = 0;  // drawn pairs with a transmitting shade in view
+  double seconds = 0.0;             // wall-clock time in the renderer, of which:
+  double cull_seconds = 0.0;        // finding casters in view
+  double submit_seconds = 0.0;      // collecting, uploading and issuing draws
   double count_seconds = 0.0;       // counting plain views on the CPU
   double wait_seconds = 0.0;        // waiting for the device
   double read_seconds = 0.0;        // sums on the CPU
@@ -106,8 +98,8 @@ struct Image {
   std::vector<std::uint8_t> pixels;
 };
 
-// Draws receivers as the sun sees them. Holds an EGL context of its own: one thread at a time, but
-// any thread. Every function throws DeviceError when the device fails; no answer is ever made up.
+// Renders receivers as the sun sees them, by OpenGL or on the CPU. One thread at a time, but any
+// thread. Every function throws DeviceError when the device fails; no answer is ever made up.
 // Error when too many scheduled shades are in one view to be told apart: the binary digits of how
 // many there are of each schedule have to fit three times 24.
 //
@@ -123,15 +115,14 @@ struct Image {
 // Greenberg); opaque ones by 0. Its mean over the receiver's pixels takes the place of their lit
 // share, and equals it where all are opaque.
 //
-// In software, plain views (PlainViews) are not drawn but counted on the CPU, by the same rule and
-// on the same lattice: a bit a pixel, and a luminance of 32 bits where something transmits, convex
-// pieces row by row, screens ray by ray, on all cores. OpenGL rounds corners to parts of a pixel
-// first, so that the two differ where shadows' edges meet the middles of pixels: by 1e-5 in the
-// mean of random scenes at 512 pixels.
+// The CPU rasterises by the same rule and on the same lattice as OpenGL: a bit for each pixel, and
+// a luminance of 32 bits where something transmits, convex pieces row by row, screens ray by ray,
+// on all cores. OpenGL rounds corners to parts of a pixel first, so that the two differ where the
+// edges of shadows meet the centres of pixels: by 1e-5 in the mean of random scenes at 512 pixels.
 //
-// Views are drawn many at once, each to a layer of its own of an array of textures, so that a view
-// has the same pixels whatever it is drawn with: answers do not depend on what else is asked. The
-// CPU culls for the next views while the device draws; one submission is under way in software,
+// OpenGL draws many views at once, each to a layer of its own of an array of textures, so that a
+// view has the same pixels whatever it is drawn with: answers do not depend on what else is asked.
+// The CPU culls for the next views while the device draws; one submission is under way in software,
 // three on a GPU. Memory beside the scene's and the answers': on the host about 100 MiB; on the
 // device a target takes 1 MiB in software, 32 MiB on a GPU, or one layer where that is more (16
 // bytes a pixel where schedules are told apart, 24 for interiors behind shades), all of them 64 and
@@ -151,27 +142,27 @@ class Renderer {
   DeviceInfo const& device() const;
   RendererStatistics const& statistics() const;
 
-  // From here on, of screens that slide or fold away, the share that is in place: by
-  // Surface::deployment, 0 .. 1, all of it where there are too few. The rest of such a screen lets
-  // everything pass.
+  // Sets the deployed fractions of screens from now on, by Surface::deployment, 0 .. 1; screens
+  // beyond the end are fully deployed. The rest of a screen lets everything pass.
   void set_deployments(std::vector<double> shares);
 
-  // One answer for each receiver, in order.
+  // Returns one answer per receiver, in order.
   std::vector<Sunlit> projected_sunlit_areas(SunDirection sun,
                                              std::span<SurfaceId const> receivers);
 
-  // The same for each direction, in order: faster than one after another.
+  // The same for each direction, in order; faster than one call per direction.
   std::vector<std::vector<Sunlit>> projected_sunlit_areas(std::span<SunDirection const> suns,
                                                           std::span<SurfaceId const> receivers);
 
   // Projected areas (m2 normal to the beam) of each of `interiors` that the sun lights through
-  // `window` alone, behind the window's own casters; the nearest interior surface along a ray takes
-  // it. In the order of `interiors`; their sum is at most the window's projected sunlit area.
+  // `window` alone, behind the window's own casters; the nearest interior surface along a ray
+  // receives it. In the order of `interiors`; their sum is at most the window's projected sunlit
+  // area.
   std::vector<Sunlit> interior_sunlit_areas(SunDirection sun, SurfaceId window,
                                             std::span<SurfaceId const> interiors);
 
-  // The same for each direction, and of each for each window, in order: faster than one after
-  // another.
+  // The same for each direction and, within it, for each window, in order; faster than one call
+  // each.
   std::vector<std::vector<std::vector<Sunlit>>> interior_sunlit_areas(
       std::span<SunDirection const> suns, std::span<InteriorQuestion const> questions);
 

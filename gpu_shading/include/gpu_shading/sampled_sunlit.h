@@ -14,36 +14,37 @@
 
 namespace gpu_shading {
 
-// Which of the sun's directions over a year are sampled.
+// The choice of sampled sun directions over a year.
 struct Sampling {
   enum class Density { fine, medium, coarse };
 
   Density density = Density::medium;
-  // Every 14th day, at every 10, 15 or 20 degrees of azimuth, after Jones & Greenberg's
+  // Every 14th day at steps of 10, 15 or 20 degrees of azimuth, like Jones & Greenberg's
   // preprocessor; for comparison.
   bool paper_grid = false;
 
   bool operator==(Sampling const&) const = default;
 };
 
-// Directions that our own samples have at most: 480, 320 and 238, no more than the paper's grid of
+// Maximum number of directions of our own modes: 480, 320 and 238, no more than the paper's grid of
 // the same density has at 42 degrees north.
 std::size_t most_directions(Sampling::Density density);
 
-// What the sun sees of each receiver, in order, for each of the directions, in order.
+// The sunlit areas of each receiver, in order, for each direction, in order.
 using SunlitSource =
     std::function<std::vector<std::vector<Sunlit>>(std::span<SunDirection const> directions)>;
 
-// Sampled fractions of a receiver: of the beam that passes unscheduled shades alone, or of what
-// passes one combination of scheduled ones.
+// Sampled fractions of a receiver, either of the beam that passes unscheduled shades alone, or of
+// the beam that passes one combination of scheduled shades.
 struct SampledFractions {
   std::size_t receiver;
-  std::vector<std::pair<int, int>> powers;  // as in ScheduledPart; none: unscheduled
-  std::vector<double> fractions;  // by direction; 0 .. 1, and 0 where the receiver is turned away
+  std::vector<std::pair<int, int>> powers;  // as in ScheduledPart; empty: unscheduled
+  std::vector<double>
+      fractions;  // by direction; 0 .. 1, and 0 if the receiver faces away from the sun
 };
 
-// The directions that are sampled, round by round: what is seen at those of one round tells those
-// of the next. A grid of the paper's has one round. The same answers give the same directions.
+// The sampled directions, round by round: the answers of one round determine the directions of the
+// next. The paper's grids have one round. Equal answers give equal directions.
 class SampleRounds {
  public:
   // Latitude in radians, north positive. `receivers`: unit normal times net area (m2).
@@ -54,10 +55,10 @@ class SampleRounds {
   SampleRounds(SampleRounds&&) noexcept;
   SampleRounds& operator=(SampleRounds&&) noexcept;
 
-  // Of the round at hand; none after the last.
+  // The directions of the current round; empty after the last.
   std::vector<SunDirection> const& directions() const;
 
-  // What is seen at them, by direction and receiver; the next round is at hand then.
+  // Takes the answers at these directions, by direction and receiver, and starts the next round.
   void add(std::vector<std::vector<Sunlit>> const& answers);
 
  private:
@@ -66,26 +67,28 @@ class SampleRounds {
   std::unique_ptr<Implementation> implementation_;
 };
 
-// Sunlit areas at any of the sun's positions over the years, from samples: between the solstices
-// they depend on the direction alone, so that one sample serves spring and autumn, morning
-// schedules and any weather.
+// Sunlit areas at any sun position over the years, interpolated between samples. Between the
+// solstices they depend on the direction alone, so one sample serves spring and autumn, any
+// schedule and any weather.
 //
-// What is interpolated is the sunlit fraction, without the cosine of incidence, of each receiver
-// and of each combination of scheduled shades: by radial splines (Duchon 1977) through the
-// directions at which the sun faces the receiver, so that nothing is pieced together at sunrise, at
-// midnight in polar day, or where the sun turns away. Over where shadows fall on the receiver's
-// plane or over the direction, whichever tells a sample better from all the others (leave-one-out).
-// Six tenths of the directions lie on arcs of equal declination, every other arc half a step on;
-// the others go where all the other samples miss a sample most, over all receivers, in three
-// rounds. Fractions are held within 0 .. 1, and so are their sums.
+// The interpolated quantity is the sunlit fraction, without the cosine of incidence, of each
+// receiver and of each combination of scheduled shades. Radial splines (Duchon 1977) are fitted
+// through the directions at which the sun faces the receiver, so that there are no seams at
+// sunrise, at midnight in polar day, or where the sun turns away. They are functions of where
+// shadows fall on the receiver's plane or of the direction, whichever predicts the samples better
+// from one another (leave-one-out). Six tenths of the directions lie on arcs of equal declination,
+// with every other arc offset by half a step; the others are added in three rounds where the other
+// samples predict a sample worst, over all receivers. Fractions are limited to 0 .. 1, and so are
+// their sums.
 //
-// The paper's grid instead has cubic B-splines along the azimuth and then across the days.
+// The paper's grid instead uses cubic B-splines along the azimuth and then across the days.
 class SampledSunlit {
  public:
-  // As SampleRounds. Asks `source` a few times, for many directions at once. Throws what it throws.
+  // Parameters as for SampleRounds. Calls `source` a few times, for many directions at once, and
+  // passes on its exceptions.
   SampledSunlit(Sampling sampling, double latitude, std::vector<glm::dvec3> receivers,
                 SunlitSource const& source);
-  // From all rounds.
+  // Constructs it from the answers of all rounds.
   explicit SampledSunlit(SampleRounds rounds);
   ~SampledSunlit();
   SampledSunlit(SampledSunlit const&) = delete;
@@ -93,21 +96,21 @@ class SampledSunlit {
   SampledSunlit(SampledSunlit&&) noexcept;
   SampledSunlit& operator=(SampledSunlit&&) noexcept;
 
-  // Other receivers from samples at the same directions.
+  // The same for other receivers, from samples at the same directions.
   SampledSunlit with(std::vector<glm::dvec3> receivers, SunlitSource const& source) const;
 
   // Of every receiver; pixel_counted_area is 0. For directions that in_suns_range() has.
   std::vector<Sunlit> at(SunDirection direction) const;
 
-  // False where the sun faces the receiver at none of the samples: its answers are then 0.
+  // False if the sun faces the receiver at none of the samples: its answers are then 0.
   bool knows(std::size_t receiver) const;
 
   std::vector<SunDirection> const& directions() const;
 
-  // The samples themselves; first one unscheduled of each receiver, in order.
+  // The samples themselves: first the unscheduled ones of each receiver, in order.
   std::vector<SampledFractions> const& fractions() const;
 
-  // Whether the sun faces a receiver at each of directions().
+  // Whether the sun faces a receiver, for each of directions().
   std::vector<bool> const& lit(std::size_t receiver) const;
 
  private:
@@ -117,8 +120,8 @@ class SampledSunlit {
   std::unique_ptr<Implementation> implementation_;
 };
 
-// Whether the sun ever stands there: not below the horizon, nor beyond a solstice's arc by more
-// than a tenth of a degree. Latitude in radians.
+// Whether the sun can be in this direction: not below the horizon, and not beyond a solstice's arc
+// by more than a tenth of a degree. Latitude in radians.
 bool in_suns_range(SunDirection direction, double latitude);
 
 }  // namespace gpu_shading

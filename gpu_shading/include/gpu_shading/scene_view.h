@@ -11,8 +11,8 @@
 
 namespace gpu_shading {
 
-// Draws a whole scene as the sun sees it, a parallel projection along its rays with its head up.
-// Holds an EGL context of its own. Every function throws DeviceError when the device fails.
+// Draws a whole scene as the sun sees it, a parallel projection along its rays with its head up, on
+// the CPU or by OpenGL. Every function throws DeviceError when the device fails.
 class SceneView {
  public:
   // `shown`: the surfaces that are drawn, of a scene that outlives this. Those that transmit are

@@ -8,15 +8,15 @@
 
 namespace gpu_shading {
 
-// Elevations at the nodes of a grid along a map's axes.
+// Elevations at the nodes of a grid along the axes of a map.
 struct TerrainGrid {
   MapCoordinates coordinates;
-  MapPoint first;       // the south-western node
+  MapPoint first;       // the south-west node
   double step_x = 0.0;  // between nodes, in the map's units
   double step_y = 0.0;
   int columns = 0;
   int rows = 0;
-  // m, rows from the south, each from the west; not a number where the grid has no data.
+  // In m, rows from the south, each from the west; NaN where the grid has no data.
   std::vector<double> elevations;
 
   double elevation(int column, int row) const {
@@ -25,12 +25,13 @@ struct TerrainGrid {
   }
 };
 
-// Bilinear between the nodes; nothing outside the grid and where one of the four has no data.
+// Bilinear interpolation between the nodes; empty outside the grid and where one of the four nodes
+// has no data.
 std::optional<double> elevation_at(TerrainGrid const& grid, GeographicPoint const& place);
 
-// The ground as polygons in the axes, facing up: a quadrilateral for each four nodes, a triangle
-// where one of them has no data. Those with a node nearer to the axes' origin than
-// `clear_distance`, in plan, are left out. Throws Error where a node is nowhere on earth.
+// The ground as polygons in the axes, facing up: a quadrilateral for each four nodes, or a triangle
+// if one of them has no data. Polygons with a node closer to the origin of the axes than
+// `clear_distance`, in plan, are left out. Throws Error if a node is not on the earth.
 std::vector<Polygon> ground(TerrainGrid const& grid, LocalAxes const& axes, double clear_distance);
 
 }  // namespace gpu_shading

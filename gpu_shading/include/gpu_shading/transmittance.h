@@ -7,60 +7,61 @@
 
 namespace gpu_shading {
 
-// A glass pane's solar properties at normal incidence, each 0 .. 1; transmittance plus either
-// reflectance at most 1. Thickness does not enter: only its product with the absorption coefficient
-// does, and that follows from these. Dirt on a pane is a factor on its transmittance, the caller's.
+// Solar properties of a glass pane at normal incidence, each 0 .. 1; transmittance plus either
+// reflectance at most 1. Thickness is not needed: only its product with the absorption coefficient
+// matters, which follows from these. Callers multiply the transmittance by a factor for dirt.
 struct GlassLayer {
   double transmittance = 0.0;
-  double front_reflectance = 0.0;  // of the face towards the sun
+  double front_reflectance = 0.0;  // of the face that faces the sun
   double back_reflectance = 0.0;
 };
 
-// A window known by its rating alone.
+// A window described by its rating alone.
 struct SimpleGlazing {
   double u_factor = 0.0;  // W/(m2 K) with film coefficients, above 0, at most 7
   double shgc = 0.0;      // solar heat gain coefficient at normal incidence, between 0 and 1
 };
 
-// Beam solar transmittance of a flat shade over the angle of incidence, the same through both
-// faces: tau(angle), 0 .. 1, the angle in radians from the normal, 0 .. pi/2. What lies outside
-// that is taken at its nearest end, so that rounding does no harm; at grazing incidence a model
-// gives its own value. A value: cheap to copy, safe to share between threads.
+// Beam solar transmittance of a flat shade by angle of incidence, the same through both faces:
+// tau(angle), 0 .. 1, for angles in radians from the normal, 0 .. pi/2. Angles outside this range
+// are clamped, so that rounding is harmless; at grazing incidence, a model returns its own value.
+// Value type: cheap to copy, safe to share between threads.
 //
-// Each function below throws Error when the model it makes is not one: the message begins with the
-// field, as in "transmittance is 1.3 at 40 degrees, expected 0 to 1".
+// Each function below throws Error for an invalid model: the message begins with the field, as in
+// "transmittance is 1.3 at 40 degrees, expected 0 to 1".
 class Transmittance {
  public:
-  // 0: opaque.
+  // The default is 0, opaque.
   Transmittance();
 
   double operator()(double angle) const;
 
   static Transmittance constant(double value);
 
-  // `model` times a factor, 0 .. 1, at every angle: dirt, or a fixed share of holes.
+  // `model` times a factor, 0 .. 1, at every angle: dirt, or a constant open fraction.
   static Transmittance product(Transmittance const& model, double factor);
 
-  // c[0] + c[1] x + ... + c[8] x^8 at most, x the angle in degrees, or its cosine. Has to lie in
-  // 0 .. 1 at every tenth of a degree, within 1e-9.
+  // c[0] + c[1] x + ... + c[8] x^8 at most, where x is the angle in degrees, or its cosine. Must be
+  // within 0 .. 1 at every tenth of a degree, to within 1e-9.
   static Transmittance polynomial_in_degrees(std::vector<double> coefficients);
   static Transmittance polynomial_in_cosine(std::vector<double> coefficients);
 
-  // Through two points or more; angles in degrees, increasing, 0 .. 90. Between them monotone cubic
-  // (PCHIP; Fritsch & Carlson 1980), so that it never leaves the range of its neighbours, or
-  // straight where there are fewer than four; beyond the first and last, constant.
+  // Interpolates two or more points; angles in degrees, increasing, 0 .. 90. Between points it is
+  // monotone cubic (PCHIP; Fritsch & Carlson 1980), so that it never leaves the range of its
+  // neighbours, or linear if there are fewer than four points; beyond the first and last point it
+  // is constant.
   static Transmittance table(std::vector<double> angles, std::vector<double> values);
 
-  // Panes from the one towards the sun to the innermost, with inter-reflection between them, after
+  // Panes from the one facing the sun to the innermost, with inter-reflection between them, after
   // the EnergyPlus Engineering Reference, "Window Calculation Module": "Glazing System Properties"
-  // and "Calculation of Angular Properties". As in EnergyPlus, a pane is uncoated where the
-  // interface reflectivities that its front and its back reflectance imply differ by less than 0.1
-  // % of their sum (Fresnel, for each polarisation, averaged), and coated otherwise (regressions on
-  // clear glass above 0.645 of transmittance, on bronze glass to there).
+  // and "Calculation of Angular Properties". As in EnergyPlus, a pane is uncoated if the interface
+  // reflectivities that its front and back reflectance imply differ by less than 0.1 % of their sum
+  // (Fresnel equations, averaged over both polarisations), and coated otherwise (regressions for
+  // clear glass above a transmittance of 0.645, and for bronze glass up to it).
   static Transmittance glazing(std::span<GlassLayer const> layers);
 
-  // The same reference, "Simple Window Model", steps 4 and 7: the transmittance at normal incidence
-  // and the angular curves that U-factor and SHGC select.
+  // After "Simple Window Model" in the same reference, steps 4 and 7: the transmittance at normal
+  // incidence and the angular curves that U-factor and SHGC select.
   static Transmittance glazing(SimpleGlazing const& window);
 
  private:
@@ -88,11 +89,11 @@ Transmittance read_angular_csv(std::filesystem::path const& path);
 // Throws Error when there are fewer than two samples.
 std::vector<float> sample(Transmittance const& model, int samples);
 
-// Largest difference between the model and its samples, interpolated linearly.
+// Largest difference between the model and linear interpolation of its samples.
 double sampling_error(Transmittance const& model, std::span<float const> samples);
 
-// The smallest 2^k + 1 samples that are within `tolerance`, 2 .. 4097; 4097 where that is not
-// enough.
+// The smallest number of samples, 2^k + 1 within 2 .. 4097, that is within `tolerance`; 4097 if
+// none is.
 int samples_within(Transmittance const& model, double tolerance);
 
 }  // namespace gpu_shading

@@ -1,8 +1,8 @@
 /* A program of its own that runs EnergyPlus through its C API, shaded by the GPU.
  *
- *   host PREFIX OPTIONS RUNS [EnergyPlus's arguments ...]
+ *   host PREFIX OPTION RUNS [EnergyPlus's arguments ...]
  *
- * PREFIX is a patched EnergyPlus; OPTIONS are the launcher's flags, "" for none; RUNS is how many
+ * PREFIX is a patched EnergyPlus; OPTION is a flag of the launcher, "" for none; RUNS is how many
  * times to run, each with a state of its own. Build it with: cc host.c -ldl
  */
 #include <dlfcn.h>
@@ -34,14 +34,14 @@ static void* find(void* library, char const* name) {
 
 int main(int argc, char** argv) {
   if (argc < 4) {
-    fprintf(stderr, "usage: host PREFIX OPTIONS RUNS [EnergyPlus's arguments ...]\n");
+    fprintf(stderr, "usage: host PREFIX OPTION RUNS [EnergyPlus's arguments ...]\n");
     return 2;
   }
   char const* const prefix = argv[1];
   void* const energyplus_library = load(prefix, "libenergyplusapi.so");
   void* const gpu_shading = load(prefix, "libgpu_shading_energyplus.so");
 
-  int (*install)(char const*, char const*) = find(gpu_shading, "gpu_shading_install");
+  int (*install)(char const*, int, char const* const*) = find(gpu_shading, "gpu_shading_install");
   char const* (*message)(void) = find(gpu_shading, "gpu_shading_message");
   State (*new_state)(void) = find(energyplus_library, "stateNew");
   void (*delete_state)(State) = find(energyplus_library, "stateDelete");
@@ -51,7 +51,8 @@ int main(int argc, char** argv) {
   /* Once, before the first run. */
   char library_path[4096];
   snprintf(library_path, sizeof library_path, "%s/libenergyplusapi.so", prefix);
-  if (install(library_path, argv[2]) != 0) {
+  char const* const options[] = {argv[2]};
+  if (install(library_path, argv[2][0] == '\0' ? 0 : 1, options) != 0) {
     fprintf(stderr, "host: %s\n", message());
     return 1;
   }

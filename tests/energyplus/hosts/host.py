@@ -12,14 +12,15 @@ import sys
 from pathlib import Path
 
 
-def install(prefix, options=""):
+def install(prefix, options=()):
     """Takes over the shading of the EnergyPlus in prefix, for all runs of this process."""
     # Kept loaded, and local: EnergyPlus carries copies of libraries that Python has from elsewhere.
     energyplus = ctypes.CDLL(str(prefix / "libenergyplusapi.so"), mode=ctypes.RTLD_LOCAL)
     gpu_shading = ctypes.CDLL(str(prefix / "libgpu_shading_energyplus.so"), mode=ctypes.RTLD_LOCAL)
-    gpu_shading.gpu_shading_install.argtypes = [ctypes.c_char_p, ctypes.c_char_p]
+    gpu_shading.gpu_shading_install.argtypes = [ctypes.c_char_p, ctypes.c_int, ctypes.POINTER(ctypes.c_char_p)]
     gpu_shading.gpu_shading_message.restype = ctypes.c_char_p
-    if gpu_shading.gpu_shading_install(str(prefix / "libenergyplusapi.so").encode(), options.encode()) != 0:
+    words = (ctypes.c_char_p * len(options))(*(word.encode() for word in options))
+    if gpu_shading.gpu_shading_install(str(prefix / "libenergyplusapi.so").encode(), len(words), words) != 0:
         raise RuntimeError(gpu_shading.gpu_shading_message().decode())
     return energyplus
 
@@ -45,7 +46,7 @@ def main():
         return 2
     prefix, options, runs = Path(sys.argv[1]), sys.argv[2], int(sys.argv[3])
     try:
-        energyplus = install(prefix, options)
+        energyplus = install(prefix, options.split())
     except (OSError, RuntimeError) as error:
         print(f"host: {error}", file=sys.stderr)
         return 1

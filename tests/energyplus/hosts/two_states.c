@@ -1,6 +1,6 @@
 /* Two EnergyPlus states at the same time in one process, each on a thread of its own.
  *
- *   two_states PREFIX OPTIONS WEATHER MODEL FOLDER MODEL FOLDER
+ *   two_states PREFIX OPTION WEATHER MODEL FOLDER MODEL FOLDER
  *
  * Runs each MODEL's design days into its FOLDER. Build it with: cc two_states.c -ldl -lpthread
  */
@@ -43,7 +43,7 @@ static void* run(void* argument) {
 
 int main(int argc, char** argv) {
   if (argc != 8) {
-    fprintf(stderr, "usage: two_states PREFIX OPTIONS WEATHER MODEL FOLDER MODEL FOLDER\n");
+    fprintf(stderr, "usage: two_states PREFIX OPTION WEATHER MODEL FOLDER MODEL FOLDER\n");
     return 2;
   }
   char path[4096];
@@ -56,9 +56,10 @@ int main(int argc, char** argv) {
   char patch[4096];
   snprintf(patch, sizeof patch, "%s/libgpu_shading_energyplus.so", argv[1]);
   void* const shading = dlopen(patch, RTLD_NOW | RTLD_LOCAL);
-  int (*install)(char const*, char const*) = find(shading, "gpu_shading_install");
+  int (*install)(char const*, int, char const* const*) = find(shading, "gpu_shading_install");
   char const* (*message)(void) = find(shading, "gpu_shading_message");
-  if (install(path, argv[2]) != 0) {
+  char const* const options[] = {argv[2]};
+  if (install(path, 1, options) != 0) {
     fprintf(stderr, "two_states: %s\n", message());
     return 1;
   }

@@ -1,4 +1,4 @@
-#include "session/answers.h"
+#include "cache/answers.h"
 
 #include <gtest/gtest.h>
 
@@ -44,6 +44,7 @@ TEST(Answers, MemoryIsBounded) {
   scheduled.scheduled.push_back({{{0, 1}, {1, 2}}, 0.5});
   std::size_t entries = 0;
   for (int i = 0; i < 5000; ++i) {
+    answers.make_room();
     auto& direction = answers.at({i * 0.001, 0.5}, 0);
     for (ReceiverNumber receiver = 0; receiver < 10; ++receiver) {
       answers.keep(direction, receiver, scheduled);

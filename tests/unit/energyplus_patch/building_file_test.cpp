@@ -5,9 +5,9 @@
 
 #include <fstream>
 
+#include "base/process.h"
 #include "gpu_shading/error.h"
-#include "program/process.h"
-#include "refusal.h"
+#include "support/refusal.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -25,7 +25,9 @@ std::string collection(std::string const& features, std::string const& more = ""
   return R"({"type": "FeatureCollection", "features": [)" + features + "]" + more + "}";
 }
 
-BuildingFile read(std::string const& text, HeightRule const& heights = {},
+HeightRule const usual{"height", "building:levels", 3.0, std::nullopt};
+
+BuildingFile read(std::string const& text, HeightRule const& heights = usual,
                   std::optional<MapCoordinates> const& coordinates = std::nullopt) {
   TemporaryFolder const folder;
   auto const path = folder.path() / "town.geojson";
@@ -38,7 +40,7 @@ std::string refusal(std::string const& text) {
 }
 
 TEST(BuildingFile, HeightsAsTheyAreGiven) {
-  HeightRule rule;
+  auto rule = usual;
   rule.storey = 2.5;
   rule.otherwise = 7.0;
   auto const file = read(collection(feature(R"({"height": 12})") + "," +
@@ -102,9 +104,9 @@ TEST(BuildingFile, CoordinatesAreTheFilesOrTheUsers) {
   EXPECT_NEAR(file.buildings[0].parts[0].outline[0].longitude, 8.54, 0.01);
   EXPECT_NEAR(file.buildings[0].parts[0].outline[0].latitude, 47.38, 0.01);
   EXPECT_NEAR(
-      read(with(""), {}, MapCoordinates::parse("32N")).buildings[0].parts[0].outline[0].latitude,
+      read(with(""), usual, MapCoordinates::parse("32N")).buildings[0].parts[0].outline[0].latitude,
       47.38, 0.01);
-  EXPECT_THAT(refusal(with("")), HasSubstr("are not degrees of WGS84"));
+  EXPECT_THAT(refusal(with("")), HasSubstr("are not WGS84 degrees"));
   EXPECT_THAT(refusal(with(R"(, "crs": {"type": "name", "properties": {"name": "EPSG:2056"}})")),
               HasSubstr("crs is \"EPSG:2056\", expected WGS84"));
 }
@@ -112,7 +114,7 @@ TEST(BuildingFile, CoordinatesAreTheFilesOrTheUsers) {
 TEST(BuildingFile, SaysWhatIsWrong) {
   EXPECT_THAT(refusal("{"), HasSubstr("town.geojson: is not GeoJSON"));
   EXPECT_THAT(refusal("[1, 2]"), HasSubstr("is not GeoJSON: it has no type"));
-  EXPECT_THAT(refusal(collection("")), HasSubstr("holds no Polygon"));
+  EXPECT_THAT(refusal(collection("")), HasSubstr("has no Polygon"));
   EXPECT_THAT(refusal(collection(feature(R"({"name": "Hall"})"))),
               HasSubstr("feature 1 (Hall): has neither height nor building:levels"));
   EXPECT_THAT(refusal(feature(R"({"height": "high"})")),

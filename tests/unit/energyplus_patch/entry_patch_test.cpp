@@ -77,7 +77,7 @@ TEST(EntryPatch, OneBadEntryLeavesAllAsTheyWereAndAllAreNamed) {
 
 TEST(EntryPatch, OptionalEntryMayBeMissing) {
   PatchTarget const target("optional");
-  Entry optional{"not_there", address(&nine)};
+  EntryPatch optional{"not_there", address(&nine)};
   optional.needed = false;
   patch_entries(target.symbols(), {optional, {twice_name, address(&hundred)}});
   EXPECT_EQ(target.call("call_twice", 21), 100);

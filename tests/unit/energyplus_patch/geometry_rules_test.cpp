@@ -1,4 +1,4 @@
-#include "lean/geometry_rules.h"
+#include "model/geometry_rules.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "gpu_shading/error.h"
-#include "input/model_file.h"
+#include "idf/model_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -11,14 +11,17 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
+#include <iterator>
 #include <limits>
 
+#include "base/process.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/local_axes.h"
-#include "program/process.h"
-#include "refusal.h"
 #include "site/terrain_file.h"
+#include "support/refusal.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -148,10 +151,10 @@ TEST(GeoTiff, GivenCoordinatesComeFirst) {
 
 TEST(GeoTiff, SaysWhatIsWrong) {
   auto const refusal = [](Tiff const& what) { return refusal_of([&] { read(what); }); };
-  EXPECT_THAT(refusal({.epsg = 0}), HasSubstr("hill.tif: does not say what its coordinates are"));
+  EXPECT_THAT(refusal({.epsg = 0}), HasSubstr("hill.tif: does not state its coordinates"));
   EXPECT_THAT(refusal({.epsg = 2154}), HasSubstr("is in EPSG:2154, expected WGS84 or UTM"));
   EXPECT_THAT(refusal({.channels = 3}), HasSubstr("3 channels, expected one"));
-  EXPECT_THAT(refusal({.placed = false}), HasSubstr("does not say where its cells lie"));
+  EXPECT_THAT(refusal({.placed = false}), HasSubstr("does not state the position of its cells"));
   EXPECT_THAT(refusal({.vertical_unit = Linear_Foot}), HasSubstr("not in metres"));
   EXPECT_THAT(refusal({.matrix = {8, 6, 0, 1000, 6, -8, 0, 2000, 0, 0, 0, 0, 0, 0, 0, 1}}),
               HasSubstr("its rows do not run east"));
@@ -159,6 +162,132 @@ TEST(GeoTiff, SaysWhatIsWrong) {
   auto const cut = folder.path() / "cut.tif";
   std::ofstream(cut, std::ios::binary) << std::string("II*\0\x08\0\0", 7);
   EXPECT_THROW(read_terrain(cut, {}), Error);
+}
+
+// 40 x 30 cells, in strips of 7 rows or tiles of 16 x 16, compressed or not.
+struct Large {
+  bool tiled = false;
+  int compression = COMPRESSION_NONE;
+  float last = 100.0F;  // its last elevation
+};
+
+std::string large(Large const& what, std::filesystem::path const& path) {
+  constexpr std::uint32_t columns = 40;
+  constexpr std::uint32_t rows = 30;
+  constexpr std::uint32_t side = 16;
+  TIFF* const file = XTIFFOpen(path.c_str(), "w");
+  TIFFSetField(file, TIFFTAG_IMAGEWIDTH, columns);
+  TIFFSetField(file, TIFFTAG_IMAGELENGTH, rows);
+  TIFFSetField(file, TIFFTAG_SAMPLESPERPIXEL, 1);
+  TIFFSetField(file, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+  TIFFSetField(file, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+  TIFFSetField(file, TIFFTAG_BITSPERSAMPLE, 32);
+  TIFFSetField(file, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP);
+  TIFFSetField(file, TIFFTAG_COMPRESSION, what.compression);
+  if (what.tiled) {
+    TIFFSetField(file, TIFFTAG_TILEWIDTH, side);
+    TIFFSetField(file, TIFFTAG_TILELENGTH, side);
+  } else {
+    TIFFSetField(file, TIFFTAG_ROWSPERSTRIP, 7);
+  }
+  std::array<double, 3> const scale{10.0, 10.0, 0.0};
+  std::array<double, 6> const tie{0.0, 0.0, 0.0, 1000.0, 2020.0, 0.0};
+  TIFFSetField(file, TIFFTAG_GEOPIXELSCALE, 3, scale.data());
+  TIFFSetField(file, TIFFTAG_GEOTIEPOINTS, 6, tie.data());
+  GTIF* const keys = GTIFNew(file);
+  GTIFKeySet(keys, GTModelTypeGeoKey, TYPE_SHORT, 1, ModelTypeProjected);
+  GTIFKeySet(keys, ProjectedCSTypeGeoKey, TYPE_SHORT, 1, 32613);
+  GTIFWriteKeys(keys);
+  GTIFFree(keys);
+  if (what.tiled) {
+    std::vector<float> tile(std::size_t{side} * side, 100.0F);
+    for (std::uint32_t y = 0; y < rows; y += side) {
+      for (std::uint32_t x = 0; x < columns; x += side) {
+        TIFFWriteTile(file, tile.data(), x, y, 0, 0);
+      }
+    }
+  } else {
+    std::vector<float> line(columns, 100.0F);
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      if (row == rows - 1) line.back() = what.last;
+      TIFFWriteScanline(file, line.data(), row);
+    }
+  }
+  XTIFFClose(file);
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string reading(std::filesystem::path const& path) {
+  return refusal_of([&] { read_terrain(path, {}); });
+}
+
+// They were read as elevation 0.
+TEST(GeoTiff, DataThatIsMissingOrDamagedIsRefused) {
+  TemporaryFolder const folder;
+  auto const path = folder.path() / "hill.tif";
+  for (bool const tiled : {false, true}) {
+    for (int const compression : {COMPRESSION_NONE, COMPRESSION_ADOBE_DEFLATE, COMPRESSION_LZW}) {
+      auto const bytes = large({tiled, compression}, path);
+      EXPECT_EQ(read_terrain(path, {}).elevation(39, 29), 100.0);
+      // The header lies at the end of what libtiff writes: where its data begin, cut out a part.
+      auto const damage = [&](std::size_t from, std::size_t count) {
+        auto damaged = bytes;
+        damaged.replace(from, count, count, '\xff');
+        std::ofstream(path, std::ios::binary) << damaged;
+      };
+      if (compression != COMPRESSION_NONE) {
+        damage(12, 30);
+        EXPECT_THAT(reading(path), HasSubstr("is damaged: ")) << tiled << " " << compression;
+      }
+    }
+  }
+}
+
+// Sets all numbers of an array in a file's header (TIFF 6.0, section 2), which has the byte order
+// of this machine.
+void set_numbers(std::string& bytes, std::uint16_t tag, std::uint32_t value) {
+  auto const number = [&](std::size_t at, std::size_t size) {
+    std::uint32_t found = 0;
+    std::memcpy(&found, bytes.data() + at, size);
+    return found;
+  };
+  auto const directory = number(4, 4);
+  for (std::size_t i = 0; i < number(directory, 2); ++i) {
+    auto const entry = directory + 2 + 12 * i;
+    if (number(entry, 2) != tag) continue;
+    std::size_t const size = number(entry + 2, 2) == TIFF_SHORT ? 2 : 4;
+    auto const count = number(entry + 4, 4);
+    auto const at = count * size > 4 ? number(entry + 8, 4) : entry + 8;
+    for (std::size_t j = 0; j < count; ++j) std::memcpy(bytes.data() + at + j * size, &value, size);
+    return;
+  }
+  FAIL() << "no tag " << tag;
+}
+
+// A header that claims data which the file does not have.
+TEST(GeoTiff, DataThatTheHeaderClaimsAreThere) {
+  TemporaryFolder const folder;
+  auto const path = folder.path() / "hill.tif";
+  for (auto const& [tag, value] :
+       {std::pair(TIFFTAG_STRIPOFFSETS, 60'000U),  // beyond the end
+        std::pair(TIFFTAG_STRIPBYTECOUNTS, 0U), std::pair(TIFFTAG_STRIPBYTECOUNTS, 40U)}) {
+    auto bytes = large({}, path);
+    set_numbers(bytes, static_cast<std::uint16_t>(tag), value);
+    std::ofstream(path, std::ios::binary) << bytes;
+    EXPECT_THAT(reading(path), HasSubstr("is damaged: strip 1 of 5")) << tag << " " << value;
+  }
+}
+
+TEST(GeoTiff, ElevationsOfNoPlaceOnEarthAreRefused) {
+  TemporaryFolder const folder;
+  auto const path = folder.path() / "hill.tif";
+  for (float const value : {-501.0F, 9001.0F, -32768.0F, 1e30F}) {
+    large({.last = value}, path);
+    EXPECT_THAT(reading(path), HasSubstr("expected -500 to 9000 or NODATA")) << value;
+  }
+  large({.last = 8849.0F}, path);
+  EXPECT_EQ(read_terrain(path, {}).elevation(39, 0), 8849.0);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "input/idf_text.h"
+#include "idf/idf_text.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,18 @@ TEST(IdfText, SpanIsTheObjectWithItsSemicolon) {
   EXPECT_EQ(text.substr(objects[1].begin, objects[1].end - objects[1].begin), "C,d;");
 }
 
-TEST(IdfText, UnfinishedObjectIsLeftToEnergyPlus) { EXPECT_EQ(parse_idf("A,b;\nC,d,").size(), 1U); }
+TEST(IdfText, EndOfTextEndsTheLastObject) {
+  for (std::string const text :
+       {"A,b;\nC,d", "A,b;\nC,d  \n ! comment", "A,b;\nC,d ! comment; too\n"}) {
+    auto const objects = parse_idf(text);
+    ASSERT_EQ(objects.size(), 2U) << text;
+    EXPECT_TRUE(objects[0].is_closed);
+    EXPECT_FALSE(objects[1].is_closed);
+    EXPECT_EQ(objects[1].fields, (std::vector<std::string>{"d"}));
+    EXPECT_EQ(objects[1].end, text.size());
+  }
+  EXPECT_EQ(parse_idf("A,b;\n ! nothing, more").size(), 1U);
+}
 
 TEST(IdfText, WhatIsWrittenIsReadBack) {
   std::vector<std::string> const fields{"x", "", "3.5"};

@@ -1,4 +1,4 @@
-#include "lean/lean_input.h"
+#include "model/lean_input.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "input/model_file.h"
+#include "idf/model_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -40,7 +40,7 @@ TEST(LeanInput, SurfacesThatOnlyShadeAreLeftOut) {
   ASSERT_EQ(lean.casters.size(), 2U);
   EXPECT_EQ(lean.casters[0].name, "ONE");
   EXPECT_EQ(lean.casters[0].polygon.outline.size(), 4U);
-  EXPECT_THAT(lean.remark, HasSubstr("2 shading surfaces left out"));
+  EXPECT_THAT(lean.remark, HasSubstr("2 shading surfaces hidden"));
 }
 
 TEST(LeanInput, WhatIsNamedOrNotUnderstoodStays) {

@@ -1,13 +1,13 @@
-#include "meshes/mesh_file.h"
+#include "assets/mesh_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
+#include "base/process.h"
 #include "gpu_shading/error.h"
-#include "program/process.h"
-#include "refusal.h"
+#include "support/refusal.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -1,20 +1,20 @@
-#include "scheduled/model_editor.h"
+#include "idf/model_editor.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "input/idf_text.h"
-#include "program/process.h"
+#include "base/process.h"
+#include "idf/idf_text.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 using ::testing::ElementsAre;
 
-constexpr FieldPlace axis{1, "north_axis"};
-constexpr FieldPlace terrain{2, "terrain"};
+constexpr FieldPosition axis{1, "north_axis"};
+constexpr FieldPosition terrain{2, "terrain"};
 
 void change(ModelEditor& model) {
   model.remove([](std::string_view type) { return type == "Output:Variable"; });

@@ -1,10 +1,11 @@
-#include "input/model_file.h"
+
+#include "idf/model_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "gpu_shading/error.h"
-#include "input/idf_text.h"
+#include "idf/idf_text.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -7,9 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "input/model_file.h"
-#include "input/model_reader.h"
-#include "refusal.h"
+#include "extensions/extension_fields.h"
+#include "idf/model_file.h"
+#include "model/model_reader.h"
+#include "support/refusal.h"
 #include "test_images.h"
 
 namespace gpu_shading::energyplus {
@@ -37,8 +38,12 @@ std::string object(std::map<std::string, std::string> fields) {
   fields.try_emplace("thickness", "0.003");
   std::string text = "GPUShading:PerforatedScreen";
   std::size_t used = 0;
-  for (auto const& field : find_type("GPUShading:PerforatedScreen")->fields) {
-    auto const found = fields.find(std::string(field));
+  auto const types = extension_types();
+  auto const type = std::find_if(types.begin(), types.end(), [](ExtensionType const& each) {
+    return each.type == extension::perforated_screen::type;
+  });
+  for (auto const* const field : type->fields) {
+    auto const found = fields.find(std::string(field->key));
     text += ',';
     if (found == fields.end()) continue;
     text += found->second;
@@ -261,17 +266,18 @@ TEST(PerforatedScreens, PatternsThatAreNoneAreRefused) {
   for (auto const& [fields, message] : std::vector<std::pair<Fields, std::string>>{
            {{{"surface_name", "Tree*"}}, "Surface Name is \"Tree*\", which no shading surface"},
            {{{"hole_shape", ""}},
-            "Hole Shape is \"\", expected Texture, Round, Square, Slotted or "},
+            "Hole Shape is blank, expected Texture, Round, Square, Slotted or "},
            {{{"hole_shape", "Oval"}}, "Hole Shape is \"Oval\", expected Texture, Round,"},
            {{{"arrangement", "Staggered"}},
             "Arrangement is \"Staggered\", expected Straight, Staggered45 or Staggered60"},
-           {{{"hole_size", ""}}, "Hole Size is blank, expected a length in m"},
-           {{{"hole_size", "wide"}}, "Hole Size is \"wide\", not a number"},
-           {{{"hole_size", "0"}}, "Hole Size is 0 m, expected more than 0"},
-           {{{"hole_size", "nan"}}, "Hole Size is \"nan\", not a number"},
+           {{{"hole_size", ""}},
+            "Hole Size is blank, expected a number above 0 and at most 1000 m"},
+           {{{"hole_size", "wide"}}, "Hole Size is \"wide\", expected a number above 0"},
+           {{{"hole_size", "0"}}, "Hole Size is \"0\", expected a number above 0"},
+           {{{"hole_size", "nan"}}, "Hole Size is \"nan\", expected a number above 0"},
            {{{"hole_size", "0.01"}}, "Hole Size is 0.01 m, expected less than the pitch, 0.008 m"},
            {{{"hole_size", "0.0079"}, {"arrangement", "Straight"}, {"row_pitch", "0.0079"}},
-            "Row Pitch is 0.0079 m, at which holes overlap or touch"},
+            "Row Pitch is 0.0079 m, so holes overlap or touch"},
            {{{"hole_shape", "Slotted"}}, "Hole Length is blank"},
            {{{"hole_shape", "Slotted"}, {"hole_length", "0.004"}, {"pitch", "0.03"}},
             "Hole Length is 0.004 m, expected more than the hole size, 0.005 m"},
@@ -279,23 +285,27 @@ TEST(PerforatedScreens, PatternsThatAreNoneAreRefused) {
            {{{"hole_length", "0.02"}},
             "Hole Length is \"0.02\", expected blank with Hole Shape Round"},
            {{{"pitch", ""}}, "Pitch is blank"},
-           {{{"pitch", "-1"}}, "Pitch is -1 m, expected more than 0"},
-           {{{"row_pitch", "0"}}, "Row Pitch is 0 m, expected more than 0"},
-           {{{"row_pitch", "-0.01"}}, "Row Pitch is -0.01 m, expected more than 0"},
+           {{{"pitch", "-1"}}, "Pitch is \"-1\", expected a number above 0"},
+           {{{"row_pitch", "0"}}, "Row Pitch is \"0\", expected a number above 0"},
+           {{{"row_pitch", "-0.01"}}, "Row Pitch is \"-0.01\", expected a number above 0"},
            {{{"thickness", ""}}, "Thickness is blank"},
-           {{{"thickness", "thin"}}, "Thickness is \"thin\", not a number"},
-           {{{"thickness", "-0.001"}}, "Thickness is -0.001 m, expected 0 to below 1"},
-           {{{"thickness", "1"}}, "Thickness is 1 m, expected 0 to below 1"},
+           {{{"thickness", "thin"}},
+            "Thickness is \"thin\", expected a number from 0 to below 1 m"},
+           {{{"thickness", "-0.001"}},
+            "Thickness is \"-0.001\", expected a number from 0 to below 1 m"},
+           {{{"thickness", "1"}}, "Thickness is \"1\", expected a number from 0 to below 1 m"},
            {{{"sheet_plane", "Front"}},
             "Sheet Plane is \"Front\", expected Centre, Outside or Inside"},
-           {{{"layers", "0"}}, "Layers is \"0\", expected Auto or a whole number from 1 to 64"},
+           {{{"layers", "0"}}, "Layers is \"0\", expected Auto or an integer from 1 to 64"},
            {{{"layers", "65"}}, "Layers is \"65\""},
            {{{"layers", "2.5"}}, "Layers is \"2.5\""},
            {{{"layers", "many"}}, "Layers is \"many\""},
            {{{"detail", "Fine"}}, "Detail is \"Fine\", expected Auto, Holes or Effective"},
-           {{{"tile_origin_u", "left"}}, "Tile Origin U is \"left\", not a number"},
-           {{{"tile_origin_v", "inf"}}, "Tile Origin V is \"inf\", not a number"},
-           {{{"tile_rotation", "half"}}, "Tile Rotation is \"half\", not a number"},
+           {{{"tile_origin_u", "left"}},
+            "Tile Origin U is \"left\", expected a number from -100000 to 100000 m"},
+           {{{"tile_origin_v", "inf"}}, "Tile Origin V is \"inf\", expected a number"},
+           {{{"tile_rotation", "half"}},
+            "Tile Rotation is \"half\", expected a number from -360 to 360 deg"},
            {{{"texture_file_name", "a.png"}},
             "Texture File Name is \"a.png\", expected blank with Hole Shape Round"},
            {{{"opacity", "Threshold"}}, "Opacity is \"Threshold\", expected blank with"},
@@ -322,10 +332,10 @@ TEST_F(Textured, TexturesThatAreNoneAreRefused) {
            {{{"texture_file_name", "none.png"}},
             "Texture File Name: " + file("none.png") + ": no such file"},
            {{{"texture_file_name", "text.png"}},
-            "Texture File Name: " + file("text.png") + ": is not an image that can be read"},
+            "Texture File Name: " + file("text.png") + ": is not a readable image"},
            {{{"texture_file_name", "huge.ppm"}},
             "Texture File Name: " + file("huge.ppm") +
-                ": is 20000 x 20000 texels, expected at most 16384 a side"},
+                ": is 20000 x 20000 texels, expected at most 16384 per side"},
            {{{"arrangement", "Straight"}},
             "Arrangement is \"Straight\", expected blank with Hole Shape Texture"},
            {{{"hole_size", "1"}}, "Hole Size is \"1\", expected blank with"},
@@ -333,15 +343,17 @@ TEST_F(Textured, TexturesThatAreNoneAreRefused) {
            {{{"pitch", "1"}}, "Pitch is \"1\", expected blank with"},
            {{{"row_pitch", "1"}}, "Row Pitch is \"1\", expected blank with"},
            {{{"opacity", "Half"}}, "Opacity is \"Half\", expected Threshold or Fractional"},
-           {{{"opacity_threshold", "1"}}, "Opacity Threshold is 1, expected 0 to below 1"},
-           {{{"opacity_threshold", "-0.1"}}, "Opacity Threshold is -0.1, expected 0 to below 1"},
+           {{{"opacity_threshold", "1"}},
+            "Opacity Threshold is \"1\", expected a number from 0 to below 1"},
+           {{{"opacity_threshold", "-0.1"}},
+            "Opacity Threshold is \"-0.1\", expected a number from 0 to below 1"},
            {{{"opacity_threshold", "0.5"}, {"opacity", "Fractional"}},
             "Opacity Threshold is \"0.5\", expected blank with Opacity Fractional"},
            {{{"invert_opacity", "maybe"}}, "Invert Opacity is \"maybe\", expected Yes or No"},
-           {{{"tile_width", "0"}}, "Tile Width is 0 m, expected more than 0"},
-           {{{"tile_width", "wide"}}, "Tile Width is \"wide\", not a number"},
-           {{{"tile_height", "-1"}}, "Tile Height is -1 m, expected more than 0"},
-           {{{"thickness", "2"}}, "Thickness is 2 m, expected 0 to below 1"},
+           {{{"tile_width", "0"}}, "Tile Width is \"0\", expected a number above 0"},
+           {{{"tile_width", "wide"}}, "Tile Width is \"wide\", expected a number above 0"},
+           {{{"tile_height", "-1"}}, "Tile Height is \"-1\", expected a number above 0"},
+           {{{"thickness", "2"}}, "Thickness is \"2\", expected a number from 0 to below 1 m"},
        }) {
     expect_refused(textured(fields), message);
   }

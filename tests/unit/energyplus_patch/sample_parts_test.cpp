@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <sstream>
 
-#include "files/text_file.h"
+#include "base/files.h"
+#include "base/process.h"
 #include "gpu_shading/error.h"
-#include "program/process.h"
 #include "samples/sample_set.h"
 #include "samples/sample_tables.h"
 #include "samples/take_samples.h"
@@ -57,7 +57,7 @@ struct Rendered {
 };
 
 SampleRequest request(std::filesystem::path const& folder, Shard shard) {
-  return {"coarse", latitude, folder, shard, -1, ""};
+  return {"coarse", latitude, folder, shard};
 }
 
 std::string table_of(SampleParts const& parts) {
@@ -84,7 +84,7 @@ TEST(SampleParts, EightShardsMakeTheTableOfOne) {
   EXPECT_EQ(together.directions, alone.directions);
   EXPECT_THAT(
       take_samples(request(many.path(), {5, 8}), coarse, scene, "device", together.source()),
-      HasSubstr("all of 4 rounds are there"));
+      HasSubstr("all 4 rounds are complete"));
   EXPECT_EQ(together.directions, alone.directions);
   auto const table = table_of(SampleParts(one.path(), 1));
   EXPECT_EQ(table_of(SampleParts(many.path(), 8)), table);
@@ -99,9 +99,9 @@ TEST(SampleParts, ARoundWaitsForAllShardsOfTheOneBefore) {
     return take_samples(request(folder.path(), {shard, 3}), coarse, scene, "device",
                         rendered.source());
   };
-  EXPECT_THAT(take(2), HasSubstr("2 of 3 shards to come"));
+  EXPECT_THAT(take(2), HasSubstr("2 of 3 shards left"));
   auto const before = rendered.directions;
-  EXPECT_THAT(take(2), HasSubstr("round 1: nothing to render, it waits for shards 1, 3"));
+  EXPECT_THAT(take(2), HasSubstr("round 1: nothing to render, waiting for shards 1, 3"));
   EXPECT_EQ(rendered.directions, before);
   EXPECT_THAT([&] { gather_samples(SampleParts(folder.path(), 3), "coarse", coarse, latitude); },
               ThrowsMessage<Error>(HasSubstr("round1-shard1of3.json: is missing")));
@@ -157,7 +157,8 @@ TEST(SampleParts, DirectionsThatDoNotFollowAreAnError) {
   ASSERT_TRUE(part);
   part->directions.front().azimuth += 1e-15;
   parts.write(*part);
-  EXPECT_THAT([&] { table_of(parts); }, ThrowsMessage<Error>(HasSubstr("has other directions")));
+  EXPECT_THAT([&] { table_of(parts); },
+              ThrowsMessage<Error>(HasSubstr("does not match the earlier rounds")));
 }
 
 TEST(SampleParts, ADamagedFileIsNamed) {
@@ -165,7 +166,7 @@ TEST(SampleParts, ADamagedFileIsNamed) {
   SampleParts const parts(folder.path(), 1);
   std::ofstream(parts.file(1, 1)) << "{\"format\": 1";
   EXPECT_THAT([&] { parts.find(1, 1); },
-              ThrowsMessage<Error>(HasSubstr("round1-shard1of1.json: is no part of samples")));
+              ThrowsMessage<Error>(HasSubstr("round1-shard1of1.json: is not a part of samples")));
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include <numbers>
 #include <regex>
 
+#include "base/process.h"
 #include "gpu_shading/sun_position.h"
-#include "input/model_file.h"
-#include "program/process.h"
+#include "idf/model_file.h"
 #include "session/session.h"
 
 namespace gpu_shading::energyplus {
@@ -18,7 +18,7 @@ constexpr int resolution = 128;
 struct Said {
   std::vector<std::string> remarks;
 
-  Session::Messages messages() {
+  Messages messages() {
     return {[](std::string const&) {}, [this](std::string const& line) { remarks.push_back(line); },
             [](std::string const&) {}};
   }

@@ -1,4 +1,4 @@
-#include "session/scene_hash.h"
+#include "cache/scene_hash.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "cache/build_id.h"
 #include "gpu_shading/transmittance.h"
-#include "session/build_id.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -24,8 +24,12 @@ struct Everything {
   int columns = 2;
   std::optional<double> threshold = 0.5;
   RendererOptions options;
-  DeviceInfo device{0, "renderer", "vendor", "version", false, 4096};
-  std::vector<std::uint32_t> rule{1, 2, 3};
+  DeviceInfo device{.index = 0,
+                    .renderer = "renderer",
+                    .vendor = "vendor",
+                    .version = "version",
+                    .max_resolution = 4096};
+  ShadingRule rule{{{0, 0}, {1, 1}, {2, 0}}, 2, {1, 0, 1, 1}};
   std::vector<std::byte> build{std::byte{1}, std::byte{2}};
 
   Everything() {
@@ -45,7 +49,9 @@ struct Everything {
         OpacityTile(tile_width, tile_height, columns, rows, texels, threshold), sheet);
     Scene scene;
     for (auto const& surface : surfaces) scene.add(surface);
-    return hash_scene(scene, {options, device, rule, build});
+    rule.roles.resize(surfaces.size());
+    scene.set_rule(rule);
+    return hash_scene(scene, {options, device, build});
   }
 };
 
@@ -115,10 +121,12 @@ TEST(SceneHash, AnyInputThatAnAnswerDependsOnChangesIt) {
       {"vendor", [](Everything& e) { e.device.vendor = "other"; }},
       {"driver", [](Everything& e) { e.device.version = "version 2"; }},
       {"largest tile", [](Everything& e) { e.device.max_resolution = 2048; }},
-      {"rule",
-       [](Everything& e) {
-         e.rule = {1, 2, 4};
-       }},
+      {"a surface's wall", [](Everything& e) { e.rule.roles[1].wall = 0; }},
+      {"a surface's zone", [](Everything& e) { e.rule.roles[1].zone = 0; }},
+      {"what a surface shades",
+       [](Everything& e) { e.rule.roles[1].shades = ShadingRule::Shades::own_wall; }},
+      {"the surface that one shades", [](Everything& e) { e.rule.roles[1].target = 2; }},
+      {"which zones shade which", [](Everything& e) { e.rule.zone_shades[1] = 1; }},
       {"build", [](Everything& e) { e.build[1] = std::byte{3}; }},
   };
   std::set<Hash> seen{Everything().hash()};
@@ -139,7 +147,7 @@ TEST(SceneHash, ScreenThatIsGoneOrSharedCounts) {
   for (int i = 0; i < 2; ++i) {
     for (auto const& surface : (i == 0 ? with : without).surfaces) scenes[i].add(surface);
   }
-  Rendering const rendering{with.options, with.device, with.rule, with.build};
+  Rendering const rendering{with.options, with.device, with.build};
   EXPECT_NE(hash_scene(scenes[0], rendering), hash_scene(scenes[1], rendering));
 }
 
@@ -163,7 +171,7 @@ TEST(SceneHash, SharedOrEqualIsTheSame) {
           shared ? first : std::make_shared<Transmittance>(everything.transmittance);
       scene.add(surface);
     }
-    return hash_scene(scene, {everything.options, everything.device, everything.rule, {}});
+    return hash_scene(scene, {everything.options, everything.device, {}});
   };
   EXPECT_EQ(hash_of_two(true), hash_of_two(false));
 }

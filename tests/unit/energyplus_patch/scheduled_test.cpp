@@ -7,12 +7,12 @@
 #include <numbers>
 #include <sstream>
 
+#include "base/progress.h"
 #include "gpu_shading/error.h"
-#include "scheduled/drawing.h"
-#include "scheduled/drawn_surfaces.h"
-#include "scheduled/run_times.h"
-#include "scheduled/sunlit_table.h"
-#include "session/progress.h"
+#include "runs/drawing.h"
+#include "runs/drawn_surfaces.h"
+#include "runs/run_times.h"
+#include "scheduled/sunlit_fractions.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -101,10 +101,15 @@ TEST(RunTimes, EveryTimestep) {
   EXPECT_EQ(row_of(run.times[1], 4), 60U * 96U + 23U * 4U + 2U);
 }
 
+TEST(RunTimes, FileThatIsCut) {
+  std::istringstream cut(dictionary + "2,1, 3, 1, 0,12, 0.00,15.00,Sunday\n7,180\n8,45\n9,1\n");
+  EXPECT_THROW(read_run_times(cut), Error);
+}
+
 TEST(RunTimes, RunPeriodsThatDisagree) {
   auto const twice = [](std::string const& altitude) {
     return dictionary + "2,1, 3, 1, 0,12, 0.00,15.00,Sunday\n7,180\n8,45\n9,1\n" +
-           "2,1, 3, 1, 0,12, 0.00,15.00,Monday\n7,180\n8," + altitude + "\n9,1\n";
+           "2,1, 3, 1, 0,12, 0.00,15.00,Monday\n7,180\n8," + altitude + "\n9,1\nEnd of Data\n";
   };
   std::istringstream same(twice("45.001"));
   EXPECT_EQ(read_run_times(same).times.size(), 1U);
@@ -112,8 +117,8 @@ TEST(RunTimes, RunPeriodsThatDisagree) {
   EXPECT_THROW(read_run_times(other), Error);
 }
 
-SunlitTable table_of(int month, int day) {
-  SunlitTable table;
+SunlitFractions table_of(int month, int day) {
+  SunlitFractions table;
   table.surfaces = {"WALL", "WINDOW"};
   table.steps_per_hour = 2;
   table.times.push_back({month, day, 12, 2, {}, {}});
@@ -128,7 +133,7 @@ std::vector<std::string> lines_of(std::string const& text) {
   return lines;
 }
 
-TEST(SunlitTable, ScheduleFileIsOfALeapYear) {
+TEST(SunlitFractions, ScheduleFileIsOfALeapYear) {
   std::ostringstream out;
   write_schedule_file(table_of(3, 1), out);
   auto const lines = lines_of(out.str());
@@ -138,7 +143,7 @@ TEST(SunlitTable, ScheduleFileIsOfALeapYear) {
   EXPECT_EQ(lines[1 + 60 * 48 + 24], "0,0");
 }
 
-TEST(SunlitTable, ImportedFileHasTheYearsDays) {
+TEST(SunlitFractions, ImportedFileHasTheYearsDays) {
   std::ostringstream out;
   write_imported_file(table_of(3, 1), out);
   auto const lines = lines_of(out.str());

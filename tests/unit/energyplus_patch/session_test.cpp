@@ -10,10 +10,10 @@
 #include <numbers>
 #include <regex>
 
+#include "base/process.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/sun_position.h"
-#include "input/model_file.h"
-#include "program/process.h"
+#include "idf/model_file.h"
 #include "session/report.h"
 
 namespace gpu_shading::energyplus {
@@ -25,7 +25,7 @@ struct Said {
   std::vector<std::string> remarks;
   std::string eio;
 
-  Session::Messages messages() {
+  Messages messages() {
     return {[this](std::string const& line) { warnings.push_back(line); },
             [this](std::string const& line) { remarks.push_back(line); },
             [this](std::string const& line) { eio += line; }};
@@ -475,6 +475,7 @@ TEST(Session, CacheThatCannotBeWrittenAtTheEndIsAWarning) {
   auto const before = run.said.warnings.size();
   run.ask();
   std::filesystem::remove_all(folder.path() / "cache");
+  std::ofstream(folder.path() / "cache") << "in its place";
   EXPECT_NO_THROW(run.session.finish());
   ASSERT_EQ(run.said.warnings.size(), before + 1);
   EXPECT_NE(run.said.warnings.back().find("cannot be written"), std::string::npos);
@@ -518,16 +519,37 @@ TEST(Session, SoftwareIsWarnedOfAndRefusedWhereAGpuIsRequired) {
   session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
   session.start(said.messages(), {});
   if (said.warnings.empty()) GTEST_SKIP() << "a GPU renders here";
-  EXPECT_NE(said.warnings[0].find("no GPU can be had"), std::string::npos);
+  EXPECT_NE(said.warnings[0].find("no GPU available; computing on the CPU, "), std::string::npos);
   Session strict(model_of("", Mode::require));
   strict.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
   EXPECT_THROW(strict.start(said.messages(), {}), DeviceError);
 }
 
+TEST(Session, TasksAreDoneInPlaceOfShading) {
+  TemporaryFolder const folder;
+  auto const perform = [](Task const& task) {
+    Session session(model_of("Shading:Site:Detailed,Plate;"));
+    session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
+    session.add(surface_of("PLATE", rectangle({0, 0, 1}, {1, 0, 0}, {0, 2, 0})));
+    Said said;
+    return session.perform(task, said.messages(), {});
+  };
+  EXPECT_THAT(perform(ListingTask{}), testing::HasSubstr("2 surfaces"));
+  EXPECT_THAT(perform(ListingTask{true}), testing::HasSubstr("\"PLATE\",4,0,2,1\n"));
+  std::vector<SunView> const views{{"scene.png", zenith, ""}, {"floor.png", zenith, "Floor"}};
+  perform(ViewsTask{views, folder.path(), 64});
+  for (auto const& view : views) {
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / view.picture)) << view.picture;
+  }
+  EXPECT_THROW(perform(ViewsTask{{{"none.png", zenith, "Door"}}, folder.path(), 64}), Error);
+}
+
 TEST(Session, QuestionsBeforeTheStartAndOfNoSurfaceAreErrors) {
   Session session(model_of(""));
   session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
+  EXPECT_THROW(session.set_sun(zenith), Error);
   EXPECT_THROW(session.projected_sunlit_area(0), Error);
+  EXPECT_THROW(session.interior_areas(0, {}), Error);
   Said said;
   session.start(said.messages(), {});
   EXPECT_THROW(session.projected_sunlit_area(7), Error);

@@ -7,8 +7,8 @@
 
 #include "gpu_shading/error.h"
 #include "gpu_shading/transmittance.h"
-#include "input/model_file.h"
-#include "refusal.h"
+#include "idf/model_file.h"
+#include "support/refusal.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu_shading/error.h"
-#include "input/model_file.h"
+#include "idf/model_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {

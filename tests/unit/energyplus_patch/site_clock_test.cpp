@@ -7,10 +7,10 @@
 #include <fstream>
 #include <glm/trigonometric.hpp>
 
-#include "input/model_file.h"
-#include "program/process.h"
-#include "refusal.h"
+#include "base/process.h"
+#include "idf/model_file.h"
 #include "site/calendar_date.h"
+#include "support/refusal.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -44,7 +44,7 @@ TEST(CalendarDate, SaysWhatIsNone) {
   for (auto const* const text : {"2/29", "13/1", "31 April", "6th Sunday in May", "Sunday in May",
                                  "5th Sunday in February", "April", "", "4/30/2017"}) {
     EXPECT_THAT(refusal_of([&] { date_in(text, 2017y); }),
-                HasSubstr(fmt::format("\"{}\" is no day of 2017, expected", text)));
+                HasSubstr(fmt::format("\"{}\" is not a day of 2017, expected", text)));
   }
 }
 
@@ -107,11 +107,13 @@ TEST(SiteClock, SunOfWellKnownDays) {
 
 TEST(SiteClock, SaysWhatIsWrong) {
   EXPECT_THAT(refusal_of([] { clock_of(""); }), HasSubstr("Site:Location is missing"));
-  EXPECT_THAT(refusal_of([] { clock_of("Site:Location,Golden,north;"); }),
-              HasSubstr("Site:Location Golden: Latitude is \"north\", not a number"));
+  EXPECT_THAT(
+      refusal_of([] { clock_of("Site:Location,Golden,north;"); }),
+      HasSubstr(
+          "Site:Location Golden: Latitude is \"north\", expected a number from -90 to 90 deg"));
   EXPECT_THAT(
       refusal_of([] { clock_of(golden + "RunPeriodControl:DaylightSavingTime,spring,autumn;"); }),
-      HasSubstr("RunPeriodControl:DaylightSavingTime: \"spring\" is no day"));
+      HasSubstr("RunPeriodControl:DaylightSavingTime: \"spring\" is not a day"));
   EXPECT_THAT(refusal_of([] { SiteClock(read_idf(golden), "/nowhere/w.epw"); }),
               HasSubstr("/nowhere/w.epw: cannot be read"));
 }

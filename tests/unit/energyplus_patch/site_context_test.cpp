@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "gpu_shading/error.h"
-#include "input/model_file.h"
-#include "input/model_reader.h"
+#include "idf/model_file.h"
+#include "model/model_reader.h"
 #include "site/own_building.h"
 #include "surroundings_test.h"
 
@@ -80,7 +80,7 @@ TEST_F(SiteContext, WhatIsLeftOut) {
   EXPECT_THAT(found.remarks[0], HasSubstr("1 building (5 walls and roofs, 1 left out)"));
   auto const clear = read(location + "GPUShading:SiteContext,Hill,,,,,,,hill.asc,,2000,,,Terrain;");
   EXPECT_EQ(clear.casters.size(), 0U);
-  EXPECT_THAT(clear.remarks[0], HasSubstr("nothing of it is left"));
+  EXPECT_THAT(clear.remarks[0], HasSubstr("nothing is left of it"));
 }
 
 TEST_F(SiteContext, OriginIsTheObjectsElseTheModels) {
@@ -90,7 +90,7 @@ TEST_F(SiteContext, OriginIsTheObjectsElseTheModels) {
   // Another object may leave it open, but not differ.
   EXPECT_EQ(read(there + ";GPUShading:SiteContext,More,town.geojson;").casters.size(), 20U);
   EXPECT_THAT(refusal(there + ";GPUShading:SiteContext,More,town.geojson,,,,,,,,,0,20.001,51;"),
-              HasSubstr("GPUShading:SiteContext More: its origin is not that of "
+              HasSubstr("GPUShading:SiteContext More: its origin differs from that of "
                         "GPUShading:SiteContext Town"));
   EXPECT_THAT(refusal("GPUShading:SiteContext,Town,town.geojson;"),
               HasSubstr("Site:Location is missing"));
@@ -99,7 +99,7 @@ TEST_F(SiteContext, OriginIsTheObjectsElseTheModels) {
   EXPECT_THAT(refusal("GPUShading:SiteContext,Town,town.geojson,,,,,,,,,5;"),
               HasSubstr("Town: Origin Longitude is blank"));
   EXPECT_THAT(refusal("GPUShading:SiteContext,Town,town.geojson,,,,,,,,,91,0,0;"),
-              HasSubstr("latitude is 91 degrees, expected -90 to 90"));
+              HasSubstr("Origin Latitude is \"91\", expected a number from -90 to 90 deg"));
 }
 
 TEST_F(SiteContext, WarnsOfAnOriginThatCannotBeRight) {
@@ -120,8 +120,10 @@ TEST_F(SiteContext, SaysWhatIsWrong) {
   EXPECT_THAT(of("village.geojson"), HasSubstr("village.geojson: no such file"));
   EXPECT_THAT(of("town.geojson,Mars"),
               HasSubstr("Buildings Coordinates is \"Mars\", expected WGS84, a UTM zone"));
-  EXPECT_THAT(of("town.geojson,,,,-3"), HasSubstr("Storey Height is -3 m, expected more than 0"));
-  EXPECT_THAT(of("town.geojson,,,,,tall"), HasSubstr("Default Height is \"tall\", not a number"));
+  EXPECT_THAT(of("town.geojson,,,,-3"),
+              HasSubstr("Storey Height is \"-3\", expected a number above 0"));
+  EXPECT_THAT(of("town.geojson,,,,,tall"),
+              HasSubstr("Default Height is \"tall\", expected a number above 0"));
   EXPECT_THAT(of("town.geojson,,,,,,,UTM 33N"),
               HasSubstr("Terrain Coordinates is \"UTM 33N\", expected blank without Terrain"));
   EXPECT_THAT(of(",,,,,,hill.asc,UTM 13N"),
@@ -181,7 +183,7 @@ TEST_F(SiteContext, TellsTheModelsOwnBuilding) {
   own.polygon.outline = {{5, 0, 3}, {5, 0, 0}, {9, 0, 0}, {9, 0, 3}};
   scene.add(own);
   EXPECT_THAT(warn_of_own_buildings(found.buildings, scene, input),
-              ElementsAre(HasSubstr("TOWN:B/2 stands where the model's WALL is")));
+              ElementsAre(HasSubstr("TOWN:B/2 encloses the model's WALL")));
 }
 
 }  // namespace

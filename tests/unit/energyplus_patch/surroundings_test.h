@@ -5,10 +5,10 @@
 #include <fstream>
 #include <string>
 
-#include "input/model_file.h"
-#include "program/process.h"
-#include "refusal.h"
+#include "base/process.h"
+#include "idf/model_file.h"
 #include "site/surroundings.h"
+#include "support/refusal.h"
 
 namespace gpu_shading::energyplus {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <fstream>
 
+#include "base/process.h"
 #include "gpu_shading/error.h"
-#include "program/process.h"
-#include "refusal.h"
+#include "support/refusal.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -58,18 +58,20 @@ TEST(TerrainFile, OtherWaysOfSayingIt) {
 TEST(TerrainFile, SaysWhatIsWrong) {
   EXPECT_THAT(refusal(""), HasSubstr("hill.asc: is not an ESRI ASCII grid: NCOLS is missing"));
   EXPECT_THAT(refusal("ncols three"), HasSubstr("NCOLS is \"three\", not a number"));
-  EXPECT_THAT(refusal("ncols 1\nnrows 2\n"),
-              HasSubstr("NCOLS is 1, expected a whole number from 2"));
+  EXPECT_THAT(refusal("ncols 1\nnrows 2\n"), HasSubstr("NCOLS is 1, expected an integer from 2"));
   EXPECT_THAT(refusal("ncols 2000\nnrows 2000\n"),
               HasSubstr("2000 x 2000 cells, expected at most"));
   EXPECT_THAT(refusal("ncols 2\nnrows 2\ncellsize 0\n"), HasSubstr("CELLSIZE is 0"));
   EXPECT_THAT(refusal("ncols 2\nnrows 2\ncellsize 1\nyllcorner 1\n"),
               HasSubstr("XLLCORNER is missing"));
   EXPECT_THAT(refusal(header + "4 5 6\n1 2"), HasSubstr("ends in row 2 of 2, column 3 of 3"));
-  EXPECT_THAT(refusal(header + "4 5 6\n1 2 3 4"), HasSubstr("holds more than 3 x 2 elevations"));
+  EXPECT_THAT(refusal(header + "4 5 6\n1 2 3 4"), HasSubstr("has more than 3 x 2 elevations"));
   EXPECT_THAT(refusal(header + "4 5 6\n1 x 3"),
               HasSubstr("row 2, column 2 is \"x\", not a number"));
-  EXPECT_THAT(refusal(header + "-9999 -9999 -9999 -9999 -9999 -9999"), HasSubstr("all of it is"));
+  EXPECT_THAT(refusal(header + "-9999 -9999 -9999 -9999 -9999 -9999"),
+              HasSubstr("all cells are NODATA"));
+  EXPECT_THAT(refusal(header + "4 5 6\n1 9001 3"),
+              HasSubstr("row 1 from the south, column 2 is 9001 m, expected -500 to 9000"));
   EXPECT_THROW(read_terrain("/nowhere/hill.asc", {}), Error);
 }
 

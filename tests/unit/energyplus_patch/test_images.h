@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "program/process.h"
-
 // Image files that tests write.
+#include "base/process.h"
+
 namespace gpu_shading::energyplus {
 
 // In a folder of this process alone, since ctest runs tests side by side.

@@ -1,4 +1,4 @@
-#include "images/texture_file.h"
+#include "assets/texture_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "refusal.h"
+#include "support/refusal.h"
 #include "test_images.h"
 
 namespace gpu_shading::energyplus {
@@ -129,10 +129,10 @@ TEST(TextureFile, WhatIsNoImageIsRefused) {
   EXPECT_THAT(refusal(testing::TempDir()), HasSubstr("is not a file"));
   for (auto const* name : {"text.png", "text.txt", "text"}) {
     auto const message = refusal(write_bytes(name, "two\nlines of text\n"));
-    EXPECT_THAT(message, HasSubstr("is not an image that can be read: ")) << name;
+    EXPECT_THAT(message, HasSubstr("is not a readable image: ")) << name;
     EXPECT_THAT(message, Not(HasSubstr("\n"))) << name;
   }
-  EXPECT_THAT(refusal(write_bytes("empty.png", "")), HasSubstr("is not an image"));
+  EXPECT_THAT(refusal(write_bytes("empty.png", "")), HasSubstr("is not a readable image"));
 }
 
 TEST(TextureFile, TooLargeIsSaidByTheHeader) {

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <numbers>
 
-#include "input/model_file.h"
-#include "input/name_pattern.h"
-#include "refusal.h"
+#include "base/text.h"
+#include "idf/model_file.h"
+#include "support/refusal.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -109,7 +109,7 @@ TEST(TransparentShades, ErrorsNameObjectFieldAndValue) {
            {"Pane 1,Construction,Nothing;", {"no Construction", "Nothing"}},
            {"Pane 1,Construction,Odd;", {"Spectral", "Optical Data Type"}},
            {"Pane 1,Construction,Wall;", {"Brick", "cannot be used"}},
-           {"Pane 1,Constant;", {"0 values"}},
+           {"Pane 1,Constant;", {"Value 1 is blank"}},
        }) {
     auto const message = refusal(shade(rest));
     for (auto const& word : words) EXPECT_THAT(message, HasSubstr(word)) << rest;

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "gpu_shading/perforated_screen.h"
-#include "helpers.h"
+#include "support/degree.h"
+#include "support/refusal.h"
 
 namespace gpu_shading {
 namespace {
@@ -202,8 +203,8 @@ TEST(HolePattern, OfThePaperIsFollowedToTwoThousandths) {
   EXPECT_NEAR(holes.open_fraction(), 0.5, 1e-12);
   EXPECT_NEAR(holes.web(), 2.2021 * mm, 1e-7);
   for (double const theta : {0.0, 15.0, 30.0, 45.0, 60.0, 75.0}) {
-    double const shift = 6.35 * mm * std::tan(degrees(theta));
-    for (double const phi : {0.0, degrees(15.0), degrees(30.0)}) {
+    double const shift = 6.35 * mm * std::tan(theta * degree);
+    for (double const phi : {0.0, 15.0 * degree, 30.0 * degree}) {
       EXPECT_NEAR(holes.transmittance(shift * std::cos(phi), shift * std::sin(phi)),
                   followed(holes, shift, phi, 400), 1e-3);
     }
@@ -212,7 +213,7 @@ TEST(HolePattern, OfThePaperIsFollowedToTwoThousandths) {
 }
 
 std::string complaint(Perforation const& perforation) {
-  return error_of([&] { HolePattern{perforation}; });
+  return refusal_of([&] { HolePattern{perforation}; });
 }
 
 TEST(HolePattern, NamesTheFieldThatIsWrong) {
@@ -225,7 +226,7 @@ TEST(HolePattern, NamesTheFieldThatIsWrong) {
   EXPECT_EQ(complaint({.size = 0.008, .pitch = 0.005}),
             "hole size is 0.008 m, expected less than the pitch, 0.005 m");
   EXPECT_EQ(complaint({.size = 0.005, .length = 0.02, .pitch = 0.03}),
-            "hole length is 0.02 m, expected none but with slots");
+            "hole length is 0.02 m, but only slots have one");
   EXPECT_EQ(complaint({.hole = Hole::Slotted, .size = 0.005, .length = 0.005, .pitch = 0.03}),
             "hole length is 0.005 m, expected more than the hole size, 0.005 m");
   EXPECT_EQ(complaint({.hole = Hole::Slotted, .size = 0.005, .length = 0.04, .pitch = 0.03}),
@@ -237,19 +238,19 @@ TEST(HolePattern, RefusesHolesThatOverlap) {
                        .arrangement = Arrangement::Staggered45,
                        .size = 0.006,
                        .pitch = 0.008}),
-            "pitch is 0.008 m, at which holes overlap or touch, expected more");
+            "pitch is 0.008 m, so holes overlap or touch; expected more");
   EXPECT_EQ(complaint({.hole = Hole::Hexagonal,
                        .arrangement = Arrangement::Straight,
                        .size = 0.0075,
                        .pitch = 0.008}),
-            "pitch is 0.008 m, at which holes overlap or touch, expected more");
+            "pitch is 0.008 m, so holes overlap or touch; expected more");
   EXPECT_EQ(complaint({.hole = Hole::Slotted,
                        .arrangement = Arrangement::Straight,
                        .size = 0.004,
                        .length = 0.02,
                        .pitch = 0.03,
                        .row_pitch = 0.004}),
-            "row pitch is 0.004 m, at which holes overlap or touch, expected more");
+            "row pitch is 0.004 m, so holes overlap or touch; expected more");
 }
 
 }  // namespace

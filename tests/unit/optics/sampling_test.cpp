@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "gpu_shading/transmittance.h"
-#include "helpers.h"
+#include "support/degree.h"
+#include "support/refusal.h"
 
 namespace gpu_shading {
 namespace {
@@ -51,7 +52,7 @@ TEST(Samples, AThousandAreWithinAHundredThousandth) {
     EXPECT_LT(sampling_error(model, samples), 1e-5);
     for (int step = 0; step < 2500; ++step) {
       double const angle = 0.036 * step;
-      EXPECT_NEAR(read(samples, std::cos(degrees(angle))), model(degrees(angle)), 1e-5);
+      EXPECT_NEAR(read(samples, std::cos(angle * degree)), model(angle * degree), 1e-5);
     }
   }
 }
@@ -67,7 +68,7 @@ TEST(Samples, AreAsManyAsTheModelNeeds) {
 }
 
 TEST(Samples, AreTwoAtLeast) {
-  EXPECT_EQ(error_of([] { sample(Transmittance(), 1); }), "1 samples, expected 2 or more");
+  EXPECT_EQ(refusal_of([] { sample(Transmittance(), 1); }), "1 samples, expected 2 or more");
 }
 
 }  // namespace

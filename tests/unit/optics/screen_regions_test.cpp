@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "gpu_shading/perforated_screen.h"
-#include "helpers.h"
 
 namespace gpu_shading {
 namespace {

@@ -13,7 +13,8 @@
 #include <vector>
 
 #include "gpu_shading/perforated_screen.h"
-#include "helpers.h"
+#include "support/degree.h"
+#include "support/refusal.h"
 
 namespace gpu_shading {
 namespace {
@@ -68,10 +69,10 @@ Difference difference(HolePattern const& holes, double thickness, double step, M
     double const theta = i * step;
     for (int j = 0; j <= 10; ++j) {
       double const phi = 8.7 * j;
-      double const shift = thickness * std::tan(degrees(theta));
+      double const shift = thickness * std::tan(theta * degree);
       double const exact =
-          holes.transmittance(shift * std::cos(degrees(phi)), shift * std::sin(degrees(phi)));
-      double const error = std::abs(model(degrees(theta), degrees(phi)) - exact);
+          holes.transmittance(shift * std::cos(phi * degree), shift * std::sin(phi * degree));
+      double const error = std::abs(model(theta * degree, phi * degree) - exact);
       found.mean += error;
       found.largest = std::max(found.largest, error);
       ++count;
@@ -153,11 +154,11 @@ TEST(ScreenTransmittance, IsTheSameForABeamAndItsReverse) {
 TEST(ScreenTransmittance, IsNoneFromTheCutOff) {
   HolePattern const holes({.size = 5 * mm, .pitch = 8 * mm});
   ScreenTransmittance const table(holes, 5 * mm);
-  EXPECT_NEAR(table.cut_off(), degrees(45.0), 1e-12);
-  EXPECT_GT(table(degrees(44.5), 1.0), 0.0);
-  EXPECT_EQ(table(degrees(45.1), 1.0), 0.0);
-  EXPECT_EQ(table(degrees(90.0), 1.0), 0.0);
-  EXPECT_EQ(table(degrees(91.0), 1.0), 0.0);
+  EXPECT_NEAR(table.cut_off(), 45.0 * degree, 1e-12);
+  EXPECT_GT(table(44.5 * degree, 1.0), 0.0);
+  EXPECT_EQ(table(45.1 * degree, 1.0), 0.0);
+  EXPECT_EQ(table(90.0 * degree, 1.0), 0.0);
+  EXPECT_EQ(table(91.0 * degree, 1.0), 0.0);
   EXPECT_EQ(layers_for(5 * mm, 3 * mm, 5 * mm), 0);
 }
 
@@ -182,9 +183,9 @@ TEST(ScreenTransmittance, OfNoThicknessIsTheOpenFraction) {
   HolePattern const holes({.size = 5 * mm, .pitch = 8 * mm});
   ScreenTransmittance const table(holes, 0.0);
   for (double const theta : {0.0, 45.0, 90.0}) {
-    EXPECT_NEAR(table(degrees(theta), 0.5), holes.open_fraction(), 1e-6);
+    EXPECT_NEAR(table(theta * degree, 0.5), holes.open_fraction(), 1e-6);
   }
-  EXPECT_EQ(error_of([&] { ScreenTransmittance(holes, -0.001); }),
+  EXPECT_EQ(refusal_of([&] { ScreenTransmittance(holes, -0.001); }),
             "thickness is -0.001 m, expected 0 or more");
 }
 
@@ -195,9 +196,9 @@ TEST(ScreenTransmittance, OfSlatsHasNoCutOffAlongThem) {
   ScreenTransmittance const table(OpacityTile(0.04, 0.04, 64, 64, opacity), 0.03);
   EXPECT_EQ(table.longest_chord(), std::numeric_limits<double>::infinity());
   for (double const theta : {0.0, 45.0, 80.0, 89.0})
-    EXPECT_NEAR(table(degrees(theta), 0), 0.75, 0.01);
+    EXPECT_NEAR(table(theta * degree, 0), 0.75, 0.01);
   EXPECT_NEAR(table(std::atan(0.5), pi / 2), 0.375, 0.01);
-  EXPECT_EQ(table(degrees(60.0), pi / 2), 0.0);
+  EXPECT_EQ(table(60.0 * degree, pi / 2), 0.0);
 }
 
 TEST(ScreenTransmittance, OfFractionalOpacityCountsItOnce) {
@@ -290,21 +291,21 @@ TEST(OpacityTile, KeepsSixteenBits) {
 }
 
 TEST(OpacityTile, NamesWhatIsWrong) {
-  EXPECT_EQ(error_of([] { OpacityTile(0.0, 0.01, 1, 1, std::vector{0.0F}); }),
+  EXPECT_EQ(refusal_of([] { OpacityTile(0.0, 0.01, 1, 1, std::vector{0.0F}); }),
             "tile width is 0 m, expected more than 0");
-  EXPECT_EQ(error_of([] { OpacityTile(0.01, -1.0, 1, 1, std::vector{0.0F}); }),
+  EXPECT_EQ(refusal_of([] { OpacityTile(0.01, -1.0, 1, 1, std::vector{0.0F}); }),
             "tile height is -1 m, expected more than 0");
-  EXPECT_EQ(error_of([] { OpacityTile(0.01, 0.01, 2, 2, std::vector{0.0F}); }),
+  EXPECT_EQ(refusal_of([] { OpacityTile(0.01, 0.01, 2, 2, std::vector{0.0F}); }),
             "texture has 1 texels, expected 2 x 2");
-  EXPECT_EQ(error_of([] { OpacityTile(0.01, 0.01, 20000, 300, std::vector<std::uint16_t>()); }),
-            "texture is 20000 x 300 texels, expected at most 16384 a side");
-  EXPECT_EQ(error_of([] { OpacityTile(0.01, 0.01, 1, 1, std::vector{1.5F}); }),
+  EXPECT_EQ(refusal_of([] { OpacityTile(0.01, 0.01, 20000, 300, std::vector<std::uint16_t>()); }),
+            "texture is 20000 x 300 texels, expected at most 16384 per side");
+  EXPECT_EQ(refusal_of([] { OpacityTile(0.01, 0.01, 1, 1, std::vector{1.5F}); }),
             "opacity is 1.5, expected 0 to 1");
-  EXPECT_EQ(error_of([] { OpacityTile(0.01, 0.01, 1, 1, std::vector{0.0F}, 1.0); }),
+  EXPECT_EQ(refusal_of([] { OpacityTile(0.01, 0.01, 1, 1, std::vector{0.0F}, 1.0); }),
             "opacity threshold is 1, expected 0 to below 1");
   HolePattern const holes({.size = 5 * mm, .pitch = 8 * mm});
-  EXPECT_EQ(error_of([&] { OpacityTile(holes, 0.0); }), "texel is 0 m, expected more than 0");
-  EXPECT_EQ(error_of([&] { OpacityTile(holes, 1e-9); }),
+  EXPECT_EQ(refusal_of([&] { OpacityTile(holes, 0.0); }), "texel is 0 m, expected more than 0");
+  EXPECT_EQ(refusal_of([&] { OpacityTile(holes, 1e-9); }),
             "texel is 1e-09 m, too small for a tile of 0.008 x 0.0138564065 m");
 }
 

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "gpu_shading/sun_position.h"
-#include "shaded_window.h"
+#include "support/shaded_window.h"
 
 namespace gpu_shading {
 namespace {

@@ -1,0 +1,104 @@
+"""tidy.py checks what a change can affect, and everything if it cannot tell."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+import tidy
+
+NINJA = """
+rule cxx
+  command = c++ -MD -MF $out.d -I.. -c $in -o $out
+  depfile = $out.d
+  deps = gcc
+build a.o: cxx ../a.cpp
+build b.o: cxx ../b.cpp
+"""
+
+
+def git(*arguments):
+    subprocess.run(["git", "-c", "user.name=t", "-c", "user.email=t", *arguments], check=True, capture_output=True)
+
+
+@pytest.fixture
+def tree(tmp_path, monkeypatch):
+    """A built tree on a branch that equals main: a.cpp includes a.h, b.cpp includes nothing."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(tidy, "ROOT", tmp_path)
+    monkeypatch.delenv("GPU_SHADING_TIDY_BASE", raising=False)
+    for folder in (".ci", "tests", "build"):
+        Path(folder).mkdir()
+    for name, text in ((".clang-tidy", ""), ("tests/.clang-tidy", ""), (".ci/tidy.py", ""), (".gitignore", "/build/\n"),
+                       ("a.h", ""), ("a.cpp", '#include "a.h"\n'), ("b.cpp", ""), ("build/build.ninja", NINJA)):
+        Path(name).write_text(text)
+    git("init", "-q", "-b", "main")
+    git("add", ".")
+    git("commit", "-qm", "one")
+    git("checkout", "-qb", "change")
+    subprocess.run(["ninja", "-C", "build"], check=True, capture_output=True)
+    commands = subprocess.run(["ninja", "-C", "build", "-t", "compdb"], check=True, capture_output=True).stdout
+    Path("build/compile_commands.json").write_bytes(commands)
+    return tmp_path
+
+
+def commit(path, text):
+    Path(path).write_text(text)
+    git("add", path)
+    git("commit", "-qm", path)
+
+
+def selected(everything=False):
+    work, _ = tidy.select(tidy.ROOT / "build", everything)
+    return sorted(source.name for source in work)
+
+
+@pytest.mark.parametrize(("path", "expected"), [
+    ("a.h", ["a.cpp"]),
+    ("b.cpp", ["b.cpp"]),
+    ("README.md", []),
+    (".clang-tidy", ["a.cpp", "b.cpp"]),
+    ("tests/.clang-tidy", ["a.cpp", "b.cpp"]),
+    (".ci/tidy.py", ["a.cpp", "b.cpp"]),
+])
+def test_what_a_commit_can_affect_is_checked(tree, path, expected):
+    commit(path, "// other\n")
+    assert selected() == expected
+
+
+def test_changes_not_committed_count(tree):
+    commit("README.md", "text")
+    Path("a.h").write_text("// other\n")
+    assert selected() == ["a.cpp"]
+
+
+def test_a_file_whose_includes_are_unknown_is_checked(tree):
+    commit("README.md", "text")
+    os.remove("build/.ninja_deps")
+    assert selected() == ["a.cpp", "b.cpp"]
+
+
+def test_without_a_base_all_files_are_checked(tree):
+    assert selected() == ["a.cpp", "b.cpp"]  # HEAD is main
+
+
+def test_a_base_can_be_named(tree, monkeypatch):
+    commit("b.cpp", "// other\n")
+    commit("a.h", "// other\n")
+    monkeypatch.setenv("GPU_SHADING_TIDY_BASE", "HEAD~1")
+    assert selected() == ["a.cpp"]
+    assert selected(everything=True) == ["a.cpp", "b.cpp"]
+    monkeypatch.setenv("GPU_SHADING_TIDY_BASE", "nowhere")
+    with pytest.raises(SystemExit):
+        selected()
+
+
+def test_a_pass_is_forgotten_when_a_header_changes(tree):
+    def keys():
+        return {source.name: key for source, key in tidy.select(tree / "build", True)[0].items()}
+
+    before = keys()
+    Path("a.h").write_text("// other\n")
+    after = keys()
+    assert before["a.cpp"] != after["a.cpp"]
+    assert before["b.cpp"] == after["b.cpp"]

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace gpu_shading::energyplus {
+
+struct Mesh {
+  std::string name;
+  std::string material;
+  std::vector<glm::dvec3> positions;
+  std::vector<glm::dvec2> texture;  // u and v of each position, v up; or empty
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+// Whether a format states its unit and up axis (COLLADA, glTF), so that read_meshes returns metres
+// with y up; OBJ does not. Determined by the file name extension; throws Error if it is none of
+// these.
+bool states_its_axes(std::filesystem::path const& path);
+
+// Reads OBJ, COLLADA (.dae) or glTF (.gltf, .glb) with Assimp. Coordinates have single precision.
+// Throws Error: "FILE: why", one line.
+std::vector<Mesh> read_meshes(std::filesystem::path const& path);
+
+}  // namespace gpu_shading::energyplus

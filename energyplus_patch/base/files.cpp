@@ -1,0 +1,44 @@
+#include "base/files.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "base/staged_files.h"
+#include "gpu_shading/error.h"
+
+namespace gpu_shading::energyplus {
+
+void require_file(std::filesystem::path const& path) {
+  if (!std::filesystem::exists(path)) {
+    throw Error(fmt::format("{}: {}", path.string(),
+                            std::filesystem::is_symlink(path)
+                                ? "is a link to a file that does not exist"
+                                : "no such file"));
+  }
+  if (!std::filesystem::is_regular_file(path)) {
+    throw Error(fmt::format("{}: is not a file", path.string()));
+  }
+}
+
+std::string read_text_file(std::filesystem::path const& path) {
+  require_file(path);
+  auto const bytes = std::filesystem::file_size(path);
+  if (bytes > most_text_bytes) {
+    throw Error(fmt::format("{}: is larger than 1 GiB", path.string()));
+  }
+  std::string text(bytes, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!file) throw Error(fmt::format("{}: cannot be read", path.string()));
+  return text;
+}
+
+void write_whole_file(std::filesystem::path const& path,
+                      std::function<void(std::ostream&)> const& write) {
+  StagedFiles files(path.parent_path());
+  files.write(path.filename().string(), write);
+  files.commit();
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "gpu_shading/error.h"
+
+namespace gpu_shading::energyplus {
+
+// The folder of the running program: a patched EnergyPlus, for the launcher and the gpu_shading
+// program.
+std::filesystem::path own_folder();
+
+// A folder that goes with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(TemporaryFolder const&) = delete;
+  TemporaryFolder& operator=(TemporaryFolder const&) = delete;
+
+  std::filesystem::path const& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// Throws Error if nothing can be written to a temporary folder: programs that do not say why they
+// failed may have failed of that.
+void require_room(std::filesystem::path const& folder);
+
+// A signal that asks this program to end, and came while another program ran for it. Caught where
+// nothing is left to clear away, by raise().
+class Interrupted : public Error {
+ public:
+  explicit Interrupted(int signal);
+
+  // Ends this process as the signal would have.
+  void raise() const;
+
+ private:
+  int signal_;
+};
+
+// Runs a program to its end, its output into a file; `environment` ("NAME=value") is added to ours.
+// Returns its exit status, 128 + the signal where one ended it. Throws Error when it cannot be
+// started. A signal that asks us to end (SIGINT, SIGTERM, SIGHUP) goes to the program, and is
+// thrown as Interrupted once it has ended.
+int run_process(std::vector<std::string> const& command,
+                std::vector<std::string> const& environment, std::filesystem::path const& output);
+
+// What run_process() returned, in words: "exit status 1", "ended by signal 9 (Killed)".
+std::string describe_status(int status);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gpu_shading::energyplus {
+
+// EnergyPlus ignores the case of names; so do these functions.
+std::string upper(std::string_view text);
+bool same_name(std::string_view a, std::string_view b);
+
+// Whether a name matches a pattern, in which * stands for any characters; case is ignored.
+bool matches(std::string_view pattern, std::string_view name);
+
+// The number in a field; empty unless the whole text is a number.
+std::optional<double> parse_number(std::string const& text);
+
+// The text without surrounding white space.
+std::string trimmed(std::string_view text);
+
+// The comma-separated parts of a line, trimmed.
+std::vector<std::string> comma_separated(std::string const& line);
+
+// For a message: control characters escaped (\\n, \\x1b), long text cut to some 80 characters.
+std::string printable(std::string_view text);
+std::string in_quotes(std::string_view text);  // the same, in double quotes
+
+// The text as a CSV field, quoted if necessary.
+std::string csv_quoted(std::string_view text);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "gpu_shading/renderer.h"
+
+namespace gpu_shading::energyplus {
+
+// Position of a receiver in the order in which receivers were first asked for.
+using ReceiverNumber = std::uint32_t;
+
+// Answers kept by direction and by the state of the screens' deployments: warm-up days, sizing
+// periods and the sky's patches come back to the same ones. They hold whatever the transmittance
+// schedules say, which are applied to them afterwards. Bounded by make_room().
+class Answers {
+ public:
+  static constexpr std::size_t default_most_bytes = std::size_t{512} << 20U;
+
+  struct Direction {
+    SunDirection sun;
+    std::uint32_t state = 0;            // DeploymentStates
+    std::vector<float> projected_area;  // by receiver; not a number, or too short, where unknown
+    // What passes scheduled shades, of the receivers that have such in view.
+    std::unordered_map<ReceiverNumber, std::vector<ScheduledPart>> scheduled;
+    std::unordered_map<std::uint64_t, std::vector<Sunlit>> interior;  // by window and list
+    bool recalled = false;  // some of it is from earlier runs (AnswerCache)
+    bool asked = false;     // by EnergyPlus; else it was rendered ahead or as a sample
+
+    bool knows(ReceiverNumber receiver) const {
+      return receiver < projected_area.size() &&
+             projected_area[receiver] == projected_area[receiver];
+    }
+    // A known answer.
+    Sunlit sunlit(ReceiverNumber receiver) const;
+    // The same with the schedules' values.
+    double area(ReceiverNumber receiver, std::span<double const> factors) const;
+  };
+
+  explicit Answers(std::size_t most_bytes = default_most_bytes) : most_bytes_(most_bytes) {}
+
+  // Forgets everything, and returns true, when full. To be called before answers are added: their
+  // memory may exceed the bound by what is added until the next call.
+  bool make_room();
+
+  // The entry of a direction and a state, made where there is none. Valid until make_room() forgets
+  // it.
+  Direction& at(SunDirection sun, std::uint32_t state);
+
+  // nullptr where there is none.
+  Direction const* find(SunDirection sun, std::uint32_t state) const;
+
+  void keep(Direction& direction, ReceiverNumber receiver, Sunlit answer);
+  std::vector<Sunlit> const& keep_interior(Direction& direction, std::uint64_t window_and_list,
+                                           std::vector<Sunlit> answers);
+
+  // Keeps what another direction knows of a receiver, whose number is another there.
+  void copy(Direction const& from, ReceiverNumber known, Direction& direction,
+            ReceiverNumber receiver);
+
+  // What all of it takes, but for the containers' own.
+  std::size_t bytes() const { return bytes_; }
+  std::size_t size() const { return directions_.size(); }
+
+  template <typename Visit>
+  void for_each(Visit const& visit) const {
+    for (auto const& [key, direction] : directions_) visit(direction);
+  }
+
+ private:
+  struct Key {
+    SunDirection sun;
+    std::uint32_t state;
+
+    bool operator==(Key const&) const = default;
+  };
+  struct Hash {
+    std::size_t operator()(Key const& key) const {
+      std::hash<double> const hash;
+      constexpr std::size_t odd = 0x9e3779b97f4a7c15;
+      return (hash(key.sun.azimuth) * odd ^ hash(key.sun.altitude)) * odd ^ key.state;
+    }
+  };
+
+  std::size_t most_bytes_;
+  std::size_t bytes_ = 0;
+  std::unordered_map<Key, Direction, Hash> directions_;
+};
+
+}  // namespace gpu_shading::energyplus

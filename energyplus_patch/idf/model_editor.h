@@ -1,0 +1,63 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gpu_shading::energyplus {
+
+// The position of a field in each kind of file.
+struct FieldPosition {
+  std::size_t index;      // index in the IDF, from 0
+  std::string_view name;  // in epJSON
+};
+
+// An object of the edited model.
+class EditedObject {
+ public:
+  EditedObject() = default;
+  EditedObject(EditedObject const&) = delete;
+  EditedObject& operator=(EditedObject const&) = delete;
+  virtual ~EditedObject() = default;
+
+  // The field as text; "" if it is blank or absent.
+  virtual std::string get(FieldPosition const& field) const = 0;
+  virtual void set(FieldPosition const& field, nlohmann::json const& value) = 0;
+};
+
+// Sets a value, a string or a number, under its name in epJSON.
+struct NewField {
+  std::string_view name;
+  nlohmann::json value;
+};
+
+// A model, IDF or epJSON, edited object by object. Unchanged objects keep their content, but not
+// their layout.
+class ModelEditor {
+ public:
+  ModelEditor() = default;
+  ModelEditor(ModelEditor const&) = delete;
+  ModelEditor& operator=(ModelEditor const&) = delete;
+  virtual ~ModelEditor() = default;
+
+  virtual void remove(std::function<bool(std::string_view type)> const& unwanted) = 0;
+  // All objects of a type.
+  virtual void edit(std::string_view type, std::function<void(EditedObject&)> const& change) = 0;
+  // Fields in the IDF's order, all of them up to the last.
+  virtual void add(std::string_view type, std::vector<NewField> const& fields) = 0;
+  // Makes paths absolute that name an existing file relative to a folder through "..".
+  virtual void anchor_paths(std::filesystem::path const& folder) = 0;
+  virtual std::string text() const = 0;
+};
+
+std::unique_ptr<ModelEditor> edit_idf(std::string_view text);
+std::unique_ptr<ModelEditor> edit_epjson(nlohmann::json model);
+
+// Chosen by the file name extension. Throws Error if the file cannot be read.
+std::unique_ptr<ModelEditor> edit_model(std::filesystem::path const& path);
+
+}  // namespace gpu_shading::energyplus

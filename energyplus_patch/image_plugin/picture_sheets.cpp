@@ -1,0 +1,157 @@
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/c_interface.h"
+#include "image_plugin/image_plugin.h"
+
+namespace {
+
+using OIIO::ImageBuf;
+using OIIO::ImageBufAlgo::TextAlignX;
+using OIIO::ImageBufAlgo::TextAlignY;
+
+constexpr std::array<float, 3> white{1.0F, 1.0F, 1.0F};
+constexpr std::array<float, 3> black{0.0F, 0.0F, 0.0F};
+
+// Lengths in a picture in proportion to its size, so that all sizes look alike.
+struct Layout {
+  explicit Layout(std::vector<ImageBuf> const& pictures, bool scale) {
+    for (auto const& picture : pictures) {
+      width = std::max(width, picture.spec().width);
+      height = std::max(height, picture.spec().height);
+    }
+    constexpr int least = 11;
+    constexpr int lines = 28;
+    text = std::max(least, std::max(width, height) / lines);
+    margin = text / 2;
+    caption = 2 * text;
+    cell_width = width + 2 * margin;
+    cell_height = height + caption + margin;
+    scale_width = scale ? 7 * text : 0;
+  }
+
+  int width = 1;  // of the largest picture
+  int height = 1;
+  int text;
+  int margin;
+  int caption;  // height of the line above a picture
+  int cell_width;
+  int cell_height;
+  int scale_width;
+};
+
+void check(bool done, ImageBuf const& image) {
+  if (!done) fail(image.geterror());
+}
+
+ImageBuf blank(int width, int height) {
+  ImageBuf image(OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::UINT8));
+  check(OIIO::ImageBufAlgo::fill(image, white), image);
+  return image;
+}
+
+void write(ImageBuf& on, int x, int y, std::string const& text, int size, TextAlignX align) {
+  constexpr char const* font = "DejaVuSans";
+  if (OIIO::ImageBufAlgo::render_text(on, x, y, text, size, font, black, align,
+                                      TextAlignY::Center)) {
+    return;
+  }
+  fail("captions: " + on.geterror() + " (Debian: fonts-dejavu-core)");
+}
+
+// A bar from 0 at the bottom to 1, with its numbers, in the last `scale_width` columns.
+void add_scale(ImageBuf& on, Layout const& layout, unsigned char const* colours) {
+  constexpr int shades = gpu_shading_scale_colours;
+  int const left = on.spec().width - layout.scale_width + layout.text;
+  int const wide = layout.text;
+  int const top = layout.caption + layout.text;
+  int const tall = std::max(shades / 8, std::min(on.spec().height, layout.cell_height) - top -
+                                            layout.margin - layout.text);
+  for (int y = 0; y < tall; ++y) {
+    auto const shade = static_cast<std::size_t>((tall - 1 - y) * (shades - 1) / (tall - 1));
+    std::array<float, 3> colour{};
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      constexpr float most = 255.0F;
+      colour.at(channel) = static_cast<float>(colours[3 * shade + channel]) / most;
+    }
+    OIIO::ROI const row(left, left + wide, top + y, top + y + 1, 0, 1, 0, 3);
+    check(OIIO::ImageBufAlgo::fill(on, colour, row), on);
+  }
+  constexpr int steps = 4;
+  for (int step = 0; step <= steps; ++step) {
+    auto const number = step == 0 ? "0" : step == steps ? "1" : step == 2 ? "0.5" : "";
+    write(on, left + wide + layout.margin, top + tall - tall * step / steps, number, layout.text,
+          TextAlignX::Left);
+  }
+  write(on, left, layout.caption / 2 + layout.margin, "sunlit", layout.text, TextAlignX::Left);
+}
+
+void add_picture(ImageBuf& on, ImageBuf const& picture, std::string const& caption, int x, int y,
+                 Layout const& layout) {
+  auto const& spec = picture.spec();
+  write(on, x + layout.cell_width / 2, y + layout.caption / 2, caption, layout.text,
+        TextAlignX::Center);
+  // Centred in its cell.
+  check(OIIO::ImageBufAlgo::paste(on, x + (layout.cell_width - spec.width) / 2,
+                                  y + layout.caption + (layout.height - spec.height) / 2, 0, 0,
+                                  picture),
+        on);
+}
+
+void write_frames(char const* path, char const* name, std::vector<ImageBuf> const& frames,
+                  float per_second) {
+  auto const output = OIIO::ImageOutput::create(name);
+  if (!output) fail(OIIO::geterror());
+  if (frames.size() > 1 && output->supports("multiimage") == 0) {
+    fail("its format does not support animation; use .gif");
+  }
+  std::vector<OIIO::ImageSpec> specs;
+  for (auto const& frame : frames) {
+    specs.push_back(frame.spec());
+    specs.back().attribute("FramesPerSecond", per_second);
+  }
+  bool good = frames.size() > 1 ? output->open(path, static_cast<int>(specs.size()), specs.data())
+                                : output->open(path, specs.front());
+  for (std::size_t i = 0; good && i < frames.size(); ++i) {
+    if (i > 0) good = output->open(path, specs[i], OIIO::ImageOutput::AppendSubimage);
+    good = good && output->write_image(OIIO::TypeDesc::UINT8, frames[i].localpixels());
+  }
+  if (!good || !output->close()) fail(output->geterror());
+}
+
+}  // namespace
+
+extern "C" EXPORTED int gpu_shading_write_sheet(char const* path, char const* name,
+                                                gpu_shading_sheet const* sheet, char* message,
+                                                std::size_t message_size) {
+  return guarded(message, message_size, [&] {
+    std::vector<ImageBuf> pictures;
+    for (int i = 0; i < sheet->count; ++i) {
+      pictures.emplace_back(sheet->pictures[i]);
+      check(pictures.back().read(0, 0, true, OIIO::TypeDesc::UINT8), pictures.back());
+    }
+    Layout const layout(pictures, sheet->scale != nullptr);
+    std::vector<ImageBuf> frames;
+    int const columns = sheet->animated != 0 ? 1 : std::min(sheet->count, sheet->columns);
+    int const each = sheet->animated != 0 ? 1 : sheet->count;
+    for (int first = 0; first < sheet->count; first += each) {
+      int const rows = (each + columns - 1) / columns;
+      auto frame =
+          blank(columns * layout.cell_width + layout.scale_width, rows * layout.cell_height);
+      for (int i = 0; i < each; ++i) {
+        int const number = first + i;
+        add_picture(frame, pictures[static_cast<std::size_t>(number)], sheet->captions[number],
+                    i % columns * layout.cell_width, i / columns * layout.cell_height, layout);
+      }
+      if (sheet->scale != nullptr) add_scale(frame, layout, sheet->scale);
+      frames.push_back(std::move(frame));
+    }
+    write_frames(path, name, frames, sheet->frames_per_second);
+  });
+}

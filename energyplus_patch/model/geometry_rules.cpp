@@ -1,0 +1,126 @@
+#include "model/geometry_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <optional>
+
+#include "base/text.h"
+#include "gpu_shading/error.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+constexpr std::string_view rules_type = "GlobalGeometryRules";
+
+// Position of a field's value among those that it may have.
+template <std::size_t N>
+int choice(InputObject const& object, std::string const& field, std::string_view title,
+           std::array<std::string_view, N> const& known) {
+  auto const& value = object[field];
+  auto const found = std::find_if(known.begin(), known.end(), [&](std::string_view candidate) {
+    return same_name(candidate, value);
+  });
+  if (found == known.end()) {
+    throw Error(fmt::format("{}: {} is \"{}\"", object.type, title, value));
+  }
+  return static_cast<int>(found - known.begin());
+}
+
+double number(InputObject const& object, std::string const& field, std::string_view title) {
+  auto const& text = object[field];
+  if (text.empty()) return 0.0;
+  auto const value = parse_number(text);
+  if (!value) {
+    throw Error(
+        fmt::format("{} {}: {} is \"{}\", not a number", object.type, object.name, title, text));
+  }
+  return *value;
+}
+
+// Rotates by degrees clockwise, as seen from above.
+glm::dvec3 turned(glm::dvec3 const& point, double degrees) {
+  double const angle = glm::radians(degrees);
+  double const c = std::cos(angle);
+  double const s = std::sin(angle);
+  return {point.x * c + point.y * s, point.y * c - point.x * s, point.z};
+}
+
+// EnergyPlus removes vertices that are closer than 1 cm to a neighbour while more than three are
+// left: among these, it drops the one whose two adjacent edges are shortest in total.
+void drop_near_vertices(Ring& ring) {
+  constexpr double near = 0.01;
+  constexpr std::size_t fewest = 3;
+  while (ring.size() > fewest) {
+    std::size_t const count = ring.size();
+    std::optional<std::size_t> found;
+    double shortest = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      double const before = glm::distance(ring[(i + count - 1) % count], ring[i]);
+      double const after = glm::distance(ring[i], ring[(i + 1) % count]);
+      if (std::min(before, after) < near && (!found || before + after < shortest)) {
+        found = i;
+        shortest = before + after;
+      }
+    }
+    if (!found) return;
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(*found));
+  }
+}
+
+}  // namespace
+
+GeometryRules read_geometry_rules(std::vector<InputObject> const& objects) {
+  GeometryRules rules;
+  int found = 0;
+  for (auto const& object : objects) {
+    if (object.type == rules_type) {
+      ++found;
+      rules.first_corner =
+          choice<4>(object, "starting_vertex_position", "Starting Vertex Position",
+                    {"UpperLeftCorner", "LowerLeftCorner", "LowerRightCorner", "UpperRightCorner"});
+      rules.clockwise = choice<2>(object, "vertex_entry_direction", "Vertex EntryPatch Direction",
+                                  {"Counterclockwise", "Clockwise"}) == 1;
+      rules.relative =
+          choice<2>(object, "coordinate_system", "Coordinate System", {"World", "Relative"}) == 1;
+    } else if (object.type == "Building") {
+      rules.north_axis = number(object, "north_axis", "North Axis");
+    } else if (object.type == "Zone") {
+      rules.zones[upper(object.name)] = {
+          number(object, "direction_of_relative_north", "Direction of Relative North"),
+          {number(object, "x_origin", "X Origin"), number(object, "y_origin", "Y Origin"),
+           number(object, "z_origin", "Z Origin")}};
+    }
+  }
+  if (found != 1) {
+    throw Error(fmt::format("{}: given {} times, expected once", rules_type, found));
+  }
+  return rules;
+}
+
+Ring to_world(GeometryRules const& rules, Ring vertices, Attachment attachment,
+              GeometryRules::Zone const& zone) {
+  // The first vertex stays first.
+  if (rules.clockwise && !vertices.empty()) std::reverse(vertices.begin() + 1, vertices.end());
+  // A triangle has no upper right corner.
+  constexpr int upper_right = 3;
+  bool const triangle = vertices.size() == 3 && rules.first_corner == upper_right;
+  if (!triangle && static_cast<std::size_t>(rules.first_corner) < vertices.size()) {
+    std::rotate(vertices.begin(), vertices.end() - rules.first_corner, vertices.end());
+  }
+  if (rules.relative && attachment != Attachment::site) {
+    for (auto& vertex : vertices) {
+      if (attachment == Attachment::zone) vertex = turned(vertex, zone.direction) + zone.origin;
+      vertex = turned(vertex, rules.north_axis);
+    }
+  }
+  drop_near_vertices(vertices);
+  for (auto& vertex : vertices) vertex = glm::dvec3(glm::vec3(vertex));
+  return vertices;
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "gpu_shading/scene.h"
+#include "idf/input_object.h"
+
+namespace gpu_shading::energyplus {
+
+// How EnergyPlus transforms a model's vertices: GlobalGeometryRules, Building and Zone. Angles in
+// degrees clockwise from north, lengths in metres. Derived by comparison with the vertices that
+// EnergyPlus passes (tests/energyplus/test_lean.py).
+struct GeometryRules {
+  struct Zone {
+    double direction = 0.0;  // angle of its relative north from the building's
+    glm::dvec3 origin{0.0};
+  };
+
+  int first_corner = 0;  // index of the first vertex as written, counted from the upper left corner
+  bool clockwise = false;
+  bool relative = false;  // if false: world coordinates, not rotated by building or zones
+  double north_axis = 0.0;
+  std::unordered_map<std::string, Zone> zones;  // upper-case names
+};
+
+// Throws Error, naming object, field and value, for invalid rules.
+GeometryRules read_geometry_rules(std::vector<InputObject> const& objects);
+
+// What a shading surface is attached to, which determines its rotation and translation.
+enum class Attachment {
+  site,      // nothing
+  building,  // rotated by the building's north axis
+  zone,      // placed in a zone
+};
+
+// The outline that EnergyPlus derives from an object's vertices: counterclockwise from the upper
+// left corner, in world axes, without vertices that EnergyPlus drops because a neighbour is within
+// 1 cm. (EnergyPlus also drops vertices on the straight line between their neighbours, which does
+// not change any shadow; they are kept here.) Rounded to the single precision of the vertices that
+// EnergyPlus passes, so that surfaces that touch a wall still do. `zone` is only used for
+// Attachment::zone.
+Ring to_world(GeometryRules const& rules, Ring vertices, Attachment attachment,
+              GeometryRules::Zone const& zone = {});
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gpu_shading/scene.h"
+#include "idf/input_object.h"
+#include "idf/mentions.h"
+#include "idf/placeholders.h"
+#include "input/shading_input.h"
+#include "options/options.h"
+
+namespace gpu_shading::energyplus {
+
+// EnergyPlus spends minutes on thousands of shading surfaces, whatever renders them. Those that it
+// needs only for their shadows are removed from the input that it reads, and passed to the renderer
+// directly from the model.
+struct LeanInput {
+  Names left_out;                // Shading:...:Detailed objects
+  std::vector<Surface> casters;  // the same, with the vertices that EnergyPlus would pass
+  std::vector<Placeholder> placeholders;
+  std::string remark;  // message for the user: what is left out, or why nothing is; "": no message
+
+  bool active() const { return !left_out.empty(); }
+  bool is_placeholder(std::string const& surface) const;
+};
+
+// With Lean::automatic, surfaces are only left out from this number on. Each costs EnergyPlus about
+// 5 ms in a year's run, and the placeholders cost about as much as this many. Small models run
+// without lean input.
+inline constexpr std::size_t fewest_left_out = 100;
+
+// A surface is kept if another object or output names it, or if one of its fields cannot be
+// interpreted. All are kept if the model needs the surfaces themselves (solar reflections,
+// daylighting, complex fenestration, the external shading file, plugins), or if its geometry is
+// changed in ways that are not supported here (GeometryTransform, Compliance:Building).
+LeanInput plan_lean_input(std::vector<InputObject> const& objects, ShadingInput const& input,
+                          Options const& options, MentionFinder const& find_mentions);
+
+// Adds placeholders for casters that EnergyPlus does not know, unless there are some already.
+void ensure_placeholders(LeanInput& lean, ShadingInput const& input);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "idf/input_object.h"
+#include "input/perforated_screens.h"
+#include "input/shading_input.h"
+#include "input/transparent_shades.h"
+#include "model/lean_input.h"
+#include "options/options.h"
+#include "site/surroundings.h"
+
+namespace gpu_shading::energyplus {
+
+// A model as this module understands it.
+struct Model {
+  ShadingInput shading;
+  TransparentShades shades;
+  PerforatedScreens screens;
+  Options options;
+  LeanInput lean;
+  Surroundings surroundings;
+};
+
+// Reads a model's objects together with those of its side file, and resolves all options.
+// `choices`: command line, then environment. Side file: choices.file, or MODEL.gpu-shading.idf if
+// it exists. `find_mentions`, for the model's own file: without it, lean input is not planned.
+// Throws Error: one line naming object, field and value.
+Model understand(std::vector<InputObject> objects, std::filesystem::path const& path,
+                 Choices const& choices, MentionFinder const& find_mentions = {});
+
+// The same, from the model's file (.idf, .imf or .epJSON).
+Model read_model(std::filesystem::path const& path, Choices const& choices);
+
+// The file of extension objects of a model: choices.file, or the one beside the model, or none.
+std::optional<std::filesystem::path> find_side_file(std::filesystem::path const& model,
+                                                    Choices const& choices);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gpu_shading::energyplus {
+
+// The parts of EnergyPlus's command line that the launcher needs.
+struct CommandLine {
+  std::optional<std::filesystem::path>
+      model;                            // empty if a preprocessor creates it, or if there is no run
+  std::optional<std::size_t> model_at;  // its index in the arguments, if it is one of them
+  std::optional<std::filesystem::path> weather;  // -w
+  bool expand = false;                           // -x
+  bool annual = false;                           // -a
+  bool design_days = false;                      // -D
+  bool preprocessed = false;                     // -m
+  bool help = false;
+};
+
+// `arguments`: without the program's name and our flags.
+CommandLine read_command_line(std::vector<std::string> const& arguments);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <istream>
+#include <string>
+#include <vector>
+
+#include "gpu_shading/sun_direction.h"
+
+namespace gpu_shading::energyplus {
+
+// A zone timestep of a run period, in standard time.
+struct RunTime {
+  int month = 0;
+  int day = 0;
+  int hour = 0;      // 1 .. 24
+  int timestep = 0;  // timestep of the hour, from 1
+  SunDirection sun;  // as EnergyPlus uses it for the whole timestep
+  std::vector<double> schedules;
+};
+
+struct RunTimes {
+  int steps_per_hour = 0;
+  std::vector<RunTime> times;          // each time of a year once
+  std::vector<std::string> schedules;  // upper case; their values are in `times`
+};
+
+// Days of a leap year, by which EnergyPlus indexes schedules.
+inline constexpr int schedule_days = 366;
+
+// 0 .. 365.
+int day_of_schedule(int month, int day);
+
+// 0 .. 366 x 24 x steps - 1: the row of a schedule file of a leap year.
+std::size_t row_of(RunTime const& time, int steps_per_hour);
+
+// The value of a schedule (upper case) at one of the run's times, limited to 0 .. 1; 0 if
+// EnergyPlus does not know it.
+double schedule_value(RunTimes const& run, RunTime const& time, std::string const& name);
+
+// EnergyPlus's own limit (Engineering Reference, "Shading Module"): below it, the sun is down; with
+// a smaller cosine of incidence, it is behind a surface.
+bool sun_is_up(SunDirection sun);
+
+// The sunlit fraction as EnergyPlus reports it, 0 .. 1, from the projected sunlit area (m2).
+// `area`: unit normal times net area (m2); `sun`: unit vector to the sun.
+double sunlit_fraction(double projected_area, glm::dvec3 const& area, glm::dvec3 const& sun);
+
+// Reads an eplusout.eso with Site Solar Azimuth Angle, Site Solar Altitude Angle and Schedule Value
+// at every timestep. Throws Error if two run periods have different sun positions at the same time
+// of the year.
+RunTimes read_run_times(std::istream& eso);
+
+}  // namespace gpu_shading::energyplus

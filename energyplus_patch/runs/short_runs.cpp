@@ -1,0 +1,197 @@
+#include "runs/short_runs.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <string_view>
+#include <utility>
+
+#include "base/files.h"
+#include "base/process.h"
+#include "base/staged_files.h"
+#include "base/text.h"
+#include "gpu_shading/error.h"
+#include "idf/input_object.h"
+#include "idf/model_editor.h"
+#include "runs/stop_reasons.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using Path = std::filesystem::path;
+
+bool starts(std::string_view type, std::string_view prefix) {
+  return type.size() >= prefix.size() && same_name(type.substr(0, prefix.size()), prefix);
+}
+
+// Only run periods, without sizing.
+std::vector<NewField> simulation_control() {
+  return {{"do_zone_sizing_calculation", "No"},
+          {"do_system_sizing_calculation", "No"},
+          {"do_plant_sizing_calculation", "No"},
+          {"run_simulation_for_sizing_periods", "No"},
+          {"run_simulation_for_weather_file_run_periods", "Yes"}};
+}
+
+void shorten_run_periods(ModelEditor& model) {
+  constexpr std::pair<FieldPosition, FieldPosition> month{{1, "begin_month"}, {4, "end_month"}};
+  constexpr std::pair<FieldPosition, FieldPosition> day{{2, "begin_day_of_month"},
+                                                        {5, "end_day_of_month"}};
+  constexpr std::pair<FieldPosition, FieldPosition> year{{3, "begin_year"}, {6, "end_year"}};
+  model.edit("RunPeriod", [&](EditedObject& period) {
+    for (auto const& [begin, end] : {month, day, year}) {
+      auto const value = parse_number(period.get(begin));
+      if (value) period.set(end, static_cast<int>(*value));
+    }
+  });
+}
+
+// Reduces a model to what a drawing of the surfaces needs.
+void reduce_to_surfaces(ModelEditor& model) {
+  model.remove([](std::string_view type) {
+    return is_extension(type) || starts(type, "Output") || same_name(type, "ShadowCalculation") ||
+           same_name(type, "SimulationControl");
+  });
+  model.add("SimulationControl", simulation_control());
+  shorten_run_periods(model);
+  model.edit("Building", [](EditedObject& building) {
+    building.set({5, "solar_distribution"}, "MinimalShadowing");
+  });
+  model.add("Output:Surfaces:Drawing", {{"report_type", "DXF:WireFrame"}});
+}
+
+// Reduces a model to its calendar, site and schedules.
+void reduce_to_times(ModelEditor& model, std::vector<std::string> const& schedules) {
+  model.remove([](std::string_view type) {
+    bool const kept = same_name(type, "Version") || same_name(type, "Timestep") ||
+                      same_name(type, "Site:Location") ||
+                      same_name(type, "Site:VariableLocation") || starts(type, "RunPeriod") ||
+                      starts(type, "Schedule");
+    return !kept || same_name(type, "Schedule:File:Shading");
+  });
+  model.add("SimulationControl", simulation_control());
+  model.add("Building", {{"name", "Sun"}, {"north_axis", 0}});
+  model.add("GlobalGeometryRules", {{"starting_vertex_position", "UpperLeftCorner"},
+                                    {"vertex_entry_direction", "Counterclockwise"},
+                                    {"coordinate_system", "World"}});
+  auto const report = [&](std::string const& key, std::string_view variable) {
+    model.add(
+        "Output:Variable",
+        {{"key_value", key}, {"variable_name", variable}, {"reporting_frequency", "Timestep"}});
+  };
+  report("*", "Site Solar Azimuth Angle");
+  report("*", "Site Solar Altitude Angle");
+  for (auto const& schedule : schedules) report(schedule, "Schedule Value");
+}
+
+// Replaces all run periods by one that EnergyPlus extends to a year (-a): the first, which sets the
+// year or the day of the week.
+void keep_one_run_period(ModelEditor& model) {
+  constexpr std::array<FieldPosition, 10> fields{{{1, "begin_month"},
+                                                  {2, "begin_day_of_month"},
+                                                  {3, "begin_year"},
+                                                  {4, "end_month"},
+                                                  {5, "end_day_of_month"},
+                                                  {6, "end_year"},
+                                                  {7, "day_of_week_for_start_day"},
+                                                  {8, "use_weather_file_holidays_and_special_days"},
+                                                  {9, "use_weather_file_daylight_saving_period"},
+                                                  {10, "apply_weekend_holiday_rule"}}};
+  std::vector<NewField> period{{"name", "Year"}};
+  model.edit("RunPeriod", [&](EditedObject const& first) {
+    if (period.size() > 1) return;
+    for (auto const& field : fields) {
+      auto const text = first.get(field);
+      auto const number = parse_number(text);
+      period.push_back(
+          {field.name, number ? nlohmann::json(std::lround(*number)) : nlohmann::json(text)});
+    }
+  });
+  if (period.size() == 1) {
+    constexpr int december = 12;
+    constexpr int last = 31;
+    for (int const value : {1, 1, 0, december, last}) {
+      auto const name = fields.at(period.size() - 1).name;
+      period.push_back({name, value == 0 ? nlohmann::json("") : nlohmann::json(value)});
+    }
+  }
+  model.remove([](std::string_view type) { return same_name(type, "RunPeriod"); });
+  model.add("RunPeriod", period);
+}
+
+// Runs a reduced model and returns the requested output.
+std::ifstream run(EnergyPlusCall const& call, ModelEditor& model, bool expand,
+                  TemporaryFolder const& folder, std::string_view output) {
+  auto const out = folder.path() / "out";
+  std::filesystem::create_directory(out);
+  auto const path = place_model(model, call.model, folder.path() / "in");
+  std::vector<std::string> command{call.program.string(), "-d", out.string()};
+  if (call.weather) command.insert(command.end(), {"-w", call.weather->string()});
+  if (expand) command.emplace_back("-x");
+  if (call.annual) command.emplace_back("-a");
+  command.push_back(path.string());
+  // An empty variable counts as unset, so EnergyPlus runs unmodified.
+  int const status = run_process(command, {"GPU_SHADING="}, folder.path() / "log.txt");
+  // EnergyPlus itself does not notice a full disk.
+  require_room(folder.path());
+  std::ifstream file(out / output);
+  if (!file || status != 0) {
+    throw Error(fmt::format("{}: EnergyPlus does not get as far as its shading calculation ({}):{}",
+                            call.model.string(), describe_status(status), stop_reasons(out)));
+  }
+  return file;
+}
+
+}  // namespace
+
+std::vector<DrawnSurface> run_for_surfaces(EnergyPlusCall const& call) {
+  auto const model = edit_model(call.model);
+  reduce_to_surfaces(*model);
+  TemporaryFolder const folder;
+  auto day = call;
+  day.annual = false;
+  auto file = run(day, *model, call.expand, folder, "eplusout.dxf");
+  return read_drawing(file);
+}
+
+RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> const& schedules) {
+  auto const model = edit_model(call.model);
+  reduce_to_times(*model, schedules);
+  TemporaryFolder const folder;
+  auto file = run(call, *model, false, folder, "eplusout.eso");
+  return read_run_times(file);
+}
+
+RunTimes run_for_year(EnergyPlusCall const& call, std::vector<std::string> const& schedules,
+                      int steps_per_hour) {
+  auto const model = edit_model(call.model);
+  reduce_to_times(*model, schedules);
+  model->remove([](std::string_view type) { return same_name(type, "Timestep"); });
+  model->add("Timestep", {{"number_of_timesteps_per_hour", steps_per_hour}});
+  keep_one_run_period(*model);
+  TemporaryFolder const folder;
+  auto year = call;
+  year.annual = true;
+  auto file = run(year, *model, false, folder, "eplusout.eso");
+  return read_run_times(file);
+}
+
+Path place_model(ModelEditor& model, Path const& original, Path const& folder) {
+  std::filesystem::create_directories(folder);
+  auto const source = std::filesystem::weakly_canonical(original);
+  model.anchor_paths(source.parent_path());
+  for (auto const& entry : std::filesystem::directory_iterator(source.parent_path())) {
+    auto const link = folder / entry.path().filename();
+    if (entry.path() == source || std::filesystem::equivalent(entry.path(), folder)) continue;
+    if (entry.path().filename().string().starts_with(StagedFiles::prefix)) continue;
+    std::error_code exists;
+    std::filesystem::create_symlink(entry.path(), link, exists);
+  }
+  auto path = folder / source.filename();
+  write_whole_file(path, [&](std::ostream& file) { file << model.text(); });
+  return path;
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runs/drawing.h"
+#include "runs/run_times.h"
+
+namespace gpu_shading::energyplus {
+
+class ModelEditor;
+
+// How to run EnergyPlus itself, and its arguments besides the model.
+struct EnergyPlusCall {
+  std::filesystem::path program;  // runs the unmodified EnergyPlus
+  std::filesystem::path model;
+  std::optional<std::filesystem::path> weather;
+  bool expand = false;       // -x
+  bool annual = false;       // -a
+  bool design_days = false;  // -D: no run period
+};
+
+// EnergyPlus's own surfaces, from a run that ends after drawing them: at most a day, without sizing
+// and shading. Throws Error with EnergyPlus's reasons if it does not get there.
+std::vector<DrawnSurface> run_for_surfaces(EnergyPlusCall const& call);
+
+// Every timestep of the model's run periods, with EnergyPlus's own sun and schedule values, from a
+// run of the calendar and the schedules alone. Schedules that EnergyPlus does not know there
+// (another program's, for example) are left out. Throws Error likewise.
+RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> const& schedules);
+
+// The same for a whole year, whatever the model's run periods and timestep; the year is that of its
+// first run period.
+RunTimes run_for_year(EnergyPlusCall const& call, std::vector<std::string> const& schedules,
+                      int steps_per_hour);
+
+// Writes a model into a folder under its own name, with links to the files beside the original, so
+// that relative file names work.
+std::filesystem::path place_model(ModelEditor& model, std::filesystem::path const& original,
+                                  std::filesystem::path const& folder);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,31 @@
+#include "session/open_answers.h"
+
+#include <utility>
+
+#include "gpu_shading/error.h"
+
+namespace gpu_shading::energyplus {
+
+RenderedAnswers open_answers(SceneAssembly const& scene, std::span<SurfaceId const> receivers,
+                             Messages const& messages) {
+  auto const& options = scene.model().options;
+  Renderer renderer(scene.scene(), renderer_options(options));
+  std::optional<AnswerCache> cache;
+  if (options.cache) {
+    auto const hash = scene.hash(renderer.scene(), renderer.device());
+    cache.emplace(*options.cache, hash, messages.remark);
+  }
+  RenderedAnswers answers(std::move(renderer), std::move(cache), receivers);
+  answers.deploy(scene.optics().deployments());
+  return answers;
+}
+
+void store_answers(RenderedAnswers& answers, Messages const& messages) {
+  try {
+    answers.store();
+  } catch (Error const& error) {
+    messages.warning(error.what());
+  }
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+
+#include "session/messages.h"
+#include "session/rendered_answers.h"
+#include "session/scene_assembly.h"
+
+namespace gpu_shading::energyplus {
+
+// Opens the device and the cache that the model's options name, for the scene as it is now.
+// `receivers`: see RenderedAnswers. Throws Error.
+RenderedAnswers open_answers(SceneAssembly const& scene, std::span<SurfaceId const> receivers,
+                             Messages const& messages);
+
+// Adds answers to their cache; warns if that cannot be written.
+void store_answers(RenderedAnswers& answers, Messages const& messages);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,90 @@
+#include "session/perform_task.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <variant>
+
+#include "cache/cache_folder.h"
+#include "extensions/extension_fields.h"
+#include "gpu_shading/error.h"
+#include "samples/take_samples.h"
+#include "session/draw_views.h"
+#include "session/listing.h"
+#include "session/open_answers.h"
+#include "session/remarks.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+std::string perform(ListingTask const& task, SceneAssembly& scene, Messages const& /*messages*/) {
+  return task.vertices ? list_vertices(scene.surfaces(), scene.model())
+                       : list_surfaces(scene.surfaces(), scene.model(), scene.receives());
+}
+
+std::string perform(ViewsTask const& task, SceneAssembly& scene, Messages const& /*messages*/) {
+  auto const& options = scene.model().options;
+  Renderer renderer(scene.scene(), renderer_options(options));
+  scene.optics().update({});
+  renderer.set_deployments(scene.optics().deployments());
+  auto receives = scene.receives();
+  receives.resize(scene.surfaces().size(), false);  // what EnergyPlus does not see only casts
+  draw_views(task.views, task.folder,
+             {renderer, options.device, scene.shown(), std::move(receives),
+              scene.optics().factors(), task.size});
+  return {};
+}
+
+// Each position of a screen would need samples of its own.
+void refuse_moving_screens(ShadeOptics const& optics) {
+  for (auto const& name : optics.deployment_names()) {
+    auto const [least, most] = optics.schedules().range(name);
+    if (least < most) {
+      throw Error(fmt::format(
+          "{}: {} {}: has values from {} to {}; expected one value all the time, for samples",
+          extension::perforated_screen::type,
+          extension::perforated_screen::deployment_schedule_name.title, name, least, most));
+    }
+  }
+}
+
+SampledScene sampled_scene(SamplesTask const& task, SceneAssembly const& scene,
+                           RenderedAnswers const& answers) {
+  auto const areas = scene.areas();
+  SampledScene sampled;
+  sampled.asked = task.asked;
+  sampled.hash = to_text(scene.hash(answers.renderer().scene(), {}));
+  sampled.fineness = describe_fineness(scene.model().options);
+  sampled.schedules = scene.optics().factor_names();
+  for (auto const id : answers.known().receivers) {
+    sampled.receivers.push_back({scene.surfaces()[id].name, areas[id]});
+  }
+  return sampled;
+}
+
+std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages const& messages) {
+  auto const& options = scene.model().options;
+  refuse_moving_screens(scene.optics());
+  if (options.cache) prepare_cache_folder(*options.cache);
+  auto answers = open_answers(scene, scene.receivers(), messages);
+  auto const& device = answers.renderer().device();
+  check_device(device, options, messages);
+  describe_scene(scene, messages);
+  scene.optics().update({});
+  answers.deploy(scene.optics().deployments());
+  auto const sampled = sampled_scene(task, scene, answers);
+  auto line = take_samples(task, options.update.sampling.value(), sampled, describe(device),
+                           [&](std::span<SunDirection const> suns) {
+                             return answers.at(suns, answers.known().receivers);
+                           });
+  store_answers(answers, messages);
+  return line;
+}
+
+}  // namespace
+
+std::string perform_task(Task const& task, SceneAssembly& scene, Messages const& messages) {
+  return std::visit([&](auto const& wanted) { return perform(wanted, scene, messages); }, task);
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "session/messages.h"
+#include "session/scene_assembly.h"
+#include "session/sun_answers.h"
+
+namespace gpu_shading::energyplus {
+
+// Warns of a device that is no GPU. Throws DeviceError where a GPU is required.
+void check_device(DeviceInfo const& device, Options const& options, Messages const& messages);
+
+// Before the first question: the model's warnings, what was left out and what surrounds it, and the
+// .eio's list of the surfaces that let light through.
+void describe_scene(SceneAssembly const& scene, Messages const& messages);
+
+// After the last question: what rendered how much.
+void describe_answers(SunAnswers const& answers, Options const& options, Messages const& messages);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,114 @@
+#include "session/scene_assembly.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "cache/build_id.h"
+#include "cache/scene_hash.h"
+#include "extensions/extension_fields.h"
+#include "session/shading_rule.h"
+
+namespace gpu_shading::energyplus {
+
+SurfaceId SceneAssembly::add(Surface surface) {
+  if (model_.lean.is_placeholder(surface.name)) surface.casting = Casting::never;
+  if (surface.casting != Casting::never) surface.casting = model_.shading.casting(surface.name);
+  return surfaces_.add(std::move(surface));
+}
+
+void SceneAssembly::complete(Schedules schedules) {
+  for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
+    auto const& name = surfaces_[id].name;
+    bool const placeholder = model_.lean.is_placeholder(name);
+    bool const wanted = model_.shading.receives(name) && !window_of_reveal(name) && !placeholder;
+    receives_.push_back(wanted);
+    unshaded_.push_back(!wanted && (placeholder || model_.shading.shading_surfaces.contains(name)));
+  }
+  complete_ = true;
+  for (auto& caster : model_.lean.casters) surfaces_.add(std::move(caster));
+  model_.lean.casters.clear();
+  model_.surroundings.first = static_cast<SurfaceId>(surfaces_.size());
+  for (auto& caster : model_.surroundings.casters) surfaces_.add(std::move(caster.surface));
+  optics_ = ShadeOptics(model_, std::move(schedules));
+}
+
+std::vector<SurfaceId> SceneAssembly::shading_surfaces() const {
+  std::vector<SurfaceId> ids;
+  for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
+    if (model_.shading.shading_surfaces.contains(surfaces_[id].name)) ids.push_back(id);
+  }
+  return ids;
+}
+
+std::vector<glm::dvec3> SceneAssembly::areas() const {
+  std::vector<glm::dvec3> areas;
+  areas.reserve(size());
+  for (SurfaceId id = 0; id < size(); ++id) {
+    auto const& polygon = surfaces_[id].polygon;
+    areas.push_back(area(polygon) * normal(polygon));
+  }
+  return areas;
+}
+
+std::vector<SurfaceId> SceneAssembly::receivers() const {
+  std::vector<SurfaceId> ids;
+  for (SurfaceId id = 0; id < size(); ++id) {
+    if (receives_[id] && area(surfaces_[id].polygon) > 0.0) ids.push_back(id);
+  }
+  return ids;
+}
+
+std::vector<SurfaceId> SceneAssembly::shown() const {
+  auto const& types = model_.surroundings.types;
+  std::vector<SurfaceId> ids;
+  for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
+    auto const& name = surfaces_[id].name;
+    auto const type = types.find(name);
+    bool const context = type != types.end() && type->second == extension::site_context::type;
+    if (!context && !model_.lean.is_placeholder(name)) ids.push_back(id);
+  }
+  return ids;
+}
+
+Scene SceneAssembly::scene() const {
+  Scene scene;
+  for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
+    auto surface = surfaces_[id];
+    optics_.apply(surface, model_.surroundings.texture_of(id));
+    scene.add(std::move(surface));
+  }
+  std::vector<WallCopy> copies;
+  for (SurfaceId id = 0; id < size(); ++id) {
+    auto const& wall = surfaces_[id];
+    if (wall.polygon.holes.empty() || wall.casting == Casting::never) continue;
+    Surface closed;
+    closed.name = wall.name;
+    closed.polygon.outline = wall.polygon.outline;
+    closed.casting = wall.casting;
+    optics_.apply(closed);
+    copies.push_back({id, scene.add(std::move(closed))});
+  }
+  scene.set_rule(make_shading_rule(model_.shading, scene, copies).rule);
+  return scene;
+}
+
+Hash SceneAssembly::hash(Scene const& scene, DeviceInfo const& device) const {
+  return hash_scene(scene, {renderer_options(model_.options), device, build_id()});
+}
+
+RendererOptions renderer_options(Options const& options) {
+  RendererOptions chosen;
+  chosen.device = options.device;
+  chosen.resolution = options.resolution;
+  chosen.error = options.error;
+  return chosen;
+}
+
+std::string describe_fineness(Options const& options) {
+  return options.resolution
+             ? fmt::format("{} x {} pixels", *options.resolution, *options.resolution)
+             : fmt::format("error {}", options.error);
+}
+
+}  // namespace gpu_shading::energyplus

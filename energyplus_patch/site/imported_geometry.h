@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "idf/input_object.h"
+#include "site/site_origin.h"
+#include "site/surroundings.h"
+
+namespace gpu_shading::energyplus {
+
+// Whether a GPUShading:Geometry is placed by latitude and longitude.
+bool needs_origin(std::vector<InputObject> const& objects);
+
+// Reads every GPUShading:Geometry: a caster for each triangle, facing the side from which its
+// texture is not mirrored. `origin`: for those placed by latitude and longitude. Throws Error.
+void read_geometries(std::vector<InputObject> const& objects, std::filesystem::path const& folder,
+                     std::optional<SiteOrigin> const& origin, Surroundings& surroundings);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,52 @@
+#include <optional>
+#include <utility>
+
+#include "egl/device.h"
+#include "gl_module/gl_module.h"
+#include "raster_gl/gl_backend.h"
+#include "raster_gl/gl_picture_raster.h"
+
+namespace gpu_shading {
+namespace {
+
+class Module : public GlModule {
+ public:
+  std::vector<DeviceInfo> list_devices(std::vector<std::string>& failures) const override {
+    egl::DeviceWalk walk;
+    std::vector<DeviceInfo> devices;
+    while (std::optional<egl::Device> const device = walk.next()) devices.push_back(device->info);
+    failures.insert(failures.end(), walk.failures().begin(), walk.failures().end());
+    return devices;
+  }
+
+  std::unique_ptr<ViewBackend> open_gpu(BackendInput const& input,
+                                        RendererOptions const& options) const override {
+    std::optional<egl::Device> device = egl::open_gpu();
+    if (!device) return nullptr;
+    return std::make_unique<GlBackend>(std::move(*device), input, options);
+  }
+
+  std::unique_ptr<ViewBackend> open_device(int index, BackendInput const& input,
+                                           RendererOptions const& options) const override {
+    return std::make_unique<GlBackend>(egl::open_device(index), input, options);
+  }
+
+  std::unique_ptr<PictureRaster> open_gpu_for_pictures(PictureScene const& scene) const override {
+    std::optional<egl::Device> device = egl::open_gpu();
+    if (!device) return nullptr;
+    return std::make_unique<GlPictureRaster>(std::move(*device), scene);
+  }
+
+  std::unique_ptr<PictureRaster> open_device_for_pictures(
+      int index, PictureScene const& scene) const override {
+    return std::make_unique<GlPictureRaster>(egl::open_device(index), scene);
+  }
+};
+
+}  // namespace
+}  // namespace gpu_shading
+
+extern "C" [[gnu::visibility("default")]] gpu_shading::GlModule const* gpu_shading_gl_module() {
+  static gpu_shading::Module const module;
+  return &module;
+}

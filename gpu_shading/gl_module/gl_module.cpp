@@ -1,0 +1,49 @@
+#include "gl_module/gl_module.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <link.h>
+
+#include <filesystem>
+#include <system_error>
+
+#include "gpu_shading/error.h"
+
+namespace gpu_shading {
+namespace {
+
+constexpr char const* library = "libgpu_shading_gl.so";
+
+std::filesystem::path folder_of_this_code() {
+  Dl_info info{};
+  link_map* map = nullptr;
+  dladdr1(reinterpret_cast<void const*>(&gl_module), &info, reinterpret_cast<void**>(&map),
+          RTLD_DL_LINKMAP);
+  // A program itself has no name there.
+  if (map != nullptr && map->l_name != nullptr && *map->l_name != '\0') {
+    return std::filesystem::path(map->l_name).parent_path();
+  }
+  std::error_code error;
+  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+GlModule const& load() {
+  std::error_code error;
+  auto const beside = folder_of_this_code() / library;
+  bool const is_beside = std::filesystem::exists(beside, error);
+  void* const handle = dlopen(is_beside ? beside.c_str() : library, RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) throw DeviceError(fmt::format("no OpenGL: {}", dlerror()));
+  using Entry = GlModule const*();
+  auto* const entry = reinterpret_cast<Entry*>(dlsym(handle, "gpu_shading_gl_module"));
+  if (entry == nullptr) throw DeviceError(fmt::format("no OpenGL: {}", dlerror()));
+  return *entry();
+}
+
+}  // namespace
+
+GlModule const& gl_module() {
+  static GlModule const& loaded = load();
+  return loaded;
+}
+
+}  // namespace gpu_shading

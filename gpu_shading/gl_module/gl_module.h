@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gpu_shading/device.h"
+#include "gpu_shading/renderer.h"
+#include "view/picture_raster.h"
+#include "view/view_backend.h"
+
+namespace gpu_shading {
+
+// What libgpu_shading_gl.so does for us: all that needs OpenGL, EGL and libepoxy, apart from the
+// library so that it runs where these are missing. Both are of one build.
+class GlModule {
+ public:
+  GlModule() = default;
+  virtual ~GlModule() = default;
+  GlModule(GlModule const&) = delete;
+  GlModule& operator=(GlModule const&) = delete;
+  GlModule(GlModule&&) = delete;
+  GlModule& operator=(GlModule&&) = delete;
+
+  // As gpu_shading::list_devices.
+  virtual std::vector<DeviceInfo> list_devices(std::vector<std::string>& failures) const = 0;
+
+  // Draws by the first GPU, or nothing where there is none.
+  virtual std::unique_ptr<ViewBackend> open_gpu(BackendInput const& input,
+                                                RendererOptions const& options) const = 0;
+  // Draws by the device of an index in list_devices(). Throws DeviceError.
+  virtual std::unique_ptr<ViewBackend> open_device(int index, BackendInput const& input,
+                                                   RendererOptions const& options) const = 0;
+
+  // The same for pictures.
+  virtual std::unique_ptr<PictureRaster> open_gpu_for_pictures(PictureScene const& scene) const = 0;
+  virtual std::unique_ptr<PictureRaster> open_device_for_pictures(
+      int index, PictureScene const& scene) const = 0;
+};
+
+// Loads it, once. It lies beside this program or library, or where the dynamic linker looks. Throws
+// DeviceError: what it or something that it needs is missing.
+GlModule const& gl_module();
+
+}  // namespace gpu_shading

@@ -1,0 +1,272 @@
+#include "raster_cpu/coverage.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <utility>
+
+namespace gpu_shading {
+namespace {
+
+View in_pixels(View view, int side) {
+  glm::dvec4 const shift(0.0, 0.0, 0.0, 1.0);
+  view.x = 0.5 * side * (view.x + shift);
+  view.y = 0.5 * side * (view.y + shift);
+  return view;
+}
+
+bool any_scheduled(std::span<Shade const> shades) {
+  return std::any_of(shades.begin(), shades.end(),
+                     [](Shade const& shade) { return shade.schedule != Shades::unscheduled; });
+}
+
+// Places of casters in the order of their schedules.
+std::vector<std::size_t> by_schedule(std::span<Shade const> shades) {
+  std::vector<std::size_t> order(shades.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return shades[a].schedule < shades[b].schedule;
+  });
+  return order;
+}
+
+// Calls use(word, bit) for the set bits of some words, in order.
+template <typename Use>
+void each_bit(std::uint64_t word, std::size_t number, Use use) {
+  for (std::uint64_t rest = word; rest != 0; rest &= rest - 1) {
+    use(number * PixelMask::word_bits + static_cast<std::size_t>(std::countr_zero(rest)));
+  }
+}
+
+LuminanceSums unscheduled(double sum) { return {sum, {}}; }
+
+// Calls use(first, end) for parts of a tile's rows, on at most this many threads.
+template <typename Use>
+void in_rows(int side, int threads, Use use) {
+  if (threads <= 1) return use(0, side);
+  using Rows = tbb::blocked_range<int>;
+  auto const share = static_cast<std::size_t>((side + threads - 1) / threads);
+  tbb::parallel_for(Rows(0, side, share), [&](Rows const& rows) { use(rows.begin(), rows.end()); });
+}
+
+}  // namespace
+
+struct Coverage::InteriorPiece {
+  std::size_t surface = 0;  // its index in the question
+  PixelMask mask;
+  DepthPlane depth;
+
+  double depth_at(std::size_t word, int bit) const {
+    return depth.at(mask.column(word) + bit, mask.row(word));
+  }
+};
+
+template <typename Use>
+void Coverage::each_area(SurfaceId caster, View const& pixels, int side, Use use) const {
+  pieces_.each(caster, pixels, [&](ProjectedPiece const& piece) { use(piece.area(side)); });
+}
+
+LuminanceSums Coverage::sums(Tile const& tile, View const& view, CastersInView const& casters,
+                             int threads) const {
+  View const pixels = in_pixels(view, tile.side);
+  if (casters.opaque()) {
+    return unscheduled(static_cast<double>(lit(tile, pixels, casters.surfaces, threads)));
+  }
+  if (any_scheduled(casters.shades)) return scheduled(tile, pixels, casters, threads);
+  return unscheduled(luminance(tile, pixels, casters, threads));
+}
+
+void Coverage::darken(PixelMask& mask, int side, View const& pixels,
+                      std::span<SurfaceId const> casters) const {
+  for (SurfaceId const id : casters) {
+    each_area(id, pixels, side, [&](ConvexArea const& area) { mask.darken(area); });
+  }
+}
+
+void Coverage::shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* passed,
+                     View const& pixels, CastersInView const& casters) const {
+  if (casters.opaque()) return darken(mask, shaded.side(), pixels, casters.surfaces);
+  auto const shade_by = [&](std::size_t i) {
+    Shade const& shade = casters.shades[i];
+    each_area(casters.surfaces[i], pixels, shaded.side(), [&](ConvexArea const& area) {
+      if (shade.transmittance > 0.0F) {
+        shaded.multiply(area, shade.transmittance);
+        if (shade.schedule != Shades::unscheduled) passed->pass(area, shade.schedule);
+      } else {
+        mask.darken(area);
+      }
+    });
+  };
+  if (passed == nullptr) {
+    for (std::size_t i = 0; i < casters.shades.size(); ++i) shade_by(i);
+  } else {
+    for (std::size_t const i : by_schedule(casters.shades)) shade_by(i);
+  }
+  shade_by_screens(shaded, mask, pixels, casters.screens);
+}
+
+std::uint64_t Coverage::lit(Tile const& tile, View const& pixels,
+                            std::span<SurfaceId const> casters, int threads) const {
+  std::atomic<std::uint64_t> sum = 0;
+  in_rows(tile.side, threads, [&](int first, int end) {
+    static thread_local PixelMask mask;
+    mask.start(tile.side, first, end);
+    light(mask, tile);
+    darken(mask, tile.side, pixels, casters);
+    sum += mask.lit();
+  });
+  return sum;
+}
+
+double Coverage::luminance(Tile const& tile, View const& pixels, CastersInView const& casters,
+                           int threads) const {
+  std::vector<double> sums(static_cast<std::size_t>(tile.side));
+  in_rows(tile.side, threads, [&](int first, int end) {
+    static thread_local PixelMask mask;
+    static thread_local LuminanceTile shaded;
+    mask.start(tile.side, first, end);
+    light(mask, tile);
+    shaded.start(tile.side, first, end);
+    shade(mask, shaded, nullptr, pixels, casters);
+    shaded.sum_rows(mask, std::span(sums).subspan(static_cast<std::size_t>(first)));
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+LuminanceSums Coverage::scheduled(Tile const& tile, View const& pixels,
+                                  CastersInView const& casters, int threads) const {
+  // Rows are summed one by one and added up in order, however threads share them.
+  struct Part {
+    int first;
+    PassedSchedules passed;
+    std::vector<CombinationSums::Sum> row_sums;
+  };
+  std::mutex parts_mutex;
+  std::vector<Part> parts;
+  in_rows(tile.side, threads, [&](int first, int end) {
+    static thread_local PixelMask mask;
+    static thread_local LuminanceTile shaded;
+    Part part{first, {}, {}};
+    mask.start(tile.side, first, end);
+    light(mask, tile);
+    shaded.start(tile.side, first, end);
+    part.passed.start(tile.side, first, end);
+    shade(mask, shaded, &part.passed, pixels, casters);
+    CombinationSums sums(part.passed.combinations());
+    std::span<std::uint64_t const> const words = std::as_const(mask).words();
+    std::size_t const words_a_row = shaded.stride() / PixelMask::word_bits;
+    for (std::size_t word = 0; word < words.size(); ++word) {
+      each_bit(words[word], word, [&](std::size_t pixel) {
+        sums.add(part.passed.pixels()[pixel], std::as_const(shaded).pixels()[pixel]);
+      });
+      if ((word + 1) % words_a_row == 0) sums.take(part.row_sums);
+    }
+    std::lock_guard const lock(parts_mutex);
+    parts.push_back(std::move(part));
+  });
+  std::sort(parts.begin(), parts.end(),
+            [](Part const& a, Part const& b) { return a.first < b.first; });
+  ScheduledTotals totals;
+  for (Part const& part : parts) totals.add(part.passed, part.row_sums);
+  return totals.result();
+}
+
+std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& view,
+                                                 CastersInView const& casters, View const& behind,
+                                                 std::span<SurfaceId const> interiors) const {
+  View const pixels = in_pixels(view, tile.side);
+  PixelMask lit;
+  lit.start(tile.side, 0, tile.side);
+  light(lit, tile);
+  std::vector<LuminanceSums> sums(interiors.size());
+  if (casters.opaque()) {
+    darken(lit, tile.side, pixels, casters.surfaces);
+    for (InteriorPiece const& piece :
+         find_inside(tile, in_pixels(behind, tile.side), interiors, lit)) {
+      sums[piece.surface].unscheduled +=
+          static_cast<double>(count_common(std::as_const(lit).words(), piece.mask.words()));
+    }
+    return sums;
+  }
+  LuminanceTile shaded;
+  PassedSchedules passed;
+  shaded.start(tile.side, 0, tile.side);
+  passed.start(tile.side, 0, tile.side);
+  shade(lit, shaded, &passed, pixels, casters);
+  CombinationSums by_combination(passed.combinations());
+  std::vector<CombinationSums::Sum> taken;
+  std::vector<ScheduledTotals> totals(interiors.size());
+  std::span<std::uint64_t const> const words = std::as_const(lit).words();
+  for (InteriorPiece const& piece :
+       find_inside(tile, in_pixels(behind, tile.side), interiors, lit)) {
+    for (std::size_t word = 0; word < words.size(); ++word) {
+      each_bit(words[word] & piece.mask.words()[word], word, [&](std::size_t pixel) {
+        by_combination.add(passed.pixels()[pixel], std::as_const(shaded).pixels()[pixel]);
+      });
+    }
+    taken.clear();
+    by_combination.take(taken);
+    totals[piece.surface].add(passed, taken);
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = totals[i].result();
+  return sums;
+}
+
+std::vector<Coverage::InteriorPiece> Coverage::find_inside(Tile const& tile, View const& pixels,
+                                                           std::span<SurfaceId const> interiors,
+                                                           PixelMask const& lit) const {
+  std::vector<InteriorPiece> found;
+  std::vector<std::uint64_t> covered(lit.words().size());
+  std::vector<std::uint64_t> several(lit.words().size());
+  for (std::size_t i = 0; i < interiors.size(); ++i) {
+    pieces_.each(interiors[i], pixels, [&](ProjectedPiece const& piece) {
+      ConvexArea const area = piece.area(tile.side);
+      if (area.first_row >= area.end_row) return;
+      InteriorPiece& added = found.emplace_back();
+      added.surface = i;
+      added.depth = piece.depth();
+      added.mask.start(tile.side, 0, tile.side);
+      added.mask.light(area);
+      std::span<std::uint64_t const> const words = std::as_const(added.mask).words();
+      for (std::size_t k = 0; k < words.size(); ++k) {
+        several[k] |= covered[k] & words[k];
+        covered[k] |= words[k];
+      }
+    });
+  }
+  // In a closed room, two surfaces hardly ever cover the same pixel.
+  for (std::size_t word = 0; word < several.size(); ++word) {
+    for (std::uint64_t rest = several[word] & lit.words()[word]; rest != 0; rest &= rest - 1) {
+      keep_nearest(found, word, std::countr_zero(rest));
+    }
+  }
+  return found;
+}
+
+void Coverage::keep_nearest(std::span<InteriorPiece> pieces, std::size_t word, int bit) {
+  std::uint64_t const pixel = std::uint64_t{1} << static_cast<unsigned>(bit);
+  InteriorPiece* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (InteriorPiece& piece : pieces) {
+    std::uint64_t& pixels = piece.mask.words()[word];
+    if ((pixels & pixel) == 0) continue;
+    double const depth = piece.depth_at(word, bit);
+    if (nearest != nullptr && !(depth < least)) {
+      pixels &= ~pixel;
+      continue;
+    }
+    if (nearest != nullptr) nearest->mask.words()[word] &= ~pixel;
+    nearest = &piece;
+    least = depth;
+  }
+}
+
+}  // namespace gpu_shading

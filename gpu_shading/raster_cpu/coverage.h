@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gpu_shading/scene.h"
+#include "raster_cpu/luminance_tile.h"
+#include "raster_cpu/passed_schedules.h"
+#include "raster_cpu/screen_shading.h"
+#include "raster_cpu/surface_pieces.h"
+#include "scene/triangulation.h"
+#include "view/pixel_mask.h"
+#include "view/tile.h"
+#include "view/transmission.h"
+#include "view/view.h"
+#include "view/view_backend.h"
+
+namespace gpu_shading {
+
+// What is in front of a receiver at one direction of the sun.
+struct CastersInView {
+  std::span<SurfaceId const> surfaces;  // but those that are screens and nothing else
+  std::span<Shade const> shades;        // of each surface; none where all are opaque
+  ScreensInView screens;
+
+  bool opaque() const { return shades.empty() && screens.numbers.empty(); }
+};
+
+// Rasterises views on the CPU: as a rasteriser of triangles does, but with a bit for each pixel and
+// by convex pieces, and in double precision up to the edges. In place of OpenGL without a GPU it
+// takes a tenth of the time (tests/bench/opaque_cost). Any number of threads may ask.
+class Coverage {
+ public:
+  // `meshes`: of all surfaces, by id; not referenced later.
+  explicit Coverage(std::span<Mesh const> meshes) : pieces_(meshes) {}
+
+  SurfacePieces const& pieces() const { return pieces_; }
+
+  // Luminance over a tile's pixels as `view`, in front of its receiver, has the casters. On so many
+  // threads at most; the same on any number.
+  LuminanceSums sums(Tile const& tile, View const& view, CastersInView const& casters,
+                     int threads) const;
+  // The same over those pixels where each of `interiors` is the nearest in the view `behind`; of
+  // surfaces in the same place the first has them.
+  std::vector<LuminanceSums> sums_inside(Tile const& tile, View const& view,
+                                         CastersInView const& casters, View const& behind,
+                                         std::span<SurfaceId const> interiors) const;
+
+  // Some rows of pixels as `pixels`, a view whose x and y are in pixels, has the casters: takes
+  // those that opaque casters cover from the mask, and multiplies the luminance by what the others
+  // let through. `passed` notes scheduled shades; it may be null where there are none.
+  void shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* passed, View const& pixels,
+             CastersInView const& casters) const;
+
+ private:
+  struct InteriorPiece;
+
+  // The areas of a caster in a view with x and y in pixels, one after another.
+  template <typename Use>
+  void each_area(SurfaceId caster, View const& pixels, int side, Use use) const;
+
+  std::uint64_t lit(Tile const& tile, View const& pixels, std::span<SurfaceId const> casters,
+                    int threads) const;
+  double luminance(Tile const& tile, View const& pixels, CastersInView const& casters,
+                   int threads) const;
+  LuminanceSums scheduled(Tile const& tile, View const& pixels, CastersInView const& casters,
+                          int threads) const;
+
+  void darken(PixelMask& mask, int side, View const& pixels,
+              std::span<SurfaceId const> casters) const;
+
+  // Each pixel in one of them: where several are, in the nearest.
+  std::vector<InteriorPiece> find_inside(Tile const& tile, View const& pixels,
+                                         std::span<SurfaceId const> interiors,
+                                         PixelMask const& lit) const;
+  static void keep_nearest(std::span<InteriorPiece> pieces, std::size_t word, int bit);
+
+  SurfacePieces pieces_;
+};
+
+}  // namespace gpu_shading

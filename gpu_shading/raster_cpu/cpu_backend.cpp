@@ -1,0 +1,116 @@
+#include "raster_cpu/cpu_backend.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <utility>
+
+#include "gpu_shading/error.h"
+#include "view/processor.h"
+#include "view/stopwatch.h"
+#include "view/view.h"
+
+namespace gpu_shading {
+namespace {
+
+// Number of casters from which several cores share a view.
+constexpr std::size_t worth_sharing = 200;
+
+int cores() { return tbb::this_task_arena::max_concurrency(); }
+
+}  // namespace
+
+DeviceInfo cpu_device() {
+  DeviceInfo info;
+  info.renderer = "CPU";
+#ifdef __x86_64__
+  info.version = has_avx2() ? "AVX2" : "without AVX2";
+#else
+  info.version = "portable";
+#endif
+  info.threads = cores();
+  info.software = true;
+  info.max_resolution = 16384;
+  return info;
+}
+
+CpuBackend::CpuBackend(BackendInput const& input)
+    : device_(cpu_device()),
+      scene_(input.scene),
+      coverage_(input.meshes),
+      transmission_(input.transmission),
+      statistics_(input.statistics) {}
+
+CpuBackend::ViewScreens CpuBackend::note_screens(ReceiverView const& view,
+                                                 std::vector<ScreensAtDirection>& directions) {
+  ViewScreens noted;
+  if (view.transmits) noted.numbers = transmission_.screens_among(view.casters);
+  if (noted.numbers.empty()) return noted;
+  if (directions.empty() || directions.back().towards_sun != view.towards_sun) {
+    directions.push_back({view.towards_sun, {}, {}});
+  }
+  for (int const number : noted.numbers) {
+    Screens::Entry const& screen = transmission_.screens()[number];
+    directions.back().add(
+        number, may_see_effect(*screen.screen, screen.normal, view.towards_sun, view.pixel_area()));
+  }
+  noted.direction = directions.size() - 1;
+  return noted;
+}
+
+void CpuBackend::add(std::vector<ReceiverView> views) {
+  Stopwatch const watch(statistics_.count_seconds);
+  std::vector<ScreensAtDirection> directions;
+  std::vector<ViewScreens> noted;
+  noted.reserve(views.size());
+  for (ReceiverView const& view : views) noted.push_back(note_screens(view, directions));
+  std::vector<std::vector<SheetInBeam>> sheets(directions.size());
+  tbb::parallel_for(std::size_t{0}, sheets.size(),
+                    [&](std::size_t i) { sheets[i] = transmission_.sheets(directions[i]); });
+  bool const few = views.size() < static_cast<std::size_t>(cores());
+  std::size_t const first = sums_.size();
+  sums_.resize(first + views.size());
+  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
+    ReceiverView const& view = views[i];
+    ScreensInView screens;
+    if (!noted[i].numbers.empty()) {
+      screens = {&transmission_.screens(), sheets[noted[i].direction], noted[i].numbers};
+    }
+    bool const shared = few && (view.casters.size() >= worth_sharing || !screens.numbers.empty());
+    sums_[first + i] = sums_of(view, screens, shared ? cores() : 1);
+  });
+}
+
+std::vector<ViewSums> CpuBackend::finish() { return std::exchange(sums_, {}); }
+
+ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& screens,
+                             int threads) const {
+  Tile const& tile = *view.tile;
+  std::vector<SurfaceId> plain;
+  std::vector<Shade> shades;
+  CastersInView casters{view.casters, {}, screens};
+  if (view.transmits) {
+    plain = transmission_.plain_among(view.casters);
+    shades.reserve(plain.size());
+    for (SurfaceId const id : plain) shades.push_back(transmission_.shade(id, view.towards_sun));
+    casters.surfaces = plain;
+    casters.shades = shades;
+  }
+  View const in_front = view_in_front(*view.frame, tile.map, view.towards_sun);
+  ViewSums sums;
+  sums.receiver_pixels = tile.counted_pixels;
+  try {
+    if (view.through) {
+      View const behind = view_behind(*view.frame, tile.map, view.towards_sun, 1.0);
+      sums.parts = coverage_.sums_inside(tile, in_front, casters, behind, view.interiors);
+    } else {
+      sums.parts.push_back(coverage_.sums(tile, in_front, casters, threads));
+    }
+  } catch (Error const& error) {
+    throw Error(fmt::format("surface '{}': {}", scene_[view.receiver].name, error.what()));
+  }
+  return sums;
+}
+
+}  // namespace gpu_shading

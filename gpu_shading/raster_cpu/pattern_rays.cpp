@@ -1,0 +1,135 @@
+#include "raster_cpu/pattern_rays.h"
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <type_traits>
+
+#include "view/processor.h"
+
+namespace gpu_shading {
+namespace {
+
+using Holes = PatternRays::Holes;
+using Ways = PatternRays::Ways;
+
+// The first ray's position and its step from ray to ray, in tiles, and a ray's displacement, m.
+struct Rays {
+  glm::vec2 first;
+  glm::vec2 step;
+  glm::vec2 way;
+};
+
+// x, y: from the hole's centre, m.
+template <SheetShape shape>
+[[gnu::always_inline]] inline bool is_in_hole(Holes const& holes, float x, float y) {
+  float const across = std::abs(x);
+  float const up = std::abs(y);
+  float const half = holes.half;
+  if constexpr (shape == SheetShape::square_holes) return (across <= half) & (up <= half);
+  if constexpr (shape == SheetShape::hexagonal_holes) {
+    return (across <= half) & (0.5F * across + 0.8660254F * up <= half);
+  }
+  float const beyond = across > holes.straight ? across - holes.straight : 0.0F;
+  return beyond * beyond + up * up <= half * half;
+}
+
+// u, v: from the hole's centre, in tiles. Holes are convex: a ray that is in a hole at both ends is
+// in it all the way.
+template <SheetShape shape>
+[[gnu::always_inline]] inline bool is_in_at_both_ends(Holes const& holes, glm::vec2 const& way,
+                                                      float u, float v) {
+  float const x = holes.width * u;
+  float const y = holes.height * v;
+  return is_in_hole<shape>(holes, x, y) & is_in_hole<shape>(holes, x + way.x, y + way.y);
+}
+
+// u, v: a position in tiles.
+template <SheetShape shape, bool staggered>
+[[gnu::always_inline]] inline bool passes_some_hole(Holes const& holes, glm::vec2 const& way,
+                                                    float u, float v) {
+  float const part_u = u - std::floor(u);
+  float const part_v = v - std::floor(v);
+  bool passes = is_in_at_both_ends<shape>(holes, way, part_u > 0.5F ? part_u - 1.0F : part_u,
+                                          part_v > 0.5F ? part_v - 1.0F : part_v);
+  if constexpr (staggered) {
+    passes |= is_in_at_both_ends<shape>(holes, way, part_u - 0.5F, part_v - 0.5F);
+  }
+  return passes;
+}
+
+// Written so that the compiler can vectorise over rays.
+template <SheetShape shape, bool staggered>
+[[gnu::always_inline]] inline void find_some(Holes const& holes, Rays const& rays, Ways& passed) {
+  for (int i = 0; i < PatternRays::most; ++i) {
+    auto const steps = static_cast<float>(i);
+    bool const passes = passes_some_hole<shape, staggered>(
+        holes, rays.way, rays.first.x + steps * rays.step.x, rays.first.y + steps * rays.step.y);
+    passed[static_cast<std::size_t>(i)] = passes ? 1.0F : 0.0F;
+  }
+}
+
+// Calls use(shape, staggered) with the holes' properties as compile-time constants.
+template <typename Use>
+[[gnu::always_inline]] inline auto with_kind(Holes const& holes, Use use) {
+  auto const of_shape = [&](auto shape) __attribute__((always_inline)) {
+    return holes.staggered ? use(shape, std::true_type()) : use(shape, std::false_type());
+  };
+  switch (holes.shape) {
+    case SheetShape::square_holes:
+      return of_shape(std::integral_constant<SheetShape, SheetShape::square_holes>());
+    case SheetShape::hexagonal_holes:
+      return of_shape(std::integral_constant<SheetShape, SheetShape::hexagonal_holes>());
+    default:
+      return of_shape(std::integral_constant<SheetShape, SheetShape::round_holes>());
+  }
+}
+
+[[gnu::always_inline]] inline void find_all(Holes const& holes, Rays const& rays, Ways& passed) {
+  auto const find = [&](auto shape, auto staggered) __attribute__((always_inline)) {
+    find_some<shape, staggered>(holes, rays, passed);
+  };
+  with_kind(holes, find);
+}
+
+using Find = void(Holes const& holes, Rays const& rays, Ways& passed);
+
+void find_on_any_processor(Holes const& holes, Rays const& rays, Ways& passed) {
+  find_all(holes, rays, passed);
+}
+
+#ifdef __x86_64__
+[[gnu::target("avx2,fma")]] void find_with_avx2(Holes const& holes, Rays const& rays,
+                                                Ways& passed) {
+  find_all(holes, rays, passed);
+}
+
+Find* fastest() { return has_avx2() ? find_with_avx2 : find_on_any_processor; }
+#else
+Find* fastest() { return find_on_any_processor; }
+#endif
+
+}  // namespace
+
+PatternRays::PatternRays(SheetInBeam const& sheet)
+    : holes_{sheet.shape,  sheet.staggered, sheet.tile.x,
+             sheet.tile.y, sheet.half_hole, sheet.half_slot},
+      tile_(sheet.tile) {}
+
+bool PatternRays::is_open(glm::dvec2 const& place) const { return passes(place, glm::dvec2(0.0)); }
+
+bool PatternRays::passes(glm::dvec2 const& place, glm::dvec2 const& way) const {
+  glm::vec2 const in_tile(glm::fract(place / tile_));
+  return with_kind(holes_, [&](auto shape, auto staggered) {
+    return passes_some_hole<shape, staggered>(holes_, way, in_tile.x, in_tile.y);
+  });
+}
+
+void PatternRays::find_passing(glm::dvec2 const& first, glm::dvec2 const& step,
+                               glm::dvec2 const& way, Ways& passed) const {
+  static Find* const find = fastest();
+  // Steps of whole tiles make no difference.
+  glm::dvec2 const change = step / tile_;
+  find(holes_, {glm::fract(first / tile_), change - glm::round(change), way}, passed);
+}
+
+}  // namespace gpu_shading

@@ -1,0 +1,216 @@
+#include "raster_cpu/screen_shading.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
+#include "raster_cpu/sheet_rays.h"
+
+namespace gpu_shading {
+namespace {
+
+constexpr std::size_t corners = 4;
+
+// Twice the area of a quadrilateral.
+double turn(std::array<glm::dvec2, corners> const& p) { return cross(p[2] - p[0], p[3] - p[1]); }
+
+// A quadrilateral of a sheet, with both faces in the coordinates of a view.
+struct Faces {
+  std::array<glm::dvec2, corners> inside;
+  std::array<glm::dvec2, corners> outside;
+  std::array<double, corners> kept;  // more than 0 in front of the receiver
+
+  Faces(Screens::Quadrilateral const& part, SheetInBeam const& sheet, View const& pixels) {
+    glm::dvec3 const normal(sheet.normal);
+    for (std::size_t i = 0; i < corners; ++i) {
+      glm::dvec3 const p = part.corners[i] - pixels.origin;
+      glm::dvec3 const in = p + static_cast<double>(sheet.inside) * normal;
+      glm::dvec3 const out = p + static_cast<double>(sheet.outside) * normal;
+      inside[i] = {at(pixels.x, in), at(pixels.y, in)};
+      outside[i] = {at(pixels.x, out), at(pixels.y, out)};
+      kept[i] = at(pixels.cut, p);
+    }
+  }
+
+  ConvexArea inside_area(int side) const { return area_in_front(inside, kept, side); }
+
+  // The areas of the strip between an edge of the inside face and that of the outside face; calls
+  // use(area) for those that face the sun.
+  template <typename Use>
+  void each_strip(int side, Use use) const {
+    glm::dvec2 const slide = outside[0] - inside[0];
+    double const hand = turn(inside) < 0.0 ? -1.0 : 1.0;
+    for (std::size_t i = 0; i < corners; ++i) {
+      std::size_t const next = (i + 1) % corners;
+      if (cross(inside[next] - inside[i], slide) * hand >= 0.0) continue;
+      std::array const strip{inside[i], inside[next], outside[next], outside[i]};
+      std::array const distances{kept[i], kept[next], kept[next], kept[i]};
+      use(area_in_front(strip, distances, side));
+    }
+  }
+};
+
+// Where the rays of a tile's pixels pass the inside face of a part of a sheet, and what they meet
+// from there to the outside face.
+class Part {
+ public:
+  Part(Screens::Entry const& screen, Screens::Quadrilateral const& part, Faces const& faces,
+       SheetInBeam const& sheet, View const& pixels)
+      : part_(part),
+        ray_(sheet.way),
+        in_place_(sheet.in_place),
+        to_place_(glm::inverse(glm::dmat2(
+            glm::dot(glm::dvec3(pixels.x), screen.u), glm::dot(glm::dvec3(pixels.y), screen.u),
+            glm::dot(glm::dvec3(pixels.x), screen.v), glm::dot(glm::dvec3(pixels.y), screen.v)))),
+        first_(part.places[0] - to_place_ * faces.inside[0]),
+        rays_(*screen.screen, sheet, std::sqrt(std::abs(glm::determinant(to_place_)))) {
+    double const hand = turn(part.places) < 0.0 ? -1.0 : 1.0;
+    for (std::size_t i = 0; i < corners; ++i) {
+      edges_[i] = hand * (part.places[(i + 1) % corners] - part.places[i]);
+      steps_[i] = cross(edges_[i], ray_);
+    }
+  }
+
+  // For pixels of one row.
+  void shade(int row, int first, int length, PixelMask const& lit,
+             std::span<float> luminance) const {
+    auto const [whole_first, whole_end] = whole_ways(row, first, first + length);
+    shade_ends(row, first, whole_first, lit, luminance);
+    shade_whole(row, whole_first, whole_end, lit, luminance);
+    shade_ends(row, whole_end, first + length, lit, luminance);
+  }
+
+ private:
+  struct Pixels {
+    int first;
+    int end;
+  };
+
+  glm::dvec2 place(int row, int column) const {
+    return first_ + to_place_ * glm::dvec2(column + 0.5, row + 0.5);
+  }
+  // A ray's distance from an edge at the inside face, times the edge's length; positive inside.
+  double within(std::size_t edge, glm::dvec2 const& place) const {
+    return cross(edges_[edge], place - part_.places[edge]);
+  }
+  float kept(float passed) const { return 1.0F - in_place_ * (1.0F - passed); }
+
+  // The pixels of a row whose rays are inside the outline from face to face, or fewer.
+  Pixels whole_ways(int row, int first, int end) const {
+    double low = first;
+    double high = end;
+    glm::dvec2 const start = place(row, 0);
+    for (std::size_t i = 0; i < corners; ++i) {
+      double const spare = within(i, start) - std::max(0.0, -steps_[i]);
+      double const change = cross(edges_[i], to_place_[0]);
+      if (change > 0.0) {
+        low = std::max(low, -spare / change);
+      } else if (change < 0.0) {
+        high = std::min(high, -spare / change);
+      } else if (spare < 0.0) {
+        high = low;
+      }
+    }
+    low = std::ceil(std::min(low, static_cast<double>(end)));
+    high = std::floor(std::max(high, low));
+    return {static_cast<int>(low), static_cast<int>(high)};
+  }
+
+  void shade_whole(int row, int first, int end, PixelMask const& lit,
+                   std::span<float> luminance) const {
+    if (auto const passed = rays_.everywhere()) {
+      float const by = kept(*passed);
+      for (int x = first; x < end; ++x) luminance[static_cast<std::size_t>(x)] *= by;
+      return;
+    }
+    SheetRays::Ways passed{};
+    constexpr int word = PixelMask::word_bits;
+    static_assert(SheetRays::most_ways == word);
+    for (int x = first; x < end;) {
+      int const stop = std::min(end, (x / word + 1) * word);
+      auto const unused = static_cast<unsigned>(word - (stop - x));
+      std::uint64_t const wanted =
+          lit.word(row, x) >> static_cast<unsigned>(x % word) << unused >> unused;
+      if (wanted != 0) {
+        rays_.whole_ways(place(row, x), to_place_[0], wanted, passed);
+        for (int i = x; i < stop; ++i) {
+          luminance[static_cast<std::size_t>(i)] *= kept(passed[static_cast<std::size_t>(i - x)]);
+        }
+      }
+      x = stop;
+    }
+  }
+
+  void shade_ends(int row, int first, int end, PixelMask const& lit,
+                  std::span<float> luminance) const {
+    for (int x = first; x < end; ++x) {
+      auto const bit = static_cast<unsigned>(x % PixelMask::word_bits);
+      if ((lit.word(row, x) >> bit & 1U) == 0) continue;
+      luminance[static_cast<std::size_t>(x)] *= kept(passed(place(row, x)));
+    }
+  }
+
+  // The part of the path inside the outline.
+  float passed(glm::dvec2 const& place) const {
+    double begin = 0.0;
+    double end = 1.0;
+    for (std::size_t i = 0; i < corners; ++i) {
+      double const here = within(i, place);
+      double const last = here + steps_[i];
+      if (here < 0.0 && last < 0.0) return 1.0F;
+      double const crossing = here / (here - last);
+      if (here < 0.0) begin = std::max(begin, crossing);
+      if (last < 0.0) end = std::min(end, crossing);
+    }
+    return begin > end ? 1.0F : rays_.part_of_way(place, begin, end);
+  }
+
+  Screens::Quadrilateral const& part_;
+  glm::dvec2 ray_;
+  float in_place_;  // share of the screen
+  glm::dmat2 to_place_;
+  glm::dvec2 first_;
+  SheetRays rays_;
+  std::array<glm::dvec2, corners> edges_;  // counter-clockwise
+  std::array<double, corners> steps_;      // change of `within` from face to face
+};
+
+void shade(LuminanceTile& shaded, PixelMask const& lit, View const& pixels,
+           Screens::Entry const& screen, SheetInBeam const& sheet) {
+  for (Screens::Quadrilateral const& quadrilateral : screen.parts) {
+    Faces const faces(quadrilateral, sheet, pixels);
+    if (sheet.layers == solid_sheet) {
+      auto const dim = [&](ConvexArea const& area) {
+        shaded.multiply(area, 1.0F - sheet.in_place);
+      };
+      dim(faces.inside_area(shaded.side()));
+      faces.each_strip(shaded.side(), dim);
+      continue;
+    }
+    Part const part(screen, quadrilateral, faces, sheet, pixels);
+    auto const look = [&](ConvexArea const& area) {
+      shaded.each_span(area, [&](int row, int first, int length) {
+        part.shade(row, first, length, lit, shaded.row(row));
+      });
+    };
+    look(faces.inside_area(shaded.side()));
+    faces.each_strip(shaded.side(), look);
+  }
+}
+
+}  // namespace
+
+void shade_by_screens(LuminanceTile& shaded, PixelMask const& lit, View const& pixels,
+                      ScreensInView const& in_view) {
+  for (int const number : in_view.numbers) {
+    shade(shaded, lit, pixels, (*in_view.screens)[number],
+          in_view.sheets[static_cast<std::size_t>(number)]);
+  }
+}
+
+}  // namespace gpu_shading

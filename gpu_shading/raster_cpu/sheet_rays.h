@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <vector>
+
+#include "gpu_shading/perforated_screen.h"
+#include "raster_cpu/image_rays.h"
+#include "raster_cpu/pattern_rays.h"
+#include "view/sheet_in_beam.h"
+
+namespace gpu_shading {
+
+// What passes a screen at one sun direction, ray by ray on the CPU, by the same rule as
+// screen.frag, which explains the terms.
+class SheetRays {
+ public:
+  // `sheet` must not be solid. `pixel`: the size of pixels in the sheet's plane, m. All must
+  // outlive it.
+  SheetRays(PerforatedScreen const& screen, SheetInBeam const& sheet, double pixel);
+
+  // The transmittance of the whole path, if it is the same everywhere.
+  std::optional<float> everywhere() const;
+
+  // The transmittances of the whole path for rays that pass the inside face at `first` and at equal
+  // steps from there, m in the sheet's plane; only for those whose bit is set in `wanted`, lowest
+  // bit first.
+  static constexpr int most_ways = PatternRays::most;
+  using Ways = PatternRays::Ways;
+  void whole_ways(glm::dvec2 const& first, glm::dvec2 const& step, std::uint64_t wanted,
+                  Ways& passed) const;
+
+  // The transmittance of a part of the path, 0 at the inside face and 1 at the outside face.
+  float part_of_way(glm::dvec2 const& place, double begin, double end) const;
+
+ private:
+  bool is_whole(double begin, double end) const { return begin <= 0.0 && end >= 1.0; }
+  float solid_at(glm::dvec2 const& place) const;
+  float through_layers(glm::dvec2 const& place, double begin, double end) const;
+  float through_holes(glm::dvec2 const& place, double begin, double end) const;
+  float through_effective(glm::dvec2 const& place, double begin, double end) const;
+
+  SheetInBeam const& sheet_;
+  glm::dvec2 ray_;
+  glm::dvec2 tile_;
+  float blend_;                 // weight of the effective transmittance, 0 .. 1; the rest is holes
+  std::vector<double> depths_;  // of layers
+  std::optional<PatternRays> pattern_;
+  std::optional<ImageRays> image_;  // where there is no pattern
+};
+
+}  // namespace gpu_shading

@@ -1,0 +1,129 @@
+#include "view/pixel_mask.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace gpu_shading {
+namespace {
+
+constexpr int word_bits = PixelMask::word_bits;
+
+template <bool light>
+void set(std::uint64_t& word, std::uint64_t bits) {
+  word = light ? word | bits : word & ~bits;
+}
+
+// Shorter than a word: within one word or two.
+template <bool light>
+void set_short(std::uint64_t* row, std::int32_t first, std::int32_t length) {
+  std::uint64_t const bits = (std::uint64_t{1} << static_cast<unsigned>(length)) - 1;
+  auto const shift = static_cast<unsigned>(first % word_bits);
+  std::uint64_t* const word = row + first / word_bits;
+  set<light>(word[0], bits << shift);
+  set<light>(word[1], bits >> 1U >> (word_bits - 1 - shift));
+}
+
+template <bool light>
+void set_long(std::uint64_t* row, std::int32_t first, std::int32_t length) {
+  constexpr std::uint64_t all = ~std::uint64_t{0};
+  if (length == 0) return;
+  std::int32_t const last = first + length - 1;
+  std::uint64_t const from = all << static_cast<unsigned>(first % word_bits);
+  std::uint64_t const to = all >> static_cast<unsigned>(word_bits - 1 - last % word_bits);
+  std::uint64_t* word = row + first / word_bits;
+  std::uint64_t* const last_word = row + last / word_bits;
+  if (word == last_word) return set<light>(*word, from & to);
+  set<light>(*word, from);
+  while (++word != last_word) *word = light ? all : 0;
+  set<light>(*word, to);
+}
+
+[[gnu::always_inline]] inline std::uint64_t count(std::uint64_t const* a, std::uint64_t const* b,
+                                                  std::size_t words) {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < words; ++i) {
+    sum += static_cast<std::uint64_t>(std::popcount(a[i] & b[i]));
+  }
+  return sum;
+}
+
+using Count = std::uint64_t(std::uint64_t const* a, std::uint64_t const* b, std::size_t words);
+
+#ifdef __x86_64__
+[[gnu::target("popcnt")]] std::uint64_t count_with_popcnt(std::uint64_t const* a,
+                                                          std::uint64_t const* b,
+                                                          std::size_t words) {
+  return count(a, b, words);
+}
+#endif
+
+std::uint64_t count_on_any_processor(std::uint64_t const* a, std::uint64_t const* b,
+                                     std::size_t words) {
+  return count(a, b, words);
+}
+
+Count* fastest() {
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("popcnt") != 0) return count_with_popcnt;
+#endif
+  return count_on_any_processor;
+}
+
+// Areas thinner than a pixel miss the centres of most rows.
+constexpr std::int32_t thin = 1;
+
+// One bit per pixel.
+std::uint64_t rows_with_any(RowSpans const& spans, std::size_t rows) {
+  static_assert(RowSpans::rows <= word_bits);
+  std::uint64_t any = 0;
+  for (std::size_t i = 0; i < rows; ++i) {
+    any |= static_cast<std::uint64_t>(spans.length[i] != 0 ? 1 : 0) << i;
+  }
+  return any;
+}
+
+}  // namespace
+
+std::uint64_t count_common(std::span<std::uint64_t const> a, std::span<std::uint64_t const> b) {
+  static Count* const count_words = fastest();
+  return count_words(a.data(), b.data(), std::min(a.size(), b.size()));
+}
+
+void PixelMask::start(int side, int first_row, int end_row) {
+  side_ = side;
+  first_row_ = first_row;
+  end_row_ = end_row;
+  stride_ = static_cast<std::size_t>((side + word_bits - 1) / word_bits);
+  words_.assign(static_cast<std::size_t>(end_row - first_row) * stride_ + spare, 0);
+}
+
+template <bool light>
+void PixelMask::fill(ConvexArea const& area) {
+  RowSpans spans;
+  int const end_row = std::min(area.end_row, end_row_);
+  for (int row = std::max(area.first_row, first_row_); row < end_row; row += RowSpans::rows) {
+    find_spans(area, row, side_, spans);
+    if (spans.longest == 0) continue;
+    auto const rows = static_cast<std::size_t>(std::min(RowSpans::rows, end_row - row));
+    std::uint64_t* words = &words_[static_cast<std::size_t>(row - first_row_) * stride_];
+    if (spans.longest <= thin) {
+      for (std::uint64_t rest = rows_with_any(spans, rows); rest != 0; rest &= rest - 1) {
+        auto const i = static_cast<std::size_t>(std::countr_zero(rest));
+        set_short<light>(words + i * stride_, spans.first[i], spans.length[i]);
+      }
+    } else if (spans.longest < word_bits) {
+      for (std::size_t i = 0; i < rows; ++i, words += stride_) {
+        set_short<light>(words, spans.first[i], spans.length[i]);
+      }
+    } else {
+      for (std::size_t i = 0; i < rows; ++i, words += stride_) {
+        set_long<light>(words, spans.first[i], spans.length[i]);
+      }
+    }
+  }
+}
+
+void PixelMask::light(ConvexArea const& area) { fill<true>(area); }
+void PixelMask::darken(ConvexArea const& area) { fill<false>(area); }
+
+}  // namespace gpu_shading

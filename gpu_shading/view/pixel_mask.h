@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "view/convex_area.h"
+
+namespace gpu_shading {
+
+// Counts bits that are set in both, word by word, up to the shorter length.
+std::uint64_t count_common(std::span<std::uint64_t const> a, std::span<std::uint64_t const> b);
+
+// The sunlit pixels of a square tile or of some of its rows, one bit each. A pixel's position is
+// its centre.
+class PixelMask {
+ public:
+  static constexpr int word_bits = 64;
+
+  // All dark; rows from `first_row` to `end_row` (exclusive).
+  void start(int side, int first_row, int end_row);
+
+  void light(ConvexArea const& area);
+  void darken(ConvexArea const& area);
+
+  std::uint64_t lit() const { return count_common(words(), words()); }
+
+  // Row after row, each beginning with a new word; the lowest bit of a word is the leftmost pixel.
+  std::span<std::uint64_t> words() { return {words_.data(), words_.size() - spare}; }
+  std::span<std::uint64_t const> words() const { return {words_.data(), words_.size() - spare}; }
+  // The word with a row's pixel.
+  std::uint64_t word(int row, int column) const {
+    return words_[static_cast<std::size_t>(row - first_row_) * stride_ +
+                  static_cast<std::size_t>(column / word_bits)];
+  }
+  // Of the lowest bit of a word.
+  int row(std::size_t word) const { return first_row_ + static_cast<int>(word / stride_); }
+  int column(std::size_t word) const { return word_bits * static_cast<int>(word % stride_); }
+
+ private:
+  static constexpr std::size_t spare = 2;  // words, for what ends at the last
+
+  template <bool light>
+  void fill(ConvexArea const& area);
+
+  int side_ = 0;
+  int first_row_ = 0;
+  int end_row_ = 0;
+  std::size_t stride_ = 0;  // words of a row
+  std::vector<std::uint64_t> words_ = std::vector<std::uint64_t>(spare);
+};
+
+}  // namespace gpu_shading

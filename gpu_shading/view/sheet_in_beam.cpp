@@ -1,0 +1,181 @@
+#include "view/sheet_in_beam.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+namespace gpu_shading {
+namespace {
+
+// Below this cosine between the beam and the sheet's normal, the sheet is seen edge-on and counts
+// as solid.
+constexpr double from_the_side = 1e-3;
+
+// Pixels of this size, in holes, from which and up to which drawing holes gives way to their
+// effect. Error of the projected sunlit fraction by `perforated_case blend`, mean (largest), holes
+// of 1 to 100 mm in 1 m2, 64 to 1024 pixels:
+//   pixels of      holes             effect
+//   below 0.5      1e-4 (5e-3)       1.5e-3 (1.4e-2)
+//   0.5 .. 1       1.3e-4 (4.4e-3)   3.6e-4 (4.6e-3)
+//   1 .. 2         1.5e-4 (4.1e-3)   2.2e-4 (1.7e-3)
+//   2 .. 4         2.3e-4 (3.9e-3)   1.9e-4 (1.4e-3)
+//   above 4        2.8e-4 (6.2e-3)   1.3e-4 (0.8e-3)
+constexpr double blend_from = 1.0;
+constexpr double blend_to = 2.0;
+
+double deployed(Screens::Entry const& entry, std::span<double const> shares) {
+  auto const share = static_cast<std::size_t>(std::max(0, entry.deployment));
+  return entry.deployment < 0 || share >= shares.size() ? 1.0 : shares[share];
+}
+
+SheetShape shape_of(Hole hole) {
+  switch (hole) {
+    case Hole::Square:
+      return SheetShape::square_holes;
+    case Hole::Hexagonal:
+      return SheetShape::hexagonal_holes;
+    case Hole::Round:
+    case Hole::Slotted:
+      break;
+  }
+  return SheetShape::round_holes;
+}
+
+int layers_of(PerforatedScreen const& screen, double shift) {
+  if (screen.sheet().layers) return *screen.sheet().layers;
+  if (screen.pattern()) return exact_sheet;
+  constexpr int most = 64;
+  // This many are not enough, and nothing passes except at the sheet's sides.
+  if (shift > (most - 1) * screen.web() && shift >= screen.transmittance().longest_chord()) {
+    return solid_sheet;
+  }
+  // Beyond the longest chord, layers only matter at the sides, where the path in the sheet is
+  // short.
+  return layers_for(shift, screen.web(), std::numeric_limits<double>::infinity(), most);
+}
+
+// Larger than any pixel.
+constexpr float never = 1e30F;
+
+glm::vec2 blend_of(PerforatedScreen const& screen) {
+  switch (screen.sheet().detail) {
+    case ScreenDetail::holes:
+      return {never, 2.0F * never};
+    case ScreenDetail::effective:
+      return {-2.0F, -1.0F};
+    case ScreenDetail::automatic:
+      break;
+  }
+  if (!std::isfinite(screen.hole())) return {never, 2.0F * never};  // no layers, or no sheet
+  return {blend_from * screen.hole(), blend_to * screen.hole()};
+}
+
+// At zero, one, two and three thirds of the path; one value for each region of the screen.
+std::vector<glm::vec4> effective(PerforatedScreen const& screen, glm::dvec2 const& shift) {
+  if (screen.pattern()) {
+    glm::vec4 thirds(0.0F);
+    for (int i = 0; i < 4; ++i) {
+      glm::dvec2 const part = shift * (i / 3.0);
+      thirds[i] = static_cast<float>(screen.pattern()->transmittance(part.x, part.y));
+    }
+    return {thirds};
+  }
+  double const phi = std::atan2(shift.y, shift.x);
+  std::vector<glm::vec4> regions;
+  for (int i = 0; i < 4; ++i) {
+    std::vector<float> const values =
+        screen.transmittance().at_shift(glm::length(shift) * (i / 3.0), phi);
+    regions.resize(values.size(), glm::vec4(0.0F));
+    for (std::size_t at = 0; at < values.size(); ++at) regions[at][i] = values[at];
+  }
+  return regions;
+}
+
+void describe_pattern(HolePattern const& pattern, SheetInBeam& sheet) {
+  Perforation const& given = pattern.perforation();
+  double const straight = given.hole == Hole::Slotted ? given.length - given.size : 0.0;
+  sheet.shape = shape_of(given.hole);
+  sheet.tile = {pattern.width(), pattern.height()};
+  sheet.half_hole = static_cast<float>(given.size / 2.0);
+  sheet.half_slot = static_cast<float>(straight / 2.0);
+  sheet.staggered = given.arrangement != Arrangement::Straight;
+}
+
+void describe_tile(OpacityTile const& tile, SheetInBeam& sheet) {
+  sheet.shape = SheetShape::image;
+  sheet.tile = {tile.width(), tile.height()};
+  sheet.threshold = static_cast<float>(tile.threshold().value_or(-1.0));
+}
+
+// The displacement of a ray in the sheet's plane from its inside face to its outside face.
+glm::dvec2 shift_of(Screens::Entry const& entry, glm::dvec3 const& towards_sun, double cosine) {
+  return glm::dvec2(glm::dot(entry.u, towards_sun), glm::dot(entry.v, towards_sun)) *
+         (entry.screen->sheet().thickness / cosine);
+}
+
+}  // namespace
+
+bool may_see_effect(PerforatedScreen const& screen, glm::dvec3 const& normal,
+                    glm::dvec3 const& towards_sun, double pixel_area) {
+  // Fragment shaders compute the size of pixels themselves, in single precision.
+  constexpr double margin = 1.1;
+  double const pixel = std::sqrt(pixel_area / std::abs(glm::dot(normal, towards_sun)));
+  return margin * pixel > static_cast<double>(blend_of(screen).x);
+}
+
+bool varies(PerforatedScreen const& screen) {
+  if (screen.pattern()) return false;
+  return screen.transmittance().regions_across() * screen.transmittance().regions_up() > 1;
+}
+
+void ScreensAtDirection::add(int number, bool sees_effect) {
+  auto const place = static_cast<std::size_t>(number);
+  if (place >= in_view.size()) {
+    in_view.resize(place + 1, false);
+    by_effect.resize(place + 1, false);
+  }
+  in_view[place] = true;
+  if (sees_effect) by_effect[place] = true;
+}
+
+std::vector<SheetInBeam> sheets_in_beam(Screens const& screens, ScreensAtDirection const& wanted,
+                                        std::span<double const> deployments) {
+  glm::dvec3 const& towards_sun = wanted.towards_sun;
+  std::vector<SheetInBeam> sheets(screens.entries().size());
+  for (std::size_t number = 0; number < wanted.in_view.size(); ++number) {
+    if (!wanted.in_view[number]) continue;
+    Screens::Entry const& entry = screens.entries()[number];
+    PerforatedScreen const& screen = *entry.screen;
+    SheetInBeam& sheet = sheets[number];
+    double const cosine = glm::dot(entry.normal, towards_sun);
+    bool const aside = std::abs(cosine) < from_the_side;
+    glm::dvec2 const shift = aside ? glm::dvec2(0.0) : shift_of(entry, towards_sun, cosine);
+    if (screen.pattern()) {
+      describe_pattern(*screen.pattern(), sheet);
+    } else {
+      describe_tile(*screen.tile(), sheet);
+    }
+    sheet.normal = entry.normal;
+    sheet.inside = static_cast<float>(entry.inside);
+    sheet.outside = static_cast<float>(entry.outside);
+    sheet.way = shift;
+    sheet.in_place = static_cast<float>(deployed(entry, deployments));
+    bool const has_effect = wanted.by_effect[number];
+    glm::vec2 const blend = has_effect ? blend_of(screen) : glm::vec2(never, 2.0F * never);
+    sheet.blend_from = blend.x;
+    sheet.blend_to = blend.y;
+    sheet.layers = aside ? solid_sheet : layers_of(screen, glm::length(shift));
+    if (!has_effect) continue;
+    std::vector<glm::vec4> thirds = effective(screen, shift);
+    sheet.effective = thirds.front();
+    if (!varies(screen)) continue;
+    sheet.regions_across = screen.transmittance().regions_across();
+    sheet.regions_up = screen.transmittance().regions_up();
+    sheet.regions = std::move(thirds);
+  }
+  return sheets;
+}
+
+}  // namespace gpu_shading

@@ -1,0 +1,94 @@
+#include "view/tile.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+
+#include "scene/triangulation.h"
+
+namespace gpu_shading {
+namespace {
+
+constexpr int largest_side = 4096;
+
+void lay_out(Tile& tile, Mesh const& mesh, PlaneFrame const& frame) {
+  tile.triangles.clear();
+  tile.triangles.reserve(mesh.indices.size());
+  for (std::uint32_t const index : mesh.indices) {
+    tile.triangles.emplace_back(tile.map(frame, mesh.vertices[index]));
+  }
+  PixelMask mask;
+  mask.start(tile.side, 0, tile.side);
+  light(mask, tile);
+  tile.counted_pixels = mask.lit();
+}
+
+// Shifts of less than half a pixel, for which the margin leaves room, by powers of the plastic
+// number, which spread evenly for any count (Roberts' R2 sequence).
+void place_lattice(Tile& tile, Mesh const& mesh, PlaneFrame const& frame, double net) {
+  constexpr int places = 16;
+  constexpr double plastic = 1.32471795724474602596;
+  glm::dvec2 const middle = tile.map.offset;
+  double const wanted = net / tile.pixel_area;
+  Tile trial = tile;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < places; ++i) {
+    glm::dvec2 const share = glm::fract(glm::dvec2(i / plastic, i / (plastic * plastic)));
+    glm::dvec2 const shift = i == 0 ? glm::dvec2(0.0) : share - 0.5;
+    trial.map.offset = middle + shift * (2.0 / tile.side);
+    lay_out(trial, mesh, frame);
+    double const off = std::abs(static_cast<double>(trial.counted_pixels) - wanted);
+    if (off >= least) continue;
+    least = off;
+    tile = trial;
+  }
+}
+
+Polygon bounding_rectangle(PlaneFrame const& frame) {
+  glm::dvec3 const u = 0.5 * frame.width * frame.u;
+  glm::dvec3 const v = 0.5 * frame.height * frame.v;
+  glm::dvec3 const& o = frame.origin;
+  return {{o - u - v, o + u - v, o + u + v, o - u + v}, {}};
+}
+
+}  // namespace
+
+Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, int most) {
+  double const net = area(polygon);
+  double const wanted = std::max(fewest_pixels, resolution * (resolution / 64.0));
+  int const limit = std::max(resolution, std::min(largest_side, most));
+  Tile tile;
+  tile.side = resolution;
+  for (;;) {
+    tile.map = fit_tile(frame, polygon.outline, tile.side);
+    tile.pixel_area = tile.map.pixel_area(tile.side);
+    if (net >= wanted * tile.pixel_area || tile.side > limit / 2) break;
+    tile.side *= 2;
+  }
+  if (net < fewest_pixels * tile.pixel_area) return bounding_tile(polygon, frame, tile.side);
+  place_lattice(tile, triangulate(polygon), frame, net);
+  return tile.counted_pixels > 0 ? tile : bounding_tile(polygon, frame, tile.side);
+}
+
+void light(PixelMask& mask, Tile const& tile) {
+  for (std::size_t i = 0; i < tile.triangles.size(); i += 3) {
+    std::array<glm::dvec2, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) corners.at(k) = to_pixels(tile.triangles[i + k], tile.side);
+    mask.light(area_within(corners, tile.side));
+  }
+}
+
+Tile bounding_tile(Polygon const& polygon, PlaneFrame const& frame, int side) {
+  Polygon const rectangle = bounding_rectangle(frame);
+  Tile tile;
+  tile.side = side;
+  tile.map = fit_tile(frame, rectangle.outline, side);
+  lay_out(tile, triangulate(rectangle), frame);
+  // The shape that represents the receiver is larger than it, so a pixel counts for less.
+  tile.pixel_area = tile.map.pixel_area(side) * area(polygon) / area(rectangle);
+  return tile;
+}
+
+}  // namespace gpu_shading

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "gpu_shading/scene.h"
+#include "scene/plane_frame.h"
+#include "view/pixel_mask.h"
+#include "view/view.h"
+
+namespace gpu_shading {
+
+// A receiver's layout in pixels.
+struct Tile {
+  int side = 0;  // pixels
+  TileMap map;
+  std::vector<glm::vec2> triangles;  // in clip coordinates
+  double pixel_area = 0.0;           // area of a pixel in the receiver's plane, m2
+  std::uint64_t counted_pixels = 0;  // number of the receiver's own pixels, as in light(); never 0
+};
+
+// `resolution` pixels per side, doubled while a receiver that fills little of its bounding
+// rectangle, such as the ring of wall around a large window, has fewer than resolution^2 / 64
+// pixels or fewer than 16, up to the larger of `resolution` and the smaller of 4096 and `most`.
+// Among several offsets of the pixel grid, the one is used at which the receiver's own pixels come
+// closest to its area.
+Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, int most);
+
+// For receivers that are still too thin: the whole bounding rectangle, which always has a pixel in
+// its centre.
+Tile bounding_tile(Polygon const& polygon, PlaneFrame const& frame, int side);
+
+// The receiver's own pixels.
+void light(PixelMask& mask, Tile const& tile);
+
+// Converts clip coordinates of a view or a tile, -1 .. 1, to pixels.
+inline glm::dvec2 to_pixels(glm::dvec2 const& place, int side) {
+  return (0.5 * place + 0.5) * static_cast<double>(side);
+}
+
+// With fewer expected pixels than this, the sunlit fraction is left to chance.
+inline constexpr double fewest_pixels = 16.0;
+
+}  // namespace gpu_shading

@@ -1,0 +1,56 @@
+#include "view/tile_size.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gpu_shading {
+namespace {
+
+// The smallest of 1, 2, 3, 4, 6, 8, 12, ... that is not below the value.
+int round_up(double side) {
+  int power = 1;
+  while (power < side) power *= 2;
+  int const between = power / 4 * 3;
+  return between >= side ? between : power;
+}
+
+int limit(double at_a_thousandth, double error, int most) {
+  return std::min(most, round_up(at_a_thousandth * std::pow(1e-3 / error, 2.0 / 3.0) - 1e-6));
+}
+
+double expected_error(Detail const& detail, double side) {
+  double const across = detail.across > 0.0 ? std::max(detail.across, 1.0) : 0.0;
+  double const chance = across / side;
+  double const along = 6.0 * std::sqrt(std::min(detail.along, 25.0)) + 0.03 * detail.along;
+  return std::sqrt(chance + along * along / (side * side)) / side;
+}
+
+}  // namespace
+
+TileSize TileSize::fixed(int side) {
+  TileSize size;
+  size.fixed_ = size.least_ = size.most_ = side;
+  return size;
+}
+
+TileSize TileSize::for_error(double error, int most) {
+  constexpr int largest = 4096;
+  TileSize size;
+  size.error_ = error;
+  size.least_ = limit(64.0, error, std::min(most, largest));
+  size.most_ = limit(512.0, error, std::min(most, largest));
+  for (size.enough_ = 1.0; expected_error({0.0, size.enough_}, size.most_) < error ||
+                           expected_error({size.enough_, 0.0}, size.most_) < error;) {
+    size.enough_ *= 2.0;
+  }
+  return size;
+}
+
+int TileSize::side(Detail const& detail) const {
+  if (fixed_) return *fixed_;
+  int side = least_;
+  while (side < most_ && expected_error(detail, side) > error_) side = round_up(side + 1);
+  return std::min(side, most_);
+}
+
+}  // namespace gpu_shading

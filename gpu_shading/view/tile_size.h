@@ -1,0 +1,52 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include "scene/detail.h"
+
+namespace gpu_shading {
+
+// The number of pixels per side of a receiver's tile.
+//
+// Pixels are counted along the edges of shadows: with edges of length L (in sides of the tile),
+// each of whose pixels is right or wrong at random, the error of the sunlit fraction is sqrt(L
+// side) / side^2. On the rotated pixel grid (TileMap), over 31 scenes of an overhang, fins,
+// louvres, slats, neighbours and random quadrilaterals with 40 directions each, compared with exact
+// polygon clipping: the error is within sqrt(max(L, 1)) / side^1.5 in 99 % of cases, and 0.22 of
+// that in the root mean square, from 32 to 768 pixels. Edges along the receiver's own, which is how
+// louvres and overhangs lie, do better if there are many: within (6 sqrt(min(L, 25)) + 0.03 L) /
+// side^2 in 98 % of cases, over 2 to 400 louvres, slats and fins and 64 to 512 pixels, except for
+// one pair of count and side in 77, in which the distance of the louvres aliased with the pixel
+// grid.
+class TileSize {
+ public:
+  // A fixed number of pixels, at least 1.
+  static TileSize fixed(int side);
+  // The number of pixels, 2^n or 3 x 2^n, that keeps the error of the sunlit fraction within
+  // `error` in 99 % of cases, between limits: 64 and 512 at 1e-3, changing with the error to the
+  // power of -2/3, at most 4096, and at most `most`.
+  static TileSize for_error(double error, int most);
+
+  int side(Detail const& detail) const;
+
+  // With perforated sheets in view, whose holes have edges of their own: at least half of the
+  // maximum.
+  int side_with_screens(int side) const { return std::max(side, fixed_ ? 1 : (most_ + 1) / 2); }
+
+  int least() const { return least_; }
+  int most() const { return most_; }
+  // Longer edges make no further difference.
+  double enough() const { return enough_; }
+
+ private:
+  TileSize() = default;
+
+  std::optional<int> fixed_;
+  double error_ = 0.0;
+  int least_ = 0;
+  int most_ = 0;
+  double enough_ = 0.0;
+};
+
+}  // namespace gpu_shading

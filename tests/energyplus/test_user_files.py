@@ -1,0 +1,238 @@
+"""What our programs write is there as a whole or not at all, and the user's files are as they were."""
+
+import contextlib
+import os
+import signal
+import subprocess
+import time
+
+import pytest
+import window_with_shades
+from PIL import Image
+from shading_runs import energyplus
+
+STAGE = ".gpu_shading-"
+
+
+@pytest.fixture
+def model(tmp_path):
+    path = tmp_path / "model.idf"
+    path.write_text(window_with_shades.model("south", True, True))
+    return path
+
+
+@pytest.fixture
+def program(patched):
+    def call(*arguments, **options):
+        options = {"capture_output": True, "text": True, "stdin": subprocess.DEVNULL} | options
+        return subprocess.run([patched.parent / "gpu_shading", *arguments], **options)
+
+    return call
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    """Mounts a file system of so many kB, with a file that leaves only some of it."""
+    mounted = []
+
+    def mount(size, free):
+        folder = tmp_path / f"disk{len(mounted)}"
+        folder.mkdir()
+        done = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}k", "tmpfs", folder],
+                              capture_output=True, text=True)
+        if done.returncode != 0:
+            pytest.skip(f"no small file system can be mounted: {done.stderr.strip()}")
+        mounted.append(folder)
+        return folder, lambda: fill(folder, free)
+
+    def fill(folder, free):
+        status = os.statvfs(folder)
+        (folder / "full").write_bytes(b"\0" * (status.f_bavail * status.f_frsize - 1024 * free))
+
+    yield mount
+    for folder in mounted:
+        subprocess.run(["umount", folder], check=True)
+
+
+def contents(folder):
+    return {path.relative_to(folder): path.read_bytes() for path in sorted(folder.rglob("*"))
+            if path.is_file() and path.name != "full" and STAGE not in str(path)}
+
+
+def one_error(done):
+    assert done.returncode == 1
+    lines = done.stderr.splitlines()
+    assert len(lines) == 1 and lines[0].startswith("gpu_shading: error: "), done.stderr
+    return lines[0]
+
+
+VIEWS = {
+    "png": ("--sun", "180,40", "-o", "sun.png", "--size", "300"),
+    "gif": ("--day", "06-21", "-o", "day.gif", "--size", "100"),
+    "list": ("--list", "views.txt", "-o", ".", "--size", "300"),
+}
+
+
+@pytest.mark.parametrize("kind", VIEWS)
+def test_view_onto_a_full_disk_leaves_the_old_pictures(kind, program, model, small_disk):
+    folder, fill = small_disk(2000, 4)
+    (folder / "views.txt").write_text("a.png 180 40 Window\nb.png 150 30\n")
+    assert program("view", model, *VIEWS[kind], cwd=folder).returncode == 0
+    before = contents(folder)
+    assert len(before) == {"png": 2, "gif": 2, "list": 3}[kind]
+    fill()
+    # Other pictures than before.
+    arguments = [word.replace("180,40", "150,20").replace("06-21", "03-21") for word in VIEWS[kind]]
+    error = one_error(program("view", model, *arguments, cwd=folder))
+    assert "No space left on device" in error
+    assert contents(folder) == before
+
+
+@pytest.mark.parametrize("command", ["view", "check"])
+def test_a_full_folder_for_temporary_files_is_an_error(command, program, model, small_disk, tmp_path):
+    folder, fill = small_disk(100, 4)
+    fill()
+    arguments = ["--sun", "180,40", "-o", tmp_path / "sun.png"] if command == "view" else []
+    done = program(command, model, *arguments, env={**os.environ, "TMPDIR": str(folder)})
+    assert "No space left on device" in one_error(done)
+    assert done.stdout == ""
+    assert not (tmp_path / "sun.png").exists()
+
+
+def test_listing_that_cannot_be_printed_is_an_error(program, model):
+    with open("/dev/full", "w") as full:
+        done = program("check", model, capture_output=False, stdout=full, stderr=subprocess.PIPE)
+    assert "standard output: " in one_error(done) or "No space" in done.stderr
+
+
+def test_check_says_when_a_texture_cannot_be_decoded(program, model, tmp_path):
+    Image.effect_noise((64, 64), 50).save(tmp_path / "mesh.png")
+    data = (tmp_path / "mesh.png").read_bytes()
+    (tmp_path / "mesh.png").write_bytes(data[: len(data) // 2])
+    model.write_text(model.read_text() + "GPUShading:PerforatedScreen,Mesh,*Fin,Texture,mesh.png,,,,,,0.003;\n")
+    done = program("check", model)
+    assert done.returncode == 1 and done.stdout == ""
+    assert "mesh.png" in one_error(done)
+
+
+def run(patched, model, weather, report, folder, **options):
+    return energyplus.run(patched, model, weather, folder,
+                          ["--gpu-shading", f"--gpu-shading-report={report}", "-D"], **options)
+
+
+def test_report_on_a_full_disk_is_an_error_and_leaves_the_old_one(patched, model, weather, small_disk, tmp_path):
+    folder, fill = small_disk(2000, 8)
+    report = folder / "report"
+    done = run(patched, model, weather, report, tmp_path / "first")
+    assert done.completed, done.why()
+    before = contents(report)
+    assert {"sunlit.csv", "pictures.csv", "stages.csv"} < {path.name for path in before}
+    fill()
+    done = run(patched, model, weather, report, tmp_path / "second")
+    assert not done.completed and done.status != 0
+    assert "--gpu-shading-report" in done.errors and "No space left on device" in done.errors
+    assert contents(report) == before
+
+
+def test_a_killed_run_leaves_the_old_report(patched, model, weather, tmp_path):
+    """The table was emptied when a run began. A run that ends before the kill writes the same but for its times."""
+    report = tmp_path / "report"
+    first = run(patched, model, weather, report, tmp_path / "first")
+    assert first.completed, first.why()
+
+    def but_for_times():
+        return {path: data for path, data in contents(report).items() if path.name != "stages.csv"}
+
+    before = but_for_times()
+    for share in (0.3, 0.6, 0.8):
+        kill_after(share * first.wall, [patched, "--gpu-shading", f"--gpu-shading-report={report}", "-D",
+                                        "-w", weather, "-d", tmp_path / "killed", model])
+        assert but_for_times() == before
+        assert (report / "stages.csv").read_text().startswith("stage,seconds\n")
+
+
+def test_report_is_not_written_through_a_link(patched, model, weather, tmp_path):
+    report = tmp_path / "report"
+    report.mkdir()
+    (tmp_path / "mine.csv").write_text("mine")
+    (report / "sunlit.csv").symlink_to(tmp_path / "mine.csv")
+    done = run(patched, model, weather, report, tmp_path / "out")
+    assert done.status != 0
+    assert f"--gpu-shading-report: {report / 'sunlit.csv'}: cannot be written (it is a link" in done.errors
+    assert (tmp_path / "mine.csv").read_text() == "mine"
+
+
+def test_pictures_of_alike_names_are_all_there(patched, model, weather, tmp_path):
+    names = ["W 1", "W.1", "W_1", "S\u00fcd/Fenster", "\u5357"]
+    text = model.read_text()
+    start = text.index("FenestrationSurface:Detailed,Window")
+    end = text.index(";", start) + 1
+    width = window_with_shades.SIZE / len(names)
+    windows = []
+    for number, name in enumerate(names):
+        left = number * width - window_with_shades.SIZE / 2
+        corners = [(left, 4.0), (left, 1.0), (left + width, 1.0), (left + width, 4.0)]
+        windows.append(f"FenestrationSurface:Detailed,{name},Window,Window,Front,,,,,4,\n"
+                       + ",\n".join(f"  {x},0,{z}" for x, z in corners) + ";\n")
+    model.write_text(text[:start] + "".join(windows) + text[end:], encoding="utf-8")
+    report = tmp_path / "report"
+    done = run(patched, model, weather, report, tmp_path / "out")
+    assert done.completed, done.why()
+    rows = [line.split(",") for line in (report / "pictures.csv").read_text(encoding="utf-8").splitlines()[1:]]
+    pictures = [row[0].strip('"') for row in rows]
+    assert len(set(pictures)) == len(pictures)
+    assert sorted(pictures) == sorted(path.name for path in report.glob("*.png"))
+    assert {row[1].strip('"') for row in rows} >= {name.upper() for name in names[:3]}
+    assert any(name.startswith("\u5357_") for name in pictures)
+    for name in pictures:
+        with Image.open(report / name) as picture:
+            picture.load()
+
+
+def test_a_name_that_is_given_twice_is_refused(program, model, tmp_path):
+    (tmp_path / "views.txt").write_text("a.png 180 40 Window\nb.png 180 40\n\na.png 150 40 Window\n")
+    error = one_error(program("view", model, "--list", tmp_path / "views.txt", "-o", tmp_path / "out"))
+    assert "views.txt, line 4: a.png" in error and "line 1" in error
+    assert not (tmp_path / "out").exists()
+
+
+def kill_after(seconds, command, **options):
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL, start_new_session=True, **options)
+    time.sleep(seconds)
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+
+
+def test_a_killed_view_leaves_whole_pictures(patched, program, model, tmp_path):
+    folder = tmp_path / "pictures"
+    lines = [f"{number:03}.png {100 + number} 30\n" for number in range(60)]
+    (tmp_path / "views.txt").write_text("".join(lines))
+    arguments = ["view", model, "--list", tmp_path / "views.txt", "-o", folder, "--size", "500"]
+    began = time.monotonic()
+    assert program(*arguments).returncode == 0
+    whole = time.monotonic() - began
+    before = contents(folder)
+    assert len(before) == len(lines)
+    # Among others where it copies its pictures, at the end.
+    for share in (0.2, 0.9, 0.94, 0.96, 0.98, 1.0):
+        kill_after(share * whole, [patched.parent / "gpu_shading", *arguments])
+        for path in folder.glob("*.png"):
+            with Image.open(path) as picture:
+                picture.load()
+        assert len(list(folder.glob("*.png"))) == len(lines)
+    assert program(*arguments).returncode == 0
+    assert contents(folder) == before
+    assert [path.name for path in folder.iterdir() if path.name.startswith(STAGE)] == []
+
+
+def test_export_is_there_as_a_whole(patched, program, model, weather, tmp_path):
+    folder = model.parent / "exported"
+    folder.mkdir()
+    arguments = ["export", model, "-w", weather, "--scheduled", folder]
+    done = program(*arguments)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.strip() == str(folder / "model.idf")
+    assert (folder / "model.idf").is_file() and not (folder / "exported").exists()
+    assert not list(folder.glob(STAGE + "*")) and not list(folder.parent.glob(STAGE + "*"))
