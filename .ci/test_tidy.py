@@ -82,6 +82,32 @@ def test_without_a_base_all_files_are_checked(tree):
     assert selected() == ["a.cpp", "b.cpp"]  # HEAD is main
 
 
+def test_on_main_the_recorded_commit_is_the_base(tree):
+    (tree / tidy.RECORD).write_text(tidy.git("rev-parse", "HEAD") + "\n")
+    commit("b.cpp", "// other\n")
+    git("checkout", "-q", "main")
+    git("merge", "-q", "--ff-only", "change")
+    assert selected() == ["b.cpp"]
+    (tree / tidy.RECORD).write_text("0" * 40 + "\n")  # not in this history
+    assert selected() == ["a.cpp", "b.cpp"]
+
+
+@pytest.mark.parametrize("passes", [True, False])
+def test_a_pass_is_recorded_and_a_failure_is_not(tree, monkeypatch, passes):
+    Path("bin").mkdir()
+    Path("bin/clang-tidy").write_text(f"#!/bin/sh\nexit {0 if passes else 1}\n")
+    Path("bin/clang-tidy").chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tree / 'bin'}:{os.environ['PATH']}")
+    monkeypatch.setattr("sys.argv", ["tidy.py", "build", "--record"])
+    assert tidy.main() == (0 if passes else 1)
+    assert (tree / tidy.RECORD).exists() == passes
+    if passes:
+        assert (tree / tidy.RECORD).read_text().strip() == tidy.git("rev-parse", "HEAD")
+        Path("a.h").write_text("// other\n")
+        with pytest.raises(SystemExit, match="not recorded"):
+            tidy.main()
+
+
 def test_a_base_can_be_named(tree, monkeypatch):
     commit("b.cpp", "// other\n")
     commit("a.h", "// other\n")

@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 """Runs clang-tidy over the sources in a build's compile_commands.json that a change can affect.
 
-.ci/tidy.py BUILD [--all]
+.ci/tidy.py BUILD [--all] [--record]
 
 A file is checked if it, or a header that it includes, differs from the base: by commits, in the work
 tree, or not yet tracked. What a file includes is read from the build, so build first; a file whose
 includes are unknown is checked. The base is the commit named by GPU_SHADING_TIDY_BASE, else the merge
-base with origin/main, else with main. Each commit on main has passed this check, so the files that
-equal the base have passed as well.
+base with origin/main, else with main: each commit on main has passed this check, so the files that
+equal the base have passed as well. If HEAD is on main itself, the base is the commit in .ci/tidy_base,
+whose files are all known to have passed. With --record, a pass writes HEAD there.
 
-All files are checked if there is no base, if HEAD is the base itself (then there is no telling which
-commits are new; set GPU_SHADING_TIDY_BASE to the last commit that passed), if the checks changed
-(.clang-tidy, this script, or scripts/setup, which chooses clang-tidy's version), and with --all.
+All files are checked if there is no base in the history of HEAD, if the checks changed (.clang-tidy,
+this script, or scripts/setup, which chooses clang-tidy's version), and with --all.
 
 Changed compiler options are not seen as changes of a file: the build itself, with warnings as errors,
 judges those. A file is skipped, too, if it passed in this build folder with the same content, headers,
@@ -28,6 +28,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
+RECORD = ".ci/tidy_base"
 CHECKS = re.compile(r"(^|/)\.clang-tidy$|^\.ci/tidy\.py$|^scripts/setup$")
 
 
@@ -50,6 +51,9 @@ def find_base():
         base = git("merge-base", "HEAD", name)
         if base is not None and base != head:
             return base, name
+    recorded = (ROOT / RECORD).read_text().strip() if (ROOT / RECORD).is_file() else ""
+    if recorded and git("merge-base", "--is-ancestor", recorded, "HEAD") is not None:
+        return recorded, RECORD
     return None, "no earlier commit is known to have passed"
 
 
@@ -132,6 +136,10 @@ def main():
                 failed += 1
                 print(f"{source.relative_to(ROOT)}:\n{done.stdout}{done.stderr}", flush=True)
     print(f"clang-tidy: {len(work)} files checked, {failed} with findings")
+    if "--record" in sys.argv[2:] and not failed:
+        if git("status", "--porcelain", "--", "*.cpp", "*.h", "*CMakeLists.txt"):
+            sys.exit("tidy: not recorded: the sources differ from HEAD")
+        (ROOT / RECORD).write_text(git("rev-parse", "HEAD") + "\n")
     return 1 if failed else 0
 
 
