@@ -6,6 +6,7 @@
 #include "idf/extension_objects.h"
 #include "idf/model_file.h"
 #include "idf/side_file.h"
+#include "model/ray_warnings.h"
 #include "site/texture_axes.h"
 
 namespace gpu_shading::energyplus {
@@ -54,6 +55,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   model.shades = read_transparent_shades(objects, model.shading, folder);
   model.screens = read_perforated_screens(objects, model.shading, model.shades, folder);
   check_textures(model.surroundings, model.screens);
+  model.ray_warnings = warn_of_rays(objects, model.shading);
   model.options = resolve(choices, read_settings(objects), model.shading);
   if (find_mentions) {
     model.lean = plan_lean_input(objects, model.shading, model.options, find_mentions);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "idf/input_object.h"
@@ -22,6 +23,7 @@ struct Model {
   Options options;
   LeanInput lean;
   Surroundings surroundings;
+  std::vector<std::string> ray_warnings;  // see warn_of_rays
 };
 
 // Reads a model's objects together with those of its side file, and resolves all options.

@@ -1,11 +1,8 @@
 #include "site/surroundings.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string_view>
 
-#include "base/text.h"
 #include "extensions/extension_fields.h"
 #include "site/imported_geometry.h"
 #include "site/site_context.h"
@@ -17,22 +14,6 @@ namespace {
 bool any_of_type(std::vector<InputObject> const& objects, std::string_view type) {
   return std::any_of(objects.begin(), objects.end(),
                      [&](InputObject const& object) { return object.type == type; });
-}
-
-void warn_of_rays(std::vector<InputObject> const& objects, Surroundings& surroundings) {
-  constexpr std::string_view whom =
-      "GPUShading:SiteContext and GPUShading:Geometry, which EnergyPlus does not know";
-  bool const daylight = std::any_of(objects.begin(), objects.end(), [](InputObject const& object) {
-    return object.type.starts_with("Daylighting");
-  });
-  if (daylight) {
-    surroundings.warnings.push_back(fmt::format("daylighting does not see {}", whom));
-  }
-  for (auto const& object : objects) {
-    if (object.type == "Building" && upper(object["solar_distribution"]).ends_with("REFLECTIONS")) {
-      surroundings.warnings.push_back(fmt::format("solar reflections do not see {}", whom));
-    }
-  }
 }
 
 }  // namespace
@@ -51,7 +32,6 @@ Surroundings read_surroundings(std::vector<InputObject> const& objects,
     read_site_contexts(objects, folder, *origin, surroundings);
   }
   read_geometries(objects, folder, origin, surroundings);
-  if (!surroundings.empty()) warn_of_rays(objects, surroundings);
   return surroundings;
 }
 

@@ -183,8 +183,8 @@ def test_daylighting_and_reflections_do_not_see_what_stands_in(run, bare, tmp_pa
     assert solar[0] > 1
     assert solar[1] == pytest.approx(solar[0], rel=2e-3)
     warnings = answer.text("eplusout.err")
-    assert "daylighting does not see GPUShading:SiteContext" in warnings
-    assert "solar reflections do not see GPUShading:SiteContext" in warnings
+    assert "rays of daylighting (Daylighting:Controls Light) do not see GPUShading:SiteContext Town" in warnings
+    assert "rays of solar reflections (Building, Solar Distribution) do not see GPUShading:SiteContext Town" in warnings
 
 
 def lux(run):

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "idf/input_object.h"
+#include "input/shading_input.h"
+
+namespace gpu_shading::energyplus {
+
+// What EnergyPlus's own rays make of shades that only this module knows: a warning for each pair of
+// a user of rays (daylighting, solar reflections, complex fenestration) and a type of shade that
+// the model has, naming the objects. Rays count TransparentShades and PerforatedScreens as opaque,
+// but for their Transmittance Schedules, and do not meet Geometry and SiteContext.
+std::vector<std::string> warn_of_rays(std::vector<InputObject> const& objects,
+                                      ShadingInput const& input);
+
+}  // namespace gpu_shading::energyplus
