@@ -9,6 +9,7 @@
 #include "assets/plugin.h"
 #include "base/text.h"
 #include "gpu_shading/error.h"
+#include "gpu_shading/fraction_colour.h"
 #include "gpu_shading/scene_view.h"
 #include "image_plugin/image_plugin.h"
 

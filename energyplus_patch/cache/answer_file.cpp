@@ -11,7 +11,7 @@ namespace gpu_shading::energyplus {
 namespace {
 
 constexpr std::string_view magic = "GPUSHADE";
-constexpr std::uint32_t format_version = 1;
+constexpr std::uint32_t format_version = 2;
 constexpr std::size_t checksum_bytes = sizeof(Hash);
 constexpr char const* damaged = "is damaged";
 
@@ -121,7 +121,6 @@ void add(Writer& writer, Answers::Direction const& direction) {
     writer.add_count(answers.size());
     for (auto const& answer : answers) {
       writer.add(answer.projected_area);
-      writer.add(answer.pixel_counted_area);
       add(writer, answer.scheduled);
     }
   }
@@ -151,10 +150,9 @@ void take_direction(Reader& reader, AnswerSet& set) {
   }
   for (auto left = reader.take_count(sizeof(std::uint64_t)); left > 0; --left) {
     auto const question = reader.take<std::uint64_t>();
-    std::vector<Sunlit> answers(reader.take_count(2 * sizeof(double)));
+    std::vector<Sunlit> answers(reader.take_count(sizeof(double) + sizeof(std::uint64_t)));
     for (auto& answer : answers) {
       answer.projected_area = reader.take<double>();
-      answer.pixel_counted_area = reader.take<double>();
       answer.scheduled = take_parts(reader);
     }
     set.answers.keep_interior(direction, question, std::move(answers));

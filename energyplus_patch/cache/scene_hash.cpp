@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
 
 namespace gpu_shading::energyplus {
@@ -132,7 +133,6 @@ Hash hash_scene(Scene const& scene, Rendering const& rendering) {
   digest.add(device.max_resolution);
   add(digest, rendering.options.resolution);
   digest.add(rendering.options.error);
-  digest.add(rendering.options.luminance_sum);
   add(digest, scene.rule());
   digest.add(std::uint64_t{scene.size()});
   SurfaceDigest surfaces(digest);

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "extensions/extension_fields.h"
 #include "gpu_shading/error.h"
+#include "gpu_shading/perforated_screen.h"
 #include "idf/fields.h"
 
 namespace gpu_shading::energyplus {

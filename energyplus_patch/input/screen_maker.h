@@ -11,6 +11,7 @@
 
 #include "assets/texture_file.h"
 #include "gpu_shading/error.h"
+#include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/scene.h"
 
 namespace gpu_shading::energyplus {

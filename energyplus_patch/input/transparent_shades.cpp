@@ -7,6 +7,7 @@
 #include "base/naming.h"
 #include "base/text.h"
 #include "extensions/extension_fields.h"
+#include "gpu_shading/angular_csv.h"
 #include "gpu_shading/error.h"
 #include "idf/fields.h"
 #include "input/glazing_construction.h"

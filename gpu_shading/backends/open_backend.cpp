@@ -20,13 +20,12 @@ auto find_gpu(Open open_gpu) -> decltype(open_gpu(gl_module())) {
 
 }  // namespace
 
-std::unique_ptr<ViewBackend> open_backend(BackendInput const& input,
-                                          RendererOptions const& options) {
-  switch (options.device.kind) {
+std::unique_ptr<ViewBackend> open_backend(BackendInput const& input, DeviceChoice const& device) {
+  switch (device.kind) {
     case DeviceChoice::Kind::index:
-      return gl_module().open_device(options.device.index, input, options);
+      return gl_module().open_device(device.index, input);
     case DeviceChoice::Kind::automatic:
-      if (auto gpu = find_gpu([&](GlModule const& gl) { return gl.open_gpu(input, options); })) {
+      if (auto gpu = find_gpu([&](GlModule const& gl) { return gl.open_gpu(input); })) {
         return gpu;
       }
       break;

@@ -4,31 +4,29 @@
 
 namespace gpu_shading::gl {
 
-Readback::Readback(LayeredTexture const& texture, int level, Way way)
-    : texture_(texture), level_(level) {
+Readback::Readback(LayeredTexture const& texture, Way way) : texture_(texture) {
   if (way == Way::ahead) {
     buffer_ = Buffer::create();
-    ahead_ = buffer_.set_shared_size(bytes(texture, level, way));
+    ahead_ = buffer_.set_shared_size(bytes(texture, way));
   } else {
-    asked_.resize(bytes(texture, level, way));
+    asked_.resize(bytes(texture, way));
   }
 }
 
-std::size_t Readback::bytes(LayeredTexture const& texture, int level, Way way) {
-  return texture.layer_size(level) *
+std::size_t Readback::bytes(LayeredTexture const& texture, Way way) {
+  return texture.layer_size() *
          (way == Way::ahead ? static_cast<std::size_t>(texture.layers()) : 1);
 }
 
 void Readback::start(int layers) {
   if (ahead_ == nullptr) return;
-  texture_.copy(level_, layers, buffer_);
+  texture_.copy(layers, buffer_);
   share_written();
 }
 
 std::byte const* Readback::find(int layer) {
-  if (ahead_ != nullptr)
-    return ahead_ + texture_.layer_size(level_) * static_cast<std::size_t>(layer);
-  texture_.read(level_, layer, asked_);
+  if (ahead_ != nullptr) return ahead_ + texture_.layer_size() * static_cast<std::size_t>(layer);
+  texture_.read(layer, asked_);
   return asked_.data();
 }
 

@@ -17,23 +17,22 @@ class Readback {
     ahead,       // copied by the device right after drawing, so that nothing waits
   };
 
-  // Starts reading layers of one level of the texture, which must outlive it.
-  Readback(LayeredTexture const& texture, int level, Way way);
+  // Of layers of a texture, which must outlive it.
+  Readback(LayeredTexture const& texture, Way way);
 
-  static std::size_t bytes(LayeredTexture const& texture, int level, Way way);
+  static std::size_t bytes(LayeredTexture const& texture, Way way);
 
   void start(int layers);
   // The pixels, once a fence after start() has been waited for; valid until the next start().
   template <typename T>
   std::span<T const> layer(int layer) {
-    return {reinterpret_cast<T const*>(find(layer)), texture_.layer_size(level_) / sizeof(T)};
+    return {reinterpret_cast<T const*>(find(layer)), texture_.layer_size() / sizeof(T)};
   }
 
  private:
   std::byte const* find(int layer);
 
   LayeredTexture const& texture_;
-  int level_;
   Buffer buffer_;
   std::byte const* ahead_ = nullptr;
   std::vector<std::byte> asked_;

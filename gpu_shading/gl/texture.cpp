@@ -39,47 +39,41 @@ void destroy_texture(std::uint32_t name) { glDeleteTextures(1, &name); }
 
 std::size_t size_of(Pixel pixel) { return layout_of(pixel).bytes; }
 
-LayeredTexture LayeredTexture::create(Pixel pixel, int side, int layers, Levels levels) {
+LayeredTexture LayeredTexture::create(Pixel pixel, int side, int layers) {
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name);
   LayeredTexture texture(name);
   texture.pixel_ = pixel;
   texture.side_ = side;
   texture.layers_ = layers;
-  for (int halved = side; levels == Levels::all && halved % 2 == 0; halved /= 2) ++texture.levels_;
-  glTextureStorage3D(name, texture.levels_, layout_of(pixel).internal, side, side, layers);
-  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+  glTextureStorage3D(name, 1, layout_of(pixel).internal, side, side, layers);
+  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  glTextureParameteri(name, GL_TEXTURE_MAX_LEVEL, texture.levels_ - 1);
   check("creating render targets");
   return texture;
 }
 
-std::size_t LayeredTexture::layer_size(int level) const {
-  auto const across = static_cast<std::size_t>(side_ >> level);
+std::size_t LayeredTexture::layer_size() const {
+  auto const across = static_cast<std::size_t>(side_);
   return across * across * size_of(pixel_);
 }
 
 void LayeredTexture::bind(std::uint32_t unit) const { glBindTextureUnit(unit, name()); }
 
-void LayeredTexture::make_mipmaps() const { glGenerateTextureMipmap(name()); }
-
-void LayeredTexture::copy(int level, int layers, Buffer const& buffer) const {
+void LayeredTexture::copy(int layers, Buffer const& buffer) const {
   Layout const layout = layout_of(pixel_);
-  GLsizei const across = side_ >> level;
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer.name());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glGetTextureSubImage(name(), level, 0, 0, 0, across, across, layers, layout.format, layout.type,
-                       static_cast<GLsizei>(layer_size(level) * static_cast<std::size_t>(layers)),
+  glGetTextureSubImage(name(), 0, 0, 0, 0, side_, side_, layers, layout.format, layout.type,
+                       static_cast<GLsizei>(layer_size() * static_cast<std::size_t>(layers)),
                        nullptr);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
-void LayeredTexture::read(int level, int layer, std::span<std::byte> pixels) const {
+void LayeredTexture::read(int layer, std::span<std::byte> pixels) const {
   Layout const layout = layout_of(pixel_);
-  GLsizei const across = side_ >> level;
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glGetTextureSubImage(name(), level, 0, 0, layer, across, across, 1, layout.format, layout.type,
+  glGetTextureSubImage(name(), 0, 0, 0, layer, side_, side_, 1, layout.format, layout.type,
                        static_cast<GLsizei>(pixels.size()), pixels.data());
 }
 

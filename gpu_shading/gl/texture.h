@@ -23,28 +23,23 @@ enum class Pixel {
 
 std::size_t size_of(Pixel pixel);  // bytes
 
-// Square layers of pixels, with as many mipmap levels as can be halved without remainder, or the
-// first level alone.
+// Square layers of pixels.
 class LayeredTexture : public Object<destroy_texture> {
  public:
-  enum class Levels { one, all };
-
   LayeredTexture() = default;
   // Throws DeviceError if there is not enough memory.
-  static LayeredTexture create(Pixel pixel, int side, int layers, Levels levels = Levels::one);
+  static LayeredTexture create(Pixel pixel, int side, int layers);
 
   Pixel pixel() const { return pixel_; }
   int side() const { return side_; }
   int layers() const { return layers_; }
-  int levels() const { return levels_; }
-  std::size_t layer_size(int level) const;  // bytes
+  std::size_t layer_size() const;  // bytes
 
   void bind(std::uint32_t unit) const;
-  void make_mipmaps() const;
-  // Copies the first `layers` layers of a level to a buffer.
-  void copy(int level, int layers, Buffer const& buffer) const;
-  // Reads all pixels of a layer of a level. Waits for the draws.
-  void read(int level, int layer, std::span<std::byte> pixels) const;
+  // Copies the first `layers` layers to a buffer.
+  void copy(int layers, Buffer const& buffer) const;
+  // Reads all pixels of a layer. Waits for the draws.
+  void read(int layer, std::span<std::byte> pixels) const;
 
  private:
   using Object::Object;
@@ -52,7 +47,6 @@ class LayeredTexture : public Object<destroy_texture> {
   Pixel pixel_ = Pixel::unit;
   int side_ = 0;
   int layers_ = 0;
-  int levels_ = 1;
 };
 
 // Layers with one 16-bit value per texel, 0 .. 1, interpolated bilinearly.

@@ -19,16 +19,14 @@ class Module : public GlModule {
     return devices;
   }
 
-  std::unique_ptr<ViewBackend> open_gpu(BackendInput const& input,
-                                        RendererOptions const& options) const override {
+  std::unique_ptr<ViewBackend> open_gpu(BackendInput const& input) const override {
     std::optional<egl::Device> device = egl::open_gpu();
     if (!device) return nullptr;
-    return std::make_unique<GlBackend>(std::move(*device), input, options);
+    return std::make_unique<GlBackend>(std::move(*device), input);
   }
 
-  std::unique_ptr<ViewBackend> open_device(int index, BackendInput const& input,
-                                           RendererOptions const& options) const override {
-    return std::make_unique<GlBackend>(egl::open_device(index), input, options);
+  std::unique_ptr<ViewBackend> open_device(int index, BackendInput const& input) const override {
+    return std::make_unique<GlBackend>(egl::open_device(index), input);
   }
 
   std::unique_ptr<PictureRaster> open_gpu_for_pictures(PictureScene const& scene) const override {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "gpu_shading/device.h"
-#include "gpu_shading/renderer.h"
 #include "view/picture_raster.h"
 #include "view/view_backend.h"
 
@@ -26,11 +25,9 @@ class GlModule {
   virtual std::vector<DeviceInfo> list_devices(std::vector<std::string>& failures) const = 0;
 
   // Draws by the first GPU, or nothing where there is none.
-  virtual std::unique_ptr<ViewBackend> open_gpu(BackendInput const& input,
-                                                RendererOptions const& options) const = 0;
+  virtual std::unique_ptr<ViewBackend> open_gpu(BackendInput const& input) const = 0;
   // Draws by the device of an index in list_devices(). Throws DeviceError.
-  virtual std::unique_ptr<ViewBackend> open_device(int index, BackendInput const& input,
-                                                   RendererOptions const& options) const = 0;
+  virtual std::unique_ptr<ViewBackend> open_device(int index, BackendInput const& input) const = 0;
 
   // The same for pictures.
   virtual std::unique_ptr<PictureRaster> open_gpu_for_pictures(PictureScene const& scene) const = 0;

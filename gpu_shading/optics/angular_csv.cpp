@@ -1,3 +1,5 @@
+#include "gpu_shading/angular_csv.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +16,6 @@
 #include <vector>
 
 #include "gpu_shading/error.h"
-#include "gpu_shading/transmittance.h"
 
 namespace gpu_shading {
 namespace {

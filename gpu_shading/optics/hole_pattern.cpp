@@ -1,3 +1,5 @@
+#include "gpu_shading/hole_pattern.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include <string_view>
 
 #include "gpu_shading/error.h"
-#include "gpu_shading/perforation.h"
 
 namespace gpu_shading {
 namespace {

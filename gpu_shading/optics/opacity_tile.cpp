@@ -1,3 +1,5 @@
+#include "gpu_shading/opacity_tile.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +13,6 @@
 #include <vector>
 
 #include "gpu_shading/error.h"
-#include "gpu_shading/perforation.h"
 #include "optics/solid_runs.h"
 
 namespace gpu_shading {

@@ -1,3 +1,5 @@
+#include "gpu_shading/screen_transmittance.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include <vector>
 
 #include "gpu_shading/error.h"
-#include "gpu_shading/perforated_screen.h"
 #include "optics/tile_table.h"
 
 namespace gpu_shading {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "gpu_shading/perforation.h"
+#include "gpu_shading/opacity_tile.h"
 
 namespace gpu_shading {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "gpu_shading/perforation.h"
+#include "gpu_shading/opacity_tile.h"
 
 namespace gpu_shading {
 

@@ -1,10 +1,10 @@
+#include "gpu_shading/fraction_colour.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
-
-#include "gpu_shading/scene_view.h"
 
 namespace gpu_shading {
 

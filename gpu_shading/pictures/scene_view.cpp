@@ -11,6 +11,7 @@
 
 #include "backends/open_backend.h"
 #include "gpu_shading/error.h"
+#include "gpu_shading/fraction_colour.h"
 #include "pictures/colours.h"
 #include "pictures/picture_frame.h"
 #include "scene/bvh.h"

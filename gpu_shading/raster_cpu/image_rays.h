@@ -3,7 +3,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "gpu_shading/perforation.h"
+#include "gpu_shading/opacity_tile.h"
 #include "view/sheet_in_beam.h"
 
 namespace gpu_shading {

@@ -14,15 +14,14 @@
 namespace gpu_shading {
 namespace {
 
-LuminanceSum settled(LuminanceSum how, DeviceInfo const& device) {
-  if (how != LuminanceSum::automatic) return how;
+LuminanceSum fastest_sum(DeviceInfo const& device) {
   return device.software ? LuminanceSum::readback : LuminanceSum::compute;
 }
 
 // The limits of the public header. In software, the device's memory should fit in the CPU's cache:
 // with 4 MiB and three submissions under way, 500 panes over 20 receivers took 10 to 25 % more CPU
 // time.
-Bounds bounds_of(RendererOptions const& options, DeviceInfo const& device) {
+Bounds bounds_of(GlSettings const& settings, DeviceInfo const& device) {
   constexpr std::size_t mib = std::size_t{1} << 20U;
   gl::Limits const limits = gl::query_limits();
   Bounds bounds;
@@ -30,7 +29,7 @@ Bounds bounds_of(RendererOptions const& options, DeviceInfo const& device) {
   bounds.target = (device.software ? 1 : 32) * mib;
   bounds.all_targets = (device.software ? 64 : 512) * mib;
   bounds.layers = limits.layers_in_vertex_stage ? limits.max_layers : 1;
-  if (options.most_layers > 0) bounds.layers = std::min(bounds.layers, options.most_layers);
+  if (settings.most_layers > 0) bounds.layers = std::min(bounds.layers, settings.most_layers);
   return bounds;
 }
 
@@ -65,11 +64,11 @@ struct GlBackend::OnDevice {
   Submissions submissions;
 };
 
-GlBackend::GlBackend(egl::Device device, BackendInput const& input, RendererOptions const& options)
+GlBackend::GlBackend(egl::Device device, BackendInput const& input, GlSettings const& settings)
     : device_(std::move(device)), scene_(input.scene), transmission_(input.transmission) {
   egl::Current const current = device_.context.make_current();
-  on_device_ = std::make_unique<OnDevice>(input, bounds_of(options, device_.info),
-                                          settled(options.luminance_sum, device_.info));
+  on_device_ = std::make_unique<OnDevice>(input, bounds_of(settings, device_.info),
+                                          settings.sum.value_or(fastest_sum(device_.info)));
 }
 
 GlBackend::~GlBackend() {

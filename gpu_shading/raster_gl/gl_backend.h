@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "egl/device.h"
-#include "gpu_shading/renderer.h"
 #include "raster_gl/geometry.h"
 #include "raster_gl/schedule_keys.h"
 #include "raster_gl/submissions.h"
@@ -17,13 +16,19 @@
 
 namespace gpu_shading {
 
+// How a device is used.
+struct GlSettings {
+  std::optional<LuminanceSum> sum = std::nullopt;  // empty: whichever is faster on the device
+  int most_layers = 0;  // views drawn at once, at most; 0: as many as the device's bounds allow
+};
+
 // Draws views with OpenGL on an EGL device, many at once. The caller's context is restored after
 // every call.
 class GlBackend : public ViewBackend {
  public:
-  // Adds to the statistics' seconds of submitting, waiting and reading. Of the options it takes how
-  // to sum, and how many layers to draw to. Throws DeviceError.
-  GlBackend(egl::Device device, BackendInput const& input, RendererOptions const& options);
+  // Adds to the statistics' seconds of submitting, waiting and reading. Answers are the same with
+  // any settings, but for the rounding of sums. Throws DeviceError.
+  GlBackend(egl::Device device, BackendInput const& input, GlSettings const& settings = {});
   ~GlBackend() override;
   GlBackend(GlBackend const&) = delete;
   GlBackend& operator=(GlBackend const&) = delete;

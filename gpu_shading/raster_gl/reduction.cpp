@@ -68,32 +68,10 @@ class ByCompute : public Reduction {
   float const* sums_;
 };
 
-// 4^m times the sum over level m (Jones & Greenberg), the last level to which every pixel
-// contributes as one of four; its side is the tile's after all possible halvings.
-class ByMipmaps : public Reduction {
- public:
-  explicit ByMipmaps(gl::LayeredTexture const& texture)
-      : texture_(texture), coarsest_(texture, texture.levels() - 1, gl::Readback::Way::ahead) {}
-
-  void start(int layers) override {
-    texture_.make_mipmaps();
-    coarsest_.start(layers);
-  }
-
-  double sum(int layer) override {
-    return static_cast<double>(square(1 << (texture_.levels() - 1))) *
-           sum_of(coarsest_.layer<float>(layer));
-  }
-
- private:
-  gl::LayeredTexture const& texture_;
-  gl::Readback coarsest_;
-};
-
 class ByReadback : public Reduction {
  public:
   explicit ByReadback(gl::LayeredTexture const& texture)
-      : pixels_(texture, 0, gl::Readback::Way::when_asked) {}
+      : pixels_(texture, gl::Readback::Way::when_asked) {}
 
   void start(int layers) override { pixels_.start(layers); }
   double sum(int layer) override { return sum_of(pixels_.layer<float>(layer)); }
@@ -104,25 +82,13 @@ class ByReadback : public Reduction {
 
 }  // namespace
 
-gl::LayeredTexture::Levels Summing::levels(gl::Pixel pixel) const {
-  // Means of bytes are rounded to bytes.
-  return how_ == LuminanceSum::mipmaps && pixel == gl::Pixel::real
-             ? gl::LayeredTexture::Levels::all
-             : gl::LayeredTexture::Levels::one;
-}
-
-std::size_t Summing::extra_bytes(gl::Pixel pixel, int side) const {
+std::size_t Summing::extra_bytes(int side) const {
   if (how_ == LuminanceSum::readback) return 0;
-  std::size_t const mipmaps =
-      levels(pixel) == gl::LayeredTexture::Levels::all ? square(side) * size_of(pixel) / 3 : 0;
-  return mipmaps + square(squares_across(side)) * sizeof(float);
+  return square(squares_across(side)) * sizeof(float);
 }
 
 std::unique_ptr<Reduction> Summing::make(gl::LayeredTexture const& texture) {
   if (how_ == LuminanceSum::readback) return std::make_unique<ByReadback>(texture);
-  if (levels(texture.pixel()) == gl::LayeredTexture::Levels::all) {
-    return std::make_unique<ByMipmaps>(texture);
-  }
   if (squares_.empty()) squares_ = gl::Program::link_compute("sums", shaders::sum_comp);
   return std::make_unique<ByCompute>(texture, squares_);
 }

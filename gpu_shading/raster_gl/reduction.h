@@ -6,7 +6,6 @@
 #include "gl/program.h"
 #include "gl/readback.h"
 #include "gl/texture.h"
-#include "gpu_shading/renderer.h"
 
 namespace gpu_shading {
 
@@ -22,18 +21,21 @@ class Reduction {
   virtual double sum(int layer) = 0;
 };
 
+// How luminance is summed, in a fixed order each; the results differ by rounding only.
+enum class LuminanceSum {
+  compute,   // by a compute shader
+  readback,  // on the CPU
+};
+
 // How sums are computed on a device.
 class Summing {
  public:
-  // Neither value is automatic.
   explicit Summing(LuminanceSum how) : how_(how) {}
 
-  // The requirements of a texture to be summed.
-  gl::LayeredTexture::Levels levels(gl::Pixel pixel) const;
   // For units, only if whole pixels are read back ahead.
   std::unique_ptr<Reduction> make(gl::LayeredTexture const& texture);
   // Bytes per layer besides its pixels.
-  std::size_t extra_bytes(gl::Pixel pixel, int side) const;
+  std::size_t extra_bytes(int side) const;
 
   // Read-back of whole pixels.
   gl::Readback::Way way() const {

@@ -75,7 +75,7 @@ class StencilTarget : public Target {
   StencilTarget(int side, int layers)
       : texture_(gl::LayeredTexture::create(gl::Pixel::stencil, side, layers)),
         layers_(gl::Framebuffer::of_layers({&texture_})),
-        pixels_(texture_, 0, Way::when_asked) {}
+        pixels_(texture_, Way::when_asked) {}
 
   void draw(Geometry& geometry, int layers) override {
     layers_.bind();
@@ -136,7 +136,7 @@ class ScheduledTarget : public Target {
   ScheduledTarget(int side, int layers, Way way)
       : texture_(gl::LayeredTexture::create(gl::Pixel::reals, side, layers)),
         layers_(gl::Framebuffer::of_layers({&texture_})),
-        pixels_(texture_, 0, way) {}
+        pixels_(texture_, way) {}
 
   void draw(Geometry& geometry, int layers) override {
     draw_luminance(geometry, layers_, lit_without_key, gl::Blend::multiply_and_add);
@@ -164,7 +164,7 @@ class Identities {
       : texture_(gl::LayeredTexture::create(gl::Pixel::identity, side, layers)),
         depth_(gl::LayeredTexture::create(gl::Pixel::depth, side, layers)),
         layers_(gl::Framebuffer::of_layers({&texture_, &depth_})),
-        pixels_(texture_, 0, way) {}
+        pixels_(texture_, way) {}
 
   // Behind windows, except where casters close them, if these are wanted too.
   void draw(Geometry& geometry, int layers, bool casters) {
@@ -261,9 +261,7 @@ std::unique_ptr<Target> make_target(Kind kind, int side, int layers, Summing& su
   switch (kind) {
     case Kind::unscheduled:
       return std::make_unique<SummedTarget>(
-          gl::LayeredTexture::create(gl::Pixel::real, side, layers,
-                                     summing.levels(gl::Pixel::real)),
-          summing, draw_unscheduled);
+          gl::LayeredTexture::create(gl::Pixel::real, side, layers), summing, draw_unscheduled);
     case Kind::scheduled:
       return std::make_unique<ScheduledTarget>(side, layers, way);
     case Kind::interior:
@@ -283,9 +281,8 @@ std::size_t layer_bytes(Kind kind, int side, Summing const& summing) {
   std::size_t const bytes = pixels * pixel_bytes(kind);
   switch (kind) {
     case Kind::opaque:
-      return bytes + summing.extra_bytes(gl::Pixel::unit, side);
     case Kind::unscheduled:
-      return bytes + summing.extra_bytes(gl::Pixel::real, side);
+      return bytes + summing.extra_bytes(side);
     case Kind::scheduled:
     case Kind::interior:
     case Kind::shaded_interior:

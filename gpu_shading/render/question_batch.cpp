@@ -54,7 +54,7 @@ void QuestionBatch::take(Asked const& asked, InView in_view, std::vector<Receive
   Receiver const& seen = *asked.receiver;
   if (!question.through && in_view.casters.empty()) {
     Sunlit& clear = question.answers.front();
-    clear.projected_area = clear.pixel_counted_area = seen.area * asked.cosine;
+    clear.projected_area = seen.area * asked.cosine;
     ++parts_.statistics.receivers_clear;
     return;
   }
@@ -105,7 +105,6 @@ Sunlit QuestionBatch::sunlit(LuminanceSums const& sums, Viewed const& viewed,
   double const a_pixel = asked.receiver->area * asked.cosine / static_cast<double>(pixels);
   Sunlit answer;
   answer.projected_area = sums.unscheduled * a_pixel;
-  answer.pixel_counted_area = sums.unscheduled * viewed.tile->pixel_area * asked.cosine;
   for (LuminanceSums::Scheduled const& part : sums.scheduled) {
     std::vector<std::pair<int, int>> powers = part.powers;
     for (auto& [schedule, power] : powers) {

@@ -12,6 +12,7 @@
 #include "pictures/receiver_picture.h"
 #include "render/question_batch.h"
 #include "render/receivers.h"
+#include "render/renderer_with_backend.h"
 #include "scene/casters.h"
 #include "scene/triangulation.h"
 #include "view/stopwatch.h"
@@ -56,7 +57,9 @@ RendererStatistics& RendererStatistics::operator+=(RendererStatistics const& oth
 
 class Renderer::Implementation {
  public:
-  Implementation(Scene scene, RendererOptions options);
+  using OpenBackend = RendererWithBackend::Open;
+
+  Implementation(Scene scene, RendererOptions options, OpenBackend const& open);
   ~Implementation() = default;
   Implementation(Implementation const&) = delete;
   Implementation& operator=(Implementation const&) = delete;
@@ -93,11 +96,12 @@ class Renderer::Implementation {
   std::unique_ptr<PictureRaster> picture_raster_;  // once asked for
 };
 
-Renderer::Implementation::Implementation(Scene scene, RendererOptions options)
+Renderer::Implementation::Implementation(Scene scene, RendererOptions options,
+                                         OpenBackend const& open)
     : scene_(std::move(scene)), casters_(scene_), transmission_(scene_), options_(options) {
   Stopwatch const watch(statistics_.seconds);
   std::vector<Mesh> const meshes = triangulate_all(scene_);
-  backend_ = open_backend({scene_, meshes, transmission_, statistics_}, options_);
+  backend_ = open({scene_, meshes, transmission_, statistics_});
   receivers_.emplace(scene_, tile_size(options_, device()), device().max_resolution);
 }
 
@@ -177,7 +181,14 @@ Image Renderer::Implementation::sun_view(SunDirection sun, SurfaceId id, int siz
 }
 
 Renderer::Renderer(Scene scene, RendererOptions options)
-    : implementation_(std::make_unique<Implementation>(std::move(scene), options)) {}
+    : implementation_(std::make_unique<Implementation>(
+          std::move(scene), options,
+          [&](BackendInput const& input) { return open_backend(input, options.device); })) {}
+Renderer::Renderer(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+Renderer RendererWithBackend::make(Scene scene, RendererOptions options, Open const& open) {
+  return Renderer(std::make_unique<Renderer::Implementation>(std::move(scene), options, open));
+}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;

@@ -1,9 +1,10 @@
+#include "gpu_shading/sunlit.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "gpu_shading/error.h"
-#include "gpu_shading/renderer.h"
 
 namespace gpu_shading {
 

@@ -1,7 +1,8 @@
+#include "gpu_shading/polygon.h"
+
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "gpu_shading/scene.h"
 #include "scene/ring.h"
 
 namespace gpu_shading {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "gpu_shading/perforated_screen.h"
 #include "scene/ring.h"
 #include "scene/triangulation.h"
 

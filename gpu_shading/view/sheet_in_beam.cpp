@@ -6,6 +6,9 @@
 #include <limits>
 #include <utility>
 
+#include "gpu_shading/perforated_screen.h"
+#include "optics/sheet_layers.h"
+
 namespace gpu_shading {
 namespace {
 

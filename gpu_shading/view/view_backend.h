@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gpu_shading/device.h"
-#include "gpu_shading/renderer.h"
+#include "gpu_shading/renderer_statistics.h"
 #include "gpu_shading/scene.h"
 #include "scene/plane_frame.h"
 #include "scene/triangulation.h"

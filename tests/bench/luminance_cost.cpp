@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "gpu_shading/transmittance.h"
+#include "support/gl_renderer.h"
 #include "support/shapes.h"
 #include "table_main.h"
 
@@ -46,13 +47,7 @@ Scene canopy(Panes panes) {
 
 constexpr int receivers = 20;
 
-void print_row(char const* name, Panes panes, DeviceChoice views, LuminanceSum how,
-               int resolution) {
-  RendererOptions options;
-  options.resolution = resolution;
-  options.luminance_sum = how;
-  options.device = views;
-  Renderer renderer(canopy(panes), options);
+void print_row(char const* name, Renderer renderer, int resolution) {
   std::array<SurfaceId, receivers> asked{};
   for (SurfaceId id = 0; id < receivers; ++id) asked[id] = id;
   renderer.projected_sunlit_areas(sun_at(180, 45), asked);  // makes targets and counts receivers
@@ -74,17 +69,19 @@ void print_table() {
   std::printf("%s\n", renderer_of(canopy(Panes::opaque)).device().renderer.c_str());
   std::printf("500 panes                resolution  a direction\n");
   for (int const resolution : {256, 512, 1024}) {
-    auto const print = [&](char const* name, Panes panes, DeviceChoice views, LuminanceSum how) {
-      print_row(name, panes, views, how, resolution);
+    auto const count = [&](char const* name, Panes panes) {
+      print_row(name, renderer_of(canopy(panes), resolution, on_cpu), resolution);
     };
-    print("opaque, counted", Panes::opaque, on_cpu, LuminanceSum::automatic);
-    print("opaque, drawn", Panes::opaque, by_opengl, LuminanceSum::automatic);
-    print("transparent, counted", Panes::transparent, on_cpu, LuminanceSum::automatic);
-    print("transparent, compute", Panes::transparent, by_opengl, LuminanceSum::compute);
-    print("transparent, mipmaps", Panes::transparent, by_opengl, LuminanceSum::mipmaps);
-    print("transparent, readback", Panes::transparent, by_opengl, LuminanceSum::readback);
-    print("3 schedules, counted", Panes::scheduled, on_cpu, LuminanceSum::automatic);
-    print("3 schedules, drawn", Panes::scheduled, by_opengl, LuminanceSum::automatic);
+    auto const draw = [&](char const* name, Panes panes, GlSettings const& settings) {
+      print_row(name, gl_renderer(canopy(panes), resolution, settings), resolution);
+    };
+    count("opaque, counted", Panes::opaque);
+    draw("opaque, drawn", Panes::opaque, {});
+    count("transparent, counted", Panes::transparent);
+    draw("transparent, compute", Panes::transparent, {.sum = LuminanceSum::compute});
+    draw("transparent, readback", Panes::transparent, {.sum = LuminanceSum::readback});
+    count("3 schedules, counted", Panes::scheduled);
+    draw("3 schedules, drawn", Panes::scheduled, {});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "gpu_shading/perforated_screen.h"
 #include "perforated_tables.h"
 
 namespace gpu_shading {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 
+#include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
 #include "support/shapes.h"
 #include "table_main.h"

@@ -10,13 +10,14 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "support/pixel_count.h"
 #include "table_main.h"
 
 namespace gpu_shading {
 namespace {
 
 void print_row(std::vector<SunDirection> const& suns, std::size_t every, int resolution) {
-  Renderer renderer = renderer_of(transparent_case(), resolution);
+  PixelCount renderer(transparent_case(), {.device = {}, .resolution = resolution});
   double signed_mean = 0.0;
   double counted_mean = 0.0;
   double mean = 0.0;
@@ -24,12 +25,12 @@ void print_row(std::vector<SunDirection> const& suns, std::size_t every, int res
   std::size_t positions = 0;
   auto const start = std::chrono::steady_clock::now();
   for (std::size_t i = 0; i < suns.size(); i += every) {
-    Sunlit const got = sunlit(renderer, suns[i], 0);
+    auto const [answered, counted] = renderer.areas(suns[i], 0);
     double const exact = transparent_case_pssf(suns[i]);
-    double const error = got.projected_area - exact;
+    double const error = answered - exact;
     signed_mean += error;
     mean += std::abs(error);
-    counted_mean += std::abs(got.pixel_counted_area - exact);
+    counted_mean += std::abs(counted - exact);
     most = std::max(most, std::abs(error));
     ++positions;
   }

@@ -13,6 +13,7 @@
 
 #include "gpu_shading/renderer.h"
 #include "support/exact.h"
+#include "support/pixel_count.h"
 #include "support/random_scene.h"
 #include "support/shapes.h"
 
@@ -46,13 +47,12 @@ Forms errors_at(int resolution, DeviceChoice how) {
     RendererOptions options;
     options.resolution = resolution;
     options.device = how;
-    Renderer renderer(random.scene, options);
     SurfaceId const receiver = 0;
-    Sunlit const got = renderer.projected_sunlit_areas(random.sun, {&receiver, 1})[0];
+    auto const [answered, counted] = PixelCount(random.scene, options).areas(random.sun, receiver);
     double const exact_area = exact::projected_sunlit_area(random.scene, random.sun, receiver);
     double const whole = area(random.scene[receiver].polygon);
-    add(forms.ratio, (got.projected_area - exact_area) / whole);
-    add(forms.plain, (got.pixel_counted_area - exact_area) / whole);
+    add(forms.ratio, (answered - exact_area) / whole);
+    add(forms.plain, (counted - exact_area) / whole);
   }
   for (auto const& [name, errors] :
        {std::pair("lit share", forms.ratio), std::pair("N x Ap", forms.plain)}) {

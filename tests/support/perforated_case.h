@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "gpu_shading/perforated_screen.h"
 #include "support/shapes.h"
 
 // The perforated case of Jones & Greenberg: a horizontal square receiver of 1 m and a sheet of

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/sun_direction.h"
 #include "support/exact.h"
 #include "support/random_scene.h"

@@ -6,7 +6,7 @@
 
 namespace gpu_shading {
 
-// The device that renders.
+// The choice of the device that computes.
 struct DeviceChoice {
   enum class Kind {
     automatic,  // the first GPU, else the CPU
@@ -19,7 +19,7 @@ struct DeviceChoice {
   bool operator==(DeviceChoice const&) const = default;
 };
 
-// "auto", "cpu", which "software" is another name of, or a number from 0. Throws Error on anything
+// Parses "auto", "cpu" or its synonym "software", or a number from 0. Throws Error for anything
 // else.
 DeviceChoice parse_device_choice(std::string const& text);
 
@@ -30,13 +30,13 @@ struct DeviceInfo {
   std::string version;     // GL_VERSION, which names the driver; the CPU's instructions
   int threads = 0;         // of the CPU
   bool software = false;   // no GPU
-  int max_resolution = 0;  // largest square tile, in pixels per side
+  int max_resolution = 0;  // pixels along each side of the largest tile
 };
 
-// "CPU (2 threads, AVX2)"; of an OpenGL device its renderer and version.
+// A name for messages: "CPU (2 threads, AVX2)", or the renderer and version of an OpenGL device.
 std::string describe(DeviceInfo const& device);
 
-// The CPU that this runs on.
+// The CPU that this program runs on.
 DeviceInfo cpu_device();
 
 // Lists every EGL device that supports an OpenGL 4.5 core context without a display, in EGL's

@@ -5,12 +5,11 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "gpu_shading/renderer.h"
 #include "gpu_shading/sun_direction.h"
+#include "gpu_shading/sunlit.h"
 
 namespace gpu_shading {
 
@@ -26,8 +25,8 @@ struct Sampling {
   bool operator==(Sampling const&) const = default;
 };
 
-// Maximum number of directions of our own modes: 480, 320 and 238, no more than the paper's grid of
-// the same density has at 42 degrees north.
+// Maximum number of directions without `paper_grid`: 480, 320 and 238, no more than the paper's
+// grid of the same density has at 42 degrees north.
 std::size_t most_directions(Sampling::Density density);
 
 // The sunlit areas of each receiver, in order, for each direction, in order.
@@ -99,10 +98,10 @@ class SampledSunlit {
   // The same for other receivers, from samples at the same directions.
   SampledSunlit with(std::vector<glm::dvec3> receivers, SunlitSource const& source) const;
 
-  // Of every receiver; pixel_counted_area is 0. For directions that in_suns_range() has.
+  // The areas of every receiver, in order. The direction must be within in_suns_range().
   std::vector<Sunlit> at(SunDirection direction) const;
 
-  // False if the sun faces the receiver at none of the samples: its answers are then 0.
+  // False if the receiver faces away from the sun in every sample; its answers are then 0.
   bool knows(std::size_t receiver) const;
 
   std::vector<SunDirection> const& directions() const;

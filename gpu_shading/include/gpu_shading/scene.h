@@ -1,30 +1,18 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <glm/vec3.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "gpu_shading/perforated_screen.h"
+#include "gpu_shading/polygon.h"
+#include "gpu_shading/screen_placement.h"
 #include "gpu_shading/shading_rule.h"
 
 namespace gpu_shading {
 
-class Transmittance;  // gpu_shading/transmittance.h
-
-using Ring = std::vector<glm::dvec3>;
-
-// A planar polygon in metres, in world axes: x east, y north, z up. The outline runs
-// counterclockwise as seen from outside (the side that the sun may light); holes may run either
-// way. A polygon with fewer than three distinct vertices or without area neither casts nor
-// receives. Non-convex polygons are allowed. A polygon that is not quite planar is projected to its
-// Newell plane as a receiver, and used unchanged as a caster.
-struct Polygon {
-  Ring outline;
-  std::vector<Ring> holes;
-};
+class PerforatedScreen;  // gpu_shading/perforated_screen.h
+class Transmittance;     // gpu_shading/transmittance.h
 
 // When a surface casts shadows.
 enum class Casting {
@@ -59,34 +47,23 @@ struct Surface {
 // a surface never shades itself.
 class Scene {
  public:
+  // Returns the surface's index, counted from 0. Throws Error if there is a shading rule already.
   SurfaceId add(Surface surface);
 
   std::size_t size() const { return surfaces_.size(); }
+  // Throws std::out_of_range for an index that add() has not returned.
   Surface const& operator[](SurfaceId id) const { return surfaces_.at(id); }
 
-  // All surfaces have to be there. Throws Error where the rule lacks a surface's role, or a role's
-  // zone.
+  // All surfaces must have been added. Throws Error if the rule lacks a role for a surface, or a
+  // role's zone.
   void set_rule(ShadingRule rule);
   ShadingRule const& rule() const { return rule_; }
+  // Whether a caster counts for a receiver.
   bool may_shade(SurfaceId receiver, SurfaceId caster) const;
 
  private:
   std::vector<Surface> surfaces_;
   ShadingRule rule_;
 };
-
-// Area of the outline minus its holes (m2), and the unit normal of the outline, both by Newell's
-// method (Sutherland, Sproull & Schumacker 1974). The zero vector for a degenerate polygon.
-double area(Polygon const& polygon);
-glm::dvec3 normal(Polygon const& polygon);
-
-// A screen's placement on a polygon, in world axes. The polygon must have an area; if it is not
-// quite planar, its plane is used.
-struct TileAxes {
-  glm::dvec3 origin;  // the tile's (0, 0)
-  glm::dvec3 u;       // unit vectors
-  glm::dvec3 v;
-};
-TileAxes tile_axes(Polygon const& polygon, ScreenPlacement const& placement);
 
 }  // namespace gpu_shading

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <chrono>
-
 #include "gpu_shading/sun_direction.h"
 
 namespace gpu_shading {
@@ -27,21 +25,10 @@ struct SunOfTime {
   double equation_of_time = 0.0;  // apparent minus mean solar time, minutes
 };
 
-// By NOAA's solar calculator (gml.noaa.gov/grad/solcalc), after Meeus, Astronomical Algorithms
-// (1998), chapters 25 and 28: within 0.01 degrees from 1900 to 2100. Leap years are those of the
-// calendar.
-SunOfTime sun_at(std::chrono::sys_seconds universal_time);
-
-// The same as seen from a location, with longitude in radians, east positive; without refraction
-// and parallax, as in EnergyPlus. Clock time is universal time plus the offset of the time zone,
-// plus an hour during daylight saving time.
-SunDirection sun_position(std::chrono::sys_seconds universal_time, double latitude,
-                          double longitude);
-
 // EnergyPlus's values for a whole day, 1 .. 366: Fourier series in the day of the year, the same
 // every year (Engineering Reference, "Sun Path Calculations"). At noon from 2017 to 2024 they are
-// within 0.5 degrees and 0.7 minutes of sun_at(), because leap years move the calendar relative to
-// the sun. The declination is constant during the day.
+// within 0.5 degrees and 0.7 minutes of NOAA's solar calculator, because leap years move the
+// calendar relative to the sun. The declination is constant during the day.
 SunOfTime sun_of_day(int day_of_year);
 
 }  // namespace gpu_shading

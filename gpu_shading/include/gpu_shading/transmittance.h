@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <span>
 #include <vector>
@@ -69,31 +68,5 @@ class Transmittance {
 
   std::function<double(double)> model_;
 };
-
-// A table of angle and transmittance from a text file, separated by commas, semicolons, tabs or
-// blanks. One of
-//  - two columns, angle in degrees and transmittance, with or without a line of headings;
-//  - several columns whose headings name an angle (Angle, Theta) and a transmittance (Tsol,
-//    Transmittance, Tau);
-//  - a line "Angle 0 10 20 ... 90 Hemis" and below it a line "Tsol ...", as in the reports of LBNL
-//    WINDOW, whose other lines are passed over; of several glazing systems the first is taken.
-// Throws Error, with the file and the line.
-Transmittance read_angular_csv(std::filesystem::path const& path);
-
-// A model as a texture: samples at equal steps of u = sqrt(1 - sqrt(cos(angle))), from 0 at normal
-// to 1 at grazing incidence, to be interpolated linearly. u runs with the angle near the normal, as
-// models in degrees do, and is dense near grazing, where glass bends over a degree or less; a
-// shader has it at the cost of two roots, without acos. Texture filtering keeps 8 bits of the place
-// between two texels on most devices: fetch both and mix.
-//
-// Throws Error when there are fewer than two samples.
-std::vector<float> sample(Transmittance const& model, int samples);
-
-// Largest difference between the model and linear interpolation of its samples.
-double sampling_error(Transmittance const& model, std::span<float const> samples);
-
-// The smallest number of samples, 2^k + 1 within 2 .. 4097, that is within `tolerance`; 4097 if
-// none is.
-int samples_within(Transmittance const& model, double tolerance);
 
 }  // namespace gpu_shading

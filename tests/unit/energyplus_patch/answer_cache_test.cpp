@@ -32,7 +32,6 @@ Hash scene_of(std::uint8_t number) {
 Sunlit lit(double area, std::vector<ScheduledPart> scheduled = {}) {
   Sunlit answer;
   answer.projected_area = area;
-  answer.pixel_counted_area = area + 0.25;
   answer.scheduled = std::move(scheduled);
   return answer;
 }
@@ -68,7 +67,6 @@ void expect_some_answers(AnswerSet const& set) {
   auto const& interior = half->interior.at(99);
   ASSERT_EQ(interior.size(), 2U);
   EXPECT_EQ(interior[0].projected_area, 0.75);
-  EXPECT_EQ(interior[0].pixel_counted_area, 1.0);
   ASSERT_EQ(interior[1].scheduled.size(), 2U);
   EXPECT_EQ(interior[1].scheduled[0].powers, parts[0].powers);
   EXPECT_EQ(interior[1].scheduled[1].projected_area, 0.125);

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "extensions/extension_fields.h"
+#include "gpu_shading/perforated_screen.h"
 #include "idf/model_file.h"
 #include "model/model_reader.h"
 #include "support/refusal.h"

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cache/build_id.h"
+#include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
 
 namespace gpu_shading::energyplus {
@@ -116,7 +117,6 @@ TEST(SceneHash, AnyInputThatAnAnswerDependsOnChangesIt) {
       {"fractional opacity", [](Everything& e) { e.threshold.reset(); }},
       {"resolution", [](Everything& e) { e.options.resolution = 513; }},
       {"error", [](Everything& e) { e.options.error = 2e-3; }},
-      {"sum of luminance", [](Everything& e) { e.options.luminance_sum = LuminanceSum::mipmaps; }},
       {"renderer", [](Everything& e) { e.device.renderer = "renderers"; }},
       {"vendor", [](Everything& e) { e.device.vendor = "other"; }},
       {"driver", [](Everything& e) { e.device.version = "version 2"; }},

@@ -1,3 +1,5 @@
+#include "gpu_shading/angular_csv.h"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gpu_shading/perforated_screen.h"
+#include "optics/sheet_layers.h"
 #include "support/degree.h"
 #include "support/refusal.h"
 

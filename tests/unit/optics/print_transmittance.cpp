@@ -1,4 +1,4 @@
-// Prints tau at 0, 1, .. 90 degrees and how many samples it takes. Arguments: "simple U SHGC", or
+// Prints tau at 0, 1, .. 90 degrees. Arguments: "simple U SHGC", or
 // "layers T Rf Rb [T Rf Rb ..]" from the pane towards the sun.
 #include <cstdio>
 #include <cstdlib>
@@ -31,9 +31,6 @@ int main(int count, char** values) try {
   Transmittance const tau = model({values + 1, values + count});
   for (int angle = 0; angle <= 90; ++angle) {
     std::printf("%d %.9f\n", angle, tau(angle * std::numbers::pi / 180.0));
-  }
-  for (int const n : {257, 513, 1025, 2049}) {
-    std::fprintf(stderr, "%d samples: %.1e\n", n, sampling_error(tau, sample(tau, n)));
   }
   return EXIT_SUCCESS;
 } catch (std::exception const& error) {

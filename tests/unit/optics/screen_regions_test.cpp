@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "gpu_shading/perforated_screen.h"
+#include "optics/sheet_layers.h"
+#include "support/layered_transmittance.h"
 
 namespace gpu_shading {
 namespace {

@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "gpu_shading/perforated_screen.h"
+#include "optics/sheet_layers.h"
 #include "support/degree.h"
+#include "support/layered_transmittance.h"
 #include "support/refusal.h"
 
 namespace gpu_shading {

@@ -35,7 +35,7 @@ SunlitSource fraction_source(std::vector<glm::dvec3> const& normals,
       auto& row = answers.emplace_back();
       for (auto const& normal : normals) {
         double const cosine = std::max(0.0, glm::dot(normal, to_vector(sun)));
-        row.push_back({cosine * fraction(sun), 0.0, {}});
+        row.push_back({cosine * fraction(sun), {}});
       }
     }
     return answers;
@@ -135,8 +135,7 @@ TEST(SampledSunlit, TogetherSchedulesPassNoMoreThanTheCosine) {
       double const a = noise(sun);
       double const b = noise({sun.altitude, sun.azimuth}) * (1.0 - a);
       double const whole = std::sin(sun.altitude);
-      answers.push_back(
-          {{whole * a, 0.0, {{{{0, 1}}, whole * b}, {{{0, 2}}, whole * (1.0 - a - b)}}}});
+      answers.push_back({{whole * a, {{{{0, 1}}, whole * b}, {{{0, 2}}, whole * (1.0 - a - b)}}}});
     }
     return answers;
   };

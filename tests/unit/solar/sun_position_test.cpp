@@ -6,6 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/degree.h"
+#include "support/noaa_sun.h"
+
 namespace gpu_shading {
 namespace {
 
@@ -16,7 +19,6 @@ using std::chrono::sys_days;
 using std::chrono::sys_seconds;
 
 constexpr double pi = std::numbers::pi;
-constexpr double degree = pi / 180.0;
 
 sys_seconds at(int year, unsigned month, unsigned day, seconds time = seconds(0)) {
   return sys_days{std::chrono::year{year} / std::chrono::month{month} / std::chrono::day{day}} +

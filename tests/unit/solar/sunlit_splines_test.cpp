@@ -24,7 +24,7 @@ SunlitTable table_of(glm::dvec3 const& normal, Fraction const& fraction) {
   for (auto const hour : spread_on_arcs(latitude, 200)) {
     directions.push_back(to_direction(hour, latitude));
     auto const sun = to_vector(directions.back());
-    answers.push_back({{std::max(glm::dot(normal, sun), 0.0) * fraction(sun), 0.0, {}}});
+    answers.push_back({{std::max(glm::dot(normal, sun), 0.0) * fraction(sun), {}}});
   }
   SunlitTable table({normal});
   table.add(directions, answers);

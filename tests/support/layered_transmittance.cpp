@@ -1,3 +1,5 @@
+#include "support/layered_transmittance.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,8 +8,6 @@
 #include <numbers>
 #include <numeric>
 #include <vector>
-
-#include "gpu_shading/perforated_screen.h"
 
 namespace gpu_shading {
 namespace {
@@ -100,11 +100,6 @@ class RowOfRays {
 };
 
 }  // namespace
-
-int layers_for(double shift, double web, double longest_chord, int most) {
-  if (shift >= longest_chord) return 0;
-  return static_cast<int>(std::min(1.0 + std::ceil(shift / web), static_cast<double>(most)));
-}
 
 double layered_transmittance(OpacityTile const& tile, int layers, double shift, double phi) {
   if (layers <= 0) return 0.0;

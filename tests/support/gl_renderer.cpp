@@ -1,0 +1,18 @@
+#include "support/gl_renderer.h"
+
+#include <memory>
+#include <utility>
+
+#include "render/renderer_with_backend.h"
+
+namespace gpu_shading {
+
+Renderer gl_renderer(Scene scene, std::optional<int> resolution, GlSettings const& settings) {
+  RendererOptions options;
+  options.resolution = resolution;
+  return RendererWithBackend::make(std::move(scene), options, [&](BackendInput const& input) {
+    return std::make_unique<GlBackend>(egl::open_device(0), input, settings);
+  });
+}
+
+}  // namespace gpu_shading

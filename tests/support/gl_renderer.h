@@ -1,0 +1,13 @@
+#pragma once
+
+#include <optional>
+
+#include "gpu_shading/renderer.h"
+#include "raster_gl/gl_backend.h"
+
+namespace gpu_shading {
+
+// A renderer that draws with OpenGL on the first device, by given settings of its back end.
+Renderer gl_renderer(Scene scene, std::optional<int> resolution, GlSettings const& settings);
+
+}  // namespace gpu_shading
