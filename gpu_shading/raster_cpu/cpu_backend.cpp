@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
-#include "view/processor.h"
+#include "view/instructions.h"
 #include "view/stopwatch.h"
 #include "view/view.h"
 
@@ -24,11 +24,7 @@ int cores() { return tbb::this_task_arena::max_concurrency(); }
 DeviceInfo cpu_device() {
   DeviceInfo info;
   info.renderer = "CPU";
-#ifdef __x86_64__
-  info.version = has_avx2() ? "AVX2" : "without AVX2";
-#else
-  info.version = "portable";
-#endif
+  info.version = name(instructions());
   info.threads = cores();
   info.software = true;
   info.max_resolution = 16384;

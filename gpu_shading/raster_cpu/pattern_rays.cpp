@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <type_traits>
 
-#include "view/processor.h"
+#include "view/instructions.h"
 
 namespace gpu_shading {
 namespace {
@@ -91,23 +91,6 @@ template <typename Use>
   with_kind(holes, find);
 }
 
-using Find = void(Holes const& holes, Rays const& rays, Ways& passed);
-
-void find_on_any_processor(Holes const& holes, Rays const& rays, Ways& passed) {
-  find_all(holes, rays, passed);
-}
-
-#ifdef __x86_64__
-[[gnu::target("avx2,fma")]] void find_with_avx2(Holes const& holes, Rays const& rays,
-                                                Ways& passed) {
-  find_all(holes, rays, passed);
-}
-
-Find* fastest() { return has_avx2() ? find_with_avx2 : find_on_any_processor; }
-#else
-Find* fastest() { return find_on_any_processor; }
-#endif
-
 }  // namespace
 
 PatternRays::PatternRays(SheetInBeam const& sheet)
@@ -126,10 +109,10 @@ bool PatternRays::passes(glm::dvec2 const& place, glm::dvec2 const& way) const {
 
 void PatternRays::find_passing(glm::dvec2 const& first, glm::dvec2 const& step,
                                glm::dvec2 const& way, Ways& passed) const {
-  static Find* const find = fastest();
   // Steps of whole tiles make no difference.
   glm::dvec2 const change = step / tile_;
-  find(holes_, {glm::fract(first / tile_), change - glm::round(change), way}, passed);
+  Rays const rays{glm::fract(first / tile_), change - glm::round(change), way};
+  run<find_all>(holes_, rays, passed);
 }
 
 }  // namespace gpu_shading

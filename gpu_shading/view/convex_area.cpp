@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "view/processor.h"
+#include "view/instructions.h"
 
 namespace gpu_shading {
 namespace {
@@ -76,23 +76,6 @@ template <std::size_t limits>
   }
 }
 
-using FindSpans = void(ConvexArea const& area, int first_row, int side, RowSpans& spans);
-
-void find_on_any_processor(ConvexArea const& area, int first_row, int side, RowSpans& spans) {
-  find_all(area, first_row, side, spans);
-}
-
-#ifdef __x86_64__
-[[gnu::target("avx2,fma")]] void find_with_avx2(ConvexArea const& area, int first_row, int side,
-                                                RowSpans& spans) {
-  find_all(area, first_row, side, spans);
-}
-
-FindSpans* fastest() { return has_avx2() ? find_with_avx2 : find_on_any_processor; }
-#else
-FindSpans* fastest() { return find_on_any_processor; }
-#endif
-
 }  // namespace
 
 ConvexArea area_within(std::span<glm::dvec2 const> corners, int side) {
@@ -137,8 +120,7 @@ ConvexArea area_in_front(std::span<glm::dvec2 const> corners, std::span<double c
 }
 
 void find_spans(ConvexArea const& area, int first_row, int side, RowSpans& spans) {
-  static FindSpans* const find = fastest();
-  find(area, first_row, side, spans);
+  run<find_all>(area, first_row, side, spans);
 }
 
 }  // namespace gpu_shading

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "view/instructions.h"
+
 namespace gpu_shading {
 namespace {
 
@@ -47,28 +49,6 @@ void set_long(std::uint64_t* row, std::int32_t first, std::int32_t length) {
   return sum;
 }
 
-using Count = std::uint64_t(std::uint64_t const* a, std::uint64_t const* b, std::size_t words);
-
-#ifdef __x86_64__
-[[gnu::target("popcnt")]] std::uint64_t count_with_popcnt(std::uint64_t const* a,
-                                                          std::uint64_t const* b,
-                                                          std::size_t words) {
-  return count(a, b, words);
-}
-#endif
-
-std::uint64_t count_on_any_processor(std::uint64_t const* a, std::uint64_t const* b,
-                                     std::size_t words) {
-  return count(a, b, words);
-}
-
-Count* fastest() {
-#ifdef __x86_64__
-  if (__builtin_cpu_supports("popcnt") != 0) return count_with_popcnt;
-#endif
-  return count_on_any_processor;
-}
-
 // Areas thinner than a pixel miss the centres of most rows.
 constexpr std::int32_t thin = 1;
 
@@ -85,8 +65,7 @@ std::uint64_t rows_with_any(RowSpans const& spans, std::size_t rows) {
 }  // namespace
 
 std::uint64_t count_common(std::span<std::uint64_t const> a, std::span<std::uint64_t const> b) {
-  static Count* const count_words = fastest();
-  return count_words(a.data(), b.data(), std::min(a.size(), b.size()));
+  return run<count>(a.data(), b.data(), std::min(a.size(), b.size()));
 }
 
 void PixelMask::start(int side, int first_row, int end_row) {
