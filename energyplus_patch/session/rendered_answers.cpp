@@ -1,5 +1,7 @@
 #include "session/rendered_answers.h"
 
+#include <xxhash.h>
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -24,13 +26,10 @@ std::vector<SunDirection> suns_of(std::vector<Answers::Direction*> const& direct
 
 }  // namespace
 
-InteriorKey::InteriorKey(InteriorQuestion asked) : question(std::move(asked)) {
-  // FNV-1a
-  hash = 0xcbf29ce484222325;
-  auto const mix = [&](std::uint64_t value) { hash = (hash ^ value) * 0x100000001b3; };
-  mix(question.window);
-  for (auto const id : question.interiors) mix(id);
-}
+InteriorKey::InteriorKey(InteriorQuestion asked)
+    : question(std::move(asked)),
+      hash(XXH3_64bits_withSeed(question.interiors.data(),
+                                question.interiors.size() * sizeof(SurfaceId), question.window)) {}
 
 RenderedAnswers::Counts& RenderedAnswers::Counts::operator+=(Counts const& other) {
   directions += other.directions;

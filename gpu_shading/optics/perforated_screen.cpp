@@ -1,8 +1,8 @@
 #include "gpu_shading/perforated_screen.h"
 
 #include <fmt/format.h>
+#include <tbb/collaborative_call_once.h>
 
-#include <mutex>
 #include <utility>
 
 #include "gpu_shading/error.h"
@@ -24,7 +24,8 @@ void check_thickness(double thickness) {
 }  // namespace
 
 struct PerforatedScreen::Lazy {
-  std::once_flag once;
+  // Threads that wait for the table share the work on it.
+  tbb::collaborative_once_flag once;
   std::optional<ScreenTransmittance> transmittance;
 };
 
@@ -53,7 +54,7 @@ double PerforatedScreen::open_fraction() const {
 }
 
 ScreenTransmittance const& PerforatedScreen::transmittance() const {
-  std::call_once(lazy_->once, [&] {
+  tbb::collaborative_call_once(lazy_->once, [&] {
     if (pattern_) {
       lazy_->transmittance.emplace(*pattern_, sheet_.thickness);
     } else {

@@ -1,12 +1,12 @@
 #include "optics/tile_table.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numbers>
-#include <thread>
 
 #include "optics/tile_rays.h"
 
@@ -261,19 +261,8 @@ Maker::Region Maker::made(std::size_t region) const {
 
 std::vector<Maker::Region> Maker::made_all() const {
   std::vector<Region> all(regions());
-  std::atomic<std::size_t> next{0};
-  auto const work = [&] {
-    for (std::size_t region = next++; region < all.size(); region = next++) {
-      all[region] = made(region);
-    }
-  };
-  std::size_t const threads =
-      std::min<std::size_t>(all.size(), std::clamp(std::thread::hardware_concurrency(), 1U, 8U));
-  std::vector<std::jthread> others;
-  others.reserve(threads);
-  for (std::size_t thread = 1; thread < threads; ++thread) others.emplace_back(work);
-  work();
-  others.clear();
+  tbb::parallel_for(std::size_t{0}, all.size(),
+                    [&](std::size_t region) { all[region] = made(region); });
   return all;
 }
 
