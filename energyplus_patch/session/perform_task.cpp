@@ -41,7 +41,7 @@ void refuse_moving_screens(ShadeOptics const& optics) {
     auto const [least, most] = optics.schedules().range(name);
     if (least < most) {
       throw Error(fmt::format(
-          "{}: {} {}: has values from {} to {}; expected one value all the time, for samples",
+          "{}: {} {}: has values from {} to {}, expected a constant value for samples",
           extension::perforated_screen::type,
           extension::perforated_screen::deployment_schedule_name.title, name, least, most));
     }

@@ -65,8 +65,8 @@ void Session::set_time(Moment moment) {
   if (!answers_) return;
   if (scene_.optics().update(moment)) {
     messages_.warning(
-        "a Transmittance Schedule that had one value all the time has another now (overridden by "
-        "an EMS or a program): it is followed from here on");
+        "a Transmittance Schedule with a constant value has changed, by an EMS or another program: "
+        "its new values are used from now on");
     store_answers(answers_->rendered(), messages_);
     auto const receivers = answers_->rendered().known().receivers;
     answers_->close();
@@ -112,7 +112,7 @@ void Session::write_reports() {
   auto const stages = stages_of(answers_->counts().rendering);
   if (options.stages) write_stages(*options.stages, stages);
   if (!options.report) return;
-  messages_.remark("where the time went: " + list(stages));
+  messages_.remark("time by stage: " + list(stages));
   auto& rendered = answers_->rendered();
   auto const& known = rendered.known();
   auto const& optics = scene_.optics();
@@ -122,7 +122,7 @@ void Session::write_reports() {
   if (left_out > 0) {
     messages_.remark(
         fmt::format("--gpu-shading-report: the first {} pictures are drawn, {} more are not; "
-                    "gpu_shading view draws any",
+                    "draw these with gpu_shading view",
                     max_report_pictures, left_out));
   }
 }

@@ -21,7 +21,7 @@ double Extent::distance() const {
 }
 
 std::string Extent::describe() const {
-  if (empty_) return "nothing is left of it";
+  if (empty_) return "no part of it is left";
   // No -0.
   auto const rounded = [](double value) { return std::round(10.0 * value) / 10.0 + 0.0; };
   return fmt::format("x {:.1f} to {:.1f}, y {:.1f} to {:.1f}, z {:.1f} to {:.1f} m",

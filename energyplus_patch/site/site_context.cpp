@@ -121,8 +121,8 @@ class Builder {
     constexpr double near = 5e4;  // m
     if (extent_.distance() > near) {
       surroundings_.warnings.push_back(
-          fmt::format("{} {}: all of it is farther than {:.0f} km from the model: is the origin "
-                      "right, and the longitude first?",
+          fmt::format("{} {}: all of it is farther than {:.0f} km from the model: check the "
+                      "origin, and that each position gives the longitude first",
                       field::type, context_.name, near / 1000.0));
     }
     surroundings_.remarks.push_back(fmt::format("{} {}: {}; {}; origin {}", field::type,
@@ -190,10 +190,11 @@ class Builder {
                         [&] { return add_part(name, std::move(part)); });
       }
     }
-    describe(fmt::format("{} building{} ({} walls and roofs{}{}{})", drawn, drawn == 1 ? "" : "s",
-                         faces, left_out == 0 ? "" : fmt::format(", {} left out", left_out),
-                         file.others == 0 ? "" : fmt::format(", {} features no area", file.others),
-                         describe_north(file.coordinates)));
+    describe(
+        fmt::format("{} building{} ({} walls and roofs{}{}{})", drawn, drawn == 1 ? "" : "s", faces,
+                    left_out == 0 ? "" : fmt::format(", {} left out", left_out),
+                    file.others == 0 ? "" : fmt::format(", {} features without area", file.others),
+                    describe_north(file.coordinates)));
   }
 
   std::size_t add_part(std::string const& name, Footprint part) {

@@ -109,7 +109,7 @@ def test_buildings_shade_like_surfaces_where_the_model_has_none(run, bare, tmp_p
     assert_alike(reference, answer, ["SOUTH", "EAST"])
     lines = [line for line in answer.our_lines if "SiteContext" in line]
     assert len(lines) == 1, lines
-    assert "2 buildings (10 walls and roofs, 1 features no area)" in lines[0]
+    assert "2 buildings (10 walls and roofs, 1 features without area)" in lines[0]
     assert "x -5.0 to 20.0, y -20.0 to 10.0, z 0.0 to 9.0 m" in lines[0]
     assert "39.740000 N 105.180000 W 1829.0 m (Site:Location)" in lines[0]
 

@@ -80,7 +80,7 @@ TEST_F(SiteContext, WhatIsLeftOut) {
   EXPECT_THAT(found.remarks[0], HasSubstr("1 building (5 walls and roofs, 1 left out)"));
   auto const clear = read(location + "GPUShading:SiteContext,Hill,,,,,,,hill.asc,,2000,,,Terrain;");
   EXPECT_EQ(clear.casters.size(), 0U);
-  EXPECT_THAT(clear.remarks[0], HasSubstr("nothing is left of it"));
+  EXPECT_THAT(clear.remarks[0], HasSubstr("no part of it is left"));
 }
 
 TEST_F(SiteContext, OriginIsTheObjectsElseTheModels) {
