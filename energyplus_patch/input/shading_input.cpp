@@ -36,7 +36,9 @@ std::string release(std::string_view version) {
 
 void read_shadow_calculation(InputObject const& object, ShadingInput& input) {
   input.shading_method = object["shading_calculation_method"];
-  if (auto const& text = object["pixel_counting_resolution"]; !text.empty()) {
+  // Tools write a resolution beside PolygonClipping, without meaning it.
+  auto const& text = object["pixel_counting_resolution"];
+  if (!text.empty() && same_name(input.shading_method, "PixelCounting")) {
     auto const value = parse_number(text);
     if (!value) {
       throw Error(fmt::format(

@@ -19,9 +19,13 @@ namespace {
 namespace settings = extension::settings;
 
 Mode parse_mode(std::string const& text) {
-  if (same_name(text, "auto")) return Mode::automatic;
+  for (auto const* word : {"auto", "on", "yes", "true", "1"}) {
+    if (same_name(text, word)) return Mode::automatic;
+  }
+  for (auto const* word : {"off", "no", "false", "0"}) {
+    if (same_name(text, word)) return Mode::off;
+  }
   if (same_name(text, "require")) return Mode::require;
-  if (same_name(text, "off")) return Mode::off;
   throw Error(fmt::format("is \"{}\", expected auto, require or off", text));
 }
 
@@ -346,13 +350,14 @@ Options resolve(Choices choices, Choices const& settings, ShadingInput const& in
 
 std::string_view flags_help() {
   return R"(GPU shading (each also as an environment variable: GPU_SHADING, GPU_SHADING_RESOLUTION, ...):
-  --gpu-shading[=auto|require|off]     Shade by rendering. auto (the bare flag): on the CPU, with a
-                                       warning, where there is no GPU; require: no GPU is an error;
-                                       off: stock PolygonClipping, for comparison
+  --gpu-shading[=auto|require|off]     Shade by rendering. auto (the bare flag, on, 1): on the CPU
+                                       where there is no GPU; require: no GPU is an error; off (0):
+                                       stock PolygonClipping, for comparison
   --gpu-shading-error E                What 99 of a hundred sunlit fractions are to be right within,
                                        0.00001 to 0.1 (default: 0.001)
   --gpu-shading-resolution N           Instead: pixels a side of every receiver's tile (default: the
-                                       model's Pixel Counting Resolution, where it gives one)
+                                       Pixel Counting Resolution of a model that asks for
+                                       PixelCounting)
   --gpu-shading-update idf|timestep|sampled:D
                                        How often shading is calculated (default: idf, as the model
                                        asks). sampled:fine, :medium or :coarse: at every timestep, from

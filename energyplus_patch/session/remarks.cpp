@@ -78,7 +78,7 @@ void check_device(DeviceInfo const& device, Options const& options, Messages con
                     describe(device)));
   }
   if (options.device.kind == DeviceChoice::Kind::automatic) {
-    messages.warning(
+    messages.remark(
         fmt::format("no GPU available; computing on the CPU, {} thread{}; see gpu_shading devices",
                     device.threads, device.threads == 1 ? "" : "s"));
   }

@@ -6,7 +6,7 @@
 
 namespace gpu_shading::energyplus {
 
-// Warns of a device that is no GPU. Throws DeviceError where a GPU is required.
+// Says that there is no GPU. Throws DeviceError where a GPU is required.
 void check_device(DeviceInfo const& device, Options const& options, Messages const& messages);
 
 // Before the first question: the model's warnings, what was left out and what surrounds it, and the

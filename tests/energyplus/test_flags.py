@@ -133,6 +133,7 @@ def test_environment_variable_equals_flag(shade, model, variable, value, flag):
 
 def test_environment_variable_switches_it_on_and_off(shade, model):
     assert shade(model, flag=None, environment={"GPU_SHADING": "auto"}).method == "PixelCounting"
+    assert shade(model, flag=None, environment={"GPU_SHADING": "1"}).method == "PixelCounting"
     assert shade(model, flag=None, environment={"GPU_SHADING": "off"}).method == "PolygonClipping"
     assert shade(model, flag=None, environment={"GPU_SHADING": ""}).method == "PolygonClipping"
 
@@ -184,6 +185,7 @@ def test_order_of_precedence(shade, box, tmp_path):
 
     model = input_file.Idf(box + SETTINGS.format(resolution=32))
     model.set_field("ShadowCalculation", input_file.SHADOW_RESOLUTION, "48")
+    model.set_field("ShadowCalculation", input_file.SHADOW_METHOD, "PixelCounting")
     full = write_model(model.text, tmp_path / "full.idf")
     variable = {"GPU_SHADING_RESOLUTION": "24"}
     assert sunlit(shade(full, "--gpu-shading-resolution=16", environment=variable)) == at[16]
@@ -191,6 +193,9 @@ def test_order_of_precedence(shade, box, tmp_path):
     assert sunlit(shade(full)) == at[32]
     model.remove(lambda name: name == "gpushading:settings")
     assert sunlit(shade(write_model(model.text, tmp_path / "field.idf"))) == at[48]
+    # Tools write a resolution beside PolygonClipping, without meaning it.
+    model.set_field("ShadowCalculation", input_file.SHADOW_METHOD, "PolygonClipping")
+    assert sunlit(shade(write_model(model.text, tmp_path / "clipped.idf"))) == sunlit(shade(plain))
     assert sunlit(shade(full, "--gpu-shading-error=0.05")) == sunlit(shade(plain, "--gpu-shading-error=0.05"))
     assert sunlit(shade(plain)) == sunlit(shade(plain, "--gpu-shading-error=0.001"))
     assert sunlit(shade(plain)) != sunlit(shade(plain, "--gpu-shading-error=0.05"))

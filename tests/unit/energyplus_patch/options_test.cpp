@@ -39,6 +39,15 @@ TEST(Options, OurFlagsAreTakenAndEnergyPlusKeepsItsOwn) {
   EXPECT_EQ(choices.device->index, 3);
 }
 
+TEST(Options, OnAndOffInOtherWords) {
+  for (auto const* const on : {"on", "Yes", "true", "1", "auto"}) {
+    EXPECT_EQ(take({fmt::format("--gpu-shading={}", on)}).mode, Mode::automatic) << on;
+  }
+  for (auto const* const off : {"off", "No", "false", "0"}) {
+    EXPECT_EQ(take({fmt::format("--gpu-shading={}", off)}).mode, Mode::off) << off;
+  }
+}
+
 TEST(Options, BareFlagDoesNotSwallowTheModel) {
   std::vector<std::string> arguments{"--gpu-shading", "off"};
   EXPECT_EQ(take_flags(arguments).mode, Mode::automatic);

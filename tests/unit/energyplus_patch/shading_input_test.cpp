@@ -67,6 +67,8 @@ TEST(ShadingInput, ShadowCalculation) {
   EXPECT_EQ(input.shading_zone_groups, (std::vector<std::string>{"LOWER", "UPPER"}));
   EXPECT_EQ(input.zone_lists.at("LOWER"), (std::set<std::string>{"Z1", "Z2"}));
   EXPECT_THROW(read("ShadowCalculation,PixelCounting,,,,,many;"), Error);
+  EXPECT_FALSE(read("ShadowCalculation,PolygonClipping,,,,,1024;").pixel_counting_resolution);
+  EXPECT_FALSE(read("ShadowCalculation,,,,,,1024;").pixel_counting_resolution);
 }
 
 TEST(ShadingInput, WhatEnergyPlusMayAskFor) {
