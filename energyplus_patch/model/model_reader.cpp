@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
+
 #include "gpu_shading/error.h"
 #include "idf/extension_objects.h"
 #include "idf/model_file.h"
@@ -23,13 +26,36 @@ void add_surroundings(Surroundings const& surroundings, ShadingInput& shading) {
   }
 }
 
+constexpr std::string_view side_suffix = ".gpu-shading.idf";
+
+// Where a tool renames a model or saves it elsewhere, its side file stays behind.
+void remark_on_other_side_files(std::filesystem::path const& model, Model& made) {
+  constexpr std::size_t most = 3;
+  std::error_code error;
+  std::vector<std::string> names;
+  for (auto entry = std::filesystem::directory_iterator(
+           model.has_parent_path() ? model.parent_path() : ".", error);
+       !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    auto name = entry->path().filename().string();
+    if (name.ends_with(side_suffix)) names.push_back(std::move(name));
+  }
+  std::sort(names.begin(), names.end());
+  if (names.empty()) return;
+  auto const shown = std::min(names.size(), most);
+  made.remarks.push_back(fmt::format(
+      "not read, since it does not have the model's name, {}{}: {}{}", model.stem().string(),
+      side_suffix,
+      fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+      names.size() > most ? fmt::format(" and {} more", names.size() - most) : ""));
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> find_side_file(std::filesystem::path const& model,
                                                     Choices const& choices) {
   if (choices.file) return choices.file;
   auto beside = model;
-  beside.replace_extension(".gpu-shading.idf");
+  beside.replace_extension(side_suffix);
   // Also a link that leads nowhere: reading it is an error.
   auto const status = std::filesystem::symlink_status(beside);
   return std::filesystem::exists(status) ? std::optional(beside) : std::nullopt;
@@ -40,14 +66,17 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   for (auto& object : objects) {
     if (object.file.empty()) object.file = path.string();
   }
-  if (auto const side = find_side_file(path, choices)) {
+  Model model;
+  auto const side = find_side_file(path, choices);
+  if (side) {
     for (auto& object : read_side_file(*side)) {
       object.file = side->string();
       objects.push_back(std::move(object));
     }
+  } else {
+    remark_on_other_side_files(path, model);
   }
   check_unique(objects);
-  Model model;
   model.shading = read_shading_input(objects);
   auto const folder = choices.folder.value_or(path.parent_path());
   model.surroundings = read_surroundings(objects, folder);

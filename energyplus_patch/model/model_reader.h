@@ -24,6 +24,7 @@ struct Model {
   LeanInput lean;
   Surroundings surroundings;
   std::vector<std::string> ray_warnings;  // see warn_of_rays
+  std::vector<std::string> remarks;
 };
 
 // Reads a model's objects together with those of its side file, and resolves all options.

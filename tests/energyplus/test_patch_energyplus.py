@@ -1,13 +1,13 @@
 """The maker of patched prefixes, with stand-ins for what the build makes."""
 
 import importlib.util
+import json
 import os
 import shutil
 import signal
 import stat
 import subprocess
 from importlib.machinery import SourceFileLoader
-from pathlib import Path
 
 import pytest
 from shading_runs import energyplus, output_folder
@@ -79,7 +79,7 @@ def test_makes_a_prefix_and_leaves_the_original_alone(prefix, build, tmp_path):
     assert not (dest / "energyplus").is_symlink()
     assert subprocess.run([dest / "energyplus"], capture_output=True, text=True).stdout == "launcher\n"
     assert subprocess.run([dest / "energyplus-official"], capture_output=True, text=True).stdout == "official\n"
-    assert Path(os.readlink(dest / "Energy+.idd")) == prefix / "Energy+.idd"
+    assert (dest / "Energy+.idd").read_text().startswith((prefix / "Energy+.idd").read_text())
     assert (dest / "DataSets").is_symlink()
     for helper in ("runreadvars", "PostProcess/ReadVarsESO"):
         assert (dest / helper).stat().st_mode & stat.S_IXUSR
@@ -87,11 +87,34 @@ def test_makes_a_prefix_and_leaves_the_original_alone(prefix, build, tmp_path):
     assert (dest / "PostProcess" / "convert").is_symlink()
 
 
+def test_dictionaries_know_our_objects_and_nothing_else_changes(patched, official):
+    for name, read in (("Energy+.idd", objects_of_idd), ("Energy+.schema.epJSON", objects_of_schema)):
+        before, after = (read((program.parent / name).read_text(encoding="utf-8")) for program in (official, patched))
+        ours = {key for key in after if key.startswith("GPUShading:")}
+        assert len(ours) == 5
+        assert {key: value for key, value in after.items() if key not in ours} == before
+
+
+def objects_of_schema(text):
+    return json.loads(text)["properties"]
+
+
+def objects_of_idd(text):
+    """The text of each object by its type, without comments."""
+    lines = [line.split("!")[0].strip() for line in text.splitlines()]
+    found = {}
+    for block in "\n".join(lines).split("\n\n"):
+        kept = [line for line in block.splitlines() if line and not line.startswith("\\group")]
+        if kept:
+            found[kept[0].partition(",")[0]] = kept
+    return found
+
+
 def test_again_makes_the_same_anew(prefix, build, tmp_path):
     dest = tmp_path / "patched"
     assert patch(prefix, dest, "--build", build).returncode == 0
     first = sorted(path.name for path in dest.iterdir())
-    (prefix / "Energy+.schema.epJSON").write_text("{}")
+    (prefix / "Energy+.schema.epJSON").write_text('{"properties": {}}')
     (build / "energyplus_patch" / "energyplus").write_text("#!/bin/sh\necho newer\n")
     assert patch(prefix, dest, "--build", build).returncode == 0
     assert sorted(path.name for path in dest.iterdir()) == sorted([*first, "Energy+.schema.epJSON"])
@@ -192,9 +215,11 @@ def test_a_kill_leaves_the_former_prefix(step, prefix, build, tmp_path):
 
 
 def made_by_an_earlier_version(prefix, build, dest):
-    """It kept no list of what it made."""
+    """It kept no list of what it made, and linked to EnergyPlus's dictionary."""
     assert patch(prefix, dest, "--build", build).returncode == 0
     (dest / output_folder.MARKER).unlink()
+    (dest / "Energy+.idd").unlink()
+    (dest / "Energy+.idd").symlink_to(prefix / "Energy+.idd")
 
 
 def test_a_prefix_of_an_earlier_version_is_made_anew(prefix, build, tmp_path):
