@@ -8,8 +8,8 @@ A CMakeLists.txt with a list
     set(layers scene gl raster_gl raster_cpu render)
 
 names the folders beside it, lowest first. A source in one of them includes headers of its own folder and
-of folders before it, written from the list's folder ("scene/ring.h"), and public headers (include/). Two
-more lists may stand there, their items quoted:
+of folders before it, written from the list's folder ("scene/ring.h"), and public headers (include/).
+Sources in example/ include public headers alone. Two more lists may stand there, their items quoted:
 
     set(independent_layers "raster_gl raster_cpu")            # none of these includes another
     set(restricted_headers "epoxy/ GL/ EGL/: gl raster_gl")   # only these folders include such headers
@@ -25,6 +25,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 SUFFIXES = {".c", ".cpp", ".h"}
 PUBLIC = "include"
+EXAMPLE = "example"
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"\n]+)"|<([^>\n]+)>)', re.M)
 
 
@@ -61,6 +62,8 @@ class Order:
         """Why a layer may not use another, or None."""
         if layer == PUBLIC:
             return f"a public header includes {used}/"
+        if layer == EXAMPLE:
+            return f"an example includes {used}/"
         if (layer, used) in self.independent:
             return f"{layer} and {used} are independent"
         if self.layers.index(used) > self.layers.index(layer):
@@ -79,7 +82,7 @@ def problems_of(folder):
     for path in sorted(path for path in folder.rglob("*") if path.suffix in SUFFIXES):
         name = path.relative_to(folder)
         layer = name.parts[0] if len(name.parts) > 1 else "."
-        if layer != PUBLIC and layer not in order.layers:
+        if layer not in (PUBLIC, EXAMPLE) and layer not in order.layers:
             yield f"{folder.name}/{name}: {layer} is not among the layers"
             continue
         text = path.read_text(encoding="utf-8")

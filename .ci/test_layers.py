@@ -43,6 +43,7 @@ def test_the_order_of_the_project_is_kept():
     ("raster_gl/a.cpp", '#include <epoxy/gl.h>\n#include "gl/own.h"\n'),
     ("scene/a.cpp", '// #include "render/own.h"\n'),
     ("include/renderer/a.h", '#include "renderer/own.h"\n'),
+    ("example/a.cpp", '#include "renderer/own.h"\n'),
 ])
 def test_includes_of_what_stands_below_pass(tree, file, text):
     assert problems(tree, file, text) == []
@@ -65,6 +66,8 @@ def test_includes_of_what_stands_below_pass(tree, file, text):
      'renderer/scene/a.cpp:1: #include "own.h": write it from renderer/, as in "scene/..."'),
     ("include/renderer/a.h", '#include "scene/own.h"\n',
      'renderer/include/renderer/a.h:1: #include "scene/own.h": a public header includes scene/'),
+    ("example/a.cpp", '#include "scene/own.h"\n',
+     'renderer/example/a.cpp:1: #include "scene/own.h": an example includes scene/'),
     ("extra/a.cpp", "", "renderer/extra/a.cpp: extra is not among the layers"),
     ("a.cpp", "", "renderer/a.cpp: . is not among the layers"),
 ])

@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "gpu_shading" / "docs").glob("*.md"))]
 DICTIONARY = ROOT / "energyplus_patch" / "extensions" / "GPUShading.idd"
 # What blocks may be in; those in sh are run.
-LANGUAGES = {"sh", "idf", "python", "text"}
+LANGUAGES = {"sh", "idf", "python", "text", "cmake"}
 BLOCK = re.compile(r"(?:<!-- not run: (?P<why>.*?) -->\n)?```(?P<language>\w*)\n(?P<text>.*?)^```$", re.M | re.S)
 
 
@@ -37,6 +37,7 @@ def place(patched, official, weather, box, tmp_path):
     """A user's folder: an EnergyPlus in its home, a model, a weather file, the checkout's folders; and what is set."""
     links = {"EnergyPlus-25-2-0": official.parent, "EnergyPlus-gpu": patched.parent,
              "weather.epw": weather, "scripts": ROOT / "scripts", "idf_examples": ROOT / "idf_examples",
+             "gpu_shading": ROOT / "gpu_shading",
              "build": ROOT / os.environ.get("GPU_SHADING_BUILD", "build"),
              "lbnl": ROOT / ".venv" / "EnergyPlus-lbnl"}
     for name, target in links.items():
