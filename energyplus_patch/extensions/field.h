@@ -21,7 +21,7 @@ struct FieldInfo {
   FieldKind kind = FieldKind::text;
   bool required = false;  // may not be blank
   bool any_text = false;  // a number may also be text
-  // Of a choice; of a number the words that may stand in its place.
+  // The words of a choice, or those that may replace a number.
   std::span<std::string_view const> words = {};
   std::optional<Limit> minimum = std::nullopt;
   std::optional<Limit> maximum = std::nullopt;

@@ -32,7 +32,7 @@ std::string item_title(ExtensionType const& type, std::size_t index) {
   return fmt::format("{} {}", type.list_field->title, index + 1);
 }
 
-// Of both kinds of file.
+// For both kinds of file.
 void check_object(ExtensionType const& type, InputObject const& object) {
   for (auto const* const field : type.fields) check(*field, object[field->key], field->title);
   if (type.list_field == nullptr) return;

@@ -149,7 +149,7 @@ std::vector<InputObject> read_objects(std::filesystem::path const& path) {
 }
 
 nlohmann::json parse_epjson(std::string_view text) {
-  // Of extension objects, at the model's depth, that of names, and that of fields and below.
+  // Keys of extension objects at the depths of types, of names, and of fields and below.
   std::vector<std::set<std::string>> keys;
   std::string title;
   bool is_ours = false;

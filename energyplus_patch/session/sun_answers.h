@@ -49,7 +49,7 @@ class SunAnswers {
   std::optional<SampledAnswers> const& sampled() const { return sampled_; }
   // Receivers that EnergyPlus asked about, by surface.
   std::vector<bool> const& asked() const { return asked_; }
-  // Of all scenes that were open.
+  // Sums over all scenes that were open.
   RenderedAnswers::Counts counts() const;
 
  private:

@@ -17,7 +17,7 @@ class Readback {
     ahead,       // copied by the device right after drawing, so that nothing waits
   };
 
-  // Of layers of a texture, which must outlive it.
+  // Reads layers of a texture, which must outlive it.
   Readback(LayeredTexture const& texture, Way way);
 
   static std::size_t bytes(LayeredTexture const& texture, Way way);

@@ -63,7 +63,7 @@ void light_all(PixelMask& mask, int side) {
   mask.light(area_within(corners, side));
 }
 
-// Of two surfaces that are nearer to each other than this, m, which one is seen is up to rounding.
+// Where two surfaces are nearer to each other than this, m, rounding decides which one is seen.
 double tie(View const& view) { return clearance * glm::length(glm::dvec3(view.z)); }
 
 // Where a screen may be seen.

@@ -21,7 +21,7 @@ namespace gpu_shading {
 struct DepthPlane {
   glm::dvec2 slope{0.0};  // by column and row
   double start = 0.0;     // at the corner of the tile
-  // Of the piece's corners. The middle of a pixel that it covers may lie outside of it by rounding,
+  // Depths of the piece's corners. The middle of a pixel that it covers may be outside by rounding,
   // which a piece seen nearly from its edge makes a large difference of depth.
   double nearest = 0.0;
   double farthest = 0.0;

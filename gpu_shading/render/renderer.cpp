@@ -83,7 +83,7 @@ class Renderer::Implementation {
     return QuestionBatch({scene_, casters_, transmission_, *receivers_, *backend_, statistics_});
   }
 
-  // Of each caster, with factors for schedules, 1 where those are too few.
+  // What each caster transmits, with factors for schedules; 1 where there are too few.
   std::vector<Shade> shades_at(ShadedReceiver const& shaded, std::span<double const> factors) const;
 
   Scene scene_;

@@ -36,7 +36,7 @@ struct ShadedReceiver {
   SurfaceId receiver = 0;
   glm::dvec3 towards_sun{0.0};
   std::vector<SurfaceId> casters;  // in view
-  // Of each caster, schedules applied; none where all are opaque.
+  // One for each caster, schedules applied; empty if all are opaque.
   std::vector<Shade> shades;
 };
 

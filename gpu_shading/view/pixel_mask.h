@@ -34,7 +34,7 @@ class PixelMask {
     return words_[static_cast<std::size_t>(row - first_row_) * stride_ +
                   static_cast<std::size_t>(column / word_bits)];
   }
-  // Of the lowest bit of a word.
+  // Position of a word's lowest bit.
   int row(std::size_t word) const { return first_row_ + static_cast<int>(word / stride_); }
   int column(std::size_t word) const { return word_bits * static_cast<int>(word % stride_); }
 

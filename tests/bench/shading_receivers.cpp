@@ -131,7 +131,7 @@ struct Off {
   double of_99 = 0.0;  // 99 of a hundred are off by less
 };
 
-// Of the louvres that face the sun.
+// Errors of the louvres that face the sun.
 Off off(Fractions const& fractions, Fractions const& right,
         std::vector<std::vector<double>> const& areas) {
   std::vector<double> errors;

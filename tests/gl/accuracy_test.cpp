@@ -39,7 +39,7 @@ struct Forms {
   Errors plain;  // N x Ap, as Jones et al. have it
 };
 
-// Of the projected sunlit surface fraction, As/At cos(theta).
+// Errors of the projected sunlit surface fraction, As/At cos(theta).
 Forms errors_at(int resolution, DeviceChoice how) {
   Forms forms;
   for (std::uint32_t seed = 1; seed <= scenes; ++seed) {

@@ -318,7 +318,7 @@ Scene with_schedules(Scene const& scene, std::vector<int> const& schedules) {
   return scheduled;
 }
 
-// Of surfaces that have nothing but a schedule: their factors as constants.
+// Surfaces that have only a schedule get its factor as a constant.
 Scene at_factors(Scene const& scene, std::vector<double> const& factors) {
   Scene fixed;
   for (SurfaceId id = 0; id < scene.size(); ++id) {

@@ -25,7 +25,7 @@ double lit_area(double g, double altitude) {
   return std::max(0.0, wide) * std::max(0.0, tall);
 }
 
-// Of a facade facing south, turned by `turn` about the vertical (clockwise from above) and moved.
+// A facade facing south, turned by `turn` about the vertical (clockwise from above) and moved.
 Scene facade(double turn, glm::dvec3 const& move, bool fin_in_the_east) {
   auto const placed = [&](Polygon polygon) {
     for (glm::dvec3& p : polygon.outline) {

@@ -121,7 +121,7 @@ TEST_P(PerforatedPlacement, ReferenceAgreesWithRaysOneByOne) {
   }
 }
 
-// Of few holes, so that edges count.
+// A sheet with few holes, so that edges count.
 void expect_near_reference(PerforatedCase const& given, PerforatedScreen const& screen,
                            double tolerance) {
   PerforatedReference const reference(given);

@@ -188,7 +188,7 @@ TEST_P(Screened, OfAnImageThatVariesHasItsEffectInPlace) {
 TEST_P(Screened, IsDrawnAsTheSizeOfPixelsAsks) {
   HolePattern const holes = round_holes(50 * mm, 80 * mm);
   OpacityTile const small(holes, 2 * mm);
-  // Of more than one region.
+  // A tile of more than one region.
   std::vector<float> stripes;
   stripes.reserve(std::size_t{512} * 512);
   for (int i = 0; i < 512 * 512; ++i) stripes.push_back(i % 32 < 12 ? 1.0F : 0.0F);
@@ -265,7 +265,7 @@ TEST_P(Screened, HasTheThicknessOfItsSides) {
     EXPECT_NEAR(passed(renderer, sun_at(180, 0), 0), 1.0 - 0.2 * 2.0 / 16.0, 1e-3);
     // At 45 degrees from the south the block's shadow on the ground is 1 m deep, and its height.
     EXPECT_NEAR(passed(renderer, sun_at(180, 45), 1), 1.0 - 2.0 * 1.2 / 120.0, 1e-3);
-    // Of the wall, 2 m behind its front, it covers what lies below the ray over its upper edge.
+    // On the wall, 2 m behind its front, it shades what is below the ray over its upper edge.
     Scene low = scene;
     low.add({"band", south_facing(1.5, 2, bottom - 0.05, 1, 0.04)});
     low.add({"block", south_facing(1.5, 2, bottom + 0.01, 1, 0.18)});
@@ -366,7 +366,7 @@ TEST_P(Screened, OfFractionalOpacityMultiplies) {
   }
 }
 
-// Of every kind, on polygons of every kind, some of them through the receiver's plane.
+// Every kind of screen on every kind of polygon, some of them through the receiver's plane.
 TEST(CountedScreens, AreAsDrawn) {
   Perforation const staggered{.hole = Hole::Round, .size = 0.12, .pitch = 0.17};
   Perforation const slots{.hole = Hole::Slotted,

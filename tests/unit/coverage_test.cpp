@@ -32,7 +32,7 @@ double side_of(glm::dvec2 const& a, glm::dvec2 const& b, glm::dvec2 const& p) {
   return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
 
-// Of a convex ring, either way round; nothing where it is too near an edge to tell.
+// Whether a point is in a convex ring, either way round; empty if too near an edge to tell.
 std::optional<bool> holds(Corners const& ring, glm::dvec2 const& p) {
   bool left = true;
   bool right = true;

@@ -25,7 +25,7 @@ TEST(Answers, SameDirectionSameEntry) {
   EXPECT_FALSE(answers.at(noon, 0).knows(3));
 }
 
-// Of a model of a hundred thousand surfaces only those that were asked for take room.
+// In a model of a hundred thousand surfaces, only those that were asked for take memory.
 TEST(Answers, MemoryIsThatOfTheReceivers) {
   Answers answers;
   for (int i = 0; i < 1000; ++i) {

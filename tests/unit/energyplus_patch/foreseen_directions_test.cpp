@@ -36,7 +36,7 @@ std::vector<SunDirection> day(int of_year, double latitude, int steps_an_hour,
   return directions;
 }
 
-// Of the directions asked for, how many had not been foreseen.
+// How many of the directions asked for had not been foreseen.
 struct Met {
   int unforeseen = 0;
   double farthest = 0.0;  // from what was asked to what it was settled to

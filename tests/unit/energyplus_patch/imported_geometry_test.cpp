@@ -41,7 +41,7 @@ class Geometry : public SurroundingsTest {
     return found.casters.at(0).surface.polygon.outline;
   }
 
-  // Of a whole model, with screens.
+  // For a whole model, with screens.
   Model understood(std::string const& text) {
     Choices choices;
     choices.folder = folder_.path();

@@ -177,7 +177,7 @@ TEST_F(Textured, TileCoversEachSurfaceOnce) {
   EXPECT_NEAR(screen->tile()->height(), 2.0, 1e-12);
   EXPECT_EQ(screen->tile()->threshold(), 0.5);
   EXPECT_THAT(screen->tile()->opacity(), ElementsAre(65535, 0));
-  // Of the same size, but for rounding, and of another.
+  // One tile of the same size but for rounding, and one of another.
   Polygon const elsewhere{{{7, 1, 2}, {7, 1, 0}, {7, 5, 0}, {7, 5, 2.00001}}, {}};
   EXPECT_EQ(maker->make(elsewhere), screen);
   Polygon const larger{{{7, 1, 2}, {7, 1, 0}, {7, 6, 0}, {7, 6, 2}}, {}};

@@ -153,7 +153,7 @@ TEST(SampledSession, EachStateOfDeploymentsHasItsOwnSamplesOnceItIsWorthThem) {
   EXPECT_EQ(rendered, 238 + 10);
   EXPECT_NE(remark.find("1 directions of the sun answered from samples at 238,"), std::string::npos)
       << remark;
-  // Of many, samples are taken.
+  // With many directions, samples are taken.
   for (int i = 0; i < 238 + 20; ++i) sampled.at(sampled.wall, 10.0, -40.0 + 0.3 * i);
   sampled.session.finish();
   EXPECT_NE(sampled.said.remarks.back().find("answered from samples at 476,"), std::string::npos)

@@ -275,7 +275,7 @@ TEST(OpacityTile, HasTheRunsThatGoAroundItsEdges) {
   EXPECT_NEAR(wire.web(), 0.92388 * 3 * mm, 1e-8);
   EXPECT_NEAR(wire.hole(), 37.0 * 16.0 / 8.0 * mm, 1e-12);
   EXPECT_NEAR(wire.open_fraction(), 37.0 / 40.0, 1e-12);
-  // Of one row: its diagonals go along it.
+  // A tile of one row: its diagonals go along it.
   opacity.resize(40);
   EXPECT_NEAR(OpacityTile(0.04, 0.001, 40, 1, opacity).web(), 0.92388 * 3 * mm, 1e-8);
 }
