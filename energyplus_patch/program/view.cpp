@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "assets/picture_sheet.h"
 #include "base/process.h"
 #include "base/staged_files.h"
@@ -17,7 +19,10 @@ Path draw_in(Path const& temporary, ModelRun const& run, std::vector<SunView> co
              int size) {
   auto drawn = temporary / "views";
   std::filesystem::create_directory(drawn);
-  run_task(run, ViewsTask{views, drawn, size});
+  auto const reply = run_task(run, ViewsTask{views, drawn, size});
+  for (auto const& warning : reply.warnings) {
+    fmt::print(stderr, "gpu_shading: warning: {}\n", warning);
+  }
   return drawn;
 }
 

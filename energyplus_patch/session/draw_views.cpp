@@ -54,8 +54,13 @@ void draw_views(std::vector<SunView> const& views, std::filesystem::path const& 
   for (auto const& view : views) {
     Image image;
     if (view.receiver.empty()) {
-      if (!whole) whole.emplace(drawing.renderer.scene(), drawing.shown, drawing.device);
-      image = whole->draw(view.sun, sunlit_fractions(drawing, view.sun), drawing.size);
+      auto const fractions = sunlit_fractions(drawing, view.sun);
+      // By the device that gave them, which may be the CPU in place of a GPU that was wrong.
+      if (!whole) {
+        whole.emplace(drawing.renderer.scene(), drawing.shown,
+                      choice_of(drawing.renderer.device()));
+      }
+      image = whole->draw(view.sun, fractions, drawing.size);
     } else {
       auto const receiver = find(drawing, view.receiver);
       image = drawing.renderer.sun_view(view.sun, receiver, drawing.size, drawing.factors);

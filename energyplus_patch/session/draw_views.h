@@ -11,7 +11,6 @@ namespace gpu_shading::energyplus {
 // What draws.
 struct Drawing {
   Renderer& renderer;
-  DeviceChoice device;
   std::vector<SurfaceId> shown;        // the model's surfaces, which the user can name
   std::vector<bool> receives;          // by surface: whether it is coloured by its sunlit fraction
   std::vector<double> const& factors;  // what schedules let pass

@@ -6,10 +6,18 @@
 
 namespace gpu_shading::energyplus {
 
+RendererOptions watched_options(Options const& options, Messages const& messages) {
+  auto watched = renderer_options(options);
+  if (options.mode != Mode::require) watched.warn = messages.warning;
+  return watched;
+}
+
 RenderedAnswers open_answers(SceneAssembly const& scene, std::span<SurfaceId const> receivers,
-                             Messages const& messages) {
+                             DeviceChoice const& device, Messages const& messages) {
   auto const& options = scene.model().options;
-  Renderer renderer(scene.scene(), renderer_options(options));
+  auto rendering = watched_options(options, messages);
+  rendering.device = device;
+  Renderer renderer(scene.scene(), rendering);
   std::optional<AnswerCache> cache;
   if (options.cache) {
     auto const hash = scene.hash(renderer.scene(), renderer.device());

@@ -8,10 +8,13 @@
 
 namespace gpu_shading::energyplus {
 
-// Opens the device and the cache that the model's options name, for the scene as it is now.
+// renderer_options() with the renderer's warnings. If a GPU is required, they are errors.
+RendererOptions watched_options(Options const& options, Messages const& messages);
+
+// Opens a device, and the cache that the model's options name, for the scene as it is now.
 // `receivers`: see RenderedAnswers. Throws Error.
 RenderedAnswers open_answers(SceneAssembly const& scene, std::span<SurfaceId const> receivers,
-                             Messages const& messages);
+                             DeviceChoice const& device, Messages const& messages);
 
 // Adds answers to their cache; warns if that cannot be written.
 void store_answers(RenderedAnswers& answers, Messages const& messages);

@@ -22,16 +22,15 @@ std::string perform(ListingTask const& task, SceneAssembly& scene, Messages cons
                        : list_surfaces(scene.surfaces(), scene.model(), scene.receives());
 }
 
-std::string perform(ViewsTask const& task, SceneAssembly& scene, Messages const& /*messages*/) {
+std::string perform(ViewsTask const& task, SceneAssembly& scene, Messages const& messages) {
   auto const& options = scene.model().options;
-  Renderer renderer(scene.scene(), renderer_options(options));
+  Renderer renderer(scene.scene(), watched_options(options, messages));
   scene.optics().update({});
   renderer.set_deployments(scene.optics().deployments());
   auto receives = scene.receives();
   receives.resize(scene.surfaces().size(), false);  // what EnergyPlus does not see only casts
   draw_views(task.views, task.folder,
-             {renderer, options.device, scene.shown(), std::move(receives),
-              scene.optics().factors(), task.size});
+             {renderer, scene.shown(), std::move(receives), scene.optics().factors(), task.size});
   return {};
 }
 
@@ -66,7 +65,7 @@ std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages cons
   auto const& options = scene.model().options;
   refuse_moving_screens(scene.optics());
   if (options.cache) prepare_cache_folder(*options.cache);
-  auto answers = open_answers(scene, scene.receivers(), messages);
+  auto answers = open_answers(scene, scene.receivers(), options.device, messages);
   auto const& device = answers.renderer().device();
   check_device(device, options, messages);
   describe_scene(scene, messages);

@@ -46,7 +46,7 @@ void Session::start(Messages messages, Schedules schedules, std::function<double
   if (options.report) prepare_report(*options.report);
   if (options.cache) prepare_cache_folder(*options.cache);
   answers_.emplace(SunAnswers::Site{scene_.areas(), options.update.sampling, std::move(latitude)});
-  answers_->open(open_answers(scene_, scene_.receivers(), messages_));
+  answers_->open(open_answers(scene_, scene_.receivers(), options.device, messages_));
   check_device(answers_->rendered().renderer().device(), options, messages_);
   describe_scene(scene_, messages_);
 }
@@ -69,8 +69,10 @@ void Session::set_time(Moment moment) {
         "its new values are used from now on");
     store_answers(answers_->rendered(), messages_);
     auto const receivers = answers_->rendered().known().receivers;
+    // The CPU also if it took over from a GPU.
+    auto const device = choice_of(answers_->rendered().renderer().device());
     answers_->close();
-    answers_->open(open_answers(scene_, receivers, messages_));
+    answers_->open(open_answers(scene_, receivers, device, messages_));
   } else {
     answers_->deploy(scene_.optics().deployments());
   }

@@ -21,6 +21,11 @@ DeviceChoice parse_device_choice(std::string const& text) {
   return {DeviceChoice::Kind::index, index};
 }
 
+DeviceChoice choice_of(DeviceInfo const& device) {
+  if (device.index < 0) return {DeviceChoice::Kind::cpu};
+  return {DeviceChoice::Kind::index, device.index};
+}
+
 std::string describe(DeviceInfo const& device) {
   if (device.threads == 0) return fmt::format("{} ({})", device.renderer, device.version);
   return fmt::format("{} ({} thread{}, {})", device.renderer, device.threads,

@@ -1,5 +1,10 @@
 #include "backends/open_backend.h"
 
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "backends/checked_backend.h"
 #include "gl_module/gl_module.h"
 #include "gpu_shading/error.h"
 #include "raster_cpu/cpu_backend.h"
@@ -8,12 +13,26 @@
 namespace gpu_shading {
 namespace {
 
-// What `open_gpu` opens, or nothing where there is no GPU, nor any OpenGL.
-template <typename Open>
-auto find_gpu(Open open_gpu) -> decltype(open_gpu(gl_module())) {
+GlModule const* find_gl_module() {
   try {
-    return open_gpu(gl_module());
+    return &gl_module();
   } catch (DeviceError const&) {
+    return nullptr;
+  }
+}
+
+// What `open` opens by OpenGL; nothing if the choice leaves it to the CPU.
+template <typename Open>
+auto open_by_opengl(DeviceChoice const& choice, Warn const& warn, Open open)
+    -> decltype(open(gl_module())) {
+  if (choice.kind == DeviceChoice::Kind::cpu) return nullptr;
+  if (choice.kind == DeviceChoice::Kind::index) return open(gl_module());
+  GlModule const* const gl = find_gl_module();
+  if (gl == nullptr) return nullptr;
+  try {
+    return open(*gl);
+  } catch (DeviceError const& error) {
+    if (warn) warn(fmt::format("the GPU cannot be used: {}", error.what()));
     return nullptr;
   }
 }
@@ -21,35 +40,26 @@ auto find_gpu(Open open_gpu) -> decltype(open_gpu(gl_module())) {
 }  // namespace
 
 std::unique_ptr<ViewBackend> open_backend(BackendInput const& input, DeviceChoice const& device) {
-  switch (device.kind) {
-    case DeviceChoice::Kind::index:
-      return gl_module().open_device(device.index, input);
-    case DeviceChoice::Kind::automatic:
-      if (auto gpu = find_gpu([&](GlModule const& gl) { return gl.open_gpu(input); })) {
-        return gpu;
-      }
-      break;
-    case DeviceChoice::Kind::cpu:
-      break;
-  }
-  return std::make_unique<CpuBackend>(input);
+  auto opened =
+      open_by_opengl(device, {}, [&](GlModule const& gl) { return gl.open(input, device); });
+  return opened ? std::move(opened) : std::make_unique<CpuBackend>(input);
+}
+
+std::unique_ptr<ViewBackend> open_checked_backend(BackendInput const& input,
+                                                  DeviceChoice const& device, Warn const& warn) {
+  auto opened =
+      open_by_opengl(device, warn, [&](GlModule const& gl) { return gl.open(input, device); });
+  auto cpu = std::make_unique<CpuBackend>(input);
+  if (!opened) return cpu;
+  return std::make_unique<CheckedBackend>(std::move(opened), std::move(cpu), input, warn);
 }
 
 std::unique_ptr<PictureRaster> open_picture_raster(PictureScene const& scene,
                                                    DeviceChoice const& device) {
-  switch (device.kind) {
-    case DeviceChoice::Kind::index:
-      return gl_module().open_device_for_pictures(device.index, scene);
-    case DeviceChoice::Kind::automatic:
-      if (auto gpu =
-              find_gpu([&](GlModule const& gl) { return gl.open_gpu_for_pictures(scene); })) {
-        return gpu;
-      }
-      break;
-    case DeviceChoice::Kind::cpu:
-      break;
-  }
-  return std::make_unique<CpuPictureRaster>(scene);
+  // Answers came first: what the device lacks has been told.
+  auto raster = open_by_opengl(
+      device, {}, [&](GlModule const& gl) { return gl.open_for_pictures(scene, device); });
+  return raster ? std::move(raster) : std::make_unique<CpuPictureRaster>(scene);
 }
 
 }  // namespace gpu_shading

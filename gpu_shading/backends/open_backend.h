@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "backends/checked_backend.h"
 #include "gpu_shading/device.h"
 #include "view/picture_raster.h"
 #include "view/view_backend.h"
@@ -12,7 +13,12 @@ namespace gpu_shading {
 // Throws DeviceError if the device is not available.
 std::unique_ptr<ViewBackend> open_backend(BackendInput const& input, DeviceChoice const& device);
 
-// The same for pictures.
+// The same, with an OpenGL device whose answers are checked (CheckedBackend). `warn` is also told
+// why a GPU that is there cannot be used.
+std::unique_ptr<ViewBackend> open_checked_backend(BackendInput const& input,
+                                                  DeviceChoice const& device, Warn const& warn);
+
+// The same as open_backend() for pictures.
 std::unique_ptr<PictureRaster> open_picture_raster(PictureScene const& scene,
                                                    DeviceChoice const& device);
 

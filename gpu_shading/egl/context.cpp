@@ -2,9 +2,9 @@
 
 #include <epoxy/egl.h>
 
-#include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "egl/error.h"
 
@@ -30,23 +30,22 @@ EGLConfig find_config(EGLDisplay display, std::string const& label) {
   return config;
 }
 
-EGLContext create(EGLDisplay display, EGLConfig config) {
+EGLContext create(EGLDisplay display, EGLConfig config, bool debug) {
+  std::vector<EGLint> wanted{EGL_CONTEXT_MAJOR_VERSION,       4,
+                             EGL_CONTEXT_MINOR_VERSION,       5,
+                             EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+  if (debug) wanted.insert(wanted.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
+  std::vector<EGLint> told = wanted;
+  told.insert(told.end(),
+              {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
   // A context that reports a lost device, if the driver supports that; otherwise a plain one.
-  constexpr std::array<EGLint, 9> told = {EGL_CONTEXT_MAJOR_VERSION,
-                                          4,
-                                          EGL_CONTEXT_MINOR_VERSION,
-                                          5,
-                                          EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                          EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                          EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
-                                          EGL_LOSE_CONTEXT_ON_RESET,
-                                          EGL_NONE};
-  EGLContext const context = eglCreateContext(display, config, EGL_NO_CONTEXT, told.data());
-  if (context != EGL_NO_CONTEXT) return context;
-  std::array<EGLint, 7> plain{};
-  std::copy_n(told.begin(), 6, plain.begin());
-  plain[6] = EGL_NONE;
-  return eglCreateContext(display, config, EGL_NO_CONTEXT, plain.data());
+  for (std::vector<EGLint>* const attributes : {&told, &wanted}) {
+    attributes->push_back(EGL_NONE);
+    EGLContext const context =
+        eglCreateContext(display, config, EGL_NO_CONTEXT, attributes->data());
+    if (context != EGL_NO_CONTEXT) return context;
+  }
+  return EGL_NO_CONTEXT;
 }
 
 // EGL has one current context per thread and client API: a host may have bound OpenGL ES.
@@ -67,7 +66,7 @@ class BoundApi {
 
 }  // namespace
 
-Context::Context(Display const& display) : display_(display.handle) {
+Context::Context(Display const& display, bool debug) : display_(display.handle) {
   if (eglInitialize(display_, nullptr, nullptr) != EGL_TRUE) {
     fail(display.label, "eglInitialize",
          "check the driver, and that this user may open the device (/dev/dri, group render)");
@@ -77,7 +76,7 @@ Context::Context(Display const& display) : display_(display.handle) {
     throw DeviceError(display.label +
                       ": no EGL_KHR_surfaceless_context; update the graphics driver");
   }
-  context_ = create(display_, find_config(display_, display.label));
+  context_ = create(display_, find_config(display_, display.label), debug);
   if (context_ == EGL_NO_CONTEXT) {
     fail(display.label, "eglCreateContext(OpenGL 4.5 core)",
          "the device needs OpenGL 4.5; update its driver or choose the device 'software'");

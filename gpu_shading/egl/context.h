@@ -27,7 +27,8 @@ class Current {
 class Context {
  public:
   // Throws DeviceError, naming the display, the function, the decoded error and what to try.
-  explicit Context(Display const& display);
+  // `debug`: it reports misuse (gl::log_misuse).
+  explicit Context(Display const& display, bool debug = false);
   ~Context();
   Context(Context const&) = delete;
   Context& operator=(Context const&) = delete;

@@ -7,6 +7,7 @@
 #include <array>
 #include <string_view>
 
+#include "gl/check.h"
 #include "gl/limits.h"
 #include "gpu_shading/error.h"
 
@@ -20,9 +21,22 @@ bool is_software_renderer(std::string_view renderer) {
   });
 }
 
+[[noreturn]] void fail_to_open(int index, int count, std::vector<std::string> const& failures) {
+  std::string const reasons =
+      failures.empty() ? "" : fmt::format(" ({})", fmt::join(failures, "; "));
+  if (count == 0) {
+    throw DeviceError(
+        "no device gives an OpenGL 4.5 context without a display; install a graphics driver or "
+        "Mesa's software renderer (libegl1, libgl1-mesa-dri), or use the device cpu" +
+        reasons);
+  }
+  throw DeviceError(fmt::format("there is no device {}: {} found, numbered from 0{}", index,
+                                count == 1 ? "1 is" : fmt::format("{} are", count), reasons));
+}
+
 }  // namespace
 
-DeviceWalk::DeviceWalk() : displays_(find_displays(&failures_)) {}
+DeviceWalk::DeviceWalk(bool debug) : debug_(debug), displays_(find_displays(&failures_)) {}
 
 bool DeviceWalk::is_known(std::string const& renderer) const {
   return std::find(renderers_.begin(), renderers_.end(), renderer) != renderers_.end();
@@ -32,9 +46,10 @@ std::optional<Device> DeviceWalk::next() {
   while (at_ < displays_.size()) {
     Display const& display = displays_[at_++];
     try {
-      Device device{Context(display), {}};
+      Device device{Context(display, debug_), {}};
       {
         Current const current = device.context.make_current();
+        if (debug_) gl::log_misuse();
         gl::Limits const limits = gl::query_limits();
         device.info.renderer = limits.renderer;
         device.info.vendor = limits.vendor;
@@ -55,31 +70,18 @@ std::optional<Device> DeviceWalk::next() {
   return std::nullopt;
 }
 
-std::optional<Device> open_gpu() {
-  DeviceWalk walk;
-  while (std::optional<Device> device = walk.next()) {
-    if (!device->info.software) return device;
-  }
-  return std::nullopt;
-}
-
-Device open_device(int index) {
-  DeviceWalk walk;
+std::optional<Device> open(DeviceChoice const& choice) {
+  DeviceWalk walk(choice.debug);
   int count = 0;
   while (std::optional<Device> device = walk.next()) {
-    if (device->info.index == index) return std::move(*device);
+    bool const wanted = choice.kind == DeviceChoice::Kind::index
+                            ? device->info.index == choice.index
+                            : !device->info.software;
+    if (wanted) return device;
     ++count;
   }
-  std::string const failures =
-      walk.failures().empty() ? "" : fmt::format(" ({})", fmt::join(walk.failures(), "; "));
-  if (count == 0) {
-    throw DeviceError(
-        "no device gives an OpenGL 4.5 context without a display; install a graphics driver or "
-        "Mesa's software renderer (libegl1, libgl1-mesa-dri), or use the device cpu" +
-        failures);
-  }
-  throw DeviceError(fmt::format("there is no device {}: {} found, numbered from 0{}", index,
-                                count == 1 ? "1 is" : fmt::format("{} are", count), failures));
+  if (choice.kind == DeviceChoice::Kind::index) fail_to_open(choice.index, count, walk.failures());
+  return std::nullopt;
 }
 
 }  // namespace gpu_shading::egl

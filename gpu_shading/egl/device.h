@@ -19,7 +19,7 @@ struct Device {
 // Order and indices are those of list_devices().
 class DeviceWalk {
  public:
-  DeviceWalk();
+  explicit DeviceWalk(bool debug = false);
 
   // The next device, empty at the end.
   std::optional<Device> next();
@@ -29,16 +29,15 @@ class DeviceWalk {
  private:
   bool is_known(std::string const& renderer) const;
 
+  bool debug_;
   std::vector<std::string> failures_;
   std::vector<Display> displays_;
   std::size_t at_ = 0;
   std::vector<std::string> renderers_;
 };
 
-// The first GPU; nothing where there is none.
-std::optional<Device> open_gpu();
-
-// The one of this index in list_devices(). Throws DeviceError: there is none, with why.
-Device open_device(int index);
+// The device of an index in list_devices(), or else the first GPU; nothing if there is none. Throws
+// DeviceError, with the reason, if there is no device of that index.
+std::optional<Device> open(DeviceChoice const& choice);
 
 }  // namespace gpu_shading::egl

@@ -19,25 +19,18 @@ class Module : public GlModule {
     return devices;
   }
 
-  std::unique_ptr<ViewBackend> open_gpu(BackendInput const& input) const override {
-    std::optional<egl::Device> device = egl::open_gpu();
+  std::unique_ptr<ViewBackend> open(BackendInput const& input,
+                                    DeviceChoice const& choice) const override {
+    std::optional<egl::Device> device = egl::open(choice);
     if (!device) return nullptr;
     return std::make_unique<GlBackend>(std::move(*device), input);
   }
 
-  std::unique_ptr<ViewBackend> open_device(int index, BackendInput const& input) const override {
-    return std::make_unique<GlBackend>(egl::open_device(index), input);
-  }
-
-  std::unique_ptr<PictureRaster> open_gpu_for_pictures(PictureScene const& scene) const override {
-    std::optional<egl::Device> device = egl::open_gpu();
+  std::unique_ptr<PictureRaster> open_for_pictures(PictureScene const& scene,
+                                                   DeviceChoice const& choice) const override {
+    std::optional<egl::Device> device = egl::open(choice);
     if (!device) return nullptr;
     return std::make_unique<GlPictureRaster>(std::move(*device), scene);
-  }
-
-  std::unique_ptr<PictureRaster> open_device_for_pictures(
-      int index, PictureScene const& scene) const override {
-    return std::make_unique<GlPictureRaster>(egl::open_device(index), scene);
   }
 };
 

@@ -24,15 +24,14 @@ class GlModule {
   // As gpu_shading::list_devices.
   virtual std::vector<DeviceInfo> list_devices(std::vector<std::string>& failures) const = 0;
 
-  // Draws by the first GPU, or nothing where there is none.
-  virtual std::unique_ptr<ViewBackend> open_gpu(BackendInput const& input) const = 0;
-  // Draws by the device of an index in list_devices(). Throws DeviceError.
-  virtual std::unique_ptr<ViewBackend> open_device(int index, BackendInput const& input) const = 0;
+  // Opens the device of an index in list_devices(), or else the first GPU; nothing if there is no
+  // GPU. Throws DeviceError if the device is not available.
+  virtual std::unique_ptr<ViewBackend> open(BackendInput const& input,
+                                            DeviceChoice const& device) const = 0;
 
   // The same for pictures.
-  virtual std::unique_ptr<PictureRaster> open_gpu_for_pictures(PictureScene const& scene) const = 0;
-  virtual std::unique_ptr<PictureRaster> open_device_for_pictures(
-      int index, PictureScene const& scene) const = 0;
+  virtual std::unique_ptr<PictureRaster> open_for_pictures(PictureScene const& scene,
+                                                           DeviceChoice const& device) const = 0;
 };
 
 // Loads it, once. It lies beside this program or library, or where the dynamic linker looks. Throws

@@ -175,15 +175,18 @@ Image Renderer::Implementation::sun_view(SunDirection sun, SurfaceId id, int siz
   if (transmission_.any_transmits(shaded.casters)) shaded.shades = shades_at(shaded, factors);
   if (!picture_raster_) {
     std::vector<Mesh> const meshes = triangulate_all(scene_);
-    picture_raster_ = open_picture_raster({scene_, meshes, transmission_}, options_.device);
+    // The CPU may have taken over.
+    DeviceChoice const choice = device().index < 0 ? choice_of(device()) : options_.device;
+    picture_raster_ = open_picture_raster({scene_, meshes, transmission_}, choice);
   }
   return draw_receiver(*picture_raster_, scene_, shaded, *seen.frame, size);
 }
 
 Renderer::Renderer(Scene scene, RendererOptions options)
     : implementation_(std::make_unique<Implementation>(
-          std::move(scene), options,
-          [&](BackendInput const& input) { return open_backend(input, options.device); })) {}
+          std::move(scene), options, [&](BackendInput const& input) {
+            return open_checked_backend(input, options.device, options.warn);
+          })) {}
 Renderer::Renderer(std::unique_ptr<Implementation> implementation)
     : implementation_(std::move(implementation)) {}
 Renderer RendererWithBackend::make(Scene scene, RendererOptions options, Open const& open) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "render/renderer_with_backend.h"
+#include "support/shapes.h"
 
 namespace gpu_shading {
 
@@ -11,7 +12,7 @@ Renderer gl_renderer(Scene scene, std::optional<int> resolution, GlSettings cons
   RendererOptions options;
   options.resolution = resolution;
   return RendererWithBackend::make(std::move(scene), options, [&](BackendInput const& input) {
-    return std::make_unique<GlBackend>(egl::open_device(0), input, settings);
+    return std::make_unique<GlBackend>(egl::open(by_opengl).value(), input, settings);
   });
 }
 

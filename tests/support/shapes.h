@@ -31,8 +31,8 @@ inline Sunlit sunlit(Renderer& renderer, SunDirection sun, SurfaceId receiver) {
   return renderer.projected_sunlit_areas(sun, std::span<SurfaceId const>(&receiver, 1)).front();
 }
 
-// Rasterised by OpenGL, on the first device, and on the CPU.
-inline constexpr DeviceChoice by_opengl{DeviceChoice::Kind::index, 0};
+// Rasterised by OpenGL, on the first device, where misuse of OpenGL is an error; and on the CPU.
+inline constexpr DeviceChoice by_opengl{DeviceChoice::Kind::index, 0, true};
 inline constexpr DeviceChoice on_cpu{DeviceChoice::Kind::cpu, 0};
 
 inline Renderer renderer_of(Scene scene, int resolution = 512, DeviceChoice device = {}) {

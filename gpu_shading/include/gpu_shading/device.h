@@ -15,6 +15,8 @@ struct DeviceChoice {
   };
   Kind kind = Kind::automatic;
   int index = 0;
+  // OpenGL contexts that log misuse, which then throws Error. Slower; for tests.
+  bool debug = false;
 
   bool operator==(DeviceChoice const&) const = default;
 };
@@ -32,6 +34,9 @@ struct DeviceInfo {
   bool software = false;   // no GPU
   int max_resolution = 0;  // pixels along each side of the largest tile
 };
+
+// The choice of this very device.
+DeviceChoice choice_of(DeviceInfo const& device);
 
 // A name for messages: "CPU (2 threads, AVX2)", or the renderer and version of an OpenGL device.
 std::string describe(DeviceInfo const& device);

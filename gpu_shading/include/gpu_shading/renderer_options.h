@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
 
 #include "gpu_shading/device.h"
 
@@ -20,6 +22,10 @@ struct RendererOptions {
   // Target accuracy, least_error .. most_error: 99 % of sunlit fractions are within this absolute
   // error. The size of a tile follows from it and from the length of the shadow edges in view.
   double error = 1e-3;
+  // Called with one line when the CPU takes over from an OpenGL device: the first views of each
+  // kind are compared with the CPU's, and one was wrong; or the device lacks what the scene needs.
+  // Without it, wrong answers throw DeviceError.
+  std::function<void(std::string const&)> warn = {};
 };
 
 }  // namespace gpu_shading

@@ -1,0 +1,61 @@
+"""A GPU that computes wrong answers is found out in the run, and the CPU takes over."""
+
+import shutil
+import subprocess
+
+import pytest
+from shading_runs import energyplus, input_file, results
+
+
+@pytest.fixture(scope="module")
+def on_wrong_gpu(patched, tmp_path_factory):
+    """A patched EnergyPlus whose OpenGL module plays a GPU with a broken driver."""
+    module = energyplus.build_folder() / "tests" / "wrong_gpu" / "libgpu_shading_gl.so"
+    if not module.is_file():
+        pytest.skip(f"{module} is missing: run scripts/build with the tests")
+    prefix = tmp_path_factory.mktemp("wrong_gpu") / "EnergyPlus"
+    shutil.copytree(patched.parent, prefix, symlinks=True)
+    shutil.copyfile(module, prefix / module.name)
+    return prefix
+
+
+@pytest.fixture
+def shade(on_wrong_gpu, weather, box, tmp_path):
+    model = input_file.Idf(box)
+    results.instrument(model)
+    model.write(tmp_path / "box.idf")
+
+    def call(*options):
+        return energyplus.run(on_wrong_gpu / "energyplus", tmp_path / "box.idf", weather,
+                              tmp_path / f"run{len(options)}", [*options, "-D"])
+
+    return call
+
+
+def test_the_run_goes_on_by_the_cpu_with_one_warning(shade):
+    run = shade("--gpu-shading")
+    assert run.completed, run.why()
+    warnings = [text for kind, text in run.messages if kind == "Warning" and "gpu_shading" in text]
+    assert len(warnings) == 1, warnings
+    for words in ("Wrong GPU (4.5 (wrong driver 0.1)) computes wrong answers: the sunlit fraction of",
+                  "a receiver behind opaque casters", "by the CPU", "tolerance", "continuing on the CPU"):
+        assert words in warnings[0].replace("\n", " ")
+    assert run.device.startswith("CPU (")
+    by_cpu = shade("--gpu-shading", "--gpu-shading-device=cpu")
+    assert by_cpu.completed, by_cpu.why()
+    sunlit, expected = (results.Results(one.folder).values[results.SUNLIT] for one in (run, by_cpu))
+    assert sunlit == expected
+
+
+def test_the_run_ends_if_a_gpu_is_required(shade):
+    run = shade("--gpu-shading=require")
+    assert not run.completed
+    assert "Wrong GPU (4.5 (wrong driver 0.1)) computes wrong answers" in run.errors
+    assert "continuing" not in run.errors
+
+
+def test_a_picture_is_drawn_by_the_cpu_with_a_warning(on_wrong_gpu, courtyard, tmp_path):
+    done = subprocess.run([on_wrong_gpu / "gpu_shading", "view", courtyard, "--sun", "200,35", "--size", "64",
+                           "-o", tmp_path / "sun.png"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr.count("computes wrong answers") == 1
