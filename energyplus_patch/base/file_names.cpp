@@ -54,8 +54,9 @@ std::string FileNames::add(std::string_view text, std::string_view ending) {
     auto const [code, bytes] = first_of(text);
     auto const length = bytes == 0 ? 1 : bytes;
     if (stem.size() + length > most_bytes) break;
-    bool const is_hidden = code == '.' && stem.empty();
-    if (bytes > 0 && is_kept(code) && !is_hidden) {
+    // A hidden file, or an option of a command.
+    bool const misleads = (code == '.' || code == '-') && stem.empty();
+    if (bytes > 0 && is_kept(code) && !misleads) {
       stem += text.substr(0, bytes);
     } else {
       stem += '_';

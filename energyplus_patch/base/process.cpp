@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/signalfd.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -14,6 +14,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 
 #include "base/file_descriptor.h"
 #include "base/files.h"
@@ -70,6 +71,10 @@ int pass_signals_on(pid_t child, sigset_t const& signals) {
   }
 }
 
+[[noreturn]] void fail(std::string_view program, int error) {
+  throw Error(fmt::format("{}: cannot be run ({})", program, std::strerror(error)));
+}
+
 std::vector<char*> pointers(std::vector<std::string>& strings) {
   std::vector<char*> result;
   result.reserve(strings.size() + 1);
@@ -78,23 +83,62 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
   return result;
 }
 
+struct Start {
+  char* const* words;
+  char* const* variables;
+  char const* output;
+  sigset_t const& signals;
+};
+
+// Becomes the program, in a process that has just been forked: only system calls. Returns with
+// errno if that fails.
+void become(Start const& program, pid_t parent) {
+  // It ends with its parent, which may have ended already.
+  if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) return;
+  if (getppid() != parent) _exit(signal_base + SIGKILL);
+  constexpr mode_t permissions = 0644;
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
+  int const output = open(program.output, O_WRONLY | O_CREAT | O_TRUNC, permissions);
+  if (output < 0 || dup2(output, STDOUT_FILENO) < 0 || dup2(output, STDERR_FILENO) < 0) return;
+  if (output > STDERR_FILENO) close(output);
+  if (sigprocmask(SIG_SETMASK, &program.signals, nullptr) != 0) return;
+  execve(program.words[0], program.words, program.variables);
+}
+
+pid_t start(Start const& program) {
+  // Where the child says why it could not become the program; closed by the kernel if it could.
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) fail(program.words[0], errno);
+  FileDescriptor const heard(ends[0]);
+  std::optional<FileDescriptor> said(ends[1]);
+  pid_t const parent = getpid();
+  pid_t const child = fork();
+  if (child < 0) fail(program.words[0], errno);
+  if (child == 0) {
+    become(program, parent);
+    int const error = errno;
+    constexpr int not_run = 127;
+    _exit(write(ends[1], &error, sizeof error) == sizeof error ? not_run : not_run - 1);
+  }
+  said.reset();
+  int error = 0;
+  ssize_t count = 0;
+  while ((count = read(heard.get(), &error, sizeof error)) < 0 && errno == EINTR) {
+  }
+  if (count == 0) return child;
+  waitpid(child, nullptr, 0);
+  fail(program.words[0], error);
+}
+
 }  // namespace
 
 std::filesystem::path own_folder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();
 }
 
-TemporaryFolder::TemporaryFolder() {
-  auto name = (std::filesystem::temp_directory_path() / "gpu_shading_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) {
-    throw Error(fmt::format("{}: {}", name, std::strerror(errno)));
-  }
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
+TemporaryFolder::TemporaryFolder()
+    : folder_(std::filesystem::temp_directory_path(), prefix), path_(folder_.path() / "files") {
+  std::filesystem::create_directory(path_);
 }
 
 void require_room(std::filesystem::path const& folder) {
@@ -111,23 +155,8 @@ int run_process(std::vector<std::string> const& command,
   auto const argv = pointers(words);
   auto const envp = pointers(variables);
 
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  constexpr mode_t permissions = 0644;
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, permissions);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
   HeldSignals const signals;
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setsigmask(&attributes, &signals.before());
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
-  pid_t child = 0;
-  int const failure = posix_spawn(&child, argv[0], &actions, &attributes, argv.data(), envp.data());
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failure != 0) throw Error(fmt::format("{}: {}", command.front(), std::strerror(failure)));
-
+  pid_t const child = start({argv.data(), envp.data(), output.c_str(), signals.before()});
   int const interrupted = pass_signals_on(child, signals.held());
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {

@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "base/held_folder.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
@@ -12,17 +14,18 @@ namespace gpu_shading::energyplus {
 // program.
 std::filesystem::path own_folder();
 
-// A folder that goes with the object.
+// A folder for one command, in the system's folder for temporary files. It goes with the object, or
+// with the next one where this process is killed.
 class TemporaryFolder {
  public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(TemporaryFolder const&) = delete;
-  TemporaryFolder& operator=(TemporaryFolder const&) = delete;
+  static constexpr std::string_view prefix = "gpu_shading-";  // of its name
 
-  std::filesystem::path const& path() const { return path_; }
+  TemporaryFolder();
+
+  std::filesystem::path const& path() const { return path_; }  // empty at first
 
  private:
+  HeldFolder folder_;
   std::filesystem::path path_;
 };
 
@@ -45,8 +48,8 @@ class Interrupted : public Error {
 
 // Runs a program to its end, its output into a file; `environment` ("NAME=value") is added to ours.
 // Returns its exit status, 128 + the signal where one ended it. Throws Error when it cannot be
-// started. A signal that asks us to end (SIGINT, SIGTERM, SIGHUP) goes to the program, and is
-// thrown as Interrupted once it has ended.
+// started. If this process is killed, so is the program. A signal that asks us to end (SIGINT,
+// SIGTERM, SIGHUP) goes to the program, and is thrown as Interrupted once it has ended.
 int run_process(std::vector<std::string> const& command,
                 std::vector<std::string> const& environment, std::filesystem::path const& output);
 

@@ -2,27 +2,22 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
-#include <optional>
-#include <random>
 #include <system_error>
 #include <utility>
 
 #include "base/file_descriptor.h"
+#include "base/held_folder.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 using Path = std::filesystem::path;
-
-constexpr char const* lock_name = ".lock";
 
 [[noreturn]] void fail(Path const& path, std::string const& why) {
   throw Error(fmt::format("{}: cannot be written ({})", path.string(), why));
@@ -37,37 +32,10 @@ int open_file(Path const& path, int flags) {
   return open(path.c_str(), flags | O_CLOEXEC, 0600);
 }
 
-bool lock(FileDescriptor const& file) { return flock(file.get(), LOCK_EX | LOCK_NB) == 0; }
-
-bool has_name(FileDescriptor const& file) {
-  struct stat found {};
-  return fstat(file.get(), &found) == 0 && found.st_nlink > 0;
-}
-
 void flush(Path const& path) {
   FileDescriptor const file(open_file(path, O_RDONLY | O_NOFOLLOW));
   // Some file systems have nothing to flush, and say so.
   if (!file.is_open() || (fsync(file.get()) != 0 && errno != EINVAL)) fail(path, errno);
-}
-
-// Deletes the stages of processes that have ended. What other processes delete meanwhile is no
-// error.
-void clean(Path const& folder) {
-  std::error_code ignored;
-  for (std::filesystem::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
-       entry.increment(ignored)) {
-    auto const& path = entry->path();
-    if (!path.filename().string().starts_with(StagedFiles::prefix)) continue;
-    std::error_code gone;
-    if (!std::filesystem::is_directory(entry->symlink_status(gone))) continue;
-    FileDescriptor const file(open_file(path / lock_name, O_RDWR | O_NOFOLLOW));
-    if (!file.is_open()) {
-      // Not locked yet, or never: empty then. Another program's folder is left alone.
-      rmdir(path.c_str());
-    } else if (lock(file) && has_name(file)) {
-      std::filesystem::remove_all(path, gone);
-    }
-  }
 }
 
 void require_replaceable(Path const& path) {
@@ -84,61 +52,20 @@ void require_replaceable(Path const& path) {
 
 }  // namespace
 
-// The hidden folder, locked while it is in use.
-class StagedFiles::Stage {
- public:
-  explicit Stage(Path const& folder) {
-    // Another process may clean up between two of these steps.
-    while (!make(folder)) {
-    }
-  }
-  Stage(Stage const&) = delete;
-  Stage& operator=(Stage const&) = delete;
-  ~Stage() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-
-  Path const& path() const { return path_; }
-
- private:
-  bool make(Path const& folder) {
-    path_ = folder / fmt::format("{}{:08x}", prefix, std::random_device{}());
-    if (mkdir(path_.c_str(), S_IRWXU) != 0) {
-      if (errno == EEXIST) return false;
-      fail(folder, errno);
-    }
-    lock_.emplace(open_file(path_ / lock_name, O_RDWR | O_CREAT | O_EXCL));
-    if (!lock_->is_open()) {
-      int const error = errno;
-      rmdir(path_.c_str());
-      if (error == ENOENT) return false;
-      fail(folder, error);
-    }
-    // A file system without locks will do: then nobody cleans up.
-    bool const taken = !lock(*lock_) && errno == EWOULDBLOCK;
-    return !taken && has_name(*lock_);
-  }
-
-  Path path_;
-  std::optional<FileDescriptor> lock_;
-};
-
 StagedFiles::StagedFiles(Path folder) : folder_(std::move(folder)) {
   if (folder_.empty()) folder_ = ".";
   std::error_code failure;
   std::filesystem::create_directories(folder_, failure);
   if (failure) fail(folder_, failure.message());
-  clean(folder_);
-  stage_ = std::make_unique<Stage>(folder_);
+  stage_ = std::make_unique<HeldFolder>(folder_, prefix);
 }
 
 StagedFiles::~StagedFiles() = default;
 
 Path StagedFiles::add(std::string const& name) {
   auto const path = folder_ / name;
-  if (name == lock_name || Path(name).has_parent_path() || name.empty() || name == "." ||
-      name == "..") {
+  if (name == HeldFolder::lock_name || Path(name).has_parent_path() || name.empty() ||
+      name == "." || name == "..") {
     fail(path, "it is not the name of a file");
   }
   if (std::find(names_.begin(), names_.end(), name) != names_.end()) {

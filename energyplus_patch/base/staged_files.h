@@ -11,6 +11,8 @@
 
 namespace gpu_shading::energyplus {
 
+class HeldFolder;
+
 // Replaces files of one folder as a whole. They are written into a hidden folder beside them, then
 // flushed to disk and renamed: a full disk, an error or a kill leaves every file as it was before
 // or complete. Hidden folders of processes that were killed are deleted by the next object for the
@@ -38,10 +40,8 @@ class StagedFiles {
   void commit();
 
  private:
-  class Stage;
-
   std::filesystem::path folder_;
-  std::unique_ptr<Stage> stage_;
+  std::unique_ptr<HeldFolder> stage_;
   std::vector<std::string> names_;
 };
 

@@ -14,7 +14,7 @@ bool same_name(std::string_view a, std::string_view b);
 // Whether a name matches a pattern, in which * stands for any characters; case is ignored.
 bool matches(std::string_view pattern, std::string_view name);
 
-// The number in a field; empty unless the whole text is a number.
+// The number in a field; empty unless the whole text is a finite number.
 std::optional<double> parse_number(std::string const& text);
 
 // The text without surrounding white space.
@@ -27,7 +27,14 @@ std::vector<std::string> comma_separated(std::string const& line);
 std::string printable(std::string_view text);
 std::string in_quotes(std::string_view text);  // the same, in double quotes
 
-// The text as a CSV field, quoted if necessary.
+// For an error or a warning, whatever names and values it quotes: in one line, control characters
+// escaped, the middle of a very long one left out.
+std::string one_line(std::string_view message);
+
+// The text as a CSV field in quotes. A spreadsheet would take text that begins with = + - @ for a
+// formula: an apostrophe goes before it, unless it is a number.
 std::string csv_quoted(std::string_view text);
+// The same, in quotes only if necessary.
+std::string csv_field(std::string_view text);
 
 }  // namespace gpu_shading::energyplus

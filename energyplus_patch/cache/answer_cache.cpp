@@ -8,9 +8,8 @@
 
 #include <cerrno>
 #include <chrono>
-#include <cstdio>
-#include <memory>
 #include <thread>
+#include <utility>
 
 #include "base/file_descriptor.h"
 #include "base/files.h"
@@ -22,25 +21,29 @@ namespace {
 
 using Path = std::filesystem::path;
 
-struct Close {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
 // Returns no answers if there is no file. Throws Error, without the file's name, if it cannot be
 // used.
-AnswerSet read_answers(Path const& path, Hash const& scene) {
-  // Opened only once, because another file may replace it at any moment.
-  std::unique_ptr<std::FILE, Close> const file(std::fopen(path.c_str(), "rb"));
-  if (!file && errno == ENOENT) return AnswerSet();
+AnswerSet read_answers(Path const& path, Hash const& scene, AnswerLimits const& limits) {
+  // Opened only once, because another file may replace it at any moment; a pipe is not waited for.
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
+  FileDescriptor const file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!file.is_open() && errno == ENOENT) return AnswerSet();
   struct stat found {};
-  if (!file || fstat(fileno(file.get()), &found) != 0 || !S_ISREG(found.st_mode)) {
+  if (!file.is_open() || fstat(file.get(), &found) != 0 || !S_ISREG(found.st_mode)) {
     throw Error("cannot be read");
   }
   auto const size = static_cast<std::size_t>(found.st_size);
   if (size > Answers::default_most_bytes) throw Error("is too large");
   std::vector<std::byte> bytes(size);
-  if (std::fread(bytes.data(), 1, size, file.get()) != size) throw Error("cannot be read");
-  return decode(bytes, scene);
+  for (std::size_t done = 0; done < size;) {
+    auto const count = read(file.get(), bytes.data() + done, size - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) throw Error("cannot be read");
+    done += static_cast<std::size_t>(count);
+  }
+  auto answers = decode(bytes, scene);
+  check_answers(answers, limits);
+  return answers;
 }
 
 // A lock on the folder for the lifetime of this object. If another process holds it, or the file
@@ -80,15 +83,16 @@ void write_file(Path const& path, std::vector<std::byte> const& bytes) {
 
 }  // namespace
 
-AnswerCache::AnswerCache(Path const& folder, Hash const& scene,
+AnswerCache::AnswerCache(Path const& folder, Hash const& scene, AnswerLimits limits,
                          std::function<void(std::string const&)> const& remark,
                          std::uint64_t most_bytes)
     : folder_(folder),
       file_(folder / cache_file_name(to_text(scene))),
       scene_(scene),
+      limits_(std::move(limits)),
       most_bytes_(most_bytes) {
   try {
-    known_ = read_answers(file_, scene_);
+    known_ = read_answers(file_, scene_, limits_);
   } catch (Error const& error) {
     remark(
         fmt::format("--gpu-shading-cache: {} {}: it is ignored, and replaced at the end of the run",
@@ -143,7 +147,7 @@ void AnswerCache::store(AnswerSet const& run) {
   Lock const lock(folder_);
   AnswerSet all;
   try {
-    all = read_answers(file_, scene_);
+    all = read_answers(file_, scene_, limits_);
   } catch (Error const&) {
     // It cannot be used; the user has been told, or will be when it happens again.
     all = AnswerSet();

@@ -20,7 +20,7 @@ class AnswerCache {
 
   // Reads the file if there is one. A file that cannot be used gives a remark and is replaced by
   // store().
-  AnswerCache(std::filesystem::path const& folder, Hash const& scene,
+  AnswerCache(std::filesystem::path const& folder, Hash const& scene, AnswerLimits limits,
               std::function<void(std::string const&)> const& remark,
               std::uint64_t most_bytes = default_most_bytes);
 
@@ -46,6 +46,7 @@ class AnswerCache {
   std::filesystem::path folder_;
   std::filesystem::path file_;
   Hash scene_;
+  AnswerLimits limits_;
   std::uint64_t most_bytes_;
   std::size_t directions_recalled_ = 0;
   AnswerSet known_;

@@ -204,6 +204,27 @@ void add_answers(AnswerSet const& from, AnswerSet& to) {
   });
 }
 
+void check_answers(AnswerSet const& set, AnswerLimits const& limits) {
+  auto const refuse = [] { throw Error("holds answers that are not possible"); };
+  auto const& areas = limits.areas;
+  for (auto const receiver : set.receivers) {
+    if (receiver >= areas.size()) refuse();
+  }
+  // A question about interior surfaces is known by its hash only.
+  double const largest = areas.empty() ? 0.0 : *std::max_element(areas.begin(), areas.end());
+  set.answers.for_each([&](Answers::Direction const& direction) {
+    for (ReceiverNumber number = 0; number < direction.projected_area.size(); ++number) {
+      if (!direction.knows(number)) continue;
+      if (!limits.allow(direction.sunlit(number), areas[set.receivers[number]])) refuse();
+    }
+    for (auto const& [question, answers] : direction.interior) {
+      for (auto const& answer : answers) {
+        if (!limits.allow(answer, largest)) refuse();
+      }
+    }
+  });
+}
+
 std::vector<std::byte> encode(AnswerSet const& set, Hash const& scene) {
   Writer writer;
   writer.add(std::span<char const>(magic));

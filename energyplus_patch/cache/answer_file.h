@@ -20,6 +20,9 @@ struct AnswerSet {
 // Adds what another set has and this one lacks.
 void add_answers(AnswerSet const& from, AnswerSet& to);
 
+// Throws Error if a surface is not one of the scene's, or an answer is not one of the scene's.
+void check_answers(AnswerSet const& set, AnswerLimits const& limits);
+
 // The contents of a file: a header that names the scene, the answers, and a checksum of both.
 std::vector<std::byte> encode(AnswerSet const& set, Hash const& scene);
 

@@ -15,6 +15,24 @@ std::size_t bytes_of(std::vector<ScheduledPart> const& parts) {
 
 }  // namespace
 
+bool AnswerLimits::allow(Sunlit const& answer, double area) const {
+  // Answers are rounded to single precision.
+  constexpr double rounding = 1e-5;
+  auto const most = area * (1.0 + rounding) + rounding * rounding;
+  auto const allows = [&](double part) { return part >= 0.0 && part <= most; };
+  double sum = answer.projected_area;
+  if (!allows(sum)) return false;
+  for (auto const& part : answer.scheduled) {
+    sum += part.projected_area;
+    if (!allows(part.projected_area) || !allows(sum)) return false;
+    for (auto const& [schedule, power] : part.powers) {
+      if (schedule < 0 || static_cast<std::size_t>(schedule) >= schedules || power < 1)
+        return false;
+    }
+  }
+  return true;
+}
+
 Sunlit Answers::Direction::sunlit(ReceiverNumber receiver) const {
   Sunlit answer;
   answer.projected_area = projected_area[receiver];

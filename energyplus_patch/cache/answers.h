@@ -18,6 +18,15 @@ using ReceiverNumber = std::uint32_t;
 // Answers kept by direction and by the state of the screens' deployments: warm-up days, sizing
 // periods and the sky's patches come back to the same ones. They hold whatever the transmittance
 // schedules say, which are applied to them afterwards. Bounded by make_room().
+// What every answer of a scene keeps to, whatever file it comes from.
+struct AnswerLimits {
+  std::vector<double> areas;  // by surface, m2
+  std::size_t schedules = 0;
+
+  // Whether it is an answer about an area of at most so many m2.
+  bool allow(Sunlit const& answer, double area) const;
+};
+
 class Answers {
  public:
   static constexpr std::size_t default_most_bytes = std::size_t{512} << 20U;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/naming.h"
+#include "base/text.h"
 #include "host/run.h"
 #include "idf/model_file.h"
 
@@ -140,9 +141,9 @@ void finish_run() {
   try {
     run.session->finish();
   } catch (std::exception const& error) {
-    print_line(std::string("error: ") + error.what());
-    installation().functions.warning(*run.state, std::string("gpu_shading: ") + error.what());
-    run.unwritten = error.what();
+    run.unwritten = one_line(error.what());
+    print_line("error: " + run.unwritten);
+    installation().functions.warning(*run.state, "gpu_shading: " + run.unwritten);
   }
   run.session = nullptr;
 }

@@ -5,12 +5,14 @@
 #include <filesystem>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/c_interface.h"
 #include "binary/entry_patch.h"
 #include "binary/symbol_table.h"
 #include "gpu_shading/error.h"
+#include "gpu_shading/renderer.h"
 #include "gpu_shading_energyplus.h"
 #include "host/input_entries.h"
 #include "host/penumbra_entries.h"
@@ -19,6 +21,8 @@
 #include "options/options.h"
 #include "runs/installation.h"
 #include "scheduled/scheduled_run.h"
+#include "session/remarks.h"
+#include "session/scene_assembly.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -118,6 +122,23 @@ void install(char const* library, Choices choices) {
   installed.choices = std::move(choices);
 }
 
+// Opens and closes the device where it may not be there or not do what is asked, so that a run need
+// not begin for it.
+void try_device(Choices const& choices) {
+  constexpr int every_device_draws = 16384;
+  bool const required = choices.mode == Mode::require;
+  bool const chosen = choices.device && choices.device->kind == DeviceChoice::Kind::index;
+  bool const large = choices.resolution.value_or(1) > every_device_draws;
+  if (choices.mode == Mode::off || (!required && !chosen && !large)) return;
+  Options options;
+  options.mode = choices.mode.value_or(Mode::automatic);
+  options.device = choices.device.value_or(DeviceChoice{});
+  options.resolution = choices.resolution;
+  Renderer const renderer(Scene{}, renderer_options(options));
+  auto const ignore = [](std::string const&) {};
+  check_device(renderer.device(), options, {ignore, ignore, ignore});
+}
+
 thread_local std::string message;
 
 }  // namespace
@@ -127,8 +148,9 @@ extern "C" EXPORTED int gpu_shading_install(char const* energyplus_library, int 
                                             char const* const* options) {
   using gpu_shading::energyplus::message;
   try {
-    gpu_shading::energyplus::install(energyplus_library,
-                                     gpu_shading::energyplus::given_choices(count, options));
+    auto choices = gpu_shading::energyplus::given_choices(count, options);
+    gpu_shading::energyplus::try_device(choices);
+    gpu_shading::energyplus::install(energyplus_library, std::move(choices));
     message.clear();
     return 0;
   } catch (gpu_shading::energyplus::CannotPatch const& error) {
@@ -146,9 +168,9 @@ extern "C" EXPORTED int gpu_shading_run_scheduled(char const* energyplus_library
   using gpu_shading::energyplus::message;
   try {
     message.clear();
-    return gpu_shading::energyplus::run_scheduled(
-        energyplus_library, gpu_shading::energyplus::given_choices(count, options),
-        {argv, argv + argc});
+    auto const choices = gpu_shading::energyplus::given_choices(count, options);
+    gpu_shading::energyplus::try_device(choices);
+    return gpu_shading::energyplus::run_scheduled(energyplus_library, choices, {argv, argv + argc});
   } catch (std::exception const& error) {
     message = error.what();
     return gpu_shading::energyplus::not_run;

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <ostream>
 
+#include "base/text.h"
+
 namespace gpu_shading::energyplus {
 
 Installation& installation() {
@@ -16,7 +18,7 @@ Run& this_run() {
 }
 
 void print_line(std::string const& line) {
-  std::fprintf(stderr, "gpu_shading: %s\n", line.c_str());
+  std::fprintf(stderr, "gpu_shading: %s\n", one_line(line).c_str());
 }
 
 Messages messages_of(Run const& run) {
@@ -26,12 +28,12 @@ Messages messages_of(Run const& run) {
   return {
       [&functions, state](std::string const& line) {
         print_line("warning: " + line);
-        functions.warning(*state, "gpu_shading: " + line);
+        functions.warning(*state, "gpu_shading: " + one_line(line));
         if (auto& task = installation().task) task->warn(line);
       },
       [&functions, state](std::string const& line) {
         print_line(line);
-        functions.text(*state, "gpu_shading: " + line);
+        functions.text(*state, "gpu_shading: " + one_line(line));
       },
       [eio](std::string const& line) {
         if (eio != nullptr) *eio << line;
@@ -47,7 +49,7 @@ void end_run(std::exception_ptr const& thrown) {
   } catch (TaskDone const&) {
     why = "done; no simulation was asked for";
   } catch (std::exception const& error) {
-    why = error.what();
+    why = one_line(error.what());
     print_line("error: " + why);
     if (installed.task) installed.task->fail(why);
   }

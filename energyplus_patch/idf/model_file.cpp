@@ -149,6 +149,7 @@ std::vector<InputObject> read_objects(std::filesystem::path const& path) {
 }
 
 nlohmann::json parse_epjson(std::string_view text) {
+  constexpr int most_depth = 100;
   // Keys of extension objects at the depths of types, of names, and of fields and below.
   std::vector<std::set<std::string>> keys;
   std::string title;
@@ -156,6 +157,7 @@ nlohmann::json parse_epjson(std::string_view text) {
   auto const watch = [&](int depth, nlohmann::json::parse_event_t event,
                          nlohmann::json const& parsed) {
     auto const level = static_cast<std::size_t>(depth);
+    if (depth > most_depth) throw Error(fmt::format("is nested more than {} deep", most_depth));
     // Its keys come a level deeper.
     if (event == nlohmann::json::parse_event_t::object_start) keys.resize(level + 1);
     if (event != nlohmann::json::parse_event_t::key) return true;

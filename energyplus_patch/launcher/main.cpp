@@ -5,22 +5,22 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "base/process.h"
+#include "base/text.h"
 #include "cache/cache_folder.h"
 #include "gpu_shading/error.h"
 #include "idf/model_file.h"
 #include "model/model_reader.h"
 #include "options/command_line.h"
+#include "options/report_folder.h"
 #include "runs/installation.h"
 
 namespace gpu_shading::energyplus {
@@ -85,13 +85,17 @@ constexpr char const* run_energyplus =
                           program.string(), std::strerror(errno)));
 }
 
-// Errors in the model are reported before anything is written.
-void check_model(Path const& path, Choices const& choices) {
+// Errors in the model are reported before anything is written. What it chooses is added to the
+// user's choices, so that the module can check the device before EnergyPlus starts.
+void check_model(Path const& path, Choices& choices) {
   if (!std::filesystem::exists(path) || (!is_idf(path) && !is_epjson(path))) return;
   auto const model = read_model(path, choices);
   if (model.options.mode != Mode::off) {
     check_supported(model.shading, read_version(own_folder()));
     if (model.options.cache) prepare_cache_folder(*model.options.cache);
+    if (model.options.report && !choices.task) prepare_report(*model.options.report);
+    choices.device = model.options.device;
+    choices.resolution = model.options.resolution;
   }
 }
 
@@ -135,17 +139,6 @@ int run_scheduled(Path const& energyplus, Module const& module,
   return status;
 }
 
-// The first line of a reason that lists further details on lines of their own.
-std::string in_one_line(std::string const& message) {
-  std::istringstream text(message);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(text, line);) lines.push_back(line);
-  if (lines.size() < 2) return message;
-  auto const first = lines[1].substr(std::min(lines[1].find_first_not_of(' '), lines[1].size()));
-  return fmt::format("{} {}{}", lines[0], first,
-                     lines.size() == 2 ? "" : fmt::format(" and {} more", lines.size() - 2));
-}
-
 // The program's name and EnergyPlus's arguments.
 int run_shaded(char const* program, std::vector<std::string> arguments, Choices const& choices) {
   auto const energyplus = find_energyplus_library(own_folder());
@@ -160,7 +153,7 @@ int run_shaded(char const* program, std::vector<std::string> arguments, Choices 
   int const installed = module.install(energyplus.c_str(), flags.count(), flags.data());
   if (installed == cannot_patch && method == Method::automatic) {
     fmt::print(stderr, "gpu_shading: sunlit fractions are passed as schedules: {}\n",
-               in_one_line(module.message()));
+               one_line(module.message()));
     return run_scheduled(energyplus, module, arguments, flags);
   }
   if (installed != 0) throw Error(module.message());
@@ -196,7 +189,8 @@ int main(int argc, char** argv) {
   try {
     return gpu_shading::energyplus::launch(argc, argv);
   } catch (std::exception const& error) {
-    std::fprintf(stderr, "gpu_shading: error: %s\n", error.what());
+    std::fprintf(stderr, "gpu_shading: error: %s\n",
+                 gpu_shading::energyplus::one_line(error.what()).c_str());
     return EXIT_FAILURE;
   }
 }

@@ -35,9 +35,9 @@ double number(InputObject const& object, std::string const& field, std::string_v
   auto const& text = object[field];
   if (text.empty()) return 0.0;
   auto const value = parse_number(text);
-  if (!value) {
-    throw Error(
-        fmt::format("{} {}: {} is \"{}\", not a number", object.type, object.name, title, text));
+  if (!value || std::abs(*value) > farthest_coordinate) {
+    throw Error(fmt::format("{}: {} is {}, expected a number from {} to {}", object.title(), title,
+                            in_quotes(text), -farthest_coordinate, farthest_coordinate));
   }
   return *value;
 }

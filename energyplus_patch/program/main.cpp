@@ -301,7 +301,8 @@ int main(int argc, char** argv) {
     interrupted.raise();
     return EXIT_FAILURE;
   } catch (std::exception const& error) {
-    std::fprintf(stderr, "gpu_shading: error: %s\n", error.what());
+    std::fprintf(stderr, "gpu_shading: error: %s\n",
+                 gpu_shading::energyplus::one_line(error.what()).c_str());
     return EXIT_FAILURE;
   }
 }

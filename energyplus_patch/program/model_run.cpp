@@ -87,7 +87,7 @@ TaskReply run_task(ModelRun const& run, Task const& task) {
   }
   if (auto const error = last_error(log)) throw Error(*error);
   require_room(folder.path());
-  throw Error(fmt::format("{}: EnergyPlus does not get as far as its shading calculation ({}):{}",
+  throw Error(fmt::format("{}: EnergyPlus does not get as far as its shading calculation ({}): {}",
                           model.string(), describe_status(status), stop_reasons(folder.path())));
 }
 

@@ -2,7 +2,18 @@
 
 #include <fstream>
 
+#include "base/text.h"
+
 namespace gpu_shading::energyplus {
+namespace {
+
+// What follows the asterisks of a line: "   ** Severe  ** text", "   **   ~~~   ** text".
+std::string text_of(std::string const& line) {
+  auto const mark = line.rfind("** ");
+  return mark == std::string::npos ? trimmed(line) : trimmed(line.substr(mark + 2));
+}
+
+}  // namespace
 
 std::string stop_reasons(std::filesystem::path const& folder) {
   std::ifstream file(folder / "eplusout.err");
@@ -10,12 +21,15 @@ std::string stop_reasons(std::filesystem::path const& folder) {
   bool severe = false;
   for (std::string line; std::getline(file, line);) {
     bool const continued = line.find("**   ~~~   **") != std::string::npos;
-    bool const starts =
-        line.find("** Severe") != std::string::npos || line.find("**  Fatal") != std::string::npos;
+    bool const fatal = line.find("**  Fatal") != std::string::npos;
+    bool const starts = fatal || line.find("** Severe") != std::string::npos;
     severe = starts || (continued && severe);
-    if (severe) found += "\n" + line;
+    if (!severe) continue;
+    if (starts) found += fatal ? "; Fatal:" : "; Severe:";
+    found += ' ';
+    found += text_of(line);
   }
-  return found;
+  return found.empty() ? "no reason is given" : found.substr(2);
 }
 
 }  // namespace gpu_shading::energyplus

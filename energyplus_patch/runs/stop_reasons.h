@@ -5,7 +5,7 @@
 
 namespace gpu_shading::energyplus {
 
-// The lines of eplusout.err in a run's folder that say why it stopped, each after a line break.
+// Why a run stopped, from the eplusout.err in its folder: "Severe: ...; Fatal: ...".
 std::string stop_reasons(std::filesystem::path const& folder);
 
 }  // namespace gpu_shading::energyplus

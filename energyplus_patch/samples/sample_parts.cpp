@@ -3,10 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
 
 #include "base/files.h"
+#include "cache/answers.h"
+#include "cache/digest.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
@@ -15,7 +20,7 @@ namespace {
 using Json = nlohmann::json;
 using Path = std::filesystem::path;
 
-constexpr int format = 1;
+constexpr int format = 2;
 
 // A plain number if nothing is scheduled, which is nearly always.
 Json to_json(Sunlit const& answer) {
@@ -66,6 +71,54 @@ Json to_json(SamplePart const& part) {
   return json;
 }
 
+std::string checksum(std::string_view contents) {
+  Digest digest;
+  digest.add(contents);
+  return to_text(digest.result());
+}
+
+// A JSON object of which the first member is the checksum of the others, to the end of the line.
+constexpr std::string_view checksum_key = "{\"xxh128\":\"";
+constexpr std::string_view checksum_end = "\",";
+
+std::string with_checksum(Json const& json) {
+  auto const contents = json.dump().substr(1);
+  return fmt::format("{}{}{}{}\n", checksum_key, checksum(contents), checksum_end, contents);
+}
+
+Json without_checksum(std::string_view text) {
+  auto const digits = 2 * sizeof(Hash);
+  auto const head = checksum_key.size() + digits + checksum_end.size();
+  if (text.starts_with("{") && !text.starts_with(checksum_key)) throw Error("has another version");
+  if (text.size() <= head || !text.starts_with(checksum_key) || text.back() != '\n') {
+    throw Error("is damaged");
+  }
+  auto const contents = text.substr(head, text.size() - head - 1);
+  if (text.substr(checksum_key.size(), digits) != checksum(contents) ||
+      text.substr(head - checksum_end.size(), checksum_end.size()) != checksum_end) {
+    throw Error("is damaged");
+  }
+  return Json::parse(fmt::format("{{{}", contents));
+}
+
+// What no renderer answers is not believed, even with the right checksum.
+void check_part(SamplePart const& part) {
+  auto const refuse = [] { throw Error("holds answers that are not possible"); };
+  AnswerLimits limits{{}, part.scene.schedules.size()};
+  for (auto const& receiver : part.scene.receivers) {
+    limits.areas.push_back(glm::length(receiver.area));
+    if (!std::isfinite(limits.areas.back())) refuse();
+  }
+  for (auto const& sun : part.directions) {
+    if (!std::isfinite(sun.azimuth) || !std::isfinite(sun.altitude)) refuse();
+  }
+  for (auto const& row : part.answers) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (!limits.allow(row[i], limits.areas[i])) refuse();
+    }
+  }
+}
+
 SamplePart part_from(Json const& json) {
   SamplePart part;
   if (json.at("format") != format) throw Error("has another version");
@@ -85,6 +138,7 @@ SamplePart part_from(Json const& json) {
     for (auto const& answer : row) answers.push_back(answer_from(answer));
     if (answers.size() != part.scene.receivers.size()) throw Error("lacks receivers");
   }
+  check_part(part);
   return part;
 }
 
@@ -113,7 +167,7 @@ std::optional<SamplePart> SampleParts::find(int round, int shard) const {
   auto const path = file(round, shard);
   if (!std::filesystem::exists(path)) return std::nullopt;
   try {
-    auto part = part_from(Json::parse(read_text_file(path)));
+    auto part = part_from(without_checksum(read_text_file(path)));
     if (part.round != round || !(part.shard == Shard{shard, shards_}) ||
         part.answers.size() != share(part.directions.size(), part.shard)) {
       throw Error("belongs to another round or shard");
@@ -129,7 +183,7 @@ void SampleParts::write(SamplePart const& part) const {
   std::error_code failure;
   std::filesystem::create_directories(folder_, failure);
   write_whole_file(file(part.round, part.shard.number),
-                   [&](std::ostream& out) { out << to_json(part) << '\n'; });
+                   [&](std::ostream& out) { out << with_checksum(to_json(part)); });
 }
 
 RenderedRound find_round(SampleParts const& parts, SampledScene const& scene, int round,

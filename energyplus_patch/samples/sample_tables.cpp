@@ -16,10 +16,6 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-std::string quoted(std::string const& text) {
-  return text.find_first_of(",\"\r\n") == std::string::npos ? text : csv_quoted(text);
-}
-
 struct Degrees {
   double azimuth;  // 0 .. 360
   double altitude;
@@ -73,8 +69,8 @@ void write_samples(SampleSet const& set, std::ostream& out) {
   for (auto const place : order) {
     auto const& [receiver, powers, fractions] = columns[place];
     auto const& lit = set.samples.lit(receiver);
-    auto const name = quoted(set.scene.receivers[receiver].name);
-    auto const product = quoted(product_of(powers, set.scene.schedules));
+    auto const name = csv_field(set.scene.receivers[receiver].name);
+    auto const product = csv_field(product_of(powers, set.scene.schedules));
     fmt::memory_buffer lines;
     for (std::size_t i = 0; i < directions.size(); ++i) {
       if (!lit[i] || (!powers.empty() && fractions[i] == 0.0)) continue;
@@ -88,7 +84,7 @@ void write_samples(SampleSet const& set, std::ostream& out) {
 
 void write_year(SampleSet const& set, RunTimes const& run, std::ostream& out) {
   out << "time,azimuth,altitude";
-  for (auto const& receiver : set.scene.receivers) out << ',' << quoted(receiver.name);
+  for (auto const& receiver : set.scene.receivers) out << ',' << csv_field(receiver.name);
   out << '\n';
   for (auto const& time : run.times) {
     std::vector<double> factors;

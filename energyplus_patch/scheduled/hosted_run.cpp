@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/progress.h"
+#include "base/text.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
@@ -68,7 +69,7 @@ void guarded(Action const& action) {
   try {
     action();
   } catch (std::exception const& error) {
-    std::fprintf(stderr, "gpu_shading: error: %s\n", error.what());
+    std::fprintf(stderr, "gpu_shading: error: %s\n", one_line(error.what()).c_str());
   }
 }
 

@@ -21,7 +21,11 @@ RenderedAnswers open_answers(SceneAssembly const& scene, std::span<SurfaceId con
   std::optional<AnswerCache> cache;
   if (options.cache) {
     auto const hash = scene.hash(renderer.scene(), renderer.device());
-    cache.emplace(*options.cache, hash, messages.remark);
+    AnswerLimits limits{{}, scene.optics().factor_names().size()};
+    for (SurfaceId id = 0; id < renderer.scene().size(); ++id) {
+      limits.areas.push_back(area(renderer.scene()[id].polygon));
+    }
+    cache.emplace(*options.cache, hash, std::move(limits), messages.remark);
   }
   RenderedAnswers answers(std::move(renderer), std::move(cache), receivers);
   answers.deploy(scene.optics().deployments());

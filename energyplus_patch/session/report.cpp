@@ -12,16 +12,15 @@
 #include "assets/image_file.h"
 #include "base/file_names.h"
 #include "base/files.h"
+#include "base/naming.h"
 #include "base/staged_files.h"
 #include "base/text.h"
 #include "gpu_shading/error.h"
+#include "options/report_folder.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
-constexpr char const* sunlit_table = "sunlit.csv";
-constexpr char const* pictures_table = "pictures.csv";
-constexpr char const* stages_table = "stages.csv";
 constexpr int picture_size = 800;
 
 struct Row {
@@ -105,26 +104,9 @@ void write_table(std::ostream& csv, Stages const& stages) {
   for (auto const& [stage, seconds] : stages) csv << fmt::format("{},{:.3f}\n", stage, seconds);
 }
 
-// A report that cannot be written is an error of the option.
-template <typename Action>
-void naming_the_option(Action const& action) {
-  try {
-    action();
-  } catch (Error const& error) {
-    throw Error(fmt::format("--gpu-shading-report: {}", error.what()));
-  }
-}
-
 auto const loaded = std::chrono::steady_clock::now();
 
 }  // namespace
-
-void prepare_report(std::filesystem::path const& folder) {
-  naming_the_option([&] {
-    StagedFiles files(folder);
-    for (auto const* const name : {sunlit_table, pictures_table, stages_table}) files.add(name);
-  });
-}
 
 Stages stages_of(RendererStatistics const& statistics) {
   double const passed =
@@ -169,7 +151,7 @@ std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer
     }
   };
   std::size_t left_out = 0;
-  naming_the_option([&] {
+  naming("--gpu-shading-report", [&] {
     StagedFiles files(folder);
     files.write(stages_table, [&](std::ostream& csv) { write_table(csv, stages); });
     files.write(sunlit_table, write_sunlit);

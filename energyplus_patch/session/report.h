@@ -10,11 +10,6 @@
 #include "gpu_shading/renderer.h"
 
 namespace gpu_shading::energyplus {
-
-// Creates the folder if it is missing, and changes nothing in it. Throws Error if a report cannot
-// be written there.
-void prepare_report(std::filesystem::path const& folder);
-
 // Wall-clock seconds of a run by stage.
 using Stages = std::vector<std::pair<std::string, double>>;
 

@@ -2,16 +2,45 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
+#include "base/text.h"
 #include "cache/build_id.h"
 #include "cache/scene_hash.h"
 #include "extensions/extension_fields.h"
+#include "gpu_shading/error.h"
+#include "model/geometry_rules.h"
 #include "session/shading_rule.h"
 
 namespace gpu_shading::energyplus {
 
+namespace {
+
+// EnergyPlus hands over what it has read, and files of geometry hold anything.
+void check_coordinates(Surface const& surface) {
+  auto const check = [&](Ring const& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      auto const& point = ring[i];
+      // Also where one is not a number.
+      if (std::abs(point.x) <= farthest_coordinate && std::abs(point.y) <= farthest_coordinate &&
+          std::abs(point.z) <= farthest_coordinate) {
+        continue;
+      }
+      throw Error(fmt::format(
+          "surface {}: vertex {} is ({}, {}, {}) m, expected {} m at most from "
+          "the origin",
+          printable(surface.name), i + 1, point.x, point.y, point.z, farthest_coordinate));
+    }
+  };
+  check(surface.polygon.outline);
+  for (auto const& hole : surface.polygon.holes) check(hole);
+}
+
+}  // namespace
+
 SurfaceId SceneAssembly::add(Surface surface) {
+  check_coordinates(surface);
   if (model_.lean.is_placeholder(surface.name)) surface.casting = Casting::never;
   if (surface.casting != Casting::never) surface.casting = model_.shading.casting(surface.name);
   return surfaces_.add(std::move(surface));
@@ -26,10 +55,16 @@ void SceneAssembly::complete(Schedules schedules) {
     unshaded_.push_back(!wanted && (placeholder || model_.shading.shading_surfaces.contains(name)));
   }
   complete_ = true;
-  for (auto& caster : model_.lean.casters) surfaces_.add(std::move(caster));
+  for (auto& caster : model_.lean.casters) {
+    check_coordinates(caster);
+    surfaces_.add(std::move(caster));
+  }
   model_.lean.casters.clear();
   model_.surroundings.first = static_cast<SurfaceId>(surfaces_.size());
-  for (auto& caster : model_.surroundings.casters) surfaces_.add(std::move(caster.surface));
+  for (auto& caster : model_.surroundings.casters) {
+    check_coordinates(caster.surface);
+    surfaces_.add(std::move(caster.surface));
+  }
   optics_ = ShadeOptics(model_, std::move(schedules));
 }
 

@@ -8,6 +8,7 @@
 
 #include "cache/cache_folder.h"
 #include "gpu_shading/error.h"
+#include "options/report_folder.h"
 #include "session/open_answers.h"
 #include "session/perform_task.h"
 #include "session/remarks.h"

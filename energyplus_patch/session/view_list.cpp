@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <glm/trigonometric.hpp>
 #include <sstream>
 #include <unordered_map>
 
+#include "base/files.h"
 #include "base/naming.h"
+#include "base/text.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
@@ -22,12 +23,12 @@ SunView read_view(std::string const& line, std::string const& place) {
     throw Error(
         fmt::format("{}: {}: expected the name of a picture, azimuth, altitude and, for a single "
                     "receiver, its name",
-                    place, line));
+                    place, in_quotes(line)));
   }
   std::getline(words >> std::ws, view.receiver);
   if (view.picture.find('/') != std::string::npos) {
-    throw Error(
-        fmt::format("{}: {}: expected the name of a file without folders", place, view.picture));
+    throw Error(fmt::format("{}: {}: expected the name of a file without folders", place,
+                            in_quotes(view.picture)));
   }
   view.sun = naming(place, [&] { return direction_of_degrees(azimuth, altitude); });
   return view;
@@ -49,8 +50,7 @@ SunDirection direction_of_degrees(double azimuth_degrees, double altitude_degree
 }
 
 std::vector<SunView> read_views(std::filesystem::path const& list) {
-  std::ifstream file(list);
-  if (!file) throw Error(fmt::format("{}: cannot be read", list.string()));
+  std::istringstream file(read_text_file(list));
   std::vector<SunView> views;
   std::unordered_map<std::string, int> lines;  // by picture
   int number = 0;
@@ -63,7 +63,7 @@ std::vector<SunView> read_views(std::filesystem::path const& list) {
     auto const& picture = views.back().picture;
     if (auto const [found, is_new] = lines.try_emplace(picture, number); !is_new) {
       throw Error(fmt::format("{}: {}: expected a name of its own; line {} has the same", place,
-                              picture, found->second));
+                              in_quotes(picture), found->second));
     }
   }
   return views;

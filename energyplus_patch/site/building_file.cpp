@@ -50,15 +50,17 @@ std::optional<double> measure(Json const& properties, std::string const& name,
                               std::string_view expected) {
   auto const& value = member(properties, name);
   if (value.is_null()) return std::nullopt;
-  if (value.is_number()) return value.get<double>();
   auto text = text_of(value);
   if (text.empty()) return std::nullopt;
   auto number = text;
-  if (number.ends_with('m')) number.pop_back();
+  if (value.is_string() && number.ends_with('m')) number.pop_back();
   while (number.ends_with(' ')) number.pop_back();
   auto const parsed = parse_number(number);
-  if (!parsed || !std::isfinite(*parsed)) {
-    throw Error(fmt::format("{} is \"{}\", expected {}", name, text, expected));
+  // Higher than any mountain is a damaged file, or another unit.
+  constexpr double most = 10'000.0;
+  if (!parsed || !(std::abs(*parsed) <= most)) {
+    throw Error(fmt::format("{} is {}, expected {} of at most {:.0f}", name, in_quotes(text),
+                            expected, most));
   }
   return parsed;
 }
@@ -76,8 +78,8 @@ double height_of(Json const& properties, HeightRule const& rule) {
                             rule.levels));
   }
   if (height && *height <= 0.0) {
-    throw Error(
-        fmt::format("{} is {}, expected more than 0", source, text_of(member(properties, source))));
+    throw Error(fmt::format("{} is {}, expected more than 0", source,
+                            printable(text_of(member(properties, source)))));
   }
   return height.value_or(rule.otherwise.value_or(0.0));
 }
@@ -89,7 +91,9 @@ GeographicRing read_ring(Json const& positions, MapCoordinates const& coordinate
   for (auto const& position : positions) {
     if (!position.is_array() || position.size() < 2 || !position[0].is_number() ||
         !position[1].is_number()) {
-      throw Error(fmt::format("a position is {}, expected two numbers", position.dump()));
+      throw Error(
+          fmt::format("a position is {}, expected two numbers",
+                      printable(position.dump(-1, ' ', false, Json::error_handler_t::replace))));
     }
     ring.push_back(
         coordinates.to_geographic({position[0].get<double>(), position[1].get<double>()}));
@@ -179,6 +183,12 @@ MapCoordinates stated_coordinates(Json const& root) {
   }
 }
 
+bool refuse_deep(int depth, Json::parse_event_t /*event*/, Json const& /*parsed*/) {
+  constexpr int most = 100;
+  if (depth > most) throw Error(fmt::format("is nested more than {} deep", most));
+  return true;
+}
+
 void read_root(Json const& root, HeightRule const& heights,
                std::optional<MapCoordinates> const& coordinates, BuildingFile& file) {
   auto const type = type_of(root);
@@ -201,7 +211,7 @@ BuildingFile read_buildings(std::filesystem::path const& path, HeightRule const&
   return naming(path.string(), [&] {
     BuildingFile file;
     try {
-      read_root(Json::parse(text), heights, coordinates, file);
+      read_root(Json::parse(text, refuse_deep), heights, coordinates, file);
     } catch (Json::exception const& error) {
       throw Error(fmt::format("is not GeoJSON: {}", error.what()));
     }

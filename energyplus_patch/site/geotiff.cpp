@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "assets/elevation_file.h"
+#include "base/files.h"
 #include "gpu_shading/error.h"
 #include "site/terrain_file.h"
 
@@ -31,6 +32,7 @@ MapCoordinates coordinates_of(gpu_shading_elevation_info const& info) {
 }  // namespace
 
 bool is_tiff(std::filesystem::path const& path) {
+  require_file(path);
   std::array<char, 4> bytes{};
   std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
   std::string_view const start(bytes.data(), bytes.size());

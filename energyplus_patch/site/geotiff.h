@@ -7,7 +7,7 @@
 
 namespace gpu_shading::energyplus {
 
-// Recognised by its first bytes.
+// Recognised by its first bytes. Throws Error if it is not a file.
 bool is_tiff(std::filesystem::path const& path);
 
 // Reads a GeoTIFF with one channel of elevations in metres, up to max_terrain_nodes of them, whose

@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
+#include "base/files.h"
 #include "base/naming.h"
 #include "base/text.h"
 #include "gpu_shading/error.h"
@@ -47,6 +48,7 @@ using Days = std::pair<std::string, std::string>;
 
 // The fifth line of an EPW: HOLIDAYS/DAYLIGHT SAVINGS, leap years, first day, last day; 0 for none.
 std::optional<Days> saving_in(std::filesystem::path const& weather) {
+  require_file(weather);
   std::ifstream file(weather);
   if (!file) throw Error(fmt::format("{}: cannot be read", weather.string()));
   constexpr int header_lines = 8;

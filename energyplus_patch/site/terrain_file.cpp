@@ -46,18 +46,28 @@ class Words {
   std::string_view rest_;
 };
 
-bool is_number(std::string_view word) { return parse_number(std::string(word)).has_value(); }
+// As grids may have it where they have no data.
+bool is_nan(std::string_view word) { return same_name(word, "nan") || same_name(word, "-nan"); }
+
+bool is_number(std::string_view word) {
+  return is_nan(word) || parse_number(std::string(word)).has_value();
+}
 
 class Header {
+  // Far beyond any coordinate, and what is used for NODATA.
+  static constexpr double most_value = 1e39;
+
  public:
   // Reads pairs of key and value up to the first elevation.
   explicit Header(Words& words) {
     while (!words.peek().empty() && !is_number(words.peek())) {
       auto const key = upper(words.next());
       auto const text = std::string(words.next());
-      auto const value = parse_number(text);
-      // A grid may contain nan where it has no data.
-      if (!value) throw Error(fmt::format("{} is \"{}\", not a number", key, text));
+      bool const no_data = key == "NODATA_VALUE" && is_nan(text);
+      auto const value = no_data ? std::numeric_limits<double>::quiet_NaN() : parse_number(text);
+      if (!value || std::abs(*value) > most_value) {
+        throw Error(fmt::format("{} is {}, expected a number", printable(key), in_quotes(text)));
+      }
       values_[key] = *value;
     }
   }
@@ -119,11 +129,13 @@ void read_elevations(Words& words, double no_data, TerrainGrid& grid) {
         throw Error(fmt::format("ends in row {} of {}, column {} of {}", row + 1, grid.rows,
                                 column + 1, grid.columns));
       }
-      if (error != std::errc{} || end != word.data() + word.size()) {
-        throw Error(
-            fmt::format("row {}, column {} is \"{}\", not a number", row + 1, column + 1, word));
+      bool const missing = value == no_data || (std::isnan(value) && std::isnan(no_data));
+      if (error != std::errc{} || end != word.data() + word.size() ||
+          (!missing && !std::isfinite(value))) {
+        throw Error(fmt::format("row {}, column {} is {}, expected a number{}", row + 1, column + 1,
+                                in_quotes(word),
+                                std::isnan(value) ? " (NODATA_value is not nan)" : ""));
       }
-      bool const missing = value == no_data || !std::isfinite(value);
       to[column] = missing ? std::numeric_limits<double>::quiet_NaN() : value;
     }
   }

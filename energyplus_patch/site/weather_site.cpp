@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "base/files.h"
 #include "base/text.h"
 #include "gpu_shading/error.h"
 
@@ -14,9 +15,9 @@ namespace {
 double number(std::filesystem::path const& weather, std::string const& text, std::string_view field,
               double most) {
   auto const value = parse_number(text);
-  if (!value || std::abs(*value) > most) {
-    throw Error(fmt::format("{}: LOCATION: {} is \"{}\", expected a number from {} to {}",
-                            weather.string(), field, text, -most, most));
+  if (!value || !(std::abs(*value) <= most)) {
+    throw Error(fmt::format("{}: LOCATION: {} is {}, expected a number from {} to {}",
+                            weather.string(), field, in_quotes(text), -most, most));
   }
   return *value;
 }
@@ -24,6 +25,7 @@ double number(std::filesystem::path const& weather, std::string const& text, std
 }  // namespace
 
 WeatherSite read_weather_site(std::filesystem::path const& weather) {
+  require_file(weather);
   std::ifstream file(weather);
   std::string line;
   if (!file || !std::getline(file, line)) {

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <link.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <system_error>
@@ -43,6 +44,11 @@ GlModule const& load() {
 
 GlModule const& gl_module() {
   static GlModule const& loaded = load();
+  // Drivers have threads and connections, which a forked process does not get.
+  static pid_t const process = getpid();
+  if (getpid() != process) {
+    throw DeviceError("no OpenGL: this process was forked from one that had already loaded it");
+  }
   return loaded;
 }
 

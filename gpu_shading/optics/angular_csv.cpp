@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -52,7 +54,16 @@ std::vector<std::string> split(std::string_view text) {
 }
 
 std::vector<Line> read_lines(std::filesystem::path const& path) {
+  // Not a pipe or a device, which may never come to an end.
+  constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20U;
+  std::error_code failure;
+  if (std::filesystem::exists(path, failure) && !std::filesystem::is_regular_file(path, failure)) {
+    throw Error(fmt::format("{}: is not a file", path.string()));
+  }
   std::ifstream file(path);
+  if (file && std::filesystem::file_size(path, failure) > most_bytes) {
+    throw Error(fmt::format("{}: is larger than 64 MiB", path.string()));
+  }
   if (!file) throw Error(fmt::format("{}: cannot be read", path.string()));
   std::vector<Line> lines;
   std::string text;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
+#include "threads/parallel.h"
 
 namespace gpu_shading {
 namespace {
@@ -54,13 +55,18 @@ double PerforatedScreen::open_fraction() const {
 }
 
 ScreenTransmittance const& PerforatedScreen::transmittance() const {
-  tbb::collaborative_call_once(lazy_->once, [&] {
+  auto const make = [&] {
     if (pattern_) {
       lazy_->transmittance.emplace(*pattern_, sheet_.thickness);
     } else {
       lazy_->transmittance.emplace(*tile_, sheet_.thickness);
     }
-  });
+  };
+  if (!lacks_threads()) {
+    tbb::collaborative_call_once(lazy_->once, make);
+  } else if (!lazy_->transmittance) {
+    make();
+  }
   return *lazy_->transmittance;
 }
 

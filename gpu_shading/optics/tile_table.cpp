@@ -1,7 +1,5 @@
 #include "optics/tile_table.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +7,7 @@
 #include <numbers>
 
 #include "optics/tile_rays.h"
+#include "threads/parallel.h"
 
 namespace gpu_shading {
 namespace {
@@ -261,8 +260,7 @@ Maker::Region Maker::made(std::size_t region) const {
 
 std::vector<Maker::Region> Maker::made_all() const {
   std::vector<Region> all(regions());
-  tbb::parallel_for(std::size_t{0}, all.size(),
-                    [&](std::size_t region) { all[region] = made(region); });
+  for_each_index(all.size(), [&](std::size_t region) { all[region] = made(region); });
   return all;
 }
 

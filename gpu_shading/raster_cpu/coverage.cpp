@@ -1,8 +1,5 @@
 #include "raster_cpu/coverage.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -12,6 +9,8 @@
 #include <mutex>
 #include <numeric>
 #include <utility>
+
+#include "threads/parallel.h"
 
 namespace gpu_shading {
 namespace {
@@ -52,9 +51,11 @@ LuminanceSums unscheduled(double sum) { return {sum, {}}; }
 template <typename Use>
 void in_rows(int side, int threads, Use use) {
   if (threads <= 1) return use(0, side);
-  using Rows = tbb::blocked_range<int>;
-  auto const share = static_cast<std::size_t>((side + threads - 1) / threads);
-  tbb::parallel_for(Rows(0, side, share), [&](Rows const& rows) { use(rows.begin(), rows.end()); });
+  int const share = (side + threads - 1) / threads;
+  for_each_index(static_cast<std::size_t>((side + share - 1) / share), [&](std::size_t part) {
+    int const first = static_cast<int>(part) * share;
+    use(first, std::min(first + share, side));
+  });
 }
 
 }  // namespace

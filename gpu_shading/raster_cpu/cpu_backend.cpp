@@ -1,12 +1,12 @@
 #include "raster_cpu/cpu_backend.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <utility>
 
 #include "gpu_shading/error.h"
+#include "threads/parallel.h"
 #include "view/instructions.h"
 #include "view/stopwatch.h"
 #include "view/view.h"
@@ -17,7 +17,7 @@ namespace {
 // Number of casters from which several cores share a view.
 constexpr std::size_t worth_sharing = 200;
 
-int cores() { return tbb::this_task_arena::max_concurrency(); }
+int cores() { return lacks_threads() ? 1 : tbb::this_task_arena::max_concurrency(); }
 
 }  // namespace
 
@@ -62,12 +62,12 @@ void CpuBackend::add(std::vector<ReceiverView> views) {
   noted.reserve(views.size());
   for (ReceiverView const& view : views) noted.push_back(note_screens(view, directions));
   std::vector<std::vector<SheetInBeam>> sheets(directions.size());
-  tbb::parallel_for(std::size_t{0}, sheets.size(),
-                    [&](std::size_t i) { sheets[i] = transmission_.sheets(directions[i]); });
+  for_each_index(sheets.size(),
+                 [&](std::size_t i) { sheets[i] = transmission_.sheets(directions[i]); });
   bool const few = views.size() < static_cast<std::size_t>(cores());
   std::size_t const first = sums_.size();
   sums_.resize(first + views.size());
-  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
+  for_each_index(views.size(), [&](std::size_t i) {
     ReceiverView const& view = views[i];
     ScreensInView screens;
     if (!noted[i].numbers.empty()) {

@@ -1,7 +1,5 @@
 #include "raster_cpu/cpu_picture_raster.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include "raster_cpu/luminance_tile.h"
 #include "raster_cpu/screen_shading.h"
 #include "scene/casters.h"
+#include "threads/parallel.h"
 #include "view/pixel_mask.h"
 
 namespace gpu_shading {
@@ -45,8 +44,9 @@ template <typename Use>
 void in_rows(PictureGrid const& grid, Use use) {
   constexpr int some = RowSpans::rows;
   int const parts = (grid.height + some - 1) / some;
-  tbb::parallel_for(0, parts, [&](int part) {
-    use(Rows{part * some, std::min((part + 1) * some, grid.height)});
+  for_each_index(static_cast<std::size_t>(parts), [&](std::size_t part) {
+    int const first = static_cast<int>(part) * some;
+    use(Rows{first, std::min(first + some, grid.height)});
   });
 }
 

@@ -1,11 +1,10 @@
 #include "render/question_batch.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "threads/parallel.h"
 #include "view/stopwatch.h"
 
 namespace gpu_shading {
@@ -36,7 +35,7 @@ void QuestionBatch::look() {
   std::vector<InView> in_view(asked_.size());
   {
     Stopwatch const watch(parts_.statistics.cull_seconds);
-    tbb::parallel_for(std::size_t{0}, asked_.size(), [&](std::size_t i) {
+    for_each_index(asked_.size(), [&](std::size_t i) {
       Asked const& asked = asked_[i];
       in_view[i] =
           parts_.casters.in_view(parts_.scene, asked.question.receiver, *asked.receiver->frame,

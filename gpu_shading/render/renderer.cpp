@@ -1,6 +1,7 @@
 #include "gpu_shading/renderer.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -80,12 +81,23 @@ class Renderer::Implementation {
 
  private:
   QuestionBatch new_batch() {
+    check_process();
     return QuestionBatch({scene_, casters_, transmission_, *receivers_, *backend_, statistics_});
+  }
+
+  // A context of OpenGL's does not survive a fork; the CPU's back end does.
+  void check_process() const {
+    if (device().index < 0 || getpid() == process_) return;
+    throw DeviceError(fmt::format(
+        "{}: this process was forked from the one that opened the device: open it after "
+        "forking, or compute on the CPU",
+        device().renderer));
   }
 
   // What each caster transmits, with factors for schedules; 1 where there are too few.
   std::vector<Shade> shades_at(ShadedReceiver const& shaded, std::span<double const> factors) const;
 
+  pid_t process_ = getpid();
   Scene scene_;
   Casters casters_;
   Transmission transmission_;
@@ -158,6 +170,7 @@ std::vector<Shade> Renderer::Implementation::shades_at(ShadedReceiver const& sha
 Image Renderer::Implementation::sun_view(SunDirection sun, SurfaceId id, int size,
                                          std::span<double const> factors) {
   Stopwatch const watch(statistics_.seconds);
+  check_process();
   if (size < 1 || size > device().max_resolution) {
     throw Error(fmt::format("size {} of a sun's view: expected 1 to {} pixels", size,
                             device().max_resolution));

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <set>
 
 #include "base/process.h"
@@ -87,7 +89,11 @@ struct Cached {
       : path(std::move(folder)), scene(scene_of(number)) {}
 
   AnswerCache open(std::uint64_t most_bytes = AnswerCache::default_most_bytes) {
-    return {path, scene, [this](std::string const& line) { remarks.push_back(line); }, most_bytes};
+    return {path,
+            scene,
+            {std::vector<double>(10, 30.0), 3},
+            [this](std::string const& line) { remarks.push_back(line); },
+            most_bytes};
   }
   fs::path file() const { return path / cache_file_name(fmt::format("{:02x}{:030}", scene[0], 0)); }
   AnswerSet stored() const { return decode(read(file()), scene); }
@@ -189,6 +195,58 @@ TEST(AnswerCache, OtherScenesHaveOtherFiles) {
   auto& direction = run.answers.at(noon, 0);
   two.open().recall(run, direction);
   EXPECT_FALSE(direction.knows(0));
+}
+
+TEST(AnswerCache, ImpossibleAnswersAreNotBelieved) {
+  auto const with = [](Sunlit const& answer) {
+    AnswerSet set = some_answers();
+    set.answers.keep(set.answers.at(noon, 0), 0, answer);
+    return set;
+  };
+  auto const inside = [](Sunlit const& answer) {
+    AnswerSet set = some_answers();
+    set.answers.keep_interior(set.answers.at(noon, 0), 5, {answer});
+    return set;
+  };
+  auto const foreign = [] {
+    AnswerSet set = some_answers();
+    set.receivers[1] = 10;
+    return set;
+  };
+  std::vector<AnswerSet> sets;
+  sets.push_back(with(lit(30.001)));
+  sets.push_back(with(lit(-0.001)));
+  sets.push_back(with(lit(std::numeric_limits<double>::infinity())));
+  sets.push_back(with(lit(1.0, {{{{3, 1}}, 0.5}})));
+  sets.push_back(with(lit(1.0, {{{{-1, 1}}, 0.5}})));
+  sets.push_back(with(lit(1.0, {{{{0, 1}}, -0.5}})));
+  sets.push_back(with(lit(29.0, {{{{0, 1}}, 2.0}})));
+  sets.push_back(inside(lit(31.0)));
+  sets.push_back(inside(lit(std::numeric_limits<double>::quiet_NaN())));
+  sets.push_back(foreign());
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    TemporaryFolder const folder;
+    Cached cached(folder.path());
+    cached.open().store(sets[i]);  // with the right checksum
+    auto cache = cached.open();
+    EXPECT_THAT(cached.remarks,
+                testing::ElementsAre(HasSubstr("holds answers that are not possible")))
+        << i;
+    auto run = some_answers();
+    run.answers = Answers();
+    auto& direction = run.answers.at(noon, 1);
+    cache.recall(run, direction);
+    EXPECT_FALSE(direction.recalled) << i;
+  }
+}
+
+TEST(AnswerCache, PipesAreNotWaitedFor) {
+  TemporaryFolder const folder;
+  Cached cached(folder.path());
+  ASSERT_EQ(mkfifo(cached.file().c_str(), 0600), 0);
+  auto cache = cached.open();
+  EXPECT_THAT(cached.remarks, testing::ElementsAre(HasSubstr("cannot be read")));
+  EXPECT_THROW(cache.store(some_answers()), Error);
 }
 
 TEST(AnswerCache, DamagedFileIsIgnoredWithARemarkAndReplaced) {

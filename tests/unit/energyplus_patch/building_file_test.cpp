@@ -126,6 +126,19 @@ TEST(BuildingFile, SaysWhatIsWrong) {
   EXPECT_THAT(refusal(R"({"type": "Polygon", "coordinates": [[["8", 47]]]})"),
               HasSubstr("expected two numbers"));
   EXPECT_THAT(refusal(R"({"type": "Polygon", "coordinates": 7})"), HasSubstr("not rings"));
+  for (auto const* const height : {"1e308", "-1e308", "\"inf\"", "\"nan\"", "1e999"}) {
+    auto const value = std::string(height);
+    EXPECT_NE(refusal(feature(R"({"height": )" + value + "}")), "accepted") << value;
+    EXPECT_NE(refusal(feature(R"({"building:levels": )" + value + "}")), "accepted") << value;
+    EXPECT_NE(refusal(feature(R"({"height": 3, "min_height": )" + value + "}")), "accepted")
+        << value;
+    EXPECT_NE(refusal(R"({"type": "Polygon", "coordinates": [[[)" + value + ",1],[2,1],[2,2]]]}"),
+              "accepted")
+        << value;
+  }
+  std::string const deep(80'000, '[');
+  EXPECT_THAT(refusal(R"({"type": "Polygon", "coordinates": )" + deep),
+              HasSubstr("is nested more than 100 deep"));
   EXPECT_THROW(read_buildings("/nowhere/town.geojson", {}, std::nullopt), Error);
 }
 

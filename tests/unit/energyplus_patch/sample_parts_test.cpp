@@ -92,6 +92,49 @@ TEST(SampleParts, EightShardsMakeTheTableOfOne) {
   EXPECT_THAT(table, HasSubstr(",Leaves*Blind^2,"));
 }
 
+std::string text_of(std::filesystem::path const& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(SampleParts, DamageAnywhereIsSeen) {
+  TemporaryFolder const folder;
+  SampleParts const parts(folder.path(), 1);
+  SamplePart part{scene, "device", 1, {1, 1}, {{0.1, 0.2}}, {}};
+  part.answers.push_back({answer(scene.receivers[0].area, part.directions[0]), {}, {}});
+  parts.write(part);
+  auto const path = parts.file(1, 1);
+  auto const good = text_of(path);
+  ASSERT_TRUE(parts.find(1, 1));
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    auto bad = good;
+    bad[i] = static_cast<char>(bad[i] ^ 1);
+    std::ofstream(path) << bad;
+    EXPECT_THROW(parts.find(1, 1), Error) << i;
+    std::ofstream(path) << good.substr(0, i);
+    EXPECT_THROW(parts.find(1, 1), Error) << i;
+  }
+}
+
+TEST(SampleParts, ImpossibleAnswersAreNotBelieved) {
+  auto const refused = [](auto const& change) {
+    TemporaryFolder const folder;
+    SampleParts const parts(folder.path(), 1);
+    SamplePart part{scene, "device", 1, {1, 1}, {{0.1, 0.2}}, {}};
+    part.answers.emplace_back(3);
+    part.answers[0][1] = answer({0.0, 0.0, 1.0}, {0.1, 0.4});
+    change(part);
+    parts.write(part);
+    EXPECT_THAT([&] { parts.find(1, 1); }, ThrowsMessage<Error>(HasSubstr("not possible")));
+  };
+  refused([](SamplePart& part) { part.answers[0][0].projected_area = 2.001; });
+  refused([](SamplePart& part) { part.answers[0][0].projected_area = -0.001; });
+  refused([](SamplePart& part) { part.answers[0][0].projected_area = 1e308; });
+  refused([](SamplePart& part) { part.answers[0][1].scheduled[0].projected_area = 4.0; });
+  refused([](SamplePart& part) { part.answers[0][1].scheduled[0].powers[0].first = 2; });
+  refused([](SamplePart& part) { part.answers[0][1].scheduled[0].powers[0].second = -1; });
+}
+
 TEST(SampleParts, ARoundWaitsForAllShardsOfTheOneBefore) {
   TemporaryFolder const folder;
   Rendered rendered;

@@ -2,11 +2,15 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
+#include <memory>
 #include <numbers>
 #include <regex>
 
@@ -91,6 +95,61 @@ TEST(Session, ShadingSurfaceNobodyAsksAfterCostsNothing) {
   EXPECT_NEAR(session.projected_sunlit_area(plate), 4.0 * 0.5, 1e-6);
   session.set_sun(zenith);
   EXPECT_NEAR(session.projected_sunlit_area(named), 0.0, 1e-3);
+}
+
+TEST(Session, CoordinatesAreNumbersOnEarth) {
+  for (double const value : {std::numeric_limits<double>::quiet_NaN(),
+                             std::numeric_limits<double>::infinity(), 1e308, -1.1e7}) {
+    Session session(model_of(""));
+    auto wall = surface_of("WALL", rectangle({0, 0, 0}, {1, 0, 0}, {0, 0, 1}));
+    auto pierced = wall;
+    wall.polygon.outline[2].y = value;
+    pierced.polygon.holes.push_back({{0, 0, 0}, {0, 0, value}, {1, 0, 0}});
+    EXPECT_THAT(
+        [&] { session.add(wall); },
+        testing::ThrowsMessage<Error>(testing::HasSubstr("surface WALL: vertex 3 is (1, ")));
+    EXPECT_THROW(session.add(pierced), Error);
+  }
+}
+
+// A child process has none of its parent's threads.
+TEST(Session, AnswersInAForkedProcessAsBefore) {
+  auto model = model_of("Schedule:Constant,LEAVES,,0.5;");
+  model.shading.shading_surfaces["TREE"] = {"Shading:Site:Detailed", "LEAVES"};
+  model.options.device.kind = DeviceChoice::Kind::cpu;
+  Schedules const schedules{[](std::string const&) { return std::pair(0.0, 1.0); },
+                            [](std::string const&, Moment) { return 0.5; }};
+  constexpr int strips = 40;
+  // Answers of all strips, above which the tree covers some.
+  auto const ask = [&](Session& session, double altitude) {
+    session.set_sun({0.3, altitude});
+    std::vector<float> areas;
+    for (SurfaceId id = 1; id <= strips; ++id) areas.push_back(session.projected_sunlit_area(id));
+    return areas;
+  };
+  Said said;
+  auto const started = [&] {
+    auto session = std::make_unique<Session>(model);
+    session->add(surface_of("TREE", rectangle({0.2, 0.1, 1}, {20, 0, 0}, {0, 0.6, 0})));
+    for (int i = 0; i < strips; ++i) {
+      session->add(surface_of("STRIP", rectangle({i, 0, 0}, {0.9, 0, 0}, {0, 1, 0})));
+    }
+    session->start(said.messages(), schedules, {});
+    session->set_time({12, 1});
+    return session;
+  };
+  auto const expected = ask(*started(), 1.0);
+  auto const before = started();
+  ask(*before, 0.7);
+  pid_t const child = fork();
+  if (child == 0) {
+    alarm(60);
+    bool const same = ask(*before, 1.0) == expected && ask(*started(), 1.0) == expected;
+    _exit(same ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
 }
 
 TEST(Session, SameDirectionIsRenderedOnce) {
@@ -454,7 +513,7 @@ TEST(Session, CachedInteriorsAreNotRenderedAgain) {
   known.answers.for_each([&](Answers::Direction const& direction) {
     for (auto const& [question, answers] : direction.interior) {
       std::vector<Sunlit> changed(answers.size());
-      for (auto& answer : changed) answer.projected_area = 42.0;
+      for (auto& answer : changed) answer.projected_area = 0.125;
       odd.answers.keep_interior(odd.answers.at(direction.sun, direction.state), question, changed);
     }
   });
@@ -464,8 +523,8 @@ TEST(Session, CachedInteriorsAreNotRenderedAgain) {
              static_cast<std::streamsize>(bytes.size()));
   WithCache second(folder.path(), 4, 0.5);
   auto const answers = second.ask();
-  EXPECT_EQ(answers[0], 42.0F);
-  EXPECT_EQ(answers[1], 42.0F);
+  EXPECT_EQ(answers[0], 0.125F);
+  EXPECT_EQ(answers[1], 0.125F);
   EXPECT_NEAR(answers[2], 1.5, 1e-2) << "is not in the file, so rendered";
 }
 

@@ -115,7 +115,7 @@ TEST(SiteClock, SaysWhatIsWrong) {
       refusal_of([] { clock_of(golden + "RunPeriodControl:DaylightSavingTime,spring,autumn;"); }),
       HasSubstr("RunPeriodControl:DaylightSavingTime: \"spring\" is not a day"));
   EXPECT_THAT(refusal_of([] { SiteClock(read_idf(golden), "/nowhere/w.epw"); }),
-              HasSubstr("/nowhere/w.epw: cannot be read"));
+              HasSubstr("/nowhere/w.epw: no such file"));
 }
 
 }  // namespace

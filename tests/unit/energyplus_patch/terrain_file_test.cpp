@@ -44,7 +44,7 @@ TEST(TerrainFile, RowsComeFromTheNorthAndNodesAreCentres) {
 TEST(TerrainFile, OtherWaysOfSayingIt) {
   auto const grid = read(
       "NCOLS 2\r\nNROWS 2\r\nXLLCENTER -5\r\nYLLCENTER 7.5\r\ndx 2\r\ndy 3\r\n"
-      "1e3 -9999\r\nnan +2.5\r\n");
+      "1e3 -9999\r\n-9999 +2.5\r\n");
   EXPECT_EQ(grid.first.x, -5.0);
   EXPECT_EQ(grid.first.y, 7.5);
   EXPECT_EQ(grid.step_x, 2.0);
@@ -55,9 +55,16 @@ TEST(TerrainFile, OtherWaysOfSayingIt) {
   EXPECT_EQ(grid.elevation(1, 0), 2.5);
 }
 
+TEST(TerrainFile, NotANumberIsNoDataWhereTheHeaderSaysSo) {
+  auto const grid = read(header + "NODATA_value nan\nnan 5 6\n1 NaN 3\n");
+  EXPECT_TRUE(std::isnan(grid.elevation(0, 1)));
+  EXPECT_TRUE(std::isnan(grid.elevation(1, 0)));
+  EXPECT_EQ(grid.elevation(2, 0), 3.0);
+}
+
 TEST(TerrainFile, SaysWhatIsWrong) {
   EXPECT_THAT(refusal(""), HasSubstr("hill.asc: is not an ESRI ASCII grid: NCOLS is missing"));
-  EXPECT_THAT(refusal("ncols three"), HasSubstr("NCOLS is \"three\", not a number"));
+  EXPECT_THAT(refusal("ncols three"), HasSubstr("NCOLS is \"three\", expected a number"));
   EXPECT_THAT(refusal("ncols 1\nnrows 2\n"), HasSubstr("NCOLS is 1, expected an integer from 2"));
   EXPECT_THAT(refusal("ncols 2000\nnrows 2000\n"),
               HasSubstr("2000 x 2000 cells, expected at most"));
@@ -67,11 +74,16 @@ TEST(TerrainFile, SaysWhatIsWrong) {
   EXPECT_THAT(refusal(header + "4 5 6\n1 2"), HasSubstr("ends in row 2 of 2, column 3 of 3"));
   EXPECT_THAT(refusal(header + "4 5 6\n1 2 3 4"), HasSubstr("has more than 3 x 2 elevations"));
   EXPECT_THAT(refusal(header + "4 5 6\n1 x 3"),
-              HasSubstr("row 2, column 2 is \"x\", not a number"));
+              HasSubstr("row 2, column 2 is \"x\", expected a number"));
   EXPECT_THAT(refusal(header + "-9999 -9999 -9999 -9999 -9999 -9999"),
               HasSubstr("all cells are NODATA"));
   EXPECT_THAT(refusal(header + "4 5 6\n1 9001 3"),
               HasSubstr("row 1 from the south, column 2 is 9001 m, expected -500 to 9000"));
+  for (auto const* const word : {"inf", "-inf", "1e308", "1e999", "nan"}) {
+    EXPECT_THAT(refusal(header + "4 5 6\n1 " + word + " 3"), HasSubstr("column 2 is "));
+    EXPECT_THAT(refusal("ncols 2\nnrows 2\ncellsize " + std::string(word)),
+                HasSubstr("CELLSIZE is \"" + std::string(word) + "\", expected a number"));
+  }
   EXPECT_THROW(read_terrain("/nowhere/hill.asc", {}), Error);
 }
 

@@ -1,0 +1,15 @@
+#include "options/report_folder.h"
+
+#include "base/naming.h"
+#include "base/staged_files.h"
+
+namespace gpu_shading::energyplus {
+
+void prepare_report(std::filesystem::path const& folder) {
+  naming("--gpu-shading-report", [&] {
+    StagedFiles files(folder);
+    for (auto const* const name : {sunlit_table, pictures_table, stages_table}) files.add(name);
+  });
+}
+
+}  // namespace gpu_shading::energyplus

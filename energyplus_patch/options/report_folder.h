@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+namespace gpu_shading::energyplus {
+
+// The tables in the folder of --gpu-shading-report.
+inline constexpr char const* sunlit_table = "sunlit.csv";
+inline constexpr char const* pictures_table = "pictures.csv";
+inline constexpr char const* stages_table = "stages.csv";
+
+// Creates the folder if it is missing. Throws Error, naming the option, if the report cannot be
+// written into it.
+void prepare_report(std::filesystem::path const& folder);
+
+}  // namespace gpu_shading::energyplus
