@@ -23,10 +23,10 @@
 #include "idf/model_file.h"
 #include "model/model_reader.h"
 #include "options/options.h"
-#include "program/check.h"
+#include "program/check_model.h"
 #include "program/export.h"
+#include "program/picture_files.h"
 #include "program/sample.h"
-#include "program/view.h"
 #include "program/view_times.h"
 
 namespace gpu_shading::energyplus {

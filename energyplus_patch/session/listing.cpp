@@ -9,8 +9,8 @@
 
 #include "base/text.h"
 #include "extensions/extension_fields.h"
+#include "session/model_rule.h"
 #include "session/shade_optics.h"
-#include "session/shading_rule.h"
 
 namespace gpu_shading::energyplus {
 namespace {

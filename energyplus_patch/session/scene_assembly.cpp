@@ -11,7 +11,7 @@
 #include "extensions/extension_fields.h"
 #include "gpu_shading/error.h"
 #include "model/geometry_rules.h"
-#include "session/shading_rule.h"
+#include "session/model_rule.h"
 
 namespace gpu_shading::energyplus {
 

@@ -1,4 +1,4 @@
-#include "program/view.h"
+#include "program/picture_files.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "program/check.h"
+#include "program/check_model.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "session/shading_rule.h"
+#include "session/model_rule.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
