@@ -19,8 +19,9 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 
 
 def official_prefix():
-    """The EnergyPlus that scripts/setup fetches."""
-    return REPOSITORY / ".venv" / "EnergyPlus"
+    """The EnergyPlus that scripts/setup fetches, or the one that GPU_SHADING_OFFICIAL names."""
+    chosen = os.environ.get("GPU_SHADING_OFFICIAL")
+    return Path(chosen) if chosen else REPOSITORY / ".venv" / "EnergyPlus"
 
 
 def build_folder():

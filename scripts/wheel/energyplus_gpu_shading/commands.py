@@ -1,0 +1,29 @@
+"""The commands of the wheel. Each hands over to the program or script of the same name."""
+
+import os
+import sys
+
+from energyplus_gpu_shading.installation import SCRIPTS, official, prefix
+
+
+def _become(program, *arguments):
+    os.execv(program, [str(program), *arguments])
+
+
+def run_energyplus():
+    """EnergyPlus, with --gpu-shading."""
+    _become(prefix() / "energyplus", *sys.argv[1:])
+
+
+def run_gpu_shading():
+    _become(prefix() / "gpu_shading", *sys.argv[1:])
+
+
+def run_patch_energyplus():
+    _become(sys.executable, str(SCRIPTS / "patch_energyplus"), *sys.argv[1:])
+
+
+def run_compare_shading():
+    os.environ.setdefault("GPU_SHADING_PREFIX", str(prefix()))
+    os.environ.setdefault("GPU_SHADING_OFFICIAL", str(official()))
+    _become(sys.executable, str(SCRIPTS / "compare_shading"), *sys.argv[1:])

