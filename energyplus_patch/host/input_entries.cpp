@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
+#include "base/error_line.h"
 #include "base/naming.h"
-#include "base/text.h"
 #include "host/run.h"
 #include "idf/model_file.h"
 
@@ -141,7 +141,7 @@ void finish_run() {
   try {
     run.session->finish();
   } catch (std::exception const& error) {
-    run.unwritten = one_line(error.what());
+    run.unwritten = error_line(error);
     print_line("error: " + run.unwritten);
     installation().functions.warning(*run.state, "gpu_shading: " + run.unwritten);
   }

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <ostream>
 
+#include "base/error_line.h"
 #include "base/text.h"
 
 namespace gpu_shading::energyplus {
@@ -49,7 +50,7 @@ void end_run(std::exception_ptr const& thrown) {
   } catch (TaskDone const&) {
     why = "done; no simulation was asked for";
   } catch (std::exception const& error) {
-    why = one_line(error.what());
+    why = error_line(error);
     print_line("error: " + why);
     if (installed.task) installed.task->fail(why);
   }

@@ -35,7 +35,14 @@ InputObject from_idf(ObjectType const& type, std::vector<std::string> const& val
 }
 
 std::string text_of(nlohmann::json const& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  constexpr auto replace = nlohmann::json::error_handler_t::replace;
+  return value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, replace);
+}
+
+// Of EnergyPlus's own objects, which its schema checks later.
+void require_object(nlohmann::json const& value, std::string_view type, std::string_view name) {
+  if (value.is_object()) return;
+  throw Error(fmt::format("{} {}: expected an object with fields", type, in_quotes(name)));
 }
 
 void read_list(ObjectType const& type, nlohmann::json const& items,
@@ -43,20 +50,24 @@ void read_list(ObjectType const& type, nlohmann::json const& items,
   auto const add = [&](nlohmann::json const& item, std::string const& field) {
     list.push_back(item.contains(field) ? text_of(item.at(field)) : "");
   };
+  if (!items.is_array())
+    throw Error(fmt::format("{}: {}: expected an array", type.type, type.list));
   for (auto const& item : items) {
+    require_object(item, type.type, type.list);
     if (type.list_field.empty()) {
       for (char const* field :
            {"vertex_x_coordinate", "vertex_y_coordinate", "vertex_z_coordinate"}) {
         add(item, field);
       }
     } else {
-      list.push_back(text_of(item.at(std::string(type.list_field))));
+      add(item, std::string(type.list_field));
     }
   }
 }
 
 InputObject from_epjson(ObjectType const& type, std::string const& name,
                         nlohmann::json const& fields) {
+  require_object(fields, type.type, name);
   InputObject object{std::string(type.type), {}, {}, {}};
   for (auto const& [field, value] : fields.items()) {
     if (value.is_primitive()) object.fields[field] = text_of(value);
@@ -242,8 +253,13 @@ void rewrite_epjson(nlohmann::json& model, Rewrite const& rewrite) {
     model[placeholder_type][placeholder.name] = placeholder_json(placeholder);
   }
   auto& instances = model[shadow_key];
+  if (instances.is_null()) instances = nlohmann::json::object();
+  if (!instances.is_object()) {
+    throw Error(fmt::format("{}: expected an object of objects", shadow_calculation));
+  }
   if (instances.empty()) instances["ShadowCalculation 1"] = nlohmann::json::object();
   for (auto& fields : instances) {
+    require_object(fields, shadow_calculation, shadow_key);
     fields["shading_calculation_method"] = rewrite.shading_method;
     if (!rewrite.update_frequency.empty()) {
       fields["shading_calculation_update_frequency_method"] = rewrite.update_frequency;

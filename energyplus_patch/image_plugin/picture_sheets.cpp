@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "base/c_interface.h"
@@ -34,7 +36,11 @@ struct Layout {
     cell_width = width + 2 * margin;
     cell_height = height + caption + margin;
     scale_width = scale ? 7 * text : 0;
+    // Where a bar and its numbers have room.
+    scale_height = scale ? caption + 2 * text + margin + least_bar : 0;
   }
+
+  static constexpr int least_bar = gpu_shading_scale_colours / 8;
 
   int width = 1;  // of the largest picture
   int height = 1;
@@ -44,6 +50,7 @@ struct Layout {
   int cell_width;
   int cell_height;
   int scale_width;
+  int scale_height;
 };
 
 void check(bool done, ImageBuf const& image) {
@@ -56,8 +63,23 @@ ImageBuf blank(int width, int height) {
   return image;
 }
 
+// The font's file. Given a name, OpenImageIO would look in the current folder first,
+// where anybody's file may lie.
+std::string find_font() {
+  constexpr char const* file = "DejaVuSans.ttf";
+  namespace fs = std::filesystem;
+  for (auto const* const folder : {"/usr/share/fonts", "/usr/local/share/fonts"}) {
+    std::error_code ignored;
+    for (fs::recursive_directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+         entry.increment(ignored)) {
+      if (entry->path().filename() == file) return entry->path().string();
+    }
+  }
+  fail(std::string("captions: no font ") + file + " (Debian: fonts-dejavu-core)");
+}
+
 void write(ImageBuf& on, int x, int y, std::string const& text, int size, TextAlignX align) {
-  constexpr char const* font = "DejaVuSans";
+  static std::string const font = find_font();
   if (OIIO::ImageBufAlgo::render_text(on, x, y, text, size, font, black, align,
                                       TextAlignY::Center)) {
     return;
@@ -71,8 +93,9 @@ void add_scale(ImageBuf& on, Layout const& layout, unsigned char const* colours)
   int const left = on.spec().width - layout.scale_width + layout.text;
   int const wide = layout.text;
   int const top = layout.caption + layout.text;
-  int const tall = std::max(shades / 8, std::min(on.spec().height, layout.cell_height) - top -
-                                            layout.margin - layout.text);
+  int const below = std::max(layout.cell_height, layout.scale_height);
+  int const tall = std::max(Layout::least_bar,
+                            std::min(on.spec().height, below) - top - layout.margin - layout.text);
   for (int y = 0; y < tall; ++y) {
     auto const shade = static_cast<std::size_t>((tall - 1 - y) * (shades - 1) / (tall - 1));
     std::array<float, 3> colour{};
@@ -142,8 +165,8 @@ extern "C" EXPORTED int gpu_shading_write_sheet(char const* path, char const* na
     int const each = sheet->animated != 0 ? 1 : sheet->count;
     for (int first = 0; first < sheet->count; first += each) {
       int const rows = (each + columns - 1) / columns;
-      auto frame =
-          blank(columns * layout.cell_width + layout.scale_width, rows * layout.cell_height);
+      auto frame = blank(columns * layout.cell_width + layout.scale_width,
+                         std::max(rows * layout.cell_height, layout.scale_height));
       for (int i = 0; i < each; ++i) {
         int const number = first + i;
         add_picture(frame, pictures[static_cast<std::size_t>(number)], sheet->captions[number],

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error_line.h"
 #include "base/process.h"
 #include "base/text.h"
 #include "cache/cache_folder.h"
@@ -190,7 +191,7 @@ int main(int argc, char** argv) {
     return gpu_shading::energyplus::launch(argc, argv);
   } catch (std::exception const& error) {
     std::fprintf(stderr, "gpu_shading: error: %s\n",
-                 gpu_shading::energyplus::one_line(error.what()).c_str());
+                 gpu_shading::energyplus::error_line(error).c_str());
     return EXIT_FAILURE;
   }
 }

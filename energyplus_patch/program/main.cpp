@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "assets/picture_sheet.h"
+#include "base/error_line.h"
 #include "base/process.h"
 #include "base/text.h"
 #include "gpu_shading/device.h"
@@ -302,7 +303,7 @@ int main(int argc, char** argv) {
     return EXIT_FAILURE;
   } catch (std::exception const& error) {
     std::fprintf(stderr, "gpu_shading: error: %s\n",
-                 gpu_shading::energyplus::one_line(error.what()).c_str());
+                 gpu_shading::energyplus::error_line(error).c_str());
     return EXIT_FAILURE;
   }
 }

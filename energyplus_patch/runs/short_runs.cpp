@@ -138,8 +138,9 @@ std::ifstream run(EnergyPlusCall const& call, ModelEditor& model, bool expand,
   require_room(folder.path());
   std::ifstream file(out / output);
   if (!file || status != 0) {
-    throw Error(fmt::format("{}: EnergyPlus does not get as far as its shading calculation ({}): {}",
-                            call.model.string(), describe_status(status), stop_reasons(out)));
+    throw Error(
+        fmt::format("{}: EnergyPlus does not get as far as its shading calculation ({}): {}",
+                    call.model.string(), describe_status(status), stop_reasons(out)));
   }
   return file;
 }

@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/error_line.h"
 #include "base/progress.h"
-#include "base/text.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
@@ -69,7 +69,7 @@ void guarded(Action const& action) {
   try {
     action();
   } catch (std::exception const& error) {
-    std::fprintf(stderr, "gpu_shading: error: %s\n", one_line(error.what()).c_str());
+    std::fprintf(stderr, "gpu_shading: error: %s\n", error_line(error).c_str());
   }
 }
 

@@ -30,7 +30,8 @@ std::string type_of(Json const& object) {
 }
 
 std::string text_of(Json const& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  return value.is_string() ? value.get<std::string>()
+                           : value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string name_of(Json const& feature) {

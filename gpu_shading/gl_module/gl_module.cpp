@@ -3,9 +3,12 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <link.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 
 #include "gpu_shading/error.h"
@@ -28,7 +31,24 @@ std::filesystem::path folder_of_this_code() {
   return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
 }
 
+// Drivers, which compile shaders with LLVM, do not survive where memory ends.
+void require_address_space() {
+  constexpr std::uint64_t needed = 1024;
+  constexpr std::uint64_t mib = std::uint64_t{1} << 20U;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+  std::uint64_t pages = 0;  // in use
+  std::ifstream("/proc/self/statm") >> pages;
+  auto const used = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  auto const left = limit.rlim_cur > used ? (limit.rlim_cur - used) / mib : 0;
+  if (left >= needed) return;
+  throw DeviceError(fmt::format(
+      "no OpenGL: it needs {} MiB of address space, and of {} MiB (ulimit -v) {} are left", needed,
+      limit.rlim_cur / mib, left));
+}
+
 GlModule const& load() {
+  require_address_space();
   std::error_code error;
   auto const beside = folder_of_this_code() / library;
   bool const is_beside = std::filesystem::exists(beside, error);

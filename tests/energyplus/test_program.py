@@ -2,6 +2,7 @@
 
 import os
 import re
+import resource
 import signal
 import subprocess
 import time
@@ -102,3 +103,65 @@ def test_a_crash_of_energyplus_is_one_error(started):
 def test_an_interrupted_program_takes_energyplus_along(started, sent):
     started.process.send_signal(sent)
     assert started.finish() == (-sent, "", "")
+
+
+def ended(process):
+    """Whether a process is gone, or waits for its parent, which is not ours, to notice."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
+    except FileNotFoundError:
+        return True
+
+
+def test_a_killed_program_takes_energyplus_along(started, patched, tmp_path):
+    started.process.kill()
+    started.process.communicate()
+    limit = time.monotonic() + 10.0
+    while not ended(started.energyplus):
+        assert time.monotonic() < limit
+        time.sleep(0.01)
+    # Nobody was left to clear away; the next command does.
+    assert len(list(started.folder.iterdir())) == 1
+    empty = tmp_path / "empty.idf"
+    empty.write_text("Version,25.2;\n")
+    subprocess.run([patched.parent / "gpu_shading", "check", empty], capture_output=True,
+                   env={**os.environ, "TMPDIR": str(started.folder)})
+    assert not list(started.folder.iterdir())
+
+
+@pytest.mark.parametrize("size", [16, 20, 27, 38])
+def test_small_views_are_drawn(program, courtyard, tmp_path, size):
+    picture = tmp_path / "view.png"
+    done = program("view", courtyard, "--at", "06-21 12:00", "--size", str(size), "-o", picture)
+    assert done.returncode == 0, done.stderr
+    assert picture.stat().st_size > 0
+
+
+def test_errors_come_before_energyplus_starts(patched, courtyard, weather, tmp_path):
+    (tmp_path / "file").write_text("mine")
+    for flag in ("--gpu-shading-device=99", f"--gpu-shading-report={tmp_path / 'file'}",
+                 "--gpu-shading-resolution=1000000"):
+        folder = tmp_path / "out"
+        done = subprocess.run([patched, "--gpu-shading", flag, "-w", weather, "-d", folder, courtyard], text=True,
+                              capture_output=True)
+        assert done.returncode == 1, flag
+        assert done.stderr.startswith("gpu_shading: error: "), done.stderr
+        assert len(done.stderr.splitlines()) == 1, done.stderr
+        assert not folder.exists(), flag
+
+
+@pytest.mark.parametrize("mebibytes, words", [
+    (170, "out of memory: ulimit -v allows 170 MiB"), (500, None), (800, None),
+])
+@pytest.mark.skipif(os.cpu_count() > 4, reason="the stacks of many threads take addresses too")
+def test_little_memory_is_enough_or_said(patched, box, weather, tmp_path, mebibytes, words):
+    model = tmp_path / "box.idf"
+    model.write_text(box)
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_AS, (mebibytes << 20, mebibytes << 20))
+
+    done = subprocess.run([patched, "--gpu-shading", "-D", "-w", weather, "-d", tmp_path / "out", model], text=True,
+                          capture_output=True, preexec_fn=limit)
+    assert done.returncode == (1 if words else 0), done.stderr
+    assert (words or "shading rendered by CPU") in done.stderr

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 from shading_runs import energyplus, input_file, results
@@ -189,6 +190,18 @@ class Driver:
         os.killpg(self.process.pid, signal.SIGKILL)
         self.process.communicate()
 
+    def others(self):
+        """The processes of its group other than itself."""
+        found = []
+        for stat in Path("/proc").glob("[0-9]*/stat"):
+            try:
+                state, _, group = stat.read_text().rpartition(")")[2].split()[:3]
+            except (FileNotFoundError, ProcessLookupError):
+                continue
+            if int(group) == self.process.pid and state != "Z" and stat.parent.name != str(self.process.pid):
+                found.append(int(stat.parent.name))
+        return found
+
     def finish(self):
         output, errors = self.process.communicate()
         return self.process.returncode, output, errors
@@ -220,6 +233,22 @@ def test_shards_killed_and_resumed_are_as_one_go(patched, box_model, weather, tm
     assert len(list(folder.glob("parts/round*.json"))) == 16
     for name in TABLES:
         assert (folder / name).read_bytes() == (tmp_path / "one" / name).read_bytes(), name
+
+
+def test_workers_end_with_a_killed_driver(patched, box_model, weather, tmp_path):
+    pytest.importorskip("distributed", reason="Dask is missing: run scripts/setup")
+    driver = Driver([box_model, "-w", weather, "-o", tmp_path / "out", "--shards", 4, "--workers", 2, "--mode", "fine",
+                     "--", RESOLUTION])
+    limit = time.monotonic() + 60.0
+    while len(driver.others()) < 6:  # two workers, their programs and EnergyPlus
+        assert driver.process.poll() is None and time.monotonic() < limit, driver.finish()
+        time.sleep(0.02)
+    driver.process.kill()
+    limit = time.monotonic() + 15.0
+    while left := driver.others():
+        assert time.monotonic() < limit, left
+        time.sleep(0.1)
+    driver.process.communicate()
 
 
 def test_driver_goes_on_with_other_models(patched, box_model, weather, tmp_path):

@@ -1,0 +1,8 @@
+#include "gpu_shading/angular_csv.h"
+
+#include "fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
+  using namespace gpu_shading::energyplus;
+  return try_to([&] { gpu_shading::read_angular_csv(file_of(as_text(data, size), "glass.csv")); });
+}
