@@ -47,11 +47,17 @@ float handed;  // 1 if the corners run counterclockwise in the sheet's plane, ot
 
 void send(int i, bool outside) {
   vec2 shift = corners[i].ray.xy;
-  place = outside ? corners[i].place - shift : corners[i].place;
+  vec2 here = outside ? corners[i].place - shift : corners[i].place;
+  // Outputs are written as a whole: not every driver indexes them in a loop.
+  vec4 distances;
+  vec4 changes;
   for (int k = 0; k < 4; ++k) {
-    within[k] = handed * crossed(edge(k), place - corners[k].place);
-    within_step[k] = handed * crossed(edge(k), shift);
+    distances[k] = handed * crossed(edge(k), here - corners[k].place);
+    changes[k] = handed * crossed(edge(k), shift);
   }
+  place = here;
+  within = distances;
+  within_step = changes;
   ray = corners[i].ray;
   tile = corners[i].tile;
   hole = corners[i].hole;

@@ -15,7 +15,7 @@ layout(location = 8) in vec4 origin_high;
 layout(location = 9) in vec4 origin_low;
 layout(location = 10) in ivec4 numbers;  // layer of the target; identity of what is drawn
 
-// As in transmit.vert: both programs must cover the same pixels.
+// As in transmit.vert: both programs must cover the same pixels, up to the same plane.
 invariant gl_Position;
 
 flat out int identity;
@@ -26,7 +26,8 @@ void main() {
   precise vec3 p = (high - origin_high.xyz) + (low - origin_low.xyz);
   gl_Position = vec4(dot(row_x.xyz, p) + row_x.w, dot(row_y.xyz, p) + row_y.w,
                      dot(row_z.xyz, p) + row_z.w, 1.0);
-  gl_ClipDistance[0] = dot(cut.xyz, p) + cut.w;
+  precise float kept = dot(cut.xyz, p) + cut.w;
+  gl_ClipDistance[0] = kept;
   identity = numbers.y;
 #ifdef GL_ARB_shader_viewport_layer_array
   gl_Layer = numbers.x;

@@ -24,7 +24,7 @@ struct Shade {
 layout(std430, binding = 0) readonly buffer Shades { Shade shades[]; };
 layout(std430, binding = 1) readonly buffer Keys { vec4 keys[]; };
 
-// As in slide.vert: both programs must cover the same pixels.
+// As in slide.vert: both programs must cover the same pixels, up to the same plane.
 invariant gl_Position;
 
 flat out vec4 weight;
@@ -33,7 +33,8 @@ void main() {
   precise vec3 p = (high - origin_high.xyz) + (low - origin_low.xyz);
   gl_Position = vec4(dot(row_x.xyz, p) + row_x.w, dot(row_y.xyz, p) + row_y.w,
                      dot(row_z.xyz, p) + row_z.w, 1.0);
-  gl_ClipDistance[0] = dot(cut.xyz, p) + cut.w;
+  precise float kept = dot(cut.xyz, p) + cut.w;
+  gl_ClipDistance[0] = kept;
   Shade shade = shades[numbers.z + surface];
   bool keyed = numbers.y >= 0 && shade.schedule >= 0;
   vec3 key = keyed ? keys[numbers.y + shade.schedule].rgb : vec3(0.0);

@@ -19,12 +19,12 @@
 #include "base/error_line.h"
 #include "base/process.h"
 #include "base/text.h"
-#include "gpu_shading/device.h"
 #include "gpu_shading/error.h"
 #include "idf/model_file.h"
 #include "model/model_reader.h"
 #include "options/options.h"
 #include "program/check_model.h"
+#include "program/device_table.h"
 #include "program/export.h"
 #include "program/picture_files.h"
 #include "program/sample.h"
@@ -32,18 +32,6 @@
 
 namespace gpu_shading::energyplus {
 namespace {
-
-void print_devices() {
-  std::vector<std::string> failures;
-  auto const devices = list_devices(&failures);
-  for (auto const& device : devices) {
-    fmt::print("{}  {}  [{}; {}]  {}, tiles up to {} x {}\n", device.index, device.renderer,
-               device.vendor, device.version, device.software ? "software" : "GPU",
-               device.max_resolution, device.max_resolution);
-  }
-  fmt::print("cpu  {}\n", describe(cpu_device()));
-  for (auto const& failure : failures) fmt::print(stderr, "gpu_shading: {}\n", failure);
-}
 
 // Arguments of every subcommand that reads a model.
 class ModelArguments {
@@ -70,6 +58,23 @@ class ModelArguments {
   std::string weather_;
   Choices choices_;
 };
+
+// Sets `right` to whether all tested devices are.
+void add_devices(CLI::App& app, bool& right) {
+  auto* const command = app.add_subcommand(
+      "devices", "List the devices that can render, with their numbers for --gpu-shading-device");
+  auto const test = std::make_shared<bool>(false);
+  command->add_flag("--test", *test,
+                    "Test each device and the CPU on cases with known answers; print errors, times "
+                    "and a verdict. The exit status is 1 if one is wrong");
+  command->callback([test, &right] {
+    if (*test) {
+      right = test_devices();
+    } else {
+      list_devices();
+    }
+  });
+}
 
 void add_check(CLI::App& app, Choices const& choices) {
   auto* const command =
@@ -271,9 +276,8 @@ int run(int argc, char** argv) {
       "GPU shading",
       "gpu_shading"};
   app.require_subcommand(1);
-  app.add_subcommand(
-         "devices", "List the devices that can render, with their numbers for --gpu-shading-device")
-      ->callback(print_devices);
+  bool right = true;
+  add_devices(app, right);
   add_check(app, choices);
   add_view(app, choices);
   add_sample(app, choices);
@@ -285,7 +289,7 @@ int run(int argc, char** argv) {
   } catch (CLI::ParseError const& error) {
     return app.exit(error);
   }
-  return EXIT_SUCCESS;
+  return right ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 }  // namespace

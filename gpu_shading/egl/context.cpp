@@ -34,7 +34,10 @@ EGLContext create(EGLDisplay display, EGLConfig config, bool debug) {
   std::vector<EGLint> wanted{EGL_CONTEXT_MAJOR_VERSION,       4,
                              EGL_CONTEXT_MINOR_VERSION,       5,
                              EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
-  if (debug) wanted.insert(wanted.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
+  // EGL 1.4 does not know EGL_CONTEXT_OPENGL_DEBUG.
+  if (debug) {
+    wanted.insert(wanted.end(), {EGL_CONTEXT_FLAGS_KHR, EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR});
+  }
   std::vector<EGLint> told = wanted;
   told.insert(told.end(),
               {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});

@@ -102,6 +102,8 @@ void Framebuffer::bind() const {
   glViewport(0, 0, width_, height_);
 }
 
+void Framebuffer::unbind() { glBindFramebuffer(GL_FRAMEBUFFER, 0); }
+
 void Framebuffer::clear_stencil() const {
   GLint const zero = 0;
   glClearNamedFramebufferiv(name(), GL_STENCIL, 0, &zero);

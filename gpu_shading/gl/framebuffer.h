@@ -42,6 +42,9 @@ class Framebuffer : public Object<destroy_framebuffer> {
 
   // Makes it the target of draws, with a viewport over all of it.
   void bind() const;
+  // Ends that. Programs then find what was drawn in its textures: softpipe otherwise keeps it in a
+  // cache that compute programs do not read.
+  static void unbind();
 
   // Clears every layer.
   void clear_stencil() const;  // to 0

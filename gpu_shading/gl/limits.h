@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace gpu_shading::gl {
@@ -17,5 +18,9 @@ struct Limits {
 };
 
 Limits query_limits();
+
+// Throws DeviceError if a storage block of the current context cannot have so many bytes. `content`
+// names what it holds.
+void require_storage(std::size_t bytes, char const* content);
 
 }  // namespace gpu_shading::gl

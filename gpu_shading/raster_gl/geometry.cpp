@@ -97,6 +97,8 @@ void Geometry::upload(DrawList const& list) {
   commands_.set(std::span<gl::Command const>(commands));
   screens_.upload(list);
   if (list.shades().empty()) return;
+  gl::require_storage(list.shades().size_bytes(), "shades");
+  gl::require_storage(list.keys().size_bytes(), "keys of schedules");
   shades_.set(list.shades());
   // A storage block without a buffer is an error even if no shader reads it.
   glm::vec4 const none(0.0F);

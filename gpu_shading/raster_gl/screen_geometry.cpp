@@ -175,8 +175,12 @@ void ScreenGeometry::upload(DrawList const& list) {
   if (draws_.empty()) return;
   SheetBlocks const& blocks = list.sheets();
   draw_indices_.set(list.screen_indices());
-  sheets_.set(std::span<SheetBlock const>(blocks.sheets));
-  if (!blocks.regions.empty()) regions_.set(std::span<glm::vec4 const>(blocks.regions));
+  std::span<SheetBlock const> const sheets(blocks.sheets);
+  std::span<glm::vec4 const> const regions(blocks.regions);
+  gl::require_storage(sheets.size_bytes(), "screens");
+  gl::require_storage(regions.size_bytes(), "transmittances of screens");
+  sheets_.set(sheets);
+  if (!regions.empty()) regions_.set(regions);
 }
 
 void ScreenGeometry::draw(Range draws) const {

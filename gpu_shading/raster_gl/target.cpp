@@ -117,6 +117,7 @@ class SummedTarget : public Target {
 
   void draw(Geometry& geometry, int layers) override {
     draw_to_(geometry, layers_);
+    gl::Framebuffer::unbind();
     reduction_->start(layers);
   }
 

@@ -29,6 +29,21 @@ def test_devices_lists_what_can_render(program):
     assert re.fullmatch(r"cpu  CPU \(\d+ threads?, .*\)", cpu)
 
 
+def test_devices_are_tested_side_by_side(program):
+    done = program("devices", "--test")
+    assert done.returncode == 0, done.stdout + done.stderr
+    table, verdicts = done.stdout.split("\n\n")[1:]
+    count = len(verdicts.splitlines())
+    titles, units, *rows = table.splitlines()
+    assert titles.split()[-1] == "cpu" and units.split() == ["error", "ms"] * count
+    assert len(rows) == 7
+    for row in rows:
+        values = [float(value) for value in row[24:].split()]
+        assert len(values) == 2 * count
+        assert max(values[::2]) < 4e-3
+    assert all(": right" in line for line in verdicts.splitlines())
+
+
 def test_check_prints_what_each_surface_will_be(program, courtyard):
     done = program("check", courtyard)
     assert done.returncode == 0, done.stderr

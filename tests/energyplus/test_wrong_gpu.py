@@ -59,3 +59,12 @@ def test_a_picture_is_drawn_by_the_cpu_with_a_warning(on_wrong_gpu, courtyard, t
                            "-o", tmp_path / "sun.png"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert done.stderr.count("computes wrong answers") == 1
+
+
+def test_devices_are_tested(on_wrong_gpu):
+    done = subprocess.run([on_wrong_gpu / "gpu_shading", "devices", "--test"], capture_output=True, text=True)
+    assert done.returncode == 1, done.stderr
+    *_, wrong, cpu = done.stdout.splitlines()
+    assert wrong.startswith("0  Wrong GPU (4.5 (wrong driver 0.1)): WRONG: opaque casters by 0.")
+    assert "Update its driver" in wrong and "transparent" not in wrong
+    assert cpu.startswith("cpu  CPU (") and cpu.endswith(": right")

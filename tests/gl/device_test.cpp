@@ -6,7 +6,10 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "egl/device.h"
+#include "gl/limits.h"
 #include "gpu_shading/error.h"
+#include "support/refusal.h"
 #include "support/shapes.h"
 
 namespace gpu_shading {
@@ -104,6 +107,18 @@ TEST(Resolution, AnErrorOutOfRangeIsNamed) {
     options.error = error;
     EXPECT_NE(message_of(options).find("expected 1e-05 to 0.1"), std::string::npos) << error;
   }
+}
+
+TEST(Limits, OfStorageAreNamed) {
+  auto const device = egl::open(by_opengl);
+  ASSERT_TRUE(device);
+  egl::Current const current = device->context.make_current();
+  EXPECT_EQ(refusal_of([] { gl::require_storage(1000, "shades"); }), "accepted");
+  std::string const message =
+      refusal_of([] { gl::require_storage(std::size_t{1} << 50U, "shades"); });
+  EXPECT_NE(message.find(device->info.renderer + ": shades take a storage block of 1073741824 MiB"),
+            std::string::npos)
+      << message;
 }
 
 }  // namespace
