@@ -28,9 +28,10 @@ double number(InputObject const& object, std::string const& field, std::string_v
   return *value;
 }
 
-// Adds the panes of a layer; gas layers transmit everything.
-void add_layer(InputObject const& material, std::vector<GlassLayer>& panes, double& dirt,
-               std::vector<std::string>& warnings) {
+// Adds a pane. As in EnergyPlus, dirt lowers the transmittance at normal incidence of the outer
+// pane, from which its angular properties follow, and inner panes are clean.
+void add_pane(InputObject const& material, std::vector<GlassLayer>& panes,
+              std::vector<std::string>& warnings) {
   if (!same_name(material["optical_data_type"], "SpectralAverage")) {
     throw Error(
         fmt::format("{} {}: Optical Data Type is \"{}\": only SpectralAverage can be used for a "
@@ -41,16 +42,19 @@ void add_layer(InputObject const& material, std::vector<GlassLayer>& panes, doub
   auto const& field = [&](std::string const& name, std::string_view title) {
     return number(material, name, title, 0.0, 1.0);
   };
-  panes.push_back(
-      {field("solar_transmittance_at_normal_incidence", "Solar Transmittance at Normal Incidence"),
-       field("front_side_solar_reflectance_at_normal_incidence",
-             "Front Side Solar Reflectance at Normal Incidence"),
-       field("back_side_solar_reflectance_at_normal_incidence",
-             "Back Side Solar Reflectance at Normal Incidence")});
+  GlassLayer pane{
+      field("solar_transmittance_at_normal_incidence", "Solar Transmittance at Normal Incidence"),
+      field("front_side_solar_reflectance_at_normal_incidence",
+            "Front Side Solar Reflectance at Normal Incidence"),
+      field("back_side_solar_reflectance_at_normal_incidence",
+            "Back Side Solar Reflectance at Normal Incidence")};
   std::string const dirt_field = "dirt_correction_factor_for_solar_and_visible_transmittance";
   if (!material[dirt_field].empty()) {
-    dirt *= field(dirt_field, "Dirt Correction Factor for Solar and Visible Transmittance");
+    double const dirt =
+        field(dirt_field, "Dirt Correction Factor for Solar and Visible Transmittance");
+    if (panes.empty()) pane.transmittance *= dirt;
   }
+  panes.push_back(pane);
   if (same_name(material["solar_diffusing"], "Yes")) {
     warnings.push_back(
         fmt::format("{} {}: Solar Diffusing is Yes, but a shade transmits the beam undeviated: "
@@ -67,7 +71,6 @@ Transmittance construction_transmittance(std::vector<InputObject> const& objects
   auto const* const construction = find(objects, "Construction", name);
   if (construction == nullptr) throw Error(fmt::format("there is no Construction \"{}\"", name));
   std::vector<GlassLayer> panes;
-  double dirt = 1.0;
   for (auto const& layer : construction->list) {
     if (layer.empty()) continue;
     auto const* const material = find(objects, "WindowMaterial:", layer);
@@ -78,17 +81,17 @@ Transmittance construction_transmittance(std::vector<InputObject> const& objects
           construction->name, layer));
     }
     if (material->type == "WindowMaterial:SimpleGlazingSystem") {
-      return Transmittance::glazing(
+      return Transmittance::fitted_in_cosine(Transmittance::glazing(
           SimpleGlazing{number(*material, "u_factor", "U-Factor", 1e-6, 7.0),
                         number(*material, "solar_heat_gain_coefficient",
-                               "Solar Heat Gain Coefficient", 1e-6, 0.999999)});
+                               "Solar Heat Gain Coefficient", 1e-6, 0.999999)}));
     }
-    if (material->type == "WindowMaterial:Glazing") add_layer(*material, panes, dirt, warnings);
+    if (material->type == "WindowMaterial:Glazing") add_pane(*material, panes, warnings);
   }
   if (panes.empty()) {
     throw Error(fmt::format("Construction {}: has no glazing layer", construction->name));
   }
-  return Transmittance::product(Transmittance::glazing(panes), dirt);
+  return Transmittance::fitted_in_cosine(Transmittance::glazing(panes));
 }
 
 }  // namespace gpu_shading::energyplus

@@ -9,9 +9,9 @@
 namespace gpu_shading::energyplus {
 
 // Beam transmittance of a Construction of WindowMaterial:Glazing, :Gas, :GasMixture or
-// :SimpleGlazingSystem layers. `warnings` gets a line for each material that scatters light,
-// because only the undeviated beam is modelled. Throws Error, naming construction, material, field
-// and value.
+// :SimpleGlazingSystem layers, as EnergyPlus computes it for a window of that construction.
+// `warnings` gets a line for each material that scatters light, because only the undeviated beam is
+// modelled. Throws Error, naming construction, material, field and value.
 Transmittance construction_transmittance(std::vector<InputObject> const& objects,
                                          std::string const& construction,
                                          std::vector<std::string>& warnings);

@@ -8,7 +8,7 @@ namespace gpu_shading {
 
 // Solar properties of a glass pane at normal incidence, each 0 .. 1; transmittance plus either
 // reflectance at most 1. Thickness is not needed: only its product with the absorption coefficient
-// matters, which follows from these. Callers multiply the transmittance by a factor for dirt.
+// matters, which follows from these.
 struct GlassLayer {
   double transmittance = 0.0;
   double front_reflectance = 0.0;  // of the face that faces the sun
@@ -39,6 +39,11 @@ class Transmittance {
 
   // `model` times a factor, 0 .. 1, at every angle: dirt, or a constant open fraction.
   static Transmittance product(Transmittance const& model, double factor);
+
+  // The polynomial c[1] x + ... + c[6] x^6 in the cosine that is nearest, in least squares, to a
+  // model at 0, 10, .. 90 degrees, limited to 0 .. 1: what EnergyPlus keeps of a window's angular
+  // transmittance (Engineering Reference, "Window Calculation Module").
+  static Transmittance fitted_in_cosine(Transmittance const& model);
 
   // c[0] + c[1] x + ... + c[8] x^8 at most, where x is the angle in degrees, or its cosine. Must be
   // within 0 .. 1 at every tenth of a degree, to within 1e-9.

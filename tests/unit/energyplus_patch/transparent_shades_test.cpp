@@ -78,6 +78,26 @@ TEST(TransparentShades, EveryModelOfTheDictionary) {
             0.2);
 }
 
+// Engineering Reference: dirt enters the outer pane's transmittance before its angular properties
+// are derived, and no other pane's.
+TEST(TransparentShades, DirtIsOnTheOuterPane) {
+  std::string const dirty =
+      "WindowMaterial:Glazing,Dirty,SpectralAverage,,0.006,0.69,0.07,0.07,0.8,0.08,0.08,0,0.84,"
+      "0.84,0.9,0.8;";
+  auto const at = [&](std::string const& layers, double angle) {
+    return tau(read(dirty + "Construction,Tested," + layers +
+                    ";GPUShading:TransparentShade,S,Pane 1,Construction,Tested;"),
+               "PANE 1", angle);
+  };
+  EXPECT_NEAR(at("Dirty", 0), 0.8 * 0.69, 1e-3);
+  EXPECT_NEAR(at("Dirty,Air,Clear", 0), 0.8 * at("Clear,Air,Clear", 0), 1e-3);
+  for (double const angle : {0.0, 40.0, 70.0}) {
+    EXPECT_EQ(at("Clear,Air,Dirty", angle), at("Clear,Air,Clear", angle));
+  }
+  // An absorbing pane darkens by more at a slant than a factor would.
+  EXPECT_LT(at("Dirty", 70), 0.8 * at("Clear", 70) - 2e-3);
+}
+
 TEST(TransparentShades, PatternNamesSeveralSurfaces) {
   auto const shades = read("GPUShading:TransparentShade,S,pane*,Constant,0.4;");
   EXPECT_EQ(shades.by_surface.size(), 2U);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <random>
@@ -248,6 +249,47 @@ TEST(SimpleGlazing, NamesTheRatingThatIsWrong) {
               Transmittance::glazing(SimpleGlazing{2.0, 1.0});
             }),
             "SHGC is 1, expected between 0 and 1");
+}
+
+Transmittance polynomial(std::vector<double> const& coefficients) {
+  return Transmittance::polynomial_in_cosine(coefficients);
+}
+
+TEST(FittedInCosine, KeepsPolynomialsOfItsDegree) {
+  auto const model = polynomial({0.0, 0.9, -0.3, 0.5, -0.4, 0.25, -0.1});
+  auto const fitted = Transmittance::fitted_in_cosine(model);
+  for (double angle = 0.0; angle <= 90.0; angle += 0.5) {
+    EXPECT_NEAR(fitted(angle * degree), model(angle * degree), 1e-12) << angle;
+  }
+}
+
+// The least squares are reached where what is left over is orthogonal to every power.
+TEST(FittedInCosine, IsTheNearestAtStepsOfTenDegrees) {
+  auto const model = glazing({{0.3, 0.6, 0.6}});
+  auto const fitted = Transmittance::fitted_in_cosine(model);
+  double left_over = 0.0;
+  for (int power = 1; power <= 6; ++power) {
+    double sum = 0.0;
+    for (int k = 0; k < 9; ++k) {
+      double const angle = 10.0 * k * degree;
+      double const difference = fitted(angle) - model(angle);
+      sum += difference * std::pow(std::cos(angle), power);
+      left_over = std::max(left_over, std::abs(difference));
+    }
+    EXPECT_NEAR(sum, 0.0, 1e-12) << power;
+  }
+  EXPECT_GT(left_over, 1e-4);
+}
+
+TEST(FittedInCosine, StaysWithinItsRange) {
+  auto const clear_air = Transmittance::fitted_in_cosine(Transmittance::constant(1.0));
+  auto const dark = Transmittance::fitted_in_cosine(
+      glazing({{0.69, 0.1, 0.1}, {0.69, 0.1, 0.1}, {0.69, 0.1, 0.1}}));
+  for (double angle = 0.0; angle <= 90.0; angle += 0.5) {
+    EXPECT_LE(clear_air(angle * degree), 1.0);
+    EXPECT_GE(dark(angle * degree), 0.0);
+  }
+  EXPECT_NEAR(clear_air(90.0 * degree), 0.0, 1e-12);
 }
 
 }  // namespace
