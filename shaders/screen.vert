@@ -59,8 +59,9 @@ void main() {
   result.inside = slid(p + sheet.normal.w * sheet.normal.xyz);
   result.outside = slid(p + sheet.ray.z * sheet.normal.xyz);
   result.place = corner;
-  // The sheet is clipped where its polygon is.
-  result.kept = dot(cut.xyz, p) + cut.w;
+  // The sheet is clipped where its polygon or the middle of its body is, whichever is in front.
+  float middle = 0.5 * (sheet.normal.w + sheet.ray.z);
+  result.kept = dot(cut.xyz, p) + cut.w + max(0.0, middle * dot(cut.xyz, sheet.normal.xyz));
   result.ray = sheet.ray;
   result.tile = sheet.tile;
   result.hole = sheet.hole;

@@ -23,17 +23,20 @@ double turn(std::array<glm::dvec2, corners> const& p) { return cross(p[2] - p[0]
 struct Faces {
   std::array<glm::dvec2, corners> inside;
   std::array<glm::dvec2, corners> outside;
-  std::array<double, corners> kept;  // more than 0 in front of the receiver
+  // More than 0 in front of the receiver, where the polygon or the middle of the body is.
+  std::array<double, corners> kept;
 
   Faces(Screens::Quadrilateral const& part, SheetInBeam const& sheet, View const& pixels) {
     glm::dvec3 const normal(sheet.normal);
+    double const middle = 0.5 * (static_cast<double>(sheet.inside) + sheet.outside);
+    double const body = std::max(0.0, middle * glm::dot(glm::dvec3(pixels.cut), normal));
     for (std::size_t i = 0; i < corners; ++i) {
       glm::dvec3 const p = part.corners[i] - pixels.origin;
       glm::dvec3 const in = p + static_cast<double>(sheet.inside) * normal;
       glm::dvec3 const out = p + static_cast<double>(sheet.outside) * normal;
       inside[i] = {at(pixels.x, in), at(pixels.y, in)};
       outside[i] = {at(pixels.x, out), at(pixels.y, out)};
-      kept[i] = at(pixels.cut, p);
+      kept[i] = at(pixels.cut, p) + body;
     }
   }
 

@@ -29,6 +29,8 @@ double depth(PlaneFrame const& frame, glm::dvec3 const& point) {
   return height_above(frame, point) - clearance;
 }
 
+double middle(SheetFaces const& faces) { return 0.5 * (faces.inside + faces.outside); }
+
 // With both faces of its sheet; empty where it cannot cast.
 Box bounds_of(Surface const& surface) {
   Box box;
@@ -256,11 +258,13 @@ InView Casters::in_view(Scene const& scene, SurfaceId receiver, PlaneFrame const
 bool Casters::is_in_view(Caster const& caster, PlaneFrame const& frame, Shadow& shadow) const {
   auto const ring = points(caster);
   bool const thick = caster.faces.inside != caster.faces.outside;
+  // A sheet on the receiver is in front of it by its body, if not by its polygon.
+  double const body = std::max(0.0, glm::dot(frame.normal, caster.normal) * middle(caster.faces));
   shadow.clear();
   bool clearly_in_front = false;
   bool cut = false;
   for (glm::dvec3 const& vertex : ring) {
-    double const height = height_above(frame, vertex);
+    double const height = height_above(frame, vertex) + body;
     clearly_in_front = clearly_in_front || height > coplanar;
     if (height > clearance) {
       shadow.include(vertex + caster.faces.inside * caster.normal);

@@ -275,6 +275,36 @@ TEST_P(Screened, HasTheThicknessOfItsSides) {
   }
 }
 
+// A sheet that lies on its receiver shades it by its body, if that is on the outside.
+TEST_P(Screened, OnItsReceiverCastsItsThickness) {
+  HolePattern const holes = square_holes(50 * mm, 80 * mm);
+  double const thickness = 30 * mm;
+  auto const scene_with = [&](Polygon polygon, SheetPlane plane, ScreenDetail detail) {
+    Sheet sheet{.thickness = thickness, .plane = plane};
+    sheet.detail = detail;
+    Scene scene;
+    scene.add({"receiver", level(0, 0, 0, 7 * holes.height(), 12 * holes.width())});
+    scene.add(screened("screen", std::move(polygon),
+                       std::make_shared<PerforatedScreen const>(holes, sheet)));
+    return scene;
+  };
+  Polygon const up = level(-2, -2, 0, 5, 5);
+  Polygon down = up;
+  std::reverse(down.outline.begin(), down.outline.end());
+  for (auto const detail : {ScreenDetail::holes, ScreenDetail::effective}) {
+    Renderer above = renderer_of(scene_with(up, SheetPlane::inside, detail), 1024);
+    Renderer turned = renderer_of(scene_with(down, SheetPlane::outside, detail), 1024);
+    Renderer below = renderer_of(scene_with(up, SheetPlane::outside, detail), 1024);
+    for (double const altitude : altitudes) {
+      SunDirection const sun = sun_at(33.0, altitude);
+      double const expected = closed_form(holes, thickness, sun);
+      EXPECT_NEAR(passed(above, sun), expected, 4e-4) << altitude;
+      EXPECT_NEAR(passed(turned, sun), expected, 4e-4) << altitude;
+      EXPECT_EQ(passed(below, sun), 1.0) << altitude;
+    }
+  }
+}
+
 // Rays from one piece into its neighbour pass both.
 TEST_P(Screened, IsTheSameInPieces) {
   Screen const screen = sheet_of(round_holes(0.3, 0.4), 0.2);
