@@ -90,6 +90,10 @@ Rewrite take_model(std::vector<InputObject> objects, Path const& path,
   run.model = understand(std::move(objects), path, installation().choices, find_mentions);
   if (run.model->options.mode != Mode::off) {
     check_supported(run.model->shading, installation().version);
+    // Now, because EnergyPlus may stop at such a surface.
+    if (auto const& warning = run.model->simplified.warning; !warning.empty()) {
+      messages_of(run).warning(warning);
+    }
   } else {
     warn_of_opaque_shades(run);
     warn_of_missing_surroundings(run);

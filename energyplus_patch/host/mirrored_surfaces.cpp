@@ -3,7 +3,6 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstring>
 #include <vector>
 
@@ -20,12 +19,6 @@ bool read_memory(std::byte const* from, void* to, std::size_t size) {
 std::byte* read_pointer(std::byte const* from) {
   std::byte* pointer = nullptr;
   return read_memory(from, &pointer, sizeof pointer) ? pointer : nullptr;
-}
-
-Surface mirrored(Surface const& surface) {
-  Surface copy{"Mir-" + surface.name, surface.polygon, Casting::never};
-  std::reverse(copy.polygon.outline.begin(), copy.polygon.outline.end());
-  return copy;
 }
 
 }  // namespace
@@ -49,7 +42,7 @@ std::optional<std::size_t> hand_over_mirrored_surfaces(State& state, Session& se
     if (at < kept.size() && kept[at] == -1) copies.emplace_back(at++, id);
   }
   for (auto const& [place, original] : copies) {
-    auto const id = static_cast<std::int32_t>(session.add(mirrored(session.surface(original))));
+    auto const id = static_cast<std::int32_t>(session.add_mirrored(original));
     std::memcpy(array + place * sizeof id, &id, sizeof id);
   }
   return copies.size();

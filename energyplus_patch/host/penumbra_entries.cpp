@@ -79,15 +79,16 @@ unsigned get_number_of_surfaces(PenumbraObject* self) {
   return static_cast<unsigned>(self->session->size());
 }
 
-// Only needed if light reflected by shading surfaces is modelled.
+// Needed if light reflected by shading surfaces is modelled, or if an output shows the copies.
 void add_mirrored_surfaces(Session& session, Messages const& messages) {
   auto const& ids = installation().surface_ids;
-  if (!session.input().reflections || session.shading_surfaces().empty()) return;
+  auto const& input = session.input();
+  if (!(input.reflections || input.mirrored_shown()) || session.shading_surfaces().empty()) return;
   if (!ids || !hand_over_mirrored_surfaces(*this_run().state, session, *ids)) {
     messages.warning(
-        "this EnergyPlus does not let mirrored shading surfaces be handed over: solar radiation "
-        "that "
-        "the back of a shading surface reflects is lost");
+        "this EnergyPlus does not let mirrored shading surfaces be handed over: their sunlit "
+        "fraction is reported as 0, and solar radiation that the back of a shading surface "
+        "reflects is lost");
   }
 }
 

@@ -23,6 +23,17 @@ struct Placeholder {
 std::vector<Placeholder> make_placeholders(std::vector<std::string> const& schedules,
                                            Names const& taken);
 
+// One with a schedule of our own that varies. With DetailedSkyDiffuseModeling, EnergyPlus
+// recomputes the sky's shading at every timestep only if the transmittance schedule of some shading
+// surface varies. (EnergyPlus 25.2 does not notice schedules that are lowest at the start of the
+// day, so that a model's own schedule will not do.)
+Placeholder make_sky_placeholder(Names const& taken);
+
+// Whether there is one, so that its schedule has to be added to the model.
+bool needs_sky_schedule(std::vector<Placeholder> const& placeholders);
+std::string sky_schedule_idf();
+void add_sky_schedule(nlohmann::json& model);
+
 // The fields of the Shading:Site:Detailed object: name, schedule, number of vertices, coordinates.
 std::vector<std::string> placeholder_fields(Placeholder const& placeholder);
 nlohmann::json placeholder_json(Placeholder const& placeholder);

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <regex>
+#include <vector>
+
 #include "base/text.h"
 #include "gpu_shading/error.h"
 
@@ -48,6 +52,8 @@ void read_shadow_calculation(InputObject const& object, ShadingInput& input) {
   }
   input.every_timestep =
       same_name(object["shading_calculation_update_frequency_method"], "Timestep");
+  input.detailed_sky =
+      same_name(object["sky_diffuse_modeling_algorithm"], "DetailedSkyDiffuseModeling");
   input.disable_within_groups = yes(object, "disable_self_shading_within_shading_zone_groups");
   input.disable_between_groups =
       yes(object, "disable_self_shading_from_shading_zone_groups_to_other_zones");
@@ -70,11 +76,62 @@ void read_shading_surface(InputObject const& object, ShadingInput& input) {
   }
 }
 
+// What outputs and EMS sensors name.
+struct Named {
+  std::set<std::string> names;  // upper case
+  std::vector<std::regex> patterns;
+
+  bool contains(std::string const& name) const {
+    return names.contains(upper(name)) ||
+           std::any_of(patterns.begin(), patterns.end(),
+                       [&](std::regex const& pattern) { return std::regex_match(name, pattern); });
+  }
+};
+
+// EnergyPlus treats the key of an output as a regular expression if it looks like one.
+void read_output(InputObject const& object, ShadingInput& input, Named& named) {
+  auto const& key = object["key_value"];
+  if (key.empty() || key == "*") {
+    input.all_surfaces_shown = input.all_surfaces_shown || is_surface_output(object);
+  } else if (key.find_first_of("^$.|?*+()[]{}\\") == std::string::npos) {
+    named.names.insert(upper(key));
+  } else if (is_surface_output(object)) {
+    try {
+      named.patterns.emplace_back(key, std::regex::icase | std::regex::optimize);
+    } catch (std::regex_error const&) {
+      input.unreadable_key =
+          fmt::format("{}: Key Value is \"{}\", which is not a valid pattern", object.type, key);
+      input.all_shading_wanted = true;
+    }
+    named.names.insert(upper(key));
+  }
+}
+
+constexpr std::string_view mirrored_prefix = "Mir-";
+
 }  // namespace
+
+std::string mirrored_name(std::string const& shading_surface) {
+  return std::string(mirrored_prefix) + shading_surface;
+}
+
+bool is_mirrored(std::string const& surface) { return surface.starts_with(mirrored_prefix); }
+
+bool is_surface_output(InputObject const& object) {
+  constexpr std::string_view start = "Surface ";
+  auto const& variable = object["variable_name"];
+  return object.type == "Output:Variable" && variable.size() > start.size() &&
+         same_name(std::string_view(variable).substr(0, start.size()), start);
+}
 
 Casting ShadingInput::casting(std::string const& surface) const {
   if (base_of.contains(surface) || not_exterior.contains(surface)) return Casting::never;
   return zone_of.contains(surface) ? Casting::turned_away : Casting::always;
+}
+
+bool ShadingInput::mirrored_shown() const {
+  return all_surfaces_shown || !unreadable_key.empty() ||
+         std::any_of(wanted_shading.begin(), wanted_shading.end(), is_mirrored);
 }
 
 std::string ShadingInput::base_surface(std::string const& surface) const {
@@ -83,13 +140,13 @@ std::string ShadingInput::base_surface(std::string const& surface) const {
 }
 
 bool ShadingInput::receives(std::string const& surface) const {
-  if (shading_surfaces.contains(surface)) return wants(surface);
+  if (shading_surfaces.contains(surface) || is_mirrored(surface)) return wants(surface);
   return !not_exterior.contains(base_surface(surface));
 }
 
 ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
   ShadingInput input;
-  std::set<std::string> named;
+  Named named;
   bool shadow_calculation_read = false;
   for (auto const& object : objects) {
     if (object.type == "Version") {
@@ -115,20 +172,22 @@ ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
     } else if (object.fields.contains("building_surface_name")) {
       input.base_of[upper(object.name)] = upper(object["building_surface_name"]);
     } else if (object.fields.contains("surface_name") && !is_extension(object.type)) {
-      named.insert(upper(object["surface_name"]));
+      named.names.insert(upper(object["surface_name"]));
     } else if (object.type == "DaylightingDevice:Shelf") {
-      named.insert(upper(object["outside_shelf_name"]));
+      named.names.insert(upper(object["outside_shelf_name"]));
     } else if (object.type == "Output:Variable") {
-      named.insert(upper(object["key_value"]));
+      read_output(object, input, named);
     } else if (object.type == "EnergyManagementSystem:Actuator") {
       input.actuated.insert(upper(object["actuated_component_unique_name"]));
     } else if (object.type == "EnergyManagementSystem:Sensor") {
-      named.insert(upper(object["output_variable_or_output_meter_index_key_name"]));
+      named.names.insert(upper(object["output_variable_or_output_meter_index_key_name"]));
     }
   }
   if (input.reflections) input.all_shading_wanted = true;
   for (auto const& [name, surface] : input.shading_surfaces) {
-    if (named.contains(upper(name))) input.wanted_shading.insert(name);
+    for (auto const& each : {name, mirrored_name(name)}) {
+      if (named.contains(each)) input.wanted_shading.insert(each);
+    }
   }
   return input;
 }

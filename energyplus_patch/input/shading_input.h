@@ -24,6 +24,7 @@ struct ShadingInput {
   std::string shading_method;  // as written, or ""
   std::optional<int> pixel_counting_resolution;
   bool every_timestep = false;  // Shading Calculation Update Frequency Method
+  bool detailed_sky = false;    // Sky Diffuse Modeling Algorithm
 
   bool minimal_shadowing = false;       // Building: Solar Distribution
   bool reflections = false;             // ... WithReflections
@@ -39,16 +40,23 @@ struct ShadingInput {
 
   std::set<std::string> actuated;  // names in EMS actuators, including schedules
 
-  // Shading surfaces whose own sunlit fraction is used: by an output, an EMS sensor, photovoltaics,
-  // a collector or a daylighting shelf; all of them with reflections or with the external shading
-  // file.
+  // Shading surfaces and mirrored copies (mirrored_name) whose own sunlit fraction is used: by an
+  // output, an EMS sensor, photovoltaics, a collector or a daylighting shelf; all of them with
+  // reflections, with the external shading file, or if an output's key cannot be interpreted.
   std::set<std::string> wanted_shading;
   bool all_shading_wanted = false;
+  std::string unreadable_key;  // the output and why, or ""
+
+  // An output shows the sunlit fractions of all surfaces, mirrored copies among them.
+  bool all_surfaces_shown = false;
 
   // As in PolygonClipping: shading surfaces and reveals always cast; walls and roofs exposed to the
   // outdoors cast while they face away from the sun; other surfaces (interzone, adiabatic, ground
   // contact), windows and doors never cast.
   Casting casting(std::string const& surface) const;
+
+  // Whether an output shows the sunlit fraction of a mirrored copy.
+  bool mirrored_shown() const;
 
   bool wants(std::string const& shading_surface) const {
     return all_shading_wanted || wanted_shading.contains(shading_surface);
@@ -60,6 +68,13 @@ struct ShadingInput {
   // Whether EnergyPlus may ask for the surface's sunlit area and uses it.
   bool receives(std::string const& surface) const;
 };
+
+// EnergyPlus's name of the copy of a shading surface that faces the other way.
+std::string mirrored_name(std::string const& shading_surface);
+bool is_mirrored(std::string const& surface);
+
+// Whether an object is an output of surfaces ("Surface ...").
+bool is_surface_output(InputObject const& object);
 
 // Throws Error for an invalid value.
 ShadingInput read_shading_input(std::vector<InputObject> const& objects);

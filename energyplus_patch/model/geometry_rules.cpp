@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <optional>
+#include <utility>
 
 #include "base/text.h"
 #include "gpu_shading/error.h"
@@ -50,25 +51,33 @@ glm::dvec3 turned(glm::dvec3 const& point, double degrees) {
   return {point.x * c + point.y * s, point.y * c - point.x * s, point.z};
 }
 
-// EnergyPlus removes vertices that are closer than 1 cm to a neighbour while more than three are
-// left: among these, it drops the one whose two adjacent edges are shortest in total.
-void drop_near_vertices(Ring& ring) {
-  constexpr double near = 0.01;
-  constexpr std::size_t fewest = 3;
-  while (ring.size() > fewest) {
-    std::size_t const count = ring.size();
-    std::optional<std::size_t> found;
-    double shortest = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-      double const before = glm::distance(ring[(i + count - 1) % count], ring[i]);
-      double const after = glm::distance(ring[i], ring[(i + 1) % count]);
-      if (std::min(before, after) < near && (!found || before + after < shortest)) {
-        found = i;
-        shortest = before + after;
-      }
+constexpr double coincident = 0.01;  // metres; EnergyPlus's own limit
+
+// The vertex that EnergyPlus deletes next: of those within the limit of a neighbour, the one whose
+// two adjacent edges are shortest in total.
+std::optional<std::size_t> next_deleted(Ring const& ring) {
+  std::size_t const count = ring.size();
+  std::optional<std::size_t> found;
+  double shortest = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    double const before = glm::distance(ring[(i + count - 1) % count], ring[i]);
+    double const after = glm::distance(ring[i], ring[(i + 1) % count]);
+    if (std::min(before, after) < coincident && (!found || before + after < shortest)) {
+      found = i;
+      shortest = before + after;
     }
-    if (!found) return;
-    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(*found));
+  }
+  return found;
+}
+
+void note_deletions(Outline& outline) {
+  constexpr std::size_t fewest = 3;
+  auto kept = outline.vertices;
+  while (auto const vertex = next_deleted(kept)) {
+    outline.degenerate = kept.size() <= fewest;
+    if (outline.degenerate) return;
+    outline.simplified = true;
+    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(*vertex));
   }
 }
 
@@ -102,8 +111,8 @@ GeometryRules read_geometry_rules(std::vector<InputObject> const& objects) {
   return rules;
 }
 
-Ring to_world(GeometryRules const& rules, Ring vertices, Attachment attachment,
-              GeometryRules::Zone const& zone) {
+Outline to_world(GeometryRules const& rules, Ring vertices, Attachment attachment,
+                 GeometryRules::Zone const& zone) {
   // The first vertex stays first.
   if (rules.clockwise && !vertices.empty()) std::reverse(vertices.begin() + 1, vertices.end());
   // A triangle has no upper right corner.
@@ -118,9 +127,10 @@ Ring to_world(GeometryRules const& rules, Ring vertices, Attachment attachment,
       vertex = turned(vertex, rules.north_axis);
     }
   }
-  drop_near_vertices(vertices);
-  for (auto& vertex : vertices) vertex = glm::dvec3(glm::vec3(vertex));
-  return vertices;
+  Outline outline{std::move(vertices)};
+  note_deletions(outline);
+  for (auto& vertex : outline.vertices) vertex = glm::dvec3(glm::vec3(vertex));
+  return outline;
 }
 
 }  // namespace gpu_shading::energyplus

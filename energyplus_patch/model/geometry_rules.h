@@ -40,13 +40,22 @@ enum class Attachment {
   zone,      // placed in a zone
 };
 
-// The outline that EnergyPlus derives from an object's vertices: counterclockwise from the upper
-// left corner, in world axes, without vertices that EnergyPlus drops because a neighbour is within
-// 1 cm. (EnergyPlus also drops vertices on the straight line between their neighbours, which does
-// not change any shadow; they are kept here.) Rounded to the single precision of the vertices that
-// EnergyPlus passes, so that surfaces that touch a wall still do. `zone` is only used for
-// Attachment::zone.
-Ring to_world(GeometryRules const& rules, Ring vertices, Attachment attachment,
-              GeometryRules::Zone const& zone = {});
+// A surface's outline in world axes: counterclockwise from the upper left corner, as EnergyPlus
+// orders it.
+struct Outline {
+  // Every vertex that the model gives, rounded to the single precision of the vertices that
+  // EnergyPlus passes, so that surfaces that touch a wall still do.
+  Ring vertices;
+  // EnergyPlus deletes vertices that are within 1 cm of a neighbour while more than three are left.
+  // (It also deletes vertices on the straight line between their neighbours, which changes no
+  // shadow.)
+  bool simplified = false;
+  // Vertices within 1 cm of each other are left then: EnergyPlus calls such a surface degenerate.
+  bool degenerate = false;
+};
+
+// `zone` is only used for Attachment::zone.
+Outline to_world(GeometryRules const& rules, Ring vertices, Attachment attachment,
+                 GeometryRules::Zone const& zone = {});
 
 }  // namespace gpu_shading::energyplus

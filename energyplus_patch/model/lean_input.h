@@ -17,7 +17,7 @@ namespace gpu_shading::energyplus {
 // directly from the model.
 struct LeanInput {
   Names left_out;                // Shading:...:Detailed objects
-  std::vector<Surface> casters;  // the same, with the vertices that EnergyPlus would pass
+  std::vector<Surface> casters;  // the same, with all vertices that the model gives them
   std::vector<Placeholder> placeholders;
   std::string remark;  // message for the user: what is left out, or why nothing is; "": no message
 
@@ -25,19 +25,22 @@ struct LeanInput {
   bool is_placeholder(std::string const& surface) const;
 };
 
-// With Lean::automatic, surfaces are only left out from this number on. Each costs EnergyPlus about
-// 5 ms in a year's run, and the placeholders cost about as much as this many. Small models run
-// without lean input.
+// With Lean::automatic, all surfaces are left out from this number on. Each costs EnergyPlus about
+// 5 ms in a year's run, and the placeholders cost about as much as this many. Of fewer surfaces,
+// only those are left out that EnergyPlus would simplify or refuse (Outline).
 inline constexpr std::size_t fewest_left_out = 100;
 
 // A surface is kept if another object or output names it, or if one of its fields cannot be
 // interpreted. All are kept if the model needs the surfaces themselves (solar reflections,
 // daylighting, complex fenestration, the external shading file, plugins), or if its geometry is
-// changed in ways that are not supported here (GeometryTransform, Compliance:Building).
+// changed in ways that are not supported here (reason_against_outlines).
 LeanInput plan_lean_input(std::vector<InputObject> const& objects, ShadingInput const& input,
                           Options const& options, MentionFinder const& find_mentions);
 
 // Adds placeholders for casters that EnergyPlus does not know, unless there are some already.
 void ensure_placeholders(LeanInput& lean, ShadingInput const& input);
+
+// Adds the placeholder that has EnergyPlus follow screens which move (make_sky_placeholder).
+void add_sky_placeholder(LeanInput& lean, ShadingInput const& input);
 
 }  // namespace gpu_shading::energyplus

@@ -10,6 +10,7 @@
 #include "idf/model_file.h"
 #include "idf/side_file.h"
 #include "model/ray_warnings.h"
+#include "model/simplified_surfaces.h"
 #include "site/texture_axes.h"
 
 namespace gpu_shading::energyplus {
@@ -47,6 +48,11 @@ void remark_on_other_side_files(std::filesystem::path const& model, Model& made)
       side_suffix,
       fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
       names.size() > most ? fmt::format(" and {} more", names.size() - most) : ""));
+}
+
+bool any_moves(PerforatedScreens const& screens) {
+  return std::any_of(screens.by_surface.begin(), screens.by_surface.end(),
+                     [](auto const& each) { return !each.second.deployment_schedule.empty(); });
 }
 
 }  // namespace
@@ -89,8 +95,12 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   if (find_mentions) {
     model.lean = plan_lean_input(objects, model.shading, model.options, find_mentions);
   }
-  if (!model.surroundings.empty() && model.options.mode != Mode::off) {
-    ensure_placeholders(model.lean, model.shading);
+  if (model.options.mode != Mode::off) {
+    model.simplified = find_simplified_surfaces(objects, model.shading, model.lean.left_out);
+    if (!model.surroundings.empty()) ensure_placeholders(model.lean, model.shading);
+    if (model.shading.detailed_sky && any_moves(model.screens)) {
+      add_sky_placeholder(model.lean, model.shading);
+    }
   }
   return model;
 }

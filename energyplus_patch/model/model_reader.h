@@ -10,6 +10,7 @@
 #include "input/shading_input.h"
 #include "input/transparent_shades.h"
 #include "model/lean_input.h"
+#include "model/simplified_surfaces.h"
 #include "options/options.h"
 #include "site/surroundings.h"
 
@@ -22,6 +23,7 @@ struct Model {
   PerforatedScreens screens;
   Options options;
   LeanInput lean;
+  SimplifiedSurfaces simplified;
   Surroundings surroundings;
   std::vector<std::string> ray_warnings;  // see warn_of_rays
   std::vector<std::string> remarks;

@@ -40,12 +40,13 @@ std::string describe_tile(Model const& model, Surface const& surface) {
                      place(axes.u, 4), place(axes.v, 4));
 }
 
-// All surfaces except placeholders and surroundings.
+// All surfaces except placeholders, surroundings and mirrored copies that nothing names.
 std::vector<SurfaceId> listed(Scene const& scene, Model const& model) {
   std::vector<SurfaceId> ids;
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     auto const& name = scene[id].name;
-    if (!model.lean.is_placeholder(name) && !model.surroundings.types.contains(name)) {
+    bool const copy = is_mirrored(name) && !model.shading.wants(name);
+    if (!copy && !model.lean.is_placeholder(name) && !model.surroundings.types.contains(name)) {
       ids.push_back(id);
     }
   }
@@ -79,6 +80,7 @@ std::vector<MeshRow> meshes_of(Scene const& scene, Model const& model) {
 std::string remarks_of(Model const& model) {
   std::string text;
   if (!model.lean.remark.empty()) text += model.lean.remark + "\n";
+  if (!model.simplified.warning.empty()) text += model.simplified.warning + "\n";
   for (auto const& remark : model.surroundings.remarks) text += remark + "\n";
   return text.empty() ? text : text + "\n";
 }

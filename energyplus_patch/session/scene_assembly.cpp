@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -40,10 +41,30 @@ void check_coordinates(Surface const& surface) {
 }  // namespace
 
 SurfaceId SceneAssembly::add(Surface surface) {
-  check_coordinates(surface);
   if (model_.lean.is_placeholder(surface.name)) surface.casting = Casting::never;
   if (surface.casting != Casting::never) surface.casting = model_.shading.casting(surface.name);
+  double ratio = 1.0;
+  auto const written = model_.simplified.outlines.find(surface.name);
+  if (written != model_.simplified.outlines.end()) {
+    double const passed = area(surface.polygon);
+    surface.polygon.outline = written->second;
+    double const rendered = area(surface.polygon);
+    if (rendered > 0.0) ratio = passed / rendered;
+  }
+  check_coordinates(surface);
+  area_ratios_.push_back(ratio);
   return surfaces_.add(std::move(surface));
+}
+
+SurfaceId SceneAssembly::add_mirrored(SurfaceId original) {
+  auto const& surface = surfaces_[original];
+  Surface copy;
+  copy.name = mirrored_name(surface.name);
+  copy.polygon = surface.polygon;
+  copy.casting = Casting::never;
+  std::reverse(copy.polygon.outline.begin(), copy.polygon.outline.end());
+  area_ratios_.push_back(area_ratios_[original]);
+  return surfaces_.add(std::move(copy));
 }
 
 void SceneAssembly::complete(Schedules schedules) {
@@ -52,7 +73,8 @@ void SceneAssembly::complete(Schedules schedules) {
     bool const placeholder = model_.lean.is_placeholder(name);
     bool const wanted = model_.shading.receives(name) && !window_of_reveal(name) && !placeholder;
     receives_.push_back(wanted);
-    unshaded_.push_back(!wanted && (placeholder || model_.shading.shading_surfaces.contains(name)));
+    bool const shading = model_.shading.shading_surfaces.contains(name) || is_mirrored(name);
+    unshaded_.push_back(!wanted && (placeholder || shading));
   }
   complete_ = true;
   for (auto& caster : model_.lean.casters) {
@@ -72,6 +94,17 @@ std::vector<SurfaceId> SceneAssembly::shading_surfaces() const {
   std::vector<SurfaceId> ids;
   for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
     if (model_.shading.shading_surfaces.contains(surfaces_[id].name)) ids.push_back(id);
+  }
+  return ids;
+}
+
+std::vector<SurfaceId> SceneAssembly::own_shading_surfaces() const {
+  std::vector<SurfaceId> ids;
+  for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
+    auto const& name = surfaces_[id].name;
+    if (model_.shading.shading_surfaces.contains(name) || model_.lean.is_placeholder(name)) {
+      ids.push_back(id);
+    }
   }
   return ids;
 }
@@ -101,7 +134,8 @@ std::vector<SurfaceId> SceneAssembly::shown() const {
     auto const& name = surfaces_[id].name;
     auto const type = types.find(name);
     bool const context = type != types.end() && type->second == extension::site_context::type;
-    if (!context && !model_.lean.is_placeholder(name)) ids.push_back(id);
+    bool const copy = is_mirrored(name) && !model_.shading.wants(name);
+    if (!context && !copy && !model_.lean.is_placeholder(name)) ids.push_back(id);
   }
   return ids;
 }

@@ -22,6 +22,8 @@ class SceneAssembly {
 
   // Adds a surface of EnergyPlus's. Not after complete().
   SurfaceId add(Surface surface);
+  // The same for the copy of a shading surface that faces the other way.
+  SurfaceId add_mirrored(SurfaceId original);
 
   // EnergyPlus has added all its surfaces: adds the other casters and reads the schedules.
   void complete(Schedules schedules);
@@ -38,6 +40,12 @@ class SceneAssembly {
 
   // Ids of the model's shading surfaces, in order.
   std::vector<SurfaceId> shading_surfaces() const;
+  // The same with placeholders, without mirrored copies: EnergyPlus's own shading surfaces.
+  std::vector<SurfaceId> own_shading_surfaces() const;
+
+  // EnergyPlus's area of a surface over the area that is rendered: it deletes vertices that are
+  // close to each other (SimplifiedSurfaces).
+  double area_ratio(SurfaceId surface) const { return area_ratios_[surface]; }
 
   // After complete(), by surface of EnergyPlus's:
   // unit normal x net area (m2);
@@ -52,7 +60,8 @@ class SceneAssembly {
   // The surfaces with an area whose sunlit fractions are wanted.
   std::vector<SurfaceId> receivers() const;
 
-  // What shows a person the model: all but placeholders, terrain and neighbouring buildings.
+  // What shows a person the model: all but placeholders, terrain, neighbouring buildings and
+  // mirrored copies that nothing names.
   std::vector<SurfaceId> shown() const;
 
   // The scene to render, with the optics as they are now: the surfaces by their ids, then a copy
@@ -65,6 +74,7 @@ class SceneAssembly {
  private:
   Model model_;
   Scene surfaces_;
+  std::vector<double> area_ratios_;
   bool complete_ = false;
   std::vector<bool> receives_;
   std::vector<bool> unshaded_;

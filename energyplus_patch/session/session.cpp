@@ -86,9 +86,10 @@ float Session::projected_sunlit_area(SurfaceId receiver) {
   if (receiver >= size()) {
     throw Error(fmt::format("EnergyPlus asks for surface {} of {}", receiver, size()));
   }
-  return static_cast<float>(scene_.unshaded()[receiver]
-                                ? answers.unshaded_area(receiver)
-                                : answers.area(receiver, scene_.optics().factors()));
+  double const rendered = scene_.unshaded()[receiver]
+                              ? answers.unshaded_area(receiver)
+                              : answers.area(receiver, scene_.optics().factors());
+  return static_cast<float>(rendered * scene_.area_ratio(receiver));
 }
 
 std::vector<float> Session::interior_areas(SurfaceId window,

@@ -28,10 +28,14 @@ class Session {
   std::size_t size() const { return scene_.size(); }
 
   Surface const& surface(SurfaceId id) const { return scene_.surfaces()[id]; }
+
+  // Adds the mirrored copy of a shading surface.
+  SurfaceId add_mirrored(SurfaceId original) { return scene_.add_mirrored(original); }
+
   ShadingInput const& input() const { return scene_.model().shading; }
 
-  // Ids of the model's shading surfaces, in order.
-  std::vector<SurfaceId> shading_surfaces() const { return scene_.shading_surfaces(); }
+  // Ids of EnergyPlus's shading surfaces, without mirrored copies, in order.
+  std::vector<SurfaceId> shading_surfaces() const { return scene_.own_shading_surfaces(); }
 
   // Called when all surfaces are added: reads their optics and opens the device. `latitude`: the
   // site's, in radians; only called if sun positions are sampled.

@@ -32,7 +32,7 @@ TEST(GeometryRules, AnyCornerAndDirectionGiveTheSameOutline) {
   Ring const lower_right{wall[2], wall[3], wall[0], wall[1]};
   Ring const upper_right{wall[3], wall[0], wall[1], wall[2]};
   auto const outline = [](std::string const& rules, Ring const& vertices) {
-    return to_world(rules_of(rules), vertices, Attachment::site);
+    return to_world(rules_of(rules), vertices, Attachment::site).vertices;
   };
   expect_same(outline("UpperLeftCorner,Counterclockwise,World", wall), wall);
   expect_same(outline("LowerLeftCorner,Counterclockwise,World", lower_left), wall);
@@ -46,11 +46,12 @@ TEST(GeometryRules, RelativeCoordinatesAreTurnedAndMoved) {
   auto const rules =
       rules_of("UpperLeftCorner,Counterclockwise,Relative", "Building,B,90;Zone,Z,90,10,0,1;");
   Ring const point{{1, 0, 0}, {2, 0, 0}, {1, 1, 0}};
-  expect_same(to_world(rules, point, Attachment::site), point);
+  expect_same(to_world(rules, point, Attachment::site).vertices, point);
   // What lay to the east lies to the south.
-  expect_same(to_world(rules, point, Attachment::building), {{0, -1, 0}, {0, -2, 0}, {1, -1, 0}});
+  expect_same(to_world(rules, point, Attachment::building).vertices,
+              {{0, -1, 0}, {0, -2, 0}, {1, -1, 0}});
   // In the zone to the south, then 10 m east of it, then all turned.
-  expect_same(to_world(rules, point, Attachment::zone, rules.zones.at("Z")),
+  expect_same(to_world(rules, point, Attachment::zone, rules.zones.at("Z")).vertices,
               {{-1, -10, 1}, {-2, -10, 1}, {-1, -11, 1}});
 }
 
@@ -58,18 +59,31 @@ TEST(GeometryRules, WorldCoordinatesStayAsTheyAre) {
   auto const rules =
       rules_of("UpperLeftCorner,Counterclockwise,World", "Building,B,90;Zone,Z,90,10,0,1;");
   for (auto const attachment : {Attachment::site, Attachment::building, Attachment::zone}) {
-    expect_same(to_world(rules, wall, attachment, rules.zones.at("Z")), wall);
+    expect_same(to_world(rules, wall, attachment, rules.zones.at("Z")).vertices, wall);
   }
 }
 
-TEST(GeometryRules, NeighboursWithinACentimetreGo) {
+TEST(GeometryRules, VerticesThatEnergyPlusDeletesAreKeptAndNoted) {
   auto const rules = rules_of("UpperLeftCorner,Counterclockwise,World");
+  auto const outline = [&](Ring const& ring) { return to_world(rules, ring, Attachment::site); };
+  EXPECT_FALSE(outline(wall).simplified);
   Ring near = wall;
   near.insert(near.begin() + 1, {0.003, 0, 0.004});
-  expect_same(to_world(rules, near, Attachment::site), wall);
-  // Three stay, however near.
+  expect_same(outline(near).vertices, near);
+  EXPECT_TRUE(outline(near).simplified);
+  EXPECT_FALSE(outline(near).degenerate);
+  // EnergyPlus keeps three vertices, however near.
   Ring const strip{{0, 0, 0.005}, {0, 0, 0}, {4, 0, 0}, {4, 0, 0.005}};
-  EXPECT_EQ(to_world(rules, strip, Attachment::site).size(), 3U);
+  EXPECT_EQ(outline(strip).vertices.size(), 4U);
+  EXPECT_TRUE(outline(strip).simplified);
+  EXPECT_TRUE(outline(strip).degenerate);
+  Ring const needle{{0, 0, 0.005}, {0, 0, 0}, {4, 0, 0}};
+  EXPECT_FALSE(outline(needle).simplified);
+  EXPECT_TRUE(outline(needle).degenerate);
+  // Vertices are compared before they are rounded to single precision.
+  Ring const wide{{0, 0, 5000.010002}, {0, 0, 5000}, {4, 0, 5000}, {4, 0, 5000.010002}};
+  EXPECT_FALSE(outline(wide).simplified);
+  EXPECT_LT(outline(wide).vertices[0].z, 5000.0099);
 }
 
 TEST(GeometryRules, WhatIsNotUnderstoodIsNamed) {

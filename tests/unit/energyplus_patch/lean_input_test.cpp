@@ -10,6 +10,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "idf/model_file.h"
+#include "model/simplified_surfaces.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -109,6 +110,49 @@ TEST(LeanInput, FewSurfacesStayUnlessAskedFor) {
   idf += shade("Last");
   EXPECT_TRUE(plan(idf, Lean::automatic).active());
   EXPECT_FALSE(plan(idf, Lean::off).active());
+}
+
+std::string slat(std::string const& name, double z) {
+  return fmt::format("Shading:Building:Detailed,{0},,,0,-1,{2},0,-1,{1},4,-1,{1},4,-1,{2};\n", name,
+                     z, z + 0.004);
+}
+
+TEST(LeanInput, SurfacesThatEnergyPlusWouldSimplifyAreLeftOutHoweverFew) {
+  auto const idf = rules + shade("Wide") + slat("Thin", 1.0) + slat("Used", 2.0) +
+                   "Output:Variable,Mir-Used,Surface Outside Face Sunlit Fraction;";
+  auto const lean = plan(idf, Lean::automatic);
+  EXPECT_EQ(lean.left_out, (Names{"THIN"}));
+  ASSERT_EQ(lean.casters.size(), 1U);
+  EXPECT_EQ(lean.casters[0].polygon.outline.size(), 4U);
+  auto const objects = read_idf(idf);
+  auto const found = find_simplified_surfaces(objects, read_shading_input(objects), lean.left_out);
+  ASSERT_EQ(found.outlines.size(), 1U);
+  EXPECT_NEAR(area({found.outlines.at("USED"), {}}), 4 * 0.004, 1e-5);
+  EXPECT_THAT(found.warning,
+              HasSubstr("of 1 shading surface: USED; it calls 1 of them degenerate"));
+}
+
+TEST(LeanInput, OutlinesThatCannotBeReproducedStayEnergyPluss) {
+  auto const objects = read_idf(rules + slat("A", 1.0) + shade("B") + "GeometryTransform,XY,1,2;");
+  auto const found = find_simplified_surfaces(objects, read_shading_input(objects), {});
+  EXPECT_TRUE(found.outlines.empty());
+  EXPECT_THAT(found.warning, HasSubstr("their shadows are simplified too (GeometryTransform"));
+}
+
+TEST(LeanInput, MovingScreensPutUpAPlaceholderForTheSky) {
+  auto lean = plan(rules + shade("One"));
+  EXPECT_FALSE(needs_sky_schedule(lean.placeholders));
+  add_sky_placeholder(lean, {});
+  ASSERT_EQ(lean.placeholders.size(), 5U);
+  EXPECT_EQ(lean.placeholders[4].name, "GPU SHADING PLACEHOLDER 5");
+  Rewrite const rewrite{"PixelCounting", "", {}, lean.placeholders};
+  auto const text = rewrite_idf("ShadowCalculation,PixelCounting,Periodic;", rewrite);
+  auto const schedule = lean.placeholders[4].schedule;
+  EXPECT_THAT(text, HasSubstr("Schedule:Compact," + schedule + ","));
+  EXPECT_THAT(text, HasSubstr("GPU SHADING PLACEHOLDER 5"));
+  nlohmann::json model = nlohmann::json::object();
+  rewrite_epjson(model, rewrite);
+  EXPECT_EQ(model.at("Schedule:Compact").at(schedule).at("data").size(), 6U);
 }
 
 TEST(LeanInput, ReasonsAreGiven) {

@@ -152,6 +152,38 @@ TEST(Session, AnswersInAForkedProcessAsBefore) {
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
 }
 
+TEST(Session, SimplifiedSurfacesCastAndReceiveAsTheyAreWritten) {
+  // EnergyPlus makes a triangle of a slat and of its mirrored copy.
+  auto model = model_of(
+      "Shading:Site:Detailed,Slat;Output:Variable,Slat,Surface Outside Face Sunlit Fraction;"
+      "Output:Variable,Mir-Slat,Surface Outside Face Sunlit Fraction;");
+  model.simplified.outlines["SLAT"] = rectangle({0, 0, 1}, {1, 0, 0}, {0, 0.004, 0}).outline;
+  Session session(std::move(model));
+  auto const floor =
+      session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {1, 0, 0}, {0, 0.02, 0})));
+  auto const slat = session.add(surface_of("SLAT", {{{0, 0, 1}, {1, 0, 1}, {1, 0.004, 1}}, {}}));
+  auto const copy = session.add_mirrored(slat);
+  Said said;
+  session.start(said.messages(), {});
+  session.set_sun(zenith);
+  EXPECT_NEAR(session.projected_sunlit_area(floor), 0.016, 2e-5);
+  // EnergyPlus divides by its own area.
+  EXPECT_NEAR(session.projected_sunlit_area(slat), 0.002, 1e-6);
+  EXPECT_EQ(session.projected_sunlit_area(copy), 0.0F);
+}
+
+TEST(Session, MirroredCopiesThatNobodyAsksAfterAreUnshaded) {
+  Session session(model_of("Shading:Site:Detailed,Low;Shading:Site:Detailed,High;"));
+  auto const low = session.add(surface_of("LOW", rectangle({0, 0, 0}, {0, 2, 0}, {2, 0, 0})));
+  auto const copy = session.add_mirrored(low);
+  session.add(surface_of("HIGH", rectangle({0, 0, 1}, {2, 0, 0}, {0, 2, 0})));
+  Said said;
+  session.start(said.messages(), {});
+  session.set_sun(zenith);
+  EXPECT_NEAR(session.projected_sunlit_area(copy), 4.0, 1e-6);
+  EXPECT_EQ(session.surface(copy).name, "Mir-LOW");
+}
+
 TEST(Session, SameDirectionIsRenderedOnce) {
   Session session(model_of(""));
   auto const floor = session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));

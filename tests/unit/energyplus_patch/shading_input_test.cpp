@@ -40,6 +40,33 @@ TEST(ShadingInput, ShadingFractionsAreWantedOnlyWhereTheyAreUsed) {
   EXPECT_TRUE(read(surfaces + "ShadowCalculation,PolygonClipping,,,,,,,Yes;").wants("C"));
 }
 
+TEST(ShadingInput, OutputsNameSurfacesByPatternsAndMirroredCopiesToo) {
+  std::string const surfaces =
+      "Shading:Building:Detailed,Fin 1;Shading:Building:Detailed,Fin 2;"
+      "Shading:Building:Detailed,Roof;";
+  auto const by_name =
+      read(surfaces + "Output:Variable,mir-fin 1,Surface Outside Face Sunlit Fraction;");
+  EXPECT_FALSE(by_name.wants("FIN 1"));
+  EXPECT_TRUE(by_name.wants("Mir-FIN 1"));
+  EXPECT_TRUE(by_name.receives("Mir-FIN 1"));
+  EXPECT_FALSE(by_name.receives("Mir-FIN 2"));
+  EXPECT_TRUE(by_name.mirrored_shown());
+  auto const pattern =
+      read(surfaces + "Output:Variable,(Mir-)?fin.*,Surface Outside Face Sunlit Fraction;");
+  for (auto const* name : {"FIN 1", "FIN 2", "Mir-FIN 1", "Mir-FIN 2"}) {
+    EXPECT_TRUE(pattern.wants(name)) << name;
+  }
+  EXPECT_FALSE(pattern.wants("ROOF"));
+  EXPECT_FALSE(read(surfaces + "Output:Variable,Fin 1,Surface Outside Face Sunlit Fraction;")
+                   .mirrored_shown());
+  auto const all = read(surfaces + "Output:Variable,*,Surface Outside Face Sunlit Fraction;");
+  EXPECT_TRUE(all.mirrored_shown());
+  EXPECT_FALSE(all.wants("Mir-ROOF"));
+  // What cannot be interpreted may name any surface.
+  auto const broken = read(surfaces + "Output:Variable,Fin[,Surface Outside Face Sunlit Fraction;");
+  EXPECT_TRUE(broken.wants("ROOF"));
+}
+
 TEST(ShadingInput, OnlyExteriorSurfacesCast) {
   auto const input = read(
       "BuildingSurface:Detailed,Out,Wall,C,Z,,Outdoors;BuildingSurface:Detailed,In,Wall,C,Z,,"

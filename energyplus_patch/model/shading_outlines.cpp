@@ -1,0 +1,86 @@
+#include "model/shading_outlines.h"
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "base/text.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+std::optional<Attachment> attachment_of(InputObject const& object) {
+  constexpr std::array<std::pair<std::string_view, Attachment>, 3> detailed_types{{
+      {"Shading:Site:Detailed", Attachment::site},
+      {"Shading:Building:Detailed", Attachment::building},
+      {"Shading:Zone:Detailed", Attachment::zone},
+  }};
+  for (auto const& [type, attachment] : detailed_types) {
+    if (object.type == type) return attachment;
+  }
+  return std::nullopt;
+}
+
+// The vertices of the object; empty if they are invalid.
+std::optional<Ring> vertices_of(InputObject const& object) {
+  auto const count = object.list.size() / 3;
+  if (count < 3 || object.list.size() % 3 != 0) return std::nullopt;
+  auto const& given = object["number_of_vertices"];
+  if (!given.empty() && !same_name(given, "autocalculate")) {
+    auto const number = parse_number(given);
+    if (!number || *number != static_cast<double>(count)) return std::nullopt;
+  }
+  Ring ring;
+  ring.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    glm::dvec3 vertex;
+    for (int axis = 0; axis < 3; ++axis) {
+      auto const value = parse_number(object.list[3 * i + static_cast<std::size_t>(axis)]);
+      if (!value) return std::nullopt;
+      vertex[axis] = *value;
+    }
+    ring.push_back(vertex);
+  }
+  return ring;
+}
+
+std::optional<GeometryRules::Zone> zone_of(InputObject const& object, ShadingInput const& input,
+                                           GeometryRules const& rules) {
+  auto const name = input.zone_of.find(input.base_surface(upper(object["base_surface_name"])));
+  if (name == input.zone_of.end()) return std::nullopt;
+  auto const zone = rules.zones.find(name->second);
+  return zone == rules.zones.end() ? std::nullopt : std::optional(zone->second);
+}
+
+}  // namespace
+
+bool is_detailed_shading(InputObject const& object) { return attachment_of(object).has_value(); }
+
+std::optional<Outline> outline_of(InputObject const& object, ShadingInput const& input,
+                                  GeometryRules const& rules) {
+  auto const attachment = attachment_of(object);
+  auto vertices = vertices_of(object);
+  if (!attachment || !vertices) return std::nullopt;
+  GeometryRules::Zone zone;
+  if (*attachment == Attachment::zone) {
+    auto const found = zone_of(object, input, rules);
+    if (!found) return std::nullopt;
+    zone = *found;
+  }
+  return to_world(rules, std::move(*vertices), *attachment, zone);
+}
+
+std::string reason_against_outlines(std::vector<InputObject> const& objects) {
+  for (auto const& object : objects) {
+    if (object.type == "GeometryTransform") {
+      return object.title() + ": it changes vertices in ways that are not supported here";
+    }
+    if (object.type == "Compliance:Building" &&
+        !object["building_rotation_for_appendix_g"].empty()) {
+      return "Compliance:Building: Building Rotation for Appendix G rotates the surfaces";
+    }
+  }
+  return {};
+}
+
+}  // namespace gpu_shading::energyplus
