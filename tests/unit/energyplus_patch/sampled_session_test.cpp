@@ -70,6 +70,7 @@ struct Sampled {
 
   // Directions rendered, and what was said of the samples.
   std::pair<int, std::string> finish() {
+    said.remarks.clear();  // of the start, such as that there is no GPU
     session.finish();
     std::smatch found;
     EXPECT_TRUE(std::regex_search(said.remarks[0], found, std::regex("(\\d+) directions")));
