@@ -1,33 +1,32 @@
 #include "assets/elevation_file.h"
 
-#include <array>
+#include <cmath>
+#include <limits>
 
-#include "assets/plugin.h"
+#include "assets/decoding_process.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
 
-gpu_shading_elevation_info probe_elevations(std::filesystem::path const& path) {
-  static auto const probe = reinterpret_cast<decltype(&gpu_shading_probe_elevations)>(
-      plugin_function(gpu_shading_image_library, "GeoTIFF", "gpu_shading_probe_elevations"));
-  gpu_shading_elevation_info info{};
-  std::array<char, 512> message{};
-  if (probe(path.c_str(), &info, message.data(), message.size()) != 0) throw Error(message.data());
-  return info;
-}
-
-std::vector<double> read_elevations(std::filesystem::path const& path,
-                                    gpu_shading_elevation_info const& info) {
-  static auto const read = reinterpret_cast<decltype(&gpu_shading_read_elevations)>(
-      plugin_function(gpu_shading_image_library, "GeoTIFF", "gpu_shading_read_elevations"));
-  std::vector<double> elevations(static_cast<std::size_t>(info.columns) *
-                                 static_cast<std::size_t>(info.rows));
-  std::array<char, 512> message{};
-  if (read(path.c_str(), info.columns, info.rows, elevations.data(), message.data(),
-           message.size()) != 0) {
-    throw Error(message.data());
+decoding::Elevations read_elevations(std::filesystem::path const& path) {
+  DecodingProcess decoding("gpu_shading_image_decoder", "elevations", path, Assets::restricted);
+  decoding::Elevations result;
+  auto& header = result.header;
+  constexpr auto most = std::numeric_limits<std::int32_t>::max();
+  header.columns = decoding.next<std::int32_t>(1, most);
+  header.rows = decoding.next<std::int32_t>(1, most);
+  header.epsg = decoding.next<std::int32_t>(0, most);
+  for (auto* const value : {&header.x, &header.y, &header.step_x, &header.step_y}) {
+    *value = decoding.next_double();
+    if (!std::isfinite(*value)) throw Error("the position of its cells is not finite");
   }
-  return elevations;
+  header.no_data = decoding.next_double();
+  auto const cells = std::int64_t{header.columns} * header.rows;
+  auto const expected = cells > decoding::most_elevations ? 0 : static_cast<std::uint64_t>(cells);
+  decoding.next<std::uint64_t>(expected, expected);
+  result.elevations = decoding.next_all<double>(expected);
+  decoding.finish();
+  return result;
 }
 
 }  // namespace gpu_shading::energyplus

@@ -3,14 +3,13 @@
 #include <filesystem>
 #include <vector>
 
-#include "image_plugin/image_plugin.h"
+#include "image_decoder/elevations.h"
 
 namespace gpu_shading::energyplus {
 
-// The header of a GeoTIFF, and its elevations in metres with rows as in the file. Both throw Error
-// with the reason in one line, to which the caller adds the file's name.
-gpu_shading_elevation_info probe_elevations(std::filesystem::path const& path);
-std::vector<double> read_elevations(std::filesystem::path const& path,
-                                    gpu_shading_elevation_info const& info);
+// Reads a GeoTIFF: its header, and its elevations in metres with rows as in the file, none if there
+// are more than most_elevations. Throws Error with the reason in one line, to which the caller adds
+// the file's name.
+decoding::Elevations read_elevations(std::filesystem::path const& path);
 
 }  // namespace gpu_shading::energyplus

@@ -7,13 +7,13 @@
 #include "assets/memory_file.h"
 #include "assets/plugin.h"
 #include "gpu_shading/error.h"
-#include "image_plugin/image_plugin.h"
+#include "picture_plugin/picture_plugin.h"
 
 namespace gpu_shading::energyplus {
 
 std::string encode_image(std::string const& name, Image const& image) {
   static auto const write = reinterpret_cast<decltype(&gpu_shading_write_image)>(
-      plugin_function(gpu_shading_image_library, "pictures", "gpu_shading_write_image"));
+      plugin_function(gpu_shading_picture_library, "pictures", "gpu_shading_write_image"));
   MemoryFile const file;
   std::array<char, 512> message{};
   if (write(file.path().c_str(), name.c_str(), image.width, image.height, image.channels,

@@ -2,72 +2,83 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
-#include <memory>
 
-#include "assets/plugin.h"
+#include "assets/decoding_process.h"
 #include "base/files.h"
 #include "base/naming.h"
 #include "base/text.h"
 #include "gpu_shading/error.h"
-#include "mesh_plugin/mesh_plugin.h"
+#include "mesh_decoder/meshes.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
-using FreeMeshes = decltype(&gpu_shading_free_meshes);
-
-Mesh copied(gpu_shading_mesh const& from) {
+// The next part of an answer. `vertices_left`, `triangles_left`: how many there may still be.
+Mesh next_part(DecodingProcess& decoding, std::size_t& vertices_left, std::size_t& triangles_left) {
   Mesh mesh;
-  mesh.name = from.name;
-  mesh.material = from.material;
-  mesh.positions.reserve(from.vertices);
-  for (std::size_t i = 0; i < from.vertices; ++i) {
-    auto const* const at = from.positions + 3 * i;
-    mesh.positions.emplace_back(at[0], at[1], at[2]);
-    if (!std::isfinite(at[0] + at[1] + at[2])) {
-      throw Error(fmt::format("vertex {} of {} is not a number", i + 1, mesh.name));
+  mesh.name = decoding.next_text();
+  mesh.material = decoding.next_text();
+  bool const has_texture = decoding.next<std::uint8_t>(0, 1) == 1;
+  auto const vertices = decoding.next<std::uint64_t>(1, vertices_left);
+  auto const triangles = decoding.next<std::uint64_t>(1, triangles_left);
+  vertices_left -= vertices;
+  triangles_left -= triangles;
+  auto const positions = decoding.next_all<double>(3 * vertices);
+  auto const texture = decoding.next_all<float>(has_texture ? 2 * vertices : 0);
+  auto const indices = decoding.next_all<std::uint32_t>(3 * triangles);
+  mesh.positions.reserve(vertices);
+  for (std::size_t i = 0; i < positions.size(); i += 3) {
+    if (!std::isfinite(positions[i] + positions[i + 1] + positions[i + 2])) {
+      throw Error(fmt::format("vertex {} of {} is not a finite number", i / 3 + 1, mesh.name));
     }
-    if (from.texture != nullptr) {
-      mesh.texture.emplace_back(from.texture[2 * i], from.texture[2 * i + 1]);
-    }
+    mesh.positions.emplace_back(positions[i], positions[i + 1], positions[i + 2]);
   }
-  mesh.triangles.reserve(from.triangles);
-  for (std::size_t i = 0; i < from.triangles; ++i) {
-    auto const* const at = from.indices + 3 * i;
-    mesh.triangles.push_back({at[0], at[1], at[2]});
+  mesh.texture.reserve(texture.size() / 2);
+  for (std::size_t i = 0; i < texture.size(); i += 2) {
+    if (!std::isfinite(texture[i] + texture[i + 1])) {
+      throw Error(
+          fmt::format("texture coordinate {} of {} is not a finite number", i / 2 + 1, mesh.name));
+    }
+    mesh.texture.emplace_back(texture[i], texture[i + 1]);
+  }
+  mesh.triangles.reserve(triangles);
+  for (std::size_t i = 0; i < indices.size(); i += 3) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      if (indices[i + corner] >= vertices) DecodingProcess::throw_invalid();
+    }
+    mesh.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
   }
   return mesh;
 }
 
 }  // namespace
 
-bool states_its_axes(std::filesystem::path const& path) {
+bool states_its_axes(std::filesystem::path const& path, Assets assets) {
   auto const ending = path.extension().string();
   for (char const* known : {".dae", ".gltf", ".glb"}) {
     if (same_name(ending, known)) return true;
   }
-  if (same_name(ending, ".obj")) return false;
-  throw Error(fmt::format("{}: expected an .obj, .dae, .gltf or .glb file", path.string()));
+  if (assets == Assets::any || same_name(ending, ".obj")) return false;
+  throw Error(
+      fmt::format("{}: expected an .obj, .dae, .gltf or .glb file (--gpu-shading-assets=any reads "
+                  "more)",
+                  path.string()));
 }
 
-std::vector<Mesh> read_meshes(std::filesystem::path const& path) {
-  static auto const read = reinterpret_cast<decltype(&gpu_shading_read_meshes)>(
-      plugin_function(gpu_shading_mesh_library, "meshes", "gpu_shading_read_meshes"));
-  static auto const free = reinterpret_cast<FreeMeshes>(
-      plugin_function(gpu_shading_mesh_library, "meshes", "gpu_shading_free_meshes"));
+std::vector<Mesh> read_meshes(std::filesystem::path const& path, Assets assets) {
   require_file(path);
-  gpu_shading_meshes const* raw = nullptr;
-  std::array<char, 512> message{};
-  if (read(path.c_str(), &raw, message.data(), message.size()) != 0) {
-    throw Error(fmt::format("{}: cannot be read: {}", path.string(), message.data()));
-  }
-  std::unique_ptr<gpu_shading_meshes const, FreeMeshes> const found(raw, free);
-  std::vector<Mesh> meshes;
-  meshes.reserve(found->count);
-  naming(path.string(), [&] {
-    for (std::size_t i = 0; i < found->count; ++i) meshes.push_back(copied(found->meshes[i]));
+  auto meshes = naming(fmt::format("{}: cannot be read", path.string()), [&] {
+    DecodingProcess decoding("gpu_shading_mesh_decoder", "meshes", path, assets);
+    auto vertices_left = decoding::most_vertices;
+    auto triangles_left = decoding::most_triangles;
+    auto const parts = decoding.next<std::uint64_t>(0, decoding::most_parts);
+    std::vector<Mesh> read;
+    for (std::uint64_t i = 0; i < parts; ++i) {
+      read.push_back(next_part(decoding, vertices_left, triangles_left));
+    }
+    decoding.finish();
+    return read;
   });
   if (meshes.empty()) throw Error(fmt::format("{}: has no triangles", path.string()));
   return meshes;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "assets/asset_folder.h"
+
 namespace gpu_shading::energyplus {
 
 struct Mesh {
@@ -19,12 +21,13 @@ struct Mesh {
 };
 
 // Whether a format states its unit and up axis (COLLADA, glTF), so that read_meshes returns metres
-// with y up; OBJ does not. Determined by the file name extension; throws Error if it is none of
-// these.
-bool states_its_axes(std::filesystem::path const& path);
+// with y up; OBJ does not. By the ending of the file's name; throws Error if it is none of these
+// and `assets` does not permit others, which are taken to state nothing.
+bool states_its_axes(std::filesystem::path const& path, Assets assets = Assets::restricted);
 
-// Reads OBJ, COLLADA (.dae) or glTF (.gltf, .glb) with Assimp. Coordinates have single precision.
-// Throws Error: "FILE: why", one line.
-std::vector<Mesh> read_meshes(std::filesystem::path const& path);
+// Reads OBJ, COLLADA (.dae) or glTF (.gltf, .glb), or whatever `assets` permits. Coordinates have
+// single precision. Throws Error: "FILE: why", one line.
+std::vector<Mesh> read_meshes(std::filesystem::path const& path,
+                              Assets assets = Assets::restricted);
 
 }  // namespace gpu_shading::energyplus

@@ -11,7 +11,7 @@
 #include "gpu_shading/error.h"
 #include "gpu_shading/fraction_colour.h"
 #include "gpu_shading/scene_view.h"
-#include "image_plugin/image_plugin.h"
+#include "picture_plugin/picture_plugin.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -35,7 +35,7 @@ bool is_animation(std::filesystem::path const& path) {
 
 std::string encode_sheet(std::string const& name, PictureSheet const& sheet) {
   static auto const write = reinterpret_cast<decltype(&gpu_shading_write_sheet)>(
-      plugin_function(gpu_shading_image_library, "pictures", "gpu_shading_write_sheet"));
+      plugin_function(gpu_shading_picture_library, "pictures", "gpu_shading_write_sheet"));
   std::vector<char const*> pictures;
   std::vector<char const*> captions;
   for (auto const& item : sheet.items) {

@@ -2,43 +2,58 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <limits>
+#include <utility>
 
-#include "assets/plugin.h"
+#include "assets/decoding_process.h"
 #include "base/files.h"
+#include "base/naming.h"
 #include "gpu_shading/error.h"
-#include "image_plugin/image_plugin.h"
+#include "image_decoder/images.h"
 
 namespace gpu_shading::energyplus {
+namespace {
 
-TextureInfo probe_texture(std::filesystem::path const& path) {
-  static auto const probe = reinterpret_cast<decltype(&gpu_shading_probe_image)>(
-      plugin_function(gpu_shading_image_library, "textures", "gpu_shading_probe_image"));
+// `most`: the texels of an image that is read as a whole.
+TextureInfo read(char const* operation, std::int64_t most, std::filesystem::path const& path,
+                 Assets assets) {
   require_file(path);
-  gpu_shading_image_info info{};
-  std::array<char, 512> message{};
-  if (probe(path.c_str(), &info, message.data(), message.size()) != 0) {
-    throw Error(fmt::format("{}: is not a readable image: {}", path.string(), message.data()));
-  }
+  return naming(fmt::format("{}: cannot be read", path.string()), [&] {
+    constexpr int largest = std::numeric_limits<int>::max();
+    DecodingProcess decoding("gpu_shading_image_decoder", operation, path, assets);
+    TextureInfo info;
+    info.width = decoding.next<std::int32_t>(1, largest);
+    info.height = decoding.next<std::int32_t>(1, largest);
+    info.channels = decoding.next<std::int32_t>(1, largest);
+    info.alpha = decoding.next<std::int32_t>(0, 1) == 1;
+    auto const all = std::int64_t{info.width} * info.height;
+    auto const expected = all > most ? 0 : static_cast<std::uint64_t>(all);
+    decoding.next<std::uint64_t>(expected, expected);
+    info.opacity = decoding.next_all<std::uint16_t>(expected);
+    decoding.finish();
+    return info;
+  });
+}
+
+}  // namespace
+
+TextureInfo probe_texture(std::filesystem::path const& path, Assets assets) {
+  auto info = read("small image", decoding::few_texels, path, assets);
   if (info.width > max_texture_side || info.height > max_texture_side) {
     throw Error(fmt::format("{}: is {} x {} texels, expected at most {} per side", path.string(),
                             info.width, info.height, max_texture_side));
   }
-  return {info.width, info.height, info.channels, info.alpha >= 0};
+  return info;
 }
 
-std::vector<std::uint16_t> read_opacity(std::filesystem::path const& path,
-                                        TextureInfo const& info) {
-  static auto const read = reinterpret_cast<decltype(&gpu_shading_read_opacity)>(
-      plugin_function(gpu_shading_image_library, "textures", "gpu_shading_read_opacity"));
-  std::vector<std::uint16_t> opacity(static_cast<std::size_t>(info.width) *
-                                     static_cast<std::size_t>(info.height));
-  std::array<char, 512> message{};
-  if (read(path.c_str(), info.width, info.height, opacity.data(), message.data(), message.size()) !=
-      0) {
-    throw Error(fmt::format("{}: cannot be read: {}", path.string(), message.data()));
+std::vector<std::uint16_t> read_opacity(std::filesystem::path const& path, TextureInfo const& info,
+                                        Assets assets) {
+  if (!info.opacity.empty()) return info.opacity;
+  auto now = read("image", decoding::most_texels, path, assets);
+  if (now.width != info.width || now.height != info.height) {
+    throw Error(fmt::format("{}: changed while it was being read", path.string()));
   }
-  return opacity;
+  return std::move(now.opacity);
 }
 
 }  // namespace gpu_shading::energyplus

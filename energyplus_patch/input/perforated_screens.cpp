@@ -55,7 +55,7 @@ HolePattern read_pattern(InputObject const& object, Hole hole) {
   return HolePattern(perforation);
 }
 
-ScreenTexture read_texture(InputObject const& object, std::filesystem::path const& folder) {
+ScreenTexture read_texture(InputObject const& object, AssetFolder const& folder) {
   expect_blank(
       object,
       {field::arrangement, field::hole_size, field::hole_length, field::pitch, field::row_pitch},
@@ -66,9 +66,10 @@ ScreenTexture read_texture(InputObject const& object, std::filesystem::path cons
     throw Error(
         fmt::format("{} is blank, expected the name of an image", field::texture_file_name.title));
   }
-  texture.path = folder / texture.name;
-  texture.info =
-      naming(field::texture_file_name.title, [&] { return probe_texture(texture.path); });
+  texture.path = folder.path / texture.name;
+  texture.assets = folder.assets;
+  texture.info = naming(field::texture_file_name.title,
+                        [&] { return probe_texture(texture.path, texture.assets); });
   if (read(object, field::opacity) == field::Opacity::fractional) {
     expect_blank(object, {field::opacity_threshold}, "with Opacity Fractional");
     texture.threshold.reset();
@@ -81,7 +82,7 @@ ScreenTexture read_texture(InputObject const& object, std::filesystem::path cons
   return texture;
 }
 
-ScreenMaker::Holes read_holes(InputObject const& object, std::filesystem::path const& folder) {
+ScreenMaker::Holes read_holes(InputObject const& object, AssetFolder const& folder) {
   switch (read(object, field::hole_shape)) {
     case field::HoleShape::round:
       return read_pattern(object, Hole::Round);
@@ -137,8 +138,7 @@ ScreenPlacement read_placement(InputObject const& object) {
           read(object, field::tile_rotation) * degree};
 }
 
-std::shared_ptr<ScreenMaker> read_maker(InputObject const& object,
-                                        std::filesystem::path const& folder) {
+std::shared_ptr<ScreenMaker> read_maker(InputObject const& object, AssetFolder const& folder) {
   // In the order of the fields, so that a missing or extra comma is reported at the first wrong
   // field.
   auto holes = read_holes(object, folder);
@@ -149,7 +149,7 @@ std::shared_ptr<ScreenMaker> read_maker(InputObject const& object,
 }
 
 void add_object(InputObject const& object, ShadingInput const& input,
-                TransparentShades const& shades, std::filesystem::path const& folder,
+                TransparentShades const& shades, AssetFolder const& folder,
                 PerforatedScreens& screens) {
   auto const maker = read_maker(object, folder);
   auto const pattern = read(object, field::surface_name);
@@ -190,7 +190,7 @@ std::vector<std::string> PerforatedScreens::warnings() const {
 PerforatedScreens read_perforated_screens(std::vector<InputObject> const& objects,
                                           ShadingInput const& input,
                                           TransparentShades const& shades,
-                                          std::filesystem::path const& folder) {
+                                          AssetFolder const& folder) {
   PerforatedScreens screens;
   for (auto const& object : objects) {
     if (object.type != field::type) continue;

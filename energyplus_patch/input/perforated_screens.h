@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/asset_folder.h"
 #include "idf/input_object.h"
 #include "input/screen_maker.h"
 #include "input/shading_input.h"
@@ -35,6 +36,6 @@ struct PerforatedScreens {
 PerforatedScreens read_perforated_screens(std::vector<InputObject> const& objects,
                                           ShadingInput const& input,
                                           TransparentShades const& shades,
-                                          std::filesystem::path const& folder);
+                                          AssetFolder const& folder);
 
 }  // namespace gpu_shading::energyplus

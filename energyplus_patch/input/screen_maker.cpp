@@ -215,7 +215,7 @@ ScreenMaker::Made ScreenMaker::make_of(ScreenTexture const& texture, double widt
 
 std::vector<std::uint16_t> ScreenMaker::read_texture(ScreenTexture const& texture) {
   auto texels = naming(extension::perforated_screen::texture_file_name.title,
-                       [&] { return read_opacity(texture.path, texture.info); });
+                       [&] { return read_opacity(texture.path, texture.info, texture.assets); });
   if (texture.invert) {
     for (auto& texel : texels) texel = static_cast<std::uint16_t>(solid - texel);
   }

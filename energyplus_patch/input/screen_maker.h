@@ -20,6 +20,7 @@ namespace gpu_shading::energyplus {
 struct ScreenTexture {
   std::string name;  // as the user wrote it
   std::filesystem::path path;
+  Assets assets = Assets::restricted;
   TextureInfo info;
   bool invert = false;
   std::optional<double> threshold = 0.5;  // none: fractional opacity

@@ -85,10 +85,11 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   check_unique(objects);
   model.shading = read_shading_input(objects);
   auto const folder = choices.folder.value_or(path.parent_path());
-  model.surroundings = read_surroundings(objects, folder);
+  AssetFolder const assets(folder, choices.assets.value_or(Assets::restricted));
+  model.surroundings = read_surroundings(objects, assets);
   add_surroundings(model.surroundings, model.shading);
   model.shades = read_transparent_shades(objects, model.shading, folder);
-  model.screens = read_perforated_screens(objects, model.shading, model.shades, folder);
+  model.screens = read_perforated_screens(objects, model.shading, model.shades, assets);
   check_textures(model.surroundings, model.screens);
   model.ray_warnings = warn_of_rays(objects, model.shading);
   model.options = resolve(choices, read_settings(objects), model.shading);

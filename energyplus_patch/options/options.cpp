@@ -36,6 +36,12 @@ Lean parse_lean(std::string const& text) {
   throw Error(fmt::format("is \"{}\", expected auto, on or off", text));
 }
 
+Assets parse_assets(std::string const& text) {
+  if (same_name(text, "restricted")) return Assets::restricted;
+  if (same_name(text, "any")) return Assets::any;
+  throw Error(fmt::format("is \"{}\", expected restricted or any", text));
+}
+
 Method parse_method(std::string const& text) {
   if (same_name(text, "auto")) return Method::automatic;
   if (same_name(text, "patched")) return Method::patched;
@@ -100,8 +106,8 @@ auto value_of(Field<Value> const& field, std::string const& text) {
   return parse(field, text, field.title);
 }
 
-std::array<Choice, 13> const& all_choices() {
-  static std::array<Choice, 13> const choices{{
+std::array<Choice, 14> const& all_choices() {
+  static std::array<Choice, 14> const choices{{
       {"--gpu-shading", "GPU_SHADING", nullptr,
        [](Choices& c, std::string const& v) { c.mode = parse_mode(v); }},
       {"--gpu-shading-resolution", "GPU_SHADING_RESOLUTION", &settings::resolution,
@@ -128,6 +134,8 @@ std::array<Choice, 13> const& all_choices() {
        [](Choices& c, std::string const& v) { c.lean = parse_lean(v); }},
       {"--gpu-shading-method", "GPU_SHADING_METHOD", nullptr,
        [](Choices& c, std::string const& v) { c.method = parse_method(v); }},
+      {"--gpu-shading-assets", "GPU_SHADING_ASSETS", nullptr,
+       [](Choices& c, std::string const& v) { c.assets = parse_assets(v); }},
       {"--gpu-shading-stages", "GPU_SHADING_STAGES", nullptr,
        [](Choices& c, std::string const& v) { c.stages = std::filesystem::absolute(v); }},
       {"--gpu-shading-task", nullptr, nullptr,
@@ -224,6 +232,16 @@ std::string name_of(Method method) {
   return "auto";
 }
 
+std::string name_of(Assets assets) {
+  switch (assets) {
+    case Assets::any:
+      return "any";
+    case Assets::restricted:
+      break;
+  }
+  return "restricted";
+}
+
 void Choices::fill_from(Choices const& lower) {
   fill(mode, lower.mode);
   if (!resolution && !error) {
@@ -238,13 +256,14 @@ void Choices::fill_from(Choices const& lower) {
   fill(folder, lower.folder);
   fill(lean, lower.lean);
   fill(method, lower.method);
+  fill(assets, lower.assets);
   fill(stages, lower.stages);
   fill(task, lower.task);
 }
 
 bool Choices::any() const {
   return mode || resolution || error || update || device || file || report || lean || cache ||
-         method;
+         method || assets;
 }
 
 Choices take_flags(std::vector<std::string>& arguments) {
@@ -300,6 +319,7 @@ std::vector<std::string> to_flags(Choices const& choices) {
   if (choices.folder) add("--gpu-shading-model-folder", choices.folder->string());
   if (choices.lean) add("--gpu-shading-lean", name_of(*choices.lean));
   if (choices.method) add("--gpu-shading-method", name_of(*choices.method));
+  if (choices.assets) add("--gpu-shading-assets", name_of(*choices.assets));
   if (choices.stages) add("--gpu-shading-stages", choices.stages->string());
   if (choices.task) add("--gpu-shading-task", choices.task->string());
   return flags;
@@ -376,6 +396,10 @@ std::string_view flags_help() {
                                        How sunlit fractions get into EnergyPlus: in its own process,
                                        or as schedules rendered before the run (default: auto,
                                        patched where that can be)
+  --gpu-shading-assets restricted|any  Which images and meshes are read (default: restricted, to PNG,
+                                       JPEG, TIFF, EXR, BMP, TGA, HDR, OBJ, COLLADA and glTF, with
+                                       the files beside them that they name). any: all formats of
+                                       OpenImageIO and Assimp, with files anywhere
 )";
 }
 

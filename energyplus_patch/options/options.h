@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "assets/asset_folder.h"
 #include "gpu_shading/device.h"
 #include "gpu_shading/sampled_sunlit.h"
 #include "idf/input_object.h"
@@ -57,6 +58,8 @@ struct Choices {
   // model's folder.
   std::optional<std::filesystem::path> folder = std::nullopt;
   std::optional<Lean> lean;
+  // Not in GPUShading:Settings: a model does not widen what is read for it.
+  std::optional<Assets> assets = std::nullopt;
   std::optional<Method> method = std::nullopt;
   // For compare_shading: gets the table of where the time went.
   std::optional<std::filesystem::path> stages = std::nullopt;
@@ -80,6 +83,7 @@ std::string name_of(Update const& update);
 std::string name_of(DeviceChoice const& device);
 std::string name_of(Lean lean);
 std::string name_of(Method method);
+std::string name_of(Assets assets);
 
 // The inverse of take_flags().
 std::vector<std::string> to_flags(Choices const& choices);

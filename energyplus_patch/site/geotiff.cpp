@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "assets/elevation_file.h"
 #include "base/files.h"
@@ -17,7 +18,7 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-MapCoordinates coordinates_of(gpu_shading_elevation_info const& info) {
+MapCoordinates coordinates_of(decoding::ElevationHeader const& info) {
   if (info.epsg == 0) throw Error("does not state its coordinates: give Terrain Coordinates");
   try {
     return MapCoordinates::parse(fmt::format("EPSG:{}", info.epsg));
@@ -43,7 +44,7 @@ bool is_tiff(std::filesystem::path const& path) {
 
 TerrainGrid read_geotiff(std::filesystem::path const& path,
                          std::optional<MapCoordinates> const& coordinates) {
-  auto const info = probe_elevations(path);
+  auto [info, elevations] = read_elevations(path);
   check_terrain_size(info.columns, info.rows);
   TerrainGrid grid;
   grid.coordinates = coordinates ? *coordinates : coordinates_of(info);
@@ -55,7 +56,7 @@ TerrainGrid read_geotiff(std::filesystem::path const& path,
   bool const from_north = info.step_y < 0.0;
   grid.first = {from_east ? info.x + (grid.columns - 1) * info.step_x : info.x,
                 from_north ? info.y + (grid.rows - 1) * info.step_y : info.y};
-  grid.elevations = read_elevations(path, info);
+  grid.elevations = std::move(elevations);
   auto const columns = static_cast<std::ptrdiff_t>(grid.columns);
   auto const row = [&](int number) { return grid.elevations.begin() + number * columns; };
   for (int low = 0, high = grid.rows - 1; from_north && low < high; ++low, --high) {

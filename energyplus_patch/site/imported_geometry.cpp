@@ -147,12 +147,14 @@ class Builder {
   std::size_t left_out_meshes_ = 0;
 };
 
-void read_geometry(InputObject const& object, std::filesystem::path const& folder,
+void read_geometry(InputObject const& object, AssetFolder const& folder,
                    std::optional<SiteOrigin> const& origin, Surroundings& surroundings) {
   auto const file = read(object, field::file_name);
-  bool const stated = naming(field::file_name.title, [&] { return states_its_axes(file); });
+  bool const stated =
+      naming(field::file_name.title, [&] { return states_its_axes(file, folder.assets); });
   auto const placement = read_placement(object, stated, origin);
-  auto const meshes = naming(field::file_name.title, [&] { return read_meshes(folder / file); });
+  auto const meshes = naming(field::file_name.title,
+                             [&] { return read_meshes(folder.path / file, folder.assets); });
   Builder builder(object, surroundings);
   for (auto const& mesh : meshes) builder.add(mesh, placement);
   surroundings.remarks.push_back(builder.describe(file));
@@ -166,7 +168,7 @@ bool needs_origin(std::vector<InputObject> const& objects) {
   });
 }
 
-void read_geometries(std::vector<InputObject> const& objects, std::filesystem::path const& folder,
+void read_geometries(std::vector<InputObject> const& objects, AssetFolder const& folder,
                      std::optional<SiteOrigin> const& origin, Surroundings& surroundings) {
   for (auto const& object : objects) {
     if (object.type != field::type) continue;

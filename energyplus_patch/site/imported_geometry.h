@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "assets/asset_folder.h"
 #include "idf/input_object.h"
 #include "site/site_origin.h"
 #include "site/surroundings.h"
@@ -15,7 +16,7 @@ bool needs_origin(std::vector<InputObject> const& objects);
 
 // Reads every GPUShading:Geometry: a caster for each triangle, facing the side from which its
 // texture is not mirrored. `origin`: for those placed by latitude and longitude. Throws Error.
-void read_geometries(std::vector<InputObject> const& objects, std::filesystem::path const& folder,
+void read_geometries(std::vector<InputObject> const& objects, AssetFolder const& folder,
                      std::optional<SiteOrigin> const& origin, Surroundings& surroundings);
 
 }  // namespace gpu_shading::energyplus

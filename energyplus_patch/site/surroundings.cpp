@@ -23,13 +23,12 @@ std::optional<TextureAxes> Surroundings::texture_of(SurfaceId surface) const {
   return casters[surface - first].texture;
 }
 
-Surroundings read_surroundings(std::vector<InputObject> const& objects,
-                               std::filesystem::path const& folder) {
+Surroundings read_surroundings(std::vector<InputObject> const& objects, AssetFolder const& folder) {
   Surroundings surroundings;
   std::optional<SiteOrigin> origin;
   if (any_of_type(objects, extension::site_context::type) || needs_origin(objects)) {
     origin = find_site_origin(objects);
-    read_site_contexts(objects, folder, *origin, surroundings);
+    read_site_contexts(objects, folder.path, *origin, surroundings);
   }
   read_geometries(objects, folder, origin, surroundings);
   return surroundings;

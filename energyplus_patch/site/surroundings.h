@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/asset_folder.h"
 #include "gpu_shading/scene.h"
 #include "idf/input_object.h"
 #include "input/screen_maker.h"
@@ -45,7 +46,6 @@ struct Surroundings {
 // Reads every such object and its files. `folder`: where relative file names start. Names are in
 // upper case: "CONTEXT:FEATURE", "CONTEXT:TERRAIN", "GEOMETRY:MATERIAL:MESH". Throws Error, naming
 // object, field and value, and for errors in files the feature or the position.
-Surroundings read_surroundings(std::vector<InputObject> const& objects,
-                               std::filesystem::path const& folder);
+Surroundings read_surroundings(std::vector<InputObject> const& objects, AssetFolder const& folder);
 
 }  // namespace gpu_shading::energyplus

@@ -71,6 +71,7 @@ def assert_refused(run, *words):
         (["--gpu-shading-device=bogus"], ["device", "bogus"]),
         (["--gpu-shading-file=missing.idf"], ["missing.idf"]),
         (["--gpu-shading-lean=perhaps"], ["lean", "perhaps", "auto", "on", "off"]),
+        (["--gpu-shading-assets=some"], ["assets", "some", "restricted", "any"]),
         (["--gpu-shading-bogus=1"], ["--gpu-shading-bogus"]),
     ],
     ids=lambda value: value[0] if isinstance(value, list) and value[0].startswith("--") else "",

@@ -125,12 +125,12 @@ def assert_refused(run, message):
      "already"),
     (TEXTURE.format(surfaces="hood", file="none.png"),
      "GPUShading:PerforatedScreen Leaves: Texture File Name: {folder}/none.png: no such file"),
-    (TEXTURE.format(surfaces="hood", file="huge.ppm"),
-     "GPUShading:PerforatedScreen Leaves: Texture File Name: {folder}/huge.ppm: is 20000 x 20000 texels, expected at "
+    (TEXTURE.format(surfaces="hood", file="huge.tga"),
+     "GPUShading:PerforatedScreen Leaves: Texture File Name: {folder}/huge.tga: is 20000 x 20000 texels, expected at "
      "most 16384 per side"),
 ], ids=["surface", "hole", "shape", "comma", "texture", "named twice", "no file", "huge"])
 def test_bad_screen_stops_before_energyplus_starts(screen, message, patched, weather, tmp_path):
-    (tmp_path / "huge.ppm").write_bytes(b"P6\n20000 20000\n255\n")
+    (tmp_path / "huge.tga").write_bytes(b"\0\0\x02" + bytes(9) + b"\x20\x4e\x20\x4e\x18\0")
     path = tmp_path / "model.idf"
     path.write_text(model() + screen)
     run = energyplus.run(patched, path, weather, tmp_path / "run", ["--gpu-shading", "-D"])

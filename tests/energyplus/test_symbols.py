@@ -18,7 +18,7 @@ def bindings(folder):
 
 
 def test_no_library_takes_another_ones_symbols(patched, courtyard, weather, tmp_path):
-    # With pictures and a mesh, so that OpenImageIO's libraries and Assimp's are there as well as Mesa's.
+    # With pictures, so that OpenImageIO's libraries are there as well as Mesa's, and with a mesh, whose library is not.
     (tmp_path / "flag.obj").write_text("v 0 0 90\nv 1 0 90\nv 0 0 91\nf 1 2 3\n")
     model = tmp_path / "model.idf"
     model.write_text(courtyard.read_text() + "GPUShading:Geometry,Flag,flag.obj,m,Z;\n")
@@ -41,3 +41,6 @@ def test_no_library_takes_another_ones_symbols(patched, courtyard, weather, tmp_
             assert not re.search(foreign, owner), f"{symbol} of {owner}"
     assert seen > 1000, "the loader's log was not read"
     assert any("libassimp" in user for user in users), "no mesh: Assimp was not loaded"
+    for log in tmp_path.glob("bindings.*"):
+        text = log.read_text(errors="replace")
+        assert "libassimp" not in text or "libenergyplusapi" not in text, "Assimp is in EnergyPlus's process"

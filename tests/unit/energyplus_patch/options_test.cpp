@@ -84,7 +84,7 @@ TEST(Options, FlagsAreWrittenAsTheyAreRead) {
       "--gpu-shading=require",         "--gpu-shading-resolution=1024",
       "--gpu-shading-update=timestep", "--gpu-shading-device=cpu",
       "--gpu-shading-file=/a b/c.idf", "--gpu-shading-report=/r\n--gpu-shading=off",
-      "--gpu-shading-cache=/c"};
+      "--gpu-shading-cache=/c",        "--gpu-shading-assets=any"};
   EXPECT_EQ(to_flags(take(flags)), flags);
   EXPECT_THAT(to_flags(take({"--gpu-shading-device=software"})),
               ElementsAre("--gpu-shading-device=cpu"));

@@ -52,6 +52,18 @@ inline std::filesystem::path write_bytes(std::string const& name, std::string co
   return path;
 }
 
+// The header of a TARGA file: true colour of 24 bits, 20000 x 20000.
+inline std::string huge_targa() {
+  constexpr int colour_at = 2;
+  constexpr int size_at = 12;
+  constexpr int depth_at = 16;
+  std::string header(18, '\0');
+  header[colour_at] = 2;
+  header.replace(size_at, 4, "\x20\x4E\x20\x4E");
+  header[depth_at] = 24;
+  return header;
+}
+
 inline void cut(std::filesystem::path const& path, double share) {
   auto const size = static_cast<double>(std::filesystem::file_size(path));
   std::filesystem::resize_file(path, static_cast<std::uintmax_t>(size * share));

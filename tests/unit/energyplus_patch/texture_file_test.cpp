@@ -28,7 +28,7 @@ std::string refusal(std::filesystem::path const& path) {
 }
 
 TEST(TextureFile, RowsAreCountedFromTheBottom) {
-  for (auto const* name : {"rows.png", "rows.tif", "rows.pgm", "rows.exr", "rows.bmp"}) {
+  for (auto const* name : {"rows.png", "rows.tif", "rows.tga", "rows.exr", "rows.bmp"}) {
     auto const format =
         std::string(name) == "rows.exr" ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::UINT8;
     auto const path = write_texture(name, 2, 3, 1, {1, 0, 0, 0, 0, 1}, format);
@@ -104,7 +104,7 @@ TEST(TextureFile, MoreThanAStrip) {
 
 TEST(TextureFile, TruncatedFilesAreRefused) {
   constexpr int side = 256;
-  for (auto const* name : {"cut.png", "cut.tif", "cut.jpg", "cut.ppm", "cut.bmp"}) {
+  for (auto const* name : {"cut.png", "cut.tif", "cut.jpg", "cut.tga", "cut.bmp", "cut.exr"}) {
     auto const path = write_texture(name, side, side, 3, noise(side, side, 3));
     ASSERT_EQ(refusal(path), "accepted") << name;
     cut(path, 0.5);
@@ -129,16 +129,51 @@ TEST(TextureFile, WhatIsNoImageIsRefused) {
   EXPECT_THAT(refusal(testing::TempDir()), HasSubstr("is not a file"));
   for (auto const* name : {"text.png", "text.txt", "text"}) {
     auto const message = refusal(write_bytes(name, "two\nlines of text\n"));
-    EXPECT_THAT(message, HasSubstr("is not a readable image: ")) << name;
+    EXPECT_THAT(message, HasSubstr("cannot be read: ")) << name;
     EXPECT_THAT(message, Not(HasSubstr("\n"))) << name;
   }
-  EXPECT_THAT(refusal(write_bytes("empty.png", "")), HasSubstr("is not a readable image"));
+  EXPECT_THAT(refusal(write_bytes("empty.png", "")), HasSubstr("cannot be read"));
 }
 
 TEST(TextureFile, TooLargeIsSaidByTheHeader) {
-  auto const path = write_bytes("huge.ppm", "P6\n20000 20000\n255\n");
-  EXPECT_THAT(refusal(path),
-              HasSubstr("huge.ppm: is 20000 x 20000 texels, expected at most 16384"));
+  EXPECT_THAT(refusal(write_bytes("huge.tga", huge_targa())),
+              HasSubstr("huge.tga: is 20000 x 20000 texels, expected at most 16384"));
+}
+
+TEST(TextureFile, OtherFormatsAreReadWithTheFlagAlone) {
+  auto const path = write_texture("rows.pgm", 2, 1, 1, {1, 0});
+  EXPECT_THAT(refusal(path), HasSubstr("rows.pgm: cannot be read: its name ends in .pgm, "
+                                       "expected a PNG, JPEG, TIFF, EXR, BMP, TGA or HDR image"));
+  EXPECT_EQ(read_opacity(path, probe_texture(path, Assets::any), Assets::any), (Texels{full, 0}));
+}
+
+// Each made OpenImageIO crash, write beyond its memory or run on in this process.
+TEST(TextureFile, DamagedFilesOfOtherFormats) {
+  auto const icon = std::string("\0\0\1\0\1\0", 6) + std::string("\x10\x10\0\0\0\0\0\0", 8) +
+                    std::string("\x28\4\0\0\x16\0\0\0", 8) + std::string("\x28\0\0\0", 4) +
+                    std::string(60, '\0');
+  auto const dds = "DDS " + std::string("\x7c\0\0\0\7\x10\0\0", 8) +
+                   std::string("\0\x40\0\0\0\x40\0\0", 8) + std::string(108, '\x44');
+  auto const iff = std::string(
+                       "FOR4\0\0\0\x64"
+                       "CIMGTBHD\0\0\0\x20",
+                       20) +
+                   std::string("\xff\xff\xff\xff\xff\xff\xff\xff", 8) + std::string(80, '\x7f');
+  for (auto const& [name, bytes] :
+       {std::pair{"a.ico", icon}, std::pair{"a.dds", dds}, std::pair{"a.iff", iff}}) {
+    auto const path = write_bytes(name, bytes);
+    EXPECT_THAT(refusal(path), HasSubstr("cannot be read: its name ends in ")) << name;
+    auto const hidden = write_bytes("hidden.png", bytes);
+    EXPECT_THAT(refusal(hidden), HasSubstr("its content is of no such format")) << name;
+    for (auto const& file : {path, hidden}) {
+      auto const message = refusal_of([&] {
+        auto const info = probe_texture(file, Assets::any);
+        read_opacity(file, info, Assets::any);
+      });
+      EXPECT_THAT(message, HasSubstr(file.filename().string() + ": ")) << name;
+      EXPECT_THAT(message, Not(HasSubstr("\n"))) << name;
+    }
+  }
 }
 
 }  // namespace

@@ -1,14 +1,14 @@
-#include <OpenImageIO/imagebuf.h>
+#include "image_decoder/elevations.h"
+
+#include <OpenImageIO/imageio.h>
 #include <geotiff.h>
 #include <geotiffio.h>
 #include <geovalues.h>
 #include <tiffio.h>
-#include <xtiffio.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdarg>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
@@ -17,48 +17,29 @@
 #include <string>
 #include <vector>
 
-#include "base/c_interface.h"
-#include "image_plugin/image_plugin.h"
+#include "image_decoder/tiff_file.h"
 
+namespace gpu_shading::decoding {
 namespace {
 
-struct Close {
-  void operator()(TIFF* file) const { XTIFFClose(file); }
+[[noreturn]] void fail(std::string const& why) { throw std::runtime_error(why); }
+
+struct Free {
   void operator()(GTIF* keys) const { GTIFFree(keys); }
-  void operator()(TIFFOpenOptions* options) const { TIFFOpenOptionsFree(options); }
 };
-
-// The last error goes into the caller's message instead of standard error; warnings are discarded.
-int keep_error(TIFF* /*file*/, void* message, char const* /*module*/, char const* format,
-               va_list arguments) {
-  std::array<char, 256> text{};
-  std::vsnprintf(text.data(), text.size(), format, arguments);
-  *static_cast<std::string*>(message) = text.data();
-  return 1;
-}
-
-int keep_quiet(TIFF* /*file*/, void* /*data*/, char const* /*module*/, char const* /*format*/,
-               va_list /*arguments*/) {
-  return 1;
-}
 
 // A GeoTIFF's header.
 class Header {
  public:
-  explicit Header(char const* path) {
-    XTIFFInitialize();
-    std::unique_ptr<TIFFOpenOptions, Close> const options(TIFFOpenOptionsAlloc());
-    TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_error, &error_);
-    TIFFOpenOptionsSetWarningHandlerExtR(options.get(), keep_quiet, nullptr);
-    file_.reset(TIFFOpenExt(path, "r", options.get()));
-    if (!file_) fail(error_.empty() ? "is not a TIFF" : error_);
-    keys_.reset(GTIFNew(file_.get()));
+  explicit Header(char const* path) : file_(path), keys_(GTIFNew(file_.get())) {
     if (!keys_) fail("has no GeoTIFF keys");
   }
 
   int size(ttag_t tag) const {
     std::uint32_t value = 0;
     if (TIFFGetField(file_.get(), tag, &value) == 0) fail("its size is missing");
+    constexpr std::uint32_t most = 1U << 30U;
+    if (value == 0 || value > most) fail("its size is " + std::to_string(value) + " cells");
     return static_cast<int>(value);
   }
 
@@ -105,7 +86,7 @@ class Header {
       if (got >= 0 && static_cast<std::uint64_t>(got) == expected) continue;
       fail(std::string("is damaged: ") + piece + " " + std::to_string(i + 1) + " of " +
            std::to_string(pieces) + (got == 0 ? " is empty" : " cannot be decoded") +
-           (error_.empty() ? "" : ": " + error_));
+           (file_.error().empty() ? "" : ": " + file_.error()));
     }
   }
 
@@ -135,9 +116,8 @@ class Header {
     return TIFFVStripSize64(file_.get(), std::min(rows, height - first));
   }
 
-  std::string error_;
-  std::unique_ptr<TIFF, Close> file_;
-  std::unique_ptr<GTIF, Close> keys_;
+  TiffFile file_;
+  std::unique_ptr<GTIF, Free> keys_;
 };
 
 // The EPSG code of its coordinate system, 0 if it states none.
@@ -148,51 +128,65 @@ int epsg_of(Header const& header) {
   return code == KvUserDefined ? 0 : code;
 }
 
+// Integers are read as fractions of the largest value of their type.
+double largest_of(OIIO::TypeDesc const& type) {
+  unsigned const bits = 8 * static_cast<unsigned>(type.size()) - (type.is_signed() ? 1 : 0);
+  return std::ldexp(1.0, static_cast<int>(bits)) - 1.0;
+}
+
+ElevationHeader read_header(Header const& file) {
+  ElevationHeader header;
+  header.columns = file.size(TIFFTAG_IMAGEWIDTH);
+  header.rows = file.size(TIFFTAG_IMAGELENGTH);
+  auto const first = file.centre(0.0, 0.0);
+  auto const right = file.centre(1.0, 0.0);
+  auto const below = file.centre(0.0, 1.0);
+  if (right.y != first.y || below.x != first.x) {
+    fail("its rows do not run east (convert it with gdalwarp)");
+  }
+  header.x = first.x;
+  header.y = first.y;
+  header.step_x = right.x - first.x;
+  header.step_y = below.y - first.y;
+  header.epsg = epsg_of(file);
+  header.no_data = file.no_data();
+  int const unit = file.key(VerticalUnitsGeoKey);
+  if (unit != 0 && unit != Linear_Meter) fail("its elevations are not in metres");
+  return header;
+}
+
 }  // namespace
 
-extern "C" EXPORTED int gpu_shading_probe_elevations(char const* path,
-                                                     gpu_shading_elevation_info* info,
-                                                     char* message, std::size_t message_size) {
-  return guarded(message, message_size, [&] {
-    Header const header(path);
-    info->columns = header.size(TIFFTAG_IMAGEWIDTH);
-    info->rows = header.size(TIFFTAG_IMAGELENGTH);
-    auto const first = header.centre(0.0, 0.0);
-    auto const right = header.centre(1.0, 0.0);
-    auto const below = header.centre(0.0, 1.0);
-    if (right.y != first.y || below.x != first.x) {
-      fail("its rows do not run east (convert it with gdalwarp)");
-    }
-    info->x = first.x;
-    info->y = first.y;
-    info->step_x = right.x - first.x;
-    info->step_y = below.y - first.y;
-    info->epsg = epsg_of(header);
-    info->no_data = header.no_data();
-    int const unit = header.key(VerticalUnitsGeoKey);
-    if (unit != 0 && unit != Linear_Meter) fail("its elevations are not in metres");
-  });
+Elevations read_elevations(char const* path) {
+  Elevations result;
+  auto const& header = result.header;
+  {
+    Header const file(path);
+    result.header = read_header(file);
+    if (std::int64_t{header.columns} * header.rows > most_elevations) return result;
+    file.check_data();
+  }
+  auto const input = OIIO::ImageInput::create("tiff");
+  OIIO::ImageSpec spec;
+  if (!input) fail(OIIO::geterror());
+  if (!input->open(path, spec)) fail(input->geterror());
+  if (spec.width != header.columns || spec.height != header.rows) {
+    fail("it changed while it was being read");
+  }
+  if (spec.nchannels != 1) {
+    fail("it has " + std::to_string(spec.nchannels) + " channels, expected one with elevations");
+  }
+  auto& elevations = result.elevations;
+  elevations.resize(static_cast<std::size_t>(header.columns) *
+                    static_cast<std::size_t>(header.rows));
+  if (!input->read_image(0, 0, 0, 1, OIIO::TypeDesc::DOUBLE, elevations.data())) {
+    fail(input->geterror());
+  }
+  if (!spec.format.is_floating_point()) {
+    double const largest = largest_of(spec.format);
+    for (double& elevation : elevations) elevation = std::round(elevation * largest);
+  }
+  return result;
 }
 
-extern "C" EXPORTED int gpu_shading_read_elevations(char const* path, int columns, int rows,
-                                                    double* elevations, char* message,
-                                                    std::size_t message_size) {
-  return guarded(message, message_size, [&] {
-    Header(path).check_data();
-    OIIO::ImageBuf image(path);
-    if (!image.read(0, 0, true, OIIO::TypeDesc::DOUBLE)) fail(image.geterror());
-    auto const& spec = image.spec();
-    if (spec.width != columns || spec.height != rows) fail("it changed while it was being read");
-    if (spec.nchannels != 1) {
-      fail("it has " + std::to_string(spec.nchannels) + " channels, expected one with elevations");
-    }
-    if (!image.get_pixels(image.roi(), OIIO::TypeDesc::DOUBLE, elevations)) fail(image.geterror());
-    // Integers are read as fractions of the largest value of their type.
-    auto const stored = image.nativespec().format;
-    if (stored.is_floating_point()) return;
-    unsigned const bits = 8 * static_cast<unsigned>(stored.size()) - (stored.is_signed() ? 1 : 0);
-    double const largest = std::ldexp(1.0, static_cast<int>(bits)) - 1.0;
-    auto const count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-    for (std::size_t i = 0; i < count; ++i) elevations[i] = std::round(elevations[i] * largest);
-  });
-}
+}  // namespace gpu_shading::decoding

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/c_interface.h"
-#include "image_plugin/image_plugin.h"
+#include "picture_plugin/picture_plugin.h"
 
 namespace {
 

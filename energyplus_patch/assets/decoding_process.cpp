@@ -1,0 +1,223 @@
+#include "assets/decoding_process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <limits>
+#include <thread>
+
+#include "assets/beside.h"
+#include "decoding/answer.h"
+#include "gpu_shading/error.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+[[noreturn]] void fail(char const* what) {
+  throw Error(fmt::format("{}: {}", what, std::strerror(errno)));
+}
+
+// Opens a file that must be a regular one, of no more than a size.
+void open_input(FileDescriptor const& file, std::uint64_t most) {
+  struct stat found {};
+  if (!file.is_open()) fail("cannot be opened");
+  if (fstat(file.get(), &found) != 0) fail("cannot be opened");
+  if (!S_ISREG(found.st_mode)) throw Error("is not a file");
+  if (static_cast<std::uint64_t>(found.st_size) > most) {
+    constexpr unsigned mebibyte = 20;
+    throw Error(fmt::format("is larger than {} MiB", most >> mebibyte));
+  }
+}
+
+// What posix_spawn() is to do besides.
+class Spawning {
+ public:
+  Spawning() {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawnattr_init(&attributes_);
+    sigset_t signals;
+    sigemptyset(&signals);
+    posix_spawnattr_setsigmask(&attributes_, &signals);
+    sigfillset(&signals);
+    posix_spawnattr_setsigdefault(&attributes_, &signals);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  }
+  Spawning(Spawning const&) = delete;
+  Spawning& operator=(Spawning const&) = delete;
+  ~Spawning() {
+    posix_spawn_file_actions_destroy(&actions_);
+    posix_spawnattr_destroy(&attributes_);
+  }
+
+  void give(int descriptor, int as) { posix_spawn_file_actions_adddup2(&actions_, descriptor, as); }
+
+  // Returns an errno value.
+  int start(pid_t& process, std::vector<std::string> words) {
+    std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
+    for (auto& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    return posix_spawn(&process, pointers.front(), &actions_, &attributes_, pointers.data(),
+                       environ);
+  }
+
+ private:
+  posix_spawn_file_actions_t actions_{};
+  posix_spawnattr_t attributes_{};
+};
+
+std::string in_one_line(std::string text) {
+  constexpr unsigned char del = 0x7F;
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == del; }, ' ');
+  return text;
+}
+
+}  // namespace
+
+DecodingProcess::DecodingProcess(char const* program, std::string const& operation,
+                                 std::filesystem::path const& file, Assets assets,
+                                 DecodingLimits const& limits)
+    : limits_(limits),
+      deadline_(Clock::now() + limits.wait),
+      errors_(memfd_create("errors", MFD_CLOEXEC)) {
+  FileDescriptor const input(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  open_input(input, limits.file_size);
+  std::array<int, 2> ends{-1, -1};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) fail("no pipe for its decoding");
+  answer_.emplace(ends[0]);
+  FileDescriptor const output(ends[1]);
+  auto const path = beside_this_code(program);
+  Spawning spawning;
+  spawning.give(input.get(), STDIN_FILENO);
+  spawning.give(output.get(), STDOUT_FILENO);
+  spawning.give(errors_.get(), STDERR_FILENO);
+  int const failure = spawning.start(
+      process_, {path.string(), std::to_string(getpid()), std::to_string(limits.seconds),
+                 std::to_string(limits.memory), operation,
+                 assets == Assets::any ? "any" : "restricted", file.string()});
+  if (failure != 0) {
+    process_ = -1;
+    throw Error(
+        fmt::format("cannot be decoded without {}: {}", path.string(), std::strerror(failure)));
+  }
+}
+
+DecodingProcess::~DecodingProcess() {
+  if (process_ < 0) return;
+  kill(process_, SIGKILL);
+  while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+double DecodingProcess::next_double() {
+  double value = 0.0;
+  read(&value, sizeof value);
+  return value;
+}
+
+std::string DecodingProcess::next_text() {
+  auto const length = next<std::uint32_t>(0, decoding::longest_name);
+  std::string text(length, '\0');
+  read(text.data(), text.size());
+  return in_one_line(std::move(text));
+}
+
+void DecodingProcess::finish() {
+  char beyond = 0;
+  begin();
+  if (read_some(&beyond, 1) != 0) throw_invalid();
+  if (int const status = wait(); status != 0) throw_reason(status);
+}
+
+void DecodingProcess::throw_invalid() {
+  throw Error("the program that decodes it gave an invalid answer");
+}
+
+void DecodingProcess::begin() {
+  if (begun_) return;
+  begun_ = true;
+  auto const mark = next<std::uint32_t>(0, std::numeric_limits<std::uint32_t>::max());
+  if (mark != decoding::answer_mark) throw_invalid();
+  using decoding::Status;
+  auto const status = next<std::uint32_t>(0, static_cast<std::uint32_t>(Status::failed));
+  if (status == static_cast<std::uint32_t>(Status::failed)) throw Error(next_text());
+}
+
+void DecodingProcess::read(void* bytes, std::size_t count) {
+  begin();
+  auto* to = static_cast<char*>(bytes);
+  while (count > 0) {
+    auto const got = read_some(to, count);
+    if (got == 0) throw_reason(wait());
+    to += got;
+    count -= got;
+  }
+}
+
+std::size_t DecodingProcess::read_some(char* bytes, std::size_t count) {
+  while (true) {
+    auto const left = std::chrono::ceil<std::chrono::milliseconds>(deadline_ - Clock::now());
+    pollfd watched{answer_->get(), POLLIN, 0};
+    int const ready = poll(&watched, 1, static_cast<int>(std::max<std::int64_t>(0, left.count())));
+    if (ready == 0) throw Error(fmt::format("it takes more than {} s", limits_.wait.count()));
+    if (ready < 0) {
+      if (errno == EINTR) continue;
+      fail("no answer of its decoding");
+    }
+    auto const got = ::read(answer_->get(), bytes, count);
+    if (got >= 0) return static_cast<std::size_t>(got);
+    if (errno != EINTR) fail("no answer of its decoding");
+  }
+}
+
+// Returns the status of waitpid(). The process has closed its output, so that its end is near.
+int DecodingProcess::wait() {
+  int status = 0;
+  while (true) {
+    auto const ended = waitpid(process_, &status, WNOHANG);
+    if (ended == process_) break;
+    if (ended < 0 && errno != EINTR) {  // this process lets the system wait for its children
+      status = 0;
+      break;
+    }
+    if (Clock::now() > deadline_) {
+      throw Error(fmt::format("it takes more than {} s", limits_.wait.count()));
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+  process_ = -1;
+  return status;
+}
+
+void DecodingProcess::throw_reason(int status) const {
+  if (WIFSIGNALED(status)) {
+    int const signal = WTERMSIG(status);
+    if (signal == SIGXCPU) {
+      throw Error(fmt::format("it takes more than {} s of processor time", limits_.seconds));
+    }
+    throw Error(fmt::format("the program that decodes it crashed ({})", strsignal(signal)));
+  }
+  // What the system says if a library is missing.
+  std::array<char, decoding::longest_message> text{};
+  auto const length = pread(errors_.get(), text.data(), text.size(), 0);
+  std::string const said(text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, length)));
+  throw Error(fmt::format("the program that decodes it ended with status {}{}{}",
+                          WEXITSTATUS(status), said.empty() ? "" : ": ",
+                          in_one_line(said.substr(0, said.find('\n')))));
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,89 @@
+#include "decoding/decoder.h"
+
+#include <fcntl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <new>
+
+namespace gpu_shading::decoding {
+namespace {
+
+constexpr int argument_count = 7;
+
+// The program that started this one may have left files open for its children.
+void close_others() {
+#ifdef SYS_close_range
+  syscall(SYS_close_range, STDERR_FILENO + 1, ~0U, 0);
+#endif
+}
+
+// What libraries say on their own does not reach the user; the reason is in the answer.
+void silence_errors() {
+  int const nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nothing >= 0) dup2(nothing, STDERR_FILENO);
+}
+
+std::string in_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  return text;
+}
+
+// Libraries know the file by the name by which it was opened.
+std::string named(std::string text, std::filesystem::path const& name) {
+  std::string_view const opened(input_path);
+  auto const put = name.filename().string();
+  for (auto at = text.find(opened); at != std::string::npos; at = text.find(opened, at)) {
+    text.replace(at, opened.size(), put);
+    at += put.size();
+  }
+  return text;
+}
+
+std::string out_of_memory(Limits const& limits) {
+  constexpr unsigned mebibyte = 20;
+  return "it takes more than " + std::to_string(limits.memory >> mebibyte) + " MiB of memory";
+}
+
+}  // namespace
+
+int run_decoder(int count, char const* const* arguments, bool reads_neighbours,
+                std::function<void(Request const&, Answer&)> const& decode) {
+  if (count != argument_count) return EXIT_FAILURE;
+  end_with(std::atoi(arguments[1]));
+  close_others();
+  silence_errors();
+  Limits const limits{std::strtoull(arguments[2], nullptr, 10),
+                      std::strtoull(arguments[3], nullptr, 10)};
+  Request const request{arguments[4], arguments[6], std::string_view(arguments[5]) == "any"};
+  Answer answer(STDOUT_FILENO);
+  std::string why;
+  try {
+    auto const folder = std::filesystem::absolute(request.name).parent_path();
+    auto readable = std::optional(Readable{reads_neighbours ? folder : std::filesystem::path()});
+    if (request.any) readable.reset();
+    confine(limits, STDIN_FILENO, readable);
+    decode(request, answer);
+    answer.flush();
+    return EXIT_SUCCESS;
+  } catch (std::bad_alloc const&) {
+    why = out_of_memory(limits);
+  } catch (std::exception const& error) {
+    why = error.what();
+    // Libraries that catch it pass only its name on.
+    if (why.find("bad_alloc") != std::string::npos) why = out_of_memory(limits);
+  } catch (...) {
+    why = "unknown error";
+  }
+  try {
+    return answer.fail(in_one_line(named(why, request.name))) ? EXIT_SUCCESS : EXIT_FAILURE;
+  } catch (std::exception const&) {
+    return EXIT_FAILURE;
+  }
+}
+
+}  // namespace gpu_shading::decoding

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "decoding/answer.h"
+#include "decoding/sandbox.h"
+
+namespace gpu_shading::decoding {
+
+// The file that a decoding program reads is its standard input; libraries open it by this name.
+inline constexpr char const* input_path = "/proc/self/fd/0";
+
+// How a decoding program is called.
+struct Request {
+  // What to read, and how the file is called.
+  std::string operation;
+  std::filesystem::path name;
+  // Whether any format of the library is read, and whatever other file the file names.
+  bool any = false;
+};
+
+// The body of a decoding program's main(): PARENT SECONDS BYTES OPERATION any|restricted NAME, with
+// the file as standard input. `decode` puts its answer, or throws std::exception with the reason.
+// `reads_neighbours`: whether it reads files beside the file. Returns the exit status.
+int run_decoder(int count, char const* const* arguments, bool reads_neighbours,
+                std::function<void(Request const&, Answer&)> const& decode);
+
+}  // namespace gpu_shading::decoding

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace gpu_shading::decoding {
+
+struct Limits {
+  std::uint64_t seconds;  // of processor time
+  std::uint64_t memory;   // bytes of address space
+};
+
+// Ends this process when the one that started it, `parent`, ends.
+void end_with(int parent);
+
+// Takes from this process, for good, what decoding a file does not need: time and memory above the
+// limits, core dumps, writing to files, other processes, the network, and reading any file but
+// `input`, a descriptor, and those in `readable`. Without `readable` all files can be read. Where a
+// kernel lacks landlock or seccomp, what they would forbid stays possible. Throws
+// std::system_error if a limit cannot be set.
+struct Readable {
+  std::filesystem::path folder;  // empty: none
+};
+void confine(Limits const& limits, int input, std::optional<Readable> const& readable);
+
+}  // namespace gpu_shading::decoding
