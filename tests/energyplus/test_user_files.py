@@ -192,7 +192,7 @@ def test_pictures_of_alike_names_are_all_there(patched, model, weather, tmp_path
 def test_a_name_that_is_given_twice_is_refused(program, model, tmp_path):
     (tmp_path / "views.txt").write_text("a.png 180 40 Window\nb.png 180 40\n\na.png 150 40 Window\n")
     error = one_error(program("view", model, "--list", tmp_path / "views.txt", "-o", tmp_path / "out"))
-    assert "views.txt, line 4: a.png" in error and "line 1" in error
+    assert 'views.txt, line 4: "a.png"' in error and "line 1" in error
     assert not (tmp_path / "out").exists()
 
 
