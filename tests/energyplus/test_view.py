@@ -88,7 +88,7 @@ def test_one_picture(view, tmp_path):
     (("--at", "06-21 12:00", "-w", "none.epw"), ("-w none.epw: no such file",)),
     (("--day", "June"), ('--day "June": expected month and day, as in 06-21',)),
     (("--list", "views.txt"), ("views.txt, line 2", "nonsense")),
-    (("--list", "missing.txt"), ("missing.txt", "cannot be read")),
+    (("--list", "missing.txt"), ("missing.txt", "no such file")),
 ])
 def test_what_is_wrong(view, tmp_path, arguments, words):
     (tmp_path / "views.txt").write_text("a.png 180 60 Window\nnonsense\n")
