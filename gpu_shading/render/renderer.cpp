@@ -110,7 +110,10 @@ class Renderer::Implementation {
 
 Renderer::Implementation::Implementation(Scene scene, RendererOptions options,
                                          OpenBackend const& open)
-    : scene_(std::move(scene)), casters_(scene_), transmission_(scene_), options_(options) {
+    : scene_(std::move(scene)),
+      casters_(scene_),
+      transmission_(scene_),
+      options_(std::move(options)) {
   Stopwatch const watch(statistics_.seconds);
   std::vector<Mesh> const meshes = triangulate_all(scene_);
   backend_ = open({scene_, meshes, transmission_, statistics_});
@@ -203,7 +206,8 @@ Renderer::Renderer(Scene scene, RendererOptions options)
 Renderer::Renderer(std::unique_ptr<Implementation> implementation)
     : implementation_(std::move(implementation)) {}
 Renderer RendererWithBackend::make(Scene scene, RendererOptions options, Open const& open) {
-  return Renderer(std::make_unique<Renderer::Implementation>(std::move(scene), options, open));
+  return Renderer(
+      std::make_unique<Renderer::Implementation>(std::move(scene), std::move(options), open));
 }
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
