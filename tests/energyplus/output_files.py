@@ -1,4 +1,4 @@
-"""Makes the outputs of two runs comparable."""
+"""Reads the outputs of a run, and makes those of two runs comparable."""
 
 import re
 import sqlite3
@@ -16,6 +16,20 @@ def masked(content):
     for pattern in TIMES:
         content = pattern.sub(b"<time>", content)
     return content
+
+
+def values_of(run, variable, frequency=None):
+    """{key: values over time} of an output in the run's database, of one reporting frequency or of its only one."""
+    with sqlite3.connect(f"file:{run.folder / 'eplusout.sql'}?mode=ro", uri=True) as data:
+        rows = data.execute(
+            "SELECT KeyValue, Value FROM ReportData JOIN ReportDataDictionary USING (ReportDataDictionaryIndex) "
+            "WHERE Name = ?1 AND (?2 IS NULL OR ReportingFrequency = ?2) ORDER BY ReportDataIndex",
+            (variable, frequency)).fetchall()
+    data.close()
+    values = {}
+    for key, value in rows:
+        values.setdefault(key, []).append(value)
+    return values
 
 
 def database_content(path):

@@ -6,10 +6,10 @@ import itertools
 import math
 import os
 import re
-import sqlite3
 import subprocess
 
 import pytest
+from output_files import values_of
 from shading_runs import energyplus, input_file, results
 from test_models import MODELS, RUN_PERIOD_FIELDS, index
 
@@ -28,19 +28,6 @@ def instrument(model):
     results.instrument(model)
     for variable in (SKY, *LOAD_VARIABLES):
         model.add_output_variable(variable, "Hourly")
-
-
-def values_of(run, variable):
-    """{key: values over time} of an hourly output."""
-    with sqlite3.connect(f"file:{run.folder / 'eplusout.sql'}?mode=ro", uri=True) as data:
-        rows = data.execute(
-            "SELECT KeyValue, Value FROM ReportData JOIN ReportDataDictionary USING (ReportDataDictionaryIndex) "
-            "WHERE Name = ? AND ReportingFrequency = 'Hourly' ORDER BY ReportDataIndex", (variable,)).fetchall()
-    data.close()
-    values = collections.defaultdict(list)
-    for key, value in rows:
-        values[key].append(value)
-    return values
 
 
 @pytest.fixture
@@ -92,7 +79,7 @@ def assert_alike(full, lean):
     assert max(all_hours) <= PIXELS
     assert sum(all_hours) / len(all_hours) < MEAN
     for variable in (SKY, *LOAD_VARIABLES):
-        before, after = values_of(full, variable), values_of(lean, variable)
+        before, after = (values_of(run, variable, "Hourly") for run in (full, lean))
         for name in before.keys() & after.keys():
             total = sum(map(abs, before[name]))
             difference = sum(abs(a - b) for a, b in zip(before[name], after[name], strict=True))
@@ -218,7 +205,7 @@ def test_epjson_is_rewritten_too(run_both, patched, official, box, tmp_path):
 
 def rows_of(run):
     """Names of the surfaces that EnergyPlus has outputs of."""
-    return set(values_of(run, results.SUNLIT))
+    return set(values_of(run, results.SUNLIT, "Hourly"))
 
 
 def test_placeholders_are_nothing_but_rows(run_both, box):
@@ -306,7 +293,7 @@ def test_named_surface_stays(run_both, louvres, added, variable):
     assert "11 shading surfaces hidden" in remark(lean)
     assert "1 kept (such as LOUVRE 3, which " in remark(lean)
     assert "LOUVRE 3" in rows_of(lean) and "LOUVRE 4" not in rows_of(lean)
-    before, after = values_of(full, variable), values_of(lean, variable)
+    before, after = (values_of(run, variable, "Hourly") for run in (full, lean))
     assert after and any(sum(values) > 0 for values in after.values())
     for name, values in after.items():
         assert values == pytest.approx(before[name], rel=1e-4, abs=1e-6), name

@@ -1,9 +1,9 @@
 """Sunlit fractions of shading surfaces' backs, the copies "Mir-...", where an output names them."""
 
 import re
-import sqlite3
 
 import pytest
+from output_files import values_of
 from shading_runs import energyplus
 
 SUNLIT = "Surface Outside Face Sunlit Fraction"
@@ -24,14 +24,7 @@ def run_both(patched, weather, box, tmp_path):
         for name, flags in (("clipped", []), ("ours", ["--gpu-shading", *options])):
             run = energyplus.run(patched, path, weather, tmp_path / name, [*flags, "-D"])
             assert run.completed, run.why()
-            with sqlite3.connect(f"file:{run.folder / 'eplusout.sql'}?mode=ro", uri=True) as data:
-                series = {}
-                for key, value in data.execute(
-                        "SELECT KeyValue, Value FROM ReportData JOIN ReportDataDictionary"
-                        " USING (ReportDataDictionaryIndex) WHERE Name = ? ORDER BY ReportDataIndex", (SUNLIT,)):
-                    series.setdefault(key, []).append(value)
-            data.close()
-            found.append(series)
+            found.append(values_of(run, SUNLIT))
         return found
 
     return call

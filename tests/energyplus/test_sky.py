@@ -5,9 +5,9 @@ with the Transmittance Schedule 1 - s. With DetailedSkyDiffuseModeling, both cha
 """
 
 import re
-import sqlite3
 
 import pytest
+from output_files import values_of
 from shading_runs import energyplus
 
 SKY = "Surface Outside Face Incident Sky Diffuse Solar Radiation Rate per Area"
@@ -26,14 +26,7 @@ def rewritten(box, calculation):
 
 def series(run):
     assert run.completed, run.why()
-    with sqlite3.connect(f"file:{run.folder / 'eplusout.sql'}?mode=ro", uri=True) as data:
-        found = {}
-        for key, value in data.execute(
-                "SELECT KeyValue, Value FROM ReportData JOIN ReportDataDictionary USING (ReportDataDictionaryIndex)"
-                " WHERE Name = ? ORDER BY ReportDataIndex", (SKY,)):
-            found.setdefault(key, []).append(value)
-    data.close()
-    return found
+    return values_of(run, SKY)
 
 
 @pytest.mark.parametrize("update", ["Timestep", "Periodic"])

