@@ -4,7 +4,6 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <new>
@@ -25,12 +24,6 @@ void close_others() {
 void silence_errors() {
   int const nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nothing >= 0) dup2(nothing, STDERR_FILENO);
-}
-
-std::string in_one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
-  return text;
 }
 
 // Libraries know the file by the name by which it was opened.
@@ -80,7 +73,7 @@ int run_decoder(int count, char const* const* arguments, bool reads_neighbours,
     why = "unknown error";
   }
   try {
-    return answer.fail(in_one_line(named(why, request.name))) ? EXIT_SUCCESS : EXIT_FAILURE;
+    return answer.fail(named(why, request.name)) ? EXIT_SUCCESS : EXIT_FAILURE;
   } catch (std::exception const&) {
     return EXIT_FAILURE;
   }
