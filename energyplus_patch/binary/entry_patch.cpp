@@ -171,8 +171,13 @@ void patch_entries(SymbolTable const& symbols, std::vector<EntryPatch> const& en
     *item.entry->original = trampolines.add(item.symbol->address, item.start);
   }
   trampolines.seal();
+  std::vector<void*> targets;
   for (auto const& item : checked) {
-    write_code(item.symbol->address, jump_to(item.entry->ours));
+    auto const& entry = *item.entry;
+    targets.push_back(entry.result ? preserve_registers(entry.ours, *entry.result) : entry.ours);
+  }
+  for (std::size_t i = 0; i < checked.size(); ++i) {
+    write_code(checked[i].symbol->address, jump_to(targets[i]));
   }
 }
 

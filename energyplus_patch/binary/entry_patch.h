@@ -1,9 +1,10 @@
 #pragma once
 
-#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "binary/preserving_thunk.h"
 #include "binary/symbol_table.h"
 
 namespace gpu_shading::energyplus {
@@ -14,12 +15,26 @@ struct EntryPatch {
   void* ours;                 // same signature
   void** original = nullptr;  // receives the trampoline to the original, if that still runs
   bool needed = true;         // if false, it is skipped where the library lacks it
+  // Entered so that all registers but that of the result are preserved (preserve_registers); if
+  // empty, `ours` looks after them itself.
+  std::optional<Result> result = Result::integer;
 };
 
+// An entry whose original no longer runs.
+template <typename Returned, typename... Arguments>
+EntryPatch replace(char const* name, Returned (*ours)(Arguments...)) {
+  EntryPatch entry{name, reinterpret_cast<void*>(ours)};
+  entry.result = result_of<Returned>();
+  return entry;
+}
+
 // An entry whose original still runs, through `original`.
-template <typename Function>
-EntryPatch watch(char const* name, Function* ours, Function** original) {
-  return {name, reinterpret_cast<void*>(ours), reinterpret_cast<void**>(original)};
+template <typename Returned, typename... Arguments>
+EntryPatch watch(char const* name, Returned (*ours)(Arguments...),
+                 Returned (**original)(Arguments...)) {
+  EntryPatch entry{name, reinterpret_cast<void*>(ours), reinterpret_cast<void**>(original)};
+  entry.result = result_of<Returned>();
+  return entry;
 }
 
 // Throws Error if patch_entries would fail.

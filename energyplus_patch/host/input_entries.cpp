@@ -173,6 +173,7 @@ std::vector<EntryPatch> input_entries() {
   EntryPatch print{print_shading_line, reinterpret_cast<void*>(&gpu_shading_watch_print),
                    &gpu_shading_original_print};
   print.needed = false;
+  print.result.reset();
   return {
       watch("_ZN10EnergyPlus14InputProcessor12processInputERNS_14EnergyPlusDataE", &process_input,
             &original_process_input),

@@ -130,7 +130,7 @@ std::unordered_map<unsigned, float> calculate_interior_pssas(
 
 template <auto function>
 EntryPatch guarded_entry(char const* symbol) {
-  return {symbol, reinterpret_cast<void*>(&Guarded<function>::call)};
+  return replace(symbol, &Guarded<function>::call);
 }
 
 }  // namespace

@@ -3,7 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <fstream>
+#include <numeric>
 #include <string>
 
 #include "gpu_shading/error.h"
@@ -96,6 +100,86 @@ TEST(EntryPatch, NoPageIsWritableAndExecutable) {
   for (std::string line; std::getline(maps, line);) {
     EXPECT_THAT(line, Not(HasSubstr("rwx"))) << line;
   }
+}
+
+// Changes every register that a function may change.
+void change_all_registers() {
+  asm volatile(
+      "mov $-1, %%rax\n\t"
+      "mov %%rax, %%rcx\n\t"
+      "mov %%rax, %%rdx\n\t"
+      "mov %%rax, %%rsi\n\t"
+      "mov %%rax, %%rdi\n\t"
+      "mov %%rax, %%r8\n\t"
+      "mov %%rax, %%r9\n\t"
+      "mov %%rax, %%r10\n\t"
+      "mov %%rax, %%r11\n\t"
+      "movq %%rax, %%xmm0\n\t"
+      "movq %%rax, %%xmm1\n\t"
+      "movq %%rax, %%xmm2\n\t"
+      "movq %%rax, %%xmm3\n\t"
+      "movq %%rax, %%xmm4\n\t"
+      "movq %%rax, %%xmm5\n\t"
+      "movq %%rax, %%xmm6\n\t"
+      "movq %%rax, %%xmm7\n\t"
+      "movq %%rax, %%xmm8\n\t"
+      "movq %%rax, %%xmm9\n\t"
+      "movq %%rax, %%xmm10\n\t"
+      "movq %%rax, %%xmm11\n\t"
+      "movq %%rax, %%xmm12\n\t"
+      "movq %%rax, %%xmm13\n\t"
+      "movq %%rax, %%xmm14\n\t"
+      "movq %%rax, %%xmm15\n\t"
+      :
+      :
+      : "rax", "rcx", "rdx", "rsi", "rdi", "r8", "r9", "r10", "r11", "xmm0", "xmm1", "xmm2", "xmm3",
+        "xmm4", "xmm5", "xmm6", "xmm7", "xmm8", "xmm9", "xmm10", "xmm11", "xmm12", "xmm13", "xmm14",
+        "xmm15");
+}
+int change_all_and_give_integer() {
+  change_all_registers();
+  return 8;
+}
+double change_all_and_give_real() {
+  change_all_registers();
+  return 0.5;
+}
+int throw_from_entry() { throw Error("from the entry"); }
+
+constexpr std::size_t first_real = 0;      // xmm0 in Registers
+constexpr std::size_t first_integer = 16;  // rax
+using Registers = std::array<std::uint64_t, 25>;
+
+Registers numbered_registers() {
+  Registers registers{};
+  std::iota(registers.begin(), registers.end(), 1000U);
+  return registers;
+}
+
+TEST(EntryPatch, OnlyTheRegisterOfAnIntegerResultChanges) {
+  PatchTarget const target("integer_registers");
+  patch_entries(target.symbols(), {replace("gives_integer", &change_all_and_give_integer)});
+  auto registers = numbered_registers();
+  target.call("call_gives_integer", registers.data());
+  auto expected = numbered_registers();
+  expected[first_integer] = 8;
+  EXPECT_EQ(registers, expected);
+}
+
+TEST(EntryPatch, OnlyTheRegisterOfARealResultChanges) {
+  PatchTarget const target("real_registers");
+  patch_entries(target.symbols(), {replace("gives_real", &change_all_and_give_real)});
+  auto registers = numbered_registers();
+  target.call("call_gives_real", registers.data());
+  auto expected = numbered_registers();
+  expected[first_real] = std::bit_cast<std::uint64_t>(0.5);
+  EXPECT_EQ(registers, expected);
+}
+
+TEST(EntryPatch, ExceptionsPass) {
+  PatchTarget const target("exceptions");
+  patch_entries(target.symbols(), {replace(twice_name, &throw_from_entry)});
+  EXPECT_THROW(target.call("call_twice", 21), Error);
 }
 
 TEST(SymbolTable, StrippedFileIsRefused) {
