@@ -38,14 +38,15 @@ Loaded find_loaded(char const* wanted) {
     std::filesystem::path wanted;
     Loaded found;
   } search;
-  if (wanted != nullptr) search.wanted = std::filesystem::weakly_canonical(wanted);
+  if (wanted != nullptr) search.wanted = official_behind(wanted);
   dl_iterate_phdr(
       [](dl_phdr_info* info, std::size_t, void* context) {
         auto& s = *static_cast<Search*>(context);
         if (info->dlpi_name == nullptr || *info->dlpi_name == '\0') return 0;
         auto const path = std::filesystem::weakly_canonical(info->dlpi_name);
         bool const match = s.wanted.empty()
-                               ? path.filename().string().starts_with("libenergyplusapi")
+                               ? path.filename().string().starts_with("libenergyplusapi") &&
+                                     official_behind(path) == path
                                : path == s.wanted;
         if (!match) return 0;
         // NOLINTNEXTLINE(performance-no-int-to-ptr)
@@ -102,9 +103,13 @@ void patch(Loaded const& loaded, Installation& installed) {
   installed.schedules = schedules;
 }
 
-void install(char const* library, Choices choices) {
+enum class By { host, environment };
+
+void install(char const* library, Choices choices, By by) {
   static std::mutex mutex;
+  static bool by_host = false;
   std::scoped_lock const lock(mutex);
+  if (by == By::environment && by_host) return;
   auto const loaded = find_loaded(library);
   auto& installed = installation();
   if (installed.library.empty()) {
@@ -120,6 +125,7 @@ void install(char const* library, Choices choices) {
   installed.task.reset();
   if (choices.task) installed.task.emplace(*choices.task);
   installed.choices = std::move(choices);
+  by_host = by_host || by == By::host;
 }
 
 // Opens and closes the device where it may not be there or not do what is asked, so that a run need
@@ -141,25 +147,34 @@ void try_device(Choices const& choices) {
 
 thread_local std::string message;
 
-}  // namespace
-}  // namespace gpu_shading::energyplus
-
-extern "C" EXPORTED int gpu_shading_install(char const* energyplus_library, int count,
-                                            char const* const* options) {
-  using gpu_shading::energyplus::message;
+int install_with(char const* library, int count, char const* const* options, By by) {
   try {
-    auto choices = gpu_shading::energyplus::given_choices(count, options);
-    gpu_shading::energyplus::try_device(choices);
-    gpu_shading::energyplus::install(energyplus_library, std::move(choices));
+    auto choices = given_choices(count, options);
+    try_device(choices);
+    install(library, std::move(choices), by);
     message.clear();
     return 0;
-  } catch (gpu_shading::energyplus::CannotPatch const& error) {
+  } catch (CannotPatch const& error) {
     message = error.what();
     return 2;
   } catch (std::exception const& error) {
     message = error.what();
     return 1;
   }
+}
+
+}  // namespace
+}  // namespace gpu_shading::energyplus
+
+extern "C" EXPORTED int gpu_shading_install(char const* energyplus_library, int count,
+                                            char const* const* options) {
+  using namespace gpu_shading::energyplus;
+  return install_with(energyplus_library, count, options, By::host);
+}
+
+extern "C" EXPORTED int gpu_shading_install_from_environment(char const* energyplus_library) {
+  using namespace gpu_shading::energyplus;
+  return install_with(energyplus_library, 0, nullptr, By::environment);
 }
 
 extern "C" EXPORTED int gpu_shading_run_scheduled(char const* energyplus_library, int count,

@@ -2,7 +2,8 @@
  *
  * Load EnergyPlus's library, then libgpu_shading_energyplus.so (RTLD_LOCAL for both), and call
  * gpu_shading_install once before the first run. Every later run of every state in the process is
- * then shaded by this module. C linkage; no exception leaves these functions. */
+ * then shaded by this module. With the libenergyplusapi.so of a folder made by patch_energyplus, no
+ * call is needed where GPU_SHADING is set. C linkage; no exception leaves these functions. */
 #ifndef GPU_SHADING_ENERGYPLUS_H
 #define GPU_SHADING_ENERGYPLUS_H
 
@@ -19,6 +20,10 @@ extern "C" {
  * this library cannot be patched, and 1 for anything else. Calling it again for the same library
  * replaces the options. Not while a run is in progress. */
 int gpu_shading_install(char const* energyplus_library, int count, char const* const* options);
+
+/* For the libenergyplusapi.so of a folder made by patch_energyplus: the same without options, and
+ * without any change where a host has called gpu_shading_install. */
+int gpu_shading_install_from_environment(char const* energyplus_library);
 
 /* Why the last of these functions failed in this thread; one or more lines. Never NULL. */
 char const* gpu_shading_message(void);

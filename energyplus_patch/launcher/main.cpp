@@ -32,23 +32,6 @@ using Path = std::filesystem::path;
 constexpr char const* official_program = "energyplus-official";
 constexpr char const* patch_library = "libgpu_shading_energyplus.so";
 
-Path find_energyplus_library(Path const& folder) {
-  Path found;
-  for (auto const& entry : std::filesystem::directory_iterator(folder)) {
-    auto const name = entry.path().filename().string();
-    // The official program loads the versioned name.
-    if (name.starts_with("libenergyplusapi.so") && name > found.filename().string()) {
-      found = entry.path();
-    }
-  }
-  if (found.empty()) {
-    throw Error(fmt::format(
-        "{}: has no libenergyplusapi.so; create this folder again with patch_energyplus",
-        folder.string()));
-  }
-  return std::filesystem::canonical(found);
-}
-
 void* load(Path const& library) {
   // RTLD_LOCAL: symbols of one library must not resolve to another's (EnergyPlus contains an old
   // expat and sqlite, which Mesa would bind to).

@@ -23,7 +23,7 @@ using Path = std::filesystem::path;
 
 // Any weather file works, because only the geometry is used.
 Path some_weather() {
-  auto const folder = own_folder() / "WeatherData";
+  auto const folder = find_launcher().parent_path() / "WeatherData";
   if (std::filesystem::exists(folder)) {
     for (auto const& entry : std::filesystem::directory_iterator(folder)) {
       if (entry.path().extension() == ".epw") return entry.path();

@@ -13,6 +13,9 @@ namespace gpu_shading::energyplus {
 
 namespace {
 
+// In a patched folder, whose libenergyplusapi.so is ours.
+constexpr char const* official_library = "libenergyplusapi-official.so";
+
 // libenergyplusapi.so.25.2.0, for a build without the data dictionary.
 std::optional<std::string> version_of_library(std::filesystem::path const& folder) {
   constexpr std::string_view start = "libenergyplusapi.so.";
@@ -40,6 +43,20 @@ std::string read_version(std::filesystem::path const& folder) {
   return line.substr(mark.size(), line.find_last_not_of(" \r") + 1 - mark.size());
 }
 
+std::filesystem::path find_energyplus_library(std::filesystem::path const& folder) {
+  auto const link = folder / official_library;
+  if (std::filesystem::exists(link)) return std::filesystem::canonical(link);
+  auto const lost = std::filesystem::is_symlink(link) ? std::filesystem::read_symlink(link) : link;
+  throw Error(fmt::format("{}: is not there; create this folder again with patch_energyplus",
+                          lost.string()));
+}
+
+std::filesystem::path official_behind(std::filesystem::path const& library) {
+  auto const path = std::filesystem::weakly_canonical(library);
+  auto const link = path.parent_path() / official_library;
+  return std::filesystem::exists(link) ? std::filesystem::canonical(link) : path;
+}
+
 std::filesystem::path find_launcher() {
   auto launcher = own_folder() / "energyplus";
   if (!std::filesystem::exists(own_folder() / "libenergyplusapi.so")) {
@@ -48,6 +65,7 @@ std::filesystem::path find_launcher() {
                     "patch_energyplus",
                     own_folder().string()));
   }
+  find_energyplus_library(own_folder());
   return launcher;
 }
 

@@ -9,6 +9,13 @@ namespace gpu_shading::energyplus {
 // or, without that, from its library's name. Throws Error.
 std::string read_version(std::filesystem::path const& folder);
 
+// EnergyPlus's library for a patched folder, through its link to the official one. Throws Error.
+std::filesystem::path find_energyplus_library(std::filesystem::path const& folder);
+
+// The official library, for one of ours that stands before it in a patched folder; otherwise
+// `library` itself. Links are followed.
+std::filesystem::path official_behind(std::filesystem::path const& library);
+
 // The energyplus beside this program. Throws Error if it is not in a folder created by
 // patch_energyplus.
 std::filesystem::path find_launcher();

@@ -28,6 +28,7 @@ def build(tmp_path):
     folder.mkdir(parents=True)
     (folder / "energyplus").write_text("#!/bin/sh\necho launcher\n")
     (folder / "libgpu_shading_energyplus.so").write_bytes(b"library")
+    (folder / "libgpu_shading_api.so").write_bytes(b"our API library")
     return folder.parent
 
 
@@ -37,9 +38,11 @@ def prefix(tmp_path):
     folder = tmp_path / "EnergyPlus-25-2-0"
     (folder / "PostProcess" / "convert").mkdir(parents=True)
     (folder / "DataSets").mkdir()
+    (folder / "pyenergyplus").mkdir()
     files = {
         "energyplus": b"#!/bin/sh\necho official\n",
         "libenergyplusapi.so": b"\x7fELF...\0libenergyplusapi.so.25.2.0\0...",
+        "pyenergyplus/api.py": b"",
         "Energy+.idd": b"!IDD_Version 25.2.0\n",
         "runreadvars": b"#!/bin/sh\n",
         "DataSets/Schedules.idf": b"",
@@ -81,6 +84,10 @@ def test_makes_a_prefix_and_leaves_the_original_alone(prefix, build, tmp_path):
     assert subprocess.run([dest / "energyplus-official"], capture_output=True, text=True).stdout == "official\n"
     assert (dest / "Energy+.idd").read_text().startswith((prefix / "Energy+.idd").read_text())
     assert (dest / "DataSets").is_symlink()
+    assert (dest / "libenergyplusapi.so").read_bytes() == b"our API library"
+    assert (dest / "libenergyplusapi-official.so").resolve() == prefix / "libenergyplusapi.so"
+    # Python looks for the library beside the real folder.
+    assert (dest / "pyenergyplus" / "api.py").resolve().parent.parent == dest
     for helper in ("runreadvars", "PostProcess/ReadVarsESO"):
         assert (dest / helper).stat().st_mode & stat.S_IXUSR
         assert not (dest / helper).is_symlink()
@@ -215,11 +222,14 @@ def test_a_kill_leaves_the_former_prefix(step, prefix, build, tmp_path):
 
 
 def made_by_an_earlier_version(prefix, build, dest):
-    """It kept no list of what it made, and linked to EnergyPlus's dictionary."""
+    """It kept no list of what it made, and linked to EnergyPlus's dictionary, library and Python package."""
     assert patch(prefix, dest, "--build", build).returncode == 0
     (dest / output_folder.MARKER).unlink()
-    (dest / "Energy+.idd").unlink()
-    (dest / "Energy+.idd").symlink_to(prefix / "Energy+.idd")
+    (dest / "libenergyplusapi-official.so").unlink()
+    shutil.rmtree(dest / "pyenergyplus")
+    for name in ("Energy+.idd", "libenergyplusapi.so", "pyenergyplus"):
+        (dest / name).unlink(missing_ok=True)
+        (dest / name).symlink_to(prefix / name)
 
 
 def test_a_prefix_of_an_earlier_version_is_made_anew(prefix, build, tmp_path):
