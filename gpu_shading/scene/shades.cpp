@@ -23,6 +23,7 @@ Shades::Shades(Scene const& scene) : entries_(scene.size()) {
     entry.dims = is_shade || surface.screen == nullptr;
     if (!entry.transmits) continue;
     any_ = true;
+    entry.model = surface.transmittance;
     entry.normal = normal(surface.polygon);
     if (surface.schedule < 0) continue;
     auto const found = std::lower_bound(schedules_.begin(), schedules_.end(), surface.schedule);
@@ -30,14 +31,12 @@ Shades::Shades(Scene const& scene) : entries_(scene.size()) {
   }
 }
 
-double Shades::transmittance(Scene const& scene, SurfaceId id,
-                             glm::dvec3 const& towards_sun) const {
+double Shades::transmittance(SurfaceId id, glm::dvec3 const& towards_sun) const {
   Entry const& entry = entries_[id];
   if (!entry.transmits) return 0.0;
-  auto const& model = scene[id].transmittance;
-  if (!model) return 1.0;
+  if (!entry.model) return 1.0;
   double const cosine = std::min(1.0, std::abs(glm::dot(entry.normal, towards_sun)));
-  return std::clamp((*model)(std::acos(cosine)), 0.0, 1.0);
+  return std::clamp((*entry.model)(std::acos(cosine)), 0.0, 1.0);
 }
 
 }  // namespace gpu_shading

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <memory>
 #include <vector>
 
 #include "gpu_shading/scene.h"
@@ -19,7 +20,7 @@ class Shades {
 
   // 1 for a surface that only has a schedule or a screen, 0 for an opaque one. `towards_sun` of
   // unit length.
-  double transmittance(Scene const& scene, SurfaceId id, glm::dvec3 const& towards_sun) const;
+  double transmittance(SurfaceId id, glm::dvec3 const& towards_sun) const;
 
   static constexpr int unscheduled = -1;
   int schedule(SurfaceId id) const { return entries_[id].schedule; }
@@ -30,6 +31,7 @@ class Shades {
     bool transmits = false;
     bool dims = true;
     int schedule = unscheduled;
+    std::shared_ptr<Transmittance const> model;
     glm::dvec3 normal{0.0};
   };
 

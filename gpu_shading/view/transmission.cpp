@@ -37,7 +37,7 @@ std::vector<int> Transmission::screens_among(std::span<SurfaceId const> casters)
 
 Shade Transmission::shade(SurfaceId id, glm::dvec3 const& towards_sun) const {
   if (!shades_.transmits(id)) return {};
-  return {static_cast<float>(shades_.transmittance(scene_, id, towards_sun)), shades_.schedule(id)};
+  return {static_cast<float>(shades_.transmittance(id, towards_sun)), shades_.schedule(id)};
 }
 
 }  // namespace gpu_shading

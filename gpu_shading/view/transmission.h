@@ -18,10 +18,10 @@ struct Shade {
   std::int32_t schedule = Shades::unscheduled;  // as Shades numbers them
 };
 
-// The transmittances of the casters of a scene, which must outlive it.
+// The transmittances of the casters of a scene.
 class Transmission {
  public:
-  explicit Transmission(Scene const& scene) : scene_(scene), shades_(scene), screens_(scene) {}
+  explicit Transmission(Scene const& scene) : shades_(scene), screens_(scene) {}
 
   Shades const& shades() const { return shades_; }
   Screens const& screens() const { return screens_; }
@@ -44,7 +44,6 @@ class Transmission {
   }
 
  private:
-  Scene const& scene_;
   Shades shades_;
   Screens screens_;
   std::vector<double> deployments_;

@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <utility>
+
+#include "gpu_shading/error.h"
+#include "gpu_shading/rays.h"
+#include "rays/ray_path.h"
+#include "rays/ray_shapes.h"
+#include "scene/bvh.h"
+#include "scene/casters.h"
+#include "scene/shades.h"
+#include "threads/parallel.h"
+
+namespace gpu_shading {
+namespace {
+
+std::vector<SurfaceId> casters_of(Scene const& scene, RayOptions const& options) {
+  std::vector<SurfaceId> casters;
+  if (options.casters) {
+    casters = *options.casters;
+    std::sort(casters.begin(), casters.end());
+    casters.erase(std::unique(casters.begin(), casters.end()), casters.end());
+    if (!casters.empty() && casters.back() >= scene.size()) {
+      throw Error(fmt::format("there is no surface {} for rays to meet: the scene has {}",
+                              casters.back(), scene.size()));
+    }
+    return casters;
+  }
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    if (scene[id].casting != Casting::never) casters.push_back(id);
+  }
+  return casters;
+}
+
+double at_or_one(std::span<double const> values, int index) {
+  auto const place = static_cast<std::size_t>(index);
+  return place < values.size() ? values[place] : 1.0;
+}
+
+}  // namespace
+
+class RayScene::Implementation {
+ public:
+  Implementation(Scene const& scene, RayOptions const& options)
+      : shades_(scene), rule_(scene.rule()), lit_faces_(scene.size(), no_face) {
+    for (SurfaceId const id : casters_of(scene, options)) {
+      Surface const& surface = scene[id];
+      if (surface.screen) throw Error("rays do not meet perforated sheets yet");
+      shapes_.add(id, surface.polygon);
+      if (options.faces == RayFaces::as_casting && surface.casting == Casting::turned_away) {
+        lit_faces_[id] = normal(surface.polygon);
+      }
+    }
+    std::vector<Box> boxes;
+    boxes.reserve(shapes_.size());
+    for (std::uint32_t i = 0; i < shapes_.size(); ++i) boxes.push_back(shapes_.bounds(i));
+    tree_ = Bvh(boxes);
+    shapes_.sort(tree_.order());
+  }
+
+  double transmittance(Ray const& ray, RayConditions const& conditions) const {
+    double product = 1.0;
+    search(ray, conditions, [&](double, SurfaceId, double transmittance) {
+      product *= transmittance;
+      return product > 0.0 ? std::numeric_limits<double>::infinity() : -1.0;
+    });
+    return product;
+  }
+
+  std::optional<RayHit> nearest_opaque(Ray const& ray, RayConditions const& conditions) const {
+    std::optional<RayHit> nearest;
+    search(ray, conditions, [&](double distance, SurfaceId surface, double transmittance) {
+      if (transmittance > 0.0) return std::numeric_limits<double>::infinity();
+      // Of surfaces in one place, the first in the scene's order.
+      if (!nearest || distance < nearest->distance || surface < nearest->surface) {
+        nearest = RayHit{surface, distance};
+      }
+      return distance;
+    });
+    return nearest;
+  }
+
+ private:
+  // For surfaces that stop rays from both sides.
+  static constexpr glm::dvec3 no_face{0.0};
+
+  // Calls met(distance, surface, transmittance) for what the ray meets, in any order; it returns
+  // the distance up to which more is wanted.
+  template <typename Met>
+  void search(Ray const& ray, RayConditions const& conditions, Met const& met) const {
+    if (conditions.receiver && *conditions.receiver >= lit_faces_.size()) {
+      throw Error(fmt::format("there is no surface {} for a ray to ask for: the scene has {}",
+                              *conditions.receiver, lit_faces_.size()));
+    }
+    RayPath const path(ray);
+    double limit = path.length;
+    tree_.search(
+        [&](glm::dvec3 const& centre, glm::dvec3 const& reach) {
+          return path.meets(centre, reach, limit) ? Containment::intersecting
+                                                  : Containment::outside;
+        },
+        [&](std::uint32_t shape, std::uint32_t, Containment) {
+          auto const distance = shapes_.distance(shape, path, limit);
+          if (!distance) return;
+          SurfaceId const surface = shapes_.surface(shape);
+          if (!counts(surface, path, conditions)) return;
+          limit = std::min(limit, met(*distance, surface, passed(surface, path, conditions)));
+        });
+  }
+
+  bool counts(SurfaceId surface, RayPath const& path, RayConditions const& conditions) const {
+    if (glm::dot(lit_faces_[surface], path.direction) > in_the_sun) return false;
+    if (std::find(conditions.excluded.begin(), conditions.excluded.end(), surface) !=
+        conditions.excluded.end()) {
+      return false;
+    }
+    if (!conditions.receiver) return true;
+    return *conditions.receiver != surface && rule_(*conditions.receiver, surface);
+  }
+
+  double passed(SurfaceId surface, RayPath const& path, RayConditions const& conditions) const {
+    if (!shades_.transmits(surface)) return 0.0;
+    double transmittance = shades_.transmittance(surface, path.direction);
+    if (int const schedule = shades_.schedule(surface); schedule != Shades::unscheduled) {
+      transmittance *=
+          at_or_one(conditions.factors, shades_.schedules()[static_cast<std::size_t>(schedule)]);
+    }
+    return transmittance;
+  }
+
+  Shades shades_;
+  ShadingRule rule_;
+  std::vector<glm::dvec3> lit_faces_;  // by surface, the normal of a face that stops no rays
+  RayShapes shapes_;
+  Bvh tree_;
+};
+
+RayScene::RayScene(Scene const& scene, RayOptions const& options)
+    : implementation_(std::make_unique<Implementation>(scene, options)) {}
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+double RayScene::transmittance(Ray const& ray, RayConditions const& conditions) const {
+  return implementation_->transmittance(ray, conditions);
+}
+
+std::optional<RayHit> RayScene::nearest_opaque(Ray const& ray,
+                                               RayConditions const& conditions) const {
+  return implementation_->nearest_opaque(ray, conditions);
+}
+
+void RayScene::transmittances(std::span<Ray const> rays, RayConditions const& conditions,
+                              std::span<double> results) const {
+  if (results.size() != rays.size()) {
+    throw Error(
+        fmt::format("{} results for {} rays, expected as many", results.size(), rays.size()));
+  }
+  // Starting a task takes as long as several rays.
+  constexpr std::size_t block = 256;
+  for_each_index((rays.size() + block - 1) / block, [&](std::size_t number) {
+    std::size_t const end = std::min(rays.size(), (number + 1) * block);
+    for (std::size_t i = number * block; i < end; ++i) {
+      results[i] = transmittance(rays[i], conditions);
+    }
+  });
+}
+
+}  // namespace gpu_shading
