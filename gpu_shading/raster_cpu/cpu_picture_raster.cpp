@@ -42,7 +42,7 @@ struct Rows {
 // Calls use(rows) for parts of a grid, on all cores.
 template <typename Use>
 void in_rows(PictureGrid const& grid, Use use) {
-  constexpr int some = RowSpans::rows;
+  constexpr int some = RowSpans::most;
   int const parts = (grid.height + some - 1) / some;
   for_each_index(static_cast<std::size_t>(parts), [&](std::size_t part) {
     int const first = static_cast<int>(part) * some;

@@ -50,10 +50,10 @@ template <typename Use>
 void PixelRows<T>::each_span(ConvexArea const& area, Use use) const {
   RowSpans spans;
   int const end_row = std::min(area.end_row, end_row_);
-  for (int row = std::max(area.first_row, first_row_); row < end_row; row += RowSpans::rows) {
-    find_spans(area, row, side_, spans);
+  for (int row = std::max(area.first_row, first_row_); row < end_row; row += RowSpans::most) {
+    int const rows = std::min(RowSpans::most, end_row - row);
+    find_spans(area, row, rows, side_, spans);
     if (spans.longest == 0) continue;
-    int const rows = std::min(RowSpans::rows, end_row - row);
     for (int i = 0; i < rows; ++i) {
       auto const at = static_cast<std::size_t>(i);
       if (spans.length[at] > 0) use(row + i, spans.first[at], spans.length[at]);

@@ -5,32 +5,51 @@
 
 namespace gpu_shading {
 
+ConvexArea ProjectedPiece::area(int side) const {
+  std::array<glm::dvec2, 4> places;
+  std::array<double, 4> distances;
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    places[i] = place(i);
+    distances[i] = at(pixels_.cut, corners_[i] - pixels_.origin);
+  }
+  return area_in_front({places.data(), corners_.size()}, {distances.data(), corners_.size()}, side);
+}
+
 DepthPlane ProjectedPiece::depth() const {
+  std::array<double, 4> depths;
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    depths[i] = at(pixels_.z, corners_[i] - pixels_.origin);
+  }
   DepthPlane plane;
-  auto const [nearest, farthest] =
-      std::minmax_element(depths_.begin(), depths_.begin() + static_cast<std::ptrdiff_t>(count_));
+  auto const [nearest, farthest] = std::minmax_element(
+      depths.begin(), depths.begin() + static_cast<std::ptrdiff_t>(corners_.size()));
   plane.nearest = *nearest;
   plane.farthest = *farthest;
-  glm::dvec2 const a = corners_[1] - corners_[0];
-  glm::dvec2 const b = corners_[2] - corners_[0];
+  glm::dvec2 const origin = place(0);
+  glm::dvec2 const a = place(1) - origin;
+  glm::dvec2 const b = place(2) - origin;
   double const twice_area = cross(a, b);
-  double const up_a = depths_[1] - depths_[0];
-  double const up_b = depths_[2] - depths_[0];
+  double const up_a = depths[1] - depths[0];
+  double const up_b = depths[2] - depths[0];
   if (twice_area != 0.0) {
     plane.slope = glm::dvec2(up_a * b.y - up_b * a.y, up_b * a.x - up_a * b.x) / twice_area;
   }
-  plane.start = depths_[0] - glm::dot(plane.slope, corners_[0]);
+  plane.start = depths[0] - glm::dot(plane.slope, origin);
   return plane;
 }
 
 SurfacePieces::SurfacePieces(std::span<Mesh const> meshes) {
   ranges_.reserve(meshes.size());
   for (Mesh const& mesh : meshes) {
-    auto const base = static_cast<std::uint32_t>(points_.size());
     std::vector<glm::uvec4> const pieces = convex_pieces(mesh);
     ranges_.push_back({pieces_.size(), pieces.size()});
-    for (glm::uvec4 const& piece : pieces) pieces_.push_back(piece + base);
-    points_.insert(points_.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (glm::uvec4 const& piece : pieces) {
+      Piece& added = pieces_.emplace_back();
+      for (std::size_t i = 0; i < added.corners.size(); ++i) {
+        added.corners[i] = mesh.vertices[piece[static_cast<int>(i)]];
+      }
+      added.count = piece[2] == piece[3] ? 3 : 4;
+    }
   }
 }
 

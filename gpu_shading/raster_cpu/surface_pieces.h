@@ -36,27 +36,22 @@ struct DepthPlane {
 // A convex piece of a surface as a view has it.
 class ProjectedPiece {
  public:
-  // Three or four corners; `pixels` has its x and y in pixels.
-  ProjectedPiece(std::span<glm::dvec3 const> corners, View const& pixels) : count_(corners.size()) {
-    for (std::size_t i = 0; i < count_; ++i) {
-      glm::dvec3 const p = corners[i] - pixels.origin;
-      corners_[i] = {at(pixels.x, p), at(pixels.y, p)};
-      depths_[i] = at(pixels.z, p);
-      distances_[i] = at(pixels.cut, p);
-    }
-  }
+  // Three or four corners, and a view with its x and y in pixels; both must outlive this object.
+  ProjectedPiece(std::span<glm::dvec3 const> corners, View const& pixels)
+      : corners_(corners), pixels_(pixels) {}
 
   // What is in front of the view's cut.
-  ConvexArea area(int side) const {
-    return area_in_front({corners_.data(), count_}, {distances_.data(), count_}, side);
-  }
+  ConvexArea area(int side) const;
   DepthPlane depth() const;
 
  private:
-  std::size_t count_;
-  std::array<glm::dvec2, 4> corners_;
-  std::array<double, 4> depths_;
-  std::array<double, 4> distances_;
+  glm::dvec2 place(std::size_t corner) const {
+    glm::dvec3 const p = corners_[corner] - pixels_.origin;
+    return {at(pixels_.x, p), at(pixels_.y, p)};
+  }
+
+  std::span<glm::dvec3 const> corners_;
+  View const& pixels_;
 };
 
 // A scene's surfaces as convex pieces.
@@ -69,18 +64,21 @@ class SurfacePieces {
   template <typename Use>
   void each(SurfaceId id, View const& pixels, Use use) const {
     for (std::size_t i = 0; i < ranges_[id].count; ++i) {
-      glm::uvec4 const& piece = pieces_[ranges_[id].first + i];
-      std::array const corners{points_[piece[0]], points_[piece[1]], points_[piece[2]],
-                               points_[piece[3]]};
-      std::size_t const count = piece[2] == piece[3] ? 3 : 4;
-      use(ProjectedPiece({corners.data(), count}, pixels));
+      Piece const& piece = pieces_[ranges_[id].first + i];
+      use(ProjectedPiece({piece.corners.data(), piece.count}, pixels));
     }
   }
 
  private:
-  std::vector<glm::dvec3> points_;
-  std::vector<glm::uvec4> pieces_;  // corners; the last one twice if there are three
-  std::vector<Range> ranges_;       // of pieces_, by surface
+  // Corners are stored with each piece: read one after another, they come from memory faster than
+  // by way of indices.
+  struct Piece {
+    std::array<glm::dvec3, 4> corners;
+    std::size_t count;
+  };
+
+  std::vector<Piece> pieces_;
+  std::vector<Range> ranges_;  // of pieces_, by surface
 };
 
 }  // namespace gpu_shading

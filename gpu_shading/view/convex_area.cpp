@@ -15,32 +15,51 @@ int first_beyond(double place, int side) {
   return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(side)) + double{middle});
 }
 
-// The line through an edge of an area, which is on its left if the corners go anticlockwise.
-void add_limit(ConvexArea& area, std::ptrdiff_t& lefts, std::ptrdiff_t& rights,
-               glm::dvec2 const& from, glm::dvec2 const& to, bool anticlockwise) {
-  if (from == to) return;
-  // From the lower end, for the areas on both sides.
-  bool const upwards = from.y < to.y || (from.y == to.y && from.x < to.x);
-  glm::dvec2 const& low = upwards ? from : to;
-  glm::dvec2 const& high = upwards ? to : from;
-  constexpr double level = 1e-12;
-  double const slope = (high.x - low.x) / std::max(high.y - low.y, level);
-  RowLimit const limit{static_cast<float>(low.x + (0.5 - low.y) * slope),
-                       static_cast<float>(slope)};
-  if (upwards == anticlockwise) {
-    area.right.at(static_cast<std::size_t>(rights++)) = limit;
-  } else {
-    area.left.at(static_cast<std::size_t>(lefts++)) = limit;
+// The limits of an area as they are found.
+class Limits {
+ public:
+  Limits(ConvexArea& area, bool anticlockwise) : area_(area), anticlockwise_(anticlockwise) {}
+
+  // The line through an edge, which is on the area's left if the corners go anticlockwise.
+  void add(glm::dvec2 const& from, glm::dvec2 const& to) {
+    if (from == to) return;
+    // From the lower end, for the areas on both sides.
+    bool const upwards = from.y < to.y || (from.y == to.y && from.x < to.x);
+    glm::dvec2 const& low = upwards ? from : to;
+    glm::dvec2 const& high = upwards ? to : from;
+    constexpr double level = 1e-12;
+    double const slope = (high.x - low.x) / std::max(high.y - low.y, level);
+    RowLimit const limit{static_cast<float>(low.x + (0.5 - low.y) * slope),
+                         static_cast<float>(slope)};
+    if (upwards == anticlockwise_) {
+      area_.right[rights_++] = limit;
+    } else {
+      area_.left[lefts_++] = limit;
+    }
   }
-}
+
+  void fill_up(int side) {
+    area_.limits = std::max(lefts_, rights_);
+    std::fill(area_.left.begin() + lefts_, area_.left.end(), RowLimit{0.0F, 0.0F});
+    std::fill(area_.right.begin() + rights_, area_.right.end(),
+              RowLimit{static_cast<float>(side), 0.0F});
+  }
+
+ private:
+  ConvexArea& area_;
+  bool anticlockwise_;
+  std::size_t lefts_ = 0;
+  std::size_t rights_ = 0;
+};
 
 // For a block of rows, written so that the compiler can vectorise it.
 template <std::size_t limits>
-[[gnu::always_inline]] inline void find_some(ConvexArea const& area, int first_row, int side,
-                                             RowSpans& spans) {
+[[gnu::always_inline]] inline void find_some(ConvexArea const& area, int first_row, int rows,
+                                             int side, RowSpans& spans) {
   auto const width = static_cast<float>(side);
   std::int32_t longest = 0;
-  for (int i = 0; i < RowSpans::rows; ++i) {
+  int const whole = (rows + RowSpans::at_once - 1) / RowSpans::at_once * RowSpans::at_once;
+  for (int i = 0; i < whole; ++i) {
     auto const row = static_cast<float>(first_row + i);
     float from = 0.0F;
     float to = width;
@@ -62,17 +81,17 @@ template <std::size_t limits>
   spans.longest = longest;
 }
 
-[[gnu::always_inline]] inline void find_all(ConvexArea const& area, int first_row, int side,
-                                            RowSpans& spans) {
+[[gnu::always_inline]] inline void find_all(ConvexArea const& area, int first_row, int rows,
+                                            int side, RowSpans& spans) {
   switch (area.limits) {
     case 1:
-      return find_some<1>(area, first_row, side, spans);
+      return find_some<1>(area, first_row, rows, side, spans);
     case 2:
-      return find_some<2>(area, first_row, side, spans);
+      return find_some<2>(area, first_row, rows, side, spans);
     case 3:
-      return find_some<3>(area, first_row, side, spans);
+      return find_some<3>(area, first_row, rows, side, spans);
     default:
-      return find_some<ConvexArea::most_limits>(area, first_row, side, spans);
+      return find_some<ConvexArea::most_limits>(area, first_row, rows, side, spans);
   }
 }
 
@@ -84,43 +103,48 @@ ConvexArea area_within(std::span<glm::dvec2 const> corners, int side) {
 
 ConvexArea area_in_front(std::span<glm::dvec2 const> corners, std::span<double const> distances,
                          int side) {
-  ConvexArea area;
+  std::size_t const count = corners.size();
   double twice_area = 0.0;
   double low = corners[0].y;
   double high = low;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (i > 0) twice_area += cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
+  for (std::size_t i = 1; i < count; ++i) {
+    twice_area += cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
     low = std::min(low, corners[i].y);
     high = std::max(high, corners[i].y);
   }
-  bool const anticlockwise = twice_area > 0.0;
-  std::ptrdiff_t lefts = 0;
-  std::ptrdiff_t rights = 0;
-  glm::dvec2 leaves(0.0);
-  glm::dvec2 enters(0.0);
-  bool cut = false;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    std::size_t const next = (i + 1) % corners.size();
-    add_limit(area, lefts, rights, corners[i], corners[next], anticlockwise);
-    if (distances.empty() || (distances[i] > 0.0) == (distances[next] > 0.0)) continue;
-    cut = true;
-    double const share = distances[i] / (distances[i] - distances[next]);
-    (distances[i] > 0.0 ? leaves : enters) = corners[i] + share * (corners[next] - corners[i]);
+  std::size_t const in_front =
+      distances.empty()
+          ? count
+          : static_cast<std::size_t>(std::count_if(distances.begin(), distances.end(),
+                                                   [](double distance) { return distance > 0.0; }));
+  // The one object that is returned, so that it is not copied.
+  ConvexArea area;
+  int const first_row = first_beyond(low, side);
+  int const end_row = first_beyond(high, side);
+  if (twice_area == 0.0 || in_front == 0 || first_row >= end_row) return area;
+  Limits limits(area, twice_area > 0.0);
+  for (std::size_t i = 0; i + 1 < count; ++i) limits.add(corners[i], corners[i + 1]);
+  limits.add(corners[count - 1], corners[0]);
+  if (in_front < count) {
+    glm::dvec2 leaves(0.0);
+    glm::dvec2 enters(0.0);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::size_t const next = i + 1 < count ? i + 1 : 0;
+      if ((distances[i] > 0.0) == (distances[next] > 0.0)) continue;
+      double const share = distances[i] / (distances[i] - distances[next]);
+      (distances[i] > 0.0 ? leaves : enters) = corners[i] + share * (corners[next] - corners[i]);
+    }
+    if (leaves == enters) return area;
+    limits.add(leaves, enters);
   }
-  bool const behind = !distances.empty() && !cut && !(distances[0] > 0.0);
-  if (twice_area == 0.0 || behind || (cut && leaves == enters)) return {};
-  if (cut) add_limit(area, lefts, rights, leaves, enters, anticlockwise);
-  area.limits = static_cast<std::size_t>(std::max(lefts, rights));
-  std::fill(area.left.begin() + lefts, area.left.end(), RowLimit{0.0F, 0.0F});
-  std::fill(area.right.begin() + rights, area.right.end(),
-            RowLimit{static_cast<float>(side), 0.0F});
-  area.first_row = first_beyond(low, side);
-  area.end_row = first_beyond(high, side);
+  limits.fill_up(side);
+  area.first_row = first_row;
+  area.end_row = end_row;
   return area;
 }
 
-void find_spans(ConvexArea const& area, int first_row, int side, RowSpans& spans) {
-  run<find_all>(area, first_row, side, spans);
+void find_spans(ConvexArea const& area, int first_row, int rows, int side, RowSpans& spans) {
+  run<find_all>(area, first_row, rows, side, spans);
 }
 
 }  // namespace gpu_shading

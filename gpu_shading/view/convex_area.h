@@ -38,16 +38,18 @@ ConvexArea area_within(std::span<glm::dvec2 const> corners, int side);
 ConvexArea area_in_front(std::span<glm::dvec2 const> corners, std::span<double const> distances,
                          int side);
 
-// The pixels of an area, that is, those whose centres are in it, by row.
+// The pixels of an area, that is, those whose centres are in it, in some rows.
 struct RowSpans {
-  static constexpr int rows = 64;  // few enough for the first-level cache
+  static constexpr int most = 64;    // rows; few enough for the first-level cache
+  static constexpr int at_once = 8;  // whole vectors of rows are computed
 
-  std::array<std::int32_t, rows> first;
-  std::array<std::int32_t, rows> length;
+  std::array<std::int32_t, most> first;
+  std::array<std::int32_t, most> length;
   std::int32_t longest;
 };
 
-// The pixels of rows from `first_row` on, as if the area covered them all.
-void find_spans(ConvexArea const& area, int first_row, int side, RowSpans& spans);
+// The pixels of up to RowSpans::most rows from `first_row` on, as if the area covered them all, and
+// of those that follow up to a multiple of RowSpans::at_once.
+void find_spans(ConvexArea const& area, int first_row, int rows, int side, RowSpans& spans);
 
 }  // namespace gpu_shading

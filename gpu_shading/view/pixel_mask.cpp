@@ -52,14 +52,17 @@ void set_long(std::uint64_t* row, std::int32_t first, std::int32_t length) {
 // Areas thinner than a pixel miss the centres of most rows.
 constexpr std::int32_t thin = 1;
 
-// One bit per pixel.
-std::uint64_t rows_with_any(RowSpans const& spans, std::size_t rows) {
-  static_assert(RowSpans::rows <= word_bits);
+// One bit per row, of spans that are no longer than a pixel.
+std::uint64_t rows_with_any(RowSpans const& spans, int rows) {
+  static_assert(RowSpans::most <= word_bits);
   std::uint64_t any = 0;
-  for (std::size_t i = 0; i < rows; ++i) {
-    any |= static_cast<std::uint64_t>(spans.length[i] != 0 ? 1 : 0) << i;
+  for (int row = 0; row < rows; row += RowSpans::at_once) {
+    std::int32_t const* const length = &spans.length[static_cast<std::size_t>(row)];
+    std::int32_t some = 0;
+    for (int i = 0; i < RowSpans::at_once; ++i) some |= length[i] << i;
+    any |= static_cast<std::uint64_t>(some) << row;
   }
-  return any;
+  return any & (~std::uint64_t{0} >> (word_bits - rows));
 }
 
 }  // namespace
@@ -80,10 +83,11 @@ template <bool light>
 void PixelMask::fill(ConvexArea const& area) {
   RowSpans spans;
   int const end_row = std::min(area.end_row, end_row_);
-  for (int row = std::max(area.first_row, first_row_); row < end_row; row += RowSpans::rows) {
-    find_spans(area, row, side_, spans);
+  for (int row = std::max(area.first_row, first_row_); row < end_row; row += RowSpans::most) {
+    int const rows = std::min(RowSpans::most, end_row - row);
+    find_spans(area, row, rows, side_, spans);
     if (spans.longest == 0) continue;
-    auto const rows = static_cast<std::size_t>(std::min(RowSpans::rows, end_row - row));
+    auto const count = static_cast<std::size_t>(rows);
     std::uint64_t* words = &words_[static_cast<std::size_t>(row - first_row_) * stride_];
     if (spans.longest <= thin) {
       for (std::uint64_t rest = rows_with_any(spans, rows); rest != 0; rest &= rest - 1) {
@@ -91,11 +95,11 @@ void PixelMask::fill(ConvexArea const& area) {
         set_short<light>(words + i * stride_, spans.first[i], spans.length[i]);
       }
     } else if (spans.longest < word_bits) {
-      for (std::size_t i = 0; i < rows; ++i, words += stride_) {
+      for (std::size_t i = 0; i < count; ++i, words += stride_) {
         set_short<light>(words, spans.first[i], spans.length[i]);
       }
     } else {
-      for (std::size_t i = 0; i < rows; ++i, words += stride_) {
+      for (std::size_t i = 0; i < count; ++i, words += stride_) {
         set_long<light>(words, spans.first[i], spans.length[i]);
       }
     }
