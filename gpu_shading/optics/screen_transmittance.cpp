@@ -47,6 +47,16 @@ Between between_steps(double place, int steps) {
           .part = static_cast<float>(within - below)};
 }
 
+// The two of a row of regions, which repeats, between whose centres a position lies.
+Between between_regions(double place, int regions) {
+  double const from_centres = place * regions - 0.5;
+  double const below = std::floor(from_centres);
+  int const first = static_cast<int>(below) + regions;
+  return {.below = static_cast<std::size_t>(first % regions),
+          .above = static_cast<std::size_t>((first + 1) % regions),
+          .part = static_cast<float>(from_centres - below)};
+}
+
 }  // namespace
 
 ScreenTransmittance::ScreenTransmittance(HolePattern const& pattern, double thickness)
@@ -102,7 +112,23 @@ double ScreenTransmittance::at(double shift, double phi) const {
                    static_cast<double>(direction.part));
 }
 
-std::vector<float> ScreenTransmittance::of_regions(double place, double phi) const {
+// The regions' values at the steps and directions about a shift.
+struct ScreenTransmittance::Lookup {
+  float const* first;
+  float const* second;
+  float const* third;
+  float const* fourth;
+  float along_steps;
+  float along_directions;
+
+  float operator()(std::size_t region) const {
+    float const below = first[region] + along_steps * (second[region] - first[region]);
+    float const above = third[region] + along_steps * (fourth[region] - third[region]);
+    return below + along_directions * (above - below);
+  }
+};
+
+ScreenTransmittance::Lookup ScreenTransmittance::lookup(double place, double phi) const {
   Between const step = between_steps(place, steps_);
   Between const direction = between_directions(phi, region_directions_);
   auto const steps = static_cast<std::size_t>(steps_);
@@ -110,17 +136,32 @@ std::vector<float> ScreenTransmittance::of_regions(double place, double phi) con
   auto const at = [&](std::size_t in_direction, std::size_t at_step) {
     return &region_values_[(in_direction * steps + at_step) * count];
   };
-  float const* const first = at(direction.below, step.below);
-  float const* const second = at(direction.below, step.above);
-  float const* const third = at(direction.above, step.below);
-  float const* const fourth = at(direction.above, step.above);
-  std::vector<float> values(count);
-  for (std::size_t region = 0; region < count; ++region) {
-    float const below = first[region] + step.part * (second[region] - first[region]);
-    float const above = third[region] + step.part * (fourth[region] - third[region]);
-    values[region] = below + direction.part * (above - below);
-  }
+  return {at(direction.below, step.below),
+          at(direction.below, step.above),
+          at(direction.above, step.below),
+          at(direction.above, step.above),
+          step.part,
+          direction.part};
+}
+
+std::vector<float> ScreenTransmittance::of_regions(double place, double phi) const {
+  Lookup const value = lookup(place, phi);
+  std::vector<float> values(static_cast<std::size_t>(regions()));
+  for (std::size_t region = 0; region < values.size(); ++region) values[region] = value(region);
   return values;
+}
+
+double ScreenTransmittance::at_place(double shift, double phi, glm::dvec2 const& place) const {
+  if (shift >= longest_chord_) return 0.0;
+  if (regions() == 1) return at(shift, phi);
+  Lookup const value = lookup(shift / step_, phi);
+  Between const across = between_regions(place.x, regions_across_);
+  Between const up = between_regions(place.y, regions_up_);
+  auto const row = [&](std::size_t number) {
+    std::size_t const first = number * static_cast<std::size_t>(regions_across_);
+    return std::lerp(value(first + across.below), value(first + across.above), across.part);
+  };
+  return std::lerp(row(up.below), row(up.above), up.part);
 }
 
 std::vector<float> ScreenTransmittance::at_shift(double shift, double phi) const {

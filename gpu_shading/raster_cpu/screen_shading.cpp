@@ -9,12 +9,13 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
+#include "raster_cpu/sheet_outline.h"
 #include "raster_cpu/sheet_rays.h"
 
 namespace gpu_shading {
 namespace {
 
-constexpr std::size_t corners = 4;
+constexpr std::size_t corners = SheetOutline::corners;
 
 // Twice the area of a quadrilateral.
 double turn(std::array<glm::dvec2, corners> const& p) { return cross(p[2] - p[0], p[3] - p[1]); }
@@ -64,20 +65,13 @@ class Part {
  public:
   Part(Screens::Entry const& screen, Screens::Quadrilateral const& part, Faces const& faces,
        SheetInBeam const& sheet, View const& pixels)
-      : part_(part),
-        ray_(sheet.way),
+      : outline_(part.places, sheet.way),
         in_place_(sheet.in_place),
         to_place_(glm::inverse(glm::dmat2(
             glm::dot(glm::dvec3(pixels.x), screen.u), glm::dot(glm::dvec3(pixels.y), screen.u),
             glm::dot(glm::dvec3(pixels.x), screen.v), glm::dot(glm::dvec3(pixels.y), screen.v)))),
         first_(part.places[0] - to_place_ * faces.inside[0]),
-        rays_(*screen.screen, sheet, std::sqrt(std::abs(glm::determinant(to_place_)))) {
-    double const hand = turn(part.places) < 0.0 ? -1.0 : 1.0;
-    for (std::size_t i = 0; i < corners; ++i) {
-      edges_[i] = hand * (part.places[(i + 1) % corners] - part.places[i]);
-      steps_[i] = cross(edges_[i], ray_);
-    }
-  }
+        rays_(*screen.screen, sheet, std::sqrt(std::abs(glm::determinant(to_place_)))) {}
 
   // For pixels of one row.
   void shade(int row, int first, int length, PixelMask const& lit,
@@ -97,10 +91,6 @@ class Part {
   glm::dvec2 place(int row, int column) const {
     return first_ + to_place_ * glm::dvec2(column + 0.5, row + 0.5);
   }
-  // A ray's distance from an edge at the inside face, times the edge's length; positive inside.
-  double within(std::size_t edge, glm::dvec2 const& place) const {
-    return cross(edges_[edge], place - part_.places[edge]);
-  }
   float kept(float passed) const { return 1.0F - in_place_ * (1.0F - passed); }
 
   // The pixels of a row whose rays are inside the outline from face to face, or fewer.
@@ -109,8 +99,8 @@ class Part {
     double high = end;
     glm::dvec2 const start = place(row, 0);
     for (std::size_t i = 0; i < corners; ++i) {
-      double const spare = within(i, start) - std::max(0.0, -steps_[i]);
-      double const change = cross(edges_[i], to_place_[0]);
+      double const spare = outline_.within(i, start) - std::max(0.0, -outline_.step(i));
+      double const change = outline_.change(i, to_place_[0]);
       if (change > 0.0) {
         low = std::max(low, -spare / change);
       } else if (change < 0.0) {
@@ -158,29 +148,16 @@ class Part {
     }
   }
 
-  // The part of the path inside the outline.
   float passed(glm::dvec2 const& place) const {
-    double begin = 0.0;
-    double end = 1.0;
-    for (std::size_t i = 0; i < corners; ++i) {
-      double const here = within(i, place);
-      double const last = here + steps_[i];
-      if (here < 0.0 && last < 0.0) return 1.0F;
-      double const crossing = here / (here - last);
-      if (here < 0.0) begin = std::max(begin, crossing);
-      if (last < 0.0) end = std::min(end, crossing);
-    }
-    return begin > end ? 1.0F : rays_.part_of_way(place, begin, end);
+    auto const part = outline_.part_within(place);
+    return part ? rays_.part_of_way(place, part->begin, part->end) : 1.0F;
   }
 
-  Screens::Quadrilateral const& part_;
-  glm::dvec2 ray_;
+  SheetOutline outline_;
   float in_place_;  // share of the screen
   glm::dmat2 to_place_;
   glm::dvec2 first_;
   SheetRays rays_;
-  std::array<glm::dvec2, corners> edges_;  // counter-clockwise
-  std::array<double, corners> steps_;      // change of `within` from face to face
 };
 
 void shade(LuminanceTile& shaded, PixelMask const& lit, View const& pixels,

@@ -8,8 +8,8 @@
 #include "gpu_shading/error.h"
 #include "gpu_shading/rays.h"
 #include "rays/ray_path.h"
+#include "rays/ray_screens.h"
 #include "rays/ray_shapes.h"
-#include "scene/bvh.h"
 #include "scene/casters.h"
 #include "scene/shades.h"
 #include "threads/parallel.h"
@@ -45,21 +45,7 @@ double at_or_one(std::span<double const> values, int index) {
 class RayScene::Implementation {
  public:
   Implementation(Scene const& scene, RayOptions const& options)
-      : shades_(scene), rule_(scene.rule()), lit_faces_(scene.size(), no_face) {
-    for (SurfaceId const id : casters_of(scene, options)) {
-      Surface const& surface = scene[id];
-      if (surface.screen) throw Error("rays do not meet perforated sheets yet");
-      shapes_.add(id, surface.polygon);
-      if (options.faces == RayFaces::as_casting && surface.casting == Casting::turned_away) {
-        lit_faces_[id] = normal(surface.polygon);
-      }
-    }
-    std::vector<Box> boxes;
-    boxes.reserve(shapes_.size());
-    for (std::uint32_t i = 0; i < shapes_.size(); ++i) boxes.push_back(shapes_.bounds(i));
-    tree_ = Bvh(boxes);
-    shapes_.sort(tree_.order());
-  }
+      : Implementation(scene, options, casters_of(scene, options)) {}
 
   double transmittance(Ray const& ray, RayConditions const& conditions) const {
     double product = 1.0;
@@ -87,6 +73,21 @@ class RayScene::Implementation {
   // For surfaces that stop rays from both sides.
   static constexpr glm::dvec3 no_face{0.0};
 
+  Implementation(Scene const& scene, RayOptions const& options, std::span<SurfaceId const> casters)
+      : shades_(scene),
+        rule_(scene.rule()),
+        lit_faces_(scene.size(), no_face),
+        screens_(scene, casters, options.screens) {
+    for (SurfaceId const id : casters) {
+      Surface const& surface = scene[id];
+      if (shades_.dims(id)) shapes_.add(id, surface.polygon);
+      if (options.faces == RayFaces::as_casting && surface.casting == Casting::turned_away) {
+        lit_faces_[id] = normal(surface.polygon);
+      }
+    }
+    shapes_.make_tree();
+  }
+
   // Calls met(distance, surface, transmittance) for what the ray meets, in any order; it returns
   // the distance up to which more is wanted.
   template <typename Met>
@@ -97,18 +98,19 @@ class RayScene::Implementation {
     }
     RayPath const path(ray);
     double limit = path.length;
-    tree_.search(
-        [&](glm::dvec3 const& centre, glm::dvec3 const& reach) {
-          return path.meets(centre, reach, limit) ? Containment::intersecting
-                                                  : Containment::outside;
-        },
-        [&](std::uint32_t shape, std::uint32_t, Containment) {
-          auto const distance = shapes_.distance(shape, path, limit);
-          if (!distance) return;
-          SurfaceId const surface = shapes_.surface(shape);
-          if (!counts(surface, path, conditions)) return;
-          limit = std::min(limit, met(*distance, surface, passed(surface, path, conditions)));
-        });
+    shapes_.search(path, limit, [&](SurfaceId surface, double distance) {
+      if (!counts(surface, path, conditions)) return;
+      limit = std::min(limit, met(distance, surface, passed(surface, path, conditions)));
+    });
+    screens_.search(path, limit, [&](SurfaceId surface, int number) {
+      if (!counts(surface, path, conditions)) return;
+      auto const sheet = screens_.meet(number, path, limit);
+      if (!sheet) return;
+      int const deployment = screens_.deployment(number);
+      double const deployed = deployment < 0 ? 1.0 : at_or_one(conditions.deployments, deployment);
+      double const transmittance = 1.0 - deployed * (1.0 - sheet->passed);
+      limit = std::min(limit, met(sheet->distance, surface, transmittance));
+    });
   }
 
   bool counts(SurfaceId surface, RayPath const& path, RayConditions const& conditions) const {
@@ -135,7 +137,7 @@ class RayScene::Implementation {
   ShadingRule rule_;
   std::vector<glm::dvec3> lit_faces_;  // by surface, the normal of a face that stops no rays
   RayShapes shapes_;
-  Bvh tree_;
+  RayScreens screens_;
 };
 
 RayScene::RayScene(Scene const& scene, RayOptions const& options)

@@ -28,6 +28,13 @@ bool is_flat(Ring const& ring, glm::dvec3 const& normal) {
 
 }  // namespace
 
+Box with_margin(Box box) {
+  glm::dvec3 const margin = 1e-8 + 1e-12 * glm::max(glm::abs(box.low), glm::abs(box.high));
+  box.low -= margin;
+  box.high += margin;
+  return box;
+}
+
 void RayShapes::add(SurfaceId surface, Polygon const& polygon) {
   Ring const outline = without_repeats(polygon.outline);
   if (outline.size() < 3) return;
@@ -61,25 +68,25 @@ void RayShapes::add(SurfaceId surface, Ring const& outline, std::span<Ring const
   shapes_.push_back(shape);
 }
 
-Box RayShapes::bounds(std::uint32_t shape) const {
+Box RayShapes::bounds(Shape const& shape) const {
   Box box;
-  for (std::uint32_t i = 0; i < shapes_[shape].count; ++i) {
-    Vertex const& vertex = vertices_[shapes_[shape].first + i];
+  for (std::uint32_t i = 0; i < shape.count; ++i) {
+    Vertex const& vertex = vertices_[shape.first + i];
     box.include(glm::dvec3(vertex[0], vertex[1], vertex[2]));
   }
-  // The box of a ray's hit, which rounding displaces.
-  glm::dvec3 const margin = 1e-8 + 1e-12 * glm::max(glm::abs(box.low), glm::abs(box.high));
-  box.low -= margin;
-  box.high += margin;
-  return box;
+  return with_margin(box);
 }
 
-void RayShapes::sort(std::span<std::uint32_t const> order) {
+void RayShapes::make_tree() {
+  std::vector<Box> boxes;
+  boxes.reserve(shapes_.size());
+  for (Shape const& shape : shapes_) boxes.push_back(bounds(shape));
+  tree_ = Bvh(boxes);
   std::vector<Shape> shapes;
   std::vector<Vertex> vertices;
   shapes.reserve(shapes_.size());
   vertices.reserve(vertices_.size());
-  for (std::uint32_t const number : order) {
+  for (std::uint32_t const number : tree_.order()) {
     Shape& shape = shapes.emplace_back(shapes_[number]);
     auto const from = vertices_.begin() + shape.first;
     shape.first = static_cast<std::uint32_t>(vertices.size());

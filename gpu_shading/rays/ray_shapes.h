@@ -17,31 +17,29 @@ namespace gpu_shading {
 // An end of a ray that is this near to a surface's plane lies on it, m.
 inline constexpr double on_plane = 1e-9;
 
-// Polygons that rays meet, with or without a surface's body around them.
+// The box with a margin for the rounding of a ray that meets its sides.
+Box with_margin(Box box);
+
+// Polygons as rays meet them: flat and whole or, unless they are flat, as triangles.
 class RayShapes {
  public:
-  // The polygon as rays meet it: flat and whole or, unless it is flat, as triangles. Nothing if it
-  // is degenerate.
+  // Nothing is added for a degenerate polygon.
   void add(SurfaceId surface, Polygon const& polygon);
+  // All must have been added.
+  void make_tree();
 
-  std::size_t size() const { return shapes_.size(); }
-  SurfaceId surface(std::uint32_t shape) const { return shapes_[shape].surface; }
-  Box bounds(std::uint32_t shape) const;
-  // In the order of a tree.
-  void sort(std::span<std::uint32_t const> order);
-
-  // The distance at which a ray meets a shape, if it does and no farther than at `limit`.
-  std::optional<double> distance(std::uint32_t shape, RayPath const& ray, double limit) const {
-    Shape const& met = shapes_[shape];
-    double const approach = dot(met.normal, ray.direction);
-    double const away = dot(met.normal, met.centre - ray.origin);
-    if (std::abs(away) <= on_plane) return std::nullopt;
-    double const distance = away / approach;
-    // Negated for a ray along the plane.
-    if (!(distance > 0.0 && distance <= limit)) return std::nullopt;
-    if (!((ray.length - distance) * std::abs(approach) > on_plane)) return std::nullopt;
-    if (!is_within(met, ray)) return std::nullopt;
-    return distance;
+  // Calls met(surface, distance) for what a ray meets no farther than at `limit`, which `met` may
+  // change.
+  template <typename Met>
+  void search(RayPath const& ray, double const& limit, Met const& met) const {
+    tree_.search(
+        [&](glm::dvec3 const& centre, glm::dvec3 const& reach) {
+          return ray.meets(centre, reach, limit) ? Containment::intersecting : Containment::outside;
+        },
+        [&](std::uint32_t place, std::uint32_t, Containment) {
+          Shape const& shape = shapes_[place];
+          if (auto const at = distance(shape, ray, limit)) met(shape.surface, *at);
+        });
   }
 
  private:
@@ -62,13 +60,30 @@ class RayShapes {
   void add(SurfaceId surface, Ring const& outline, std::span<Ring const> holes,
            glm::dvec3 const& normal);
 
+  Box bounds(Shape const& shape) const;
+
+  // Where the ray meets the shape, if it does.
+  std::optional<double> distance(Shape const& shape, RayPath const& ray, double limit) const {
+    double const approach = dot(shape.normal, ray.direction);
+    double const away = dot(shape.normal, shape.centre - ray.origin);
+    if (std::abs(away) <= on_plane) return std::nullopt;
+    double const distance = away / approach;
+    // Negated for a ray along the plane.
+    if (!(distance > 0.0 && distance <= limit)) return std::nullopt;
+    if (!((ray.length - distance) * std::abs(approach) > on_plane)) return std::nullopt;
+    if (!is_within(shape, ray)) return std::nullopt;
+    return distance;
+  }
+
   // Whether the ray's line passes the inside, by the odd-even rule.
   bool is_within(Shape const& shape, RayPath const& ray) const;
 
+  // In the tree's order.
   std::vector<Shape> shapes_;
   // All rings of a shape as one: from the outline's first vertex to each hole, around it, and back.
   // The ways there and back cancel.
   std::vector<Vertex> vertices_;
+  Bvh tree_;
 };
 
 }  // namespace gpu_shading

@@ -12,10 +12,6 @@
 namespace gpu_shading {
 namespace {
 
-// Below this cosine between the beam and the sheet's normal, the sheet is seen edge-on and counts
-// as solid.
-constexpr double from_the_side = 1e-3;
-
 // Pixels of this size, in holes, from which and up to which drawing holes gives way to their
 // effect. Error of the projected sunlit fraction by `perforated_case blend`, mean (largest), holes
 // of 1 to 100 mm in 1 m2, 64 to 1024 pixels:
@@ -143,40 +139,45 @@ void ScreensAtDirection::add(int number, bool sees_effect) {
   if (sees_effect) by_effect[place] = true;
 }
 
+SheetInBeam sheet_in_beam(Screens::Entry const& entry, glm::dvec3 const& towards_sun,
+                          double in_place, bool has_effect) {
+  PerforatedScreen const& screen = *entry.screen;
+  SheetInBeam sheet;
+  double const cosine = glm::dot(entry.normal, towards_sun);
+  bool const aside = std::abs(cosine) < from_the_side;
+  glm::dvec2 const shift = aside ? glm::dvec2(0.0) : shift_of(entry, towards_sun, cosine);
+  if (screen.pattern()) {
+    describe_pattern(*screen.pattern(), sheet);
+  } else {
+    describe_tile(*screen.tile(), sheet);
+  }
+  sheet.normal = entry.normal;
+  sheet.inside = static_cast<float>(entry.inside);
+  sheet.outside = static_cast<float>(entry.outside);
+  sheet.way = shift;
+  sheet.in_place = static_cast<float>(in_place);
+  glm::vec2 const blend = has_effect ? blend_of(screen) : glm::vec2(never, 2.0F * never);
+  sheet.blend_from = blend.x;
+  sheet.blend_to = blend.y;
+  sheet.layers = aside ? solid_sheet : layers_of(screen, glm::length(shift));
+  if (!has_effect) return sheet;
+  std::vector<glm::vec4> thirds = effective(screen, shift);
+  sheet.effective = thirds.front();
+  if (!varies(screen)) return sheet;
+  sheet.regions_across = screen.transmittance().regions_across();
+  sheet.regions_up = screen.transmittance().regions_up();
+  sheet.regions = std::move(thirds);
+  return sheet;
+}
+
 std::vector<SheetInBeam> sheets_in_beam(Screens const& screens, ScreensAtDirection const& wanted,
                                         std::span<double const> deployments) {
-  glm::dvec3 const& towards_sun = wanted.towards_sun;
   std::vector<SheetInBeam> sheets(screens.entries().size());
   for (std::size_t number = 0; number < wanted.in_view.size(); ++number) {
     if (!wanted.in_view[number]) continue;
     Screens::Entry const& entry = screens.entries()[number];
-    PerforatedScreen const& screen = *entry.screen;
-    SheetInBeam& sheet = sheets[number];
-    double const cosine = glm::dot(entry.normal, towards_sun);
-    bool const aside = std::abs(cosine) < from_the_side;
-    glm::dvec2 const shift = aside ? glm::dvec2(0.0) : shift_of(entry, towards_sun, cosine);
-    if (screen.pattern()) {
-      describe_pattern(*screen.pattern(), sheet);
-    } else {
-      describe_tile(*screen.tile(), sheet);
-    }
-    sheet.normal = entry.normal;
-    sheet.inside = static_cast<float>(entry.inside);
-    sheet.outside = static_cast<float>(entry.outside);
-    sheet.way = shift;
-    sheet.in_place = static_cast<float>(deployed(entry, deployments));
-    bool const has_effect = wanted.by_effect[number];
-    glm::vec2 const blend = has_effect ? blend_of(screen) : glm::vec2(never, 2.0F * never);
-    sheet.blend_from = blend.x;
-    sheet.blend_to = blend.y;
-    sheet.layers = aside ? solid_sheet : layers_of(screen, glm::length(shift));
-    if (!has_effect) continue;
-    std::vector<glm::vec4> thirds = effective(screen, shift);
-    sheet.effective = thirds.front();
-    if (!varies(screen)) continue;
-    sheet.regions_across = screen.transmittance().regions_across();
-    sheet.regions_up = screen.transmittance().regions_up();
-    sheet.regions = std::move(thirds);
+    sheets[number] = sheet_in_beam(entry, wanted.towards_sun, deployed(entry, deployments),
+                                   wanted.by_effect[number]);
   }
   return sheets;
 }

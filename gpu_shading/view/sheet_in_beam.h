@@ -18,6 +18,10 @@ constexpr int solid_sheet = 0;  // nothing passes
 constexpr int exact_sheet =
     -1;  // holes are convex: a ray passes if it is in the same hole at both faces
 
+// Below this cosine between the beam and the sheet's normal, the sheet is seen edge-on and counts
+// as solid.
+inline constexpr double from_the_side = 1e-3;
+
 // A perforated sheet at one sun direction. Lengths in metres, in single precision, which every back
 // end uses.
 struct SheetInBeam {
@@ -61,6 +65,10 @@ struct ScreensAtDirection {
 
   void add(int number, bool sees_effect);
 };
+
+// `in_place`: the deployed fraction. `has_effect`: whether its effective transmittance may be used.
+SheetInBeam sheet_in_beam(Screens::Entry const& entry, glm::dvec3 const& towards_sun,
+                          double in_place, bool has_effect);
 
 // By index, the screens in view; empty for others. `deployments`: deployed fractions, 1 beyond the
 // end.

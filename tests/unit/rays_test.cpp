@@ -7,13 +7,13 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 #include <limits>
 #include <numbers>
 #include <random>
 #include <thread>
 
 #include "gpu_shading/transmittance.h"
+#include "support/mean_of_rays.h"
 #include "support/random_scene.h"
 #include "support/refusal.h"
 #include "support/shapes.h"
@@ -296,39 +296,6 @@ TEST(Rays, AMillionAgreeWithWindingNumbersInLongDouble) {
   EXPECT_GT(met, 200000);
   EXPECT_GT(hidden, 200000);
   EXPECT_LT(at_edges, 100);
-}
-
-// The mean over a receiver of rays to the sun from evenly spread points on it.
-double mean_of_rays(RayScene const& rays, Polygon const& receiver, SunDirection sun,
-                    RayConditions const& conditions) {
-  Scene alone;
-  alone.add({"receiver", receiver});
-  RayScene const outline(alone);
-  glm::dvec3 const up = normal(receiver);
-  glm::dvec3 const u = glm::normalize(receiver.outline[1] - receiver.outline[0]);
-  glm::dvec3 const v = glm::cross(up, u);
-  glm::dvec2 low(infinity);
-  glm::dvec2 high(-infinity);
-  for (glm::dvec3 const& vertex : receiver.outline) {
-    glm::dvec3 const p = vertex - receiver.outline[0];
-    low = glm::min(low, {glm::dot(p, u), glm::dot(p, v)});
-    high = glm::max(high, {glm::dot(p, u), glm::dot(p, v)});
-  }
-  std::vector<Ray> all;
-  for (int i = 0; i < 60000; ++i) {
-    // The R2 sequence (Roberts 2018).
-    glm::dvec2 const part = glm::fract(
-        0.5 + static_cast<double>(i) * glm::dvec2(0.7548776662466927, 0.5698402909980532));
-    glm::dvec2 const at = low + part * (high - low);
-    glm::dvec3 const point = receiver.outline[0] + at.x * u + at.y * v;
-    if (outline.transmittance({point + up, -up}) > 0.0) continue;
-    all.push_back({point, to_vector(sun)});
-  }
-  std::vector<double> results(all.size());
-  rays.transmittances(all, conditions, results);
-  double sum = 0.0;
-  for (double const result : results) sum += result;
-  return sum / static_cast<double>(results.size());
 }
 
 double sunlit_fraction(Scene const& scene, SunDirection sun) {

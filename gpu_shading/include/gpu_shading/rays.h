@@ -67,6 +67,10 @@ struct RayConditions {
 // renderer draws, others whole, by the odd-even rule. A ray through an edge that two triangles or
 // two surfaces share does not pass between the two, and meets only one of them.
 //
+// A perforated sheet is met between its two faces, by the part of the ray that is inside its
+// outline, if the polygon or the middle of the sheet's body lies between the ray's ends. Rays at
+// less than 1e-3 rad from its plane do not pass, as in the renderer.
+//
 // Functions throw Error for a ray whose direction is 0, for one with a number that is not finite
 // (other than an infinite length), and for a receiver that is not in the scene.
 class RayScene {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <span>
 #include <vector>
 
@@ -82,10 +83,14 @@ class ScreenTransmittance {
   // at v = 0, for rays that begin in the region as phi goes from 0 to pi. Interpolated like
   // operator(), which gives the mean. A thickness of 0 gives the values at no shift.
   std::vector<float> at_shift(double shift, double phi) const;
+  // The same, interpolated at one position, in tiles, 0 .. 1.
+  double at_place(double shift, double phi, glm::dvec2 const& place) const;
 
  private:
   int regions() const { return regions_across_ * regions_up_; }
   double at(double shift, double phi) const;
+  struct Lookup;
+  Lookup lookup(double place, double phi) const;
   // Values at a shift of this many steps, if there are several regions.
   std::vector<float> of_regions(double place, double phi) const;
 

@@ -105,6 +105,13 @@ TEST(ScreenRegions, OfAGradientAreEachTheirClosedForm) {
       }
       largest_of_mean = std::max(largest_of_mean, std::abs(mean(values) - expected_mean));
       EXPECT_NEAR(table(std::atan(shift / thickness), phi), mean(values), 1e-5);
+      // At centres of regions, and halfway from the last column to the first.
+      EXPECT_FLOAT_EQ(static_cast<float>(table.at_place(shift, phi, {5.5 / 16, 2.5 / 16})),
+                      values[2 * 16 + 5]);
+      EXPECT_NEAR(table.at_place(shift, phi, {0.0, 15.5 / 16}),
+                  0.5F * (values[15 * 16] + values[15 * 16 + 15]), 1e-6);
+      EXPECT_NEAR(table.at_place(shift, phi, {1.0, 15.5 / 16}),
+                  0.5F * (values[15 * 16] + values[15 * 16 + 15]), 1e-6);
     }
   }
   RecordProperty("region", std::to_string(largest));
@@ -144,6 +151,8 @@ TEST(ScreenRegions, AreOneForPatternsAndSmallTiles) {
   ASSERT_EQ(closed.at_shift(1 * mm, 0.3).size(), std::size_t{1});
   EXPECT_FLOAT_EQ(closed.at_shift(1 * mm, 0.3)[0], static_cast<float>(closed(std::atan(0.5), 0.3)));
   EXPECT_EQ(closed.at_shift(5 * mm, 0.3)[0], 0.0F);
+  EXPECT_DOUBLE_EQ(closed.at_place(1 * mm, 0.3, {0.7, 0.1}), closed(std::atan(0.5), 0.3));
+  EXPECT_EQ(closed.at_place(5 * mm, 0.3, {0.7, 0.1}), 0.0);
 
   auto const regions = [](int columns, int rows) {
     std::vector<std::uint16_t> opacity(
