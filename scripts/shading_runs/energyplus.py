@@ -2,6 +2,7 @@
 
 import ctypes
 import importlib.util
+import json
 import os
 import platform
 import re
@@ -18,10 +19,21 @@ _LIBC = ctypes.CDLL(None)
 REPOSITORY = Path(__file__).resolve().parents[2]
 
 
+PREFIX_MARKER = ".gpu_shading_prefix.json"  # of patch_energyplus
+
+
+def in_checkout():
+    """Whether these scripts are in the sources, and not installed."""
+    return (REPOSITORY / "CMakeLists.txt").is_file()
+
+
 def official_prefix():
-    """The EnergyPlus that scripts/setup fetches, or the one that GPU_SHADING_OFFICIAL names."""
+    """The EnergyPlus that GPU_SHADING_OFFICIAL names, that scripts/setup fetches, or that was patched."""
     chosen = os.environ.get("GPU_SHADING_OFFICIAL")
-    return Path(chosen) if chosen else REPOSITORY / ".venv" / "EnergyPlus"
+    if chosen or in_checkout():
+        return Path(chosen) if chosen else REPOSITORY / ".venv" / "EnergyPlus"
+    marker = patched_prefix() / PREFIX_MARKER
+    return Path(json.loads(marker.read_text())["energyplus"]) if marker.is_file() else patched_prefix()
 
 
 def build_folder():
@@ -30,9 +42,26 @@ def build_folder():
 
 
 def patched_prefix():
-    """The patched EnergyPlus of the build, or the one that GPU_SHADING_PREFIX names."""
+    """The patched EnergyPlus that GPU_SHADING_PREFIX names; that of the build, or one in PATH or the home folder."""
     chosen = os.environ.get("GPU_SHADING_PREFIX")
-    return Path(chosen) if chosen else build_folder() / "EnergyPlus"
+    if chosen or in_checkout():
+        return Path(chosen) if chosen else build_folder() / "EnergyPlus"
+    for folder in os.get_exec_path():
+        if (Path(folder) / PREFIX_MARKER).is_file():
+            return Path(folder)
+    return Path.home() / "EnergyPlus-gpu"
+
+
+def how_to_get_patched():
+    """What to do where patched_prefix() is not there."""
+    if in_checkout():
+        return "run scripts/build"
+    return "put the folder that patch_energyplus created in PATH, or name it in GPU_SHADING_PREFIX"
+
+
+def out_folder():
+    """Where output goes that no -o names."""
+    return (REPOSITORY if in_checkout() else Path.cwd()) / "out"
 
 
 def processor():

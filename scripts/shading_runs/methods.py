@@ -62,6 +62,8 @@ def clipping(key, model):
     if patched.is_file():
         return Method(key, "clip", "PolygonClipping", patched, "PolygonClipping", ["--gpu-shading=off"], model=model)
     official = energyplus.official_prefix() / "energyplus"
+    if not official.is_file():
+        raise ValueError(f"{official} is not there: {energyplus.how_to_get_patched()}")
     return Method(key, "clip", "PolygonClipping", official, "PolygonClipping", model=model)
 
 
@@ -69,7 +71,7 @@ def gpu(key, model):
     patched = energyplus.patched_prefix() / "energyplus"
     made = Method(key, "gpu", "GPU", patched, options=["--gpu-shading"], model=model, is_ours=True)
     if not patched.is_file():
-        made.missing = f"{patched} is not built: run scripts/build"
+        made.missing = f"{patched} is not there: {energyplus.how_to_get_patched()}"
     return made
 
 

@@ -63,7 +63,10 @@ def _entry(path):
         raise NotOurs(f"{path} is neither a file nor a folder nor a link: move it, or choose another folder")
     descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
     with open(descriptor, "rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
+        digest = hashlib.sha256()
+        while block := file.read(1 << 20):
+            digest.update(block)
+        return digest.hexdigest()
 
 
 def _paths(folder, parent=""):

@@ -1,0 +1,35 @@
+# Man pages, made of what each program says with --help.
+find_program(HELP2MAN help2man)
+if(NOT HELP2MAN)
+  message(STATUS "packaging: help2man is not installed: man pages are not made")
+  add_custom_target(man_pages)
+  return()
+endif()
+set(pages)
+
+# add_man_page(<name> <command> DEPENDS <file or target>...): name.1 from `command --help`.
+function(add_man_page name command)
+  cmake_parse_arguments(PARSE_ARGV 2 ARG "" "" "DEPENDS")
+  set(page ${CMAKE_CURRENT_BINARY_DIR}/man/${name}.1)
+  add_custom_command(
+    OUTPUT ${page}
+    COMMAND ${CMAKE_COMMAND} -E env LC_ALL=C.UTF-8 ${HELP2MAN} --no-info
+            --no-discard-stderr --version-string=${PROJECT_VERSION} --output=${page}
+            --name "GPU shading for EnergyPlus" ${command}
+    DEPENDS ${ARG_DEPENDS}
+    VERBATIM)
+  set(pages ${pages} ${page} PARENT_SCOPE)
+endfunction()
+
+file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/man)
+set(program $<TARGET_FILE:gpu_shading_program>)
+add_man_page(gpu_shading ${program} DEPENDS gpu_shading_program)
+foreach(subcommand devices check view sample export)
+  add_man_page(gpu_shading-${subcommand} "${program} ${subcommand}" DEPENDS gpu_shading_program)
+endforeach()
+foreach(command IN LISTS command_files)
+  get_filename_component(name ${command} NAME)
+  add_man_page(${name} ${command} DEPENDS ${command})
+endforeach()
+add_custom_target(man_pages ALL DEPENDS ${pages})
+install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT documents)
