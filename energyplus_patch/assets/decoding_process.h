@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -51,12 +52,18 @@ class DecodingProcess {
 
   std::string next_text();
 
-  // `count` must have been checked.
+  // `count` must have been checked. The memory grows with what arrives: a false count takes none.
   template <typename Value>
   std::vector<Value> next_all(std::size_t count) {
     static_assert(std::is_arithmetic_v<Value>);
-    std::vector<Value> values(count);
-    read(values.data(), count * sizeof(Value));
+    constexpr std::size_t first = std::size_t{1} << 20U;
+    std::vector<Value> values;
+    while (values.size() < count) {
+      auto const known = values.size();
+      auto const more = std::min(count - known, std::max(first, known));
+      values.resize(known + more);
+      read(values.data() + known, more * sizeof(Value));
+    }
     return values;
   }
 

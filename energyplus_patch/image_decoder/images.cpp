@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -135,6 +136,9 @@ class OpenImage {
     if (spec_.deep) fail("deep images are not supported");
     if (spec_.depth > 1) fail("volume images are not supported");
     if (spec_.width < 1 || spec_.height < 1 || spec_.nchannels < 1) fail("it has no texels");
+    if (spec_.tile_width > 0 && spec_.tile_height < 1) fail("its tiles have no rows");
+    check_end(spec_.x, spec_.width);
+    check_end(spec_.y, spec_.height);
     find_channels(file.path);
   }
 
@@ -154,6 +158,11 @@ class OpenImage {
 
  private:
   Window data() const { return {spec_.x, spec_.y, spec_.width, spec_.height}; }
+
+  // OpenImageIO counts with int.
+  static void check_end(std::int64_t start, std::int64_t size) {
+    if (start + size > std::numeric_limits<int>::max()) fail("its position is out of range");
+  }
 
   // Other formats than EXR have none, and TIFF's position on the page is none.
   Window display() const {
