@@ -5,12 +5,34 @@
 #include <unistd.h>
 
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <fstream>
 #include <new>
 
 #include "base/text.h"
 
 namespace gpu_shading::energyplus {
+namespace {
+
+std::terminate_handler usual_end = nullptr;
+
+void end() {
+  auto const thrown = std::current_exception();
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+  } catch (std::bad_alloc const& error) {
+    std::fprintf(stderr, "gpu_shading: error: %s\n", error_line(error).c_str());
+    _exit(EXIT_FAILURE);
+  } catch (...) {  // NOLINT(bugprone-empty-catch): the usual end says what it was
+  }
+  usual_end();
+}
+
+}  // namespace
+
+void catch_lack_of_memory() { usual_end = std::set_terminate(end); }
 
 std::string error_line(std::exception const& error) {
   if (dynamic_cast<std::bad_alloc const*>(&error) == nullptr) return one_line(error.what());

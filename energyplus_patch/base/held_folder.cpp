@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cerrno>
+#include <new>
 #include <random>
 #include <string>
 #include <system_error>
@@ -107,8 +108,11 @@ bool HeldFolder::make(Path const& parent, std::string_view prefix) {
 }
 
 HeldFolder::~HeldFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
+  try {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  } catch (std::bad_alloc const&) {  // NOLINT(bugprone-empty-catch): the next object deletes it
+  }
 }
 
 }  // namespace gpu_shading::energyplus

@@ -4,6 +4,8 @@
 #include <exception>
 #include <utility>
 
+#include "base/error_line.h"
+
 namespace gpu_shading::energyplus {
 
 void AskedTask::finish(std::string text) {
@@ -19,7 +21,7 @@ void AskedTask::fail(std::string const& why) noexcept {
     write_reply(request_.reply, reply_);
   } catch (std::exception const& error) {
     // The program that waits reads it here.
-    std::fprintf(stderr, "gpu_shading: error: %s\n", error.what());
+    std::fprintf(stderr, "gpu_shading: error: %s\n", error_line(error).c_str());
   }
 }
 

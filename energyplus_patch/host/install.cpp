@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/c_interface.h"
+#include "base/error_line.h"
 #include "binary/entry_patch.h"
 #include "binary/symbol_table.h"
 #include "gpu_shading/error.h"
@@ -158,7 +159,7 @@ int install_with(char const* library, int count, char const* const* options, By 
     message = error.what();
     return 2;
   } catch (std::exception const& error) {
-    message = error.what();
+    message = gpu_shading::energyplus::error_line(error);
     return 1;
   }
 }
@@ -187,7 +188,7 @@ extern "C" EXPORTED int gpu_shading_run_scheduled(char const* energyplus_library
     gpu_shading::energyplus::try_device(choices);
     return gpu_shading::energyplus::run_scheduled(energyplus_library, choices, {argv, argv + argc});
   } catch (std::exception const& error) {
-    message = error.what();
+    message = gpu_shading::energyplus::error_line(error);
     return gpu_shading::energyplus::not_run;
   }
 }

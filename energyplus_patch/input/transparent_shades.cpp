@@ -30,6 +30,8 @@ std::vector<double> numbers(std::vector<std::string> const& texts) {
   return result;
 }
 
+std::string first_value() { return fmt::format("{} 1", field::value.title); }
+
 std::string const& only_value(std::vector<std::string> const& values, std::string_view what) {
   if (values.size() != 1) {
     throw Error(fmt::format("{} values, expected one: {}", values.size(), what));
@@ -64,7 +66,8 @@ Made make(field::TransmittanceModel model, std::vector<std::string> const& value
     case constant: {
       only_value(values, "the transmittance");
       auto const value = numbers(values).front();
-      return {Transmittance::constant(value), fmt::format("constant {}", value)};
+      return {naming(first_value(), [&] { return Transmittance::constant(value); }),
+              fmt::format("constant {}", value)};
     }
     case polynomial_in_degrees:
       return {Transmittance::polynomial_in_degrees(numbers(values)), "polynomial in the angle"};
@@ -74,7 +77,8 @@ Made make(field::TransmittanceModel model, std::vector<std::string> const& value
       return {from_table(numbers(values)), "table"};
     case table_file: {
       auto const& file = only_value(values, "the file's name");
-      return {read_angular_csv(folder / file), fmt::format("table {}", file)};
+      return {naming(first_value(), [&] { return read_angular_csv(folder / file); }),
+              fmt::format("table {}", file)};
     }
     case construction:
       break;

@@ -170,6 +170,7 @@ int launch(int argc, char** argv) {
 }  // namespace gpu_shading::energyplus
 
 int main(int argc, char** argv) {
+  gpu_shading::energyplus::catch_lack_of_memory();
   try {
     return gpu_shading::energyplus::launch(argc, argv);
   } catch (std::exception const& error) {

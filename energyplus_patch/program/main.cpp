@@ -296,6 +296,7 @@ int run(int argc, char** argv) {
 }  // namespace gpu_shading::energyplus
 
 int main(int argc, char** argv) {
+  gpu_shading::energyplus::catch_lack_of_memory();
   try {
     int const status = gpu_shading::energyplus::run(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/files.h"
@@ -30,19 +27,6 @@ Path some_weather() {
     }
   }
   throw Error(fmt::format("{}: no weather file; name one with -w", folder.string()));
-}
-
-// The last error of ours that a run has printed: of the launcher's, which writes no reply.
-std::optional<std::string> last_error(Path const& log) {
-  constexpr std::string_view mark = "gpu_shading: error: ";
-  std::ifstream file(log);
-  std::optional<std::string> found;
-  for (std::string line; std::getline(file, line);) {
-    if (!line.starts_with(mark)) continue;
-    if (line.ends_with(':')) line.pop_back();  // a list follows
-    found = line.substr(mark.size());
-  }
-  return found;
 }
 
 // The flags with which EnergyPlus is run here: rendering is on, in its own process.

@@ -132,12 +132,14 @@ std::ifstream run(EnergyPlusCall const& call, ModelEditor& model, bool expand,
   if (expand) command.emplace_back("-x");
   if (call.annual) command.emplace_back("-a");
   command.push_back(path.string());
+  auto const log = folder.path() / "log.txt";
   // An empty variable counts as unset, so EnergyPlus runs unmodified.
-  int const status = run_process(command, {"GPU_SHADING="}, folder.path() / "log.txt");
+  int const status = run_process(command, {"GPU_SHADING="}, log);
   // EnergyPlus itself does not notice a full disk.
   require_room(folder.path());
   std::ifstream file(out / output);
   if (!file || status != 0) {
+    if (auto const error = last_error(log)) throw Error(*error);
     throw Error(
         fmt::format("{}: EnergyPlus does not get as far as its shading calculation ({}): {}",
                     call.model.string(), describe_status(status), stop_reasons(out)));

@@ -1,6 +1,7 @@
 #include "runs/stop_reasons.h"
 
 #include <fstream>
+#include <string_view>
 
 #include "base/text.h"
 
@@ -30,6 +31,18 @@ std::string stop_reasons(std::filesystem::path const& folder) {
     found += text_of(line);
   }
   return found.empty() ? "no reason is given" : found.substr(2);
+}
+
+std::optional<std::string> last_error(std::filesystem::path const& log) {
+  constexpr std::string_view mark = "gpu_shading: error: ";
+  std::ifstream file(log);
+  std::optional<std::string> found;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with(mark)) continue;
+    if (line.ends_with(':')) line.pop_back();  // a list follows
+    found = line.substr(mark.size());
+  }
+  return found;
 }
 
 }  // namespace gpu_shading::energyplus

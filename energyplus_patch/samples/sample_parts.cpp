@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
@@ -173,6 +174,8 @@ std::optional<SamplePart> SampleParts::find(int round, int shard) const {
       throw Error("belongs to another round or shard");
     }
     return part;
+  } catch (std::bad_alloc const&) {
+    throw;
   } catch (std::exception const& error) {
     throw Error(
         fmt::format("{}: is not a part of samples ({}); delete it", path.string(), error.what()));

@@ -1,10 +1,9 @@
 // Preloaded into a program: makes one of its calls fail, and all later ones of the kind where the
 // disk stays full.
-//   FAIL_CALL   open, write, fsync, rename, mkdir or malloc
+//   FAIL_CALL   open, write, fsync, rename or mkdir
 //   FAIL_NTH    which of each process's calls, from 1
 //   FAIL_UNDER  only calls about files in or below this folder count
 //   FAIL_COUNT  a file that gets a byte for each call that counts
-// Of malloc, only calls for 64 KiB or more count.
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -153,15 +152,5 @@ int mkdir(char const* path, mode_t mode) {
     return -1;
   }
   return next<int(char const*, mode_t)>("mkdir")(path, mode);
-}
-
-void* malloc(size_t size) {
-  constexpr size_t large = size_t{64} << 10U;
-  static auto* const real = next<void*(size_t)>("malloc");
-  if (size >= large && is_wanted("malloc") && fails()) {
-    errno = ENOMEM;
-    return nullptr;
-  }
-  return real(size);
 }
 }
