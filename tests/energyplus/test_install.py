@@ -104,7 +104,7 @@ def test_licences_are_installed(installed):
 def alone(*folders):
     """Variables that lead to nothing of the sources."""
     kept = {key: value for key, value in os.environ.items() if not key.startswith(("GPU_SHADING", "PYTHON"))}
-    return kept | {"HOME": "/nowhere", "PATH": os.pathsep.join([*map(str, folders), os.environ["PATH"]])}
+    return kept | {"HOME": "/dev/null", "PATH": os.pathsep.join([*map(str, folders), os.environ["PATH"]])}
 
 
 def test_compare_shading_finds_the_patched_folder_in_the_search_path(installed, official, weather, box, tmp_path):
