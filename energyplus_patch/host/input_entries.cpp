@@ -87,7 +87,8 @@ void warn_of_opaque_shades(Run const& run) {
 Rewrite take_model(std::vector<InputObject> objects, Path const& path,
                    MentionFinder const& find_mentions) {
   auto& run = this_run();
-  run.model = understand(std::move(objects), path, installation().choices, find_mentions);
+  run.model = understand(std::move(objects), path, installation().choices,
+                         {find_mentions, installation().daylight_rays});
   if (run.model->options.mode != Mode::off) {
     check_supported(run.model->shading, installation().version);
     // Now, because EnergyPlus may stop at such a surface.

@@ -15,6 +15,7 @@
 #include "gpu_shading/error.h"
 #include "gpu_shading/renderer.h"
 #include "gpu_shading_energyplus.h"
+#include "host/daylight_entries.h"
 #include "host/input_entries.h"
 #include "host/penumbra_entries.h"
 #include "host/run.h"
@@ -85,6 +86,15 @@ std::optional<StoredResult> find_surface_ids(SymbolTable const& symbols) {
   return find_stored_result(*caller, *callee);
 }
 
+bool can_patch(SymbolTable const& symbols, std::vector<EntryPatch> const& entries) {
+  try {
+    check_entries(symbols, entries);
+    return true;
+  } catch (Error const&) {
+    return false;
+  }
+}
+
 void patch(Loaded const& loaded, Installation& installed) {
   SymbolTable const symbols(loaded.path, loaded.base);
   auto entries = penumbra_entries();
@@ -92,6 +102,9 @@ void patch(Loaded const& loaded, Installation& installed) {
     entries.insert(entries.end(), more.begin(), more.end());
   }
   check_entries(symbols, entries);
+  auto const daylight = daylight_entries();
+  auto const daylight_rays = can_patch(symbols, daylight);
+  if (daylight_rays) entries.insert(entries.end(), daylight.begin(), daylight.end());
   EnergyPlusFunctions const functions(symbols);
   ScheduleFunctions const schedules(symbols);
   auto const version = read_version(loaded.path.parent_path());
@@ -100,6 +113,7 @@ void patch(Loaded const& loaded, Installation& installed) {
   patch_entries(symbols, entries);
   installed.library = loaded.path;
   installed.version = version;
+  installed.daylight_rays = daylight_rays;
   installed.functions = functions;
   installed.schedules = schedules;
 }

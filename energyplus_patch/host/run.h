@@ -22,6 +22,7 @@ struct Installation {
   EnergyPlusFunctions functions;
   ScheduleFunctions schedules;
   std::optional<StoredResult> surface_ids;  // where EnergyPlus keeps what add_surface returned
+  bool daylight_rays = false;               // the functions of daylighting's rays are redirected
   Choices choices;                          // command line over environment
   std::optional<AskedTask> task;            // that EnergyPlus is run for
 };

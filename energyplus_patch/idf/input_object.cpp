@@ -91,7 +91,7 @@ std::vector<ObjectType> const& known_types() {
        {"name", "window_name", "inside_shelf_name", "outside_shelf_name"}},
       {"DaylightingDevice:Tubular", {"name"}},
       {"DaylightingDevice:LightWell", {}},
-      {"Daylighting:Controls", {"name"}},
+      {"Daylighting:Controls", {"name", "zone_or_space_name", "daylighting_method"}},
       {"Daylighting:DELight:ComplexFenestration", {"name"}},
       {"Construction:ComplexFenestrationState", {"name"}},
       {"PythonPlugin:Instance", {"name"}},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "base/text.h"
@@ -16,30 +17,42 @@ namespace gpu_shading::energyplus {
 namespace {
 
 // Types that need the surfaces, and why.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> forbidding_types{{
-    {"Daylighting:Controls", "daylighting needs the surfaces themselves"},
-    {"Daylighting:DELight:ComplexFenestration", "daylighting needs the surfaces themselves"},
-    {"DaylightingDevice:Tubular", "daylighting needs the surfaces themselves"},
-    {"DaylightingDevice:Shelf", "daylighting needs the surfaces themselves"},
-    {"DaylightingDevice:LightWell", "daylighting needs the surfaces themselves"},
+using Reason = std::pair<std::string_view, std::string_view>;
+constexpr std::array<Reason, 2> forbidding_types{{
     {"Construction:ComplexFenestrationState", "its rays need the surfaces themselves"},
     {"PythonPlugin:Instance", "it may ask for any surface"},
 }};
+// Those whose rays may be answered here.
+constexpr std::string_view daylighting_reason = "daylighting needs the surfaces themselves";
+constexpr std::array<Reason, 5> daylighting_types{{
+    {"Daylighting:Controls", daylighting_reason},
+    {"Daylighting:DELight:ComplexFenestration", daylighting_reason},
+    {"DaylightingDevice:Tubular", daylighting_reason},
+    {"DaylightingDevice:Shelf", daylighting_reason},
+    {"DaylightingDevice:LightWell", daylighting_reason},
+}};
+
+// The first object of the types, with the reason; or "".
+std::string forbidding(std::vector<InputObject> const& objects, std::span<Reason const> types) {
+  for (auto const& object : objects) {
+    auto const found = std::find_if(types.begin(), types.end(),
+                                    [&](auto const& entry) { return entry.first == object.type; });
+    if (found != types.end()) return fmt::format("{}: {}", object.title(), found->second);
+  }
+  return {};
+}
 
 // Why no surface may be left out, or "".
-std::string reason_against(std::vector<InputObject> const& objects, ShadingInput const& input) {
+std::string reason_against(std::vector<InputObject> const& objects, ShadingInput const& input,
+                           bool daylighting_answered) {
   if (input.reflections) return "Building: Solar Distribution asks for reflections";
   if (!input.unreadable_key.empty()) return input.unreadable_key;
   if (input.all_shading_wanted) {
     return "ShadowCalculation: Output External Shading Calculation Results is Yes";
   }
-  for (auto const& object : objects) {
-    auto const found = std::find_if(forbidding_types.begin(), forbidding_types.end(),
-                                    [&](auto const& entry) { return entry.first == object.type; });
-    if (found != forbidding_types.end()) {
-      return fmt::format("{}: {}", object.title(), found->second);
-    }
-  }
+  auto reason = forbidding(objects, forbidding_types);
+  if (reason.empty() && !daylighting_answered) reason = forbidding(objects, daylighting_types);
+  if (!reason.empty()) return reason;
   return reason_against_outlines(objects);
 }
 
@@ -115,15 +128,19 @@ struct Candidate {
   Outline outline;
 };
 
-// The surfaces that may be left out. `all`: if not, only those that EnergyPlus would simplify.
+// The surfaces that may be left out. `all`: if not, only those that EnergyPlus would simplify, and
+// `wanted`.
 std::vector<Candidate> outlines_of(std::vector<InputObject> const& objects,
-                                   ShadingInput const& input, Names const& candidates, bool all) {
+                                   ShadingInput const& input, Names const& candidates, bool all,
+                                   Names const& wanted) {
   auto const rules = read_geometry_rules(objects);
   std::vector<Candidate> found;
   for (auto const& object : objects) {
-    if (!is_detailed_shading(object) || !candidates.contains(upper(object.name))) continue;
+    auto const name = upper(object.name);
+    if (!is_detailed_shading(object) || !candidates.contains(name)) continue;
     auto outline = outline_of(object, input, rules);
-    if (!outline || !(all || outline->simplified || outline->degenerate)) continue;
+    if (!outline) continue;
+    if (!all && !outline->simplified && !outline->degenerate && !wanted.contains(name)) continue;
     found.push_back({&object, std::move(*outline)});
   }
   return found;
@@ -163,16 +180,17 @@ bool LeanInput::is_placeholder(std::string const& surface) const {
 }
 
 LeanInput plan_lean_input(std::vector<InputObject> const& objects, ShadingInput const& input,
-                          Options const& options, MentionFinder const& find_mentions) {
+                          Options const& options, DaylightRays const& rays,
+                          MentionFinder const& find_mentions) {
   if (options.mode == Mode::off || options.lean == Lean::off) return {};
   bool const forced = options.lean == Lean::on;
   auto const candidates = find_candidates(objects);
   bool const all = forced || candidates.size() >= fewest_left_out;
   LeanInput none;
   try {
-    auto const reason = reason_against(objects, input);
+    auto const reason = reason_against(objects, input, rays.answered);
     if (!reason.empty()) throw Error(reason);
-    auto const found = outlines_of(objects, input, candidates, all);
+    auto const found = outlines_of(objects, input, candidates, all, rays.transmitting);
     if (!all && found.empty()) return {};
     auto lean = plan(objects, input, candidates, found, find_mentions);
     if (lean.left_out.size() >= (forced || !all ? 1 : fewest_left_out)) return lean;

@@ -27,15 +27,24 @@ struct LeanInput {
 
 // With Lean::automatic, all surfaces are left out from this number on. Each costs EnergyPlus about
 // 5 ms in a year's run, and the placeholders cost about as much as this many. Of fewer surfaces,
-// only those are left out that EnergyPlus would simplify or refuse (Outline).
+// only those are left out that EnergyPlus would simplify or refuse (Outline), or whose
+// transmittance its rays would not see (DaylightRays).
 inline constexpr std::size_t fewest_left_out = 100;
 
+// What the rays of EnergyPlus's daylighting mean for lean input.
+struct DaylightRays {
+  bool answered = false;  // they meet what is left out of EnergyPlus's input, too
+  // Surfaces to leave out in any case, because the rays would take them as opaque. Upper case.
+  Names transmitting;
+};
+
 // A surface is kept if another object or output names it, or if one of its fields cannot be
-// interpreted. All are kept if the model needs the surfaces themselves (solar reflections,
-// daylighting, complex fenestration, the external shading file, plugins), or if its geometry is
-// changed in ways that are not supported here (reason_against_outlines).
+// interpreted. All are kept if the model needs the surfaces themselves (solar reflections, complex
+// fenestration, the external shading file, plugins, daylighting unless its rays are answered), or
+// if its geometry is changed in ways that are not supported here (reason_against_outlines).
 LeanInput plan_lean_input(std::vector<InputObject> const& objects, ShadingInput const& input,
-                          Options const& options, MentionFinder const& find_mentions);
+                          Options const& options, DaylightRays const& rays,
+                          MentionFinder const& find_mentions);
 
 // Adds placeholders for casters that EnergyPlus does not know, unless there are some already.
 void ensure_placeholders(LeanInput& lean, ShadingInput const& input);

@@ -9,6 +9,7 @@
 #include "idf/extension_objects.h"
 #include "idf/model_file.h"
 #include "idf/side_file.h"
+#include "model/daylighting.h"
 #include "model/ray_warnings.h"
 #include "model/simplified_surfaces.h"
 #include "site/texture_axes.h"
@@ -55,6 +56,37 @@ bool any_moves(PerforatedScreens const& screens) {
                      [](auto const& each) { return !each.second.deployment_schedule.empty(); });
 }
 
+// The model's own surfaces that transmit by our objects.
+Names transmitting_surfaces(Model const& model) {
+  Names names;
+  for (auto const& [name, shade] : model.shades.by_surface) names.insert(name);
+  for (auto const& [name, screen] : model.screens.by_surface) names.insert(name);
+  for (auto const& [name, type] : model.surroundings.types) names.erase(name);
+  return names;
+}
+
+// Lean input, and what EnergyPlus's rays make of the rest.
+void plan_rays(std::vector<InputObject> const& objects, Reader const& reader, Model& model) {
+  DaylightRays rays;
+  rays.answered = reader.daylight_rays && model.options.mode != Mode::off &&
+                  has_daylighting(objects) && daylighting_can_be_answered(objects, model.shading);
+  auto const transmitting = transmitting_surfaces(model);
+  if (rays.answered) rays.transmitting = transmitting;
+  if (reader.find_mentions) {
+    model.lean = plan_lean_input(objects, model.shading, model.options, rays, reader.find_mentions);
+  }
+  model.daylighting_answered = rays.answered;
+  std::optional<std::vector<std::string>> opaque;
+  if (rays.answered) {
+    opaque.emplace();
+    for (auto const& name : transmitting) {
+      if (!model.lean.left_out.contains(name)) opaque->push_back(name);
+    }
+    std::sort(opaque->begin(), opaque->end());
+  }
+  model.ray_warnings = warn_of_rays(objects, model.shading, opaque);
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> find_side_file(std::filesystem::path const& model,
@@ -68,7 +100,7 @@ std::optional<std::filesystem::path> find_side_file(std::filesystem::path const&
 }
 
 Model understand(std::vector<InputObject> objects, std::filesystem::path const& path,
-                 Choices const& choices, MentionFinder const& find_mentions) {
+                 Choices const& choices, Reader const& reader) {
   for (auto& object : objects) {
     if (object.file.empty()) object.file = path.string();
   }
@@ -91,11 +123,8 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   model.shades = read_transparent_shades(objects, model.shading, folder);
   model.screens = read_perforated_screens(objects, model.shading, model.shades, assets);
   check_textures(model.surroundings, model.screens);
-  model.ray_warnings = warn_of_rays(objects, model.shading);
   model.options = resolve(choices, read_settings(objects), model.shading);
-  if (find_mentions) {
-    model.lean = plan_lean_input(objects, model.shading, model.options, find_mentions);
-  }
+  plan_rays(objects, reader, model);
   if (model.options.mode != Mode::off) {
     model.simplified = find_simplified_surfaces(objects, model.shading, model.lean.left_out);
     if (!model.surroundings.empty()) ensure_placeholders(model.lean, model.shading);

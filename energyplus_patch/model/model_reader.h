@@ -25,16 +25,22 @@ struct Model {
   LeanInput lean;
   SimplifiedSurfaces simplified;
   Surroundings surroundings;
+  bool daylighting_answered = false;      // rays of daylighting ask this module
   std::vector<std::string> ray_warnings;  // see warn_of_rays
   std::vector<std::string> remarks;
 };
 
+// The EnergyPlus that reads a model.
+struct Reader {
+  MentionFinder find_mentions;  // for the model's own file; without it, lean input is not planned
+  bool daylight_rays = false;   // rays of daylighting can be answered
+};
+
 // Reads a model's objects together with those of its side file, and resolves all options.
 // `choices`: command line, then environment. Side file: choices.file, or MODEL.gpu-shading.idf if
-// it exists. `find_mentions`, for the model's own file: without it, lean input is not planned.
-// Throws Error: one line naming object, field and value.
+// it exists. Throws Error: one line naming object, field and value.
 Model understand(std::vector<InputObject> objects, std::filesystem::path const& path,
-                 Choices const& choices, MentionFinder const& find_mentions = {});
+                 Choices const& choices, Reader const& reader = {});
 
 // The same, from the model's file (.idf, .imf or .epJSON).
 Model read_model(std::filesystem::path const& path, Choices const& choices);

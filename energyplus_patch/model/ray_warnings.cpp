@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -11,51 +12,66 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-// "A, B, C and 4 more", of the objects of a type; "" if there is none.
-std::string names_of(std::vector<InputObject> const& objects, std::string_view type) {
+// "A, B, C and 4 more"; "" if there is none.
+std::string join(std::vector<std::string> const& names) {
   constexpr std::size_t most = 5;
-  std::string names;
-  std::size_t count = 0;
-  for (auto const& object : objects) {
-    if (object.type != type || ++count > most) continue;
-    if (!names.empty()) names += ", ";
-    names += printable(object.name);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) {
+    if (i > 0) text += ", ";
+    text += printable(names[i]);
   }
-  if (count > most) names += fmt::format(" and {} more", count - most);
-  return names;
+  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
+  return text;
+}
+
+// Of the objects of a type.
+std::string names_of(std::vector<InputObject> const& objects, std::string_view type) {
+  std::vector<std::string> names;
+  for (auto const& object : objects) {
+    if (object.type == type) names.push_back(object.name);
+  }
+  return join(names);
 }
 
 // The parts of EnergyPlus in this model that trace rays to shading surfaces, as a warning begins.
-std::vector<std::string> users_of_rays(std::vector<InputObject> const& objects,
-                                       ShadingInput const& input) {
-  struct User {
+struct User {
+  bool daylighting = false;
+  std::string text;
+};
+std::vector<User> users_of_rays(std::vector<InputObject> const& objects,
+                                ShadingInput const& input) {
+  struct Type {
     std::string_view what;
     std::string_view type;
   };
-  constexpr std::array<User, 5> users{{
-      {"daylighting", "Daylighting:Controls"},
-      {"daylighting", "Daylighting:DELight:ComplexFenestration"},
-      {"daylighting", "DaylightingDevice:Tubular"},
-      {"daylighting", "DaylightingDevice:Shelf"},
+  constexpr std::string_view daylighting = "daylighting";
+  constexpr std::array<Type, 5> users{{
+      {daylighting, "Daylighting:Controls"},
+      {daylighting, "Daylighting:DELight:ComplexFenestration"},
+      {daylighting, "DaylightingDevice:Tubular"},
+      {daylighting, "DaylightingDevice:Shelf"},
       {"complex fenestration", "Construction:ComplexFenestrationState"},
   }};
-  std::vector<std::string> found;
+  std::vector<User> found;
   std::string_view last;
   for (auto const& [what, type] : users) {
     if (what == last) continue;
     auto const names = names_of(objects, type);
     if (names.empty()) continue;
-    found.push_back(fmt::format("{} ({} {})", what, type, names));
+    found.push_back({what == daylighting, fmt::format("{} ({} {})", what, type, names)});
     last = what;
   }
-  if (input.reflections) found.push_back("solar reflections (Building, Solar Distribution)");
+  if (input.reflections) {
+    found.push_back({false, "solar reflections (Building, Solar Distribution)"});
+  }
   return found;
 }
 
 }  // namespace
 
-std::vector<std::string> warn_of_rays(std::vector<InputObject> const& objects,
-                                      ShadingInput const& input) {
+std::vector<std::string> warn_of_rays(
+    std::vector<InputObject> const& objects, ShadingInput const& input,
+    std::optional<std::vector<std::string>> const& daylighting_opaque) {
   struct Shade {
     std::string_view type;
     bool seen;
@@ -68,14 +84,22 @@ std::vector<std::string> warn_of_rays(std::vector<InputObject> const& objects,
   }};
   std::vector<std::string> warnings;
   for (auto const& user : users_of_rays(objects, input)) {
+    if (user.daylighting && daylighting_opaque) {
+      if (daylighting_opaque->empty()) continue;
+      warnings.push_back(
+          fmt::format("rays of {} take surfaces that stay in EnergyPlus's input as opaque, but for "
+                      "their Transmittance Schedules: {}",
+                      user.text, join(*daylighting_opaque)));
+      continue;
+    }
     for (auto const& [type, seen] : shades) {
       auto const names = names_of(objects, type);
       if (names.empty()) continue;
       warnings.push_back(
           seen ? fmt::format("rays of {} take the surfaces of {} {} as opaque, but for their "
                              "Transmittance Schedules",
-                             user, type, names)
-               : fmt::format("rays of {} do not see {} {}", user, type, names));
+                             user.text, type, names)
+               : fmt::format("rays of {} do not see {} {}", user.text, type, names));
     }
   }
   return warnings;

@@ -162,6 +162,16 @@ Scene SceneAssembly::scene() const {
   return scene;
 }
 
+Scene SceneAssembly::hidden_casters() const {
+  Scene scene;
+  for (auto id = static_cast<SurfaceId>(size()); id < surfaces_.size(); ++id) {
+    auto surface = surfaces_[id];
+    optics_.apply(surface, model_.surroundings.texture_of(id));
+    if (surface.casting != Casting::never) scene.add(std::move(surface));
+  }
+  return scene;
+}
+
 Hash SceneAssembly::hash(Scene const& scene, DeviceInfo const& device) const {
   return hash_scene(scene, {renderer_options(model_.options), device, build_id()});
 }

@@ -72,6 +72,7 @@ void Session::set_time(Moment moment) {
     auto const receivers = answers_->rendered().known().receivers;
     // The CPU also if it took over from a GPU.
     auto const device = choice_of(answers_->rendered().renderer().device());
+    obstructions_.reset();
     answers_->close();
     answers_->open(open_answers(scene_, receivers, device, messages_));
   } else {
@@ -98,6 +99,16 @@ std::vector<float> Session::interior_areas(SurfaceId window,
       answers().interior_areas(InteriorKey({window, interiors}), scene_.optics().factors());
   keep_largest(areas, max_back_surfaces);
   return areas;
+}
+
+double Session::daylight_transmittance(Ray const& ray, int hour) {
+  if (!answers_) throw Error("EnergyPlus asks for daylight before its surfaces are complete");
+  if (!obstructions_) obstructions_.emplace(scene_);
+  return obstructions_->transmittance(ray, hour);
+}
+
+void Session::begin_daylighting() {
+  if (obstructions_) obstructions_->renew();
 }
 
 void Session::finish() {

@@ -7,6 +7,7 @@
 
 #include "gpu_shading/scene.h"
 #include "model/model_reader.h"
+#include "session/hidden_obstructions.h"
 #include "session/messages.h"
 #include "session/scene_assembly.h"
 #include "session/schedules.h"
@@ -56,6 +57,13 @@ class Session {
   // max_back_surfaces largest are non-zero.
   std::vector<float> interior_areas(SurfaceId window, std::vector<SurfaceId> const& interiors);
 
+  // What the surfaces that EnergyPlus does not know let pass of a ray of its daylighting, 0 .. 1,
+  // at an hour of the day (HiddenObstructions).
+  double daylight_transmittance(Ray const& ray, int hour);
+
+  // EnergyPlus computes daylighting for another period.
+  void begin_daylighting();
+
   // Called at the end of the run: reports what rendered, and writes the report.
   void finish();
 
@@ -65,7 +73,8 @@ class Session {
 
   SceneAssembly scene_;
   Messages messages_;
-  std::optional<SunAnswers> answers_;  // once started
+  std::optional<SunAnswers> answers_;               // once started
+  std::optional<HiddenObstructions> obstructions_;  // once asked for
 };
 
 }  // namespace gpu_shading::energyplus

@@ -115,15 +115,24 @@ bool ShadeOptics::update(Moment moment) {
       changed = true;
     }
   }
-  for (std::size_t i = 0; i < factors_.size(); ++i) {
-    factors_[i] = schedules_.value(factor_names_[i], moment);
-  }
-  for (std::size_t i = 0; i < deployments_.size(); ++i) {
-    auto const& name = deployment_names_[i];
-    deployments_[i] =
-        moment.timestep > 0 ? schedules_.value(name, moment) : schedules_.range(name).second;
-  }
+  factors_ = factors_at(moment);
+  deployments_ = deployments_at(moment);
   return changed;
+}
+
+std::vector<double> ShadeOptics::factors_at(Moment moment) const {
+  std::vector<double> factors;
+  for (auto const& name : factor_names_) factors.push_back(schedules_.value(name, moment));
+  return factors;
+}
+
+std::vector<double> ShadeOptics::deployments_at(Moment moment) const {
+  std::vector<double> deployments;
+  for (auto const& name : deployment_names_) {
+    deployments.push_back(moment.timestep > 0 ? schedules_.value(name, moment)
+                                              : schedules_.range(name).second);
+  }
+  return deployments;
 }
 
 std::string describe_optics(Model const& model, Surface const& surface,

@@ -31,6 +31,10 @@ class ShadeOptics {
   // must then be applied again.
   bool update(Moment moment);
 
+  // What update() would set at another time.
+  std::vector<double> factors_at(Moment moment) const;
+  std::vector<double> deployments_at(Moment moment) const;
+
   Schedules const& schedules() const { return schedules_; }
 
   // Indexed by the numbers that apply() assigns.

@@ -26,12 +26,12 @@ std::string shade(std::string const& name, std::string const& schedule = "") {
   return fmt::format("Shading:Building:Detailed,{},{},,{}", name, schedule, corners);
 }
 
-LeanInput plan(std::string const& idf, Lean lean = Lean::on) {
+LeanInput plan(std::string const& idf, Lean lean = Lean::on, DaylightRays const& rays = {}) {
   auto const parsed = parse_idf(idf);
   auto const objects = read_idf(parsed);
   Options options;
   options.lean = lean;
-  return plan_lean_input(objects, read_shading_input(objects), options,
+  return plan_lean_input(objects, read_shading_input(objects), options, rays,
                          [&](Names const& names) { return find_mentions(parsed, names); });
 }
 
@@ -167,6 +167,14 @@ TEST(LeanInput, ReasonsAreGiven) {
   EXPECT_THAT(reason("GeometryTransform,XY,1,2;"), HasSubstr("GeometryTransform"));
   EXPECT_THAT(reason("Output:Variable,One[,Surface Outside Face Sunlit Fraction;"),
               HasSubstr("Key Value is \"One[\""));
+}
+
+TEST(LeanInput, DaylightingWhoseRaysAreAnsweredDoesNotForbidIt) {
+  auto const light = rules + shade("Pane") + shade("Wall") + "Daylighting:Controls,Light;";
+  EXPECT_EQ(plan(light, Lean::on, {true, {}}).left_out, (Names{"PANE", "WALL"}));
+  // Of a few surfaces, those that the rays would take as opaque.
+  EXPECT_EQ(plan(light, Lean::automatic, {true, {"PANE"}}).left_out, (Names{"PANE"}));
+  EXPECT_FALSE(plan(light, Lean::automatic, {true, {}}).active());
 }
 
 TEST(LeanInput, TheRestOfTheTextIsKept) {

@@ -65,6 +65,16 @@ TEST(RayWarnings, NoneWithoutRaysOrWithoutShades) {
               IsEmpty());
 }
 
+TEST(RayWarnings, AnsweredDaylightingNamesOnlyWhatStaysInTheInput) {
+  auto const objects = read_idf(shades + "Daylighting:Controls,Lamp;");
+  auto const input = read_shading_input(objects);
+  EXPECT_THAT(warn_of_rays(objects, input, std::vector<std::string>{}), IsEmpty());
+  EXPECT_THAT(warn_of_rays(objects, input, std::vector<std::string>{"CANOPY", "SCREEN"}),
+              ElementsAre("rays of daylighting (Daylighting:Controls Lamp) take surfaces that stay "
+                          "in EnergyPlus's input as opaque, but for their Transmittance Schedules: "
+                          "CANOPY, SCREEN"));
+}
+
 TEST(RayWarnings, ManyNamesAreCut) {
   std::string idf = "DaylightingDevice:Shelf,Shelf;";
   for (auto const* name : {"A", "B", "C", "D", "E", "F", "G"}) {

@@ -1,0 +1,110 @@
+#include "host/daylight_entries.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "host/run.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+// EnergyPlus's Vector3<double>, with the same layout.
+struct Vector {
+  double x, y, z;
+
+  bool operator==(Vector const&) const = default;
+};
+
+glm::dvec3 to_glm(Vector const& vector) { return {vector.x, vector.y, vector.z}; }
+
+// Below this, EnergyPlus counts a surface as opaque.
+constexpr double opaque_below = 1e-6;
+
+double (*original_hit_obstruction)(State&, int, int, Vector const&, Vector const&) = nullptr;
+bool (*original_hit_interior)(State&, int, Vector const&, Vector const&) = nullptr;
+bool (*original_hit_between)(State&, int, int, Vector const&, Vector const&) = nullptr;
+void (*original_coefficients)(State&) = nullptr;
+
+// What passes from a reference point to a point of a window. EnergyPlus's functions for this say
+// yes or no; where something in between transmits, they say no, and the ray that EnergyPlus then
+// sends on from the window is reduced instead.
+struct Arrived {
+  Vector at{};
+  double share = 1.0;
+};
+
+Arrived& arrived() {
+  thread_local Arrived instance;
+  return instance;
+}
+
+// Nothing if the rays of this run are EnergyPlus's alone.
+Session* answering_session() {
+  auto const& run = this_run();
+  return run.model && run.model->daylighting_answered ? run.session : nullptr;
+}
+
+double share_of(Session& session, Ray const& ray, int hour) {
+  double const share = guarded([&] { return session.daylight_transmittance(ray, hour); });
+  return share < opaque_below ? 0.0 : share;
+}
+
+double hit_obstruction(State& state, int hour, int window, Vector const& origin,
+                       Vector const& direction) {
+  double passed = original_hit_obstruction(state, hour, window, origin, direction);
+  auto* const session = answering_session();
+  if (session == nullptr || passed <= 0.0) return passed;
+  passed *= share_of(*session, {to_glm(origin), to_glm(direction)}, hour);
+  if (arrived().share < 1.0 && arrived().at == origin) passed *= arrived().share;
+  return passed;
+}
+
+// Whether nothing passes; `before`: what passed up to the start of the segment.
+bool blocked(Session& session, Vector const& from, Vector const& to, double before) {
+  constexpr int first_hour = 1;  // EnergyPlus does not say which; mostly it computes at this one
+  Ray ray{to_glm(from), to_glm(to) - to_glm(from)};
+  ray.length = glm::length(ray.direction);
+  if (ray.length <= 0.0) return false;
+  arrived() = {to, before * share_of(session, ray, first_hour)};
+  return arrived().share <= 0.0;
+}
+
+bool hit_interior(State& state, int window, Vector const& from, Vector const& to) {
+  arrived() = {};
+  if (original_hit_interior(state, window, from, to)) return true;
+  auto* const session = answering_session();
+  return session != nullptr && blocked(*session, from, to, 1.0);
+}
+
+// From an interior window to an exterior one, after the way to the interior one.
+bool hit_between(State& state, int first, int second, Vector const& from, Vector const& to) {
+  if (original_hit_between(state, first, second, from, to)) return true;
+  auto* const session = answering_session();
+  if (session == nullptr) return false;
+  return blocked(*session, from, to, arrived().at == from ? arrived().share : 1.0);
+}
+
+void coefficients(State& state) {
+  if (auto* const session = answering_session()) guarded([&] { session->begin_daylighting(); });
+  original_coefficients(state);
+}
+
+}  // namespace
+
+std::vector<EntryPatch> daylight_entries() {
+  return {
+      watch("_ZN10EnergyPlus6Dayltg20DayltgHitObstructionERNS_14EnergyPlusDataEiiRKN9ObjexxFCL7"
+            "Vector3IdEES7_",
+            &hit_obstruction, &original_hit_obstruction),
+      watch("_ZN10EnergyPlus6Dayltg28DayltgHitInteriorObstructionERNS_14EnergyPlusDataEiRKN9"
+            "ObjexxFCL7Vector3IdEES7_",
+            &hit_interior, &original_hit_interior),
+      watch("_ZN10EnergyPlus6Dayltg26DayltgHitBetWinObstructionERNS_14EnergyPlusDataEiiRKN9"
+            "ObjexxFCL7Vector3IdEES7_",
+            &hit_between, &original_hit_between),
+      watch("_ZN10EnergyPlus6Dayltg22CalcDayltgCoefficientsERNS_14EnergyPlusDataE", &coefficients,
+            &original_coefficients),
+  };
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,31 @@
+#include "model/daylighting.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "base/text.h"
+
+namespace gpu_shading::energyplus {
+
+bool has_daylighting(std::vector<InputObject> const& objects) {
+  constexpr std::array<std::string_view, 4> types{
+      "Daylighting:Controls", "Daylighting:DELight:ComplexFenestration",
+      "DaylightingDevice:Tubular", "DaylightingDevice:Shelf"};
+  return std::any_of(objects.begin(), objects.end(), [&](InputObject const& object) {
+    return std::find(types.begin(), types.end(), object.type) != types.end();
+  });
+}
+
+bool daylighting_can_be_answered(std::vector<InputObject> const& objects,
+                                 ShadingInput const& input) {
+  if (input.reflections) return false;
+  return std::none_of(objects.begin(), objects.end(), [](InputObject const& object) {
+    return object.type == "Daylighting:DELight:ComplexFenestration" ||
+           object.type == "Construction:ComplexFenestrationState" ||
+           (object.type == "Daylighting:Controls" &&
+            same_name(object["daylighting_method"], "DElight"));
+  });
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "idf/input_object.h"
+#include "input/shading_input.h"
+
+namespace gpu_shading::energyplus {
+
+// Whether EnergyPlus traces rays of daylighting in this model: Daylighting:Controls and the devices
+// and maps that belong to them.
+bool has_daylighting(std::vector<InputObject> const& objects);
+
+// Whether all rays of daylighting go through functions that this module can answer: not with
+// DElight, which is a program of its own, nor with complex fenestration, whose rays EnergyPlus
+// traces once when it starts, nor with solar reflections, whose rays ask for the surfaces
+// themselves.
+bool daylighting_can_be_answered(std::vector<InputObject> const& objects,
+                                 ShadingInput const& input);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,30 @@
+#include "model/daylighting.h"
+
+#include <gtest/gtest.h>
+
+#include "idf/model_file.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+bool answered(std::string const& idf) {
+  auto const objects = read_idf(idf);
+  return daylighting_can_be_answered(objects, read_shading_input(objects));
+}
+
+TEST(Daylighting, AnyOfItsObjectsTracesRays) {
+  EXPECT_TRUE(has_daylighting(read_idf("Daylighting:Controls,Light;")));
+  EXPECT_TRUE(has_daylighting(read_idf("DaylightingDevice:Tubular,Tube;")));
+  EXPECT_FALSE(has_daylighting(read_idf("Building,B,,,,,FullExterior;")));
+}
+
+TEST(Daylighting, OnlySplitFluxWithoutReflectionsIsAnswered) {
+  EXPECT_TRUE(answered("Daylighting:Controls,Light,Box,SplitFlux;Building,B,,,,,FullExterior;"));
+  EXPECT_TRUE(answered("Daylighting:Controls,Light,Box;"));  // SplitFlux is the default
+  EXPECT_FALSE(answered("Daylighting:Controls,Light,Box,delight;"));
+  EXPECT_FALSE(answered("Daylighting:Controls,Light;Building,B,,,,,FullExteriorWithReflections;"));
+  EXPECT_FALSE(answered("Daylighting:Controls,Light;Construction:ComplexFenestrationState,Blind;"));
+}
+
+}  // namespace
+}  // namespace gpu_shading::energyplus
