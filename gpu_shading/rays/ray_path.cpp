@@ -36,12 +36,6 @@ glm::dvec3 unit(glm::dvec3 const& direction) {
   return glm::normalize(direction / most);
 }
 
-double finite_inverse(double component) {
-  // Times a distance within a model, its inverse is neither infinite nor lost in rounding.
-  constexpr double least = 1e-150;
-  return 1.0 / (std::abs(component) < least ? std::copysign(least, component) : component);
-}
-
 }  // namespace
 
 RayPath::RayPath(Ray const& ray)
@@ -50,7 +44,6 @@ RayPath::RayPath(Ray const& ray)
     throw Error(fmt::format("a ray's origin is ({}), expected finite numbers", text(origin)));
   }
   if (std::isnan(length)) throw Error("a ray's length is not a number");
-  inverse = {finite_inverse(direction.x), finite_inverse(direction.y), finite_inverse(direction.z)};
   glm::dvec3 const size = glm::abs(direction);
   int const longest = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   std::array<int, 3> const order{(longest + 1) % 3, (longest + 2) % 3, longest};
@@ -58,7 +51,8 @@ RayPath::RayPath(Ray const& ray)
     axes[i] = static_cast<std::size_t>(order[i]);
     start[i] = origin[order[i]];
   }
-  shear = {direction[order[0]] / direction[longest], direction[order[1]] / direction[longest]};
+  double const each = 1.0 / direction[longest];
+  shear = {direction[order[0]] * each, direction[order[1]] * each};
 }
 
 }  // namespace gpu_shading

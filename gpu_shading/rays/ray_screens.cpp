@@ -100,7 +100,7 @@ RayScreens::RayScreens(Scene const& scene, std::span<SurfaceId const> casters, S
     PerforatedScreen const& screen = *screens_[number].screen;
     if (!by_holes(screen) && has_table(screen)) screen.transmittance();
   }
-  tree_ = Bvh(boxes);
+  tree_ = RayTree(boxes);
 }
 
 bool RayScreens::by_holes(PerforatedScreen const& screen) const {

@@ -7,7 +7,7 @@
 
 #include "gpu_shading/scene.h"
 #include "rays/ray_path.h"
-#include "scene/bvh.h"
+#include "rays/ray_tree.h"
 #include "scene/screens.h"
 
 namespace gpu_shading {
@@ -28,14 +28,10 @@ class RayScreens {
   // which `look` may change.
   template <typename Look>
   void search(RayPath const& ray, double const& limit, Look const& look) const {
-    tree_.search(
-        [&](glm::dvec3 const& centre, glm::dvec3 const& reach) {
-          return ray.meets(centre, reach, limit) ? Containment::intersecting : Containment::outside;
-        },
-        [&](std::uint32_t place, std::uint32_t, Containment) {
-          int const number = static_cast<int>(tree_.order()[place]);
-          look(surfaces_[static_cast<std::size_t>(number)], number);
-        });
+    tree_.search(ray, limit, [&](std::uint32_t place) {
+      int const number = static_cast<int>(tree_.order()[place]);
+      look(surfaces_[static_cast<std::size_t>(number)], number);
+    });
   }
 
   std::optional<Met> meet(int number, RayPath const& ray, double limit) const;
@@ -49,7 +45,7 @@ class RayScreens {
   Screens screens_;
   ScreenDetail detail_;
   std::vector<SurfaceId> surfaces_;  // by number
-  Bvh tree_;
+  RayTree tree_;
 };
 
 }  // namespace gpu_shading

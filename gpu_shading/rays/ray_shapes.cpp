@@ -81,7 +81,7 @@ void RayShapes::make_tree() {
   std::vector<Box> boxes;
   boxes.reserve(shapes_.size());
   for (Shape const& shape : shapes_) boxes.push_back(bounds(shape));
-  tree_ = Bvh(boxes);
+  tree_ = RayTree(boxes);
   std::vector<Shape> shapes;
   std::vector<Vertex> vertices;
   shapes.reserve(shapes_.size());

@@ -10,6 +10,7 @@
 #include "gpu_shading/polygon.h"
 #include "gpu_shading/shading_rule.h"
 #include "rays/ray_path.h"
+#include "rays/ray_tree.h"
 #include "scene/bvh.h"
 
 namespace gpu_shading {
@@ -32,14 +33,10 @@ class RayShapes {
   // change.
   template <typename Met>
   void search(RayPath const& ray, double const& limit, Met const& met) const {
-    tree_.search(
-        [&](glm::dvec3 const& centre, glm::dvec3 const& reach) {
-          return ray.meets(centre, reach, limit) ? Containment::intersecting : Containment::outside;
-        },
-        [&](std::uint32_t place, std::uint32_t, Containment) {
-          Shape const& shape = shapes_[place];
-          if (auto const at = distance(shape, ray, limit)) met(shape.surface, *at);
-        });
+    tree_.search(ray, limit, [&](std::uint32_t place) {
+      Shape const& shape = shapes_[place];
+      if (auto const at = distance(shape, ray, limit)) met(shape.surface, *at);
+    });
   }
 
  private:
@@ -83,7 +80,7 @@ class RayShapes {
   // All rings of a shape as one: from the outline's first vertex to each hole, around it, and back.
   // The ways there and back cancel.
   std::vector<Vertex> vertices_;
-  Bvh tree_;
+  RayTree tree_;
 };
 
 }  // namespace gpu_shading

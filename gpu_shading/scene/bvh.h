@@ -34,6 +34,16 @@ class Bvh {
   // The boxes' numbers in the order in which the tree has them: nearly those that lie together.
   std::vector<std::uint32_t> const& order() const { return order_; }
 
+  struct Node {
+    glm::dvec3 centre{0.0};
+    glm::dvec3 reach{0.0};
+    std::uint32_t first = 0;  // of order()
+    std::uint32_t count = 0;
+    std::uint32_t children = 0;  // the first of two, of more than one
+  };
+  // From the root on.
+  std::vector<Node> const& nodes() const { return nodes_; }
+
   // Calls found(first, count, containment), of positions in order(), for boxes that are not outside
   // the region: single boxes that intersect it, and runs of boxes that are inside. classify(centre,
   // half extents) returns the Containment of a box; it must not be outside where that of a box
@@ -59,14 +69,6 @@ class Bvh {
   }
 
  private:
-  struct Node {
-    glm::dvec3 centre{0.0};
-    glm::dvec3 reach{0.0};
-    std::uint32_t first = 0;  // of order_
-    std::uint32_t count = 0;
-    std::uint32_t children = 0;  // the first of two, of more than one
-  };
-
   void build(std::uint32_t node, std::vector<Box> const& boxes, std::uint32_t first,
              std::uint32_t count);
 

@@ -298,6 +298,48 @@ TEST(Rays, AMillionAgreeWithWindingNumbersInLongDouble) {
   EXPECT_LT(at_edges, 100);
 }
 
+// Small panes in a cube of 20 m about a place, as many as a mesh has.
+Scene many_panes(int count, glm::dvec3 const& about, Random& random) {
+  Scene scene;
+  for (int i = 0; i < count; ++i) {
+    glm::dvec3 const corner(random.between(-10, 10), random.between(-10, 10),
+                            random.between(-10, 10));
+    Surface pane{"pane",
+                 parallelogram(about + corner, random.direction(), 0.7 * random.direction())};
+    if (i % 8 != 0) pane.transmittance = constant(0.9);
+    scene.add(std::move(pane));
+  }
+  return scene;
+}
+
+// On a national grid, and seen from far away.
+TEST(Rays, AgreeInLargeScenesFarFromTheAxes) {
+  Random random(5);
+  int met = 0;
+  for (double const far : {0.0, 5e5}) {
+    glm::dvec3 const about(far, -0.3 * far, 0.0);
+    Scene const scene = many_panes(3000, about, random);
+    RayScene const rays(scene);
+    Reference const reference(scene);
+    for (int i = 0; i < 3000; ++i) {
+      double const away = i % 3 == 0 ? 10.0 : i % 3 == 1 ? 1e3 : 1e5;
+      glm::dvec3 const target(random.between(-10, 10), random.between(-10, 10),
+                              random.between(-10, 10));
+      glm::dvec3 const direction = random.direction();
+      Ray const ray{about + target - away * direction, direction};
+      Reference::Answer const expected = reference(ray, {});
+      if (expected.margin < 1e-8L) continue;
+      ASSERT_NEAR(rays.transmittance(ray), expected.transmittance, 1e-9) << far << ", " << i;
+      std::optional<RayHit> const nearest = rays.nearest_opaque(ray);
+      ASSERT_EQ(nearest.has_value(), expected.nearest.has_value()) << far << ", " << i;
+      if (!nearest) continue;
+      ASSERT_EQ(nearest->surface, expected.nearest->surface) << far << ", " << i;
+      ++met;
+    }
+  }
+  EXPECT_GT(met, 1000);
+}
+
 double sunlit_fraction(Scene const& scene, SunDirection sun) {
   Renderer renderer = renderer_of(scene, 512, on_cpu);
   double const cosine = glm::dot(normal(scene[0].polygon), to_vector(sun));
