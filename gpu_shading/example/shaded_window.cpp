@@ -1,7 +1,9 @@
-// Sunlit fractions of a window below an opaque overhang, and behind a transparent shade.
+// Sunlit fractions of a window below an opaque overhang, and behind a transparent shade; what the
+// shade lets pass of a single ray.
 //
 //   shaded_window AZIMUTH ALTITUDE    of the sun, in degrees
 
+#include <gpu_shading/rays.h>
 #include <gpu_shading/renderer.h>
 #include <gpu_shading/transmittance.h>
 
@@ -32,6 +34,14 @@ double sunlit_fraction(Surface const& caster, SunDirection sun) {
   return projected > 0.0 ? lit / projected : 0.0;
 }
 
+// The fraction of a ray from the window's middle to the sun that `caster` lets pass.
+double transmittance_of_ray(Surface const& caster, SunDirection sun) {
+  Scene scene;
+  scene.add(caster);
+  RayScene const rays(scene);
+  return rays.transmittance({{1, 0, 1.5}, to_vector(sun)});
+}
+
 }  // namespace
 
 int main(int count, char** arguments) try {
@@ -41,8 +51,10 @@ int main(int count, char** arguments) try {
   // 0.7 at normal incidence, 0 at grazing incidence.
   auto const glass =
       std::make_shared<Transmittance const>(Transmittance::polynomial_in_cosine({0.0, 1.1, -0.4}));
+  Surface const shade{"pane", pane, Casting::always, glass};
   std::cout << "overhang " << sunlit_fraction({"overhang", overhang}, sun) << '\n'
-            << "glass " << sunlit_fraction({"pane", pane, Casting::always, glass}, sun) << '\n';
+            << "glass " << sunlit_fraction(shade, sun) << '\n'
+            << "ray " << transmittance_of_ray(shade, sun) << '\n';
   return EXIT_SUCCESS;
 } catch (std::exception const& error) {
   std::cerr << "shaded_window: " << error.what() << '\n';

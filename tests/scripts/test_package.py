@@ -56,6 +56,8 @@ def test_the_example_agrees_with_closed_forms(example, azimuth, altitude):
     behind = min(1.0, max(0.0, 2 - 0.5 * profile)) if facing else 0.0
     transmitted = 1.1 * cosine - 0.4 * cosine**2
     assert float(printed["glass"]) == pytest.approx(behind * transmitted + (facing - behind), abs=1e-3)
+    through_the_pane = facing and 1.5 + 0.5 * profile < 3
+    assert float(printed["ray"]) == pytest.approx(transmitted if through_the_pane else 1.0, abs=1e-5)
 
 
 def test_the_example_finds_the_opengl_library(prefix, example):
