@@ -57,7 +57,7 @@ struct RayConditions {
 
 // Rays through the casters of a scene, by the rules of the renderer: a surface lets pass its
 // transmittance at the ray's own angle of incidence, times its schedule's factor, times what its
-// perforated sheet lets pass. All in double precision. Objects are immutable: any number of threads
+// perforated sheet lets pass. Objects are immutable: any number of threads
 // may ask one at the same time.
 //
 // A ray meets a surface between its ends only: a surface is not met if an end lies within a
@@ -65,7 +65,8 @@ struct RayConditions {
 // and less than any gap in a model. A ray in the plane of a surface does not meet it either.
 // Polygons whose vertices are more than 1e-6 m off their plane are met as the triangles that the
 // renderer draws, others whole, by the odd-even rule. A ray through an edge that two triangles or
-// two surfaces share does not pass between the two, and meets only one of them.
+// two surfaces share meets exactly one of them, if they lie on either side of it as the ray sees
+// them. Polygons are tested in double precision.
 //
 // A perforated sheet is met between its two faces, by the part of the ray that is inside its
 // outline, if the polygon or the middle of the sheet's body lies between the ray's ends. Rays at
