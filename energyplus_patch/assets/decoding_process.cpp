@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,7 +15,7 @@
 #include <limits>
 #include <thread>
 
-#include "assets/beside.h"
+#include "assets/decoding_server.h"
 #include "decoding/answer.h"
 #include "gpu_shading/error.h"
 
@@ -42,43 +40,6 @@ void open_input(FileDescriptor const& file, std::uint64_t most) {
   }
 }
 
-// What posix_spawn() is to do besides.
-class Spawning {
- public:
-  Spawning() {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawnattr_init(&attributes_);
-    sigset_t signals;
-    sigemptyset(&signals);
-    posix_spawnattr_setsigmask(&attributes_, &signals);
-    sigfillset(&signals);
-    posix_spawnattr_setsigdefault(&attributes_, &signals);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  }
-  Spawning(Spawning const&) = delete;
-  Spawning& operator=(Spawning const&) = delete;
-  ~Spawning() {
-    posix_spawn_file_actions_destroy(&actions_);
-    posix_spawnattr_destroy(&attributes_);
-  }
-
-  void give(int descriptor, int as) { posix_spawn_file_actions_adddup2(&actions_, descriptor, as); }
-
-  // Returns an errno value.
-  int start(pid_t& process, std::vector<std::string> words) {
-    std::vector<char*> pointers;
-    pointers.reserve(words.size() + 1);
-    for (auto& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    return posix_spawn(&process, pointers.front(), &actions_, &attributes_, pointers.data(),
-                       environ);
-  }
-
- private:
-  posix_spawn_file_actions_t actions_{};
-  posix_spawnattr_t attributes_{};
-};
-
 std::string in_one_line(std::string text) {
   constexpr unsigned char del = 0x7F;
   std::replace_if(
@@ -91,29 +52,19 @@ std::string in_one_line(std::string text) {
 DecodingProcess::DecodingProcess(char const* program, std::string const& operation,
                                  std::filesystem::path const& file, Assets assets,
                                  DecodingLimits const& limits)
-    : limits_(limits),
-      deadline_(Clock::now() + limits.wait),
-      errors_(memfd_create("errors", MFD_CLOEXEC)) {
+    : limits_(limits), deadline_(Clock::now() + limits.wait) {
   FileDescriptor const input(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   open_input(input, limits.file_size);
   std::array<int, 2> ends{-1, -1};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) fail("no pipe for its decoding");
   answer_.emplace(ends[0]);
   FileDescriptor const output(ends[1]);
-  auto const path = beside_this_code(program);
-  Spawning spawning;
-  spawning.give(input.get(), STDIN_FILENO);
-  spawning.give(output.get(), STDOUT_FILENO);
-  spawning.give(errors_.get(), STDERR_FILENO);
-  int const failure = spawning.start(
-      process_, {path.string(), std::to_string(getpid()), std::to_string(limits.seconds),
-                 std::to_string(limits.memory), operation,
-                 assets == Assets::any ? "any" : "restricted", file.string()});
-  if (failure != 0) {
-    process_ = -1;
-    throw Error(
-        fmt::format("cannot be decoded without {}: {}", path.string(), std::strerror(failure)));
-  }
+  process_ = start_decoding(
+      program,
+      {std::to_string(getpid()), std::to_string(limits.seconds), std::to_string(limits.memory),
+       operation, assets == Assets::any ? "any" : "restricted",
+       std::filesystem::absolute(file).string()},
+      input.get(), output.get());
 }
 
 DecodingProcess::~DecodingProcess() {
@@ -211,13 +162,7 @@ void DecodingProcess::throw_reason(int status) const {
     }
     throw Error(fmt::format("the program that decodes it crashed ({})", strsignal(signal)));
   }
-  // What the system says if a library is missing.
-  std::array<char, decoding::longest_message> text{};
-  auto const length = pread(errors_.get(), text.data(), text.size(), 0);
-  std::string const said(text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, length)));
-  throw Error(fmt::format("the program that decodes it ended with status {}{}{}",
-                          WEXITSTATUS(status), said.empty() ? "" : ": ",
-                          in_one_line(said.substr(0, said.find('\n')))));
+  throw Error(fmt::format("the program that decodes it ended with status {}", WEXITSTATUS(status)));
 }
 
 }  // namespace gpu_shading::energyplus

@@ -81,7 +81,6 @@ class DecodingProcess {
 
   DecodingLimits limits_;
   std::chrono::steady_clock::time_point deadline_;
-  FileDescriptor errors_;
   std::optional<FileDescriptor> answer_;
   pid_t process_ = -1;
   bool begun_ = false;

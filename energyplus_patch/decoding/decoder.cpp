@@ -8,10 +8,12 @@
 #include <exception>
 #include <new>
 
+#include "decoding/server.h"
+
 namespace gpu_shading::decoding {
 namespace {
 
-constexpr int argument_count = 7;
+constexpr std::size_t word_count = 6;
 
 // The program that started this one may have left files open for its children.
 void close_others() {
@@ -42,17 +44,15 @@ std::string out_of_memory(Limits const& limits) {
   return "it takes more than " + std::to_string(limits.memory >> mebibyte) + " MiB of memory";
 }
 
-}  // namespace
-
-int run_decoder(int count, char const* const* arguments, bool reads_neighbours,
+int decode_file(std::vector<std::string> const& words, bool reads_neighbours,
                 std::function<void(Request const&, Answer&)> const& decode) {
-  if (count != argument_count) return EXIT_FAILURE;
-  end_with(std::atoi(arguments[1]));
+  if (words.size() != word_count) return EXIT_FAILURE;
+  end_with(std::atoi(words[0].c_str()));
   close_others();
   silence_errors();
-  Limits const limits{std::strtoull(arguments[2], nullptr, 10),
-                      std::strtoull(arguments[3], nullptr, 10)};
-  Request const request{arguments[4], arguments[6], std::string_view(arguments[5]) == "any"};
+  Limits const limits{std::strtoull(words[1].c_str(), nullptr, 10),
+                      std::strtoull(words[2].c_str(), nullptr, 10)};
+  Request const request{words[3], words[5], words[4] == "any"};
   Answer answer(STDOUT_FILENO);
   std::string why;
   try {
@@ -77,6 +77,14 @@ int run_decoder(int count, char const* const* arguments, bool reads_neighbours,
   } catch (std::exception const&) {
     return EXIT_FAILURE;
   }
+}
+
+}  // namespace
+
+int run_decoder(bool reads_neighbours, std::function<void(Request const&, Answer&)> const& decode) {
+  return serve([&](std::vector<std::string> const& words) {
+    return decode_file(words, reads_neighbours, decode);
+  });
 }
 
 }  // namespace gpu_shading::decoding

@@ -23,10 +23,10 @@ struct Request {
   bool any = false;
 };
 
-// The body of a decoding program's main(): PARENT SECONDS BYTES OPERATION any|restricted NAME, with
-// the file as standard input. `decode` puts its answer, or throws std::exception with the reason.
-// `reads_neighbours`: whether it reads files beside the file. Returns the exit status.
-int run_decoder(int count, char const* const* arguments, bool reads_neighbours,
-                std::function<void(Request const&, Answer&)> const& decode);
+// The body of a decoding program's main(), which serves (decoding/server.h) requests of the words
+// PARENT SECONDS BYTES OPERATION any|restricted NAME. `decode` puts its answer, or throws
+// std::exception with the reason. `reads_neighbours`: whether it reads files beside the file.
+// Returns the exit status.
+int run_decoder(bool reads_neighbours, std::function<void(Request const&, Answer&)> const& decode);
 
 }  // namespace gpu_shading::decoding

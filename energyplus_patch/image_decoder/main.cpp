@@ -34,6 +34,9 @@ void put(Answer& answer, ElevationHeader const& header) {
 }
 
 void decode(Request const& request, Answer& answer) {
+  // Here, since that makes OpenImageIO's pool of threads, which a fork would not have.
+  OIIO::attribute("threads", 1);
+  OIIO::attribute("exr_threads", -1);
   if (request.operation == "image" || request.operation == "small image") {
     auto const most = request.operation == "image" ? most_texels : few_texels;
     auto const [header, opacity] = read_image({input_path, request.name, request.any}, most);
@@ -52,9 +55,7 @@ void decode(Request const& request, Answer& answer) {
 
 }  // namespace
 
-int main(int count, char** arguments) {
-  OIIO::attribute("threads", 1);
-  OIIO::attribute("exr_threads", -1);
+int main() {
   // Without the destructors of libraries, which a damaged file may have led astray.
-  _exit(run_decoder(count, arguments, false, decode));
+  _exit(run_decoder(false, decode));
 }

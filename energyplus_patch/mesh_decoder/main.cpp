@@ -30,7 +30,7 @@ void decode(Request const& request, Answer& answer) {
 
 }  // namespace
 
-int main(int count, char** arguments) {
+int main() {
   // Without the destructors of libraries, which a damaged file may have led astray.
-  _exit(run_decoder(count, arguments, true, decode));
+  _exit(run_decoder(true, decode));
 }

@@ -1,6 +1,7 @@
 """Images as the program beside energyplus decodes them, against Pillow, picture by picture."""
 
 import os
+import socket
 import struct
 import subprocess
 
@@ -14,23 +15,49 @@ ANSWER = 0x31445347
 SECONDS, BYTES = 60, 4 << 30
 
 
-@pytest.fixture(scope="session")
+class Decoder:
+    """A decoding program that waits for requests, as energyplus_patch/decoding/server.h has them."""
+
+    def __init__(self, program):
+        self.link, other = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        self.link.settimeout(300)
+        with other:
+            self.server = subprocess.Popen([program], stdin=other)
+
+    def ask(self, *words, file):
+        """The exit status of the process that decodes, and what it answered."""
+        reading, writing = os.pipe()
+        with open(reading, "rb") as answer:
+            with open(writing, "wb"):
+                packet = b"".join(os.fsencode(str(word)) + b"\0" for word in words)
+                socket.send_fds(self.link, [packet], [file.fileno(), writing])
+                process = int.from_bytes(self.link.recv(4), "little", signed=True)
+            assert process > 0
+            found = answer.read()
+        return os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]), found
+
+    def close(self):
+        self.link.close()
+        assert self.server.wait(timeout=60) == 0
+
+
+@pytest.fixture
 def decoder(patched):
-    return patched.parent / "gpu_shading_image_decoder"
+    started = Decoder(patched.parent / "gpu_shading_image_decoder")
+    yield started
+    started.close()
 
 
 def ask(decoder, path, operation="image", assets="restricted", seconds=SECONDS, memory=BYTES):
     """The bytes of an answer. Fails the test if the program refuses the file."""
     with open(path, "rb") as file:
-        done = subprocess.run(
-            [decoder, str(os.getpid()), str(seconds), str(memory), operation, assets, str(path)],
-            stdin=file, capture_output=True, timeout=300)
-    assert done.returncode == 0, done
-    mark, status = struct.unpack_from("<II", done.stdout)
+        exit_status, answer = decoder.ask(os.getpid(), seconds, memory, operation, assets, path, file=file)
+    assert exit_status == 0
+    mark, status = struct.unpack_from("<II", answer)
     assert mark == ANSWER
     if status:
-        raise RuntimeError(done.stdout[12:].decode())
-    return done.stdout[8:]
+        raise RuntimeError(answer[12:].decode())
+    return answer[8:]
 
 
 def decoded(decoder, path, assets="restricted"):

@@ -7,7 +7,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <thread>
 
@@ -109,16 +111,32 @@ TEST_F(DecodingProcesses, AreNamedIfTheyAreMissing) {
               HasSubstr("no_decoder: No such file or directory"));
 }
 
-// The number of processes whose parent is a process.
-int children_of(pid_t parent) {
-  int children = 0;
+std::string status_of(pid_t process, std::string const& key) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with(key + ":\t")) return line.substr(key.size() + 2);
+  }
+  return "";
+}
+
+// The processes whose parent is a process.
+std::vector<pid_t> children_of(pid_t parent) {
+  std::vector<pid_t> children;
   for (auto const& entry : std::filesystem::directory_iterator("/proc")) {
-    std::ifstream status(entry.path() / "status");
-    for (std::string line; std::getline(status, line);) {
-      if (line == "PPid:\t" + std::to_string(parent)) ++children;
+    auto const process = std::atoi(entry.path().filename().c_str());
+    if (process > 0 && status_of(process, "PPid") == std::to_string(parent)) {
+      children.push_back(process);
     }
   }
   return children;
+}
+
+template <typename Condition>
+bool wait_for(Condition const& condition) {
+  for (int i = 0; i < 2000 && !condition(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return condition();
 }
 
 TEST_F(DecodingProcesses, EndWithTheProgramThatStartedThem) {
@@ -127,30 +145,52 @@ TEST_F(DecodingProcesses, EndWithTheProgramThatStartedThem) {
     refusal("sleep");
     _exit(0);
   }
-  auto const wait_for = [&](auto const& condition) {
-    for (int i = 0; i < 2000 && !condition(); ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return condition();
-  };
-  ASSERT_TRUE(wait_for([&] { return children_of(child) == 1; }));
-  pid_t decoder = 0;
-  std::ifstream("/proc/" + std::to_string(child) + "/task/" + std::to_string(child) +
-                "/children") >>
-      decoder;
-  ASSERT_GT(decoder, 0);
-  // Once it has asked for that.
-  auto const name = "/proc/" + std::to_string(decoder) + "/status";
+  // One that waits for requests, and one that decodes, confined by then.
+  std::vector<pid_t> all;
   ASSERT_TRUE(wait_for([&] {
-    std::ifstream status(name);
-    for (std::string line; std::getline(status, line);) {
-      if (line == "Seccomp:\t2") return true;
-    }
-    return false;
+    all = children_of(child);
+    return all.size() == 2 && std::any_of(all.begin(), all.end(), [](pid_t process) {
+             return status_of(process, "Seccomp") == "2";
+           });
   }));
   kill(child, SIGKILL);
   waitpid(child, nullptr, 0);
-  EXPECT_TRUE(wait_for([&] { return kill(decoder, 0) != 0; }));
+  for (auto const process : all) {
+    EXPECT_TRUE(wait_for([&] { return kill(process, 0) != 0; }));
+  }
+}
+
+TEST_F(DecodingProcesses, AreStartedByOneProgramForEachThread) {
+  std::vector<unsigned> const answer{7, 8};
+  auto const before = children_of(getpid());
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(ask("be good"), answer);
+    EXPECT_THAT(refusal("abort"), HasSubstr("crashed (Aborted)"));
+  }
+  auto const after = children_of(getpid());
+  EXPECT_LE(after.size(), before.size() + 1);
+  ASSERT_FALSE(after.empty());
+  std::thread([&] { EXPECT_EQ(ask("be good"), answer); }).join();
+  EXPECT_EQ(children_of(getpid()), after);
+  // If it has ended meanwhile, it is started again.
+  for (auto const process : after) kill(process, SIGKILL);
+  EXPECT_EQ(ask("be good"), answer);
+  // A fork has its own, and that of this process goes on.
+  auto const child = fork();
+  if (child == 0) _exit(ask("be good") == answer ? 0 : 1);
+  int status = -1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(ask("be good"), answer);
+}
+
+TEST_F(DecodingProcesses, FindFilesWhereTheProgramIsNow) {
+  auto const before = std::filesystem::current_path();
+  ask("be good");
+  std::filesystem::current_path(folder_.path());
+  file_ = file_.filename();
+  EXPECT_EQ(ask("be good"), (std::vector<unsigned>{7, 8}));
+  std::filesystem::current_path(before);
 }
 
 }  // namespace

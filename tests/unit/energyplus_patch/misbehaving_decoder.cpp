@@ -122,8 +122,8 @@ std::map<std::string, std::function<void(Answer&)>> const done{
 
 }  // namespace
 
-int main(int count, char** arguments) {
-  _exit(run_decoder(count, arguments, false, [](Request const& request, Answer& answer) {
+int main() {
+  _exit(run_decoder(false, [](Request const& request, Answer& answer) {
     if (auto const found = done.find(request.operation); found != done.end()) {
       found->second(answer);
     } else {

@@ -1,0 +1,190 @@
+#include "assets/decoding_server.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <optional>
+
+#include "assets/beside.h"
+#include "base/file_descriptor.h"
+#include "decoding/answer.h"
+#include "decoding/server.h"
+#include "gpu_shading/error.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+[[noreturn]] void fail(char const* what) {
+  throw Error(fmt::format("{}: {}", what, std::strerror(errno)));
+}
+
+// What posix_spawn() is to do besides.
+class Spawning {
+ public:
+  Spawning() {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawnattr_init(&attributes_);
+    sigset_t signals;
+    sigemptyset(&signals);
+    posix_spawnattr_setsigmask(&attributes_, &signals);
+    sigfillset(&signals);
+    posix_spawnattr_setsigdefault(&attributes_, &signals);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  }
+  Spawning(Spawning const&) = delete;
+  Spawning& operator=(Spawning const&) = delete;
+  ~Spawning() {
+    posix_spawn_file_actions_destroy(&actions_);
+    posix_spawnattr_destroy(&attributes_);
+  }
+
+  void give(int descriptor, int as) { posix_spawn_file_actions_adddup2(&actions_, descriptor, as); }
+
+  // Returns an errno value.
+  int start(pid_t& process, std::vector<std::string> words) {
+    std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
+    for (auto& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    return posix_spawn(&process, pointers.front(), &actions_, &attributes_, pointers.data(),
+                       environ);
+  }
+
+ private:
+  posix_spawn_file_actions_t actions_{};
+  posix_spawnattr_t attributes_{};
+};
+
+// A decoding program that waits for requests. Its children are this thread's, and end with it: one
+// thread's server is of no use to another.
+class Server {
+ public:
+  explicit Server(std::filesystem::path const& program)
+      : errors_(memfd_create("errors", MFD_CLOEXEC)) {
+    std::array<int, 2> ends{-1, -1};
+    if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+      fail("no socket for its decoding");
+    }
+    link_.emplace(ends[0]);
+    FileDescriptor const other(ends[1]);
+    Spawning spawning;
+    spawning.give(other.get(), STDIN_FILENO);
+    spawning.give(errors_.get(), STDERR_FILENO);
+    int const failure = spawning.start(process_, {program.string()});
+    if (failure != 0) {
+      process_ = -1;
+      throw Error(fmt::format("cannot be decoded without {}: {}", program.string(),
+                              std::strerror(failure)));
+    }
+  }
+  Server(Server const&) = delete;
+  Server& operator=(Server const&) = delete;
+  ~Server() {
+    if (is_ours()) wait();
+  }
+
+  // Whether this process started it, and is not a fork of the one that did.
+  bool is_ours() const { return owner_ == getpid() && process_ > 0; }
+
+  // The number of the new process; nothing if the server has ended.
+  std::optional<pid_t> start(std::vector<std::string> const& words, int input, int output) {
+    if (!ask(words, input, output)) return std::nullopt;
+    std::int32_t reply = 0;
+    ssize_t got = 0;
+    do {
+      got = recv(link_->get(), &reply, sizeof reply, 0);
+    } while (got < 0 && errno == EINTR);
+    if (got != sizeof reply) return std::nullopt;
+    if (reply <= 0) throw Error("no process for its decoding");
+    return reply;
+  }
+
+  // Why it ended.
+  std::string reason() {
+    std::array<char, decoding::longest_message> text{};
+    int const status = wait();
+    // What the system says if a library is missing.
+    auto const length = pread(errors_.get(), text.data(), text.size(), 0);
+    std::string said(text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, length)));
+    said.resize(std::min(said.size(), said.find('\n')));
+    return fmt::format("the program that decodes it {} {}{}{}",
+                       WIFSIGNALED(status) ? "was ended by signal" : "ended with status",
+                       WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status),
+                       said.empty() ? "" : ": ", said);
+  }
+
+ private:
+  bool ask(std::vector<std::string> const& words, int input, int output) const {
+    std::string bytes;
+    for (auto const& word : words) bytes.append(word).push_back('\0');
+    if (bytes.size() > decoding::longest_request) throw Error("its name is too long");
+    std::array<int, 2> const descriptors{input, output};
+    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof descriptors)> control{};
+    iovec part{bytes.data(), bytes.size()};
+    msghdr message{};
+    message.msg_iov = &part;
+    message.msg_iovlen = 1;
+    message.msg_control = control.data();
+    message.msg_controllen = control.size();
+    auto* const header = CMSG_FIRSTHDR(&message);
+    header->cmsg_level = SOL_SOCKET;
+    header->cmsg_type = SCM_RIGHTS;
+    header->cmsg_len = CMSG_LEN(sizeof descriptors);
+    std::memcpy(CMSG_DATA(header), descriptors.data(), sizeof descriptors);
+    ssize_t sent = 0;
+    do {
+      sent = sendmsg(link_->get(), &message, MSG_NOSIGNAL);
+    } while (sent < 0 && errno == EINTR);
+    return sent == static_cast<ssize_t>(bytes.size());
+  }
+
+  int wait() {
+    int status = 0;
+    // Which ends it if it still serves, also where a fork of this process has the link too.
+    shutdown(link_->get(), SHUT_RDWR);
+    while (process_ > 0 && waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    }
+    process_ = -1;
+    return status;
+  }
+
+  pid_t owner_ = getpid();
+  FileDescriptor errors_;
+  std::optional<FileDescriptor> link_;
+  pid_t process_ = -1;
+};
+
+}  // namespace
+
+pid_t start_decoding(char const* program, std::vector<std::string> const& words, int input,
+                     int output) {
+  thread_local std::map<std::string, Server> servers;
+  auto const path = beside_this_code(program);
+  auto known = servers.find(path);
+  if (known != servers.end()) {
+    if (known->second.is_ours()) {
+      if (auto const process = known->second.start(words, input, output)) return *process;
+    }
+    // It waited too long and ended, or is another process's.
+    servers.erase(known);
+  }
+  auto& server = servers.try_emplace(path, path).first->second;
+  if (auto const process = server.start(words, input, output)) return *process;
+  auto const why = server.reason();
+  servers.erase(path);
+  throw Error(why);
+}
+
+}  // namespace gpu_shading::energyplus
