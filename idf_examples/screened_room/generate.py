@@ -19,6 +19,7 @@ ROOM = (6.0, 6.0, 3.0)
 WINDOW = (1.0, 0.6, 5.0, 2.4)  # x, z, x, z
 SCREEN = (-0.6, 0.0, 6.6, 4.0)
 DISTANCE = 0.4
+POINTS = ((3.0, 1.5, 0.8), (3.0, 4.5, 0.8))  # where daylight dims the lights
 AZIMUTHS = {"south": 180.0, "east": 90.0, "west": 270.0}
 
 THICKNESS = 0.00635
@@ -70,6 +71,14 @@ ZoneHVAC:EquipmentConnections,Room,Equipment,Inlet,,Room Air,Return;
 ZoneHVAC:EquipmentList,Equipment,SequentialLoad,ZoneHVAC:IdealLoadsAirSystem,Ideal Loads,1,1;
 ZoneHVAC:IdealLoadsAirSystem,Ideal Loads,,Inlet;
 
+! Lights of 10 W/m2 in working hours, dimmed by daylight at two points of the work plane.
+Schedule:Compact,Working Hours,Any,Through: 12/31,For: Weekdays,Until: 8:00,0,Until: 18:00,1,Until: 24:00,0,
+  For: AllOtherDays,Until: 24:00,0;
+Lights,Lamps,Room,Working Hours,Watts/Area,,10,,0,0.4,0.1,1.0;
+
+Output:Variable,*,Zone Lights Electricity Energy,Monthly;
+Output:Variable,*,Zone Air System Sensible Heating Energy,Monthly;
+Output:Variable,*,Zone Air System Sensible Cooling Energy,Monthly;
 Output:Variable,*,Surface Window Transmitted Solar Radiation Energy,Monthly;
 Output:Variable,*,Surface Window Transmitted Beam Solar Radiation Energy,Monthly;
 Output:SQLite,Simple;
@@ -116,9 +125,19 @@ def room(facing):
            + vertices(upright(*WINDOW), facing))  # fmt: skip
 
 
+def daylighting(facing):
+    """Dims half of the lights by the light near the window, and half by that at the back of the room."""
+    points = ("Front Point", "Back Point")
+    yield ("\nDaylighting:Controls,Dimming,Room,SplitFlux,,Continuous,0.2,0.1,,,,,,,"
+           + ",".join(f"\n  {name},0.5,500" for name in points) + ";\n")  # fmt: skip
+    for name, place in zip(points, POINTS, strict=True):
+        yield f"Daylighting:ReferencePoint,{name},Room,\n" + vertices([place], facing)
+
+
 def model(facing="south", screen="small holes"):
     yield HEAD.format(screen=screen, facing=facing)
     yield from room(facing)
+    yield from daylighting(facing)
     if screen == "none":
         return
     schedule = "Open Share" if screen == "schedule" else ""

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the room for a year with each screen, facing three ways, and prints its solar radiation as Markdown.
+"""Runs the room for a year with each screen, facing three ways, and prints its sun and its energy as Markdown.
 
     study.py [-o DIR]
 """
@@ -25,7 +25,13 @@ SCREENS = {
 }
 
 
+# Of a year, in kWh.
+SUN = (results.BEAM, results.SOLAR)
+ENERGY = (results.LIGHTS, results.HEATING, results.COOLING)
+
+
 def run(facing, screen, folder):
+    """(totals by variable, seconds)."""
     folder.mkdir()
     path = folder / "screened_room.idf"
     path.write_text("".join(generate.model(facing, screen)))
@@ -36,24 +42,41 @@ def run(facing, screen, folder):
     if not done.completed:
         sys.exit(f"{facing}, {screen}: {done.why()}")
     values = results.Results(done.folder, "Monthly")
-    return (values.total(results.BEAM), values.total(results.SOLAR)), done.seconds
+    return {variable: values.total(variable) for variable in (*SUN, *ENERGY)}, done.seconds
 
 
-def compare(folder):
+def print_sun(found):
     print("| facing | screen | beam kWh | % of none | % of schedule | total kWh | % of none | % of schedule "
           "| seconds |")
     print("|---|---|---:|---:|---:|---:|---:|---:|---:|")
+    for (facing, screen), (totals, seconds) in found.items():
+        cells = [facing, SCREENS[screen]]
+        for variable in SUN:
+            cells.append(f"{totals[variable]:,.0f}")
+            for other in ("none", "schedule"):
+                known = list(SCREENS).index(other) <= list(SCREENS).index(screen)
+                share = 100 * totals[variable] / found[facing, other][0][variable]
+                cells.append(f"{share:.1f} %" if known else "")
+        print(f"| {' | '.join(cells)} | {seconds:.1f} |")
+
+
+def print_energy(found):
+    print("| facing | screen | solar kWh | lights kWh | heating kWh | cooling kWh |")
+    print("|---|---|---:|---:|---:|---:|")
+    for (facing, screen), (totals, _) in found.items():
+        amounts = " | ".join(f"{totals[variable]:,.0f}" for variable in (results.SOLAR, *ENERGY))
+        print(f"| {facing} | {SCREENS[screen]} | {amounts} |")
+
+
+def compare(folder):
+    found = {}
     for facing in generate.AZIMUTHS:
-        found = []
-        for screen, words in SCREENS.items():
-            sun, seconds = run(facing, screen, folder / f"{facing} {screen}".replace(" ", "_"))
-            found.append(sun)
-            cells = [f"{facing} | {words}"]
-            for part in (0, 1):
-                cells.append(f"{sun[part]:,.0f}")
-                cells += [f"{100 * sun[part] / other[part]:.1f} %" if len(found) > number else ""
-                          for number, other in enumerate((found[0], found[min(1, len(found) - 1)]))]
-            print(f"| {' | '.join(cells)} | {seconds:.1f} |", flush=True)
+        for screen in SCREENS:
+            found[facing, screen] = run(facing, screen, folder / f"{facing} {screen}".replace(" ", "_"))
+            print(f"{facing}, {screen}: {found[facing, screen][1]:.1f} s", file=sys.stderr)
+    print_sun(found)
+    print()
+    print_energy(found)
 
 
 def main():

@@ -11,6 +11,7 @@ QUANTITIES = (
     ("beam alone", results.BEAM),
     ("Heating", results.HEATING),
     ("Cooling", results.COOLING),
+    ("Lighting", results.LIGHTS),
 )
 HOURS = 24
 SAME = 9  # decimals in which the sunlit fractions of equal hours agree
@@ -94,6 +95,32 @@ def energies(runs, calendar):
     names = [f"{environment}: {month_name(month)}" if several else month_name(month) for environment, month in by_month]
     return ([(environment, amounts(places)) for environment, places in by_environment.items()],
             list(zip(names, map(amounts, by_month.values()), strict=True)))
+
+
+@dataclass
+class Daylight:
+    """A reference point of daylighting: mean lux in each run over the hours with light there in any of them, and the
+    largest hourly |change| of each run but the first."""
+
+    point: str
+    hours: int
+    values: list
+    largest: list
+
+    change, percent = Amount.change, Amount.percent
+
+
+def daylight(runs, calendar):
+    found = []
+    for point in runs[0].results.illuminance:
+        if not all(point in run.results.illuminance for run in runs):
+            continue
+        series = np.array([np.asarray(run.results.illuminance[point])[calendar.places] for run in runs])
+        lit = series.max(axis=0) > 0.0
+        if lit.any():
+            found.append(Daylight(point, int(lit.sum()), series[:, lit].mean(axis=1).tolist(),
+                                  np.abs(series[1:] - series[0]).max(axis=1).tolist()))
+    return found
 
 
 @dataclass

@@ -194,6 +194,7 @@ def write(output, everything, weather, most, further):
         months=by_month,
         month_charts=_months(runs, by_month),
         peaks=facts.peaks(runs, calendar),
+        daylight=facts.daylight(runs, calendar),
         lines=_lines(runs, shown),
         overall=_overall(runs),
         details=details,

@@ -16,6 +16,9 @@ SHADOW_UPDATE = (1, "shading_calculation_update_frequency_method")
 SHADOW_RESOLUTION = (5, "pixel_counting_resolution")
 RUN_DESIGN_DAYS = (3, "run_simulation_for_sizing_periods")
 RUN_WEATHER = (4, "run_simulation_for_weather_file_run_periods")
+# Of a Daylighting:Controls: the first field of its reference points, which have three each.
+FIRST_POINT = 13
+FIELDS_OF_POINT = 3
 
 
 def read(path):
@@ -60,6 +63,11 @@ class Idf:
             if name == class_name.lower() and field[0] < len(places):
                 return self.text[slice(*places[field[0]])] or default
         return default
+
+    def most_daylighting_points(self):
+        """The number of reference points of the Daylighting:Controls that has the most; 0 without one."""
+        return max((-(-(len(places) - FIRST_POINT) // FIELDS_OF_POINT) for name, places, _, _ in self.objects
+                    if name == "daylighting:controls"), default=0)
 
     def set_field(self, class_name, field, value):
         """Sets a field of the first object of the class, which is created if there is none."""
@@ -131,6 +139,11 @@ class EpJson:
         key = self._key(class_name)
         first = next(iter(self.data[key].values()), {}) if key else {}
         return str(first.get(field[1], "")) or default
+
+    def most_daylighting_points(self):
+        key = self._key("Daylighting:Controls")
+        return max((len(fields.get("control_data", ())) for fields in (self.data[key] if key else {}).values()),
+                   default=0)
 
     def set_field(self, class_name, field, value):
         key = self._key(class_name) or class_name

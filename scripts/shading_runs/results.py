@@ -15,8 +15,11 @@ COOLING = "Zone Air System Sensible Cooling Energy"
 # Including latent heat and outdoor air, for zones with ideal loads.
 IDEAL_HEATING = "Zone Ideal Loads Zone Total Heating Energy"
 IDEAL_COOLING = "Zone Ideal Loads Zone Total Cooling Energy"
-VARIABLES = (SUNLIT, COSINE, SOLAR, BEAM, HEATING, COOLING)
-OF_ZONES = (HEATING, COOLING)
+LIGHTS = "Zone Lights Electricity Energy"
+VARIABLES = (SUNLIT, COSINE, SOLAR, BEAM, HEATING, COOLING, LIGHTS)
+OF_ZONES = (HEATING, COOLING, LIGHTS)
+# With the number of a reference point; the key is the Daylighting:Controls.
+POINT = "Daylighting Reference Point {} Illuminance"
 AZIMUTH, ALTITUDE = "Site Solar Azimuth Angle", "Site Solar Altitude Angle"
 J_PER_KWH = 3.6e6
 
@@ -35,8 +38,12 @@ def instrument(model, frequency="Hourly"):
     """Adds to an input file the outputs that Results reads."""
     model.add_unique("Output:SQLite", ["Simple"], ["option_type"])
     model.remove(lambda name: name == "outputcontrol:files")
+    points = model.most_daylighting_points()
     for variable in VARIABLES:
-        model.add_output_variable(variable, frequency)
+        if variable != LIGHTS or points:
+            model.add_output_variable(variable, frequency)
+    for number in range(1, points + 1):
+        model.add_output_variable(POINT.format(number), frequency)
     # At every timestep: an hourly mean of the azimuth is wrong where the sun passes north.
     for variable in (AZIMUTH, ALTITUDE):
         model.add_output_variable(variable, "Timestep")
@@ -69,7 +76,8 @@ def mean_direction(directions):
 
 
 class Results:
-    """All values of one run: values[variable][receiver or zone name] is an array over times.
+    """All values of one run: values[variable][receiver or zone name] is an array over times, and so is
+    illuminance["CONTROLS, point 1"], in lux.
 
     times are (environment, month, day, hour 1 .. 24, minute) at the end of the hour; multipliers are those of zones.
     """
@@ -108,6 +116,14 @@ class Results:
             if key in (self.multipliers if variable in OF_ZONES else self.receivers):
                 # A model that asks for the same output itself has it twice; the later entry replaces the earlier.
                 target[index] = self.values[variable][key] = array("d")
+        self.illuminance = {}
+        for index, variable, key in data.execute(
+            "SELECT ReportDataDictionaryIndex, Name, KeyValue FROM ReportDataDictionary "
+            "WHERE ReportingFrequency = ? AND Name LIKE ? ORDER BY KeyValue, Name, ReportDataDictionaryIndex DESC",
+            (frequency, POINT.format("%")),
+        ):
+            number = variable.removeprefix(POINT.split("{}")[0]).split()[0]
+            target[index] = self.illuminance[f"{key}, point {number}"] = array("d")
         angle = {index: (AZIMUTH, ALTITUDE).index(variable) for index, variable in data.execute(
             "SELECT ReportDataDictionaryIndex, Name FROM ReportDataDictionary "
             "WHERE ReportingFrequency = 'Zone Timestep' AND Name IN (?, ?)", (AZIMUTH, ALTITUDE))}

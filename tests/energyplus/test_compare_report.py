@@ -4,6 +4,7 @@ import csv
 import hashlib
 import subprocess
 
+import daylit_rooms
 import numpy as np
 import pytest
 from eso_file import EsoFile
@@ -287,3 +288,29 @@ def test_messages_of_a_run(tmp_path):
         ("Fatal", "Fourth"),
     ]
     assert run.severe == ["Severe: Second", "Fatal: Fourth"]
+
+
+def test_daylight_and_lighting_are_those_reported(patched, louvres, weather, tmp_path):
+    """Twelve louvres, and the same louvres half transparent: more light at the point, less electricity."""
+    model = tmp_path / "day.idf"
+    model.write_text(daylit_rooms.plain(louvres(12)))
+    model.with_name("glass.idf").write_text("GPUShading:TransparentShade,Glass,Louvre *,Constant,0.5;\n")
+    folder = tmp_path / "out"
+    done = compare(model, folder, weather, "--a", "gpu", "--b", model.with_name("glass.idf"), "--", "-D")
+    assert done.returncode == 0, done.stderr
+    tables = Tables((folder / "report.html").read_text(encoding="utf-8")).tables
+    runs = [EsoFile(folder / key / "eplusout.eso") for key in ("a", "b")]
+    (row,) = tables["table-daylight"][1:]
+    assert row[0] == "BOX LIGHT, point 1"
+    lux = np.array([list(run.values["Daylighting Reference Point 1 Illuminance", "BOX LIGHT"].values())
+                    for run in runs])
+    lit = lux.max(axis=0) > 0.0
+    assert int(row[1]) == lit.sum() >= 8
+    means = lux[:, lit].mean(axis=1)
+    assert means[1] > 1.1 * means[0]
+    assert list(map(number, row[2:5])) == pytest.approx([*means, means[1] - means[0]], abs=0.006)
+    assert number(row[6]) == pytest.approx(np.abs(lux[1] - lux[0]).max(), abs=0.006)
+    lighting = next(row for row in tables["table-energy"] if "Lighting" in row)
+    energies = [sum(run.values["Zone Lights Electricity Energy", "BOX"].values()) / 3.6e6 for run in runs]
+    assert energies[1] < energies[0]
+    assert list(map(number, lighting[2:4])) == pytest.approx(energies, abs=ENERGY)
