@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "base/console.h"
+
 namespace gpu_shading::energyplus {
 
 Progress::Progress(std::string work, std::size_t total)
@@ -22,7 +24,7 @@ Progress::~Progress() {
 void Progress::at(std::size_t done) {
   constexpr int all = 100;
   constexpr int tenth = 10;
-  if (total_ == 0) return;
+  if (total_ == 0 || is_quiet()) return;
   int const percent = static_cast<int>(done * all / total_);
   int const next = terminal_ ? shown_ + 1 : shown_ / tenth * tenth + tenth;
   if (percent < next || Clock::now() - start_ < patience_) return;

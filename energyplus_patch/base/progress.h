@@ -8,7 +8,7 @@
 namespace gpu_shading::energyplus {
 
 // Progress of long work on standard error: a bar on a terminal, otherwise a line at every tenth.
-// Silent for work that takes less than a second.
+// Silent for work that takes less than a second, and with set_quiet().
 class Progress {
  public:
   using Clock = std::chrono::steady_clock;

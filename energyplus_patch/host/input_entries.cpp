@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "base/console.h"
 #include "base/error_line.h"
 #include "base/naming.h"
 #include "host/run.h"

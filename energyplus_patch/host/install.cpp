@@ -70,6 +70,7 @@ Choices given_choices(int count, char const* const* options) {
   auto choices = take_flags(arguments);
   if (!arguments.empty()) throw Error(fmt::format("{}: no such flag", arguments.front()));
   choices.fill_from(read_environment());
+  apply_to_process(choices);
   return choices;
 }
 

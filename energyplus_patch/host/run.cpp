@@ -1,8 +1,8 @@
 #include "host/run.h"
 
-#include <cstdio>
 #include <ostream>
 
+#include "base/console.h"
 #include "base/error_line.h"
 #include "base/text.h"
 
@@ -16,10 +16,6 @@ Installation& installation() {
 Run& this_run() {
   thread_local Run run;
   return run;
-}
-
-void print_line(std::string const& line) {
-  std::fprintf(stderr, "gpu_shading: %s\n", one_line(line).c_str());
 }
 
 Messages messages_of(Run const& run) {

@@ -39,9 +39,6 @@ struct Run {
 };
 Run& this_run();
 
-// One line on standard error.
-void print_line(std::string const& line);
-
 // Where a session's messages go: this run's .err and .eio.
 Messages messages_of(Run const& run);
 

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "base/console.h"
 #include "base/error_line.h"
 #include "base/process.h"
 #include "base/text.h"
@@ -136,8 +137,7 @@ int run_shaded(char const* program, std::vector<std::string> arguments, Choices 
   constexpr int cannot_patch = 2;
   int const installed = module.install(energyplus.c_str(), flags.count(), flags.data());
   if (installed == cannot_patch && method == Method::automatic) {
-    fmt::print(stderr, "gpu_shading: sunlit fractions are passed as schedules: {}\n",
-               one_line(module.message()));
+    print_line(fmt::format("sunlit fractions are passed as schedules: {}", module.message()));
     return run_scheduled(energyplus, module, arguments, flags);
   }
   if (installed != 0) throw Error(module.message());
@@ -153,8 +153,10 @@ int launch(int argc, char** argv) {
   auto const environment = read_environment();
   if (!choices.any() && !environment.mode) run_official(argv);
   choices.fill_from(environment);
+  apply_to_process(choices);
 
   auto const line = read_command_line(arguments);
+  if (line.version) fmt::print("gpu_shading {}\n", GPU_SHADING_VERSION);
   if (line.help) std::fputs(std::string(flags_help()).c_str(), stdout);
   if (line.model) {
     check_model(*line.model, choices);

@@ -22,7 +22,9 @@ CommandLine read_command_line(std::vector<std::string> const& arguments) {
       }
     } else if (argument == "-h" || argument == "--help") {
       line.help = true;
-    } else if (argument == "-v" || argument == "--version" || argument == "auxiliary") {
+    } else if (argument == "-v" || argument == "--version") {
+      line.version = true;
+    } else if (argument == "auxiliary") {
       no_run = true;
     } else if (argument == "-m" || argument == "--epmacro") {
       line.preprocessed = true;
@@ -38,7 +40,7 @@ CommandLine read_command_line(std::vector<std::string> const& arguments) {
     }
   }
   if (!line.model) line.model = "in.idf";
-  if (line.preprocessed || no_run || line.help) line.model.reset();
+  if (line.preprocessed || no_run || line.help || line.version) line.model.reset();
   return line;
 }
 

@@ -19,6 +19,7 @@ struct CommandLine {
   bool design_days = false;                      // -D
   bool preprocessed = false;                     // -m
   bool help = false;
+  bool version = false;
 };
 
 // `arguments`: without the program's name and our flags.

@@ -3,28 +3,39 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <variant>
 
+#include "base/console.h"
+#include "base/nearest_word.h"
 #include "base/text.h"
 #include "extensions/extension_fields.h"
 #include "extensions/field_text.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/renderer.h"
+#include "gpu_shading/threads.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 namespace settings = extension::settings;
 
-Mode parse_mode(std::string const& text) {
-  for (auto const* word : {"auto", "on", "yes", "true", "1"}) {
-    if (same_name(text, word)) return Mode::automatic;
+// Whether one of the words for yes or no.
+std::optional<bool> parse_switch(std::string const& text) {
+  for (auto const* word : {"on", "yes", "true", "1"}) {
+    if (same_name(text, word)) return true;
   }
   for (auto const* word : {"off", "no", "false", "0"}) {
-    if (same_name(text, word)) return Mode::off;
+    if (same_name(text, word)) return false;
   }
+  return std::nullopt;
+}
+
+Mode parse_mode(std::string const& text) {
+  if (auto const chosen = parse_switch(text)) return *chosen ? Mode::automatic : Mode::off;
+  if (same_name(text, "auto")) return Mode::automatic;
   if (same_name(text, "require")) return Mode::require;
   throw Error(fmt::format("is \"{}\", expected auto, require or off", text));
 }
@@ -47,6 +58,21 @@ Method parse_method(std::string const& text) {
   if (same_name(text, "patched")) return Method::patched;
   if (same_name(text, "scheduled")) return Method::scheduled;
   throw Error(fmt::format("is \"{}\", expected auto, patched or scheduled", text));
+}
+
+int parse_threads(std::string const& text) {
+  constexpr double most = 4096;
+  auto const number = parse_number(text);
+  if (!number || std::floor(*number) != *number || *number < 1 || *number > most) {
+    throw Error(fmt::format("is {}, expected a whole number from 1", in_quotes(text)));
+  }
+  return static_cast<int>(*number);
+}
+
+bool parse_quiet(std::string const& text) {
+  auto const quiet = parse_switch(text);
+  if (!quiet) throw Error(fmt::format("is {}, expected on or off", in_quotes(text)));
+  return *quiet;
 }
 
 Update update_of(settings::UpdateFrequency frequency) {
@@ -98,6 +124,7 @@ struct Choice {
   FieldInfo const* field;  // of GPUShading:Settings, or nullptr
   // From a text that is not blank where there is a field, and that `field` allows.
   std::function<void(Choices&, std::string const&)> set;
+  char const* bare = nullptr;  // what the flag stands for alone; nullptr: a value follows it
 };
 
 // What a field of the settings holds, for a text that was checked.
@@ -106,10 +133,10 @@ auto value_of(Field<Value> const& field, std::string const& text) {
   return parse(field, text, field.title);
 }
 
-std::array<Choice, 14> const& all_choices() {
-  static std::array<Choice, 14> const choices{{
+std::array<Choice, 16> const& all_choices() {
+  static std::array<Choice, 16> const choices{{
       {"--gpu-shading", "GPU_SHADING", nullptr,
-       [](Choices& c, std::string const& v) { c.mode = parse_mode(v); }},
+       [](Choices& c, std::string const& v) { c.mode = parse_mode(v); }, "auto"},
       {"--gpu-shading-resolution", "GPU_SHADING_RESOLUTION", &settings::resolution,
        [](Choices& c, std::string const& v) { c.resolution = value_of(settings::resolution, v); }},
       {"--gpu-shading-error", "GPU_SHADING_ERROR", &settings::error,
@@ -136,6 +163,10 @@ std::array<Choice, 14> const& all_choices() {
        [](Choices& c, std::string const& v) { c.method = parse_method(v); }},
       {"--gpu-shading-assets", "GPU_SHADING_ASSETS", nullptr,
        [](Choices& c, std::string const& v) { c.assets = parse_assets(v); }},
+      {"--gpu-shading-threads", "GPU_SHADING_THREADS", nullptr,
+       [](Choices& c, std::string const& v) { c.threads = parse_threads(v); }},
+      {"--gpu-shading-quiet", "GPU_SHADING_QUIET", nullptr,
+       [](Choices& c, std::string const& v) { c.quiet = parse_quiet(v); }, "on"},
       {"--gpu-shading-stages", "GPU_SHADING_STAGES", nullptr,
        [](Choices& c, std::string const& v) { c.stages = std::filesystem::absolute(v); }},
       {"--gpu-shading-task", nullptr, nullptr,
@@ -257,21 +288,35 @@ void Choices::fill_from(Choices const& lower) {
   fill(lean, lower.lean);
   fill(method, lower.method);
   fill(assets, lower.assets);
+  fill(threads, lower.threads);
+  fill(quiet, lower.quiet);
   fill(stages, lower.stages);
   fill(task, lower.task);
 }
 
 bool Choices::any() const {
   return mode || resolution || error || update || device || file || report || lean || cache ||
-         method || assets;
+         method || assets || threads || quiet;
 }
+
+namespace {
+
+std::string suggested(std::string const& flag) {
+  std::vector<std::string> flags;
+  for (auto const& choice : all_choices()) flags.emplace_back(choice.flag);
+  auto const near = did_you_mean(flag, flags);
+  return near.empty() ? "; see energyplus --gpu-shading --help" : near;
+}
+
+}  // namespace
 
 Choices take_flags(std::vector<std::string>& arguments) {
   Choices choices;
   std::vector<std::string> rest;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     std::string const argument = arguments[i];
-    if (!argument.starts_with("--gpu-shading")) {
+    // EnergyPlus has no flags that begin so: others are ours, mistyped.
+    if (!argument.starts_with("--gpu")) {
       rest.push_back(argument);
       continue;
     }
@@ -282,13 +327,13 @@ Choices take_flags(std::vector<std::string>& arguments) {
       if (choice.flag == flag) found = &choice;
     }
     if (found == nullptr) {
-      throw Error(fmt::format("{}: no such flag; see energyplus --gpu-shading --help", flag));
+      throw Error(fmt::format("{}: no such flag{}", printable(flag), suggested(flag)));
     }
     std::string value;
     if (equals != std::string::npos) {
       value = argument.substr(equals + 1);
-    } else if (flag == "--gpu-shading") {
-      value = "auto";
+    } else if (found->bare != nullptr) {
+      value = found->bare;
     } else if (i + 1 < arguments.size()) {
       value = arguments[++i];
     } else {
@@ -320,9 +365,21 @@ std::vector<std::string> to_flags(Choices const& choices) {
   if (choices.lean) add("--gpu-shading-lean", name_of(*choices.lean));
   if (choices.method) add("--gpu-shading-method", name_of(*choices.method));
   if (choices.assets) add("--gpu-shading-assets", name_of(*choices.assets));
+  if (choices.threads) add("--gpu-shading-threads", std::to_string(*choices.threads));
+  if (choices.quiet) add("--gpu-shading-quiet", *choices.quiet ? "on" : "off");
   if (choices.stages) add("--gpu-shading-stages", choices.stages->string());
   if (choices.task) add("--gpu-shading-task", choices.task->string());
   return flags;
+}
+
+void apply_to_process(Choices const& choices) {
+  set_quiet(choices.quiet.value_or(false));
+  if (!choices.threads) return;
+  limit_threads(*choices.threads);
+  // OpenImageIO, also in the processes that decode, and Mesa's renderer, which has threads beside
+  // the calling one.
+  setenv("OPENIMAGEIO_THREADS", std::to_string(*choices.threads).c_str(), 1);
+  setenv("LP_NUM_THREADS", std::to_string(*choices.threads - 1).c_str(), 1);
 }
 
 Choices read_environment() {
@@ -400,6 +457,10 @@ std::string_view flags_help() {
                                        JPEG, TIFF, EXR, BMP, TGA, HDR, OBJ, COLLADA and glTF, with
                                        the files beside them that they name). any: all formats of
                                        OpenImageIO and Assimp, with files anywhere
+  --gpu-shading-threads N              How many threads compute at a time, at most (default: as many
+                                       as there are cores that this process may use)
+  --gpu-shading-quiet                  Print nothing but warnings and errors; EnergyPlus's .err still
+                                       has all of our messages
 )";
 }
 

@@ -61,6 +61,8 @@ struct Choices {
   // Not in GPUShading:Settings: a model does not widen what is read for it.
   std::optional<Assets> assets = std::nullopt;
   std::optional<Method> method = std::nullopt;
+  std::optional<int> threads = std::nullopt;
+  std::optional<bool> quiet = std::nullopt;
   // For compare_shading: gets the table of where the time went.
   std::optional<std::filesystem::path> stages = std::nullopt;
   // For the gpu_shading program: EnergyPlus is run for the task in this file alone (task_file.h).
@@ -87,6 +89,9 @@ std::string name_of(Assets assets);
 
 // The inverse of take_flags().
 std::vector<std::string> to_flags(Choices const& choices);
+
+// Applies threads and quiet, which hold for the whole process.
+void apply_to_process(Choices const& choices);
 
 // GPU_SHADING, GPU_SHADING_RESOLUTION, ...; empty variables count as unset.
 Choices read_environment();

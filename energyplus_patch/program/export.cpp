@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "base/console.h"
 #include "base/files.h"
 #include "base/staged_files.h"
 #include "gpu_shading/error.h"
@@ -12,8 +13,6 @@
 
 namespace gpu_shading::energyplus {
 namespace {
-
-void say(std::string const& line) { fmt::print(stderr, "gpu_shading: {}\n", line); }
 
 void complete(EnergyPlusCall& call) {
   require_file(call.model);
@@ -35,7 +34,7 @@ void export_scheduled(EnergyPlusCall call, Choices const& choices,
   StagedFiles files(target.parent_path());
   auto const staged = files.add(target.filename().string());
   std::filesystem::create_directory(staged);
-  auto const model = prepare_scheduled(call, choices, staged, say);
+  auto const model = prepare_scheduled(call, choices, staged, print_line);
   // The folder itself is one of those beside the model, if it lies there.
   if (auto const link = staged / target.filename(); std::filesystem::is_symlink(link)) {
     std::filesystem::remove(link);
@@ -47,7 +46,7 @@ void export_scheduled(EnergyPlusCall call, Choices const& choices,
 void export_imported(EnergyPlusCall call, Choices const& choices,
                      std::filesystem::path const& file) {
   complete(call);
-  auto const table = sunlit_fractions(call, choices, say);
+  auto const table = sunlit_fractions(call, choices, print_line);
   write_whole_file(file, [&](std::ostream& out) { write_imported_file(table, out); });
 }
 

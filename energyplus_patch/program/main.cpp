@@ -17,6 +17,7 @@
 
 #include "assets/picture_sheet.h"
 #include "base/error_line.h"
+#include "base/nearest_word.h"
 #include "base/process.h"
 #include "base/text.h"
 #include "gpu_shading/error.h"
@@ -267,14 +268,45 @@ void add_sample(CLI::App& app, Choices const& choices) {
   });
 }
 
+std::vector<std::string> names_of(std::vector<CLI::App const*> const& commands) {
+  std::vector<std::string> names(commands.size());
+  std::transform(commands.begin(), commands.end(), names.begin(),
+                 [](CLI::App const* command) { return command->get_name(); });
+  return names;
+}
+
+void refuse_mistyped_subcommand(CLI::App const& app, std::vector<std::string> const& arguments) {
+  if (arguments.empty() || arguments.front().starts_with("-")) return;
+  auto const& word = arguments.front();
+  auto const names = names_of(app.get_subcommands({}));
+  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  throw Error(fmt::format("{}: no such subcommand{}", printable(word), did_you_mean(word, names)));
+}
+
+// Names the first argument that no subcommand takes.
+[[noreturn]] void refuse_extras(CLI::App const& app) {
+  std::vector<std::string> flags;
+  for (auto const* const command : app.get_subcommands()) {
+    for (auto const* const option : command->get_options()) {
+      for (auto const& name : option->get_lnames()) flags.push_back("--" + name);
+    }
+  }
+  auto const extras = app.remaining(true);
+  auto const flag = extras.empty() ? "" : extras.front().substr(0, extras.front().find('='));
+  auto const* const kind = flag.starts_with("-") ? "no such flag" : "not expected";
+  throw Error(fmt::format("{}: {}{}", printable(flag), kind, did_you_mean(flag, flags)));
+}
+
 int run(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   auto choices = take_flags(arguments);
   choices.fill_from(read_environment());
+  apply_to_process(choices);
   CLI::App app{
       "List devices, check and draw models, sample and export sunlit fractions for EnergyPlus with "
       "GPU shading",
       "gpu_shading"};
+  app.set_version_flag("--version", "gpu_shading " GPU_SHADING_VERSION);
   app.require_subcommand(1);
   bool right = true;
   add_devices(app, right);
@@ -282,10 +314,13 @@ int run(int argc, char** argv) {
   add_view(app, choices);
   add_sample(app, choices);
   add_export(app, choices);
+  refuse_mistyped_subcommand(app, arguments);
   // CLI11 expects them in reverse order.
   std::reverse(arguments.begin(), arguments.end());
   try {
     app.parse(std::move(arguments));
+  } catch (CLI::ExtrasError const&) {
+    refuse_extras(app);
   } catch (CLI::ParseError const& error) {
     return app.exit(error);
   }

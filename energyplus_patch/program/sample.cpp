@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "base/console.h"
 #include "base/files.h"
 #include "base/process.h"
 #include "cache/digest.h"
@@ -26,8 +27,6 @@ using Path = std::filesystem::path;
 using Json = nlohmann::ordered_json;
 
 constexpr int steps_per_hour = 4;
-
-void say(std::string const& line) { fmt::print(stderr, "gpu_shading: {}\n", line); }
 
 std::string hash_of(Path const& file) {
   Digest digest;
@@ -92,7 +91,7 @@ std::string render(Source const& source, Path const& parts, Shard const& shard) 
   SamplesTask const task{source.asked(), source.latitude(), std::filesystem::absolute(parts), shard,
                          progress.descriptor()};
   auto const reply = run_task(source.run, task);
-  for (auto const& warning : reply.warnings) say("warning: " + warning);
+  for (auto const& warning : reply.warnings) print_line("warning: " + warning);
   return reply.text;
 }
 
@@ -142,7 +141,7 @@ RunTimes run_year(Source const& source, SampleSet const& set) {
   auto year = run_for_year(call, set.scene.schedules, steps_per_hour);
   if (set.scene.schedules.empty()) return year;
   auto const unknown = unknown_schedules(read_model(source.run.model, source.run.choices), year);
-  if (!unknown.empty()) say("warning: " + describe_unknown(unknown));
+  if (!unknown.empty()) print_line("warning: " + describe_unknown(unknown));
   return year;
 }
 
@@ -157,8 +156,9 @@ void put_together(Source const& source, SampleParts const& parts, Path const& fo
   write("year.csv", [&](std::ostream& out) { write_year(set, year, out); });
   write("samples.json",
         [&](std::ostream& out) { out << describe(source, set, year).dump(2) << '\n'; });
-  say(fmt::format("{} directions of {} receivers, {} times of the year",
-                  set.samples.directions().size(), set.scene.receivers.size(), year.times.size()));
+  print_line(fmt::format("{} directions of {} receivers, {} times of the year",
+                         set.samples.directions().size(), set.scene.receivers.size(),
+                         year.times.size()));
 }
 
 }  // namespace
@@ -167,10 +167,10 @@ void sample(ModelRun const& run, SampleTask const& task) {
   auto const source = read_source(run);
   auto const folder = task.folder / "parts";
   if (task.shard) {
-    say(render(source, folder, *task.shard));
+    print_line(render(source, folder, *task.shard));
     return;
   }
-  if (!task.merge) say(render(source, folder, {}));
+  if (!task.merge) print_line(render(source, folder, {}));
   put_together(source, SampleParts(folder, task.merge.value_or(1)), task.folder);
 }
 

@@ -1,9 +1,6 @@
 #include "scheduled/scheduled_run.h"
 
-#include <fmt/format.h>
-
-#include <cstdio>
-
+#include "base/console.h"
 #include "base/process.h"
 #include "gpu_shading/error.h"
 #include "options/command_line.h"
@@ -25,9 +22,7 @@ int run_scheduled(std::filesystem::path const& library, Choices const& choices,
   TemporaryFolder const folder;
   auto const prepared = prepare_scheduled({own_folder() / "energyplus", *line.model, line.weather,
                                            line.expand, line.annual, line.design_days},
-                                          choices, folder.path(), [](std::string const& text) {
-                                            fmt::print(stderr, "gpu_shading: {}\n", text);
-                                          });
+                                          choices, folder.path(), print_line);
   if (line.model_at) {
     arguments[*line.model_at] = prepared.path.string();
   } else {

@@ -1,7 +1,6 @@
 #include "raster_cpu/cpu_backend.h"
 
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
 #include <utility>
 
@@ -17,15 +16,13 @@ namespace {
 // Number of casters from which several cores share a view.
 constexpr std::size_t worth_sharing = 200;
 
-int cores() { return lacks_threads() ? 1 : tbb::this_task_arena::max_concurrency(); }
-
 }  // namespace
 
 DeviceInfo cpu_device() {
   DeviceInfo info;
   info.renderer = "CPU";
   info.version = name(instructions());
-  info.threads = cores();
+  info.threads = available_threads();
   info.software = true;
   info.max_resolution = 16384;
   return info;
@@ -64,7 +61,7 @@ void CpuBackend::add(std::vector<ReceiverView> views) {
   std::vector<std::vector<SheetInBeam>> sheets(directions.size());
   for_each_index(sheets.size(),
                  [&](std::size_t i) { sheets[i] = transmission_.sheets(directions[i]); });
-  bool const few = views.size() < static_cast<std::size_t>(cores());
+  bool const few = views.size() < static_cast<std::size_t>(available_threads());
   std::size_t const first = sums_.size();
   sums_.resize(first + views.size());
   for_each_index(views.size(), [&](std::size_t i) {
@@ -74,7 +71,7 @@ void CpuBackend::add(std::vector<ReceiverView> views) {
       screens = {&transmission_.screens(), sheets[noted[i].direction], noted[i].numbers};
     }
     bool const shared = few && (view.casters.size() >= worth_sharing || !screens.numbers.empty());
-    sums_[first + i] = sums_of(view, screens, shared ? cores() : 1);
+    sums_[first + i] = sums_of(view, screens, shared ? available_threads() : 1);
   });
 }
 

@@ -10,7 +10,11 @@ namespace gpu_shading {
 // copied to such a process, so that TBB would wait for them for ever.
 bool lacks_threads();
 
-// Calls use(i) for every i below `count`, on all cores.
+// How many threads for_each_index uses: the cores that this process may use, unless limit_threads()
+// allows fewer.
+int available_threads();
+
+// Calls use(i) for every i below `count`, on available_threads().
 template <typename Use>
 void for_each_index(std::size_t count, Use const& use) {
   if (!lacks_threads()) {

@@ -14,6 +14,8 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from shading_runs.version import add_version
+
 _LIBC = ctypes.CDLL(None)
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -73,15 +75,21 @@ def processor():
     return f"{found.group(1) if found else platform.processor()}, {len(os.sched_getaffinity(0))} cores"
 
 
-def use_own_python(needed):
+def use_own_python(*needed):
     """Restarts the script with the Python of scripts/setup if the current one lacks a needed package."""
+    missing = [name for name in needed if not importlib.util.find_spec(name)]
+    if not missing:
+        return
     own = REPOSITORY / ".venv" / "bin" / "python"
-    if not importlib.util.find_spec(needed) and own.is_file() and Path(sys.prefix) != own.parents[1]:
+    if own.is_file() and Path(sys.prefix) != own.parents[1]:
         os.execv(own, [str(own), *sys.argv])
+    packages = ", ".join("pillow" if name == "PIL" else name for name in missing)
+    raise SystemExit(f"{Path(sys.argv[0]).name}: this Python lacks {packages}: install them with pip or apt-get")
 
 
 def parse_arguments(parser):
     """(parsed arguments before --, arguments after it, which are for the program that is run)."""
+    add_version(parser)
     words = sys.argv[1:]
     cut = words.index("--") if "--" in words else len(words)
     return parser.parse_args(words[:cut]), words[cut + 1:]

@@ -1,9 +1,11 @@
 """The user's interface: flags, environment variables, their order, and what is refused."""
 
+import os
 import re
 import signal
 import subprocess
 import time
+from pathlib import Path
 
 import pytest
 from shading_runs import energyplus, input_file, results
@@ -217,3 +219,55 @@ def test_interrupt_ends_the_run(patched, courtyard, weather, tmp_path):
         output, _ = process.communicate(timeout=30)
     assert process.returncode != 0, output
     assert not (tmp_path / "eplusout.end").exists()
+
+
+def test_quiet_leaves_warnings_and_the_error_file(shade, model):
+    loud, quiet = shade(model), shade(model, "--gpu-shading-quiet")
+    assert loud.completed and quiet.completed, quiet.why()
+    assert "gpu_shading: shading rendered by" in loud.errors
+    assert "gpu_shading: " not in quiet.errors
+    assert quiet.rendering and len(quiet.our_lines) == len(
+        [line for line in loud.our_lines if line in loud.text("eplusout.err")])
+    refused = shade(model, "--gpu-shading-quiet", "--gpu-shading-error=7")
+    assert "gpu_shading: error: " in refused.errors
+    by_variable = shade(model, environment={"GPU_SHADING_QUIET": "1"})
+    assert by_variable.completed and "gpu_shading: " not in by_variable.errors
+
+
+# A thread is taken to compute from this many ticks of the scheduler's clock (1/100 s) on.
+TICKS = 4
+
+
+def busy_threads(command, folder):
+    """How many threads of a run have computed, as the kernel counts their time."""
+    ticks = {}
+    with subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+        while process.poll() is None:
+            for path in Path(f"/proc/{process.pid}/task").glob("*/stat"):
+                try:
+                    fields = path.read_text().rpartition(")")[2].split()
+                except OSError:  # it has just ended
+                    continue
+                ticks[path.parent.name] = int(fields[11]) + int(fields[12])
+            time.sleep(0.005)
+    assert process.returncode == 0
+    return sum(each >= TICKS for each in ticks.values())
+
+
+@pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="one core")
+def test_threads_are_bounded(patched, louvres, weather, tmp_path):
+    model = tmp_path / "louvres.idf"
+    model.write_text(louvres(1500))
+
+    def count(name, *options):
+        return busy_threads([patched, "--gpu-shading", "--gpu-shading-device=cpu", "--gpu-shading-error=0.0002",
+                             *options, "-D", "-w", weather, "-d", tmp_path / name, model], tmp_path)
+
+    assert count("all") >= 2
+    assert count("one", "--gpu-shading-threads=1") == 1
+    run = energyplus.run(patched, model, weather, tmp_path / "told", ["--gpu-shading-threads=1", "-D"])
+    assert "CPU (1 thread" in run.device
+    # A GPU's software renderer is bounded too.
+    drawn = busy_threads([patched, "--gpu-shading-device=0", "--gpu-shading-threads=1", "--gpu-shading-error=0.01",
+                          "-D", "-w", weather, "-d", tmp_path / "drawn", model], tmp_path)
+    assert drawn == 1

@@ -9,6 +9,9 @@ import time
 from pathlib import Path
 
 import pytest
+from shading_runs import energyplus
+
+ROOT = energyplus.REPOSITORY
 
 
 @pytest.fixture
@@ -180,3 +183,25 @@ def test_little_memory_is_enough_or_said(patched, box, weather, tmp_path, mebiby
                           capture_output=True, preexec_fn=limit)
     assert done.returncode == (1 if words else 0), done.stderr
     assert (words or "shading rendered by CPU") in done.stderr
+
+
+@pytest.mark.parametrize("words, near", [(["veiw", "model.idf"], "view"), (["devices", "--tets"], "--test"),
+                                         (["check", "model.idf", "--vertexes"], "--vertices"),
+                                         (["devices", "--gpu-shading-devcie=0"], "--gpu-shading-device")])
+def test_a_mistyped_word_is_answered_with_the_near_one(program, words, near):
+    done = program(*words)
+    assert done.returncode == 1
+    assert done.stderr.startswith("gpu_shading: error: ") and done.stderr.count("\n") == 1
+    assert f"did you mean {near}?" in done.stderr
+
+
+def test_every_program_tells_its_version(program, patched):
+    version = re.search(r"project\(gpu_shading VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+    assert program("--version").stdout == f"gpu_shading {version}\n"
+    with_official = subprocess.run([patched, "--gpu-shading", "--version"], capture_output=True, text=True).stdout
+    assert f"gpu_shading {version}\n" in with_official and "EnergyPlus, Version 25.2.0" in with_official
+    official = subprocess.run([patched, "--version"], capture_output=True, text=True).stdout
+    assert "gpu_shading" not in official and "25.2.0" in official
+    for script in ("patch_energyplus", "compare_shading", "compare_sampling", "sample_models"):
+        told = subprocess.run([ROOT / "scripts" / script, "--version"], capture_output=True, text=True).stdout
+        assert told == f"{script} {version}\n"

@@ -48,6 +48,30 @@ TEST(Options, OnAndOffInOtherWords) {
   }
 }
 
+TEST(Options, QuietNeedsNoValueAndThreadsDo) {
+  std::vector<std::string> arguments{"--gpu-shading-quiet", "--gpu-shading-threads", "3",
+                                     "model.idf"};
+  auto const choices = take_flags(arguments);
+  EXPECT_EQ(arguments, (std::vector<std::string>{"model.idf"}));
+  EXPECT_EQ(choices.quiet, true);
+  EXPECT_EQ(choices.threads, 3);
+  EXPECT_EQ(take({"--gpu-shading-quiet=off"}).quiet, false);
+  EXPECT_EQ(take(to_flags(choices)).threads, 3);
+  EXPECT_EQ(take(to_flags(choices)).quiet, true);
+  for (auto const* const bad : {"0", "-1", "1.5", "many", ""}) {
+    EXPECT_THAT(refusal({fmt::format("--gpu-shading-threads={}", bad)}),
+                HasSubstr("expected a whole number from 1"));
+  }
+}
+
+TEST(Options, MistypedFlagIsRefusedWithTheNearOne) {
+  EXPECT_THAT(refusal({"--gpu-shading-devcie=cpu"}),
+              HasSubstr("did you mean --gpu-shading-device?"));
+  EXPECT_THAT(refusal({"--gpu-shadng"}), HasSubstr("did you mean --gpu-shading?"));
+  EXPECT_THAT(refusal({"--gpushading=off"}), HasSubstr("did you mean --gpu-shading?"));
+  EXPECT_THAT(refusal({"--gpu-shading-colours"}), HasSubstr("see energyplus --gpu-shading --help"));
+}
+
 TEST(Options, BareFlagDoesNotSwallowTheModel) {
   std::vector<std::string> arguments{"--gpu-shading", "off"};
   EXPECT_EQ(take_flags(arguments).mode, Mode::automatic);

@@ -7,6 +7,8 @@
 #include <regex>
 #include <string>
 
+#include "base/nearest_word.h"
+
 namespace gpu_shading::energyplus {
 namespace {
 
@@ -15,6 +17,18 @@ bool reference(std::string const& pattern, std::string const& name) {
   std::string expression;
   for (char const letter : pattern) expression += letter == '*' ? ".*" : std::string(1, letter);
   return std::regex_match(name, std::regex(expression, std::regex::icase));
+}
+
+TEST(Text, MistypedWordHasANearOne) {
+  std::vector<std::string> const words{"devices", "check", "view", "sample", "export"};
+  for (auto const* const near : {"veiw", "iew", "vieww", "vlew", "View"}) {
+    EXPECT_EQ(did_you_mean(near, words), "; did you mean view?") << near;
+  }
+  EXPECT_EQ(did_you_mean("exprot", words), "; did you mean export?");
+  EXPECT_EQ(did_you_mean("divces", words), "; did you mean devices?");
+  for (auto const* const far : {"", "x", "run", "weave", "simple_check"}) {
+    EXPECT_EQ(did_you_mean(far, words), "") << far;
+  }
 }
 
 TEST(Text, PatternsMatchAsRegularExpressionsDo) {

@@ -1,0 +1,27 @@
+#include "base/console.h"
+
+#include <atomic>
+#include <cstdio>
+
+#include "base/text.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+std::atomic<bool>& state() {
+  static std::atomic<bool> quiet = false;
+  return quiet;
+}
+
+}  // namespace
+
+void set_quiet(bool quiet) { state() = quiet; }
+
+bool is_quiet() { return state(); }
+
+void print_line(std::string const& line) {
+  bool const matters = line.starts_with("warning: ") || line.starts_with("error: ");
+  if (matters || !is_quiet()) std::fprintf(stderr, "gpu_shading: %s\n", one_line(line).c_str());
+}
+
+}  // namespace gpu_shading::energyplus
