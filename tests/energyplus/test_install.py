@@ -3,6 +3,7 @@
 import os
 import re
 import subprocess
+import sys
 
 import pytest
 from shading_runs import energyplus
@@ -130,3 +131,12 @@ def test_energyplus_of_pip_is_found_in_its_folder(packages, installed, official,
     done = subprocess.run([installed / "bin" / "patch_energyplus", tmp_path / "pip", tmp_path / "EnergyPlus-gpu"],
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+
+
+def test_a_python_without_the_report_s_packages_is_told_which(installed, weather, box, tmp_path):
+    (tmp_path / "model.idf").write_text(box)
+    done = subprocess.run([sys.executable, "-S", installed / "bin" / "compare_shading", "model.idf", "-w", weather],
+                          cwd=tmp_path, capture_output=True, text=True, env=alone())
+    assert done.returncode == 1
+    assert done.stderr == ("compare_shading: this Python lacks jinja2, matplotlib, pillow: install them with pip or "
+                           "apt-get\n")

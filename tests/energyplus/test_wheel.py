@@ -19,7 +19,7 @@ def environment(tmp_path_factory):
     folder = tmp_path_factory.mktemp("wheel") / "venv"
     subprocess.run([sys.executable, "-m", "venv", folder], check=True)
     pip = [folder / "bin" / "pip", "install", "--quiet", "--disable-pip-version-check"]
-    subprocess.run([*pip, wheels[-1]], check=True)
+    subprocess.run([*pip, f"{wheels[-1]}[compare]"], check=True)
     return folder / "bin"
 
 
