@@ -28,10 +28,15 @@ double number(InputObject const& object, std::string const& field, std::string_v
   return *value;
 }
 
+// The panes of a construction for solar radiation and for light.
+struct Panes {
+  std::vector<GlassLayer> solar;
+  std::vector<GlassLayer> visible;
+};
+
 // Adds a pane. As in EnergyPlus, dirt lowers the transmittance at normal incidence of the outer
 // pane, from which its angular properties follow, and inner panes are clean.
-void add_pane(InputObject const& material, std::vector<GlassLayer>& panes,
-              std::vector<std::string>& warnings) {
+void add_pane(InputObject const& material, Panes& panes, std::vector<std::string>& warnings) {
   if (!same_name(material["optical_data_type"], "SpectralAverage")) {
     throw Error(
         fmt::format("{} {}: Optical Data Type is \"{}\": only SpectralAverage can be used for a "
@@ -48,13 +53,26 @@ void add_pane(InputObject const& material, std::vector<GlassLayer>& panes,
             "Front Side Solar Reflectance at Normal Incidence"),
       field("back_side_solar_reflectance_at_normal_incidence",
             "Back Side Solar Reflectance at Normal Incidence")};
+  GlassLayer visible = pane;
+  if (!material["visible_transmittance_at_normal_incidence"].empty()) {
+    visible = {field("visible_transmittance_at_normal_incidence",
+                     "Visible Transmittance at Normal Incidence"),
+               field("front_side_visible_reflectance_at_normal_incidence",
+                     "Front Side Visible Reflectance at Normal Incidence"),
+               field("back_side_visible_reflectance_at_normal_incidence",
+                     "Back Side Visible Reflectance at Normal Incidence")};
+  }
   std::string const dirt_field = "dirt_correction_factor_for_solar_and_visible_transmittance";
   if (!material[dirt_field].empty()) {
     double const dirt =
         field(dirt_field, "Dirt Correction Factor for Solar and Visible Transmittance");
-    if (panes.empty()) pane.transmittance *= dirt;
+    if (panes.solar.empty()) {
+      pane.transmittance *= dirt;
+      visible.transmittance *= dirt;
+    }
   }
-  panes.push_back(pane);
+  panes.solar.push_back(pane);
+  panes.visible.push_back(visible);
   if (same_name(material["solar_diffusing"], "Yes")) {
     warnings.push_back(
         fmt::format("{} {}: Solar Diffusing is Yes, but a shade transmits the beam undeviated: "
@@ -63,14 +81,27 @@ void add_pane(InputObject const& material, std::vector<GlassLayer>& panes,
   }
 }
 
+GlazingTransmittance rated(InputObject const& material) {
+  auto const solar =
+      Transmittance::glazing(SimpleGlazing{number(material, "u_factor", "U-Factor", 1e-6, 7.0),
+                                           number(material, "solar_heat_gain_coefficient",
+                                                  "Solar Heat Gain Coefficient", 1e-6, 0.999999)});
+  auto visible = solar;
+  if (!material["visible_transmittance"].empty()) {
+    visible = Transmittance::with_normal(
+        solar, number(material, "visible_transmittance", "Visible Transmittance", 0.0, 1.0));
+  }
+  return {Transmittance::fitted_in_cosine(solar), Transmittance::fitted_in_cosine(visible)};
+}
+
 }  // namespace
 
-Transmittance construction_transmittance(std::vector<InputObject> const& objects,
-                                         std::string const& name,
-                                         std::vector<std::string>& warnings) {
+GlazingTransmittance construction_transmittance(std::vector<InputObject> const& objects,
+                                                std::string const& name,
+                                                std::vector<std::string>& warnings) {
   auto const* const construction = find(objects, "Construction", name);
   if (construction == nullptr) throw Error(fmt::format("there is no Construction \"{}\"", name));
-  std::vector<GlassLayer> panes;
+  Panes panes;
   for (auto const& layer : construction->list) {
     if (layer.empty()) continue;
     auto const* const material = find(objects, "WindowMaterial:", layer);
@@ -80,18 +111,14 @@ Transmittance construction_transmittance(std::vector<InputObject> const& objects
           "WindowMaterial:Glazing, WindowMaterial:Gas or WindowMaterial:SimpleGlazingSystem",
           construction->name, layer));
     }
-    if (material->type == "WindowMaterial:SimpleGlazingSystem") {
-      return Transmittance::fitted_in_cosine(Transmittance::glazing(
-          SimpleGlazing{number(*material, "u_factor", "U-Factor", 1e-6, 7.0),
-                        number(*material, "solar_heat_gain_coefficient",
-                               "Solar Heat Gain Coefficient", 1e-6, 0.999999)}));
-    }
+    if (material->type == "WindowMaterial:SimpleGlazingSystem") return rated(*material);
     if (material->type == "WindowMaterial:Glazing") add_pane(*material, panes, warnings);
   }
-  if (panes.empty()) {
+  if (panes.solar.empty()) {
     throw Error(fmt::format("Construction {}: has no glazing layer", construction->name));
   }
-  return Transmittance::fitted_in_cosine(Transmittance::glazing(panes));
+  return {Transmittance::fitted_in_cosine(Transmittance::glazing(panes.solar)),
+          Transmittance::fitted_in_cosine(Transmittance::glazing(panes.visible))};
 }
 
 }  // namespace gpu_shading::energyplus

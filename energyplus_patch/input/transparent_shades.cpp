@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "base/naming.h"
 #include "base/text.h"
@@ -56,6 +58,7 @@ Transmittance from_table(std::vector<double> const& values) {
 struct Made {
   Transmittance transmittance;
   std::string description;
+  std::optional<Transmittance> visible = std::nullopt;  // none: the same
 };
 
 Made make(field::TransmittanceModel model, std::vector<std::string> const& values,
@@ -84,8 +87,9 @@ Made make(field::TransmittanceModel model, std::vector<std::string> const& value
       break;
   }
   auto const& name = only_value(values, "the construction's name");
-  return {construction_transmittance(objects, name, warnings),
-          fmt::format("construction {}", name)};
+  auto glazing = construction_transmittance(objects, name, warnings);
+  return {std::move(glazing.solar), fmt::format("construction {}", name),
+          std::move(glazing.visible)};
 }
 
 void add_object(InputObject const& object, std::vector<InputObject> const& objects,
@@ -94,13 +98,16 @@ void add_object(InputObject const& object, std::vector<InputObject> const& objec
   auto made = make(read(object, field::transmittance_model), read(object, field::value), objects,
                    folder, shades.warnings);
   auto const transmittance = std::make_shared<Transmittance const>(std::move(made.transmittance));
+  auto const visible = made.visible
+                           ? std::make_shared<Transmittance const>(std::move(*made.visible))
+                           : transmittance;
   auto const pattern = read(object, field::surface_name);
   bool found = false;
   for (auto const& [surface, unused] : input.shading_surfaces) {
     if (!matches(pattern, surface)) continue;
     found = true;
     auto const [place, added] = shades.by_surface.try_emplace(
-        surface, TransparentShade{object.name, made.description, transmittance});
+        surface, TransparentShade{object.name, made.description, transmittance, visible});
     if (!added) {
       throw Error(fmt::format("{} {}: {} is named by {} already", field::surface_name.title,
                               in_quotes(pattern), surface, place->second.object));

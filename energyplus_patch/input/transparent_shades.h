@@ -16,7 +16,8 @@ namespace gpu_shading::energyplus {
 struct TransparentShade {
   std::string object;       // its name
   std::string description;  // description of the model, e.g. "construction Double Clear"
-  std::shared_ptr<Transmittance const> transmittance;
+  std::shared_ptr<Transmittance const> transmittance;  // for solar radiation
+  std::shared_ptr<Transmittance const> visible;        // for light; may be the same object
 };
 
 struct TransparentShades {

@@ -166,7 +166,7 @@ Scene SceneAssembly::hidden_casters() const {
   Scene scene;
   for (auto id = static_cast<SurfaceId>(size()); id < surfaces_.size(); ++id) {
     auto surface = surfaces_[id];
-    optics_.apply(surface, model_.surroundings.texture_of(id));
+    optics_.apply(surface, model_.surroundings.texture_of(id), ShadeOptics::Radiation::light);
     if (surface.casting != Casting::never) scene.add(std::move(surface));
   }
   return scene;

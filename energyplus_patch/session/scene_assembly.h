@@ -68,7 +68,7 @@ class SceneAssembly {
   // without openings of each wall that has openings.
   Scene scene() const;
 
-  // The casters that are not EnergyPlus's surfaces, with the optics as they are now.
+  // The casters that are not EnergyPlus's surfaces, with the optics as they are now for light.
   Scene hidden_casters() const;
 
   // Hash of all that an answer depends on: of a scene(), rendered on a device.

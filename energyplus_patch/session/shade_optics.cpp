@@ -67,12 +67,14 @@ void ShadeOptics::make_factor(std::string const& name, Schedule& schedule) {
   factors_.push_back(0.0);
 }
 
-void ShadeOptics::apply(Surface& surface, std::optional<TextureAxes> const& texture) const {
+void ShadeOptics::apply(Surface& surface, std::optional<TextureAxes> const& texture,
+                        Radiation radiation) const {
   auto const shading = model_->shading.shading_surfaces.find(surface.name);
   if (shading == model_->shading.shading_surfaces.end()) return;
   auto const shade = model_->shades.by_surface.find(surface.name);
   if (shade != model_->shades.by_surface.end()) {
-    surface.transmittance = shade->second.transmittance;
+    surface.transmittance =
+        radiation == Radiation::solar ? shade->second.transmittance : shade->second.visible;
   }
   apply_screen(surface, texture);
   auto const schedule = by_name_.find(shading->second.transmittance_schedule);

@@ -23,9 +23,12 @@ class ShadeOptics {
   // Throws Error, naming object and field, if EnergyPlus lacks a schedule.
   ShadeOptics(Model const& model, Schedules schedules);
 
+  enum class Radiation { solar, light };
+
   // Sets a surface's casting, transmittance, schedule, screen and deployment. `texture`: of a mesh.
   // Throws Error if a screen's texture cannot be read.
-  void apply(Surface& surface, std::optional<TextureAxes> const& texture = std::nullopt) const;
+  void apply(Surface& surface, std::optional<TextureAxes> const& texture = std::nullopt,
+             Radiation radiation = Radiation::solar) const;
 
   // Reads the schedules. Returns true if one that was treated as a number has another value: optics
   // must then be applied again.

@@ -90,6 +90,21 @@ Transmittance Transmittance::product(Transmittance const& model, double factor) 
   return Transmittance([model, factor](double angle) { return factor * model(angle); });
 }
 
+Transmittance Transmittance::with_normal(Transmittance const& model, double normal) {
+  if (!(normal >= 0.0 && normal <= 1.0)) {
+    throw Error(fmt::format("transmittance is {:.9g}, expected 0 to 1", normal));
+  }
+  double const before = model(0.0);
+  if (before <= 0.0 && normal > 0.0) {
+    throw Error(
+        fmt::format("transmittance is {:.9g} at normal incidence of an opaque model", normal));
+  }
+  if (normal <= 0.0) return {};
+  return Transmittance([model, factor = normal / before](double angle) {
+    return std::min(factor * model(angle), 1.0);
+  });
+}
+
 Transmittance Transmittance::polynomial_in_degrees(std::vector<double> coefficients) {
   check_terms(coefficients);
   check_everywhere([&](double degrees) { return polynomial(coefficients, degrees); });

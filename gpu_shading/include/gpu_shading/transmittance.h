@@ -40,6 +40,10 @@ class Transmittance {
   // `model` times a factor, 0 .. 1, at every angle: dirt, or a constant open fraction.
   static Transmittance product(Transmittance const& model, double factor);
 
+  // `model`'s angular curve with another value at normal incidence, 0 .. 1; limited to 0 .. 1.
+  // Throws Error if the model is opaque there and the value is not.
+  static Transmittance with_normal(Transmittance const& model, double normal);
+
   // The polynomial c[1] x + ... + c[6] x^6 in the cosine that is nearest, in least squares, to a
   // model at 0, 10, .. 90 degrees, limited to 0 .. 1: what EnergyPlus keeps of a window's angular
   // transmittance (Engineering Reference, "Window Calculation Module").

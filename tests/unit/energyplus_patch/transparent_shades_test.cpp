@@ -98,6 +98,31 @@ TEST(TransparentShades, DirtIsOnTheOuterPane) {
   EXPECT_LT(at("Dirty", 70), 0.8 * at("Clear", 70) - 2e-3);
 }
 
+TEST(TransparentShades, ConstructionsHaveVisibleTransmittance) {
+  auto const visible = [](std::string const& construction, double angle, std::string const& more) {
+    auto const shades =
+        read(more + "GPUShading:TransparentShade,S,Pane 1,Construction," + construction + ";");
+    return (*shades.by_surface.at("PANE 1").visible)(angle * degree);
+  };
+  std::string const tinted =
+      "WindowMaterial:Glazing,Tinted,SpectralAverage,,0.006,0.3,0.05,0.05,0.8,0.08,0.08,0,0.84,"
+      "0.84,0.9;Construction,Tinted,Tinted;Construction,Two,Tinted,Air,Tinted;";
+  EXPECT_NEAR(visible("Tinted", 0, tinted), 0.8, 1e-3);
+  EXPECT_NEAR(visible("Two", 0, tinted), 0.8 * 0.8 / (1 - 0.08 * 0.08), 1e-3);
+  // Rated windows: the curve of the solar transmittance.
+  std::string const rated =
+      "WindowMaterial:SimpleGlazingSystem,Bright,1.4,0.4,0.7;Construction,Bright,Bright;"
+      "WindowMaterial:SimpleGlazingSystem,Plain,1.4,0.4;Construction,Plain,Plain;";
+  EXPECT_NEAR(visible("Bright", 0, rated), 0.7, 2e-3);
+  double const ratio = visible("Bright", 0, rated) / visible("Plain", 0, rated);
+  for (double const angle : {50.0, 75.0}) {
+    EXPECT_NEAR(visible("Bright", angle, rated), ratio * visible("Plain", angle, rated), 1e-9);
+  }
+  // Other models have one transmittance.
+  auto const shades = read("GPUShading:TransparentShade,S,Pane 1,Constant,0.4;");
+  EXPECT_EQ(shades.by_surface.at("PANE 1").visible, shades.by_surface.at("PANE 1").transmittance);
+}
+
 TEST(TransparentShades, PatternNamesSeveralSurfaces) {
   auto const shades = read("GPUShading:TransparentShade,S,pane*,Constant,0.4;");
   EXPECT_EQ(shades.by_surface.size(), 2U);

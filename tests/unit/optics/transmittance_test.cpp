@@ -150,5 +150,15 @@ TEST(Table, NamesTheAngleThatIsWrong) {
             "table has 2 angles and 1 transmittances, expected equal numbers");
 }
 
+TEST(Transmittance, NormalValueScalesTheCurve) {
+  auto const curve = Transmittance::polynomial_in_cosine({0.1, 0.5});
+  auto const scaled = Transmittance::with_normal(curve, 0.9);
+  EXPECT_DOUBLE_EQ(scaled(0.0), 0.9);
+  EXPECT_DOUBLE_EQ(scaled(1.0), 1.5 * curve(1.0));
+  EXPECT_EQ(Transmittance::with_normal(curve, 0.0)(0.5), 0.0);
+  EXPECT_THROW(Transmittance::with_normal(curve, 1.1), Error);
+  EXPECT_THROW(Transmittance::with_normal(Transmittance(), 0.5), Error);
+}
+
 }  // namespace
 }  // namespace gpu_shading
