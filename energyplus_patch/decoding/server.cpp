@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <optional>
 
 namespace gpu_shading::decoding {
@@ -57,7 +59,37 @@ std::optional<Received> receive() {
   return received;
 }
 
-// A copy of this process, which has no other thread, as a child of its parent.
+// The state of each other thread, and how often it has gone to sleep.
+std::string other_threads() {
+  std::string all;
+  auto const self = std::to_string(getpid());
+  for (auto const& entry : std::filesystem::directory_iterator("/proc/self/task")) {
+    if (entry.path().filename() == self) continue;
+    std::ifstream status(entry.path() / "status");
+    for (std::string line; std::getline(status, line);) {
+      if (line.starts_with("State:") || line.starts_with("voluntary")) all += line;
+    }
+  }
+  return all;
+}
+
+// Libraries start threads as they are loaded. A fork while one of them holds a lock, as of malloc,
+// would find it locked for ever; once all sleep, nobody wakes them. One that never sleeps is not
+// waited for.
+void wait_for_other_threads() {
+  constexpr int most = 1000;
+  for (int i = 0; i < most; ++i) {
+    auto const before = other_threads();
+    usleep(1000);
+    auto const now = other_threads();
+    if (now == before && now.find("(running)") == std::string::npos &&
+        now.find("(disk sleep)") == std::string::npos) {
+      return;
+    }
+  }
+}
+
+// A copy of this thread's process, without other threads, as a child of its parent.
 pid_t fork_sibling() {
   return static_cast<pid_t>(
       syscall(SYS_clone, CLONE_PARENT | SIGCHLD, nullptr, nullptr, nullptr, nullptr));
@@ -66,6 +98,7 @@ pid_t fork_sibling() {
 }  // namespace
 
 int serve(std::function<int(std::vector<std::string> const&)> const& decode) {
+  wait_for_other_threads();
   while (auto const request = receive()) {
     auto const process = fork_sibling();
     auto const [input, output] = request->descriptors;
