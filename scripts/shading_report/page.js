@@ -20,3 +20,16 @@ for (const table of document.querySelectorAll("table.sortable")) {
     });
   });
 }
+
+// Details are folded away; links to one and printing open it.
+const details = [...document.querySelectorAll("details.receiver")];
+const unfold = () => {
+  const wanted = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  if (wanted?.matches("details.receiver")) {
+    wanted.open = true;
+    wanted.scrollIntoView();
+  }
+};
+addEventListener("hashchange", unfold);
+unfold();
+addEventListener("beforeprint", () => details.forEach((each) => (each.open = true)));

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import jinja2
 import numpy as np
-from shading_runs import results
+from shading_runs import results, verdict
 
 from shading_report import charts, facts, origin, pictures
 
@@ -169,10 +169,12 @@ def write(output, everything, weather, most, further):
     calendar = facts.Calendar(runs[0].results)
     names = [found.receiver.name for found in runs[1].found
              if all(any(each.receiver.name == found.receiver.name for each in run.found) for run in runs[1:])]
-    chosen = sorted(names, key=lambda name: -_largest(name, runs))[:most]
+    limit = verdict.allowed(runs)
+    worth_seeing = [name for name in names if _largest(name, runs) > limit]
+    chosen = sorted(worth_seeing, key=lambda name: -_largest(name, runs))[:most]
     shown = {name: f"receiver-{number}" for number, name in enumerate(chosen, start=1)}
     details = [_detail(anchor, name, runs, calendar) for name, anchor in shown.items()]
-    without_pictures = _draw(details, runs, weather, output)
+    without_pictures = _draw(details, runs, weather, output) if details else ""
     by_environment, by_month = facts.energies(runs, calendar)
     timed = [(run.label, origin.stages(run)) for run in runs]
 
@@ -189,6 +191,8 @@ def write(output, everything, weather, most, further):
         runs=runs,
         colours=charts.RUN_COLOURS,
         missing=[run for run in everything if not run.results],
+        verdicts=[(run.title, verdict.sentences(runs, run)) for run in runs[1:]],
+        limit=limit,
         summaries=[results.summary(run.found) for run in runs[1:]],
         environments=by_environment,
         months=by_month,

@@ -69,7 +69,7 @@ def clipping(key, model):
 
 def gpu(key, model):
     patched = energyplus.patched_prefix() / "energyplus"
-    made = Method(key, "gpu", "GPU", patched, options=["--gpu-shading"], model=model, is_ours=True)
+    made = Method(key, "gpu", "Renderer", patched, options=["--gpu-shading"], model=model, is_ours=True)
     if not patched.is_file():
         made.missing = f"{patched} is not there: {energyplus.how_to_get_patched()}"
     return made
@@ -115,6 +115,21 @@ def parse(text, key, model):
     return made
 
 
+def name_by_difference(variants):
+    """Titles of runs that were all rendered: what each has that others have not."""
+    for each in variants:
+        each.title = each.title.removeprefix("Renderer").lstrip(", ") or "the model as it is"
+    if len({each.title for each in variants}) < len(variants):
+        for each in variants:
+            path = Path(each.model).resolve()
+            each.title = f"{path.parent.name}/{path.name}" + each.title.removeprefix(path.name)
+    if len({each.title for each in variants}) < len(variants):
+        for each in variants:
+            each.title = f"{each.title} ({each.short})"
+    for each in variants:
+        each.label = each.title
+
+
 def choose(model, a, b, with_xvfb):
     """The methods, the reference first. Methods that are not available hold the reason."""
     plain = a in KINDS and b in KINDS and a != b
@@ -123,6 +138,8 @@ def choose(model, a, b, with_xvfb):
     if not plain:
         for each, letter in zip(chosen, "AB", strict=True):
             each.short = letter
+    if all(each.is_ours for each in chosen):
+        name_by_difference(chosen)
     if with_xvfb and "pixelcounting" not in (a, b):
         chosen.append(pixel_counting("xvfb", model))
     if any(len(each.title) > LONG for each in chosen):

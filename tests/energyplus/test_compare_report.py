@@ -32,6 +32,8 @@ FRACTION = 0.00005 + 1e-9
 
 # Nothing wider than the window, every chart with marks, every picture there; then a sorted column.
 LOOK = """() => {
+  const folded = [...document.querySelectorAll("details:not([open])")].length;
+  document.querySelectorAll("details").forEach((each) => (each.open = true));
   const charts = [...document.querySelectorAll("svg.chart")];
   const marks = (chart) => [...chart.querySelectorAll("path, image, use")].filter((mark) => {
     const box = mark.getBoundingClientRect();
@@ -43,6 +45,7 @@ LOOK = """() => {
   const heading = [...table.tHead.rows[0].cells].findIndex((cell) => cell.textContent.startsWith("max |d|"));
   table.tHead.rows[0].cells[heading].querySelector("button").click();
   return {
+    folded,
     width: innerWidth,
     wide: document.documentElement.scrollWidth,
     outside: outside.map((element) => element.outerHTML.slice(0, 200)),
@@ -202,6 +205,7 @@ def test_the_page_in_a_browser(variants, tmp_path, width):
     seen = look_at(variants / "report.html", width, LOOK, tmp_path)
     assert seen["troubles"] == []
     assert seen["width"] == width
+    assert seen["folded"] == RECEIVERS - 1
     assert seen["wide"] <= width
     assert seen["outside"] == []
     # Two of all receivers, three of months, one of seconds; of each receiver three maps, scatter and histogram.
@@ -226,7 +230,7 @@ def test_polygon_clipping_is_the_reference_where_none_is_named(official, patched
     assert "PolygonClipping" in done.stdout and "rendered by" in done.stdout
     assert (tmp_path / "receivers.csv").is_file() and (tmp_path / "hourly.csv").is_file()
     tables = Tables((tmp_path / "report.html").read_text(encoding="utf-8")).tables
-    assert tables["table-energy"][0][2:4] == ["PolygonClipping kWh", "GPU kWh"]
+    assert tables["table-energy"][0][2:4] == ["PolygonClipping kWh", "Renderer kWh"]
     assert [row[0] for row in tables["table-energy"][1:] if row[0]] == ["CLEAR AUTUMN DAY"]
     assert "table-months" not in tables  # a design day is no month
 

@@ -1,0 +1,76 @@
+"""What a comparison found, in sentences with few numbers."""
+
+from shading_runs import input_file, results
+
+DEFAULT_ERROR = 1e-3  # of --gpu-shading-error
+NAMES = {results.SOLAR: "transmitted solar radiation", results.HEATING: "heating", results.COOLING: "cooling",
+         results.LIGHTS: "lighting"}
+CLASSES = {f"gpushading:{name.lower()}": name
+           for name in ("TransparentShade", "PerforatedScreen", "Geometry", "SiteContext")}
+SAME = 5e-6  # relative, beyond the digits that are said
+
+
+def allowed(runs):
+    """The difference of a sunlit fraction that one in a hundred may exceed: the largest error asked for."""
+    errors = [DEFAULT_ERROR]
+    for run in runs:
+        words = [*run.options, ""]
+        for word, after in zip(words, words[1:], strict=False):
+            name, _, value = word.partition("=")
+            if name == "--gpu-shading-error":
+                errors.append(float(value or after))
+    return max(errors)
+
+
+def _objects(run):
+    """Names of our classes that the model of a run and its side file hold, without settings."""
+    paths = [run.model, *([run.extension_file] if run.extension_file else [])]
+    return {CLASSES[name] for path in paths for name in input_file.read(path).classes() if name in CLASSES}
+
+
+def _ignored(runs, other):
+    """Why the runs are of different buildings, or ''."""
+    pair = (runs[0], other)
+    blind = [run for run in pair if not run.is_ours]
+    objects = set().union(*(_objects(run) for run in pair if run.is_ours))
+    if not objects or len(blind) != 1:
+        return ""
+    return (f"{blind[0].title} does not know the GPUShading objects ({', '.join(sorted(objects))}), so that the runs "
+            "are of different buildings.")
+
+
+def _sunlit(other, limit):
+    values = [abs(value) for found in other.found for value in found.values]
+    if not values:
+        return "The sun faces no receiver at any hour that both runs have."
+    if not any(values):
+        return "Sunlit fractions are the same."
+    within = results.percentile(values, 0.99)
+    if within <= limit:
+        return f"Sunlit fractions agree: 99 % of the hours are within {max(within, 1e-9):.1g}."
+    share, mean = 100 * sum(value > limit for value in values) / len(values), sum(values) / len(values)
+    return f"Sunlit fractions differ: {share:.0f} % of the hours by more than {limit:g}, and by {mean:.2g} in the mean."
+
+
+def _energy(reference, other):
+    changed, same = [], []
+    for variable, name in NAMES.items():
+        before, after = (run.results.total(variable) for run in (reference, other))
+        if before <= 0.0 and after <= 0.0:
+            continue
+        if abs(after - before) <= SAME * max(before, after):
+            same.append(name)
+        elif before <= 0.0:
+            changed.append(f"{after:,.3g} kWh of {name}, instead of none")
+        else:
+            change = 100 * (after / before - 1)
+            changed.append(f"{abs(change):.2g} % {'more' if change > 0 else 'less'} {name}")
+    if not changed:
+        return "Energies are the same." if same else ""
+    rest = f"; the same {', '.join(same)}" if same else ""
+    return f"Compared with {reference.title}: {', '.join(changed)}{rest}."
+
+
+def sentences(runs, other):
+    """What `other` has found beside the first of the runs."""
+    return [text for text in (_ignored(runs, other), _sunlit(other, allowed(runs)), _energy(runs[0], other)) if text]

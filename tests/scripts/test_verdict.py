@@ -1,0 +1,88 @@
+"""What compare_shading says of two runs."""
+
+from types import SimpleNamespace
+
+import pytest
+from shading_runs import methods, results, verdict
+
+
+class Values:
+    """Results with totals alone."""
+
+    def __init__(self, **totals):
+        self.totals = {results.SOLAR: 100.0, results.HEATING: 0.0, results.COOLING: 50.0, results.LIGHTS: 20.0}
+        self.totals |= {getattr(results, name): value for name, value in totals.items()}
+
+    def total(self, variable):
+        return self.totals[variable]
+
+
+@pytest.fixture
+def run(tmp_path):
+    def make(title, differences=(), is_ours=True, text="Zone,Box;\n", options=(), side=None, **totals):
+        model = tmp_path / f"{title}.idf"
+        model.write_text(text)
+        if side:
+            side = tmp_path / f"{title}.side"
+            side.write_text("GPUShading:Settings,auto;\nGPUShading:PerforatedScreen,Veil,Screen,Round;\n")
+        return SimpleNamespace(title=title, is_ours=is_ours, model=model, options=options, extension_file=side,
+                               found=[SimpleNamespace(values=list(differences))], results=Values(**totals))
+
+    return make
+
+
+def test_agreement_and_the_same_energy(run):
+    clip = run("Clipping", is_ours=False)
+    ours = run("Renderer", [0.0] * 90 + [0.0004] * 10, COOLING=50.003, LIGHTS=20.0)
+    assert verdict.sentences([clip, ours], ours) == [
+        "Sunlit fractions agree: 99 % of the hours are within 0.0004.",
+        "Compared with Clipping: 0.006 % more cooling; the same transmitted solar radiation, lighting."]
+
+
+def test_identical_runs(run):
+    ours = run("B", [0.0, 0.0])
+    assert verdict.sentences([run("A"), ours], ours) == ["Sunlit fractions are the same.", "Energies are the same."]
+
+
+def test_differences(run):
+    ours = run("B", [0.0] * 60 + [-0.1] * 40, SOLAR=160.0, HEATING=12.5)
+    assert verdict.sentences([run("A"), ours], ours) == [
+        "Sunlit fractions differ: 40 % of the hours by more than 0.001, and by 0.04 in the mean.",
+        "Compared with A: 60 % more transmitted solar radiation, 12.5 kWh of heating, instead of none; "
+        "the same cooling, lighting."]
+
+
+def test_the_error_asked_for_is_allowed(run):
+    differences = [0.0] * 90 + [0.004] * 10
+    plain = run("Plain", differences)
+    assert "differ" in verdict.sentences([run("A"), plain], plain)[0]
+    for options in (["--gpu-shading-error=0.01"], ["--gpu-shading-error", "0.01"]):
+        rough = run("Rough", differences, options=options)
+        assert "agree" in verdict.sentences([run("A"), rough], rough)[0]
+
+
+@pytest.mark.parametrize("in_model", [True, False])
+def test_a_run_that_ignores_screens_is_said_to(run, in_model):
+    clip = run("Clipping", is_ours=False)
+    text = "GPUShading:PerforatedScreen,Veil,Screen,Round;\n" if in_model else "Zone,Box;\n"
+    ours = run("Renderer", [0.0], text=text, side=not in_model)
+    assert verdict.sentences([clip, ours], ours)[0] == (
+        "Clipping does not know the GPUShading objects (PerforatedScreen), so that the runs are of different "
+        "buildings.")
+    assert "different buildings" not in " ".join(verdict.sentences([run("Other", text=text), ours], ours))
+
+
+def test_variants_are_named_by_what_differs(tmp_path):
+    def variant(short, title, model):
+        return SimpleNamespace(short=short, title=title, label=title, model=model)
+
+    pair = [variant("A", "Renderer", "m.idf"), variant("B", "Renderer, glass.idf", "m.idf")]
+    methods.name_by_difference(pair)
+    assert [each.title for each in pair] == ["the model as it is", "glass.idf"]
+    pair = [variant("A", "Renderer, m.idf", tmp_path / "v1" / "m.idf"),
+            variant("B", "Renderer, m.idf", tmp_path / "v2" / "m.idf")]
+    methods.name_by_difference(pair)
+    assert [each.title for each in pair] == ["v1/m.idf", "v2/m.idf"]
+    pair = [variant("A", "Renderer", "m.idf"), variant("B", "Renderer", "m.idf")]
+    methods.name_by_difference(pair)
+    assert len({each.title for each in pair}) == 2
