@@ -74,9 +74,12 @@ def linked_host(official, tmp_path_factory):
     return call
 
 
-def solar(run):
+def timesteps(run):
+    """What the room's window transmits, and the sun's position, at each timestep."""
     assert run.completed, run.why()
-    return results.Results(run.folder).total(results.SOLAR)
+    values = screened_room.timesteps(run)
+    assert sum(values["all"]) > 0 and sum(values["beam"]) > 0
+    return values
 
 
 def without_times(text):
@@ -121,7 +124,7 @@ def test_python_api_is_shaded_by_the_variable_alone(with_python, patched, weathe
     direct = energyplus.run(patched, room, weather, tmp_path / "direct", ["--gpu-shading", "-D"])
     hosted = python_host(prefix, room, weather, tmp_path / "hosted", {"GPU_SHADING": "1"})
     assert hosted.method == "PixelCounting" and hosted.rendering
-    assert results.Results(hosted.folder).values == results.Results(direct.folder).values
+    assert timesteps(hosted) == timesteps(direct)
     # Which the official library cannot run.
     assert not python_host(stock, room, weather, tmp_path / "stock", {"GPU_SHADING": "1"}).completed
 
@@ -141,7 +144,7 @@ def test_python_api_without_the_variable_is_stock(with_python, weather, box, tmp
 def test_linked_program_is_shaded_by_the_variable_alone(linked_host, patched, weather, room, tmp_path):
     direct = energyplus.run(patched, room, weather, tmp_path / "direct", ["--gpu-shading", "-D"])
     hosted = linked_host(patched.parent, room, weather, tmp_path / "hosted", {"GPU_SHADING": "on"})
-    assert solar(hosted) == solar(direct)
+    assert timesteps(hosted) == timesteps(direct)
 
 
 def test_options_come_from_the_environment_of_each_run(linked_host, patched, weather, room, tmp_path):
