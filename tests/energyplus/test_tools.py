@@ -1,5 +1,7 @@
 """Tools that read and write models keep the extension objects, with the dictionary of the patched prefix."""
 
+import os
+import shutil
 import subprocess
 import sys
 
@@ -9,28 +11,53 @@ from shading_runs import energyplus
 
 TOOLS = energyplus.REPOSITORY / ".venv" / "tools"
 
-EDIT = """
+# Each reads a model by the dictionaries of a folder, changes the terrain, and saves it.
+EDITS = {
+    "eppy": """
 import sys
 from eppy.modeleditor import IDF
-IDF.setiddname(sys.argv[1])
+IDF.setiddname(sys.argv[1] + "/Energy+.idd")
 model = IDF(sys.argv[2])
 model.idfobjects["BUILDING"][0].Terrain = "City"
 model.saveas(sys.argv[3])
+""",
+    "idfkit": """
+import json, sys
+from pathlib import Path
+from idfkit import EpJSONSchema, IDFParser, save_idf
+schema = EpJSONSchema((25, 2, 0), json.loads(Path(sys.argv[1], "Energy+.schema.epJSON").read_text()))
+model = IDFParser(Path(sys.argv[2]), schema=schema).parse()
+model["Building"].first().terrain = "City"
+save_idf(model, sys.argv[3])
+""",
+}
+# Runs EnergyPlus by its Python package, which energyplus-api-helpers finds in a folder.
+HELPERS = """
+import sys
+from pathlib import Path
+from energyplus_api_helpers.import_helper import EPlusAPIHelper
+api = EPlusAPIHelper(Path(sys.argv[1])).get_api_instance()
+sys.exit(api.runtime.run_energyplus(api.state_manager.new_state(), sys.argv[2:]))
 """
 
 
+def need(package):
+    if not (TOOLS / package).is_dir():
+        pytest.skip(f"{TOOLS / package} is missing: run scripts/setup")
+
+
+def python(script, *arguments, folder, **variables):
+    """Runs a script of somebody who has the tools and knows nothing of this repository."""
+    kept = {key: value for key, value in os.environ.items() if not key.startswith("GPU_SHADING")}
+    return subprocess.run([sys.executable, "-c", script, *map(str, arguments)], cwd=folder, text=True,
+                          env=kept | {"PYTHONPATH": str(TOOLS)} | variables, capture_output=True)
+
+
 @pytest.fixture
-def edited(tmp_path):
-    """Saves a model with eppy, by a dictionary."""
-    if not (TOOLS / "eppy").is_dir():
-        pytest.skip(f"{TOOLS}/eppy is missing: run scripts/setup")
-
-    def edit(dictionary, model, saved):
-        subprocess.run([sys.executable, "-c", EDIT, dictionary, model, saved], check=True, cwd=tmp_path, text=True,
-                       env={**energyplus.os.environ, "PYTHONPATH": str(TOOLS)}, stdout=subprocess.DEVNULL)
-        return saved
-
-    return edit
+def room(tmp_path):
+    model = tmp_path / "room.idf"
+    model.write_text(screened_room.model(screen="small holes"))
+    return model
 
 
 def transmitted(run):
@@ -40,20 +67,40 @@ def transmitted(run):
     return total
 
 
-def test_eppy_keeps_a_screen(edited, patched, official, weather, tmp_path):
-    model = tmp_path / "room.idf"
-    model.write_text(screened_room.model(screen="small holes"))
-    saved = edited(patched.parent / "Energy+.idd", model, tmp_path / "saved.idf")
+@pytest.mark.parametrize("tool", EDITS)
+def test_a_screen_is_kept(tool, room, patched, official, weather, tmp_path):
+    need(tool)
+    saved = tmp_path / "saved.idf"
+    done = python(EDITS[tool], patched.parent, room, saved, folder=tmp_path)
+    assert done.returncode == 0, done.stderr
     assert "City" in saved.read_text()
 
     def solar(path):
         return transmitted(energyplus.run(patched, path, weather, tmp_path / path.stem, ["--gpu-shading", "-D"]))
 
-    direct, through = solar(model), solar(saved)
-    assert through == pytest.approx(direct, rel=1e-3)
-    # With the official dictionary, which the test must tell apart, it is lost.
-    lost = edited(official.parent / "Energy+.idd", model, tmp_path / "lost.idf")
-    assert "GPUShading" not in lost.read_text()
+    assert solar(saved) == pytest.approx(solar(room), rel=1e-3)
+    # With the official dictionaries, which the test must tell apart, it is lost, or the model is refused.
+    lost = tmp_path / "lost.idf"
+    done = python(EDITS[tool], official.parent, room, lost, folder=tmp_path)
+    assert done.returncode != 0 or "GPUShading" not in lost.read_text()
+
+
+def test_api_helpers_are_shaded(room, patched, official, weather, tmp_path):
+    need("energyplus_api_helpers")
+    package = energyplus.REPOSITORY / ".venv" / "EnergyPlus-lbnl" / "pyenergyplus"
+    if not package.is_dir():
+        pytest.skip(f"{package} is missing: scripts/setup could not fetch pyenergyplus-lbnl")
+    stock, prefix, out = tmp_path / "EnergyPlus", tmp_path / "EnergyPlus-gpu", tmp_path / "out"
+    stock.mkdir()
+    for path in official.parent.iterdir():
+        (stock / path.name).symlink_to(path.resolve())
+    shutil.copytree(package, stock / "pyenergyplus")
+    subprocess.run([energyplus.REPOSITORY / "scripts" / "patch_energyplus", stock, prefix, "--build",
+                    energyplus.patched_prefix().parent], check=True, capture_output=True)
+    done = python(HELPERS, prefix, "-D", "-w", weather, "-d", out, room, folder=tmp_path, GPU_SHADING="1")
+    hosted = energyplus.Run(done.returncode, done.stdout, done.stderr, out, 0.0)
+    direct = energyplus.run(patched, room, weather, tmp_path / "direct", ["--gpu-shading", "-D"])
+    assert transmitted(hosted) == transmitted(direct)
 
 
 def test_a_side_file_of_another_name_is_pointed_out(patched, weather, box, tmp_path):
