@@ -17,7 +17,7 @@ from shading_runs import energyplus
 
 OUT = energyplus.REPOSITORY / "out"
 PAGE = energyplus.REPOSITORY / "gpu_shading" / "docs" / "installing.md"
-CONTAINERFILE = energyplus.REPOSITORY / "packaging" / "Containerfile"
+CONTAINERFILE = energyplus.REPOSITORY / "scripts" / "packaging" / "Containerfile"
 USER = 1000
 PLACE = "/home/user"
 MOST = 500  # MB that everything may take, EnergyPlus among it
