@@ -1,4 +1,4 @@
-// gpu_shading: devices, checks, pictures, samples and exports.
+// gpu_shading: devices, checks, pictures, screens, samples and exports.
 
 #include <fmt/format.h>
 
@@ -29,6 +29,7 @@
 #include "program/export.h"
 #include "program/picture_files.h"
 #include "program/sample.h"
+#include "program/screen.h"
 #include "program/view_times.h"
 
 namespace gpu_shading::energyplus {
@@ -212,6 +213,29 @@ void add_export(CLI::App& app, Choices const& choices) {
   });
 }
 
+void add_screen(CLI::App& app, Choices const& choices) {
+  auto* const command = app.add_subcommand(
+      "screen",
+      "Print the sheet and the transmittance by angle of incidence and azimuth of the perforated "
+      "screens of a model, and write tables, polar plots and pictures of them. EnergyPlus is not "
+      "run");
+  auto const task = std::make_shared<ScreenTask>();
+  auto const folder = std::make_shared<std::string>();
+  command->add_option("model", task->model, "IDF or epJSON file")->required();
+  command->add_option("name", task->name,
+                      "Name of a GPUShading:PerforatedScreen, or a pattern in which * stands for "
+                      "any characters (default: all)");
+  command->add_option(
+      "-o,--output", *folder,
+      "Folder for NAME_tau.csv (transmittance by angles), NAME_tau.svg (polar plot) "
+      "and NAME_tile.png (one tile of the sheet)");
+  command->footer(std::string(flags_help()));
+  command->callback([task, folder, choices] {
+    if (!folder->empty()) task->folder = *folder;
+    describe_screens(*task, choices);
+  });
+}
+
 // "3/8".
 Shard parse_shard(std::string const& text) {
   auto const slash = text.find('/');
@@ -303,8 +327,8 @@ int run(int argc, char** argv) {
   choices.fill_from(read_environment());
   apply_to_process(choices);
   CLI::App app{
-      "List devices, check and draw models, sample and export sunlit fractions for EnergyPlus with "
-      "GPU shading",
+      "List devices, check and draw models, describe screens, sample and export sunlit fractions "
+      "for EnergyPlus with GPU shading",
       "gpu_shading"};
   app.set_version_flag("--version", "gpu_shading " GPU_SHADING_VERSION);
   app.require_subcommand(1);
@@ -312,6 +336,7 @@ int run(int argc, char** argv) {
   add_devices(app, right);
   add_check(app, choices);
   add_view(app, choices);
+  add_screen(app, choices);
   add_sample(app, choices);
   add_export(app, choices);
   refuse_mistyped_subcommand(app, arguments);

@@ -53,12 +53,16 @@ std::vector<std::string> command_for(ModelRun const& run, Path const& task, Path
 
 }  // namespace
 
-TaskReply run_task(ModelRun const& run, Task const& task) {
-  auto const& model = run.model;
+void require_model(std::filesystem::path const& model) {
   require_file(model);
   if (!is_idf(model) && !is_epjson(model)) {
     throw Error(fmt::format("{}: expected an .idf or .epJSON file", model.string()));
   }
+}
+
+TaskReply run_task(ModelRun const& run, Task const& task) {
+  auto const& model = run.model;
+  require_model(model);
   TemporaryFolder const folder;
   auto const request = folder.path() / "task";
   auto const reply = folder.path() / "reply";

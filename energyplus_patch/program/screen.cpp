@@ -1,0 +1,242 @@
+#include "program/screen.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <glm/trigonometric.hpp>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "assets/image_file.h"
+#include "assets/picture_sheet.h"
+#include "base/console.h"
+#include "base/file_names.h"
+#include "base/files.h"
+#include "base/nearest_word.h"
+#include "base/process.h"
+#include "base/staged_files.h"
+#include "base/text.h"
+#include "extensions/extension_fields.h"
+#include "gpu_shading/error.h"
+#include "model/model_reader.h"
+#include "program/model_run.h"
+#include "program/screen_optics.h"
+#include "program/screen_plot.h"
+#include "program/tile_picture.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using Path = std::filesystem::path;
+namespace field = extension::perforated_screen;
+
+// One object of the model.
+struct NamedScreen {
+  std::shared_ptr<ScreenMaker> maker;
+  std::vector<std::string> surfaces;
+};
+
+struct DescribedScreen {
+  NamedScreen named;
+  std::shared_ptr<PerforatedScreen const> screen;
+  std::string description;
+  double rotation = 0.0;  // degrees
+};
+
+// By their objects' names.
+std::map<std::string, NamedScreen> screens_of(PerforatedScreens const& screens) {
+  std::map<std::string, NamedScreen> named;
+  for (auto const& [surface, screen] : screens.by_surface) {
+    auto& entry = named[screen.maker->object()];
+    entry.maker = screen.maker;
+    entry.surfaces.push_back(surface);
+  }
+  return named;
+}
+
+std::vector<NamedScreen> choose(std::map<std::string, NamedScreen> const& screens,
+                                ScreenTask const& task) {
+  if (screens.empty()) {
+    throw Error(fmt::format("{}: has no {}", task.model.string(), field::type));
+  }
+  std::vector<NamedScreen> chosen;
+  std::vector<std::string> names;
+  for (auto const& [name, screen] : screens) {
+    names.push_back(name);
+    if (task.name.empty() || matches(task.name, name)) chosen.push_back(screen);
+  }
+  if (chosen.empty()) {
+    throw Error(fmt::format("{}: no {} matches {}{}", task.model.string(), field::type,
+                            in_quotes(task.name), did_you_mean(task.name, names)));
+  }
+  return chosen;
+}
+
+std::optional<DescribedScreen> describe(NamedScreen const& named) {
+  // The tile has another size, and therefore another transmittance, on each surface.
+  if (named.maker->stretches()) return std::nullopt;
+  Polygon const any;
+  return DescribedScreen{named, named.maker->make(any), named.maker->describe(any),
+                         glm::degrees(named.maker->placement(any).rotation)};
+}
+
+std::vector<DescribedScreen> describe(std::vector<NamedScreen> const& chosen) {
+  std::vector<DescribedScreen> screens;
+  std::vector<std::string> refused;
+  for (auto const& named : chosen) {
+    if (auto screen = describe(named)) {
+      screens.push_back(std::move(*screen));
+    } else {
+      refused.push_back(fmt::format(
+          "{}: {} and {} are blank, so that the transmittance depends on the size of each surface; "
+          "give one of them",
+          named.maker->where(), field::tile_width.title, field::tile_height.title));
+    }
+  }
+  if (screens.empty()) throw Error(refused.front());
+  for (auto const& line : refused) print_line("warning: " + line);
+  return screens;
+}
+
+constexpr std::array azimuths{0, 45, 90, 135};
+
+void print_table(PerforatedScreen const& screen) {
+  constexpr int step = 10;
+  constexpr int last = 80;
+  fmt::print("{:>7}{:>10}{:>10}{:>10}{:>10}\n", "theta", "u (0)", "45", "v (90)", "135");
+  for (int theta = 0; theta <= last; theta += step) {
+    fmt::print("{:>7}", theta);
+    for (auto const phi : azimuths) {
+      fmt::print("{:>10.4f}", transmittance(screen, theta, phi));
+    }
+    fmt::print("\n");
+  }
+}
+
+std::string list(std::vector<std::string> const& surfaces) {
+  constexpr std::size_t most = 3;
+  auto const shown = std::min(surfaces.size(), most);
+  std::vector<std::string> names(shown);
+  std::transform(surfaces.begin(), surfaces.begin() + static_cast<std::ptrdiff_t>(shown),
+                 names.begin(), [](std::string const& name) { return printable(name); });
+  auto text = fmt::format("{}", fmt::join(names, ", "));
+  if (surfaces.size() > most) text += fmt::format(" and {} more", surfaces.size() - most);
+  return text;
+}
+
+void print(DescribedScreen const& described) {
+  auto const& screen = *described.screen;
+  fmt::print("{}\n", one_line(described.named.maker->where()));
+  fmt::print("  sheet          {}\n", one_line(described.description));
+  fmt::print("  surfaces       {}\n", list(described.named.surfaces));
+  fmt::print("  open fraction  {:.4f}\n", screen.open_fraction());
+  double const cut_off = glm::degrees(screen.transmittance().cut_off());
+  constexpr double right_angle = 90.0;
+  if (screen.sheet().thickness > 0.0 && cut_off < right_angle) {
+    fmt::print("  cut-off        {:.1f} degrees from the normal: no beam passes beyond\n", cut_off);
+  }
+  if (described.rotation != 0.0) {
+    fmt::print(
+        "  rotation       u and v are rotated by {:g} degrees counterclockwise as seen from "
+        "outside\n",
+        described.rotation);
+  }
+  fmt::print("\n");
+  print_table(screen);
+}
+
+void print_legend() {
+  fmt::print(
+      "\nFraction of the beam that passes, tau, by angle of incidence from the normal, theta, and\n"
+      "azimuth about the normal, phi, in degrees. u (phi = 0) runs to the right along the lower\n"
+      "edge of the surface as seen from outside, and v (phi = 90) runs up. Both faces are alike,\n"
+      "and so are phi and phi + 180.\n");
+}
+
+void write_table(PerforatedScreen const& screen, std::ostream& csv) {
+  constexpr int last_theta = 89;
+  constexpr int phi_step = 5;
+  constexpr int circle = 360;
+  csv << "theta [deg],phi [deg],tau [-]\n";
+  for (int theta = 0; theta <= last_theta; ++theta) {
+    for (int phi = 0; phi < circle; phi += phi_step) {
+      csv << fmt::format("{},{},{:.6f}\n", theta, phi, transmittance(screen, theta, phi));
+    }
+  }
+}
+
+std::string encode_tile(DescribedScreen const& described, std::string const& name) {
+  constexpr int size = 480;
+  constexpr double oblique = 30.0;
+  TemporaryFolder const temporary;
+  PictureSheet sheet;
+  for (double const angle : {0.0, oblique}) {
+    auto const file = temporary.path() / fmt::format("{}.png", angle);
+    write_whole_file(file, [&](std::ostream& out) {
+      out << encode_image("tile.png", draw_tile(*described.screen, angle, size));
+    });
+    sheet.items.push_back(
+        {file, angle > 0.0 ? fmt::format("{:g} degrees from the right", angle) : "from the front"});
+  }
+  return encode_sheet(name, sheet);
+}
+
+std::optional<std::string> try_encoding_tile(DescribedScreen const& described,
+                                             std::string const& name) {
+  try {
+    return encode_tile(described, name);
+  } catch (Error const& error) {
+    print_line(fmt::format("warning: {}: not drawn: {}", name, error.what()));
+    return std::nullopt;
+  }
+}
+
+void write_files(std::vector<DescribedScreen> const& screens, StagedFiles& files,
+                 Path const& folder) {
+  FileNames tables;
+  FileNames plots;
+  FileNames tiles;
+  std::vector<std::string> written;
+  for (auto const& described : screens) {
+    auto const& object = described.named.maker->object();
+    written.push_back(tables.add(object, "_tau.csv"));
+    files.write(written.back(), [&](std::ostream& csv) { write_table(*described.screen, csv); });
+    written.push_back(plots.add(object, "_tau.svg"));
+    files.write(written.back(), [&](std::ostream& svg) {
+      write_polar_plot(*described.screen, printable(object), one_line(described.description), svg);
+    });
+    // Installations without the picture formats have the tables and plots.
+    auto const tile = tiles.add(object, "_tile.png");
+    if (auto const picture = try_encoding_tile(described, tile)) {
+      files.write(tile, *picture);
+      written.push_back(tile);
+    }
+  }
+  files.commit();
+  fmt::print("\n");
+  for (auto const& name : written) fmt::print("{}\n", (folder / name).string());
+}
+
+}  // namespace
+
+void describe_screens(ScreenTask const& task, Choices const& choices) {
+  require_model(task.model);
+  auto const model = read_model(task.model, choices);
+  auto const screens = describe(choose(screens_of(model.screens), task));
+  for (auto const& warning : model.screens.warnings()) print_line("warning: " + warning);
+  std::optional<StagedFiles> files;
+  if (task.folder) files.emplace(*task.folder);
+  for (auto const& screen : screens) {
+    if (&screen != &screens.front()) fmt::print("\n");
+    print(screen);
+  }
+  print_legend();
+  if (files) write_files(screens, *files, *task.folder);
+}
+
+}  // namespace gpu_shading::energyplus

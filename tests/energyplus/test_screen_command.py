@@ -1,0 +1,168 @@
+"""gpu_shading screen: the optics of a model's perforated screens, compared with closed forms."""
+
+import csv
+import math
+import subprocess
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+import screened_room
+from shading_runs import energyplus
+from test_screens import PATTERN, TEXTURE, model, write_grey_image
+
+AZIMUTHS = (0, 45, 90, 135)
+
+
+@pytest.fixture
+def screen(patched, tmp_path):
+    """Calls the command on a model with some objects, or on a missing one for None."""
+    def call(objects, *arguments):
+        path = tmp_path / "model.idf"
+        if objects is not None:
+            path.write_text(model() + objects)
+        # Nothing else is needed: EnergyPlus is not run, and there is no weather file.
+        return subprocess.run([patched.parent / "gpu_shading", "screen", path, *arguments], capture_output=True,
+                              text=True, cwd=tmp_path)
+
+    return call
+
+
+def printed(text):
+    """{(theta, phi): tau} of the one table in a text."""
+    rows = [line.split() for line in text.splitlines()]
+    start = next(i for i, row in enumerate(rows) if row[:1] == ["theta"])
+    table = rows[start + 1:start + 10]
+    assert [int(row[0]) for row in table] == [*range(0, 90, 10)]
+    return {(int(row[0]), phi): float(tau)
+            for row in table for phi, tau in zip(AZIMUTHS, row[1:], strict=True)}
+
+
+def written(path):
+    """{(theta, phi): tau} of a CSV file."""
+    with path.open(newline="") as file:
+        header, *rows = csv.reader(file)
+    assert header == ["theta [deg]", "phi [deg]", "tau [-]"]
+    return {(int(theta), int(phi)): float(tau) for theta, phi, tau in rows}
+
+
+def lens(diameter, apart):
+    """Overlap of two circles of a diameter, over the area of one."""
+    x = min(1.0, apart / diameter)
+    return 2 / math.pi * (math.acos(x) - x * math.sqrt(1 - x * x))
+
+
+OPEN = math.pi / (2 * math.sqrt(3)) * (5 / 8) ** 2  # round holes of 5 mm, 8 mm apart, staggered by 60 degrees
+
+
+def test_thick_round_holes_are_the_overlap_of_two_circles(screen, tmp_path):
+    done = screen(PATTERN.format(surfaces="*Panel"), "Mesh", "-o", "out")
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    assert "round holes 5 mm, 60 degrees staggered, pitch 8 mm, 35.4 % open, 3 mm thick" in done.stdout
+    assert f"open fraction  {OPEN:.4f}\n" in done.stdout
+    assert f"cut-off        {math.degrees(math.atan(5 / 3)):.1f} degrees" in done.stdout
+    values = written(tmp_path / "out" / "Mesh_tau.csv")
+    assert set(values) == {(theta, phi) for theta in range(90) for phi in range(0, 360, 5)}
+    for (theta, phi), tau in values.items():
+        expected = OPEN * lens(5, 3 * math.tan(math.radians(theta)))
+        assert tau == pytest.approx(expected, abs=6e-7), (theta, phi)
+    for direction, tau in printed(done.stdout).items():
+        assert tau == pytest.approx(values[direction], abs=5.1e-5)
+
+
+def test_holes_without_thickness_are_open_at_all_angles(screen, tmp_path):
+    done = screen(PATTERN.format(surfaces="*").replace("0.003;", "0;"), "-o", "out")
+    assert done.returncode == 0, done.stderr
+    assert "cut-off" not in done.stdout
+    assert {*printed(done.stdout).values()} == {round(OPEN, 4)}
+    assert all(abs(tau - OPEN) < 6e-7 for tau in written(tmp_path / "out" / "Mesh_tau.csv").values())
+
+
+def test_square_holes_differ_by_azimuth(screen):
+    # A square of side a and its copy moved by (x, y) share (a - x)(a - y).
+    square = "GPUShading:PerforatedScreen,Grid,hood,Square,,Straight,0.01,,0.02,,0.005;\n"
+    done = screen(square)
+    assert done.returncode == 0, done.stderr
+    for (theta, phi), tau in printed(done.stdout).items():
+        moved = [5 * math.tan(math.radians(theta)) * abs(f(math.radians(phi))) for f in (math.cos, math.sin)]
+        assert tau == pytest.approx(math.prod(max(0, 10 - way) / 20 for way in moved), abs=5.1e-5), (theta, phi)
+
+
+def test_a_slatted_texture_is_open_along_its_slats(screen, tmp_path):
+    # Columns of which 16 of 64 are solid: slats along v of 5 mm, 15 mm between them, 10 mm deep.
+    write_grey_image(tmp_path / "slats.png", [[255] * 16 + [0] * 48] * 64)
+    texture = TEXTURE.format(surfaces="hood", file="slats.png").replace("0.003;", "0.01,,,,,,0.02;")
+    done = screen(texture, "-o", "out")
+    assert done.returncode == 0, done.stderr
+    assert "open fraction  0.7500\n" in done.stdout
+    values = written(tmp_path / "out" / "Leaves_tau.csv")
+    for theta in range(0, 60, 5):
+        for phi in range(0, 360, 45):
+            across = abs(10 * math.tan(math.radians(theta)) * math.cos(math.radians(phi)))
+            expected = max(0, 15 - across) / 20
+            assert values[theta, phi] == pytest.approx(expected, abs=0.01), (theta, phi)
+
+
+def test_rotation_of_the_tile_is_said(screen):
+    turned = PATTERN.format(surfaces="*").replace("0.003;", "0.003,,,,,,,,,,30;")
+    assert "rotated by 30 degrees counterclockwise as seen from outside" in screen(turned).stdout
+    assert "rotated" not in screen(PATTERN.format(surfaces="*")).stdout
+
+
+def test_plot_and_tile_are_pictures_of_the_screen(screen, tmp_path):
+    done = screen(PATTERN.format(surfaces="*Panel").replace("Mesh", "A & <b>"), "-o", "out")
+    assert done.returncode == 0, done.stderr
+    names = sorted(path.name for path in (tmp_path / "out").iterdir())
+    assert names == ["A____b__tau.csv", "A____b__tau.svg", "A____b__tile.png"]
+    assert done.stdout.splitlines()[-3:] == [f"out/{name}" for name in names]
+    svg = ElementTree.parse(tmp_path / "out" / names[1]).getroot()
+    assert svg.tag == "{http://www.w3.org/2000/svg}svg"
+    texts = [element.text for element in svg.iter("{http://www.w3.org/2000/svg}text")]
+    assert texts[0] == "A & <b>" and {"0° (u)", "90° (v)", "30°", "60°", "tau", f"{OPEN:.3f}"} <= {*texts}
+    assert (tmp_path / "out" / names[2]).read_bytes().startswith(b"\x89PNG")
+
+
+def test_pattern_of_names_chooses_screens(screen):
+    both = (PATTERN.format(surfaces="*Panel") + PATTERN.format(surfaces="hood").replace("Mesh", "Roof mesh"))
+    assert screen(both).stdout.count("open fraction") == 2
+    assert screen(both, "*mesh").stdout.count("open fraction") == 2
+    assert screen(both, "roof*").stdout.count("open fraction") == 1
+    assert screen(both, "mesh").stdout.count("open fraction") == 1
+
+
+@pytest.mark.parametrize("objects, arguments, message", [
+    (None, [], "{model}: no such file"),
+    ("", [], "{model}: has no GPUShading:PerforatedScreen"),
+    (PATTERN.format(surfaces="*"), ["Mehs"],
+     '{model}: no GPUShading:PerforatedScreen matches "Mehs"; did you mean Mesh?'),
+    (PATTERN.format(surfaces="*").replace("0.008", "0.004"), [],
+     "{model}: GPUShading:PerforatedScreen Mesh: Hole Size is 0.005 m, expected less than the pitch, 0.004 m"),
+    (TEXTURE.format(surfaces="hood", file="leaves.png"), [],
+     "{model}: GPUShading:PerforatedScreen Leaves: Tile Width and Tile Height are blank, so that the transmittance "
+     "depends on the size of each surface; give one of them"),
+    (PATTERN.format(surfaces="*"), ["-o", "model.idf"], "model.idf: cannot be written (Not a directory)"),
+], ids=["no model", "no screen", "no such name", "field", "stretched", "no folder"])
+def test_errors_are_one_line(screen, tmp_path, objects, arguments, message):
+    write_grey_image(tmp_path / "leaves.png", [[255, 0]])
+    done = screen(objects, *arguments)
+    assert done.returncode == 1
+    assert done.stdout == ""
+    assert done.stderr == f"gpu_shading: error: {message.format(model=tmp_path / 'model.idf')}\n"
+
+
+def test_what_is_not_a_file_is_not_replaced(screen, tmp_path):
+    (tmp_path / "out" / "Mesh_tau.svg").mkdir(parents=True)
+    (tmp_path / "out" / "Mesh_tau.svg" / "mine").touch()
+    done = screen(PATTERN.format(surfaces="*"), "-o", "out")
+    assert done.returncode == 1
+    assert done.stderr == "gpu_shading: error: out/Mesh_tau.svg: cannot be written (it is a folder)\n"
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["Mesh_tau.svg"]
+
+
+def test_the_documents_show_what_is_printed(patched, tmp_path):
+    (tmp_path / "room.idf").write_text(screened_room.model(screen="small holes"))
+    done = subprocess.run([patched.parent / "gpu_shading", "screen", "room.idf", "Sheet"], capture_output=True,
+                          text=True, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    page = energyplus.REPOSITORY / "gpu_shading" / "docs" / "running.md"
+    assert f"```text\n{done.stdout}```\n" in page.read_text()
