@@ -23,7 +23,10 @@
 #include "base/text.h"
 #include "extensions/extension_fields.h"
 #include "gpu_shading/error.h"
+#include "idf/model_file.h"
+#include "model/geometry_rules.h"
 #include "model/model_reader.h"
+#include "model/shading_outlines.h"
 #include "program/model_run.h"
 #include "program/screen_optics.h"
 #include "program/screen_plot.h"
@@ -35,7 +38,7 @@ namespace {
 using Path = std::filesystem::path;
 namespace field = extension::perforated_screen;
 
-// One object of the model.
+// One object of the model, and surfaces that it names.
 struct NamedScreen {
   std::shared_ptr<ScreenMaker> maker;
   std::vector<std::string> surfaces;
@@ -77,25 +80,64 @@ std::vector<NamedScreen> choose(std::map<std::string, NamedScreen> const& screen
   return chosen;
 }
 
-std::optional<DescribedScreen> describe(NamedScreen const& named) {
-  // The tile has another size, and therefore another transmittance, on each surface.
-  if (named.maker->stretches()) return std::nullopt;
-  Polygon const any;
-  return DescribedScreen{named, named.maker->make(any), named.maker->describe(any),
-                         glm::degrees(named.maker->placement(any).rotation)};
+// Polygons by the upper-case names of their surfaces, as far as they are known without EnergyPlus.
+using Outlines = std::map<std::string, Polygon>;
+
+Outlines read_outlines(Path const& path, ShadingInput const& shading) {
+  auto const objects = read_objects(path);
+  if (!reason_against_outlines(objects).empty()) return {};
+  auto const rules = read_geometry_rules(objects);
+  Outlines outlines;
+  for (auto const& object : objects) {
+    if (auto outline = outline_of(object, shading, rules)) {
+      outlines[upper(object.name)].outline = std::move(outline->vertices);
+    }
+  }
+  return outlines;
 }
 
-std::vector<DescribedScreen> describe(std::vector<NamedScreen> const& chosen) {
+DescribedScreen describe(NamedScreen const& named, Polygon const& surface) {
+  return {named, named.maker->make(surface), named.maker->describe(surface),
+          glm::degrees(named.maker->placement(surface).rotation)};
+}
+
+// A texture that covers each surface has another tile, and so another transmittance, for each size
+// of them. Surfaces of unknown size get a line each in `refused`.
+void describe_each(NamedScreen const& named, Outlines const& outlines,
+                   std::vector<DescribedScreen>& screens, std::vector<std::string>& refused) {
+  auto const first = screens.size();
+  for (auto const& name : named.surfaces) {
+    auto const outline = outlines.find(name);
+    if (outline == outlines.end()) {
+      refused.push_back(fmt::format(
+          "{}: {} and {} are blank, so that the tile has the size of {}, which only EnergyPlus "
+          "knows; give one of them",
+          named.maker->where(), field::tile_width.title, field::tile_height.title, name));
+      continue;
+    }
+    auto described = describe({named.maker, {name}}, outline->second);
+    auto const same = std::find_if(
+        screens.begin() + static_cast<std::ptrdiff_t>(first), screens.end(),
+        [&](DescribedScreen const& other) { return other.screen == described.screen; });
+    if (same == screens.end()) {
+      screens.push_back(std::move(described));
+    } else {
+      same->named.surfaces.push_back(name);
+    }
+  }
+}
+
+std::vector<DescribedScreen> describe(std::vector<NamedScreen> const& chosen, Path const& path,
+                                      ShadingInput const& shading) {
   std::vector<DescribedScreen> screens;
   std::vector<std::string> refused;
+  std::optional<Outlines> outlines;
   for (auto const& named : chosen) {
-    if (auto screen = describe(named)) {
-      screens.push_back(std::move(*screen));
+    if (named.maker->stretches()) {
+      if (!outlines) outlines = read_outlines(path, shading);
+      describe_each(named, *outlines, screens, refused);
     } else {
-      refused.push_back(fmt::format(
-          "{}: {} and {} are blank, so that the transmittance depends on the size of each surface; "
-          "give one of them",
-          named.maker->where(), field::tile_width.title, field::tile_height.title));
+      screens.push_back(describe(named, {}));
     }
   }
   if (screens.empty()) throw Error(refused.front());
@@ -227,7 +269,7 @@ void write_files(std::vector<DescribedScreen> const& screens, StagedFiles& files
 void describe_screens(ScreenTask const& task, Choices const& choices) {
   require_model(task.model);
   auto const model = read_model(task.model, choices);
-  auto const screens = describe(choose(screens_of(model.screens), task));
+  auto const screens = describe(choose(screens_of(model.screens), task), task.model, model.shading);
   for (auto const& warning : model.screens.warnings()) print_line("warning: " + warning);
   std::optional<StagedFiles> files;
   if (task.folder) files.emplace(*task.folder);

@@ -103,6 +103,24 @@ def test_a_slatted_texture_is_open_along_its_slats(screen, tmp_path):
             assert values[theta, phi] == pytest.approx(expected, abs=0.01), (theta, phi)
 
 
+def test_a_texture_that_covers_surfaces_has_the_size_of_each(screen, tmp_path):
+    # Half open, in columns: the panels are 2 m wide, so slats of 1 m, in a sheet of 0.5 m.
+    write_grey_image(tmp_path / "slats.png", [[255] * 32 + [0] * 32] * 64)
+    small = "Shading:Site:Detailed,Small Panel,,4, 0,-9,2, 0,-9,0, 1,-9,0, 1,-9,2;\n"
+    texture = TEXTURE.format(surfaces="*Panel", file="slats.png").replace("0.003;", "0.5;")
+    done = screen(small + texture, "-o", "out")
+    assert done.returncode == 0, done.stderr
+    assert "PLAIN PANEL, which only EnergyPlus knows" in done.stderr and done.stderr.count("\n") == 1
+    assert "surfaces       BUILDING PANEL, SITE PANEL, ZONE PANEL\n" in done.stdout
+    assert "surfaces       SMALL PANEL\n" in done.stdout
+    for name, slat in (("Leaves", 1.0), ("Leaves_2", 0.5)):
+        values = written(tmp_path / "out" / f"{name}_tau.csv")
+        for theta in range(0, 60, 5):
+            expected = max(0, slat - 0.5 * math.tan(math.radians(theta))) / (2 * slat)
+            assert values[theta, 0] == pytest.approx(expected, abs=0.01), (name, theta)
+            assert values[theta, 90] == pytest.approx(0.5, abs=0.01)
+
+
 def test_rotation_of_the_tile_is_said(screen):
     turned = PATTERN.format(surfaces="*").replace("0.003;", "0.003,,,,,,,,,,30;")
     assert "rotated by 30 degrees counterclockwise as seen from outside" in screen(turned).stdout
@@ -138,8 +156,8 @@ def test_pattern_of_names_chooses_screens(screen):
     (PATTERN.format(surfaces="*").replace("0.008", "0.004"), [],
      "{model}: GPUShading:PerforatedScreen Mesh: Hole Size is 0.005 m, expected less than the pitch, 0.004 m"),
     (TEXTURE.format(surfaces="hood", file="leaves.png"), [],
-     "{model}: GPUShading:PerforatedScreen Leaves: Tile Width and Tile Height are blank, so that the transmittance "
-     "depends on the size of each surface; give one of them"),
+     "{model}: GPUShading:PerforatedScreen Leaves: Tile Width and Tile Height are blank, so that the tile has the size "
+     "of HOOD, which only EnergyPlus knows; give one of them"),
     (PATTERN.format(surfaces="*"), ["-o", "model.idf"], "model.idf: cannot be written (Not a directory)"),
 ], ids=["no model", "no screen", "no such name", "field", "stretched", "no folder"])
 def test_errors_are_one_line(screen, tmp_path, objects, arguments, message):
