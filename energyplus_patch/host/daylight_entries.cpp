@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <utility>
 
 #include "host/run.h"
 
@@ -51,12 +52,12 @@ double share_of(Session& session, Ray const& ray, int hour) {
 
 double hit_obstruction(State& state, int hour, int window, Vector const& origin,
                        Vector const& direction) {
-  double passed = original_hit_obstruction(state, hour, window, origin, direction);
+  auto const before = std::exchange(arrived(), {});  // of this ray alone
+  double const passed = original_hit_obstruction(state, hour, window, origin, direction);
   auto* const session = answering_session();
   if (session == nullptr || passed <= 0.0) return passed;
-  passed *= share_of(*session, {to_glm(origin), to_glm(direction)}, hour);
-  if (arrived().share < 1.0 && arrived().at == origin) passed *= arrived().share;
-  return passed;
+  double const share = share_of(*session, {to_glm(origin), to_glm(direction)}, hour);
+  return passed * share * (before.at == origin ? before.share : 1.0);
 }
 
 // Whether nothing passes; `before`: what passed up to the start of the segment.
