@@ -1,8 +1,11 @@
 """gpu_shading view: pictures of what the sun sees."""
 
+import os
 import re
+import shutil
 import sqlite3
 import subprocess
+from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
@@ -183,3 +186,31 @@ def test_daylight_saving_is_energyplus_s(view, official, weather, tmp_path):
         done = view("--at", clock, "-o", "sun.png", "--size", "100")
         assert done.returncode == 0, done.stderr
         assert times(done.stdout)[clock] == pytest.approx((azimuths[standard], altitudes[standard]), abs=0.02)
+
+
+def without_fonts(*kept):
+    """The beginning of a command that runs where there are no fonts but those."""
+    hide = "mount -t tmpfs none /usr/share/fonts; mkdir -p /usr/local/share/fonts && "
+    hide += "mount -t tmpfs none /usr/local/share/fonts; "
+    hide += "".join(f"cp {font} /usr/share/fonts/another.ttf; " for font in kept)
+    user = [] if os.geteuid() == 0 else ["--map-root-user"]
+    command = ["unshare", *user, "--mount", "sh", "-c", hide + 'exec "$@"', "sh"]
+    tried = subprocess.run([*command, "true"], capture_output=True, text=True)
+    if tried.returncode != 0:
+        pytest.skip(f"no own mounts: {tried.stderr.strip()}")
+    return command
+
+
+@pytest.mark.parametrize("kept", [0, 1])
+def test_a_missing_font_is_replaced_or_left_out(kept, patched, tmp_path):
+    model, picture = tmp_path / "model.idf", tmp_path / "sun.png"
+    model.write_text(window_with_shades.model("south", True, True))
+    fonts = tmp_path / "mine.ttf"
+    shutil.copy(next(Path("/usr/share/fonts").rglob("DejaVuSans.ttf")), fonts)
+    done = subprocess.run([*without_fonts(*[fonts][:kept]), patched.parent / "gpu_shading", "view", model, "--at",
+                           "06-21 15:00", "-o", picture], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert ("no font was found" in done.stderr) == (kept == 0) and done.stderr.count("no font") <= 1
+    with Image.open(picture) as written:
+        text = written.convert("RGB").crop((0, 0, written.width, 20))
+        assert (len(text.getcolors()) > 1) == (kept == 1)
