@@ -104,6 +104,7 @@ std::string CheckedBackend::find_fault(std::vector<ViewSums> const& sums) {
     for (Kept const* const kept : checks.choose()) {
       chosen.push_back({kind, &checks, kept});
       views.push_back(kept->view);
+      views.back().at_pixels = true;
     }
   }
   if (chosen.empty()) return {};

@@ -24,10 +24,11 @@ struct ViewDifference {
 // shares of them that are sunlit: of each interior surface, and of each combination of schedules.
 //
 // With edges of E pixels in length on a tile, either method is within sqrt(E) pixels of the exact
-// area in 99 % of views (view/tile_size.h). Both sample the same pixel centres and differ only near
-// edges, which they round differently, so that the error of one is enough as their tolerance:
-// sqrt(E) of the receiver's N pixels. llvmpipe and the CPU differ by at most 0.07 sqrt(E). E is at
-// most N; it is N behind perforated sheets, because their holes have edges of their own.
+// area in 99 % of views (view/tile_size.h). Both must sample the same pixel centres
+// (ReceiverView::at_pixels), and differ only near edges, which they round differently, so that the
+// error of one is enough as their tolerance: sqrt(E) of the receiver's N pixels. llvmpipe and the
+// CPU differ by at most 0.07 sqrt(E). E is at most N; it is N behind perforated sheets, because
+// their holes have edges of their own.
 ViewDifference compare(ReceiverView const& view, ViewSums const& device, ViewSums const& reference,
                        Scene const& scene, Transmission const& transmission);
 

@@ -4,9 +4,11 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <mutex>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -15,10 +17,11 @@
 namespace gpu_shading {
 namespace {
 
-View in_pixels(View view, int side) {
+View in_pixels(View view, TileGrid const& grid) {
   glm::dvec4 const shift(0.0, 0.0, 0.0, 1.0);
-  view.x = 0.5 * side * (view.x + shift);
-  view.y = 0.5 * side * (view.y + shift);
+  view.x = 0.5 * grid.width * (view.x + shift);
+  view.y = 0.5 * grid.rows * (view.y + shift);
+  view.x += grid.shear * view.y;
   return view;
 }
 
@@ -47,18 +50,37 @@ void each_bit(std::uint64_t word, std::size_t number, Use use) {
 
 LuminanceSums unscheduled(double sum) { return {sum, {}}; }
 
-// Calls use(first, end) for parts of a tile's rows, on at most this many threads.
+// Calls use(first, end) for parts of a number of rows, on at most this many threads.
 template <typename Use>
-void in_rows(int side, int threads, Use use) {
-  if (threads <= 1) return use(0, side);
-  int const share = (side + threads - 1) / threads;
-  for_each_index(static_cast<std::size_t>((side + share - 1) / share), [&](std::size_t part) {
+void in_rows(int rows, int threads, Use use) {
+  if (threads <= 1) return use(0, rows);
+  int const share = (rows + threads - 1) / threads;
+  for_each_index(static_cast<std::size_t>((rows + share - 1) / share), [&](std::size_t part) {
     int const first = static_cast<int>(part) * share;
-    use(first, std::min(first + share, side));
+    use(first, std::min(first + share, rows));
   });
 }
 
+TileGrid grid_of(Tile const& tile, OpaqueSamples samples) {
+  return samples == OpaqueSamples::fine ? fine_grid(tile) : pixels_of(tile);
+}
+
+// A number of samples, in pixels of the tile, if `own` of them are the receiver's.
+double in_tile_pixels(Tile const& tile, std::uint64_t samples, std::uint64_t own) {
+  return static_cast<double>(samples) / static_cast<double>(own) *
+         static_cast<double>(tile.counted_pixels);
+}
+
 }  // namespace
+
+TileGrid fine_grid(Tile const& tile) {
+  constexpr int large = 128;  // smaller tiles have too few edges to alias with 9 columns to a row
+  constexpr double golden = 1.0 / std::numbers::phi;
+  int const rows = std::max((tile.side + 1) / 2, std::min(tile.side, 96 + tile.side * 3 / 8));
+  int const columns_a_row = tile.side < large ? 9 : 17;
+  double const slope = columns_a_row * golden;
+  return {columns_a_row * rows, rows, std::ceil(slope) - slope - (1.0 - golden)};
+}
 
 struct Coverage::InteriorPiece {
   std::size_t surface = 0;  // its index in the question
@@ -76,11 +98,11 @@ void Coverage::each_area(SurfaceId caster, View const& pixels, int side, Use use
 }
 
 LuminanceSums Coverage::sums(Tile const& tile, View const& view, CastersInView const& casters,
-                             int threads) const {
-  View const pixels = in_pixels(view, tile.side);
+                             OpaqueSamples samples, int threads) const {
   if (casters.opaque()) {
-    return unscheduled(static_cast<double>(lit(tile, pixels, casters.surfaces, threads)));
+    return unscheduled(lit(tile, grid_of(tile, samples), view, casters.surfaces, threads));
   }
+  View const pixels = in_pixels(view, pixels_of(tile));
   if (any_scheduled(casters.shades)) return scheduled(tile, pixels, casters, threads);
   return unscheduled(luminance(tile, pixels, casters, threads));
 }
@@ -114,17 +136,22 @@ void Coverage::shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* pa
   shade_by_screens(shaded, mask, pixels, casters.screens);
 }
 
-std::uint64_t Coverage::lit(Tile const& tile, View const& pixels,
-                            std::span<SurfaceId const> casters, int threads) const {
+double Coverage::lit(Tile const& tile, TileGrid const& grid, View const& view,
+                     std::span<SurfaceId const> casters, int threads) const {
+  View const pixels = in_pixels(view, grid);
+  std::atomic<std::uint64_t> own = 0;
   std::atomic<std::uint64_t> sum = 0;
-  in_rows(tile.side, threads, [&](int first, int end) {
+  in_rows(grid.rows, threads, [&](int first, int end) {
     static thread_local PixelMask mask;
-    mask.start(tile.side, first, end);
-    light(mask, tile);
-    darken(mask, tile.side, pixels, casters);
+    mask.start(grid.columns(), first, end);
+    light(mask, tile, grid);
+    own += mask.lit();
+    darken(mask, grid.side(), pixels, casters);
     sum += mask.lit();
   });
-  return sum;
+  // Rows may all miss a small receiver that pixels meet.
+  if (own == 0) return lit(tile, pixels_of(tile), view, casters, threads);
+  return in_tile_pixels(tile, sum, own);
 }
 
 double Coverage::luminance(Tile const& tile, View const& pixels, CastersInView const& casters,
@@ -134,7 +161,7 @@ double Coverage::luminance(Tile const& tile, View const& pixels, CastersInView c
     static thread_local PixelMask mask;
     static thread_local LuminanceTile shaded;
     mask.start(tile.side, first, end);
-    light(mask, tile);
+    light(mask, tile, pixels_of(tile));
     shaded.start(tile.side, first, end);
     shade(mask, shaded, nullptr, pixels, casters);
     shaded.sum_rows(mask, std::span(sums).subspan(static_cast<std::size_t>(first)));
@@ -157,7 +184,7 @@ LuminanceSums Coverage::scheduled(Tile const& tile, View const& pixels,
     static thread_local LuminanceTile shaded;
     Part part{first, {}, {}};
     mask.start(tile.side, first, end);
-    light(mask, tile);
+    light(mask, tile, pixels_of(tile));
     shaded.start(tile.side, first, end);
     part.passed.start(tile.side, first, end);
     shade(mask, shaded, &part.passed, pixels, casters);
@@ -180,23 +207,41 @@ LuminanceSums Coverage::scheduled(Tile const& tile, View const& pixels,
   return totals.result();
 }
 
+std::vector<LuminanceSums> Coverage::lit_inside(Tile const& tile, TileGrid const& grid,
+                                                View const& view, CastersInView const& casters,
+                                                View const& behind,
+                                                std::span<SurfaceId const> interiors) const {
+  PixelMask lit;
+  lit.start(grid.columns(), 0, grid.rows);
+  light(lit, tile, grid);
+  std::uint64_t const own = lit.lit();
+  if (own == 0) return lit_inside(tile, pixels_of(tile), view, casters, behind, interiors);
+  darken(lit, grid.side(), in_pixels(view, grid), casters.surfaces);
+  std::vector<std::uint64_t> counts(interiors.size());
+  for (InteriorPiece const& piece : find_inside(grid, in_pixels(behind, grid), interiors, lit)) {
+    counts[piece.surface] += count_common(std::as_const(lit).words(), piece.mask.words());
+  }
+  std::vector<LuminanceSums> sums;
+  sums.reserve(counts.size());
+  for (std::uint64_t const count : counts) {
+    sums.push_back(unscheduled(in_tile_pixels(tile, count, own)));
+  }
+  return sums;
+}
+
 std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& view,
-                                                 CastersInView const& casters, View const& behind,
+                                                 CastersInView const& casters,
+                                                 OpaqueSamples samples, View const& behind,
                                                  std::span<SurfaceId const> interiors) const {
-  View const pixels = in_pixels(view, tile.side);
+  if (casters.opaque()) {
+    return lit_inside(tile, grid_of(tile, samples), view, casters, behind, interiors);
+  }
+  TileGrid const grid = pixels_of(tile);
+  View const pixels = in_pixels(view, grid);
   PixelMask lit;
   lit.start(tile.side, 0, tile.side);
-  light(lit, tile);
+  light(lit, tile, grid);
   std::vector<LuminanceSums> sums(interiors.size());
-  if (casters.opaque()) {
-    darken(lit, tile.side, pixels, casters.surfaces);
-    for (InteriorPiece const& piece :
-         find_inside(tile, in_pixels(behind, tile.side), interiors, lit)) {
-      sums[piece.surface].unscheduled +=
-          static_cast<double>(count_common(std::as_const(lit).words(), piece.mask.words()));
-    }
-    return sums;
-  }
   LuminanceTile shaded;
   PassedSchedules passed;
   shaded.start(tile.side, 0, tile.side);
@@ -206,8 +251,7 @@ std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& v
   std::vector<CombinationSums::Sum> taken;
   std::vector<ScheduledTotals> totals(interiors.size());
   std::span<std::uint64_t const> const words = std::as_const(lit).words();
-  for (InteriorPiece const& piece :
-       find_inside(tile, in_pixels(behind, tile.side), interiors, lit)) {
+  for (InteriorPiece const& piece : find_inside(grid, in_pixels(behind, grid), interiors, lit)) {
     for (std::size_t word = 0; word < words.size(); ++word) {
       each_bit(words[word] & piece.mask.words()[word], word, [&](std::size_t pixel) {
         by_combination.add(passed.pixels()[pixel], std::as_const(shaded).pixels()[pixel]);
@@ -221,7 +265,7 @@ std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& v
   return sums;
 }
 
-std::vector<Coverage::InteriorPiece> Coverage::find_inside(Tile const& tile, View const& pixels,
+std::vector<Coverage::InteriorPiece> Coverage::find_inside(TileGrid const& grid, View const& pixels,
                                                            std::span<SurfaceId const> interiors,
                                                            PixelMask const& lit) const {
   std::vector<InteriorPiece> found;
@@ -229,12 +273,12 @@ std::vector<Coverage::InteriorPiece> Coverage::find_inside(Tile const& tile, Vie
   std::vector<std::uint64_t> several(lit.words().size());
   for (std::size_t i = 0; i < interiors.size(); ++i) {
     pieces_.each(interiors[i], pixels, [&](ProjectedPiece const& piece) {
-      ConvexArea const area = piece.area(tile.side);
+      ConvexArea const area = piece.area(grid.side());
       if (area.first_row >= area.end_row) return;
       InteriorPiece& added = found.emplace_back();
       added.surface = i;
       added.depth = piece.depth();
-      added.mask.start(tile.side, 0, tile.side);
+      added.mask.start(grid.columns(), 0, grid.rows);
       added.mask.light(area);
       std::span<std::uint64_t const> const words = std::as_const(added.mask).words();
       for (std::size_t k = 0; k < words.size(); ++k) {

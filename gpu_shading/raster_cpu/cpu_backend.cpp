@@ -91,14 +91,15 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
     casters.shades = shades;
   }
   View const in_front = view_in_front(*view.frame, tile.map, view.towards_sun);
+  OpaqueSamples const samples = view.at_pixels ? OpaqueSamples::pixels : OpaqueSamples::fine;
   ViewSums sums;
   sums.receiver_pixels = tile.counted_pixels;
   try {
     if (view.through) {
       View const behind = view_behind(*view.frame, tile.map, view.towards_sun, 1.0);
-      sums.parts = coverage_.sums_inside(tile, in_front, casters, behind, view.interiors);
+      sums.parts = coverage_.sums_inside(tile, in_front, casters, samples, behind, view.interiors);
     } else {
-      sums.parts.push_back(coverage_.sums(tile, in_front, casters, threads));
+      sums.parts.push_back(coverage_.sums(tile, in_front, casters, samples, threads));
     }
   } catch (Error const& error) {
     throw Error(fmt::format("surface '{}': {}", scene_[view.receiver].name, error.what()));

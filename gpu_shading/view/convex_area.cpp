@@ -55,8 +55,8 @@ class Limits {
 // For a block of rows, written so that the compiler can vectorise it.
 template <std::size_t limits>
 [[gnu::always_inline]] inline void find_some(ConvexArea const& area, int first_row, int rows,
-                                             int side, RowSpans& spans) {
-  auto const width = static_cast<float>(side);
+                                             int columns, RowSpans& spans) {
+  auto const width = static_cast<float>(columns);
   std::int32_t longest = 0;
   int const whole = (rows + RowSpans::at_once - 1) / RowSpans::at_once * RowSpans::at_once;
   for (int i = 0; i < whole; ++i) {
@@ -82,16 +82,16 @@ template <std::size_t limits>
 }
 
 [[gnu::always_inline]] inline void find_all(ConvexArea const& area, int first_row, int rows,
-                                            int side, RowSpans& spans) {
+                                            int columns, RowSpans& spans) {
   switch (area.limits) {
     case 1:
-      return find_some<1>(area, first_row, rows, side, spans);
+      return find_some<1>(area, first_row, rows, columns, spans);
     case 2:
-      return find_some<2>(area, first_row, rows, side, spans);
+      return find_some<2>(area, first_row, rows, columns, spans);
     case 3:
-      return find_some<3>(area, first_row, rows, side, spans);
+      return find_some<3>(area, first_row, rows, columns, spans);
     default:
-      return find_some<ConvexArea::most_limits>(area, first_row, rows, side, spans);
+      return find_some<ConvexArea::most_limits>(area, first_row, rows, columns, spans);
   }
 }
 
@@ -143,8 +143,8 @@ ConvexArea area_in_front(std::span<glm::dvec2 const> corners, std::span<double c
   return area;
 }
 
-void find_spans(ConvexArea const& area, int first_row, int rows, int side, RowSpans& spans) {
-  run<find_all>(area, first_row, rows, side, spans);
+void find_spans(ConvexArea const& area, int first_row, int rows, int columns, RowSpans& spans) {
+  run<find_all>(area, first_row, rows, columns, spans);
 }
 
 }  // namespace gpu_shading

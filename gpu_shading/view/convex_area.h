@@ -30,7 +30,8 @@ struct ConvexArea {
 // The area of the parallelogram of two edges, positive if the second is anticlockwise of the first.
 inline double cross(glm::dvec2 const& a, glm::dvec2 const& b) { return a.x * b.y - a.y * b.x; }
 
-// From three or four corners, in pixels of a tile of `side`, in either direction.
+// From three or four corners, in pixels of a tile of up to `side` columns and rows, in either
+// direction.
 ConvexArea area_within(std::span<glm::dvec2 const> corners, int side);
 
 // The same, for the part in front of a plane: where the distance from the plane, given at each
@@ -50,6 +51,6 @@ struct RowSpans {
 
 // The pixels of up to RowSpans::most rows from `first_row` on, as if the area covered them all, and
 // of those that follow up to a multiple of RowSpans::at_once.
-void find_spans(ConvexArea const& area, int first_row, int rows, int side, RowSpans& spans);
+void find_spans(ConvexArea const& area, int first_row, int rows, int columns, RowSpans& spans);
 
 }  // namespace gpu_shading

@@ -71,11 +71,11 @@ std::uint64_t count_common(std::span<std::uint64_t const> a, std::span<std::uint
   return run<count>(a.data(), b.data(), std::min(a.size(), b.size()));
 }
 
-void PixelMask::start(int side, int first_row, int end_row) {
-  side_ = side;
+void PixelMask::start(int columns, int first_row, int end_row) {
+  columns_ = columns;
   first_row_ = first_row;
   end_row_ = end_row;
-  stride_ = static_cast<std::size_t>((side + word_bits - 1) / word_bits);
+  stride_ = static_cast<std::size_t>((columns + word_bits - 1) / word_bits);
   words_.assign(static_cast<std::size_t>(end_row - first_row) * stride_ + spare, 0);
 }
 
@@ -85,7 +85,7 @@ void PixelMask::fill(ConvexArea const& area) {
   int const end_row = std::min(area.end_row, end_row_);
   for (int row = std::max(area.first_row, first_row_); row < end_row; row += RowSpans::most) {
     int const rows = std::min(RowSpans::most, end_row - row);
-    find_spans(area, row, rows, side_, spans);
+    find_spans(area, row, rows, columns_, spans);
     if (spans.longest == 0) continue;
     auto const count = static_cast<std::size_t>(rows);
     std::uint64_t* words = &words_[static_cast<std::size_t>(row - first_row_) * stride_];

@@ -12,14 +12,14 @@ namespace gpu_shading {
 // Counts bits that are set in both, word by word, up to the shorter length.
 std::uint64_t count_common(std::span<std::uint64_t const> a, std::span<std::uint64_t const> b);
 
-// The sunlit pixels of a square tile or of some of its rows, one bit each. A pixel's position is
-// its centre.
+// The sunlit pixels of a tile or of some of its rows, one bit each. A pixel's position is its
+// centre.
 class PixelMask {
  public:
   static constexpr int word_bits = 64;
 
   // All dark; rows from `first_row` to `end_row` (exclusive).
-  void start(int side, int first_row, int end_row);
+  void start(int columns, int first_row, int end_row);
 
   void light(ConvexArea const& area);
   void darken(ConvexArea const& area);
@@ -44,7 +44,7 @@ class PixelMask {
   template <bool light>
   void fill(ConvexArea const& area);
 
-  int side_ = 0;
+  int columns_ = 0;
   int first_row_ = 0;
   int end_row_ = 0;
   std::size_t stride_ = 0;  // words of a row

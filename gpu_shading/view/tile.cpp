@@ -21,7 +21,7 @@ void lay_out(Tile& tile, Mesh const& mesh, PlaneFrame const& frame) {
   }
   PixelMask mask;
   mask.start(tile.side, 0, tile.side);
-  light(mask, tile);
+  light(mask, tile, pixels_of(tile));
   tile.counted_pixels = mask.lit();
 }
 
@@ -72,11 +72,15 @@ Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, 
   return tile.counted_pixels > 0 ? tile : bounding_tile(polygon, frame, tile.side);
 }
 
-void light(PixelMask& mask, Tile const& tile) {
+void light(PixelMask& mask, Tile const& tile, TileGrid const& grid) {
+  glm::dvec2 const size(grid.width, grid.rows);
   for (std::size_t i = 0; i < tile.triangles.size(); i += 3) {
     std::array<glm::dvec2, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) corners.at(k) = to_pixels(tile.triangles[i + k], tile.side);
-    mask.light(area_within(corners, tile.side));
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners.at(k) = (0.5 * glm::dvec2(tile.triangles[i + k]) + 0.5) * size;
+      corners.at(k).x += grid.shear * corners.at(k).y;
+    }
+    mask.light(area_within(corners, grid.side()));
   }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <vector>
@@ -17,7 +19,7 @@ struct Tile {
   TileMap map;
   std::vector<glm::vec2> triangles;  // in clip coordinates
   double pixel_area = 0.0;           // area of a pixel in the receiver's plane, m2
-  std::uint64_t counted_pixels = 0;  // number of the receiver's own pixels, as in light(); never 0
+  std::uint64_t counted_pixels = 0;  // number of the receiver's own pixels; never 0
 };
 
 // `resolution` pixels per side, doubled while a receiver that fills little of its bounding
@@ -31,13 +33,27 @@ Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, 
 // its centre.
 Tile bounding_tile(Polygon const& polygon, PlaneFrame const& frame, int side);
 
-// The receiver's own pixels.
-void light(PixelMask& mask, Tile const& tile);
-
 // Converts clip coordinates of a view or a tile, -1 .. 1, to pixels.
 inline glm::dvec2 to_pixels(glm::dvec2 const& place, int side) {
   return (0.5 * place + 0.5) * static_cast<double>(side);
 }
+
+// Places on a tile where it is sampled, at the centres of a mask's pixels: those of its own pixels,
+// or of others.
+struct TileGrid {
+  int width = 0;  // columns across the tile
+  int rows = 0;
+  double shear =
+      0.0;  // columns by which a row is shifted to the right of the one below it; not < 0
+
+  int columns() const { return width + static_cast<int>(std::ceil(shear * rows)); }
+  int side() const { return std::max(columns(), rows); }
+};
+
+inline TileGrid pixels_of(Tile const& tile) { return {tile.side, tile.side, 0.0}; }
+
+// The receiver's own samples.
+void light(PixelMask& mask, Tile const& tile, TileGrid const& grid);
 
 // With fewer expected pixels than this, the sunlit fraction is left to chance.
 inline constexpr double fewest_pixels = 16.0;

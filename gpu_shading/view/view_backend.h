@@ -29,6 +29,9 @@ struct ReceiverView {
   bool through =
       false;  // the receiver is a window, and the sun may reach these surfaces behind it:
   std::span<SurfaceId const> interiors;
+  // Sampled at the centres of the tile's pixels, even by a back end that has better samples: for
+  // comparison with another.
+  bool at_pixels = false;
 
   // Area of a pixel normal to the beam, m2; on a bounding tile, of all that is seen through it.
   double pixel_area() const { return tile->map.pixel_area(tile->side) * cosine; }

@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 from shading_runs import energyplus, input_file, results
 
-# Two samplings of the default error, and what the five decimals of EnergyPlus's drawing move.
-MOST = 1e-3
+# Twice the default error: where an edge is nearly parallel to a row of samples, the last digits of the sun's direction,
+# which differ, decide on which side of it the row is. And what the five decimals of EnergyPlus's drawing move.
+MOST = 2e-3
 
 SCRIPT = energyplus.REPOSITORY / "scripts" / "patch_energyplus"
 PLAIN_HOST = Path(__file__).resolve().parent / "hosts" / "plain_host.py"

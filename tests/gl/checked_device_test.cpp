@@ -28,6 +28,7 @@ class Both : public ViewBackend {
   void add(std::vector<ReceiverView> views) override {
     views_.insert(views_.end(), views.begin(), views.end());
     device_->add(views);
+    for (ReceiverView& view : views) view.at_pixels = true;
     cpu_.add(std::move(views));
   }
   std::vector<ViewSums> finish() override {

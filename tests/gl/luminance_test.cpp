@@ -184,7 +184,9 @@ TEST(Luminance, OfOpaqueShadesIsTheirCount) {
       Renderer summing = renderer_of(scene, 512, how);
       Sunlit const counted = sunlit(counting, random.sun, 0);
       Sunlit const summed = sunlit(summing, random.sun, 0);
-      EXPECT_NEAR(summed.projected_area, counted.projected_area, 1e-6) << seed;
+      // The CPU samples opaque views finely, so that it is the error of pixels there.
+      double const within = how == on_cpu ? 5e-4 * area(scene[0].polygon) : 1e-6;
+      EXPECT_NEAR(summed.projected_area, counted.projected_area, within) << seed;
       EXPECT_EQ(counting.statistics().luminance_views, 0U);
       views += summing.statistics().luminance_views;
     }
@@ -540,7 +542,7 @@ TEST(Luminance, InteriorBehindShadesIsCountedAsDrawn) {
   EXPECT_GT(worst, 0.0);  // they are two
 }
 
-// The two interior paths take the same pixels.
+// By OpenGL, the two interior paths take the same pixels; the CPU samples opaque views finely.
 TEST_P(Luminance, InteriorOfOpaqueShadesIsTheirCount) {
   ShadedRoom const room(false);
   Scene counted;
@@ -557,7 +559,8 @@ TEST_P(Luminance, InteriorOfOpaqueShadesIsTheirCount) {
   for (SunDirection const sun : {sun_at(180, 45), sun_at(140, 20), sun_at(230, 35)}) {
     auto const a = interior_areas(counting, sun, room.window, room.surfaces);
     auto const b = interior_areas(summing, sun, room.window, room.surfaces);
-    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-6);
+    double const within = GetParam() == on_cpu ? 1e-4 : 1e-6;
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], within);
   }
 }
 

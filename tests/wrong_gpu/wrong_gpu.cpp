@@ -29,7 +29,10 @@ class WrongBackend : public ViewBackend {
   DeviceInfo const& device() const override { return info_; }
 
   void add(std::vector<ReceiverView> views) override {
-    for (ReceiverView const& view : views) wrong_.push_back(!view.transmits && !view.through);
+    for (ReceiverView& view : views) {
+      wrong_.push_back(!view.transmits && !view.through);
+      view.at_pixels = true;
+    }
     cpu_.add(std::move(views));
   }
 
