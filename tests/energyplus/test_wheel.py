@@ -45,8 +45,9 @@ def test_no_library_of_the_build_is_needed(environment):
     package = next((environment.parent / "lib").glob("python3*/site-packages/energyplus_gpu_shading"))
     for path in (package / "libexec" / "gpu_shading").iterdir():
         listed = subprocess.run(["ldd", path], capture_output=True, text=True).stdout
-        assert "not found" not in listed, path.name
         for line in listed.splitlines():
+            # EnergyPlus's own, by the name that it has in a patched folder.
+            assert "not found" not in line or "libenergyplusapi-official.so" in line, path.name
             name, _, place = line.strip().partition(" => ")
             if name.startswith(("libtbb", "libfmt", "libZydis", "libelf", "libGeographicLib", "libxxhash")):
                 assert place.startswith(str(package)), line
