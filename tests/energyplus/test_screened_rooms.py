@@ -187,7 +187,8 @@ def test_beam_falls_on_the_floor_by_what_passes(ran):
     for i in lit(bare):
         if bare["floor"][i] > 0:
             expected = bare["floor"][i] * answer["beam"][i] / bare["beam"][i]
-            assert answer["floor"][i] == pytest.approx(expected, rel=2e-3)
+            # At the first and last step, the floor has less than 1e-5 of the beam.
+            assert answer["floor"][i] == pytest.approx(expected, rel=2e-3, abs=1e-6 * answer["beam"][i])
             compared += 1
     assert compared > 12
 

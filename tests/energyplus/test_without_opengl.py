@@ -9,9 +9,11 @@ import screened_room
 from shading_runs import energyplus, input_file, results
 from test_case_studies import load
 
-# Bounds of what counted and drawn sunlit fractions may differ by: OpenGL rounds corners to 1/256 of a pixel.
-MEAN = 2e-5
-LARGEST = 3e-4
+# Bounds of what counted and drawn sunlit fractions may differ by, mean and largest. Where something transmits, both
+# sample the same pixels, and OpenGL rounds corners to 1/256 of a pixel. Opaque views have samples of their own on the
+# CPU, so that each errs by itself.
+SAME_PIXELS = (2e-5, 3e-4)
+OWN_SAMPLES = (6e-5, 1.5e-3)
 
 HIDDEN = r"""
 set -e
@@ -77,7 +79,9 @@ def test_it_agrees_with_what_is_drawn(name, patched, opengl, without_opengl, wea
     found = results.differences(*(results.Results(each.folder) for each in (drawn, counted)))
     mean, _, largest = results.summary(found)
     assert min(min(each.reference) for each in found) < 0.9
-    assert mean < MEAN and largest < LARGEST
+    print(f"{name}: mean {mean:.1e}, largest {largest:.1e}")
+    most = SAME_PIXELS if name in ("canopy", "screened_room") else OWN_SAMPLES
+    assert mean < most[0] and largest < most[1]
 
 
 def test_the_devices_are_the_cpu(patched, without_opengl):
