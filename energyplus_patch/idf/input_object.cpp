@@ -116,7 +116,8 @@ std::vector<ObjectType> const& known_types() {
         "dirt_correction_factor_for_solar_and_visible_transmittance", "solar_diffusing"}},
       {"WindowMaterial:Gas", {"name"}},
       {"WindowMaterial:GasMixture", {"name"}},
-      {"WindowMaterial:SimpleGlazingSystem", {"name", "u_factor", "solar_heat_gain_coefficient", "visible_transmittance"}},
+      {"WindowMaterial:SimpleGlazingSystem",
+       {"name", "u_factor", "solar_heat_gain_coefficient", "visible_transmittance"}},
   };
   return types;
 }
