@@ -17,6 +17,7 @@ class Method:
                  is_ours=False):
         self.key, self.short, self.title, self.program = key, short, title, program
         self.label = title  # in headings and charts
+        self.variation = ""  # the file and the options that it has beside its kind
         self.shading_method, self.options, self.before = shading_method, list(options), list(before)
         self.model = model  # the path of the model it runs
         self.is_ours = is_ours  # rendered by this software
@@ -106,19 +107,21 @@ def parse(text, key, model):
     elif holds_extensions_alone(first):
         made = gpu(key, model)
         made.options.append(f"--gpu-shading-file={Path(first).resolve()}")
-        made.title += f", {Path(first).name}"
+        made.variation = Path(first).name
     else:
         made = gpu(key, Path(first))
-        made.title += f", {Path(first).name}"
+        made.variation = Path(first).name
     made.options += options
-    made.title = " ".join([made.title, *options])
+    comma = ", " if made.variation else ""
+    made.title = " ".join([f"{made.title}{comma}{made.variation}", *options])
+    made.variation = " ".join([*filter(None, [made.variation]), *options])
     return made
 
 
 def name_by_difference(variants):
     """Titles of runs that were all rendered: what each has that others have not."""
     for each in variants:
-        each.title = each.title.removeprefix("Renderer").lstrip(", ") or "the model as it is"
+        each.title = each.variation or "the model as it is"
     if len({each.title for each in variants}) < len(variants):
         for each in variants:
             path = Path(each.model).resolve()

@@ -1,11 +1,11 @@
 """What a comparison found, in sentences with few numbers."""
 
-from shading_runs import input_file, results
+from shading_runs import input_file, methods, results
 
 DEFAULT_ERROR = 1e-3  # of --gpu-shading-error
 NAMES = {results.SOLAR: "transmitted solar radiation", results.HEATING: "heating", results.COOLING: "cooling",
          results.LIGHTS: "lighting"}
-CLASSES = {f"gpushading:{name.lower()}": name
+CLASSES = {f"{methods.OURS}{name.lower()}": name
            for name in ("TransparentShade", "PerforatedScreen", "Geometry", "SiteContext")}
 SAME = 5e-6  # relative, beyond the digits that are said
 

@@ -73,16 +73,16 @@ def test_a_run_that_ignores_screens_is_said_to(run, in_model):
 
 
 def test_variants_are_named_by_what_differs(tmp_path):
-    def variant(short, title, model):
-        return SimpleNamespace(short=short, title=title, label=title, model=model)
+    def variant(short, variation, model):
+        return SimpleNamespace(short=short, title="Renderer", label="", variation=variation, model=model)
 
-    pair = [variant("A", "Renderer", "m.idf"), variant("B", "Renderer, glass.idf", "m.idf")]
+    pair = [variant("A", "", "m.idf"), variant("B", "glass.idf", "m.idf")]
     methods.name_by_difference(pair)
     assert [each.title for each in pair] == ["the model as it is", "glass.idf"]
-    pair = [variant("A", "Renderer, m.idf", tmp_path / "v1" / "m.idf"),
-            variant("B", "Renderer, m.idf", tmp_path / "v2" / "m.idf")]
+    pair = [variant("A", "m.idf", tmp_path / "v1" / "m.idf"),
+            variant("B", "m.idf", tmp_path / "v2" / "m.idf")]
     methods.name_by_difference(pair)
     assert [each.title for each in pair] == ["v1/m.idf", "v2/m.idf"]
-    pair = [variant("A", "Renderer", "m.idf"), variant("B", "Renderer", "m.idf")]
+    pair = [variant("A", "", "m.idf"), variant("B", "", "m.idf")]
     methods.name_by_difference(pair)
     assert len({each.title for each in pair}) == 2
