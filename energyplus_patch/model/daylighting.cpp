@@ -1,17 +1,13 @@
 #include "model/daylighting.h"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "base/text.h"
 
 namespace gpu_shading::energyplus {
 
 bool has_daylighting(std::vector<InputObject> const& objects) {
-  constexpr std::array<std::string_view, 4> types{
-      "Daylighting:Controls", "Daylighting:DELight:ComplexFenestration",
-      "DaylightingDevice:Tubular", "DaylightingDevice:Shelf"};
+  auto const& types = daylighting_types;
   return std::any_of(objects.begin(), objects.end(), [&](InputObject const& object) {
     return std::find(types.begin(), types.end(), object.type) != types.end();
   });

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <string_view>
 #include <vector>
 
 #include "idf/input_object.h"
@@ -7,8 +9,12 @@
 
 namespace gpu_shading::energyplus {
 
-// Whether EnergyPlus traces rays of daylighting in this model: Daylighting:Controls and the devices
-// and maps that belong to them.
+// The types of objects for which EnergyPlus traces rays of daylighting.
+inline constexpr std::array<std::string_view, 4> daylighting_types{
+    "Daylighting:Controls", "Daylighting:DELight:ComplexFenestration", "DaylightingDevice:Tubular",
+    "DaylightingDevice:Shelf"};
+
+// Whether the model has any of them.
 bool has_daylighting(std::vector<InputObject> const& objects);
 
 // Whether all rays of daylighting go through functions that this module can answer: not with

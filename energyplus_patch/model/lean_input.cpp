@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "base/text.h"
 #include "gpu_shading/error.h"
+#include "model/daylighting.h"
 #include "model/geometry_rules.h"
 #include "model/shading_outlines.h"
 
@@ -17,29 +17,19 @@ namespace gpu_shading::energyplus {
 namespace {
 
 // Types that need the surfaces, and why.
-using Reason = std::pair<std::string_view, std::string_view>;
-constexpr std::array<Reason, 2> forbidding_types{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> forbidding_types{{
     {"Construction:ComplexFenestrationState", "its rays need the surfaces themselves"},
     {"PythonPlugin:Instance", "it may ask for any surface"},
 }};
-// Those whose rays may be answered here.
-constexpr std::string_view daylighting_reason = "daylighting needs the surfaces themselves";
-constexpr std::array<Reason, 5> daylighting_types{{
-    {"Daylighting:Controls", daylighting_reason},
-    {"Daylighting:DELight:ComplexFenestration", daylighting_reason},
-    {"DaylightingDevice:Tubular", daylighting_reason},
-    {"DaylightingDevice:Shelf", daylighting_reason},
-    {"DaylightingDevice:LightWell", daylighting_reason},
-}};
-
-// The first object of the types, with the reason; or "".
-std::string forbidding(std::vector<InputObject> const& objects, std::span<Reason const> types) {
-  for (auto const& object : objects) {
-    auto const found = std::find_if(types.begin(), types.end(),
-                                    [&](auto const& entry) { return entry.first == object.type; });
-    if (found != types.end()) return fmt::format("{}: {}", object.title(), found->second);
+// Why an object needs the surfaces, or "".
+std::string_view reason_of(InputObject const& object, bool daylighting_answered) {
+  for (auto const& [type, reason] : forbidding_types) {
+    if (object.type == type) return reason;
   }
-  return {};
+  bool const daylighting = object.type == "DaylightingDevice:LightWell" ||
+                           std::find(daylighting_types.begin(), daylighting_types.end(),
+                                     object.type) != daylighting_types.end();
+  return daylighting && !daylighting_answered ? "daylighting needs the surfaces themselves" : "";
 }
 
 // Why no surface may be left out, or "".
@@ -50,9 +40,10 @@ std::string reason_against(std::vector<InputObject> const& objects, ShadingInput
   if (input.all_shading_wanted) {
     return "ShadowCalculation: Output External Shading Calculation Results is Yes";
   }
-  auto reason = forbidding(objects, forbidding_types);
-  if (reason.empty() && !daylighting_answered) reason = forbidding(objects, daylighting_types);
-  if (!reason.empty()) return reason;
+  for (auto const& object : objects) {
+    auto const reason = reason_of(object, daylighting_answered);
+    if (!reason.empty()) return fmt::format("{}: {}", object.title(), reason);
+  }
   return reason_against_outlines(objects);
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "extensions/extension_fields.h"
+#include "model/daylighting.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -40,26 +41,16 @@ struct User {
 };
 std::vector<User> users_of_rays(std::vector<InputObject> const& objects,
                                 ShadingInput const& input) {
-  struct Type {
-    std::string_view what;
-    std::string_view type;
-  };
-  constexpr std::string_view daylighting = "daylighting";
-  constexpr std::array<Type, 5> users{{
-      {daylighting, "Daylighting:Controls"},
-      {daylighting, "Daylighting:DELight:ComplexFenestration"},
-      {daylighting, "DaylightingDevice:Tubular"},
-      {daylighting, "DaylightingDevice:Shelf"},
-      {"complex fenestration", "Construction:ComplexFenestrationState"},
-  }};
   std::vector<User> found;
-  std::string_view last;
-  for (auto const& [what, type] : users) {
-    if (what == last) continue;
+  for (auto const& type : daylighting_types) {
     auto const names = names_of(objects, type);
     if (names.empty()) continue;
-    found.push_back({what == daylighting, fmt::format("{} ({} {})", what, type, names)});
-    last = what;
+    found.push_back({true, fmt::format("daylighting ({} {})", type, names)});
+    break;
+  }
+  constexpr std::string_view complex = "Construction:ComplexFenestrationState";
+  if (auto const names = names_of(objects, complex); !names.empty()) {
+    found.push_back({false, fmt::format("complex fenestration ({} {})", complex, names)});
   }
   if (input.reflections) {
     found.push_back({false, "solar reflections (Building, Solar Distribution)"});
