@@ -211,15 +211,16 @@ def _end_with_parent():
     _LIBC.prctl(set_parent_death_signal, signal.SIGKILL)
 
 
-def run(program, model, weather, folder, options=(), environment=None, timeout=None, before=()):
+def run(program, model, weather, folder, options=(), environment=None, timeout=None, before=(), name_path=str):
     """Runs `program options -w weather -d folder model`, without a display unless `before` provides one.
 
-    Creates the folder, which must not exist. EnergyPlus is killed when this process ends.
+    Creates the folder, which must not exist. EnergyPlus is killed when this process ends. name_path: how the program
+    names a path.
     """
     folder = Path(folder)
     folder.mkdir(parents=True)
-    command = [*before, os.path.abspath(program), *options, "-w", str(weather), "-d", str(folder.resolve()),
-               str(Path(model).resolve())]
+    command = [*before, os.path.abspath(program), *options, "-w", name_path(weather), "-d", name_path(folder.resolve()),
+               name_path(Path(model).resolve())]
     variables = {key: value for key, value in os.environ.items()
                  if key != "DISPLAY" and not key.startswith("GPU_SHADING")}
     variables |= environment or {}
