@@ -42,5 +42,5 @@ add_library(gpu_shading_gl MODULE gl_entry/gl_entry.cpp)
 target_link_libraries(gpu_shading_gl PRIVATE project_options gpu_shading_opengl)
 set(exports ${CMAKE_CURRENT_SOURCE_DIR}/gl_entry/exports.map)
 target_link_options(gpu_shading_gl PRIVATE -Wl,--version-script=${exports} -Wl,--as-needed
-                                           -Wl,--gc-sections -Wl,-z,defs)
+                                           -Wl,--gc-sections ${no_undefined})
 set_target_properties(gpu_shading_gl PROPERTIES LINK_DEPENDS ${exports})

@@ -24,15 +24,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-[[noreturn]] void fail(char const* what) {
+[[noreturn]] void fail_to_decode(char const* what) {
   throw Error(fmt::format("{}: {}", what, std::strerror(errno)));
 }
 
 // Opens a file that must be a regular one, of no more than a size.
 void open_input(FileDescriptor const& file, std::uint64_t most) {
   struct stat found {};
-  if (!file.is_open()) fail("cannot be opened");
-  if (fstat(file.get(), &found) != 0) fail("cannot be opened");
+  if (!file.is_open()) fail_to_decode("cannot be opened");
+  if (fstat(file.get(), &found) != 0) fail_to_decode("cannot be opened");
   if (!S_ISREG(found.st_mode)) throw Error("is not a file");
   if (static_cast<std::uint64_t>(found.st_size) > most) {
     constexpr unsigned mebibyte = 20;
@@ -56,7 +56,7 @@ DecodingProcess::DecodingProcess(char const* program, std::string const& operati
   FileDescriptor const input(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   open_input(input, limits.file_size);
   std::array<int, 2> ends{-1, -1};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) fail("no pipe for its decoding");
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) fail_to_decode("no pipe for its decoding");
   answer_.emplace(ends[0]);
   FileDescriptor const output(ends[1]);
   process_ = start_decoding(
@@ -127,11 +127,11 @@ std::size_t DecodingProcess::read_some(char* bytes, std::size_t count) {
     if (ready == 0) throw Error(fmt::format("it takes more than {} s", limits_.wait.count()));
     if (ready < 0) {
       if (errno == EINTR) continue;
-      fail("no answer of its decoding");
+      fail_to_decode("no answer of its decoding");
     }
     auto const got = ::read(answer_->get(), bytes, count);
     if (got >= 0) return static_cast<std::size_t>(got);
-    if (errno != EINTR) fail("no answer of its decoding");
+    if (errno != EINTR) fail_to_decode("no answer of its decoding");
   }
 }
 

@@ -26,7 +26,7 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-[[noreturn]] void fail(char const* what) {
+[[noreturn]] void throw_errno(char const* what) {
   throw Error(fmt::format("{}: {}", what, std::strerror(errno)));
 }
 
@@ -75,7 +75,7 @@ class Server {
       : errors_(memfd_create("errors", MFD_CLOEXEC)) {
     std::array<int, 2> ends{-1, -1};
     if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-      fail("no socket for its decoding");
+      throw_errno("no socket for its decoding");
     }
     link_.emplace(ends[0]);
     FileDescriptor const other(ends[1]);

@@ -24,7 +24,7 @@ using Path = std::filesystem::path;
 constexpr std::string_view mark = "gpu_shading: temporary, deleted when its process has ended\n";
 constexpr std::size_t digits = 8;
 
-[[noreturn]] void fail(Path const& path, int error) {
+[[noreturn]] void fail_to_hold(Path const& path, int error) {
   throw Error(fmt::format("{}: cannot be written ({})", path.string(),
                           std::generic_category().message(error)));
 }
@@ -86,14 +86,14 @@ bool HeldFolder::make(Path const& parent, std::string_view prefix) {
   path_ = parent / fmt::format("{}{:08x}", prefix, std::random_device{}());
   if (mkdir(path_.c_str(), S_IRWXU) != 0) {
     if (errno == EEXIST) return false;
-    fail(parent, errno);
+    fail_to_hold(parent, errno);
   }
   lock_.emplace(open_lock(path_ / lock_name, O_RDWR | O_CREAT | O_EXCL));
   if (!lock_->is_open()) {
     int const error = errno;
     rmdir(path_.c_str());
     if (error == ENOENT) return false;
-    fail(parent, error);
+    fail_to_hold(parent, error);
   }
   // A file system without locks will do: then nobody cleans up. The mark comes last, so that nobody
   // takes it for abandoned before it is locked.
@@ -102,7 +102,7 @@ bool HeldFolder::make(Path const& parent, std::string_view prefix) {
     int const error = errno == 0 ? ENOSPC : errno;
     unlink((path_ / lock_name).c_str());
     rmdir(path_.c_str());
-    fail(parent, error);
+    fail_to_hold(parent, error);
   }
   return true;
 }

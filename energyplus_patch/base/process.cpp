@@ -71,7 +71,7 @@ int pass_signals_on(pid_t child, sigset_t const& signals) {
   }
 }
 
-[[noreturn]] void fail(std::string_view program, int error) {
+[[noreturn]] void fail_to_run(std::string_view program, int error) {
   throw Error(fmt::format("{}: cannot be run ({})", program, std::strerror(error)));
 }
 
@@ -108,12 +108,12 @@ void become(Start const& program, pid_t parent) {
 pid_t start(Start const& program) {
   // Where the child says why it could not become the program; closed by the kernel if it could.
   std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) fail(program.words[0], errno);
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) fail_to_run(program.words[0], errno);
   FileDescriptor const heard(ends[0]);
   std::optional<FileDescriptor> said(ends[1]);
   pid_t const parent = getpid();
   pid_t const child = fork();
-  if (child < 0) fail(program.words[0], errno);
+  if (child < 0) fail_to_run(program.words[0], errno);
   if (child == 0) {
     become(program, parent);
     int const error = errno;
@@ -127,7 +127,7 @@ pid_t start(Start const& program) {
   }
   if (count == 0) return child;
   waitpid(child, nullptr, 0);
-  fail(program.words[0], error);
+  fail_to_run(program.words[0], error);
 }
 
 }  // namespace

@@ -21,19 +21,6 @@
 namespace gpu_shading::decoding {
 namespace {
 
-// The address sanitizer reserves 16 TiB.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool limits_memory = false;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-constexpr bool limits_memory = false;
-#else
-constexpr bool limits_memory = true;
-#endif
-#else
-constexpr bool limits_memory = true;
-#endif
-
 void limit(int resource, std::uint64_t soft, std::uint64_t hard) {
   rlimit before{};
   getrlimit(static_cast<__rlimit_resource>(resource), &before);

@@ -6,6 +6,19 @@
 
 namespace gpu_shading::decoding {
 
+// False with the address sanitizer, which reserves 16 TiB.
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool limits_memory = false;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+inline constexpr bool limits_memory = false;
+#else
+inline constexpr bool limits_memory = true;
+#endif
+#else
+inline constexpr bool limits_memory = true;
+#endif
+
 struct Limits {
   std::uint64_t seconds;  // of processor time
   std::uint64_t memory;   // bytes of address space

@@ -63,7 +63,8 @@ bool takes_number(FieldInfo const& field) {
 }
 
 // As text; what the text may be is for check() to say.
-std::string text_of(FieldInfo const& field, nlohmann::json const& value, std::string_view title) {
+std::string text_of_value(FieldInfo const& field, nlohmann::json const& value,
+                          std::string_view title) {
   if (value.is_string() && takes_text(field, value.get<std::string>())) return value;
   if (value.is_number() && takes_number(field)) return value.dump();
   throw Error(fmt::format("{} is {}, expected {}", title, shown(value), expectation(field)));
@@ -80,7 +81,7 @@ std::vector<std::string> list_of(ExtensionType const& type, nlohmann::json const
   for (auto const& item : items) {
     auto const title = fmt::format("{}[{}]", type.list, list.size());
     if (!item.is_object() || item.size() != 1 || !item.contains(key)) refuse(title, item);
-    list.push_back(text_of(*type.list_field, item.front(), item_title(type, list.size())));
+    list.push_back(text_of_value(*type.list_field, item.front(), item_title(type, list.size())));
   }
   return list;
 }
@@ -108,7 +109,7 @@ InputObject from_epjson(ExtensionType const& type, std::string const& name,
         object.list = list_of(type, value);
       } else {
         auto const& field = find_field(type, key);
-        object.fields.emplace(key, text_of(field, value, field.title));
+        object.fields.emplace(key, text_of_value(field, value, field.title));
       }
     }
     check_object(type, object);

@@ -12,16 +12,13 @@
 #include "gpu_shading/error.h"
 #include "idf/idf_text.h"
 #include "idf/input_object.h"
+#include "idf/json_text.h"
 #include "idf/model_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 using Path = std::filesystem::path;
-
-std::string text_of(nlohmann::json const& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
-}
 
 std::optional<std::string> anchored(std::string const& value, Path const& folder) {
   if (value.find("..") == std::string::npos || Path(value).is_absolute()) return std::nullopt;

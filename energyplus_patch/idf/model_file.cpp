@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "gpu_shading/error.h"
 #include "idf/extension_objects.h"
+#include "idf/json_text.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -32,11 +33,6 @@ InputObject from_idf(ObjectType const& type, std::vector<std::string> const& val
   }
   object.name = object["name"];
   return object;
-}
-
-std::string text_of(nlohmann::json const& value) {
-  constexpr auto replace = nlohmann::json::error_handler_t::replace;
-  return value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, replace);
 }
 
 // Of EnergyPlus's own objects, which its schema checks later.

@@ -17,14 +17,13 @@
 #include <string>
 #include <vector>
 
+#include "decoding/fail.h"
 #include "image_decoder/tiff_file.h"
 
 namespace gpu_shading::decoding {
 namespace {
 
-[[noreturn]] void fail(std::string const& why) { throw std::runtime_error(why); }
-
-struct Free {
+struct FreeKeys {
   void operator()(GTIF* keys) const { GTIFFree(keys); }
 };
 
@@ -117,7 +116,7 @@ class Header {
   }
 
   TiffFile file_;
-  std::unique_ptr<GTIF, Free> keys_;
+  std::unique_ptr<GTIF, FreeKeys> keys_;
 };
 
 // The EPSG code of its coordinate system, 0 if it states none.

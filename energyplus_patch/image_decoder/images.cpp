@@ -13,6 +13,7 @@
 #include <string_view>
 #include <utility>
 
+#include "decoding/fail.h"
 #include "image_decoder/bmp_header.h"
 #include "image_decoder/image_format.h"
 #include "image_decoder/small_tiff.h"
@@ -23,10 +24,6 @@ namespace {
 constexpr std::size_t strip_bytes = std::size_t{16} << 20U;
 constexpr std::array luminance{0.2126F, 0.7152F, 0.0722F};  // ITU-R BT.709
 constexpr float solid = 65535.0F;
-
-[[noreturn]] void fail(std::string const& why) {
-  throw std::runtime_error(why.empty() ? "no reason is given" : why);
-}
 
 using Input = std::unique_ptr<OIIO::ImageInput>;
 

@@ -11,7 +11,7 @@
 namespace gpu_shading::decoding {
 namespace {
 
-struct Free {
+struct FreeOptions {
   void operator()(TIFFOpenOptions* options) const { TIFFOpenOptionsFree(options); }
 };
 
@@ -34,7 +34,7 @@ void TiffFile::Close::operator()(TIFF* file) const { XTIFFClose(file); }
 
 TiffFile::TiffFile(char const* path) : error_(std::make_unique<std::string>()) {
   XTIFFInitialize();
-  std::unique_ptr<TIFFOpenOptions, Free> const options(TIFFOpenOptionsAlloc());
+  std::unique_ptr<TIFFOpenOptions, FreeOptions> const options(TIFFOpenOptionsAlloc());
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_error, error_.get());
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), keep_quiet, nullptr);
   file_.reset(TIFFOpenExt(path, "r", options.get()));

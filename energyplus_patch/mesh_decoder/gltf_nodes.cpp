@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "decoding/fail.h"
 #include "mesh_decoder/meshes.h"
 
 namespace gpu_shading::decoding {
@@ -19,8 +20,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::string_view glb_mark = "glTF";
-
-[[noreturn]] void fail(std::string const& why) { throw std::runtime_error(why); }
 
 // Little-endian, as this machine.
 std::uint32_t number_at(std::string_view bytes, std::size_t at) {

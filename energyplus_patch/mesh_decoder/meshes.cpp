@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "decoding/fail.h"
 #include "mesh_decoder/gltf_nodes.h"
 #include "mesh_decoder/neighbour_files.h"
 #include "mesh_decoder/scene_parts.h"
@@ -19,10 +20,6 @@ namespace gpu_shading::decoding {
 namespace {
 
 constexpr std::array<std::string_view, 4> restricted{"obj", "dae", "gltf", "glb"};
-
-[[noreturn]] void fail(std::string const& why) {
-  throw std::runtime_error(why.empty() ? "no reason is given" : why);
-}
 
 std::string ending_of(std::filesystem::path const& name) {
   auto ending = name.extension().string();

@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
+#include "decoding/fail.h"
+
 namespace gpu_shading::decoding {
 namespace {
-
-[[noreturn]] void fail(std::string const& why) { throw std::runtime_error(why); }
 
 using Matrix = aiMatrix4x4t<double>;
 

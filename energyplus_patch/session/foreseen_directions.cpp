@@ -7,7 +7,7 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double patch_step = pi / 12.0;
 constexpr std::size_t patch_azimuths = 24;
 constexpr std::size_t patches = 6 * patch_azimuths;

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "gpu_shading/error.h"
+#include "optics/check_positive.h"
 
 namespace gpu_shading {
 namespace {
@@ -18,12 +19,6 @@ namespace {
 using std::numbers::pi;
 using std::numbers::sqrt2;
 using std::numbers::sqrt3;
-
-void check_positive(std::string_view field, double value) {
-  // Written so that NaN fails.
-  if (value > 0.0 && std::isfinite(value)) return;
-  throw Error(fmt::format("{} is {:.9g} m, expected more than 0", field, value));
-}
 
 void check_sizes(Perforation const& given) {
   check_positive("hole size", given.size);

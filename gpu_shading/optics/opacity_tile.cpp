@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "gpu_shading/error.h"
+#include "optics/check_positive.h"
 #include "optics/solid_runs.h"
 
 namespace gpu_shading {
@@ -21,11 +22,6 @@ namespace {
 // Maximum number of texels of a tile made from a pattern, each of which takes 256 points.
 constexpr double most_texels = 1U << 26U;
 constexpr float solid_value = 65535.0F;
-
-void check_positive(std::string_view field, double value) {
-  if (value > 0.0 && std::isfinite(value)) return;
-  throw Error(fmt::format("{} is {:.9g} m, expected more than 0", field, value));
-}
 
 void check_threshold(std::optional<double> threshold) {
   // In single precision, like the texels that are compared with it.
@@ -80,19 +76,19 @@ std::uint16_t least_solid(double threshold) {
   return static_cast<std::uint16_t>(value);
 }
 
-constexpr int points = 8;  // each way
+constexpr int points_across = 8;  // each way
 
-// How many of points x points in each of columns x rows parts of the tile are solid.
+// How many of points_across x points_across in each of columns x rows parts of the tile are solid.
 std::vector<std::uint8_t> solid_points(HolePattern const& pattern, int columns, int rows) {
   std::vector<std::uint8_t> solid;
   solid.reserve(index(0, rows, columns));
-  double const step_u = pattern.width() / columns / points;
-  double const step_v = pattern.height() / rows / points;
+  double const step_u = pattern.width() / columns / points_across;
+  double const step_v = pattern.height() / rows / points_across;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       int count = 0;
-      for (int v = row * points; v < (row + 1) * points; ++v) {
-        for (int u = column * points; u < (column + 1) * points; ++u) {
+      for (int v = row * points_across; v < (row + 1) * points_across; ++v) {
+        for (int u = column * points_across; u < (column + 1) * points_across; ++u) {
           if (!pattern.is_open((u + 0.5) * step_u, (v + 0.5) * step_v)) ++count;
         }
       }
@@ -144,7 +140,8 @@ OpacityTile::OpacityTile(HolePattern const& pattern, double texel, std::optional
                                   around(2 * row + v, 2 * rows_), 2 * columns_)];
         }
       }
-      opacity.push_back(quantised(static_cast<double>(solid) / (quarters_seen * points * points)));
+      opacity.push_back(
+          quantised(static_cast<double>(solid) / (quarters_seen * points_across * points_across)));
     }
   }
   opacity_ = std::make_shared<std::vector<std::uint16_t> const>(std::move(opacity));

@@ -18,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-void check_thickness(double thickness) {
+void check_finite_thickness(double thickness) {
   if (thickness >= 0.0 && std::isfinite(thickness)) return;
   throw Error(fmt::format("thickness is {:.9g} m, expected 0 or more", thickness));
 }
@@ -61,7 +61,7 @@ Between between_regions(double place, int regions) {
 
 ScreenTransmittance::ScreenTransmittance(HolePattern const& pattern, double thickness)
     : thickness_(thickness), longest_chord_(pattern.longest_chord()) {
-  check_thickness(thickness);
+  check_finite_thickness(thickness);
   steps_ = 513;
   step_ = longest_chord_ / (steps_ - 1);
   for (int direction = 0; direction < directions(); ++direction) {
@@ -75,7 +75,7 @@ ScreenTransmittance::ScreenTransmittance(HolePattern const& pattern, double thic
 
 ScreenTransmittance::ScreenTransmittance(OpacityTile const& tile, double thickness)
     : thickness_(thickness) {
-  check_thickness(thickness);
+  check_finite_thickness(thickness);
   TileTable table = make_tile_table(tile, thickness, directions());
   regions_across_ = table.regions_across;
   regions_up_ = table.regions_up;

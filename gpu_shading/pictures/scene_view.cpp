@@ -24,7 +24,7 @@ namespace {
 // Samples per side of a pixel.
 constexpr int samples = 2;
 // Margin around everything shown, as a fraction of its longer side.
-constexpr double border = 0.04;
+constexpr double scene_border = 0.04;
 
 bool transmits(Surface const& surface) {
   return surface.transmittance || surface.screen || surface.schedule >= 0;
@@ -130,7 +130,7 @@ class SceneView::Implementation {
     if (receivers.empty()) throw Error("there is no receiver to view");
     PictureFrame const most = receivers.widened(0.5 * receivers.longer());
     PictureFrame const frame{glm::max(all.low, most.low), glm::min(all.high, most.high)};
-    return frame.widened(border * frame.longer());
+    return frame.widened(scene_border * frame.longer());
   }
 
   std::vector<Colour> colours(std::span<std::optional<double> const> fractions,

@@ -7,15 +7,14 @@
 namespace gpu_shading {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double degree = pi / 180.0;
+using std::numbers::pi;
 
 // Steps along the arcs are longer than those between them; the ratio works best for the closed-form
 // scenes of tests/bench/sampling_error.
 constexpr double elongation = 1.4;
 
 // Smaller than the sun's motion towards the horizon in the ten seconds before sunset.
-constexpr double from_horizon = 0.04 * degree;
+constexpr double from_horizon = 0.04 * pi / 180.0;
 
 // Declinations at which the sun rises.
 struct Range {
@@ -25,7 +24,7 @@ struct Range {
 
 Range lit_declinations(double latitude) {
   // The part of the arc above the horizon then has room for two directions.
-  constexpr double margin = 0.2 * degree;
+  constexpr double margin = 0.2 * pi / 180.0;
   double const reach = pi / 2.0 - std::abs(latitude) - margin;
   if (latitude >= 0.0) return {std::max(-most_declination, -reach), most_declination};
   return {-most_declination, std::min(most_declination, reach)};

@@ -9,7 +9,7 @@
 namespace gpu_shading {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // c[0] + c[1] sin x + c[2] cos x + c[3] sin 2x + c[4] cos 2x + ...
 double fourier(std::array<double, 9> const& c, double x) {

@@ -28,8 +28,8 @@ double sum(std::vector<double> const& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-std::vector<SunDirection> const suns{sun_at(180, 10), sun_at(180, 45), sun_at(140, 20),
-                                     sun_at(230, 35), sun_at(105, 8),  sun_at(260, 60)};
+std::vector<SunDirection> const suns_into_rooms{sun_at(180, 10), sun_at(180, 45), sun_at(140, 20),
+                                                sun_at(230, 35), sun_at(105, 8),  sun_at(260, 60)};
 
 class Interior : public EachBackend {};
 INSTANTIATE_TEST_SUITE_P(Is, Interior, backends, name_of);
@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(Is, Interior, backends, name_of);
 TEST_P(Interior, BoxRoomAgainstPolygonClipping) {
   BoxRoom const room;
   Renderer renderer = renderer_of(room.scene);
-  for (SunDirection const sun : suns) {
+  for (SunDirection const sun : suns_into_rooms) {
     auto const got = interior_areas(renderer, sun, room.window, room.surfaces);
     // The box is convex: no surface hides another.
     auto const exact = exact::interior_areas(room.scene, sun, room.window, room.surfaces);
@@ -51,7 +51,7 @@ TEST_P(Interior, BoxRoomAgainstPolygonClipping) {
 TEST_P(Interior, TheSumIsWhatTheWindowGets) {
   BoxRoom const room;
   Renderer renderer = renderer_of(room.scene);
-  for (SunDirection const sun : suns) {
+  for (SunDirection const sun : suns_into_rooms) {
     double const window = sunlit(renderer, sun, room.window).projected_area;
     double const inside = sum(interior_areas(renderer, sun, room.window, room.surfaces));
     EXPECT_LE(inside, window * (1.0 + 1e-12));

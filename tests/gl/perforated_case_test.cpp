@@ -105,7 +105,7 @@ double lit_by_rays(Placed const& placed, SunDirection sun) {
 }
 
 // From high to low.
-std::vector<SunDirection> suns() {
+std::vector<SunDirection> suns_of_the_case() {
   return {sun_at(33, 89.9), sun_at(20, 65), sun_at(180, 50), sun_at(250, 35),
           sun_at(90, 20),   sun_at(310, 9), sun_at(135, 4)};
 }
@@ -115,7 +115,7 @@ class PerforatedPlacement : public ::testing::TestWithParam<Placed (*)()> {};
 TEST_P(PerforatedPlacement, ReferenceAgreesWithRaysOneByOne) {
   Placed const placed = GetParam()();
   PerforatedReference const reference(placed.given);
-  for (SunDirection const sun : suns()) {
+  for (SunDirection const sun : suns_of_the_case()) {
     EXPECT_NEAR(reference(sun) / std::sin(sun.altitude), lit_by_rays(placed, sun), 1e-3)
         << "azimuth " << sun.azimuth / degree << " altitude " << sun.altitude / degree;
   }
@@ -128,7 +128,7 @@ void expect_near_reference(PerforatedCase const& given, PerforatedScreen const& 
   Scene const scene = given.scene(std::make_shared<PerforatedScreen const>(screen));
   for (DeviceChoice const views : {by_opengl, on_cpu}) {
     Renderer renderer = renderer_of(scene, 1024, views);
-    for (SunDirection const sun : suns()) {
+    for (SunDirection const sun : suns_of_the_case()) {
       EXPECT_NEAR(sunlit(renderer, sun, 0).projected_area, reference(sun), tolerance)
           << "azimuth " << sun.azimuth / degree << " altitude " << sun.altitude / degree;
     }

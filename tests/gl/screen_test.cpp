@@ -12,6 +12,7 @@
 #include "each_backend.h"
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
+#include "support/millimetre.h"
 #include "support/random_scene.h"
 #include "support/room.h"
 #include "support/shapes.h"
@@ -20,8 +21,6 @@
 // form.
 namespace gpu_shading {
 namespace {
-
-constexpr double mm = 1e-3;
 
 using Screen = std::shared_ptr<PerforatedScreen const>;
 

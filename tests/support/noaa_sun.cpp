@@ -8,7 +8,7 @@
 namespace gpu_shading {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double minutes_of_day = 1440.0;
 
 double wrap(double angle) { return std::remainder(angle, 2.0 * pi); }

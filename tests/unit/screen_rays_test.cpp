@@ -11,14 +11,13 @@
 #include "gpu_shading/renderer.h"
 #include "gpu_shading/transmittance.h"
 #include "support/mean_of_rays.h"
+#include "support/millimetre.h"
 #include "support/perforated_case.h"
 #include "support/shapes.h"
 #include "support/sheet_cases.h"
 
 namespace gpu_shading {
 namespace {
-
-constexpr double mm = 1e-3;
 
 HolePattern round_holes(double size, double pitch) {
   return HolePattern(

@@ -68,9 +68,9 @@ TEST(Triangulation, RandomPolygonsAreCoveredOnce) {
   }
 }
 
-class Random {
+class RandomNumbers {
  public:
-  explicit Random(std::uint32_t seed) : generator_(seed) {}
+  explicit RandomNumbers(std::uint32_t seed) : generator_(seed) {}
   double between(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(generator_);
   }
@@ -111,7 +111,7 @@ double absolute_area(Mesh const& mesh) {
 }
 
 TEST(Triangulation, RandomRingsThatIntersectThemselvesAndTheirHoles) {
-  Random random(1);
+  RandomNumbers random(1);
   for (int i = 0; i < 300; ++i) {
     Polygon polygon;
     for (int k = 3 + random.below(8); k > 0; --k) {
@@ -129,7 +129,7 @@ TEST(Triangulation, RandomRingsThatIntersectThemselvesAndTheirHoles) {
 
 // As models have them: turned, in single precision, some windows side by side.
 TEST(Triangulation, WallsWithManyWindowsInSinglePrecision) {
-  Random random(2);
+  RandomNumbers random(2);
   for (int i = 0; i < 100; ++i) {
     double const turn = random.between(0.0, 6.28);
     auto const at = [&](double x, double y) {
@@ -180,7 +180,7 @@ int covers(Mesh const& mesh, glm::dvec3 const& point) {
 // Corners on a coarse grid: edges that coincide, spikes, rings that touch. Points are looked at one
 // by one, since Clipper 6.4 gets some of these wrong.
 TEST(Triangulation, DegenerateRingsAreCoveredWhereTheyWindAnOddNumberOfTimes) {
-  Random random(3);
+  RandomNumbers random(3);
   for (int i = 0; i < 500; ++i) {
     Polygon polygon;
     auto const corner = [&] { return glm::dvec3(random.below(6), random.below(6), 0.0); };

@@ -4,16 +4,13 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <set>
 
 #include "gpu_shading/sun_position.h"
+#include "support/degree.h"
 
 namespace gpu_shading::energyplus {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-constexpr double degree = pi / 180.0;
 
 // As EnergyPlus hands it over.
 SunDirection in_single_precision(SunDirection sun) {

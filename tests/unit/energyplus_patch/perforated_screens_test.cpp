@@ -11,6 +11,7 @@
 #include "gpu_shading/perforated_screen.h"
 #include "idf/model_file.h"
 #include "model/model_reader.h"
+#include "support/degree.h"
 #include "support/refusal.h"
 #include "test_images.h"
 
@@ -19,8 +20,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::StartsWith;
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 constexpr char const* surfaces =
     "Shading:Site:Detailed,Panel 1;Shading:Site:Detailed,Panel 2;Shading:Zone:Detailed,Fin,Wall;";

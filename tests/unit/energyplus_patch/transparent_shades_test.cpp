@@ -9,14 +9,13 @@
 
 #include "base/text.h"
 #include "idf/model_file.h"
+#include "support/degree.h"
 #include "support/refusal.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 constexpr char const* model =
     "Shading:Site:Detailed,Pane 1;Shading:Site:Detailed,Pane 2;Shading:Zone:Detailed,Fin,Wall;"

@@ -10,6 +10,7 @@
 #include "gpu_shading/perforated_screen.h"
 #include "optics/sheet_layers.h"
 #include "support/degree.h"
+#include "support/millimetre.h"
 #include "support/refusal.h"
 
 namespace gpu_shading {
@@ -18,8 +19,6 @@ namespace {
 using std::numbers::pi;
 using std::numbers::sqrt2;
 using std::numbers::sqrt3;
-
-constexpr double mm = 1e-3;
 
 HolePattern pattern(Hole hole, Arrangement arrangement, double size, double pitch) {
   return HolePattern(

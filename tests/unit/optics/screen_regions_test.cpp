@@ -15,13 +15,12 @@
 #include "gpu_shading/perforated_screen.h"
 #include "optics/sheet_layers.h"
 #include "support/layered_transmittance.h"
+#include "support/millimetre.h"
 
 namespace gpu_shading {
 namespace {
 
 using std::numbers::pi;
-
-constexpr double mm = 1e-3;
 
 // Square images of square tiles, with whole holes in each.
 struct Image {

@@ -16,14 +16,13 @@
 #include "optics/sheet_layers.h"
 #include "support/degree.h"
 #include "support/layered_transmittance.h"
+#include "support/millimetre.h"
 #include "support/refusal.h"
 
 namespace gpu_shading {
 namespace {
 
 using std::numbers::pi;
-
-constexpr double mm = 1e-3;
 
 // Hole, pitch and thickness in millimetres: thin, middling and thick sheets.
 struct Sheet {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "gpu_shading/error.h"
+#include "support/degree.h"
 
 namespace gpu_shading {
 namespace {
@@ -15,7 +16,6 @@ namespace {
 constexpr double a = 6378137.0;
 constexpr double f = 1.0 / 298.257223563;
 constexpr double e2 = f * (2.0 - f);
-constexpr double degree = std::numbers::pi / 180.0;
 
 // Radius of a meridian's curvature at a latitude.
 double meridian_radius(double latitude) {

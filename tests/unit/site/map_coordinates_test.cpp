@@ -6,11 +6,10 @@
 #include <numbers>
 
 #include "gpu_shading/error.h"
+#include "support/degree.h"
 
 namespace gpu_shading {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 TEST(MapCoordinates, NamesOfWhatTheyAre) {
   for (char const* text : {"WGS84", "wgs 84", "EPSG:4326", "urn:ogc:def:crs:OGC:1.3:CRS84"}) {

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "gpu_shading/sun_position.h"
+#include "support/degree.h"
 #include "support/shaded_window.h"
 
 namespace gpu_shading {
@@ -21,7 +22,6 @@ using shaded_window::scenes;
 using shaded_window::source_of;
 using shaded_window::year_of_suns;
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr Sampling::Density fine = Sampling::Density::fine;
 constexpr Sampling::Density medium = Sampling::Density::medium;
 constexpr Sampling::Density coarse = Sampling::Density::coarse;

@@ -18,7 +18,7 @@ using std::chrono::seconds;
 using std::chrono::sys_days;
 using std::chrono::sys_seconds;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 sys_seconds at(int year, unsigned month, unsigned day, seconds time = seconds(0)) {
   return sys_days{std::chrono::year{year} / std::chrono::month{month} / std::chrono::day{day}} +
