@@ -34,6 +34,10 @@ std::vector<double> numbers(std::vector<std::string> const& texts) {
 
 std::string first_value() { return fmt::format("{} 1", field::value.title); }
 
+std::string all_values(std::size_t count) {
+  return count < 2 ? first_value() : fmt::format("{} to {}", first_value(), count);
+}
+
 std::string const& only_value(std::vector<std::string> const& values, std::string_view what) {
   if (values.size() != 1) {
     throw Error(fmt::format("{} values, expected one: {}", values.size(), what));
@@ -55,6 +59,13 @@ Transmittance from_table(std::vector<double> const& values) {
   return Transmittance::table(std::move(angles), std::move(transmittances));
 }
 
+// What `make` returns for the numbers; its errors name their fields.
+template <typename Make>
+Transmittance from_numbers(std::vector<std::string> const& values, Make const& make) {
+  auto const given = numbers(values);
+  return naming(all_values(given.size()), [&] { return make(given); });
+}
+
 struct Made {
   Transmittance transmittance;
   std::string description;
@@ -73,11 +84,13 @@ Made make(field::TransmittanceModel model, std::vector<std::string> const& value
               fmt::format("constant {}", value)};
     }
     case polynomial_in_degrees:
-      return {Transmittance::polynomial_in_degrees(numbers(values)), "polynomial in the angle"};
+      return {from_numbers(values, Transmittance::polynomial_in_degrees),
+              "polynomial in the angle"};
     case polynomial_in_cosine:
-      return {Transmittance::polynomial_in_cosine(numbers(values)), "polynomial in the cosine"};
+      return {from_numbers(values, Transmittance::polynomial_in_cosine),
+              "polynomial in the cosine"};
     case table:
-      return {from_table(numbers(values)), "table"};
+      return {from_numbers(values, from_table), "table"};
     case table_file: {
       auto const& file = only_value(values, "the file's name");
       return {naming(first_value(), [&] { return read_angular_csv(folder / file); }),

@@ -12,6 +12,7 @@
 #include "model/daylighting.h"
 #include "model/ray_warnings.h"
 #include "model/simplified_surfaces.h"
+#include "site/site_clock.h"
 #include "site/texture_axes.h"
 
 namespace gpu_shading::energyplus {
@@ -126,6 +127,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   model.options = resolve(choices, read_settings(objects), model.shading);
   plan_rays(objects, reader, model);
   if (model.options.mode != Mode::off) {
+    check_location(objects);
     model.simplified = find_simplified_surfaces(objects, model.shading, model.lean.left_out);
     if (!model.surroundings.empty()) ensure_placeholders(model.lean, model.shading);
     if (model.shading.detailed_sky && any_moves(model.screens)) {

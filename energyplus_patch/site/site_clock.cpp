@@ -65,6 +65,17 @@ std::optional<Days> saving_in(std::filesystem::path const& weather) {
 
 }  // namespace
 
+void check_location(std::vector<InputObject> const& objects) {
+  auto const* const location = find(objects, site_location::type);
+  if (location == nullptr) return;
+  naming(location->where(), [&] {
+    for (auto const& field :
+         {site_location::latitude, site_location::longitude, site_location::time_zone}) {
+      read(*location, field);
+    }
+  });
+}
+
 SiteClock::SiteClock(std::vector<InputObject> const& objects,
                      std::optional<std::filesystem::path> const& weather) {
   auto const* const location = find(objects, site_location::type);

@@ -15,6 +15,10 @@ namespace gpu_shading::energyplus {
 // Clock time at a model's site, to the minute.
 using ClockTime = std::chrono::local_time<std::chrono::minutes>;
 
+// Throws Error if Site:Location, where there is one, has coordinates or a time zone that are no
+// numbers within the dictionary's limits: EnergyPlus accepts nan.
+void check_location(std::vector<InputObject> const& objects);
+
 // A model's site and clock, from which EnergyPlus computes the sun's position.
 class SiteClock {
  public:

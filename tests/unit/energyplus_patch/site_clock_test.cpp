@@ -105,6 +105,15 @@ TEST(SiteClock, SunOfWellKnownDays) {
               1e-12);
 }
 
+TEST(SiteClock, LocationsHaveNumbers) {
+  EXPECT_NO_THROW(check_location(read_idf("")));
+  EXPECT_NO_THROW(check_location(read_idf("Site:Location,Golden;")));
+  EXPECT_NO_THROW(check_location(read_idf(golden)));
+  EXPECT_THAT(refusal_of([] { check_location(read_idf("Site:Location,Golden,39.74,0,nan,0;")); }),
+              HasSubstr("Site:Location Golden: Time Zone is \"nan\", expected a number from -12 to "
+                        "14 hr"));
+}
+
 TEST(SiteClock, SaysWhatIsWrong) {
   EXPECT_THAT(refusal_of([] { clock_of(""); }), HasSubstr("Site:Location is missing"));
   EXPECT_THAT(

@@ -167,6 +167,16 @@ TEST_F(SiteContext, PutsUpPlaceholdersUnlessShadingIsOff) {
                Error);
 }
 
+TEST_F(SiteContext, LocationIsCheckedUnlessShadingIsOff) {
+  auto const objects = read_idf("Site:Location,Here,0,20,nan,100;");
+  auto const path = folder_.path() / "model.idf";
+  EXPECT_THAT(refusal_of([&] { understand(objects, path, {}); }),
+              AllOf(HasSubstr("model.idf: Site:Location Here: Time Zone"), HasSubstr("nan")));
+  Choices choices;
+  choices.mode = Mode::off;
+  EXPECT_NO_THROW(understand(objects, path, choices));
+}
+
 TEST_F(SiteContext, TellsTheModelsOwnBuilding) {
   auto const found = read(location + "GPUShading:SiteContext,Town,town.geojson;");
   ShadingInput input;
