@@ -69,6 +69,22 @@ class RayScene::Implementation {
     return nearest;
   }
 
+  std::vector<RayLayer> layers(Ray const& ray, RayConditions const& conditions) const {
+    std::vector<RayLayer> layers;
+    search(ray, conditions, [&](double distance, SurfaceId surface, double transmittance) {
+      layers.push_back({surface, distance, transmittance});
+      return transmittance > 0.0 ? std::numeric_limits<double>::infinity() : distance;
+    });
+    std::sort(layers.begin(), layers.end(), [](RayLayer const& a, RayLayer const& b) {
+      return std::pair(a.distance, a.surface) < std::pair(b.distance, b.surface);
+    });
+    auto const opaque = std::find_if(layers.begin(), layers.end(), [](RayLayer const& layer) {
+      return layer.transmittance <= 0.0;
+    });
+    if (opaque != layers.end()) layers.erase(std::next(opaque), layers.end());
+    return layers;
+  }
+
  private:
   // For surfaces that stop rays from both sides.
   static constexpr glm::dvec3 no_face{0.0};
@@ -153,6 +169,10 @@ double RayScene::transmittance(Ray const& ray, RayConditions const& conditions) 
 std::optional<RayHit> RayScene::nearest_opaque(Ray const& ray,
                                                RayConditions const& conditions) const {
   return implementation_->nearest_opaque(ray, conditions);
+}
+
+std::vector<RayLayer> RayScene::layers(Ray const& ray, RayConditions const& conditions) const {
+  return implementation_->layers(ray, conditions);
 }
 
 void RayScene::transmittances(std::span<Ray const> rays, RayConditions const& conditions,

@@ -515,6 +515,27 @@ TEST(Rays, FollowTransmittancesByAngleAndSchedules) {
   EXPECT_FALSE(rays.nearest_opaque(through, {.factors = factors}));
 }
 
+TEST(Rays, NameTheSurfacesOnTheirWayUpToAnOpaqueOne) {
+  Scene scene;
+  scene.add({"far", south_facing(0, 3, 0, 9, 9)});
+  scene.add({"glass", south_facing(0, 0, 0, 9, 9), Casting::always,
+             std::make_shared<Transmittance const>(Transmittance::constant(0.5))});
+  scene.add({"tree", south_facing(0, 1, 0, 9, 9), Casting::always, nullptr, 1});
+  scene.add({"near", south_facing(0, 2, 0, 9, 9)});
+  RayScene const rays(scene);
+  auto const met = rays.layers(northwards(1, 1), {.factors = factors});
+  ASSERT_EQ(met.size(), 3U);
+  std::array<SurfaceId, 3> const order{1, 2, 3};
+  std::array<double, 3> const transmittances{0.5, 0.75, 0.0};
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    EXPECT_EQ(met[i].surface, order[i]);
+    EXPECT_DOUBLE_EQ(met[i].distance, 5.0 + static_cast<double>(i));
+    EXPECT_EQ(met[i].transmittance, transmittances[i]);
+  }
+  EXPECT_EQ(rays.layers(northwards(1, 1, 6.5)).size(), 2U);
+  EXPECT_TRUE(rays.layers(northwards(-1, 1)).empty());
+}
+
 TEST(Rays, MayBeAskedFromSeveralThreads) {
   Random random(4);
   Scene const scene = mixed_scene(40, random);

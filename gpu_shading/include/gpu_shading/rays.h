@@ -24,6 +24,13 @@ struct RayHit {
   double distance = 0.0;  // from the ray's origin, m
 };
 
+// A surface that a ray meets, and what it lets pass of the ray, 0 .. 1.
+struct RayLayer {
+  SurfaceId surface = 0;
+  double distance = 0.0;  // from the ray's origin, m
+  double transmittance = 0.0;
+};
+
 // The faces of a surface that stop rays.
 enum class RayFaces {
   as_casting,  // by Surface::casting, with the ray's direction as the direction to the sun
@@ -91,7 +98,12 @@ class RayScene {
   // The nearest surface that lets nothing of the ray pass, if it meets one.
   std::optional<RayHit> nearest_opaque(Ray const& ray, RayConditions const& conditions = {}) const;
 
-  // The same for each ray, on all cores. Throws Error if there are not as many results as rays.
+  // The surfaces that the ray meets, nearest first, up to the first that lets nothing pass.
+  // Surfaces in one place are in the scene's order.
+  std::vector<RayLayer> layers(Ray const& ray, RayConditions const& conditions = {}) const;
+
+  // transmittance() of each ray, on all cores. Throws Error if there are not as many results as
+  // rays.
   void transmittances(std::span<Ray const> rays, RayConditions const& conditions,
                       std::span<double> results) const;
 
