@@ -28,6 +28,9 @@ Elf_Scn* find_symbol_section(Elf* elf) {
   return nullptr;
 }
 
+// How the names of tables of virtual functions begin (Itanium C++ ABI 5.1.4).
+constexpr std::string_view table_prefix = "_ZTV";
+
 }  // namespace
 
 SymbolTable::SymbolTable(std::filesystem::path library, std::byte* base)
@@ -50,8 +53,13 @@ SymbolTable::SymbolTable(std::filesystem::path library, std::byte* base)
   for (int i = 0; i < count; ++i) {
     GElf_Sym symbol{};
     gelf_getsym(data, i, &symbol);
-    if (GELF_ST_TYPE(symbol.st_info) != STT_FUNC || symbol.st_shndx == SHN_UNDEF) continue;
+    if (symbol.st_shndx == SHN_UNDEF) continue;
     char const* const name = elf_strptr(elf.get(), header.sh_link, symbol.st_name);
+    if (name != nullptr && GELF_ST_TYPE(symbol.st_info) == STT_OBJECT &&
+        std::string_view(name).starts_with(table_prefix)) {
+      tables_.emplace(name, base + symbol.st_value);
+    }
+    if (GELF_ST_TYPE(symbol.st_info) != STT_FUNC) continue;
     Elf_Scn* const code = elf_getscn(elf.get(), symbol.st_shndx);
     if (name == nullptr || code == nullptr) continue;
     GElf_Shdr const code_header = header_of(code);
@@ -63,6 +71,13 @@ SymbolTable::SymbolTable(std::filesystem::path library, std::byte* base)
 Symbol const* SymbolTable::find(std::string_view name) const {
   auto const found = functions_.find(std::string(name));
   return found == functions_.end() ? nullptr : &found->second;
+}
+
+std::byte const* SymbolTable::virtual_functions(std::string_view class_name) const {
+  auto const found = tables_.find(std::string(table_prefix) + std::string(class_name));
+  if (found == tables_.end()) return nullptr;
+  // Two words come before them: an offset and the type's information.
+  return found->second + 2 * sizeof(void*);
 }
 
 }  // namespace gpu_shading::energyplus

@@ -88,8 +88,9 @@ void warn_of_opaque_shades(Run const& run) {
 Rewrite take_model(std::vector<InputObject> objects, Path const& path,
                    MentionFinder const& find_mentions) {
   auto& run = this_run();
-  run.model = understand(std::move(objects), path, installation().choices,
-                         {find_mentions, installation().daylight_rays});
+  run.model = understand(
+      std::move(objects), path, installation().choices,
+      {find_mentions, installation().daylight_rays, installation().reflection_classes.has_value()});
   if (run.model->options.mode != Mode::off) {
     check_supported(run.model->shading, installation().version);
     // Now, because EnergyPlus may stop at such a surface.

@@ -18,8 +18,10 @@
 #include "host/daylight_entries.h"
 #include "host/input_entries.h"
 #include "host/penumbra_entries.h"
+#include "host/reflection_entries.h"
 #include "host/run.h"
 #include "host/shading_entries.h"
+#include "host/unwanted_messages.h"
 #include "options/options.h"
 #include "runs/installation.h"
 #include "scheduled/scheduled_run.h"
@@ -99,19 +101,25 @@ bool can_patch(SymbolTable const& symbols, std::vector<EntryPatch> const& entrie
 void patch(Loaded const& loaded, Installation& installed) {
   SymbolTable const symbols(loaded.path, loaded.base);
   auto entries = penumbra_entries();
-  for (auto const& more : {input_entries(), shading_entries()}) {
+  for (auto const& more : {input_entries(), shading_entries(), message_entries()}) {
     entries.insert(entries.end(), more.begin(), more.end());
   }
   check_entries(symbols, entries);
   auto const daylight = daylight_entries();
   auto const daylight_rays = can_patch(symbols, daylight);
   if (daylight_rays) entries.insert(entries.end(), daylight.begin(), daylight.end());
+  // Must come before the entries are changed, because it reads the code that calls them.
+  auto const surface_ids = find_surface_ids(symbols);
+  auto reflection_classes = find_reflection_classes(symbols);
+  auto const reflections = reflection_entries();
+  if (!surface_ids || !can_patch(symbols, reflections)) reflection_classes.reset();
+  if (reflection_classes) entries.insert(entries.end(), reflections.begin(), reflections.end());
   EnergyPlusFunctions const functions(symbols);
   ScheduleFunctions const schedules(symbols);
   auto const version = read_version(loaded.path.parent_path());
-  // Must come before the entries are changed, because it reads the code that calls them.
-  installed.surface_ids = find_surface_ids(symbols);
   patch_entries(symbols, entries);
+  installed.surface_ids = surface_ids;
+  installed.reflection_classes = reflection_classes;
   installed.library = loaded.path;
   installed.version = version;
   installed.daylight_rays = daylight_rays;

@@ -1,28 +1,11 @@
 #include "host/mirrored_surfaces.h"
 
-#include <sys/uio.h>
-#include <unistd.h>
-
 #include <cstring>
 #include <vector>
 
+#include "host/own_memory.h"
+
 namespace gpu_shading::energyplus {
-namespace {
-
-// Reads this process's own memory. Returns false instead of faulting if the address is invalid.
-bool read_memory(std::byte const* from, void* to, std::size_t size) {
-  iovec const local{to, size};
-  iovec const remote{const_cast<std::byte*>(from), size};
-  return process_vm_readv(getpid(), &local, 1, &remote, 1, 0) == static_cast<ssize_t>(size);
-}
-
-std::byte* read_pointer(std::byte const* from) {
-  std::byte* pointer = nullptr;
-  return read_memory(from, &pointer, sizeof pointer) ? pointer : nullptr;
-}
-
-}  // namespace
-
 std::optional<std::size_t> hand_over_mirrored_surfaces(State& state, Session& session,
                                                        StoredResult const& ids) {
   auto* const holder = read_pointer(reinterpret_cast<std::byte*>(&state) + ids.outer);

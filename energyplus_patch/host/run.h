@@ -10,6 +10,7 @@
 #include "binary/stored_result.h"
 #include "host/asked_task.h"
 #include "host/energyplus.h"
+#include "host/reflection_memory.h"
 #include "host/schedule_functions.h"
 #include "session/session.h"
 
@@ -23,8 +24,10 @@ struct Installation {
   ScheduleFunctions schedules;
   std::optional<StoredResult> surface_ids;  // where EnergyPlus keeps what add_surface returned
   bool daylight_rays = false;               // the functions of daylighting's rays are redirected
-  Choices choices;                          // command line over environment
-  std::optional<AskedTask> task;            // that EnergyPlus is run for
+  // Where solar reflections are found, if their functions are redirected.
+  std::optional<ReflectionClasses> reflection_classes;
+  Choices choices;                // command line over environment
+  std::optional<AskedTask> task;  // that EnergyPlus is run for
 };
 Installation& installation();
 

@@ -64,8 +64,9 @@ void read_shadow_calculation(InputObject const& object, ShadingInput& input) {
 }
 
 void read_shading_surface(InputObject const& object, ShadingInput& input) {
-  ShadingInput::ShadingSurface const surface{object.type,
-                                             upper(object["transmittance_schedule_name"])};
+  ShadingInput::ShadingSurface surface;
+  surface.type = object.type;
+  surface.transmittance_schedule = upper(object["transmittance_schedule_name"]);
   auto const name = upper(object.name);
   if (object.type.starts_with("Shading:Fin")) {
     // EnergyPlus creates two surfaces from one object, with these names.
@@ -73,6 +74,23 @@ void read_shading_surface(InputObject const& object, ShadingInput& input) {
     input.shading_surfaces[name + " Right"] = surface;
   } else {
     input.shading_surfaces[name] = surface;
+  }
+}
+
+// A share of a ShadingProperty:Reflectance, 0 .. 1. EnergyPlus itself refuses other values.
+double share(InputObject const& object, std::string_view field, double blank) {
+  return std::clamp(parse_number(object[field]).value_or(blank), 0.0, 1.0);
+}
+
+// The properties may stand before their surface.
+void read_reflectances(std::vector<InputObject> const& objects, ShadingInput& input) {
+  for (auto const& object : objects) {
+    if (object.type != "ShadingProperty:Reflectance") continue;
+    auto const surface = input.shading_surfaces.find(upper(object["shading_surface_name"]));
+    if (surface == input.shading_surfaces.end()) continue;
+    surface->second.reflectance =
+        share(object, "diffuse_solar_reflectance_of_unglazed_part_of_shading_surface", 0.2);
+    surface->second.glazed = share(object, "fraction_of_shading_surface_that_is_glazed", 0.0);
   }
 }
 
@@ -183,7 +201,7 @@ ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
       named.names.insert(upper(object["output_variable_or_output_meter_index_key_name"]));
     }
   }
-  if (input.reflections) input.all_shading_wanted = true;
+  read_reflectances(objects, input);
   for (auto const& [name, surface] : input.shading_surfaces) {
     for (auto const& each : {name, mirrored_name(name)}) {
       if (named.contains(each)) input.wanted_shading.insert(each);

@@ -17,7 +17,11 @@ namespace gpu_shading::energyplus {
 struct ShadingInput {
   struct ShadingSurface {
     std::string type;
-    std::string transmittance_schedule;  // or ""
+    std::string transmittance_schedule = {};  // or ""
+    // ShadingProperty:Reflectance, with EnergyPlus's defaults: the diffuse solar reflectance, 0 ..
+    // 1, of the part that is not glazed, and the glazed fraction, 0 .. 1.
+    double reflectance = 0.2;
+    double glazed = 0.0;
   };
 
   std::string version;         // version of the input, e.g. "25.2"
@@ -41,8 +45,8 @@ struct ShadingInput {
   std::set<std::string> actuated;  // names in EMS actuators, including schedules
 
   // Shading surfaces and mirrored copies (mirrored_name) whose own sunlit fraction is used: by an
-  // output, an EMS sensor, photovoltaics, a collector or a daylighting shelf; all of them with
-  // reflections, with the external shading file, or if an output's key cannot be interpreted.
+  // output, an EMS sensor, photovoltaics, a collector or a daylighting shelf; all of them with the
+  // external shading file, or if an output's key cannot be interpreted.
   std::set<std::string> wanted_shading;
   bool all_shading_wanted = false;
   std::string unreadable_key;  // the output and why, or ""
@@ -58,8 +62,14 @@ struct ShadingInput {
   // Whether an output shows the sunlit fraction of a mirrored copy.
   bool mirrored_shown() const;
 
-  bool wants(std::string const& shading_surface) const {
+  // Whether an object of the model uses a shading surface's own sunlit fraction.
+  bool names(std::string const& shading_surface) const {
     return all_shading_wanted || wanted_shading.contains(shading_surface);
+  }
+
+  // The same, or whether EnergyPlus itself does: for solar reflections, of each that it knows.
+  bool wants(std::string const& shading_surface) const {
+    return reflections || names(shading_surface);
   }
 
   // The base surface of a window or door; any other surface is its own.

@@ -34,14 +34,16 @@ std::string_view reason_of(InputObject const& object, bool daylighting_answered)
 
 // Why no surface may be left out, or "".
 std::string reason_against(std::vector<InputObject> const& objects, ShadingInput const& input,
-                           bool daylighting_answered) {
-  if (input.reflections) return "Building: Solar Distribution asks for reflections";
+                           EnergyPlusRays const& rays) {
+  if (input.reflections && !rays.reflections_answered) {
+    return "Building: Solar Distribution asks for reflections";
+  }
   if (!input.unreadable_key.empty()) return input.unreadable_key;
   if (input.all_shading_wanted) {
     return "ShadowCalculation: Output External Shading Calculation Results is Yes";
   }
   for (auto const& object : objects) {
-    auto const reason = reason_of(object, daylighting_answered);
+    auto const reason = reason_of(object, rays.daylighting_answered);
     if (!reason.empty()) return fmt::format("{}: {}", object.title(), reason);
   }
   return reason_against_outlines(objects);
@@ -65,8 +67,19 @@ Names find_candidates(std::vector<InputObject> const& objects) {
 // Outputs that name a surface or its mirrored copy, by a pattern too.
 void add_outputs(ShadingInput const& input, Names const& names, Mentions& mentions) {
   for (auto const& name : names) {
-    if (input.wants(name) || input.wants(mirrored_name(name))) {
+    if (input.names(name) || input.names(mirrored_name(name))) {
       mentions.try_emplace(name, "Output:Variable");
+    }
+  }
+}
+
+// Surfaces that EnergyPlus has to know because they reflect the beam as a mirror does.
+void add_mirrors(ShadingInput const& input, Names const& names, Mentions& mentions) {
+  if (!input.reflections) return;
+  for (auto const& name : names) {
+    auto const found = input.shading_surfaces.find(name);
+    if (found != input.shading_surfaces.end() && found->second.glazed > 0.0) {
+      mentions.try_emplace(name, "ShadingProperty:Reflectance");
     }
   }
 }
@@ -142,6 +155,7 @@ LeanInput plan(std::vector<InputObject> const& objects, ShadingInput const& inpu
                MentionFinder const& find_mentions) {
   auto mentions = find_mentions(candidates);
   add_outputs(input, candidates, mentions);
+  add_mirrors(input, candidates, mentions);
   LeanInput lean;
   std::vector<std::string> schedules;
   Names known_schedules;
@@ -170,21 +184,28 @@ bool LeanInput::is_placeholder(std::string const& surface) const {
                      [&](Placeholder const& each) { return each.name == surface; });
 }
 
+bool LeanInput::is_placeholder_or_copy(std::string const& surface) const {
+  return std::any_of(placeholders.begin(), placeholders.end(), [&](Placeholder const& each) {
+    return each.name == surface || mirrored_name(each.name) == surface;
+  });
+}
+
 LeanInput plan_lean_input(std::vector<InputObject> const& objects, ShadingInput const& input,
-                          Options const& options, DaylightRays const& rays,
+                          Options const& options, EnergyPlusRays const& rays,
                           MentionFinder const& find_mentions) {
   if (options.mode == Mode::off || options.lean == Lean::off) return {};
   bool const forced = options.lean == Lean::on;
   auto const candidates = find_candidates(objects);
-  bool const all = forced || candidates.size() >= fewest_left_out;
+  auto const fewest = input.reflections ? fewest_with_reflections : fewest_left_out;
+  bool const all = forced || candidates.size() >= fewest;
   LeanInput none;
   try {
-    auto const reason = reason_against(objects, input, rays.answered);
+    auto const reason = reason_against(objects, input, rays);
     if (!reason.empty()) throw Error(reason);
     auto const found = outlines_of(objects, input, candidates, all, rays.transmitting);
     if (!all && found.empty()) return {};
     auto lean = plan(objects, input, candidates, found, find_mentions);
-    if (lean.left_out.size() >= (forced || !all ? 1 : fewest_left_out)) return lean;
+    if (lean.left_out.size() >= (forced || !all ? 1 : fewest)) return lean;
     if (forced) none.remark = "lean input: no shading surface can be hidden from EnergyPlus";
   } catch (Error const& error) {
     if (all) none.remark = fmt::format("lean input is off: {}", error.what());

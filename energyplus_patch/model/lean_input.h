@@ -23,27 +23,36 @@ struct LeanInput {
 
   bool active() const { return !left_out.empty(); }
   bool is_placeholder(std::string const& surface) const;
+  // The same, or the mirrored copy of one.
+  bool is_placeholder_or_copy(std::string const& surface) const;
 };
 
 // With Lean::automatic, all surfaces are left out from this number on. Each costs EnergyPlus about
 // 5 ms in a year's run, and the placeholders cost about as much as this many. Of fewer surfaces,
 // only those are left out that EnergyPlus would simplify or refuse (Outline), or whose
-// transmittance its rays would not see (DaylightRays).
+// transmittance its rays would not see (EnergyPlusRays).
 inline constexpr std::size_t fewest_left_out = 100;
+// The same with solar reflections, for which EnergyPlus takes as long for 20 surfaces as for the
+// placeholders, and for each more of them longer.
+inline constexpr std::size_t fewest_with_reflections = 20;
 
-// What the rays of EnergyPlus's daylighting mean for lean input.
-struct DaylightRays {
-  bool answered = false;  // they meet what is left out of EnergyPlus's input, too
+// What EnergyPlus's own rays mean for lean input.
+struct EnergyPlusRays {
+  // Whether those of daylighting, and of solar reflections, meet what is left out of EnergyPlus's
+  // input, too.
+  bool daylighting_answered = false;
+  bool reflections_answered = false;
   // Surfaces to leave out in any case, because the rays would take them as opaque. Upper case.
-  Names transmitting;
+  Names transmitting = {};
 };
 
 // A surface is kept if another object or output names it, or if one of its fields cannot be
-// interpreted. All are kept if the model needs the surfaces themselves (solar reflections, complex
-// fenestration, the external shading file, plugins, daylighting unless its rays are answered), or
-// if its geometry is changed in ways that are not supported here (reason_against_outlines).
+// interpreted. All are kept if the model needs the surfaces themselves (complex fenestration, the
+// external shading file, plugins, daylighting and solar reflections unless their rays are
+// answered), those that reflect specularly with solar reflections, or all if its geometry is
+// changed in ways that are not supported here (reason_against_outlines).
 LeanInput plan_lean_input(std::vector<InputObject> const& objects, ShadingInput const& input,
-                          Options const& options, DaylightRays const& rays,
+                          Options const& options, EnergyPlusRays const& rays,
                           MentionFinder const& find_mentions);
 
 // Adds placeholders for casters that EnergyPlus does not know, unless there are some already.

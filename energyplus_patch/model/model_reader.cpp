@@ -22,7 +22,7 @@ namespace {
 void add_surroundings(Surroundings const& surroundings, ShadingInput& shading) {
   for (auto const& [name, type] : surroundings.types) {
     auto const [place, added] =
-        shading.shading_surfaces.try_emplace(name, ShadingInput::ShadingSurface{type, ""});
+        shading.shading_surfaces.try_emplace(name, ShadingInput::ShadingSurface{.type = type});
     if (!added) {
       throw Error(fmt::format("{}: {} is also the name of a {}", type, name, place->second.type));
     }
@@ -66,25 +66,33 @@ Names transmitting_surfaces(Model const& model) {
   return names;
 }
 
+// Those that are in EnergyPlus's input, in order.
+std::vector<std::string> kept(Names const& surfaces, LeanInput const& lean) {
+  std::vector<std::string> names;
+  for (auto const& name : surfaces) {
+    if (!lean.left_out.contains(name)) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 // Lean input, and what EnergyPlus's rays make of the rest.
 void plan_rays(std::vector<InputObject> const& objects, Reader const& reader, Model& model) {
-  DaylightRays rays;
-  rays.answered = reader.daylight_rays && model.options.mode != Mode::off &&
-                  has_daylighting(objects) && daylighting_can_be_answered(objects, model.shading);
+  bool const on = model.options.mode != Mode::off;
+  EnergyPlusRays rays;
+  rays.daylighting_answered = reader.daylight_rays && on && has_daylighting(objects) &&
+                              daylighting_can_be_answered(objects, model.shading);
+  rays.reflections_answered = reader.reflections && on && model.shading.reflections;
   auto const transmitting = transmitting_surfaces(model);
-  if (rays.answered) rays.transmitting = transmitting;
+  if (rays.daylighting_answered || rays.reflections_answered) rays.transmitting = transmitting;
   if (reader.find_mentions) {
     model.lean = plan_lean_input(objects, model.shading, model.options, rays, reader.find_mentions);
   }
-  model.daylighting_answered = rays.answered;
-  std::optional<std::vector<std::string>> opaque;
-  if (rays.answered) {
-    opaque.emplace();
-    for (auto const& name : transmitting) {
-      if (!model.lean.left_out.contains(name)) opaque->push_back(name);
-    }
-    std::sort(opaque->begin(), opaque->end());
-  }
+  model.daylighting_answered = rays.daylighting_answered;
+  model.reflections_answered = rays.reflections_answered;
+  OpaqueToRays opaque;
+  if (rays.daylighting_answered) opaque.daylighting = kept(transmitting, model.lean);
+  if (rays.reflections_answered) opaque.reflections = kept(transmitting, model.lean);
   model.ray_warnings = warn_of_rays(objects, model.shading, opaque);
 }
 

@@ -26,6 +26,7 @@ struct Model {
   SimplifiedSurfaces simplified;
   Surroundings surroundings;
   bool daylighting_answered = false;      // rays of daylighting ask this module
+  bool reflections_answered = false;      // rays of solar reflections do
   std::vector<std::string> ray_warnings;  // see warn_of_rays
   std::vector<std::string> remarks;
 };
@@ -34,6 +35,7 @@ struct Model {
 struct Reader {
   MentionFinder find_mentions;  // for the model's own file; without it, lean input is not planned
   bool daylight_rays = false;   // rays of daylighting can be answered
+  bool reflections = false;     // rays of solar reflections can be answered
 };
 
 // Reads a model's objects together with those of its side file, and resolves all options.

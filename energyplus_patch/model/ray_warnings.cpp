@@ -36,7 +36,7 @@ std::string names_of(std::vector<InputObject> const& objects, std::string_view t
 
 // The parts of EnergyPlus in this model that trace rays to shading surfaces, as a warning begins.
 struct User {
-  bool daylighting = false;
+  enum class Kind { daylighting, complex_fenestration, reflections } kind;
   std::string text;
 };
 std::vector<User> users_of_rays(std::vector<InputObject> const& objects,
@@ -45,24 +45,38 @@ std::vector<User> users_of_rays(std::vector<InputObject> const& objects,
   for (auto const& type : daylighting_types) {
     auto const names = names_of(objects, type);
     if (names.empty()) continue;
-    found.push_back({true, fmt::format("daylighting ({} {})", type, names)});
+    found.push_back({User::Kind::daylighting, fmt::format("daylighting ({} {})", type, names)});
     break;
   }
   constexpr std::string_view complex = "Construction:ComplexFenestrationState";
   if (auto const names = names_of(objects, complex); !names.empty()) {
-    found.push_back({false, fmt::format("complex fenestration ({} {})", complex, names)});
+    found.push_back({User::Kind::complex_fenestration,
+                     fmt::format("complex fenestration ({} {})", complex, names)});
   }
   if (input.reflections) {
-    found.push_back({false, "solar reflections (Building, Solar Distribution)"});
+    found.push_back({User::Kind::reflections, "solar reflections (Building, Solar Distribution)"});
   }
   return found;
 }
 
+std::optional<std::vector<std::string>> const& opaque_to(User const& user,
+                                                         OpaqueToRays const& opaque) {
+  static std::optional<std::vector<std::string>> const unanswered;
+  switch (user.kind) {
+    case User::Kind::daylighting:
+      return opaque.daylighting;
+    case User::Kind::reflections:
+      return opaque.reflections;
+    case User::Kind::complex_fenestration:
+      break;
+  }
+  return unanswered;
+}
+
 }  // namespace
 
-std::vector<std::string> warn_of_rays(
-    std::vector<InputObject> const& objects, ShadingInput const& input,
-    std::optional<std::vector<std::string>> const& daylighting_opaque) {
+std::vector<std::string> warn_of_rays(std::vector<InputObject> const& objects,
+                                      ShadingInput const& input, OpaqueToRays const& opaque) {
   struct Shade {
     std::string_view type;
     bool seen;
@@ -75,22 +89,21 @@ std::vector<std::string> warn_of_rays(
   }};
   std::vector<std::string> warnings;
   for (auto const& user : users_of_rays(objects, input)) {
-    if (user.daylighting && daylighting_opaque) {
-      if (daylighting_opaque->empty()) continue;
+    std::string_view const schedules =
+        user.kind == User::Kind::reflections ? "" : ", but for their Transmittance Schedules";
+    if (auto const& known = opaque_to(user, opaque)) {
+      if (known->empty()) continue;
       warnings.push_back(
-          fmt::format("rays of {} take surfaces that stay in EnergyPlus's input as opaque, but for "
-                      "their Transmittance Schedules: {}",
-                      user.text, join(*daylighting_opaque)));
+          fmt::format("rays of {} take surfaces that stay in EnergyPlus's input as opaque{}: {}",
+                      user.text, schedules, join(*known)));
       continue;
     }
     for (auto const& [type, seen] : shades) {
       auto const names = names_of(objects, type);
       if (names.empty()) continue;
-      warnings.push_back(
-          seen ? fmt::format("rays of {} take the surfaces of {} {} as opaque, but for their "
-                             "Transmittance Schedules",
-                             user.text, type, names)
-               : fmt::format("rays of {} do not see {} {}", user.text, type, names));
+      warnings.push_back(seen ? fmt::format("rays of {} take the surfaces of {} {} as opaque{}",
+                                            user.text, type, names, schedules)
+                              : fmt::format("rays of {} do not see {} {}", user.text, type, names));
     }
   }
   return warnings;

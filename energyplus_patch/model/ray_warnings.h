@@ -9,14 +9,19 @@
 
 namespace gpu_shading::energyplus {
 
+// Where rays are answered, the surfaces of shades that are in EnergyPlus's input all the same. One
+// warning names them.
+struct OpaqueToRays {
+  std::optional<std::vector<std::string>> daylighting = std::nullopt;  // unless answered
+  std::optional<std::vector<std::string>> reflections = std::nullopt;
+};
+
 // What EnergyPlus's own rays make of shades that only this module knows: a warning for each pair of
 // a user of rays (daylighting, solar reflections, complex fenestration) and a type of shade that
 // the model has, naming the objects. Rays count TransparentShades and PerforatedScreens as opaque,
-// but for their Transmittance Schedules, and do not meet Geometry and SiteContext.
-// `daylighting_opaque`: if the rays of daylighting are answered, the surfaces of such shades that
-// are in EnergyPlus's input all the same; one warning names them.
-std::vector<std::string> warn_of_rays(
-    std::vector<InputObject> const& objects, ShadingInput const& input,
-    std::optional<std::vector<std::string>> const& daylighting_opaque = std::nullopt);
+// but for their Transmittance Schedules where they are not of solar reflections, and do not meet
+// Geometry and SiteContext.
+std::vector<std::string> warn_of_rays(std::vector<InputObject> const& objects,
+                                      ShadingInput const& input, OpaqueToRays const& opaque = {});
 
 }  // namespace gpu_shading::energyplus

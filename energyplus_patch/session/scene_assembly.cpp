@@ -109,6 +109,10 @@ std::vector<SurfaceId> SceneAssembly::own_shading_surfaces() const {
   return ids;
 }
 
+bool SceneAssembly::is_placeholder(SurfaceId id) const {
+  return model_.lean.is_placeholder_or_copy(surfaces_[id].name);
+}
+
 std::vector<glm::dvec3> SceneAssembly::areas() const {
   std::vector<glm::dvec3> areas;
   areas.reserve(size());
@@ -170,6 +174,14 @@ Scene SceneAssembly::hidden_casters() const {
     if (surface.casting != Casting::never) scene.add(std::move(surface));
   }
   return scene;
+}
+
+std::vector<SurfaceId> SceneAssembly::hidden(Scene const& scene) const {
+  std::vector<SurfaceId> ids;
+  for (auto id = static_cast<SurfaceId>(size()); id < surfaces_.size(); ++id) {
+    if (scene[id].casting != Casting::never) ids.push_back(id);
+  }
+  return ids;
 }
 
 Hash SceneAssembly::hash(Scene const& scene, DeviceInfo const& device) const {

@@ -43,6 +43,9 @@ class SceneAssembly {
   // The same with placeholders, without mirrored copies: EnergyPlus's own shading surfaces.
   std::vector<SurfaceId> own_shading_surfaces() const;
 
+  // Whether a surface of EnergyPlus's is a placeholder or the mirrored copy of one.
+  bool is_placeholder(SurfaceId id) const;
+
   // EnergyPlus's area of a surface over the area that is rendered: it deletes vertices that are
   // close to each other (SimplifiedSurfaces).
   double area_ratio(SurfaceId surface) const { return area_ratios_[surface]; }
@@ -70,6 +73,9 @@ class SceneAssembly {
 
   // The casters that are not EnergyPlus's surfaces, with the optics as they are now for light.
   Scene hidden_casters() const;
+
+  // Their ids in scene().
+  std::vector<SurfaceId> hidden(Scene const& scene) const;
 
   // Hash of all that an answer depends on: of a scene(), rendered on a device.
   Hash hash(Scene const& scene, DeviceInfo const& device) const;

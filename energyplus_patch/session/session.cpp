@@ -8,6 +8,7 @@
 
 #include "cache/cache_folder.h"
 #include "gpu_shading/error.h"
+#include "gpu_shading/sun_direction.h"
 #include "options/report_folder.h"
 #include "session/open_answers.h"
 #include "session/perform_task.h"
@@ -64,6 +65,8 @@ SunAnswers& Session::answers() {
 
 void Session::set_time(Moment moment) {
   if (!answers_) return;
+  moment_ = moment;
+  if (auto* const first = first_sun_now()) first->reset();
   if (scene_.optics().update(moment)) {
     messages_.warning(
         "a Transmittance Schedule with a constant value has changed, by an EMS or another program: "
@@ -73,6 +76,7 @@ void Session::set_time(Moment moment) {
     // The CPU also if it took over from a GPU.
     auto const device = choice_of(answers_->rendered().renderer().device());
     obstructions_.reset();
+    renew_reflections();
     answers_->close();
     answers_->open(open_answers(scene_, receivers, device, messages_));
   } else {
@@ -80,7 +84,20 @@ void Session::set_time(Moment moment) {
   }
 }
 
-void Session::set_sun(SunDirection sun) { answers().set_sun(sun); }
+void Session::set_sun(SunDirection sun) {
+  answers().set_sun(sun);
+  if (auto* const first = first_sun_now()) *first = to_vector(sun);
+}
+
+// Where the sun of this moment is kept, at an hour's first timestep.
+std::optional<glm::dvec3>* Session::first_sun_now() {
+  if (moment_.timestep != 1 || moment_.hour < 1) return nullptr;
+  return &first_suns_.at(static_cast<std::size_t>(moment_.hour - 1));
+}
+
+std::optional<glm::dvec3> Session::first_sun(int hour) const {
+  return first_suns_.at(static_cast<std::size_t>(hour - 1));
+}
 
 float Session::projected_sunlit_area(SurfaceId receiver) {
   auto& answers = this->answers();
@@ -109,6 +126,20 @@ double Session::daylight_transmittance(Ray const& ray, int hour) {
 
 void Session::begin_daylighting() {
   if (obstructions_) obstructions_->renew();
+}
+
+HiddenReflections* Session::reflections() {
+  if (!answers_) throw Error("EnergyPlus asks for reflections before its surfaces are complete");
+  if (!reflections_) reflections_.emplace(scene_);
+  return reflections_->any() ? &*reflections_ : nullptr;
+}
+
+// With the optics as they are now.
+void Session::renew_reflections() {
+  if (!reflections_) return;
+  auto rays = reflections_->rays();
+  reflections_.emplace(scene_);
+  reflections_->set_rays(std::move(rays));
 }
 
 void Session::finish() {

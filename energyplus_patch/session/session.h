@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <functional>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +10,7 @@
 #include "gpu_shading/scene.h"
 #include "model/model_reader.h"
 #include "session/hidden_obstructions.h"
+#include "session/hidden_reflections.h"
 #include "session/messages.h"
 #include "session/scene_assembly.h"
 #include "session/schedules.h"
@@ -32,6 +35,10 @@ class Session {
 
   // Adds the mirrored copy of a shading surface.
   SurfaceId add_mirrored(SurfaceId original) { return scene_.add_mirrored(original); }
+
+  // Whether a surface stands in EnergyPlus's input only for others, or is the copy of one that
+  // does.
+  bool is_placeholder(SurfaceId id) const { return scene_.is_placeholder(id); }
 
   ShadingInput const& input() const { return scene_.model().shading; }
 
@@ -64,17 +71,30 @@ class Session {
   // EnergyPlus computes daylighting for another period.
   void begin_daylighting();
 
+  // What the same surfaces do to reflected solar radiation; nullptr if there are none.
+  HiddenReflections* reflections();
+
+  // The last direction to the sun at the first timestep of an hour, 1 .. 24; nothing if EnergyPlus
+  // did not ask for it.
+  std::optional<glm::dvec3> first_sun(int hour) const;
+
   // Called at the end of the run: reports what rendered, and writes the report.
   void finish();
 
  private:
   SunAnswers& answers();
   void write_reports();
+  void renew_reflections();
+  std::optional<glm::dvec3>* first_sun_now();
 
   SceneAssembly scene_;
   Messages messages_;
+  Moment moment_;
+  static constexpr std::size_t hours = 24;
+  std::array<std::optional<glm::dvec3>, hours> first_suns_;
   std::optional<SunAnswers> answers_;               // once started
   std::optional<HiddenObstructions> obstructions_;  // once asked for
+  std::optional<HiddenReflections> reflections_;    // once asked for
 };
 
 }  // namespace gpu_shading::energyplus

@@ -324,8 +324,11 @@ def test_what_stays_in_the_input_is_warned_about(room, run):
     assert "SHEET" in warning and "stay in EnergyPlus's input" in warning
     reflecting = run((room + sheet).replace("FullInteriorAndExterior", "FullExteriorWithReflections"), "reflecting",
                      "--gpu-shading")
+    # The surface stays for daylighting, whose rays are not answered with reflections.
     (warning,) = ray_warnings(reflecting)
     assert "Tint as opaque" in warning
+    assert re.search("rays of solar reflections.* stay in EnergyPlus's input as opaque: SHEET",
+                     reflecting.text("eplusout.err"))
     delight = run((room + sheet).replace(",SplitFlux,", ",DElight,"), "delight", "--gpu-shading")
     (warning,) = ray_warnings(delight)
     assert "Tint as opaque" in warning

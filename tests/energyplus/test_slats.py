@@ -83,11 +83,10 @@ def test_slats_shade_with_their_own_width(run, width, count):
     assert "degenerate" not in done.text("eplusout.err")
 
 
-@pytest.mark.parametrize("distribution, options", [("FullExterior", ["--gpu-shading-lean=off"]),
-                                                   ("FullExteriorWithReflections", [])])
-def test_slats_that_energyplus_sees_shade_with_their_own_width(run, distribution, options):
+@pytest.mark.parametrize("distribution", ["FullExterior", "FullExteriorWithReflections"])
+def test_slats_that_energyplus_sees_shade_with_their_own_width(run, distribution):
     count = 24
-    done = run(model(0.004, count, distribution), *options)
+    done = run(model(0.004, count, distribution), "--gpu-shading-lean=off")
     assert_exact(done, 0.004, count)
     # EnergyPlus's own message, and ours in the same words.
     assert f"There are {count} degenerate surfaces" in done.text("eplusout.err")

@@ -26,7 +26,7 @@ std::string shade(std::string const& name, std::string const& schedule = "") {
   return fmt::format("Shading:Building:Detailed,{},{},,{}", name, schedule, corners);
 }
 
-LeanInput plan(std::string const& idf, Lean lean = Lean::on, DaylightRays const& rays = {}) {
+LeanInput plan(std::string const& idf, Lean lean = Lean::on, EnergyPlusRays const& rays = {}) {
   auto const parsed = parse_idf(idf);
   auto const objects = read_idf(parsed);
   Options options;
@@ -171,10 +171,25 @@ TEST(LeanInput, ReasonsAreGiven) {
 
 TEST(LeanInput, DaylightingWhoseRaysAreAnsweredDoesNotForbidIt) {
   auto const light = rules + shade("Pane") + shade("Wall") + "Daylighting:Controls,Light;";
-  EXPECT_EQ(plan(light, Lean::on, {true, {}}).left_out, (Names{"PANE", "WALL"}));
+  EXPECT_EQ(plan(light, Lean::on, {true, false, {}}).left_out, (Names{"PANE", "WALL"}));
   // Of a few surfaces, those that the rays would take as opaque.
-  EXPECT_EQ(plan(light, Lean::automatic, {true, {"PANE"}}).left_out, (Names{"PANE"}));
-  EXPECT_FALSE(plan(light, Lean::automatic, {true, {}}).active());
+  EXPECT_EQ(plan(light, Lean::automatic, {true, false, {"PANE"}}).left_out, (Names{"PANE"}));
+  EXPECT_FALSE(plan(light, Lean::automatic, {true, false, {}}).active());
+}
+
+TEST(LeanInput, AnsweredReflectionsLeaveOutAllButMirrors) {
+  EnergyPlusRays const answered{.reflections_answered = true};
+  std::string const reflecting = rules + "Building,B,,,,,FullExteriorWithReflections;";
+  auto const glazed = "ShadingProperty:Reflectance,Mirror,0.1,0.1,0.5,Glass;";
+  auto const lean = plan(reflecting + shade("Mirror") + shade("Wall") + glazed, Lean::on, answered);
+  EXPECT_EQ(lean.left_out, (Names{"WALL"}));
+  EXPECT_THAT(lean.remark, HasSubstr("MIRROR, which ShadingProperty:Reflectance names"));
+  // Fewer of them are worth it.
+  auto idf = reflecting;
+  for (std::size_t i = 1; i < fewest_with_reflections; ++i) idf += shade(fmt::format("S{}", i));
+  EXPECT_FALSE(plan(idf, Lean::automatic, answered).active());
+  idf += shade("Last");
+  EXPECT_EQ(plan(idf, Lean::automatic, answered).left_out.size(), fewest_with_reflections);
 }
 
 TEST(LeanInput, TheRestOfTheTextIsKept) {

@@ -16,6 +16,8 @@ std::string const shades =
     "GPUShading:Geometry,Tree,tree.obj;"
     "GPUShading:SiteContext,Town,town.geojson;";
 
+using Surfaces = std::vector<std::string>;
+
 std::vector<std::string> warnings(std::string const& idf) {
   auto const objects = read_idf(idf);
   return warn_of_rays(objects, read_shading_input(objects));
@@ -47,11 +49,9 @@ TEST(RayWarnings, OneForEachUserAndTypeOfShade) {
                   "rays of complex fenestration (Construction:ComplexFenestrationState Blind) "
                   "do not see GPUShading:SiteContext Town",
                   "rays of solar reflections (Building, Solar Distribution) take the surfaces "
-                  "of GPUShading:TransparentShade Canopy" +
-                      std::string(opaque),
+                  "of GPUShading:TransparentShade Canopy as opaque",
                   "rays of solar reflections (Building, Solar Distribution) take the surfaces "
-                  "of GPUShading:PerforatedScreen Veil" +
-                      std::string(opaque),
+                  "of GPUShading:PerforatedScreen Veil as opaque",
                   "rays of solar reflections (Building, Solar Distribution) do not see "
                   "GPUShading:Geometry Tree",
                   "rays of solar reflections (Building, Solar Distribution) do not see "
@@ -68,11 +68,20 @@ TEST(RayWarnings, NoneWithoutRaysOrWithoutShades) {
 TEST(RayWarnings, AnsweredDaylightingNamesOnlyWhatStaysInTheInput) {
   auto const objects = read_idf(shades + "Daylighting:Controls,Lamp;");
   auto const input = read_shading_input(objects);
-  EXPECT_THAT(warn_of_rays(objects, input, std::vector<std::string>{}), IsEmpty());
-  EXPECT_THAT(warn_of_rays(objects, input, std::vector<std::string>{"CANOPY", "SCREEN"}),
+  EXPECT_THAT(warn_of_rays(objects, input, {.daylighting = Surfaces{}}), IsEmpty());
+  EXPECT_THAT(warn_of_rays(objects, input, {.daylighting = Surfaces{"CANOPY", "SCREEN"}}),
               ElementsAre("rays of daylighting (Daylighting:Controls Lamp) take surfaces that stay "
                           "in EnergyPlus's input as opaque, but for their Transmittance Schedules: "
                           "CANOPY, SCREEN"));
+}
+
+TEST(RayWarnings, AnsweredReflectionsDoTheSame) {
+  auto const objects = read_idf(shades + "Building,B,,,,,FullExteriorWithReflections;");
+  auto const input = read_shading_input(objects);
+  EXPECT_THAT(warn_of_rays(objects, input, {.reflections = Surfaces{}}), IsEmpty());
+  EXPECT_THAT(warn_of_rays(objects, input, {.reflections = Surfaces{"CANOPY"}}),
+              ElementsAre("rays of solar reflections (Building, Solar Distribution) take surfaces "
+                          "that stay in EnergyPlus's input as opaque: CANOPY"));
 }
 
 TEST(RayWarnings, ManyNamesAreCut) {

@@ -67,6 +67,19 @@ TEST(ShadingInput, OutputsNameSurfacesByPatternsAndMirroredCopiesToo) {
   EXPECT_TRUE(broken.wants("ROOF"));
 }
 
+TEST(ShadingInput, ReflectanceBelongsToItsSurfaceWhereverItStands) {
+  auto const input = read_shading_input(
+      read_idf("ShadingProperty:Reflectance,tree,0.35,0.4,0.25,Glass;Shading:Site:Detailed,Tree,;"
+               "Shading:Site:Detailed,Wall,;ShadingProperty:Reflectance,Wall,7,,;"
+               "Shading:Site:Detailed,Plain,;ShadingProperty:Reflectance,Nothing,0.5;"));
+  auto const& tree = input.shading_surfaces.at("TREE");
+  EXPECT_EQ(tree.reflectance, 0.35);
+  EXPECT_EQ(tree.glazed, 0.25);
+  EXPECT_EQ(input.shading_surfaces.at("WALL").reflectance, 1.0);
+  EXPECT_EQ(input.shading_surfaces.at("PLAIN").reflectance, 0.2);
+  EXPECT_EQ(input.shading_surfaces.at("PLAIN").glazed, 0.0);
+}
+
 TEST(ShadingInput, OnlyExteriorSurfacesCast) {
   auto const input = read(
       "BuildingSurface:Detailed,Out,Wall,C,Z,,Outdoors;BuildingSurface:Detailed,In,Wall,C,Z,,"

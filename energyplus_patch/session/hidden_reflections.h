@@ -1,0 +1,121 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "gpu_shading/rays.h"
+#include "session/scene_assembly.h"
+
+namespace gpu_shading::energyplus {
+
+// A ray from a point of a surface that receives reflected solar radiation, and what it meets of
+// the surfaces that EnergyPlus knows. Metres.
+struct ReflectionRay {
+  enum class Meets { sky, ground, surface };
+
+  glm::dvec3 origin{0.0};
+  glm::dvec3 direction{0.0};  // of unit length
+  Meets meets = Meets::sky;
+  glm::dvec3 hit{0.0};  // unless it meets the sky
+  double distance = std::numeric_limits<double>::infinity();
+};
+
+// What hidden casters make of a ray.
+struct ReflectedShare {
+  // What EnergyPlus itself counts for the ray has to be multiplied by this, 0 .. 1.
+  double kept = 1.0;
+  // Radiance that hidden casters reflect along the ray, times pi, over the irradiance of the
+  // source: of the beam at normal incidence, or of the unobstructed sky on the horizontal.
+  double shades = 0.0;
+  // With the beam, the share of it that reaches the ground and comes back; with the sky, the share
+  // of what an unobstructed ground reflects that comes back. To be counted instead of
+  // EnergyPlus's own share; kept is then 0.
+  double ground = 0.0;
+};
+
+// What is not in EnergyPlus's input (lean input, surroundings) does to solar radiation that
+// EnergyPlus's surfaces receive by reflection: it stops a part of what other surfaces and the
+// ground reflect, and of what reaches them, and it reflects itself, diffusely. A caster reflects
+// its diffuse reflectance, but not more than it does not let pass; a perforated sheet reflects with
+// the solid share of its area.
+// As in EnergyPlus's SolarReflectionManager, the mean of a surface's side decides about the sky,
+// and the point that is hit about the beam, but a side of which less than a hundredth is in the sun
+// at the hour's first timestep reflects nothing. Not for several threads at once.
+class HiddenReflections {
+ public:
+  // The scene must be complete() and outlive this. Throws Error if a screen's texture cannot be
+  // read.
+  explicit HiddenReflections(SceneAssembly const& scene);
+
+  // Whether there are hidden casters. Without them, nothing else may be called.
+  bool any() const { return hidden_.has_value(); }
+
+  // The rays of the simulation, all of them.
+  void set_rays(std::vector<ReflectionRay> rays);
+  std::vector<ReflectionRay> const& rays() const { return rays_; }
+
+  // The directions to the sun at an hour for which EnergyPlus computes reflections, of unit length.
+  struct Sun {
+    int hour = 1;                         // 1 .. 24, at whose first timestep schedules are read
+    glm::dvec3 direction{0.0, 0.0, 1.0};  // above the horizon
+    std::optional<glm::dvec3> at_first_timestep;  // nothing: below the horizon
+  };
+
+  // The share of each ray, in order, for the beam.
+  std::vector<ReflectedShare> const& beam(Sun const& sun);
+
+  // The same for a uniform sky, with schedules as at the first hour.
+  std::vector<ReflectedShare> const& sky();
+
+  // The product of what hidden casters let pass, 0 .. 1.
+  double transmittance(Ray const& ray, int hour);
+
+  // Schedules may have other values from now on: another day.
+  void renew() { moment_.reset(); }
+
+ private:
+  // A hidden caster on the way.
+  struct Layer {
+    SurfaceId surface = 0;
+    glm::dvec3 at{0.0};
+    glm::dvec3 normal{0.0};    // on the side that the ray meets
+    double reflectance = 0.0;  // times what is let pass on the way back
+  };
+  struct Way {
+    std::vector<Layer> layers;
+    double passed = 1.0;  // of all layers
+  };
+
+  void trace(int hour);
+  Way way_of(ReflectionRay const& ray) const;
+  double reflectance(SurfaceId surface, double transmittance) const;
+  double all_pass(Ray const& ray, SurfaceId const* excluded = nullptr) const;
+  ReflectedShare sky_share(ReflectionRay const& ray, Way const& way);
+  double sky_view(Layer const& layer);
+  bool lit(Layer const& layer, std::optional<glm::dvec3> const& to_sun);
+  RayConditions conditions() const { return {.factors = factors_, .deployments = deployments_}; }
+
+  SceneAssembly const& scene_;
+  Scene surfaces_;
+  std::optional<RayScene> hidden_;  // none: there is no hidden caster
+  std::optional<RayScene> all_;     // EnergyPlus's own surfaces too
+  std::vector<ReflectionRay> rays_;
+  std::vector<Way> ways_;  // by ray, once traced
+  std::vector<ReflectedShare> shares_;
+  std::optional<int> moment_;  // the hour of the factors
+  std::vector<double> factors_;
+  std::vector<double> deployments_;
+  // By surface and whether it is the side of its normal.
+  using Side = std::pair<SurfaceId, bool>;
+  Side side_of(Layer const& layer) const;
+  std::map<Side, double> sky_views_;
+  std::map<Side, bool> lit_;
+  std::map<SurfaceId, std::vector<glm::dvec3>> samples_;
+  std::vector<glm::dvec3> const& samples(SurfaceId surface);
+};
+
+}  // namespace gpu_shading::energyplus
