@@ -347,7 +347,9 @@ int run(int argc, char** argv) {
   } catch (CLI::ExtrasError const&) {
     refuse_extras(app);
   } catch (CLI::ParseError const& error) {
-    return app.exit(error);
+    // --help and --version are such errors too.
+    if (error.get_exit_code() == EXIT_SUCCESS) return app.exit(error);
+    throw Error(error.what());
   }
   return right ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -195,6 +195,18 @@ def test_a_mistyped_word_is_answered_with_the_near_one(program, words, near):
     assert f"did you mean {near}?" in done.stderr
 
 
+@pytest.mark.parametrize("words, message", [
+    (("view", "m.idf", "--size", "8"), "--size: Value 8 not in range 16 to 8192"),
+    (("view", "m.idf", "--size", "\x1b[31m"), r"--size: Value \x1b[31m not in range 16 to 8192"),
+    (("view", "m.idf"), "--output is required"),
+    (("check",), "model is required"),
+    ((), "A subcommand is required"),
+])
+def test_errors_of_arguments_are_one_line(program, words, message):
+    done = program(*words)
+    assert (done.returncode, done.stdout, done.stderr) == (1, "", f"gpu_shading: error: {message}\n")
+
+
 def test_every_program_tells_its_version(program, patched):
     version = re.search(r"project\(gpu_shading VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
     assert program("--version").stdout == f"gpu_shading {version}\n"
