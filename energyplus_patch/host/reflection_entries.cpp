@@ -30,10 +30,9 @@ void warn() {
   reflections().active.reset();
   messages_of(this_run())
       .warning(
-          "solar reflections of this EnergyPlus are not as expected: they do not count what is not "
-          "in "
-          "EnergyPlus's input (lean input, Geometry, SiteContext); with --gpu-shading-lean off, "
-          "shading surfaces count as opaque");
+          "this EnergyPlus keeps its solar reflections in another way than expected: they do not "
+          "count what is not in its input (lean input, Geometry, SiteContext); with "
+          "--gpu-shading-lean=off, shading surfaces count as opaque");
 }
 
 // What computes reflections in this run; nullptr if EnergyPlus alone does.

@@ -66,18 +66,19 @@ def louvred(louvres, room):
 def run(official, patched, weather, tmp_path):
     """Runs a text's design day; without options, in stock EnergyPlus."""
 
-    def call(text, name, *options):
+    def call(text, name, *options, environment=None):
         path = tmp_path / f"{name}.idf"
         path.write_text(text)
-        done = energyplus.run(patched if options else official, path, weather, tmp_path / name, ["-D", *options])
+        done = energyplus.run(patched if options else official, path, weather, tmp_path / name, ["-D", *options],
+                              environment)
         assert done.completed, done.why()
         return done
 
     return call
 
 
-def ours(run, text, name, *options):
-    return run(text, name, "--gpu-shading", *options)
+def ours(run, text, name, *options, **more):
+    return run(text, name, "--gpu-shading", *options, **more)
 
 
 def received(done, part):
@@ -333,3 +334,14 @@ def test_what_stays_in_the_input_is_warned_about(room, run):
     glazed = ours(run, room + GLASS_FRONT + "GPUShading:TransparentShade,Tint,Glass Front,Constant,0.5;\n", "glazed")
     (warning,) = ray_warnings(glazed)
     assert "GLASS FRONT" in warning
+
+
+def test_where_energyplus_is_not_as_expected_its_own_functions_remain(louvred, room, run):
+    library = energyplus.build_folder() / "tests" / "faults" / "libno_size.so"
+    if not library.is_file():
+        pytest.skip(f"{library} is missing: run scripts/build")
+    answer = ours(run, louvred(19), "answer", "--gpu-shading-lean=on", environment={"LD_PRELOAD": str(library)})
+    assert messages(answer).count("this EnergyPlus keeps its solar reflections in another way than expected") == 1
+    bare_box = ours(run, room, "bare")
+    for part in (BEAM_BY_GROUND, SKY_BY_GROUND):
+        assert_close(answer, bare_box, part, 1e-9)
