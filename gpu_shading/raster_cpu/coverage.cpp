@@ -12,6 +12,8 @@
 #include <numeric>
 #include <utility>
 
+#include "raster_cpu/screen_grid.h"
+#include "raster_cpu/shade_counts.h"
 #include "threads/parallel.h"
 
 namespace gpu_shading {
@@ -28,6 +30,38 @@ View in_pixels(View view, TileGrid const& grid) {
 bool any_scheduled(std::span<Shade const> shades) {
   return std::any_of(shades.begin(), shades.end(),
                      [](Shade const& shade) { return shade.schedule != Shades::unscheduled; });
+}
+
+bool any_transmits(std::span<Shade const> shades) {
+  return std::any_of(shades.begin(), shades.end(),
+                     [](Shade const& shade) { return shade.transmittance > 0.0F; });
+}
+
+// With so many columns to each row.
+TileGrid golden_grid(int rows, int columns_a_row) {
+  constexpr double golden = 1.0 / std::numbers::phi;
+  double const slope = columns_a_row * golden;
+  return {columns_a_row * rows, rows, std::ceil(slope) - slope - (1.0 - golden)};
+}
+
+// Where shades are counted, which takes longer than covering: the rows of the fine grid.
+TileGrid counting_grid(Tile const& tile) { return golden_grid(fine_grid(tile).rows, 4); }
+
+// Whether shades are of few transmittances, which ShadeCounts takes, and nothing else is in view.
+bool can_be_counted(CastersInView const& casters) {
+  if (casters.opaque() || !casters.screens.numbers.empty()) return false;
+  if (any_scheduled(casters.shades)) return false;
+  constexpr std::size_t most = 6;
+  std::array<float, most> kinds{};
+  std::size_t count = 0;
+  for (Shade const& shade : casters.shades) {
+    auto const end = kinds.begin() + static_cast<std::ptrdiff_t>(count);
+    if (shade.transmittance == 0.0F) continue;
+    if (std::find(kinds.begin(), end, shade.transmittance) != end) continue;
+    if (count == most) return false;
+    kinds.at(count++) = shade.transmittance;
+  }
+  return true;
 }
 
 // Places of casters in the order of their schedules.
@@ -48,8 +82,6 @@ void each_bit(std::uint64_t word, std::size_t number, Use use) {
   }
 }
 
-LuminanceSums unscheduled(double sum) { return {sum, {}}; }
-
 // Calls use(first, end) for parts of a number of rows, on at most this many threads.
 template <typename Use>
 void in_rows(int rows, int threads, Use use) {
@@ -61,25 +93,29 @@ void in_rows(int rows, int threads, Use use) {
   });
 }
 
-TileGrid grid_of(Tile const& tile, OpaqueSamples samples) {
-  return samples == OpaqueSamples::fine ? fine_grid(tile) : pixels_of(tile);
+TileGrid grid_of(Tile const& tile, View const& view, CastersInView const& casters,
+                 Samples samples) {
+  if (samples == Samples::pixels) return pixels_of(tile);
+  if (casters.opaque()) return fine_grid(tile);
+  if (casters.screens.numbers.empty()) return pixels_of(tile);
+  return screen_grid(tile, view, casters.screens);
 }
 
-// A number of samples, in pixels of the tile, if `own` of them are the receiver's.
-double in_tile_pixels(Tile const& tile, std::uint64_t samples, std::uint64_t own) {
-  return static_cast<double>(samples) / static_cast<double>(own) *
-         static_cast<double>(tile.counted_pixels);
+// From samples to pixels of the tile, if `own` samples are the receiver's.
+void scale(LuminanceSums& sums, Tile const& tile, std::uint64_t own) {
+  // Multiplied first: exactly all pixels where all samples are sunlit.
+  auto const pixels = static_cast<double>(tile.counted_pixels);
+  auto const samples = static_cast<double>(own);
+  sums.unscheduled = sums.unscheduled * pixels / samples;
+  for (LuminanceSums::Scheduled& part : sums.scheduled) part.sum = part.sum * pixels / samples;
 }
 
 }  // namespace
 
 TileGrid fine_grid(Tile const& tile) {
   constexpr int large = 128;  // smaller tiles have too few edges to alias with 9 columns to a row
-  constexpr double golden = 1.0 / std::numbers::phi;
   int const rows = std::max((tile.side + 1) / 2, std::min(tile.side, 96 + tile.side * 3 / 8));
-  int const columns_a_row = tile.side < large ? 9 : 17;
-  double const slope = columns_a_row * golden;
-  return {columns_a_row * rows, rows, std::ceil(slope) - slope - (1.0 - golden)};
+  return golden_grid(rows, tile.side < large ? 9 : 17);
 }
 
 struct Coverage::InteriorPiece {
@@ -98,13 +134,25 @@ void Coverage::each_area(SurfaceId caster, View const& pixels, int side, Use use
 }
 
 LuminanceSums Coverage::sums(Tile const& tile, View const& view, CastersInView const& casters,
-                             OpaqueSamples samples, int threads) const {
+                             Samples samples, int threads) const {
+  bool const counting = samples == Samples::fine && can_be_counted(casters);
+  TileGrid const grid = counting ? counting_grid(tile) : grid_of(tile, view, casters, samples);
+  View const pixels = in_pixels(view, grid);
+  std::atomic<std::uint64_t> own = 0;
+  LuminanceSums sums;
   if (casters.opaque()) {
-    return unscheduled(lit(tile, grid_of(tile, samples), view, casters.surfaces, threads));
+    sums.unscheduled = lit(tile, grid, pixels, casters.surfaces, threads, own);
+  } else if (counting) {
+    sums.unscheduled = counted(tile, grid, pixels, casters, threads, own);
+  } else if (any_scheduled(casters.shades)) {
+    sums = scheduled(tile, grid, pixels, casters, threads, own);
+  } else {
+    sums.unscheduled = luminance(tile, grid, pixels, casters, threads, own);
   }
-  View const pixels = in_pixels(view, pixels_of(tile));
-  if (any_scheduled(casters.shades)) return scheduled(tile, pixels, casters, threads);
-  return unscheduled(luminance(tile, pixels, casters, threads));
+  // Rows may all miss a small receiver that pixels meet.
+  if (own == 0) return this->sums(tile, view, casters, Samples::pixels, threads);
+  scale(sums, tile, own);
+  return sums;
 }
 
 void Coverage::darken(PixelMask& mask, int side, View const& pixels,
@@ -116,10 +164,10 @@ void Coverage::darken(PixelMask& mask, int side, View const& pixels,
 
 void Coverage::shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* passed,
                      View const& pixels, CastersInView const& casters) const {
-  if (casters.opaque()) return darken(mask, shaded.side(), pixels, casters.surfaces);
+  if (casters.opaque()) return darken(mask, shaded.columns(), pixels, casters.surfaces);
   auto const shade_by = [&](std::size_t i) {
     Shade const& shade = casters.shades[i];
-    each_area(casters.surfaces[i], pixels, shaded.side(), [&](ConvexArea const& area) {
+    each_area(casters.surfaces[i], pixels, shaded.columns(), [&](ConvexArea const& area) {
       if (shade.transmittance > 0.0F) {
         shaded.multiply(area, shade.transmittance);
         if (shade.schedule != Shades::unscheduled) passed->pass(area, shade.schedule);
@@ -136,10 +184,9 @@ void Coverage::shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* pa
   shade_by_screens(shaded, mask, pixels, casters.screens);
 }
 
-double Coverage::lit(Tile const& tile, TileGrid const& grid, View const& view,
-                     std::span<SurfaceId const> casters, int threads) const {
-  View const pixels = in_pixels(view, grid);
-  std::atomic<std::uint64_t> own = 0;
+double Coverage::lit(Tile const& tile, TileGrid const& grid, View const& pixels,
+                     std::span<SurfaceId const> casters, int threads,
+                     std::atomic<std::uint64_t>& own) const {
   std::atomic<std::uint64_t> sum = 0;
   in_rows(grid.rows, threads, [&](int first, int end) {
     static thread_local PixelMask mask;
@@ -149,28 +196,65 @@ double Coverage::lit(Tile const& tile, TileGrid const& grid, View const& view,
     darken(mask, grid.side(), pixels, casters);
     sum += mask.lit();
   });
-  // Rows may all miss a small receiver that pixels meet.
-  if (own == 0) return lit(tile, pixels_of(tile), view, casters, threads);
-  return in_tile_pixels(tile, sum, own);
+  return static_cast<double>(sum);
 }
 
-double Coverage::luminance(Tile const& tile, View const& pixels, CastersInView const& casters,
-                           int threads) const {
-  std::vector<double> sums(static_cast<std::size_t>(tile.side));
-  in_rows(tile.side, threads, [&](int first, int end) {
+double Coverage::luminance(Tile const& tile, TileGrid const& grid, View const& pixels,
+                           CastersInView const& casters, int threads,
+                           std::atomic<std::uint64_t>& own) const {
+  bool const darkening = !any_transmits(casters.shades) && all_or_nothing(casters.screens, pixels);
+  std::vector<double> sums(static_cast<std::size_t>(grid.rows));
+  in_rows(grid.rows, threads, [&](int first, int end) {
     static thread_local PixelMask mask;
     static thread_local LuminanceTile shaded;
-    mask.start(tile.side, first, end);
-    light(mask, tile, pixels_of(tile));
-    shaded.start(tile.side, first, end);
+    mask.start(grid.columns(), first, end);
+    light(mask, tile, grid);
+    own += mask.lit();
+    if (darkening) {
+      shaded.lay_out(grid.columns(), first, end);
+    } else {
+      shaded.start(grid.columns(), first, end);
+    }
     shade(mask, shaded, nullptr, pixels, casters);
-    shaded.sum_rows(mask, std::span(sums).subspan(static_cast<std::size_t>(first)));
+    std::span const rows = std::span(sums).subspan(static_cast<std::size_t>(first));
+    if (darkening) {
+      rows[0] = static_cast<double>(mask.lit());
+    } else {
+      shaded.sum_rows(mask, rows);
+    }
   });
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
-LuminanceSums Coverage::scheduled(Tile const& tile, View const& pixels,
-                                  CastersInView const& casters, int threads) const {
+double Coverage::counted(Tile const& tile, TileGrid const& grid, View const& pixels,
+                         CastersInView const& casters, int threads,
+                         std::atomic<std::uint64_t>& own) const {
+  std::vector<double> sums(static_cast<std::size_t>(grid.rows));
+  in_rows(grid.rows, threads, [&](int first, int end) {
+    static thread_local PixelMask mask;
+    static thread_local ShadeCounts counts;
+    mask.start(grid.columns(), first, end);
+    light(mask, tile, grid);
+    own += mask.lit();
+    counts.start(grid.columns(), first, end);
+    for (std::size_t i = 0; i < casters.shades.size(); ++i) {
+      float const transmittance = casters.shades[i].transmittance;
+      each_area(casters.surfaces[i], pixels, grid.side(), [&](ConvexArea const& area) {
+        if (transmittance > 0.0F) {
+          counts.add(area, transmittance);
+        } else {
+          mask.darken(area);
+        }
+      });
+    }
+    counts.sum_rows(mask, std::span(sums).subspan(static_cast<std::size_t>(first)));
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+LuminanceSums Coverage::scheduled(Tile const& tile, TileGrid const& grid, View const& pixels,
+                                  CastersInView const& casters, int threads,
+                                  std::atomic<std::uint64_t>& own) const {
   // Rows are summed one by one and added up in order, however threads share them.
   struct Part {
     int first;
@@ -179,14 +263,15 @@ LuminanceSums Coverage::scheduled(Tile const& tile, View const& pixels,
   };
   std::mutex parts_mutex;
   std::vector<Part> parts;
-  in_rows(tile.side, threads, [&](int first, int end) {
+  in_rows(grid.rows, threads, [&](int first, int end) {
     static thread_local PixelMask mask;
     static thread_local LuminanceTile shaded;
     Part part{first, {}, {}};
-    mask.start(tile.side, first, end);
-    light(mask, tile, pixels_of(tile));
-    shaded.start(tile.side, first, end);
-    part.passed.start(tile.side, first, end);
+    mask.start(grid.columns(), first, end);
+    light(mask, tile, grid);
+    own += mask.lit();
+    shaded.start(grid.columns(), first, end);
+    part.passed.start(grid.columns(), first, end);
     shade(mask, shaded, &part.passed, pixels, casters);
     CombinationSums sums(part.passed.combinations());
     std::span<std::uint64_t const> const words = std::as_const(mask).words();
@@ -207,61 +292,71 @@ LuminanceSums Coverage::scheduled(Tile const& tile, View const& pixels,
   return totals.result();
 }
 
-std::vector<LuminanceSums> Coverage::lit_inside(Tile const& tile, TileGrid const& grid,
-                                                View const& view, CastersInView const& casters,
-                                                View const& behind,
-                                                std::span<SurfaceId const> interiors) const {
-  PixelMask lit;
-  lit.start(grid.columns(), 0, grid.rows);
-  light(lit, tile, grid);
-  std::uint64_t const own = lit.lit();
-  if (own == 0) return lit_inside(tile, pixels_of(tile), view, casters, behind, interiors);
-  darken(lit, grid.side(), in_pixels(view, grid), casters.surfaces);
-  std::vector<std::uint64_t> counts(interiors.size());
-  for (InteriorPiece const& piece : find_inside(grid, in_pixels(behind, grid), interiors, lit)) {
-    counts[piece.surface] += count_common(std::as_const(lit).words(), piece.mask.words());
+std::vector<LuminanceSums> Coverage::lit_inside(PixelMask const& lit,
+                                                std::span<InteriorPiece const> pieces,
+                                                std::size_t interiors) {
+  std::vector<std::uint64_t> counts(interiors);
+  for (InteriorPiece const& piece : pieces) {
+    counts[piece.surface] += count_common(lit.words(), piece.mask.words());
   }
   std::vector<LuminanceSums> sums;
   sums.reserve(counts.size());
-  for (std::uint64_t const count : counts) {
-    sums.push_back(unscheduled(in_tile_pixels(tile, count, own)));
-  }
+  for (std::uint64_t const count : counts) sums.push_back({static_cast<double>(count), {}});
   return sums;
 }
 
-std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& view,
-                                                 CastersInView const& casters,
-                                                 OpaqueSamples samples, View const& behind,
-                                                 std::span<SurfaceId const> interiors) const {
-  if (casters.opaque()) {
-    return lit_inside(tile, grid_of(tile, samples), view, casters, behind, interiors);
-  }
-  TileGrid const grid = pixels_of(tile);
-  View const pixels = in_pixels(view, grid);
-  PixelMask lit;
-  lit.start(tile.side, 0, tile.side);
-  light(lit, tile, grid);
-  std::vector<LuminanceSums> sums(interiors.size());
-  LuminanceTile shaded;
-  PassedSchedules passed;
-  shaded.start(tile.side, 0, tile.side);
-  passed.start(tile.side, 0, tile.side);
-  shade(lit, shaded, &passed, pixels, casters);
+std::vector<LuminanceSums> Coverage::luminance_inside(PixelMask const& lit,
+                                                      LuminanceTile const& shaded,
+                                                      PassedSchedules const& passed,
+                                                      std::span<InteriorPiece const> pieces,
+                                                      std::size_t interiors) {
   CombinationSums by_combination(passed.combinations());
   std::vector<CombinationSums::Sum> taken;
-  std::vector<ScheduledTotals> totals(interiors.size());
-  std::span<std::uint64_t const> const words = std::as_const(lit).words();
-  for (InteriorPiece const& piece : find_inside(grid, in_pixels(behind, grid), interiors, lit)) {
+  std::vector<ScheduledTotals> totals(interiors);
+  std::span<std::uint64_t const> const words = lit.words();
+  for (InteriorPiece const& piece : pieces) {
     for (std::size_t word = 0; word < words.size(); ++word) {
       each_bit(words[word] & piece.mask.words()[word], word, [&](std::size_t pixel) {
-        by_combination.add(passed.pixels()[pixel], std::as_const(shaded).pixels()[pixel]);
+        by_combination.add(passed.pixels()[pixel], shaded.pixels()[pixel]);
       });
     }
     taken.clear();
     by_combination.take(taken);
     totals[piece.surface].add(passed, taken);
   }
-  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = totals[i].result();
+  std::vector<LuminanceSums> sums;
+  sums.reserve(totals.size());
+  for (ScheduledTotals const& total : totals) sums.push_back(total.result());
+  return sums;
+}
+
+std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& view,
+                                                 CastersInView const& casters, Samples samples,
+                                                 View const& behind,
+                                                 std::span<SurfaceId const> interiors) const {
+  TileGrid const grid = grid_of(tile, view, casters, samples);
+  View const pixels = in_pixels(view, grid);
+  PixelMask lit;
+  lit.start(grid.columns(), 0, grid.rows);
+  light(lit, tile, grid);
+  std::uint64_t const own = lit.lit();
+  if (own == 0) return sums_inside(tile, view, casters, Samples::pixels, behind, interiors);
+  std::vector<LuminanceSums> sums;
+  if (casters.opaque()) {
+    darken(lit, grid.side(), pixels, casters.surfaces);
+    sums = lit_inside(lit, find_inside(grid, in_pixels(behind, grid), interiors, lit),
+                      interiors.size());
+  } else {
+    LuminanceTile shaded;
+    PassedSchedules passed;
+    shaded.start(grid.columns(), 0, grid.rows);
+    passed.start(grid.columns(), 0, grid.rows);
+    shade(lit, shaded, &passed, pixels, casters);
+    sums = luminance_inside(lit, shaded, passed,
+                            find_inside(grid, in_pixels(behind, grid), interiors, lit),
+                            interiors.size());
+  }
+  for (LuminanceSums& part : sums) scale(part, tile, own);
   return sums;
 }
 

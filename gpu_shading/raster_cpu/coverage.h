@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,9 +28,9 @@ struct CastersInView {
   bool opaque() const { return shades.empty() && screens.numbers.empty(); }
 };
 
-// Where a tile is sampled if all casters are opaque: on a grid of its own, or at the centres of its
-// pixels, as OpenGL does.
-enum class OpaqueSamples { fine, pixels };
+// Where a tile is sampled: where it is most accurate, or at the centres of its pixels, as OpenGL
+// does.
+enum class Samples { fine, pixels };
 
 // The fine grid has as many rows as a small tile has pixels, down to half as many on a large one,
 // and 9 or 17 times as many columns as rows: a row's span costs the same however fine its columns
@@ -54,11 +55,11 @@ class Coverage {
   // Luminance over a tile's pixels as `view`, in front of its receiver, has the casters, in
   // pixels. On so many threads at most; the same on any number.
   LuminanceSums sums(Tile const& tile, View const& view, CastersInView const& casters,
-                     OpaqueSamples samples, int threads) const;
+                     Samples samples, int threads) const;
   // The same over those pixels where each of `interiors` is the nearest in the view `behind`; of
   // surfaces in the same place the first has them.
   std::vector<LuminanceSums> sums_inside(Tile const& tile, View const& view,
-                                         CastersInView const& casters, OpaqueSamples samples,
+                                         CastersInView const& casters, Samples samples,
                                          View const& behind,
                                          std::span<SurfaceId const> interiors) const;
 
@@ -75,19 +76,31 @@ class Coverage {
   template <typename Use>
   void each_area(SurfaceId caster, View const& pixels, int side, Use use) const;
 
-  double lit(Tile const& tile, TileGrid const& grid, View const& view,
-             std::span<SurfaceId const> casters, int threads) const;
-  double luminance(Tile const& tile, View const& pixels, CastersInView const& casters,
-                   int threads) const;
-  LuminanceSums scheduled(Tile const& tile, View const& pixels, CastersInView const& casters,
-                          int threads) const;
+  // Sums over a grid's samples; `own` takes the number of those that are the receiver's.
+  double lit(Tile const& tile, TileGrid const& grid, View const& pixels,
+             std::span<SurfaceId const> casters, int threads,
+             std::atomic<std::uint64_t>& own) const;
+  double counted(Tile const& tile, TileGrid const& grid, View const& pixels,
+                 CastersInView const& casters, int threads, std::atomic<std::uint64_t>& own) const;
+  double luminance(Tile const& tile, TileGrid const& grid, View const& pixels,
+                   CastersInView const& casters, int threads,
+                   std::atomic<std::uint64_t>& own) const;
+  LuminanceSums scheduled(Tile const& tile, TileGrid const& grid, View const& pixels,
+                          CastersInView const& casters, int threads,
+                          std::atomic<std::uint64_t>& own) const;
 
   void darken(PixelMask& mask, int side, View const& pixels,
               std::span<SurfaceId const> casters) const;
 
-  std::vector<LuminanceSums> lit_inside(Tile const& tile, TileGrid const& grid, View const& view,
-                                        CastersInView const& casters, View const& behind,
-                                        std::span<SurfaceId const> interiors) const;
+  // Sums over the lit samples of the pieces of each of some interior surfaces.
+  static std::vector<LuminanceSums> lit_inside(PixelMask const& lit,
+                                               std::span<InteriorPiece const> pieces,
+                                               std::size_t interiors);
+  static std::vector<LuminanceSums> luminance_inside(PixelMask const& lit,
+                                                     LuminanceTile const& shaded,
+                                                     PassedSchedules const& passed,
+                                                     std::span<InteriorPiece const> pieces,
+                                                     std::size_t interiors);
 
   // Each pixel in one of them: where several are, in the nearest.
   std::vector<InteriorPiece> find_inside(TileGrid const& grid, View const& pixels,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
+#include "raster_cpu/screen_overlap.h"
 #include "threads/parallel.h"
 #include "view/instructions.h"
 #include "view/stopwatch.h"
@@ -82,7 +83,9 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
   Tile const& tile = *view.tile;
   std::vector<SurfaceId> plain;
   std::vector<Shade> shades;
+  View const in_front = view_in_front(*view.frame, tile.map, view.towards_sun);
   CastersInView casters{view.casters, {}, screens};
+  casters.screens.overlap = !view.at_pixels && any_overlap(screens, in_front);
   if (view.transmits) {
     plain = transmission_.plain_among(view.casters);
     shades.reserve(plain.size());
@@ -90,8 +93,7 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
     casters.surfaces = plain;
     casters.shades = shades;
   }
-  View const in_front = view_in_front(*view.frame, tile.map, view.towards_sun);
-  OpaqueSamples const samples = view.at_pixels ? OpaqueSamples::pixels : OpaqueSamples::fine;
+  Samples const samples = view.at_pixels ? Samples::pixels : Samples::fine;
   ViewSums sums;
   sums.receiver_pixels = tile.counted_pixels;
   try {

@@ -181,8 +181,10 @@ std::vector<float> CpuPictureRaster::through_screens(PictureGrid const& grid,
         std::span<float> const to = row_of(passed, grid, row);
         for (int column = 0; column < grid.width; ++column) {
           auto const pixel = static_cast<std::size_t>(column);
-          if (by[pixel] == 1.0F || extent.depth.at(column, row) >= behind[pixel]) continue;
-          to[pixel] *= by[pixel];
+          auto const bit = static_cast<unsigned>(column % PixelMask::word_bits);
+          float const here = (mask.word(row, column) >> bit & 1U) != 0 ? by[pixel] : 0.0F;
+          if (here == 1.0F || extent.depth.at(column, row) >= behind[pixel]) continue;
+          to[pixel] *= here;
         }
       }
     }

@@ -8,12 +8,12 @@
 
 namespace gpu_shading {
 
-// The luminance of each pixel of a square tile, or of some of its rows.
+// The luminance of each pixel of a tile, or of some of its rows.
 class LuminanceTile : public PixelRows<float> {
  public:
   // All 1.
-  void start(int side, int first_row, int end_row) {
-    PixelRows<float>::start(side, first_row, end_row, 1.0F);
+  void start(int columns, int first_row, int end_row) {
+    PixelRows<float>::start(columns, first_row, end_row, 1.0F);
   }
 
   void multiply(ConvexArea const& area, float by);

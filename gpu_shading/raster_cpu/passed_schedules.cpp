@@ -14,8 +14,8 @@ constexpr std::size_t most_combinations = std::size_t{1} << 22U;
 
 }  // namespace
 
-void PassedSchedules::start(int side, int first_row, int end_row) {
-  numbers_.start(side, first_row, end_row, 0);
+void PassedSchedules::start(int columns, int first_row, int end_row) {
+  numbers_.start(columns, first_row, end_row, 0);
   combinations_.assign(1, {});
   known_.clear();
 }

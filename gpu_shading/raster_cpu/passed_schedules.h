@@ -22,7 +22,7 @@ class PassedSchedules {
   using Powers = std::vector<std::pair<int, int>>;
 
   // 0 everywhere.
-  void start(int side, int first_row, int end_row);
+  void start(int columns, int first_row, int end_row);
 
   // Through a shade over an area. Schedules must not decrease from call to call, so that each
   // combination has one number. Throws Error when there are too many combinations.

@@ -1,6 +1,7 @@
 #include "raster_cpu/pattern_rays.h"
 
 #include <cmath>
+#include <cstring>
 #include <glm/common.hpp>
 #include <type_traits>
 
@@ -18,6 +19,13 @@ struct Rays {
   glm::vec2 step;
   glm::vec2 way;
 };
+
+Rays rays_in(glm::dvec2 const& tile, glm::dvec2 const& first, glm::dvec2 const& step,
+             glm::dvec2 const& way) {
+  // Steps of whole tiles make no difference.
+  glm::dvec2 const change = step / tile;
+  return {glm::fract(first / tile), change - glm::round(change), way};
+}
 
 // What follows is the rule of screen.frag. As one text with it, by glm's vectors, the loop over
 // rays takes 1.4 times as long; tests/support/sheet_cases.h holds both to the same answers.
@@ -60,14 +68,15 @@ template <SheetShape shape, bool staggered>
   return passes;
 }
 
-// Written so that the compiler can vectorise over rays.
-template <SheetShape shape, bool staggered>
-[[gnu::always_inline]] inline void find_some(Holes const& holes, Rays const& rays, Ways& passed) {
+// Written so that the compiler can vectorise over rays. T: what an array holds, 1 or 0.
+template <SheetShape shape, bool staggered, typename T>
+[[gnu::always_inline]] inline void find_some(Holes const& holes, Rays const& rays,
+                                             std::array<T, PatternRays::most>& passed) {
   for (int i = 0; i < PatternRays::most; ++i) {
     auto const steps = static_cast<float>(i);
     bool const passes = passes_some_hole<shape, staggered>(
         holes, rays.way, rays.first.x + steps * rays.step.x, rays.first.y + steps * rays.step.y);
-    passed[static_cast<std::size_t>(i)] = passes ? 1.0F : 0.0F;
+    passed[static_cast<std::size_t>(i)] = passes ? T{1} : T{0};
   }
 }
 
@@ -94,6 +103,24 @@ template <typename Use>
   with_kind(holes, find);
 }
 
+using Bytes = std::array<std::uint8_t, PatternRays::most>;
+
+[[gnu::always_inline]] inline std::uint64_t find_bits(Holes const& holes, Rays const& rays) {
+  alignas(64) Bytes passed;
+  auto const find = [&](auto shape, auto staggered) __attribute__((always_inline)) {
+    find_some<shape, staggered>(holes, rays, passed);
+  };
+  with_kind(holes, find);
+  std::uint64_t bits = 0;
+  for (unsigned i = 0; i < passed.size(); i += 8) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, passed.data() + i, sizeof eight);
+    // Moves bit 8 k to bit 56 + k.
+    bits |= eight * 0x0102040810204080U >> 56U << i;
+  }
+  return bits;
+}
+
 }  // namespace
 
 PatternRays::PatternRays(SheetInBeam const& sheet)
@@ -112,10 +139,12 @@ bool PatternRays::passes(glm::dvec2 const& place, glm::dvec2 const& way) const {
 
 void PatternRays::find_passing(glm::dvec2 const& first, glm::dvec2 const& step,
                                glm::dvec2 const& way, Ways& passed) const {
-  // Steps of whole tiles make no difference.
-  glm::dvec2 const change = step / tile_;
-  Rays const rays{glm::fract(first / tile_), change - glm::round(change), way};
-  run<find_all>(holes_, rays, passed);
+  run<find_all>(holes_, rays_in(tile_, first, step, way), passed);
+}
+
+std::uint64_t PatternRays::passing(glm::dvec2 const& first, glm::dvec2 const& step,
+                                   glm::dvec2 const& way) const {
+  return run<find_bits>(holes_, rays_in(tile_, first, step, way));
 }
 
 }  // namespace gpu_shading

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/vec2.hpp>
 
 #include "view/sheet_in_beam.h"
@@ -21,6 +22,9 @@ class PatternRays {
   using Ways = std::array<float, most>;
   void find_passing(glm::dvec2 const& first, glm::dvec2 const& step, glm::dvec2 const& way,
                     Ways& passed) const;
+  // A bit for each, the lowest for the first.
+  std::uint64_t passing(glm::dvec2 const& first, glm::dvec2 const& step,
+                        glm::dvec2 const& way) const;
 
   struct Holes {
     SheetShape shape;

@@ -64,22 +64,26 @@ struct Faces {
 class Part {
  public:
   Part(Screens::Entry const& screen, Screens::Quadrilateral const& part, Faces const& faces,
-       SheetInBeam const& sheet, View const& pixels)
+       SheetInBeam const& sheet, View const& pixels, double pixel)
       : outline_(part.places, sheet.way),
         in_place_(sheet.in_place),
         to_place_(glm::inverse(glm::dmat2(
             glm::dot(glm::dvec3(pixels.x), screen.u), glm::dot(glm::dvec3(pixels.y), screen.u),
             glm::dot(glm::dvec3(pixels.x), screen.v), glm::dot(glm::dvec3(pixels.y), screen.v)))),
         first_(part.places[0] - to_place_ * faces.inside[0]),
-        rays_(*screen.screen, sheet, std::sqrt(std::abs(glm::determinant(to_place_)))) {}
+        rays_(*screen.screen, sheet, pixel),
+        all_or_nothing_(in_place_ == 1.0F && rays_.all_or_nothing()) {}
 
   // For pixels of one row.
-  void shade(int row, int first, int length, PixelMask const& lit,
-             std::span<float> luminance) const {
+  void shade(int row, int first, int length, PixelMask& lit, LuminanceTile& shaded) const {
     auto const [whole_first, whole_end] = whole_ways(row, first, first + length);
-    shade_ends(row, first, whole_first, lit, luminance);
-    shade_whole(row, whole_first, whole_end, lit, luminance);
-    shade_ends(row, whole_end, first + length, lit, luminance);
+    shade_ends(row, first, whole_first, lit, shaded);
+    if (all_or_nothing_) {
+      darken_whole(row, whole_first, whole_end, lit);
+    } else {
+      shade_whole(row, whole_first, whole_end, lit, shaded.row(row));
+    }
+    shade_ends(row, whole_end, first + length, lit, shaded);
   }
 
  private:
@@ -114,6 +118,29 @@ class Part {
     return {static_cast<int>(low), static_cast<int>(high)};
   }
 
+  // Calls use(first, end, wanted) for parts of a row, each of one word, that have lit pixels; the
+  // lowest bit of `wanted` is the first.
+  template <typename Use>
+  void each_word(int row, int first, int end, PixelMask const& lit, Use use) const {
+    constexpr int word = PixelMask::word_bits;
+    static_assert(SheetRays::most_ways == word);
+    for (int x = first; x < end;) {
+      int const stop = std::min(end, (x / word + 1) * word);
+      auto const unused = static_cast<unsigned>(word - (stop - x));
+      std::uint64_t const wanted =
+          lit.word(row, x) >> static_cast<unsigned>(x % word) << unused >> unused;
+      if (wanted != 0) use(x, stop, wanted);
+      x = stop;
+    }
+  }
+
+  void darken_whole(int row, int first, int end, PixelMask& lit) const {
+    each_word(row, first, end, lit, [&](int x, int /*stop*/, std::uint64_t wanted) {
+      std::uint64_t const stopped = wanted & ~rays_.passing(place(row, x), to_place_[0]);
+      lit.keep(row, x, ~(stopped << static_cast<unsigned>(x % PixelMask::word_bits)));
+    });
+  }
+
   void shade_whole(int row, int first, int end, PixelMask const& lit,
                    std::span<float> luminance) const {
     if (auto const passed = rays_.everywhere()) {
@@ -122,29 +149,24 @@ class Part {
       return;
     }
     SheetRays::Ways passed{};
-    constexpr int word = PixelMask::word_bits;
-    static_assert(SheetRays::most_ways == word);
-    for (int x = first; x < end;) {
-      int const stop = std::min(end, (x / word + 1) * word);
-      auto const unused = static_cast<unsigned>(word - (stop - x));
-      std::uint64_t const wanted =
-          lit.word(row, x) >> static_cast<unsigned>(x % word) << unused >> unused;
-      if (wanted != 0) {
-        rays_.whole_ways(place(row, x), to_place_[0], wanted, passed);
-        for (int i = x; i < stop; ++i) {
-          luminance[static_cast<std::size_t>(i)] *= kept(passed[static_cast<std::size_t>(i - x)]);
-        }
+    each_word(row, first, end, lit, [&](int x, int stop, std::uint64_t wanted) {
+      rays_.whole_ways(place(row, x), to_place_[0], wanted, passed);
+      for (int i = x; i < stop; ++i) {
+        luminance[static_cast<std::size_t>(i)] *= kept(passed[static_cast<std::size_t>(i - x)]);
       }
-      x = stop;
-    }
+    });
   }
 
-  void shade_ends(int row, int first, int end, PixelMask const& lit,
-                  std::span<float> luminance) const {
+  void shade_ends(int row, int first, int end, PixelMask& lit, LuminanceTile& shaded) const {
     for (int x = first; x < end; ++x) {
-      auto const bit = static_cast<unsigned>(x % PixelMask::word_bits);
-      if ((lit.word(row, x) >> bit & 1U) == 0) continue;
-      luminance[static_cast<std::size_t>(x)] *= kept(passed(place(row, x)));
+      auto const bit = std::uint64_t{1} << static_cast<unsigned>(x % PixelMask::word_bits);
+      if ((lit.word(row, x) & bit) == 0) continue;
+      float const by = kept(passed(place(row, x)));
+      if (by == 0.0F) {
+        lit.keep(row, x, ~bit);
+      } else if (by != 1.0F) {
+        shaded.row(row)[static_cast<std::size_t>(x)] *= by;
+      }
     }
   }
 
@@ -158,38 +180,62 @@ class Part {
   glm::dmat2 to_place_;
   glm::dvec2 first_;
   SheetRays rays_;
+  bool all_or_nothing_;
 };
 
-void shade(LuminanceTile& shaded, PixelMask const& lit, View const& pixels,
-           Screens::Entry const& screen, SheetInBeam const& sheet) {
+void shade(LuminanceTile& shaded, PixelMask& lit, View const& pixels, Screens::Entry const& screen,
+           SheetInBeam const& sheet, double pixel) {
   for (Screens::Quadrilateral const& quadrilateral : screen.parts) {
     Faces const faces(quadrilateral, sheet, pixels);
     if (sheet.layers == solid_sheet) {
       auto const dim = [&](ConvexArea const& area) {
-        shaded.multiply(area, 1.0F - sheet.in_place);
+        if (sheet.in_place == 1.0F) {
+          lit.darken(area);
+        } else {
+          shaded.multiply(area, 1.0F - sheet.in_place);
+        }
       };
-      dim(faces.inside_area(shaded.side()));
-      faces.each_strip(shaded.side(), dim);
+      dim(faces.inside_area(shaded.columns()));
+      faces.each_strip(shaded.columns(), dim);
       continue;
     }
-    Part const part(screen, quadrilateral, faces, sheet, pixels);
+    Part const part(screen, quadrilateral, faces, sheet, pixels, pixel);
     auto const look = [&](ConvexArea const& area) {
       shaded.each_span(area, [&](int row, int first, int length) {
-        part.shade(row, first, length, lit, shaded.row(row));
+        part.shade(row, first, length, lit, shaded);
       });
     };
-    look(faces.inside_area(shaded.side()));
-    faces.each_strip(shaded.side(), look);
+    look(faces.inside_area(shaded.columns()));
+    faces.each_strip(shaded.columns(), look);
   }
 }
 
 }  // namespace
 
-void shade_by_screens(LuminanceTile& shaded, PixelMask const& lit, View const& pixels,
+double pixel_in_sheet(Screens::Entry const& screen, View const& pixels) {
+  glm::dvec3 const x(pixels.x);
+  glm::dvec3 const y(pixels.y);
+  return 1.0 / std::sqrt(std::abs(glm::dot(x, screen.u) * glm::dot(y, screen.v) -
+                                  glm::dot(x, screen.v) * glm::dot(y, screen.u)));
+}
+
+bool all_or_nothing(ScreensInView const& in_view, View const& pixels) {
+  return std::all_of(in_view.numbers.begin(), in_view.numbers.end(), [&](int number) {
+    SheetInBeam const& sheet = in_view.sheets[static_cast<std::size_t>(number)];
+    if (sheet.in_place != 1.0F) return false;
+    if (sheet.layers == solid_sheet) return true;
+    Screens::Entry const& screen = (*in_view.screens)[number];
+    return sheet.layers == exact_sheet &&
+           static_cast<float>(drawn_pixel(in_view, screen, pixels)) <= sheet.blend_from;
+  });
+}
+
+void shade_by_screens(LuminanceTile& shaded, PixelMask& lit, View const& pixels,
                       ScreensInView const& in_view) {
   for (int const number : in_view.numbers) {
-    shade(shaded, lit, pixels, (*in_view.screens)[number],
-          in_view.sheets[static_cast<std::size_t>(number)]);
+    Screens::Entry const& screen = (*in_view.screens)[number];
+    shade(shaded, lit, pixels, screen, in_view.sheets[static_cast<std::size_t>(number)],
+          drawn_pixel(in_view, screen, pixels));
   }
 }
 

@@ -31,6 +31,15 @@ class SheetRays {
   void whole_ways(glm::dvec2 const& first, glm::dvec2 const& step, std::uint64_t wanted,
                   Ways& passed) const;
 
+  // Whether a ray passes or not, and nothing between.
+  bool all_or_nothing() const {
+    return pattern_.has_value() && sheet_.layers == exact_sheet && blend_ == 0.0F;
+  }
+  // The same as `whole_ways`, if so: a bit for each ray.
+  std::uint64_t passing(glm::dvec2 const& first, glm::dvec2 const& step) const {
+    return pattern_->passing(first, step, ray_);
+  }
+
   // The transmittance of a part of the path, 0 at the inside face and 1 at the outside face.
   float part_of_way(glm::dvec2 const& place, double begin, double end) const;
 

@@ -34,6 +34,11 @@ class PixelMask {
     return words_[static_cast<std::size_t>(row - first_row_) * stride_ +
                   static_cast<std::size_t>(column / word_bits)];
   }
+  // Darkens those pixels of that word whose bit is not set.
+  void keep(int row, int column, std::uint64_t bits) {
+    words_[static_cast<std::size_t>(row - first_row_) * stride_ +
+           static_cast<std::size_t>(column / word_bits)] &= bits;
+  }
   // Position of a word's lowest bit.
   int row(std::size_t word) const { return first_row_ + static_cast<int>(word / stride_); }
   int column(std::size_t word) const { return word_bits * static_cast<int>(word % stride_); }

@@ -9,9 +9,9 @@ import screened_room
 from shading_runs import energyplus, input_file, results
 from test_case_studies import load
 
-# Bounds of what counted and drawn sunlit fractions may differ by, mean and largest. Where something transmits, both
-# sample the same pixels, and OpenGL rounds corners to 1/256 of a pixel. Opaque views have samples of their own on the
-# CPU, so that each errs by itself.
+# Bounds of what counted and drawn sunlit fractions may differ by, mean and largest. Behind shades of many
+# transmittances and screens by their effect, both sample the same pixels, and OpenGL rounds corners to 1/256 of a
+# pixel. Other views have samples of their own on the CPU, so that each errs by itself.
 SAME_PIXELS = (2e-5, 3e-4)
 OWN_SAMPLES = (6e-5, 1.5e-3)
 

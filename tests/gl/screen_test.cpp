@@ -12,6 +12,7 @@
 #include "each_backend.h"
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
+#include "pixels_on_cpu.h"
 #include "support/millimetre.h"
 #include "support/random_scene.h"
 #include "support/room.h"
@@ -441,7 +442,8 @@ TEST(CountedScreens, AreAsDrawn) {
         area(scene[0].polygon) * glm::dot(normal(scene[0].polygon), to_vector(random.sun));
     double lit[2];
     for (DeviceChoice const how : {by_opengl, on_cpu}) {
-      Renderer renderer = renderer_of(scene, 256, how);
+      Renderer renderer =
+          how == on_cpu ? counting_pixels(scene, 256) : renderer_of(scene, 256, how);
       renderer.set_deployments({0.7});
       lit[how == on_cpu ? 1 : 0] = sunlit(renderer, random.sun, 0).projected_area / whole;
     }

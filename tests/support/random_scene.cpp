@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "support/shapes.h"
+
 namespace gpu_shading {
 namespace {
 
@@ -99,6 +101,25 @@ RandomScene random_scene(std::uint32_t seed) {
         {"caster", random_polygon(random, at, tilt, radius * random.between(0.2, 1.0))});
   }
   return result;
+}
+
+Scene triangle_soup(int count, std::uint32_t seed) {
+  std::mt19937 generator(seed);
+  auto const between = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(generator()) / std::mt19937::max();
+  };
+  Scene scene;
+  scene.add({"receiver", south_facing(0, 0, 0, 3, 2)});
+  for (int i = 0; i < count; ++i) {
+    glm::dvec3 const corner(between(-1, 4), between(-2.0, -0.2), between(-0.5, 3.5));
+    double const size = 6.0 / std::sqrt(count) * between(0.2, 1.0);
+    auto const edge = [&] {
+      return size * glm::dvec3(between(-0.5, 0.5), between(-0.09, 0.09), between(-0.5, 0.5));
+    };
+    glm::dvec3 const a = edge();
+    scene.add({"leaf", {{corner, corner + a, corner + edge()}, {}}});
+  }
+  return scene;
 }
 
 }  // namespace gpu_shading

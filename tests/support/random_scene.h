@@ -17,4 +17,7 @@ struct RandomScene {
 // is at least 6 degrees above the receiver's plane. Equal seeds give equal scenes.
 RandomScene random_scene(std::uint32_t seed);
 
+// Opaque triangles of all sizes and orientations in front of a receiver, which is surface 0.
+Scene triangle_soup(int count, std::uint32_t seed);
+
 }  // namespace gpu_shading

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <set>
 #include <utility>
 
+#include "gpu_shading/transmittance.h"
 #include "support/shapes.h"
 
 namespace gpu_shading {
@@ -30,7 +32,12 @@ Scene RegularShades::scene() const {
                                                   {-rise * pitch(), -depth * pitch(), 0})
                                   : parallelogram({-reach, y, place}, {width() + 2 * reach, 0, 0},
                                                   {0, -depth * pitch(), rise * pitch()});
-    scene.add({"blade", blade});
+    Surface surface{"blade", blade};
+    if (transmittance > 0.0) {
+      surface.transmittance =
+          std::make_shared<Transmittance const>(Transmittance::constant(transmittance));
+    }
+    scene.add(surface);
   }
   return scene;
 }
@@ -41,20 +48,24 @@ double RegularShades::sunlit_fraction(SunDirection sun) const {
   double const south = -std::cos(sun.azimuth) * std::cos(sun.altitude);
   double const across = (upright ? east : std::sin(sun.altitude)) / south;
   double const whole = upright ? width() : height();
-  std::vector<std::pair<double, double>> shadows;
+  // Positions of their edges, and whether a shadow begins there.
+  std::vector<std::pair<double, int>> edges;
   for (int i = 0; i < count; ++i) {
     double const inner = (i + 0.5) * pitch() - across * distance * size;
     double const outer = inner + (upright ? -rise : rise) * pitch() - across * depth * pitch();
-    shadows.emplace_back(std::min(inner, outer), std::max(inner, outer));
+    edges.emplace_back(std::clamp(std::min(inner, outer), 0.0, whole), 1);
+    edges.emplace_back(std::clamp(std::max(inner, outer), 0.0, whole), -1);
   }
-  std::sort(shadows.begin(), shadows.end());
-  double shaded = 0.0;
-  double end = 0.0;
-  for (auto const& [low, high] : shadows) {
-    shaded += std::max(0.0, std::min(high, whole) - std::max(low, end));
-    end = std::max(end, high);
+  std::sort(edges.begin(), edges.end());
+  double lit = 0.0;
+  double from = 0.0;
+  int over = 0;
+  for (auto const& [place, change] : edges) {
+    if (place > from) lit += (place - from) * std::pow(transmittance, over);
+    from = place;
+    over += change;
   }
-  return 1.0 - shaded / whole;
+  return (lit + whole - from) / whole;
 }
 
 std::vector<SunDirection> spread_suns(int count) {

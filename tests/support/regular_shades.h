@@ -13,6 +13,7 @@ struct RegularShades {
   int count = 1;
   bool upright = false;  // fins, which divide the width; otherwise louvres, which divide the height
   double size = 3.0;     // width of the receiver, m; its height is 0.7 of it
+  double transmittance = 0.0;
 
   double width() const { return size; }
   double height() const { return 0.7 * size; }

@@ -226,11 +226,11 @@ TEST(Coverage, IsTheSameOnAnyNumberOfThreads) {
     for (int const side : {96, 512}) {
       Tile const tile = make_tile(scene[0].polygon, frame, side, 4096);
       View const view = view_in_front(frame, tile.map, to_vector(sun_at(170, 30)));
-      LuminanceSums const alone = coverage.sums(tile, view, in_view, OpaqueSamples::fine, 1);
+      LuminanceSums const alone = coverage.sums(tile, view, in_view, Samples::fine, 1);
       EXPECT_LT(alone.unscheduled, static_cast<double>(tile.counted_pixels));
       EXPECT_EQ(alone.scheduled.empty(), in_view.shades.data() != scheduled.data());
       for (int const threads : {2, 3, 7, 64}) {
-        expect_equal(coverage.sums(tile, view, in_view, OpaqueSamples::fine, threads), alone);
+        expect_equal(coverage.sums(tile, view, in_view, Samples::fine, threads), alone);
       }
     }
   }

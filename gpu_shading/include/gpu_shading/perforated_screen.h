@@ -15,7 +15,7 @@ enum class SheetPlane { centre, outside, inside };
 
 // How a screen is drawn.
 enum class ScreenDetail {
-  automatic,  // holes up to pixels of one hole, effective from two, and a blend between
+  automatic,  // holes up to pixels of 0.7 holes, effective from 1.2, and a blend between
   holes,      // hole by hole, for any size of pixels
   effective,  // by tau(theta, phi)
 };

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "gpu_shading/renderer.h"
+#include "raster_cpu/cpu_backend.h"
+#include "render/renderer_with_backend.h"
+
+namespace gpu_shading {
+
+// The CPU at the centres of pixels, where OpenGL samples.
+class PixelsOnCpu : public CpuBackend {
+ public:
+  using CpuBackend::CpuBackend;
+  void add(std::vector<ReceiverView> views) override {
+    for (ReceiverView& view : views) view.at_pixels = true;
+    CpuBackend::add(std::move(views));
+  }
+};
+
+inline Renderer counting_pixels(Scene scene, int resolution) {
+  RendererOptions options;
+  options.resolution = resolution;
+  return RendererWithBackend::make(std::move(scene), options, [](BackendInput const& input) {
+    return std::make_unique<PixelsOnCpu>(input);
+  });
+}
+
+}  // namespace gpu_shading
