@@ -1,16 +1,13 @@
 #include "base/error_line.h"
 
-#include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <fstream>
 #include <new>
 
+#include "base/memory_use.h"
 #include "base/text.h"
 
 namespace gpu_shading::energyplus {
@@ -36,19 +33,7 @@ void catch_lack_of_memory() { usual_end = std::set_terminate(end); }
 
 std::string error_line(std::exception const& error) {
   if (dynamic_cast<std::bad_alloc const*>(&error) == nullptr) return one_line(error.what());
-  constexpr std::uint64_t mib = std::uint64_t{1} << 20U;
-  std::uint64_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  auto const used = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) / mib;
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) {
-    return fmt::format("out of memory, with {} MiB of addresses in use", used);
-  }
-  constexpr int least = 300;  // of small models
-  return fmt::format(
-      "out of memory: ulimit -v allows {} MiB of addresses, of which {} are in use; a small model "
-      "needs {}",
-      limit.rlim_cur / mib, used, least);
+  return describe_lack_of_memory();
 }
 
 }  // namespace gpu_shading::energyplus

@@ -13,6 +13,7 @@
 #include <string>
 #include <system_error>
 
+#include "base/file_descriptor.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
@@ -88,8 +89,9 @@ bool HeldFolder::make(Path const& parent, std::string_view prefix) {
     if (errno == EEXIST) return false;
     fail_to_hold(parent, errno);
   }
-  lock_.emplace(open_lock(path_ / lock_name, O_RDWR | O_CREAT | O_EXCL));
-  if (!lock_->is_open()) {
+  auto const file =
+      std::make_shared<FileDescriptor>(open_lock(path_ / lock_name, O_RDWR | O_CREAT | O_EXCL));
+  if (!file->is_open()) {
     int const error = errno;
     rmdir(path_.c_str());
     if (error == ENOENT) return false;
@@ -97,13 +99,14 @@ bool HeldFolder::make(Path const& parent, std::string_view prefix) {
   }
   // A file system without locks will do: then nobody cleans up. The mark comes last, so that nobody
   // takes it for abandoned before it is locked.
-  lock(*lock_);
-  if (write(lock_->get(), mark.data(), mark.size()) != static_cast<ssize_t>(mark.size())) {
+  lock(*file);
+  if (write(file->get(), mark.data(), mark.size()) != static_cast<ssize_t>(mark.size())) {
     int const error = errno == 0 ? ENOSPC : errno;
     unlink((path_ / lock_name).c_str());
     rmdir(path_.c_str());
     fail_to_hold(parent, error);
   }
+  held_ = file;
   return true;
 }
 

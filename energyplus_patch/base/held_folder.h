@@ -1,10 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <string_view>
-
-#include "base/file_descriptor.h"
 
 namespace gpu_shading::energyplus {
 
@@ -29,7 +27,7 @@ class HeldFolder {
   bool make(std::filesystem::path const& parent, std::string_view prefix);
 
   std::filesystem::path path_;
-  std::optional<FileDescriptor> lock_;
+  std::shared_ptr<void> held_;  // what this platform locks
 };
 
 }  // namespace gpu_shading::energyplus

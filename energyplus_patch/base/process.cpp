@@ -141,6 +141,8 @@ TemporaryFolder::TemporaryFolder()
   std::filesystem::create_directory(path_);
 }
 
+void set_variable(char const* name, std::string const& value) { setenv(name, value.c_str(), 1); }
+
 void require_room(std::filesystem::path const& folder) {
   constexpr std::size_t bytes = 4096;
   write_whole_file(folder / "room.txt", [](std::ostream& out) { out << std::string(bytes, '.'); });

@@ -29,6 +29,9 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+// Sets an environment variable of this process.
+void set_variable(char const* name, std::string const& value);
+
 // Throws Error if nothing can be written to a temporary folder: programs that do not say why they
 // failed may have failed of that.
 void require_room(std::filesystem::path const& folder);

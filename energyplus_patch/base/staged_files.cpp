@@ -1,8 +1,6 @@
 #include "base/staged_files.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -10,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "base/file_descriptor.h"
+#include "base/disk.h"
 #include "base/held_folder.h"
 #include "gpu_shading/error.h"
 
@@ -25,17 +23,6 @@ using Path = std::filesystem::path;
 
 [[noreturn]] void fail(Path const& path, int error) {
   fail(path, std::generic_category().message(error == 0 ? EIO : error));
-}
-
-int open_file(Path const& path, int flags) {
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
-  return open(path.c_str(), flags | O_CLOEXEC, 0600);
-}
-
-void flush(Path const& path) {
-  FileDescriptor const file(open_file(path, O_RDONLY | O_NOFOLLOW));
-  // Some file systems have nothing to flush, and say so.
-  if (!file.is_open() || (fsync(file.get()) != 0 && errno != EINVAL)) fail(path, errno);
 }
 
 void require_replaceable(Path const& path) {
@@ -97,16 +84,18 @@ void StagedFiles::copy(std::string const& name, Path const& from) {
 }
 
 void StagedFiles::commit() {
-  for (auto const& name : names_) flush(stage_->path() / name);
+  for (auto const& name : names_) {
+    auto const path = stage_->path() / name;
+    if (int const error = flush_file(path); error != 0) fail(path, error);
+  }
   for (auto const& name : names_) {
     auto const path = folder_ / name;
     // The name may have been taken since.
     require_replaceable(path);
-    if (rename((stage_->path() / name).c_str(), path.c_str()) != 0) fail(path, errno);
+    if (int const error = replace_file(stage_->path() / name, path); error != 0) fail(path, error);
   }
   names_.clear();
-  FileDescriptor const folder(open_file(folder_, O_RDONLY));
-  if (folder.is_open() && fsync(folder.get()) != 0 && errno != EINVAL) fail(folder_, errno);
+  if (int const error = flush_folder(folder_); error != 0) fail(folder_, error);
 }
 
 }  // namespace gpu_shading::energyplus

@@ -1,18 +1,11 @@
 #include "cache/answer_cache.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <chrono>
-#include <thread>
 #include <utility>
 
-#include "base/file_descriptor.h"
 #include "base/files.h"
+#include "cache/cache_file.h"
 #include "cache/cache_folder.h"
 #include "gpu_shading/error.h"
 
@@ -24,50 +17,12 @@ using Path = std::filesystem::path;
 // Returns no answers if there is no file. Throws Error, without the file's name, if it cannot be
 // used.
 AnswerSet read_answers(Path const& path, Hash const& scene, AnswerLimits const& limits) {
-  // Opened only once, because another file may replace it at any moment; a pipe is not waited for.
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
-  FileDescriptor const file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (!file.is_open() && errno == ENOENT) return AnswerSet();
-  struct stat found {};
-  if (!file.is_open() || fstat(file.get(), &found) != 0 || !S_ISREG(found.st_mode)) {
-    throw Error("cannot be read");
-  }
-  auto const size = static_cast<std::size_t>(found.st_size);
-  if (size > Answers::default_most_bytes) throw Error("is too large");
-  std::vector<std::byte> bytes(size);
-  for (std::size_t done = 0; done < size;) {
-    auto const count = read(file.get(), bytes.data() + done, size - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) throw Error("cannot be read");
-    done += static_cast<std::size_t>(count);
-  }
-  auto answers = decode(bytes, scene);
+  auto const bytes = read_cache_file(path, Answers::default_most_bytes);
+  if (!bytes) return AnswerSet();
+  auto answers = decode(*bytes, scene);
   check_answers(answers, limits);
   return answers;
 }
-
-// A lock on the folder for the lifetime of this object. If another process holds it, or the file
-// system has no locks, the cache works without it; at worst, answers stored at the same moment are
-// lost.
-class Lock {
- public:
-  explicit Lock(Path const& folder) : file_(open_lock(folder / cache_lock_name)) {
-    constexpr int tries = 200;
-    constexpr std::chrono::milliseconds pause(10);
-    for (int i = 0; file_.is_open() && i < tries; ++i) {
-      if (flock(file_.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-      std::this_thread::sleep_for(pause);
-    }
-  }
-
- private:
-  static int open_lock(Path const& path) {
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
-    return open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-  }
-
-  FileDescriptor file_;
-};
 
 void write_file(Path const& path, std::vector<std::byte> const& bytes) {
   try {
@@ -144,7 +99,7 @@ std::vector<Sunlit> const* AnswerCache::recall_interior(AnswerSet& run,
 void AnswerCache::store(AnswerSet const& run) {
   known_ = AnswerSet();
   numbers_.clear();
-  Lock const lock(folder_);
+  CacheLock const lock(folder_ / cache_lock_name);
   AnswerSet all;
   try {
     all = read_answers(file_, scene_, limits_);

@@ -51,7 +51,7 @@ std::string cache_file_name(std::string_view digits) {
 void prepare_cache_folder(std::filesystem::path const& folder) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
-  if (access(folder.c_str(), R_OK | W_OK | X_OK) != 0) {
+  if (access(folder.string().c_str(), R_OK | W_OK | X_OK) != 0) {
     failure = std::error_code(errno, std::generic_category());
   } else if (!std::filesystem::is_directory(folder)) {
     failure = std::make_error_code(std::errc::not_a_directory);

@@ -42,7 +42,7 @@ void Recorder::set_viewport(int width, int height) {
 // all, so that they are answered together.
 void Recorder::set_matrix(std::array<float, 16> const& matrix) {
   constexpr double rounding = 2e-6;
-  auto view = SunView::of(matrix);
+  auto view = MatrixView::of(matrix);
   if (view && view_ && glm::distance(view->towards_sun, view_->towards_sun) < rounding) {
     view->towards_sun = view_->towards_sun;
   }

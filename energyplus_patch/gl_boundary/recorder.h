@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "gl_boundary/boundary_answers.h"
-#include "gl_boundary/sun_view.h"
+#include "gl_boundary/matrix_view.h"
 
 namespace gpu_shading::energyplus {
 
@@ -46,7 +46,7 @@ class Recorder {
  private:
   // What was drawn since the last clear.
   struct Scene {
-    std::optional<SunView> view;
+    std::optional<MatrixView> view;
     double pixel_area = 0.0;  // m2
     std::vector<DrawnRange> drawn;
     std::vector<Query> queries;
@@ -67,7 +67,7 @@ class Recorder {
   std::vector<DrawnRange> surfaces_;  // by their first vertex
   std::map<Query, Question> questions_;
   std::shared_ptr<Scene> scene_ = std::make_shared<Scene>();
-  std::optional<SunView> view_;
+  std::optional<MatrixView> view_;
   double pixels_ = 1.0;
   std::optional<Query> counting_;
   Query last_query_ = 0;

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <utility>
 
 #include "gl_boundary/rendered_model.h"
 #include "gpu_shading/error.h"
@@ -35,10 +36,41 @@ RendererOptions options_of_environment() {
   return options;
 }
 
+// The session of this process, which outlives EnergyPlus's contexts.
+std::unique_ptr<SessionAnswers>& session() {
+  static std::unique_ptr<SessionAnswers> instance;
+  return instance;
+}
+
+// Passes a context's questions on to the session.
+class OfSession : public BoundaryAnswers {
+ public:
+  void set_model(std::span<glm::vec3 const> vertices,
+                 std::span<DrawnRange const> surfaces) override {
+    session()->set_model(vertices, surfaces);
+  }
+  double sunlit_area(glm::dvec3 const& towards_sun, std::size_t surface) override {
+    return session()->sunlit_area(towards_sun, surface);
+  }
+  std::vector<double> interior_areas(glm::dvec3 const& towards_sun, std::size_t window,
+                                     std::vector<std::size_t> const& interiors) override {
+    return session()->interior_areas(towards_sun, window, interiors);
+  }
+};
+
 }  // namespace
+
+void answer_with(SessionAnswers::Input input) {
+  session() = std::make_unique<SessionAnswers>(std::move(input));
+}
+
+void finish_answers() {
+  if (session()) session()->finish();
+}
 
 std::unique_ptr<BoundaryAnswers> answers_of_run() {
   stay_loaded();
+  if (session()) return std::make_unique<OfSession>();
   return std::make_unique<RenderedModel>(options_of_environment());
 }
 

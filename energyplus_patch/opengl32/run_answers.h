@@ -5,11 +5,17 @@
 #include <memory>
 
 #include "gl_boundary/boundary_answers.h"
+#include "gl_boundary/session_answers.h"
 
 namespace gpu_shading::energyplus {
 
 // What answers a new context of this process.
 std::unique_ptr<BoundaryAnswers> answers_of_run();
+
+// From now on, contexts are answered by one session, for a model that is known.
+void answer_with(SessionAnswers::Input input);
+// EnergyPlus has ended: the session says what it rendered. Throws Error.
+void finish_answers();
 
 // Ends the process with a line that says why. EnergyPlus would go on with wrong answers.
 [[noreturn]] void end_run(std::exception const& error);

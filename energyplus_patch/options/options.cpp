@@ -10,6 +10,7 @@
 
 #include "base/console.h"
 #include "base/nearest_word.h"
+#include "base/process.h"
 #include "base/text.h"
 #include "extensions/extension_fields.h"
 #include "extensions/field_text.h"
@@ -378,8 +379,8 @@ void apply_to_process(Choices const& choices) {
   limit_threads(*choices.threads);
   // OpenImageIO, also in the processes that decode, and Mesa's renderer, which has threads beside
   // the calling one.
-  setenv("OPENIMAGEIO_THREADS", std::to_string(*choices.threads).c_str(), 1);
-  setenv("LP_NUM_THREADS", std::to_string(*choices.threads - 1).c_str(), 1);
+  set_variable("OPENIMAGEIO_THREADS", std::to_string(*choices.threads));
+  set_variable("LP_NUM_THREADS", std::to_string(*choices.threads - 1));
 }
 
 Choices read_environment() {

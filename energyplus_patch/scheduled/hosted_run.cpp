@@ -1,6 +1,5 @@
 #include "scheduled/hosted_run.h"
 
-#include <dlfcn.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -11,7 +10,7 @@
 
 #include "base/error_line.h"
 #include "base/progress.h"
-#include "gpu_shading/error.h"
+#include "base/shared_library.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -19,26 +18,17 @@ namespace {
 // The C API, as in EnergyPlus/api/state.h and runtime.h.
 using State = void*;
 
-template <typename Function>
-void find(void* library, char const* name, Function*& function) {
-  void* const found = dlsym(library, name);
-  if (found == nullptr) throw Error(dlerror());
-  function = reinterpret_cast<Function*>(found);
-}
-
 struct Api {
   explicit Api(std::filesystem::path const& path) {
-    // RTLD_LOCAL: its symbols must not resolve to another library's. It stays loaded.
-    void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (library == nullptr) throw Error(dlerror());
-    find(library, "stateNew", new_state);
-    find(library, "stateDelete", delete_state);
-    find(library, "setEnergyPlusRootDirectory", set_root);
-    find(library, "energyplus", energyplus);
-    find(library, "issueWarning", issue_warning);
-    find(library, "issueText", issue_text);
-    find(library, "callbackBeginNewEnvironment", on_new_environment);
-    find(library, "registerProgressCallback", on_progress);
+    SharedLibrary const library(path);
+    library.find("stateNew", new_state);
+    library.find("stateDelete", delete_state);
+    library.find("setEnergyPlusRootDirectory", set_root);
+    library.find("energyplus", energyplus);
+    library.find("issueWarning", issue_warning);
+    library.find("issueText", issue_text);
+    library.find("callbackBeginNewEnvironment", on_new_environment);
+    library.find("registerProgressCallback", on_progress);
   }
 
   State (*new_state)() = nullptr;
@@ -54,6 +44,7 @@ struct Api {
 // The run of this thread, for callbacks, which receive no data of ours.
 struct Hosted {
   Api const* api = nullptr;
+  State state = nullptr;
   RunMessages messages;  // not written yet
   std::optional<Progress> progress;
 };
@@ -107,14 +98,26 @@ int run_hosted(std::filesystem::path const& library, std::vector<std::string> co
     run.progress.emplace("EnergyPlus", percent);
   }
   std::unique_ptr<void, void (*)(State)> const state(api.new_state(), api.delete_state);
-  api.set_root(state.get(), library.parent_path().c_str());
+  run.state = state.get();
+  api.set_root(state.get(), library.parent_path().string().c_str());
   api.on_new_environment(state.get(), &tell_messages);
   api.on_progress(state.get(), &show_progress);
   std::vector<char const*> words{"energyplus"};
   for (auto const& argument : arguments) words.push_back(argument.c_str());
   int const status = api.energyplus(state.get(), static_cast<int>(words.size()), words.data());
   run.progress.reset();
+  run.state = nullptr;
   return status;
+}
+
+void warn_hosted_run(std::string const& line) {
+  auto const& run = hosted();
+  if (run.state != nullptr) run.api->issue_warning(run.state, ("gpu_shading: " + line).c_str());
+}
+
+void tell_hosted_run(std::string const& line) {
+  auto const& run = hosted();
+  if (run.state != nullptr) run.api->issue_text(run.state, ("gpu_shading: " + line).c_str());
 }
 
 }  // namespace gpu_shading::energyplus

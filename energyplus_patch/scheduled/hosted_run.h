@@ -18,4 +18,9 @@ struct RunMessages {
 int run_hosted(std::filesystem::path const& library, std::vector<std::string> const& arguments,
                RunMessages const& messages);
 
+// For what EnergyPlus calls during such a run, on its thread: write a line into its .err. Without a
+// run they do nothing.
+void warn_hosted_run(std::string const& line);
+void tell_hosted_run(std::string const& line);
+
 }  // namespace gpu_shading::energyplus

@@ -1,11 +1,13 @@
-"""EnergyPlus for Windows with our opengl32.dll beside it, under Wine: against polygon clipping in the same Windows,
-and against the patched EnergyPlus of Linux."""
+"""EnergyPlus for Windows with our files beside it, under Wine: against polygon clipping in the same Windows, and
+against the patched EnergyPlus of Linux."""
 
 import shutil
 import subprocess
+import sys
 
 import pytest
 import windows
+from output_files import differing, snapshot
 from shading_runs import energyplus, input_file, results
 
 HOSTS = energyplus.REPOSITORY / "tests" / "energyplus" / "hosts"
@@ -38,6 +40,12 @@ def stock(wine, tmp_path_factory):
 def dropped_in(stock, tmp_path_factory):
     """The same with the library beside it."""
     return windows.copy_energyplus(tmp_path_factory.mktemp("our s ü") / "EnergyPlus", LIBRARY)
+
+
+@pytest.fixture(scope="module")
+def rendering(wine, stock, tmp_path_factory):
+    """The program of a patched folder."""
+    return windows.patch_energyplus(wine, tmp_path_factory.mktemp("patched") / "Energy Plus")
 
 
 @pytest.mark.parametrize("program", ["unit_tests", "optics/optics_tests", "site/site_tests", "solar/solar_tests"])
@@ -109,6 +117,79 @@ def test_a_thousand_louvres(wine, dropped_in, patched, weather, louvres, tmp_pat
     window = [each for each in results.differences(results.Results(linux.folder), results.Results(ours.folder))
               if each.receiver.kind == "Window"]
     assert len(window) == 1 and window[0].largest < SAME
+
+
+def canopy():
+    """A model with an extension object: 500 panes of glass."""
+    folder = energyplus.REPOSITORY / "idf_examples" / "canopy"
+    return subprocess.run([sys.executable, folder / "generate.py"], capture_output=True, text=True, check=True).stdout
+
+
+@pytest.mark.parametrize("name", ["courtyard", "canopy", "1000 louvres", "4ZoneWithShading_Simple_2"])
+def test_rendering_is_that_of_linux(wine, rendering, patched, weather, louvres, courtyard, tmp_path, name):
+    """With the same target error, the default, and the same command line."""
+    folder = tmp_path / "ö ß"
+    folder.mkdir()
+    model = folder / f"{name}.idf"
+    if name == "canopy":
+        model.write_text(canopy())
+    elif name == "1000 louvres":
+        model.write_text(louvres(1000))
+    elif name == "courtyard":
+        model.write_text(courtyard.read_text())
+    else:
+        other = energyplus.models_folder() / f"{name}.idf"
+        if not other.is_file():
+            pytest.skip(f"{other} is missing")
+        model.write_text(other.read_text(encoding="utf-8", errors="replace"))
+    own = input_file.read(model)
+    results.instrument(own)
+    model = input_file.place_copy(own, model, folder / "input")
+    ours = wine.run_energyplus(rendering, model, weather, folder / "ours", ["-D", "--gpu-shading"])
+    assert ours.completed, ours.why()
+    assert "rendered by CPU" in ours.errors
+    linux = energyplus.run(patched, model, weather, tmp_path / "linux",
+                           ["-D", "--gpu-shading", "--gpu-shading-device=cpu"])
+    assert linux.completed
+    found = results.differences(results.Results(linux.folder), results.Results(ours.folder))
+    assert found
+    for each in found:
+        assert each.largest < SAME, f"{each.receiver.name}: {each.largest} from the answer on Linux"
+
+
+def test_without_the_flag_it_is_the_official_program(wine, stock, rendering, weather, box, tmp_path):
+    model = tmp_path / "model.idf"
+    model.write_text(box)
+    folder = tmp_path / "out"
+    outputs = []
+    for program in (stock, rendering):
+        shutil.rmtree(folder, ignore_errors=True)
+        done = wine.run_energyplus(program, model, weather, folder, ["-D"])
+        assert done.status == 0
+        outputs.append(snapshot(folder))
+    assert differing(*outputs) == []
+    failed = wine.run([rendering, "--no-such-option"])
+    assert failed.returncode == wine.run([stock, "--no-such-option"]).returncode != 0
+
+
+def test_schedules_of_shades_are_passed_on(wine, rendering, weather, box, tmp_path):
+    """The time of a question does not reach the library, but the run period's is known before."""
+    model = tmp_path / "model.idf"
+    own = box.replace("Louvre 1,,4", "Louvre 1,Half,4")
+    assert own != box
+    model.write_text(own + "Schedule:Constant,Half,,0.5;\n")
+    done = wine.run_energyplus(rendering, model, weather, tmp_path / "out", ["--gpu-shading"])
+    assert done.completed, done.why()
+    assert "gpu_shading: sunlit fractions are passed as schedules: the model has Transmittance" in done.errors
+    assert done.method == "Scheduled"
+
+
+def test_an_error_in_an_extension_object_stops_before_the_run(wine, rendering, weather, box, tmp_path):
+    model = tmp_path / "model.idf"
+    model.write_text(box + "GPUShading:TransparentShade,Glass,Louvre 1,Constant,,,2;\n")
+    done = wine.run_energyplus(rendering, model, weather, tmp_path / "out", ["-D", "--gpu-shading"])
+    assert done.status == 1 and not (done.folder / "eplusout.err").exists()
+    assert "model.idf: GPUShading:TransparentShade Glass: Value 1 is blank" in done.errors
 
 
 def test_an_error_ends_the_run(wine, dropped_in, weather, box, tmp_path):

@@ -22,7 +22,7 @@ def why_not():
     for program in ("wine", "xvfb-run", "xauth"):
         if not shutil.which(program):
             return f"{program} is missing: run scripts/setup --windows"
-    if not (build_folder() / "energyplus_patch" / "opengl32.dll").is_file():
+    if not (build_folder() / "energyplus_patch" / "energyplus.exe").is_file():
         return f"{build_folder()} has no library for Windows: run scripts/build_windows"
     return ""
 
@@ -49,6 +49,19 @@ class Wine:
     def run_energyplus(self, program, model, weather, folder, options=(), **further):
         return energyplus.run(program, model, weather, folder, options, self.environment | further,
                               before=self.before, name_path=name_path)
+
+
+def patch_energyplus(wine, folder):
+    """The folder that patch_energyplus.cmd makes of EnergyPlus for Windows; its program."""
+    unzipped = folder.parent / "unzipped"
+    unzipped.mkdir()
+    for file in (energyplus.REPOSITORY / "scripts" / "packaging" / "windows" / "patch_energyplus.cmd",
+                 *(build_folder() / "energyplus_patch" / name for name in ("opengl32.dll", "energyplus.exe"))):
+        shutil.copy(file, unzipped)
+    done = wine.run(["cmd", "/c", name_path(unzipped / "patch_energyplus.cmd"), name_path(official_folder()),
+                     name_path(folder)])
+    assert "created" in done.stdout, done.stdout + done.stderr
+    return folder / "energyplus.exe"
 
 
 def copy_energyplus(folder, *files):

@@ -5,11 +5,13 @@ if(GPU_SHADING_TESTS)
   add_subdirectory(tests)
 endif()
 
-install(TARGETS opengl32 RUNTIME DESTINATION . COMPONENT windows)
+install(TARGETS opengl32 windows_launcher RUNTIME DESTINATION . COMPONENT windows)
+install(FILES scripts/packaging/windows/patch_energyplus.cmd DESTINATION . COMPONENT windows)
 install(FILES gpu_shading/docs/windows.md DESTINATION . RENAME README.md COMPONENT windows)
 # Of the libraries that are compiled in.
 install(FILES LICENSE DESTINATION licences RENAME gpu_shading COMPONENT windows)
 foreach(package libboost-dev libeigen3-dev libfmt-dev libgeographiclib-dev libglm-dev libtbb-dev
+                libxxhash-dev nlohmann-json3-dev
                 mingw-w64-x86-64-dev)
   string(REGEX REPLACE "^lib|-x86-64-dev$|-dev$" "" name ${package})
   file(GLOB copyright /usr/share/doc/${package}/copyright)

@@ -11,12 +11,14 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "gl_boundary/matrix_view.h"
+#include "gl_boundary/named_surfaces.h"
 #include "gl_boundary/recorder.h"
 #include "gl_boundary/rendered_model.h"
-#include "gl_boundary/sun_view.h"
 #include "gl_boundary/triangle_polygons.h"
 #include "support/refusal.h"
 
@@ -203,6 +205,59 @@ TEST(TrianglePolygons, PartsThatTouchInAVertexKeepTheirArea) {
   double sum = 0.0;
   for (auto const& polygon : polygons) sum += area(polygon);
   EXPECT_DOUBLE_EQ(sum, 3.0);
+}
+
+Surface named(std::string name, Ring outline, std::vector<Ring> holes = {}) {
+  return {.name = std::move(name), .polygon = {std::move(outline), std::move(holes)}};
+}
+
+Ring ring_of(glm::dvec3 const& corner, double width, double depth) {
+  return {corner, corner + glm::dvec3(width, 0, 0), corner + glm::dvec3(width, depth, 0),
+          corner + glm::dvec3(0, depth, 0)};
+}
+
+// Names in the order in which two rectangles are drawn.
+std::vector<std::string> names_of(Triangles const& first, Triangles const& second,
+                                  std::vector<Surface> const& list) {
+  auto const vertices = joined({first, second});
+  std::vector<DrawnRange> const ranges{{0, 6}, {6, 6}};
+  std::vector<std::string> names;
+  for (auto const& surface : name_surfaces(vertices, ranges, list)) names.push_back(surface.name);
+  return names;
+}
+
+TEST(NamedSurfaces, AreFoundByTheirVerticesInAnyOrder) {
+  auto const small = rectangle({0, 0, 0}, 1, 1);
+  auto const large = rectangle({0, 0, 0}, 2, 1);
+  std::vector<Surface> const list{named("LARGE", ring_of({0, 0, 0}, 2.00001, 1)),
+                                  named("SMALL", ring_of({0, 0, 0}, 1, 0.99999))};
+  EXPECT_THAT(names_of(small, large, list), ElementsAre("SMALL", "LARGE"));
+  EXPECT_THAT(names_of(large, small, list), ElementsAre("LARGE", "SMALL"));
+}
+
+TEST(NamedSurfaces, InOnePlaceAreTakenInOrder) {
+  auto const drawn = rectangle({0, 0, 0}, 1, 1);
+  std::vector<Surface> const list{named("FIRST", ring_of({0, 0, 0}, 1, 1)),
+                                  named("SECOND", ring_of({0, 0, 0}, 1, 1))};
+  EXPECT_THAT(names_of(drawn, drawn, list), ElementsAre("FIRST", "SECOND"));
+}
+
+TEST(NamedSurfaces, KeepTheVerticesThatAreDrawn) {
+  auto const drawn = rectangle({0, 0, 0}, 1.000004F, 1);
+  std::vector<DrawnRange> const ranges{{0, 6}};
+  auto const found = name_surfaces(drawn, ranges, {named("ONLY", ring_of({0, 0, 0}, 1.0, 1))});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].polygon.outline[1].x, double{1.000004F});
+}
+
+TEST(NamedSurfaces, OneThatIsNotListedIsRefused) {
+  auto const one = rectangle({0, 0, 0}, 1, 1);
+  auto const turned = Triangles{one[2], one[1], one[0], one[5], one[4], one[3]};
+  std::vector<Surface> const list{named("ONE", ring_of({0, 0, 0}, 1, 1)),
+                                  named("TWO", ring_of({0, 0, 0}, 1, 1))};
+  EXPECT_EQ(refusal_of([&] { names_of(one, turned, list); }),
+            "EnergyPlus draws a surface at (1.000, 1.000, 0.000) that is none of those in its list "
+            "of surfaces");
 }
 
 TEST(Recorder, ReadsDirectionsFromMatrices) {

@@ -1,4 +1,4 @@
-#include "gl_boundary/sun_view.h"
+#include "gl_boundary/matrix_view.h"
 
 #include <cmath>
 #include <cstddef>
@@ -14,7 +14,7 @@ glm::dvec3 row(std::array<float, 16> const& matrix, std::size_t index) {
 
 }  // namespace
 
-std::optional<SunView> SunView::of(std::array<float, 16> const& matrix) {
+std::optional<MatrixView> MatrixView::of(std::array<float, 16> const& matrix) {
   constexpr double extent = 2.0;  // of what is seen, in OpenGL's coordinates
   auto const across = glm::length(row(matrix, 0));
   auto const up = glm::length(row(matrix, 1));
@@ -24,7 +24,7 @@ std::optional<SunView> SunView::of(std::array<float, 16> const& matrix) {
   bool const usable = std::isfinite(across) && std::isfinite(up) && std::isfinite(depth) &&
                       across > 0.0 && up > 0.0 && depth > 0.0;
   if (!usable || glm::length(row(matrix, 3)) > 0.0) return std::nullopt;
-  return SunView{-away / depth, extent / across, extent / up};
+  return MatrixView{-away / depth, extent / across, extent / up};
 }
 
 }  // namespace gpu_shading::energyplus

@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/console.h"
+#include "base/error_line.h"
+#include "base/process.h"
+#include "cache/cache_folder.h"
+#include "gpu_shading/error.h"
+#include "idf/model_file.h"
+#include "opengl32/hosted_model.h"
+#include "opengl32/run_answers.h"
+#include "options/report_folder.h"
+#include "scheduled/scheduled_run.h"
+
+// Runs EnergyPlus in this process for energyplus.exe of ours, which has loaded this library.
+
+namespace gpu_shading::energyplus {
+namespace {
+
+constexpr char const* energyplus_library = "energyplusapi.dll";
+constexpr int not_wanted = -1;
+
+// A path made of UTF-8, of which std::filesystem::path has taken every byte for a character.
+void read_utf8(std::optional<std::filesystem::path>& path) {
+  if (!path) return;
+  std::u8string bytes;
+  for (wchar_t const c : path->native()) {
+    constexpr wchar_t bytes_end = 0x100;
+    if (c >= bytes_end) return;
+    bytes += static_cast<char8_t>(c);
+  }
+  path = std::filesystem::path(bytes);
+}
+
+int run_rendered(CommandLine const& line, std::vector<std::string> arguments,
+                 Choices const& choices) {
+  TemporaryFolder const folder;
+  auto hosted = prepare_hosted(line, choices, folder.path());
+  auto const& options = hosted.input.model.options;
+  if (options.cache) prepare_cache_folder(*options.cache);
+  if (options.report) prepare_report(*options.report);
+  if (line.model_at) {
+    arguments[*line.model_at] = hosted.path.string();
+  } else {
+    arguments.push_back(hosted.path.string());
+  }
+  if (!hosted.input.named.empty()) answer_with(std::move(hosted.input));
+  int const status = run_hosted(own_folder() / energyplus_library, arguments, hosted.messages);
+  finish_answers();
+  return status;
+}
+
+int run(std::vector<std::string> arguments) {
+  auto choices = take_flags(arguments);
+  auto const environment = read_environment();
+  if (!choices.any() && !environment.mode) return not_wanted;
+  choices.fill_from(environment);
+  apply_to_process(choices);
+  auto const library = own_folder() / energyplus_library;
+  auto line = read_command_line(arguments);
+  for (auto* const path : {&line.model, &line.weather, &choices.file, &choices.report,
+                           &choices.cache, &choices.stages}) {
+    read_utf8(*path);
+  }
+  if (line.help) std::fputs(std::string(flags_help()).c_str(), stdout);
+  if (line.preprocessed) {
+    throw Error("-m: an EPMacro model cannot be rendered on Windows; create its IDF first");
+  }
+  bool const readable = line.model && std::filesystem::exists(*line.model) &&
+                        (is_idf(*line.model) || is_epjson(*line.model));
+  if (!readable) return run_hosted(library, arguments, {});
+  choices.folder = std::filesystem::absolute(*line.model).parent_path();
+  choices.file = find_side_file(*line.model, choices);
+  auto const method = choices.method.value_or(Method::automatic);
+  auto const model = read_hosted(*line.model, choices);
+  if (model.options.mode != Mode::off && has_schedules(model)) {
+    constexpr char const* why =
+        "the model has Transmittance or Deployment Schedules, whose values at the time of a "
+        "question are not known on Windows";
+    if (method == Method::patched) throw Error(why);
+    if (method == Method::automatic) {
+      print_line(fmt::format("sunlit fractions are passed as schedules: {}", why));
+    }
+    return run_scheduled(library, choices, arguments);
+  }
+  if (method == Method::scheduled) return run_scheduled(library, choices, arguments);
+  return run_rendered(line, std::move(arguments), choices);
+}
+
+}  // namespace
+}  // namespace gpu_shading::energyplus
+
+// `arguments` are in UTF-8, without the program's name. Returns EnergyPlus's exit status, or -1
+// where no rendering is wanted: then EnergyPlus's own program is to be run.
+extern "C" __declspec(dllexport) int gpu_shading_energyplus(int count,
+                                                            char const* const* arguments) {
+  try {
+    return gpu_shading::energyplus::run({arguments, arguments + count});
+  } catch (std::exception const& error) {
+    std::fprintf(stderr, "gpu_shading: error: %s\n",
+                 gpu_shading::energyplus::error_line(error).c_str());
+    return EXIT_FAILURE;
+  }
+}
