@@ -5,6 +5,8 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <set>
+#include <string>
 
 namespace gpu_shading::energyplus {
 
@@ -44,7 +46,10 @@ bool near(double a, double b) { return std::abs(a - b) <= 1e-9 * (std::abs(a) + 
 
 SolarReflections::SolarReflections(ReflectionMemory memory, Session& session,
                                    ReflectionFunctions const& original)
-    : memory_(std::move(memory)), session_(session), original_(original) {
+    : memory_(std::move(memory)),
+      session_(session),
+      original_(original),
+      is_mirror_(find_mirrors()) {
   for (auto const& receiver : memory_.receivers) {
     if (!session_.is_placeholder(receiver.surface)) continue;
     // EnergyPlus computes nothing for it.
@@ -217,16 +222,24 @@ bool SolarReflections::sky_diffuse(State& state) {
   return true;
 }
 
-bool SolarReflections::is_mirror(std::int32_t number) const {
-  auto const id = memory_.ids[static_cast<std::size_t>(number)];
-  if (!id) return false;
-  auto const& name = session_.surface(*id).name;
+// By number, whether EnergyPlus reflects the beam in a surface: in windows, doors among them, and
+// in shading surfaces with a glazed fraction and their copies.
+std::vector<bool> SolarReflections::find_mirrors() const {
+  std::set<std::string> names;
   auto const& input = session_.input();
-  if (input.base_of.contains(name)) return true;
-  for (auto const& [shading, properties] : input.shading_surfaces) {
-    if (properties.glazed > 0.0 && (name == shading || name == mirrored_name(shading))) return true;
+  for (auto const& [name, base] : input.base_of) names.insert(name);
+  for (auto const& [name, properties] : input.shading_surfaces) {
+    if (properties.glazed > 0.0) names.insert({name, mirrored_name(name)});
   }
-  return false;
+  std::vector<bool> mirrors;
+  for (auto const& id : memory_.ids) {
+    mirrors.push_back(id && names.contains(session_.surface(*id).name));
+  }
+  return mirrors;
+}
+
+bool SolarReflections::is_mirror(std::int32_t number) const {
+  return is_mirror_[static_cast<std::size_t>(number)];
 }
 
 RayScene const& SolarReflections::mirror(SurfaceId surface) {

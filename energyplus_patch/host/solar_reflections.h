@@ -68,6 +68,7 @@ class SolarReflections {
 
   std::optional<std::pair<double*, double*>> learn_specular(State& state, int hour) const;
   std::vector<Image> images(Receiver const& receiver, glm::dvec3 const& to_sun, int hour);
+  std::vector<bool> find_mirrors() const;
   bool is_mirror(std::int32_t number) const;
   RayScene const& mirror(SurfaceId surface);
   bool reflect_again(State& state, int hour, Receiver const& receiver, glm::dvec3 const& to_sun,
@@ -76,6 +77,7 @@ class SolarReflections {
   ReflectionMemory memory_;
   Session& session_;
   ReflectionFunctions original_;
+  std::vector<bool> is_mirror_;  // by number
   std::optional<Outputs> beam_;
   std::optional<Outputs> sky_;
   std::optional<std::pair<double*, double*>> specular_pair_;

@@ -86,14 +86,18 @@ void HiddenReflections::trace(int hour) {
   if (ways_.size() == rays_.size() && factors == factors_ && deployments == deployments_) return;
   factors_ = std::move(factors);
   deployments_ = std::move(deployments);
+  std::vector<Ray> rays;
+  for (auto const& ray : rays_) rays.push_back({ray.origin, ray.direction, ray.distance});
+  std::vector<std::vector<RayLayer>> met(rays.size());
+  hidden_->layers(rays, conditions(), met);
   ways_.clear();
-  ways_.reserve(rays_.size());
-  for (auto const& ray : rays_) ways_.push_back(way_of(ray));
+  for (std::size_t i = 0; i < rays.size(); ++i) ways_.push_back(way_of(rays[i], met[i]));
 }
 
-HiddenReflections::Way HiddenReflections::way_of(ReflectionRay const& ray) const {
+HiddenReflections::Way HiddenReflections::way_of(Ray const& ray,
+                                                 std::vector<RayLayer> const& layers) const {
   Way way;
-  for (auto const& met : hidden_->layers({ray.origin, ray.direction, ray.distance}, conditions())) {
+  for (auto const& met : layers) {
     Layer layer;
     layer.surface = met.surface;
     layer.at = ray.origin + met.distance * ray.direction;
@@ -118,43 +122,72 @@ double HiddenReflections::reflectance(SurfaceId id, double transmittance) const 
   return std::min(share, 1.0 - transmittance);
 }
 
-double HiddenReflections::all_pass(Ray const& ray, SurfaceId const* excluded) const {
-  auto conditions = this->conditions();
-  if (excluded != nullptr) conditions.excluded = {excluded, 1};
-  return all_->transmittance(ray, conditions);
+std::vector<double> HiddenReflections::passed(RayScene const& scene,
+                                              std::vector<Ray> const& rays) const {
+  std::vector<double> passed(rays.size());
+  scene.transmittances(rays, conditions(), passed);
+  return passed;
 }
 
 std::vector<ReflectedShare> const& HiddenReflections::beam(Sun const& sun) {
-  auto const& to_sun = sun.direction;
   trace(sun.hour);
   lit_.clear();
   shares_.assign(rays_.size(), {});
-  std::vector<Ray> from_hits;
-  for (auto const& ray : rays_) {
-    // Of no length: without anything on its way.
-    bool const sky = ray.meets == ReflectionRay::Meets::sky;
-    from_hits.push_back({ray.hit, to_sun, sky ? 0.0 : Ray{}.length});
-  }
-  std::vector<double> passed(rays_.size());
-  hidden_->transmittances(from_hits, conditions(), passed);
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
-    auto const& way = ways_[i];
-    auto& share = shares_[i];
-    share.kept = way.passed * passed[i];
-    if (rays_[i].meets == ReflectionRay::Meets::ground && share.kept < 1.0) {
-      if (share.kept > 0.0) share.ground = way.passed * all_pass(from_hits[i]);
-      share.kept = 0.0;
-    }
-    for (auto const& layer : way.layers) {
-      double const cosine = glm::dot(layer.normal, to_sun);
-      if (cosine <= 0.0) continue;
-      double const reached = all_pass({layer.at, to_sun}, &layer.surface);
-      if (reached > 0.0 && lit(layer, sun.at_first_timestep)) {
-        share.shades += cosine * layer.reflectance * reached;
-      }
-    }
-  }
+  keep(sun.direction);
+  reflect(sun);
   return shares_;
+}
+
+// What EnergyPlus's own surfaces and the ground reflect.
+void HiddenReflections::keep(glm::dvec3 const& to_sun) {
+  std::vector<Ray> to_the_sun;
+  for (auto const& ray : rays_) {
+    bool const wanted = ray.meets != ReflectionRay::Meets::sky;
+    to_the_sun.push_back({ray.hit, to_sun, wanted ? Ray{}.length : 0.0});
+  }
+  auto const hidden_pass = passed(*hidden_, to_the_sun);
+  std::vector<std::size_t> dimmed;
+  std::vector<Ray> from_dimmed;
+  for (std::size_t i = 0; i < rays_.size(); ++i) {
+    auto& kept = shares_[i].kept;
+    kept = ways_[i].passed * hidden_pass[i];
+    if (rays_[i].meets != ReflectionRay::Meets::ground || kept >= 1.0) continue;
+    if (kept > 0.0) {
+      dimmed.push_back(i);
+      from_dimmed.push_back(to_the_sun[i]);
+    }
+    kept = 0.0;
+  }
+  auto const all_pass = passed(*all_, from_dimmed);
+  for (std::size_t i = 0; i < dimmed.size(); ++i) {
+    shares_[dimmed[i]].ground = ways_[dimmed[i]].passed * all_pass[i];
+  }
+}
+
+// What hidden casters reflect.
+void HiddenReflections::reflect(Sun const& sun) {
+  struct Facing {
+    std::size_t ray;
+    Layer const* layer;
+    double cosine;
+  };
+  std::vector<Facing> facing;
+  std::vector<Ray> to_the_sun;
+  for (std::size_t i = 0; i < rays_.size(); ++i) {
+    for (auto const& layer : ways_[i].layers) {
+      double const cosine = glm::dot(layer.normal, sun.direction);
+      if (cosine <= 0.0) continue;
+      facing.push_back({i, &layer, cosine});
+      to_the_sun.push_back({layer.at, sun.direction, Ray{}.length, layer.surface});
+    }
+  }
+  auto const reached = passed(*all_, to_the_sun);
+  for (std::size_t i = 0; i < facing.size(); ++i) {
+    auto const& [ray, layer, cosine] = facing[i];
+    if (reached[i] > 0.0 && lit(*layer, sun.at_first_timestep)) {
+      shares_[ray].shades += cosine * layer->reflectance * reached[i];
+    }
+  }
 }
 
 std::vector<ReflectedShare> const& HiddenReflections::sky() {
@@ -173,13 +206,13 @@ ReflectedShare HiddenReflections::sky_share(ReflectionRay const& ray, Way const&
 
   std::vector<Ray> upward;
   for (auto const& patch : patches_from_ground()) upward.push_back({ray.hit, patch.direction});
-  std::vector<double> passed(upward.size());
-  hidden_->transmittances(upward, conditions(), passed);
-  bool const free = std::all_of(passed.begin(), passed.end(), [](double p) { return p >= 1.0; });
+  auto const hidden_pass = passed(*hidden_, upward);
+  bool const free =
+      std::all_of(hidden_pass.begin(), hidden_pass.end(), [](double p) { return p >= 1.0; });
   if (free && way.passed >= 1.0) return share;
-  all_->transmittances(upward, conditions(), passed);
+  auto const all_pass = passed(*all_, upward);
   for (std::size_t i = 0; i < upward.size(); ++i) {
-    share.ground += way.passed * patches_from_ground()[i].share * passed[i];
+    share.ground += way.passed * patches_from_ground()[i].share * all_pass[i];
   }
   share.kept = 0.0;
   return share;
@@ -205,7 +238,7 @@ bool HiddenReflections::lit(Layer const& layer, std::optional<glm::dvec3> const&
   auto const& points = samples(layer.surface);
   double wanted = 0.01 * static_cast<double>(points.size());
   for (auto const& point : points) {
-    wanted -= all_pass({point, *to_sun}, &layer.surface);
+    wanted -= all_->transmittance({point, *to_sun, Ray{}.length, layer.surface}, conditions());
     if (wanted <= 0.0) return place->second = true;
   }
   return false;
@@ -226,17 +259,14 @@ double HiddenReflections::sky_view(Layer const& layer) {
     double const weight = cosine * patch.share / patch.direction.z;
     whole += weight * static_cast<double>(points.size());
     for (auto const& point : points) {
-      rays.push_back({point, patch.direction});
+      rays.push_back({point, patch.direction, Ray{}.length, layer.surface});
       weights.push_back(weight);
     }
   }
   if (rays.empty()) return 0.0;
-  auto conditions = this->conditions();
-  conditions.excluded = {&layer.surface, 1};
-  std::vector<double> passed(rays.size());
-  all_->transmittances(rays, conditions, passed);
+  auto const all_pass = passed(*all_, rays);
   double seen = 0.0;
-  for (std::size_t i = 0; i < rays.size(); ++i) seen += weights[i] * passed[i];
+  for (std::size_t i = 0; i < rays.size(); ++i) seen += weights[i] * all_pass[i];
   // EnergyPlus's view factor of the sky, times its ratio of shaded to unshaded.
   place->second = 0.5 * (1.0 + layer.normal.z) * seen / whole;
   return place->second;

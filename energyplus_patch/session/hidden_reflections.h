@@ -91,9 +91,11 @@ class HiddenReflections {
   };
 
   void trace(int hour);
-  Way way_of(ReflectionRay const& ray) const;
+  Way way_of(Ray const& ray, std::vector<RayLayer> const& layers) const;
   double reflectance(SurfaceId surface, double transmittance) const;
-  double all_pass(Ray const& ray, SurfaceId const* excluded = nullptr) const;
+  std::vector<double> passed(RayScene const& scene, std::vector<Ray> const& rays) const;
+  void keep(glm::dvec3 const& to_sun);
+  void reflect(Sun const& sun);
   ReflectedShare sky_share(ReflectionRay const& ray, Way const& way);
   double sky_view(Layer const& layer);
   bool lit(Layer const& layer, std::optional<glm::dvec3> const& to_sun);

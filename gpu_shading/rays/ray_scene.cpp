@@ -40,6 +40,20 @@ double at_or_one(std::span<double const> values, int index) {
   return place < values.size() ? values[place] : 1.0;
 }
 
+template <typename Result, typename Answer>
+void for_each_ray(std::span<Ray const> rays, std::span<Result> results, Answer const& answer) {
+  if (results.size() != rays.size()) {
+    throw Error(
+        fmt::format("{} results for {} rays, expected as many", results.size(), rays.size()));
+  }
+  // Starting a task takes as long as several rays.
+  constexpr std::size_t block = 256;
+  for_each_index((rays.size() + block - 1) / block, [&](std::size_t number) {
+    std::size_t const end = std::min(rays.size(), (number + 1) * block);
+    for (std::size_t i = number * block; i < end; ++i) results[i] = answer(rays[i]);
+  });
+}
+
 }  // namespace
 
 class RayScene::Implementation {
@@ -115,11 +129,11 @@ class RayScene::Implementation {
     RayPath const path(ray);
     double limit = path.length;
     shapes_.search(path, limit, [&](SurfaceId surface, double distance) {
-      if (!counts(surface, path, conditions)) return;
+      if (surface == ray.from || !counts(surface, path, conditions)) return;
       limit = std::min(limit, met(distance, surface, passed(surface, path, conditions)));
     });
     screens_.search(path, limit, [&](SurfaceId surface, int number) {
-      if (!counts(surface, path, conditions)) return;
+      if (surface == ray.from || !counts(surface, path, conditions)) return;
       auto const sheet = screens_.meet(number, path, limit);
       if (!sheet) return;
       int const deployment = screens_.deployment(number);
@@ -177,18 +191,12 @@ std::vector<RayLayer> RayScene::layers(Ray const& ray, RayConditions const& cond
 
 void RayScene::transmittances(std::span<Ray const> rays, RayConditions const& conditions,
                               std::span<double> results) const {
-  if (results.size() != rays.size()) {
-    throw Error(
-        fmt::format("{} results for {} rays, expected as many", results.size(), rays.size()));
-  }
-  // Starting a task takes as long as several rays.
-  constexpr std::size_t block = 256;
-  for_each_index((rays.size() + block - 1) / block, [&](std::size_t number) {
-    std::size_t const end = std::min(rays.size(), (number + 1) * block);
-    for (std::size_t i = number * block; i < end; ++i) {
-      results[i] = transmittance(rays[i], conditions);
-    }
-  });
+  for_each_ray(rays, results, [&](Ray const& ray) { return transmittance(ray, conditions); });
+}
+
+void RayScene::layers(std::span<Ray const> rays, RayConditions const& conditions,
+                      std::span<std::vector<RayLayer>> results) const {
+  for_each_ray(rays, results, [&](Ray const& ray) { return layers(ray, conditions); });
 }
 
 }  // namespace gpu_shading

@@ -536,6 +536,18 @@ TEST(Rays, NameTheSurfacesOnTheirWayUpToAnOpaqueOne) {
   EXPECT_TRUE(rays.layers(northwards(-1, 1)).empty());
 }
 
+TEST(Rays, DoNotMeetTheSurfaceThatTheyBeginOn) {
+  RayScene const rays(one_wall());
+  std::array<Ray, 2> both{northwards(1, 1), northwards(1, 1)};
+  both[1].from = 0;
+  EXPECT_EQ(rays.transmittance(both[0]), 0.0);
+  EXPECT_EQ(rays.transmittance(both[1]), 1.0);
+  std::array<std::vector<RayLayer>, 2> layers;
+  rays.layers(both, {}, layers);
+  EXPECT_EQ(layers[0].size(), 1U);
+  EXPECT_TRUE(layers[1].empty());
+}
+
 TEST(Rays, MayBeAskedFromSeveralThreads) {
   Random random(4);
   Scene const scene = mixed_scene(40, random);

@@ -17,6 +17,9 @@ struct Ray {
   glm::dvec3 origin{0.0};
   glm::dvec3 direction{0.0};  // of any length but 0; distances are in metres all the same
   double length = std::numeric_limits<double>::infinity();  // 0 or less: nothing is met
+  // The surface on which it begins, which it does not meet: a sheet with a thickness, of which the
+  // ray begins inside, or a polygon that is not flat.
+  std::optional<SurfaceId> from = std::nullopt;
 };
 
 struct RayHit {
@@ -102,10 +105,11 @@ class RayScene {
   // Surfaces in one place are in the scene's order.
   std::vector<RayLayer> layers(Ray const& ray, RayConditions const& conditions = {}) const;
 
-  // transmittance() of each ray, on all cores. Throws Error if there are not as many results as
-  // rays.
+  // The same of each ray, on all cores. They throw Error if there are not as many results as rays.
   void transmittances(std::span<Ray const> rays, RayConditions const& conditions,
                       std::span<double> results) const;
+  void layers(std::span<Ray const> rays, RayConditions const& conditions,
+              std::span<std::vector<RayLayer>> results) const;
 
  private:
   class Implementation;
