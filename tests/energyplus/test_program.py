@@ -86,7 +86,9 @@ class Started:
         self.folder = folder  # of temporary files
         self.process = subprocess.Popen([patched.parent / "gpu_shading", "check", model], text=True,
                                         stderr=subprocess.PIPE, stdout=subprocess.PIPE,
-                                        env={**os.environ, "TMPDIR": str(folder)})
+                                        env={**os.environ, "TMPDIR": str(folder)},
+                                        # Where the tests themselves are run by nohup, it would ignore this one.
+                                        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))
         children = Path(f"/proc/{self.process.pid}/task/{self.process.pid}/children")
         limit = time.monotonic() + 30.0
         while not (found := children.read_text().split()):
