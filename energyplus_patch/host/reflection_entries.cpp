@@ -71,37 +71,30 @@ void init(State& state) {
   original_init(state);
 }
 
-void beam_diffuse(State& state, int hour) {
+// Calls what computes reflections in this run, or EnergyPlus's own function.
+template <typename... Hour>
+void compute(bool (SolarReflections::*ours)(State&, Hour...), void (*original)(State&, Hour...),
+             State& state, Hour... hour) {
   guarded([&] {
     auto* const active = answering(state);
     if (active == nullptr) {
-      originals().beam_diffuse(state, hour);
-    } else if (!active->beam_diffuse(state, hour)) {
+      original(state, hour...);
+    } else if (!(active->*ours)(state, hour...)) {
       warn();
     }
   });
+}
+
+void beam_diffuse(State& state, int hour) {
+  compute(&SolarReflections::beam_diffuse, originals().beam_diffuse, state, hour);
 }
 
 void beam_specular(State& state, int hour) {
-  guarded([&] {
-    auto* const active = answering(state);
-    if (active == nullptr) {
-      originals().beam_specular(state, hour);
-    } else if (!active->beam_specular(state, hour)) {
-      warn();
-    }
-  });
+  compute(&SolarReflections::beam_specular, originals().beam_specular, state, hour);
 }
 
 void sky_diffuse(State& state) {
-  guarded([&] {
-    auto* const active = answering(state);
-    if (active == nullptr) {
-      originals().sky_diffuse(state);
-    } else if (!active->sky_diffuse(state)) {
-      warn();
-    }
-  });
+  compute(&SolarReflections::sky_diffuse, originals().sky_diffuse, state);
 }
 
 }  // namespace

@@ -178,6 +178,19 @@ std::optional<SolarReflections::Outputs> SolarReflections::learn(
   return std::nullopt;
 }
 
+// Calls EnergyPlus's function with what hidden casters leave of its rays, and adds what they
+// reflect.
+template <typename Call>
+void SolarReflections::count(std::vector<ReflectedShare> const& shares, Outputs const& outputs,
+                             std::size_t offset, Call const& call) const {
+  {
+    Edits edits;
+    weaken(shares, edits);
+    call();
+  }
+  add(shares, outputs, offset);
+}
+
 bool SolarReflections::beam_diffuse(State& state, int hour) {
   auto const to_sun = sun(hour);
   if (!to_sun) {
@@ -194,12 +207,7 @@ bool SolarReflections::beam_diffuse(State& state, int hour) {
   }
   hidden().renew();
   auto const& shares = hidden().beam({hour, *to_sun, session_.first_sun(hour)});
-  {
-    Edits edits;
-    weaken(shares, edits);
-    original_.beam_diffuse(state, hour);
-  }
-  add(shares, *beam_, offset);
+  count(shares, *beam_, offset, [&] { original_.beam_diffuse(state, hour); });
   return true;
 }
 
@@ -213,12 +221,7 @@ bool SolarReflections::sky_diffuse(State& state) {
     return false;
   }
   auto const& shares = hidden().sky();
-  {
-    Edits edits;
-    weaken(shares, edits);
-    original_.sky_diffuse(state);
-  }
-  add(shares, *sky_, 0);
+  count(shares, *sky_, 0, [&] { original_.sky_diffuse(state); });
   return true;
 }
 

@@ -63,6 +63,9 @@ class SolarReflections {
   void add(std::vector<ReflectedShare> const& shares, Outputs const& outputs,
            std::size_t offset) const;
   template <typename Call>
+  void count(std::vector<ReflectedShare> const& shares, Outputs const& outputs, std::size_t offset,
+             Call const& call) const;
+  template <typename Call>
   std::optional<Outputs> learn(std::vector<double*> const& candidates, std::size_t offset,
                                glm::dvec3 const& far, Call const& call) const;
 
