@@ -35,7 +35,7 @@ namespace {
 using std::numbers::pi;
 
 // EnergyPlus's DataEnvironment::SunIsUpValue.
-constexpr double sun_is_up = 1e-5;
+constexpr double sun_is_up_value = 1e-5;
 
 // A number that EnergyPlus does not compute.
 constexpr double untouched = -1234.5;
@@ -91,7 +91,7 @@ std::vector<ReflectionRay> SolarReflections::rays() const {
 
 std::optional<glm::dvec3> SolarReflections::sun(int hour) const {
   auto const& direction = *memory_.suns.at(static_cast<std::size_t>(hour - 1));
-  if (direction.z < sun_is_up) return std::nullopt;
+  if (direction.z < sun_is_up_value) return std::nullopt;
   return glm::normalize(direction);
 }
 

@@ -18,6 +18,27 @@ extern "C" {
 int gpu_shading_write_image(char const* path, char const* name, int width, int height, int channels,
                             unsigned char const* pixels, char* message, std::size_t message_size);
 
+// A line of black text.
+struct gpu_shading_label {
+  char const* text;
+  int x;      // pixels from the left, of the end or the middle that `align` names
+  int y;      // pixels from the top, of the middle of the line
+  int size;   // height of the font, pixels
+  int align;  // 0: left, 1: centre, 2: right
+};
+
+// 8-bit red, green and blue, rows from the top, with labels.
+struct gpu_shading_labelled {
+  int width;
+  int height;
+  unsigned char const* pixels;
+  int count;
+  gpu_shading_label const* labels;
+};
+int gpu_shading_write_labelled(char const* path, char const* name,
+                               gpu_shading_labelled const* picture, char* message,
+                               std::size_t message_size);
+
 // Pictures combined in one file, each below its caption.
 struct gpu_shading_sheet {
   int count;

@@ -167,7 +167,30 @@ void write_frames(char const* path, char const* name, std::vector<ImageBuf> cons
   if (!good || !output->close()) fail(output->geterror());
 }
 
+TextAlignX align_of(int align) {
+  constexpr std::array<TextAlignX, 3> known{TextAlignX::Left, TextAlignX::Center,
+                                            TextAlignX::Right};
+  return known.at(static_cast<std::size_t>(align));
+}
+
 }  // namespace
+
+extern "C" EXPORTED int gpu_shading_write_labelled(char const* path, char const* name,
+                                                   gpu_shading_labelled const* picture,
+                                                   char* message, std::size_t message_size) {
+  return guarded(message, message_size, [&] {
+    std::vector<ImageBuf> frames;
+    auto& image = frames.emplace_back(blank(picture->width, picture->height));
+    auto const all = OIIO::get_roi(image.spec());
+    check(image.set_pixels(all, OIIO::TypeDesc::UINT8, picture->pixels), image);
+    for (int i = 0; i < picture->count; ++i) {
+      auto const& label = picture->labels[i];
+      write(image, label.x, label.y, label.text, label.size, align_of(label.align));
+    }
+    constexpr float unused = 1.0F;  // of a picture that is not animated
+    write_frames(path, name, frames, unused);
+  });
+}
 
 extern "C" EXPORTED int gpu_shading_write_sheet(char const* path, char const* name,
                                                 gpu_shading_sheet const* sheet, char* message,

@@ -1,4 +1,4 @@
-// gpu_shading: devices, checks, pictures, screens, samples and exports.
+// gpu_shading: devices, checks, pictures, maps, screens, samples and exports.
 
 #include <fmt/format.h>
 
@@ -27,6 +27,7 @@
 #include "program/check_model.h"
 #include "program/device_table.h"
 #include "program/export.h"
+#include "program/map.h"
 #include "program/picture_files.h"
 #include "program/sample.h"
 #include "program/screen.h"
@@ -179,6 +180,44 @@ void add_view(CLI::App& app, Choices const& choices) {
   command->callback([model, arguments] { run_view(model->run(), *arguments); });
 }
 
+void add_map(CLI::App& app, Choices const& choices) {
+  auto* const command = app.add_subcommand(
+      "map",
+      "Map the sunlit hours and the beam solar energy over receivers, at the model's own timesteps "
+      "and with its schedules: for each receiver a picture, a table and a NumPy array, and a list "
+      "of all (maps.csv)");
+  auto const model = std::make_shared<ModelArguments>(*command, choices);
+  auto const order = std::make_shared<MapOrder>();
+  command->add_option("--from", order->from, "First day (default: 01-01)")->type_name("MM-DD");
+  command->add_option("--to", order->to, "Last day (default: 12-31)")->type_name("MM-DD");
+  command
+      ->add_option("--receivers", order->receivers,
+                   "Name of a surface, or a pattern in which * stands for any characters; also "
+                   "of shading surfaces (default: all surfaces that EnergyPlus shades)")
+      ->type_name("PATTERN");
+  constexpr double least_spacing = 0.001;
+  constexpr double most_spacing = 1000.0;
+  command->add_option("--spacing", order->spacing, "Largest side of a cell, m")
+      ->check(CLI::Range(least_spacing, most_spacing))
+      ->capture_default_str()
+      ->type_name("M");
+  constexpr int most_rays = 100;
+  command
+      ->add_option("--rays", order->rays_per_cell,
+                   "Rays from each cell to each position of the sun")
+      ->check(CLI::Range(1, most_rays))
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_flag(
+      "--common-scale", order->common_scale,
+      "One colour scale for the pictures of all receivers; otherwise each has its own");
+  command
+      ->add_option("-o,--output", order->folder,
+                   "Folder for the maps: new, empty, or with earlier maps, which are replaced")
+      ->required();
+  command->callback([model, order] { draw_maps(model->run(), *order); });
+}
+
 void add_export(CLI::App& app, Choices const& choices) {
   struct Arguments {
     EnergyPlusCall call;
@@ -327,7 +366,8 @@ int run(int argc, char** argv) {
   choices.fill_from(read_environment());
   apply_to_process(choices);
   CLI::App app{
-      "List devices, check and draw models, describe screens, sample and export sunlit fractions "
+      "List devices, check, draw and map models, describe screens, sample and export sunlit "
+      "fractions "
       "for EnergyPlus with GPU shading",
       "gpu_shading"};
   app.set_version_flag("--version", "gpu_shading " GPU_SHADING_VERSION);
@@ -336,6 +376,7 @@ int run(int argc, char** argv) {
   add_devices(app, right);
   add_check(app, choices);
   add_view(app, choices);
+  add_map(app, choices);
   add_screen(app, choices);
   add_sample(app, choices);
   add_export(app, choices);

@@ -1,7 +1,6 @@
 #include "program/sample.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <glm/geometric.hpp>
@@ -14,6 +13,7 @@
 #include "cache/digest.h"
 #include "gpu_shading/error.h"
 #include "model/model_reader.h"
+#include "program/standard_error.h"
 #include "runs/installation.h"
 #include "runs/short_runs.h"
 #include "samples/sample_tables.h"
@@ -69,22 +69,6 @@ Source read_source(ModelRun const& run) {
   if (source.extensions) source.extensions_hash = hash_of(*source.extensions);
   return source;
 }
-
-// A duplicate of standard error, which a child process inherits.
-class StandardError {
- public:
-  StandardError() : descriptor_(dup(STDERR_FILENO)) {}
-  ~StandardError() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
-  StandardError(StandardError const&) = delete;
-  StandardError& operator=(StandardError const&) = delete;
-
-  int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
 
 std::string render(Source const& source, Path const& parts, Shard const& shard) {
   StandardError const progress;

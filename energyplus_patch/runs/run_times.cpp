@@ -32,6 +32,7 @@ double number(std::string const& text) {
 struct Dictionary {
   std::string azimuth;
   std::string altitude;
+  std::string beam;                                        // empty: not reported
   std::unordered_map<std::string, std::size_t> schedules;  // to indices in RunTime::schedules
 };
 
@@ -43,6 +44,9 @@ Dictionary read_dictionary(std::istream& eso, RunTimes& run) {
     if (words.size() < 4) continue;
     if (words[3].starts_with("Site Solar Azimuth Angle")) dictionary.azimuth = words[0];
     if (words[3].starts_with("Site Solar Altitude Angle")) dictionary.altitude = words[0];
+    if (words[3].starts_with("Site Direct Solar Radiation Rate per Area")) {
+      dictionary.beam = words[0];
+    }
     if (words[3].starts_with("Schedule Value")) {
       dictionary.schedules[words[0]] = run.schedules.size();
       run.schedules.push_back(upper(words[2]));
@@ -130,6 +134,8 @@ RunTimes read_run_times(std::istream& eso) {
       current->sun.azimuth = number(words[1]) * degree;
     } else if (current && kind == dictionary.altitude) {
       current->sun.altitude = number(words[1]) * degree;
+    } else if (current && kind == dictionary.beam) {
+      current->beam = number(words[1]);
     } else if (current) {
       auto const schedule = dictionary.schedules.find(kind);
       if (schedule != dictionary.schedules.end()) {

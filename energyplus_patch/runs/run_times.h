@@ -17,12 +17,17 @@ struct RunTime {
   int timestep = 0;  // timestep of the hour, from 1
   SunDirection sun;  // as EnergyPlus uses it for the whole timestep
   std::vector<double> schedules;
+  double beam = 0.0;  // direct normal irradiance, W/m2, from run_for_beam()
+
+  bool operator==(RunTime const&) const = default;
 };
 
 struct RunTimes {
   int steps_per_hour = 0;
   std::vector<RunTime> times;          // each time of a year once
   std::vector<std::string> schedules;  // upper case; their values are in `times`
+
+  bool operator==(RunTimes const&) const = default;
 };
 
 // Days of a leap year, by which EnergyPlus indexes schedules.
@@ -46,9 +51,9 @@ bool sun_is_up(SunDirection sun);
 // `area`: unit normal times net area (m2); `sun`: unit vector to the sun.
 double sunlit_fraction(double projected_area, glm::dvec3 const& area, glm::dvec3 const& sun);
 
-// Reads an eplusout.eso with Site Solar Azimuth Angle, Site Solar Altitude Angle and Schedule Value
-// at every timestep. Throws Error if two run periods have different sun positions at the same time
-// of the year.
+// Reads an eplusout.eso with Site Solar Azimuth Angle, Site Solar Altitude Angle, Schedule Value
+// and, perhaps, Site Direct Solar Radiation Rate per Area at every timestep. Throws Error if two
+// run periods have different sun positions at the same time of the year.
 RunTimes read_run_times(std::istream& eso);
 
 }  // namespace gpu_shading::energyplus

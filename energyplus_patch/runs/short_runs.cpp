@@ -62,6 +62,11 @@ void reduce_to_surfaces(ModelEditor& model) {
   model.add("Output:Surfaces:Drawing", {{"report_type", "DXF:WireFrame"}});
 }
 
+void report_at_timesteps(ModelEditor& model, std::string const& key, std::string_view variable) {
+  model.add("Output:Variable",
+            {{"key_value", key}, {"variable_name", variable}, {"reporting_frequency", "Timestep"}});
+}
+
 // Reduces a model to its calendar, site and schedules.
 void reduce_to_times(ModelEditor& model, std::vector<std::string> const& schedules) {
   model.remove([](std::string_view type) {
@@ -76,14 +81,9 @@ void reduce_to_times(ModelEditor& model, std::vector<std::string> const& schedul
   model.add("GlobalGeometryRules", {{"starting_vertex_position", "UpperLeftCorner"},
                                     {"vertex_entry_direction", "Counterclockwise"},
                                     {"coordinate_system", "World"}});
-  auto const report = [&](std::string const& key, std::string_view variable) {
-    model.add(
-        "Output:Variable",
-        {{"key_value", key}, {"variable_name", variable}, {"reporting_frequency", "Timestep"}});
-  };
-  report("*", "Site Solar Azimuth Angle");
-  report("*", "Site Solar Altitude Angle");
-  for (auto const& schedule : schedules) report(schedule, "Schedule Value");
+  report_at_timesteps(model, "*", "Site Solar Azimuth Angle");
+  report_at_timesteps(model, "*", "Site Solar Altitude Angle");
+  for (auto const& schedule : schedules) report_at_timesteps(model, schedule, "Schedule Value");
 }
 
 // Replaces all run periods by one that EnergyPlus extends to a year (-a): the first, which sets the
@@ -147,6 +147,16 @@ std::ifstream run(EnergyPlusCall const& call, ModelEditor& model, bool expand,
   return file;
 }
 
+// The times of a reduced model.
+RunTimes run_whole_year(EnergyPlusCall const& call, ModelEditor& model) {
+  keep_one_run_period(model);
+  TemporaryFolder const folder;
+  auto year = call;
+  year.annual = true;
+  auto file = run(year, model, false, folder, "eplusout.eso");
+  return read_run_times(file);
+}
+
 }  // namespace
 
 std::vector<DrawnSurface> run_for_surfaces(EnergyPlusCall const& call) {
@@ -173,12 +183,14 @@ RunTimes run_for_year(EnergyPlusCall const& call, std::vector<std::string> const
   reduce_to_times(*model, schedules);
   model->remove([](std::string_view type) { return same_name(type, "Timestep"); });
   model->add("Timestep", {{"number_of_timesteps_per_hour", steps_per_hour}});
-  keep_one_run_period(*model);
-  TemporaryFolder const folder;
-  auto year = call;
-  year.annual = true;
-  auto file = run(year, *model, false, folder, "eplusout.eso");
-  return read_run_times(file);
+  return run_whole_year(call, *model);
+}
+
+RunTimes run_for_beam(EnergyPlusCall const& call, std::vector<std::string> const& schedules) {
+  auto const model = edit_model(call.model);
+  reduce_to_times(*model, schedules);
+  report_at_timesteps(*model, "*", "Site Direct Solar Radiation Rate per Area");
+  return run_whole_year(call, *model);
 }
 
 Path place_model(ModelEditor& model, Path const& original, Path const& folder) {

@@ -36,6 +36,10 @@ RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> cons
 RunTimes run_for_year(EnergyPlusCall const& call, std::vector<std::string> const& schedules,
                       int steps_per_hour);
 
+// The same at the model's own timestep, with the direct normal irradiance of the weather file as
+// EnergyPlus uses it.
+RunTimes run_for_beam(EnergyPlusCall const& call, std::vector<std::string> const& schedules);
+
 // Writes a model into a folder under its own name, with links to the files beside the original, so
 // that relative file names work.
 std::filesystem::path place_model(ModelEditor& model, std::filesystem::path const& original,

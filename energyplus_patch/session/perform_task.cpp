@@ -11,6 +11,7 @@
 #include "samples/take_samples.h"
 #include "session/draw_views.h"
 #include "session/listing.h"
+#include "session/map_receivers.h"
 #include "session/open_answers.h"
 #include "session/remarks.h"
 
@@ -78,6 +79,11 @@ std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages cons
                            });
   store_answers(answers, messages);
   return line;
+}
+
+std::string perform(MapTask const& task, SceneAssembly& scene, Messages const& messages) {
+  describe_scene(scene, messages);
+  return map_receivers(task, scene);
 }
 
 }  // namespace

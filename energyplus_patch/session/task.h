@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "maps/map_file.h"
 #include "samples/sample_request.h"
 #include "session/view_list.h"
 
@@ -31,7 +32,10 @@ struct ViewsTask {
 // Samples, at the density of --gpu-shading-update.
 using SamplesTask = SampleRequest;
 
-using Task = std::variant<ListingTask, ViewsTask, SamplesTask>;
+// Maps of sun hours and beam energy.
+using MapTask = MapRequest;
+
+using Task = std::variant<ListingTask, ViewsTask, SamplesTask, MapTask>;
 
 // How it went.
 struct TaskReply {

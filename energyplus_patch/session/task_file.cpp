@@ -54,9 +54,45 @@ Json to_json(SamplesTask const& task) {
           {"progress", task.progress}};
 }
 
+Json to_json(MapTask const& task) {
+  Json times = Json::array();
+  for (auto const& [month, day, hour, timestep, sun, schedules, beam] : task.run.times) {
+    times.push_back({month, day, hour, timestep, sun.azimuth, sun.altitude, Json(schedules), beam});
+  }
+  return {{"kind", "maps"},
+          {"receivers", task.receivers},
+          {"spacing", task.spacing},
+          {"rays", task.rays_per_cell},
+          {"steps", task.run.steps_per_hour},
+          {"schedules", task.run.schedules},
+          {"times", std::move(times)},
+          {"file", task.file.string()},
+          {"progress", task.progress}};
+}
+
+MapTask to_map_task(Json const& json) {
+  MapTask task{json.at("receivers"),
+               json.at("spacing"),
+               json.at("rays"),
+               {json.at("steps"), {}, json.at("schedules")},
+               json.at("file").get<std::string>(),
+               json.at("progress")};
+  for (auto const& time : json.at("times")) {
+    task.run.times.push_back({time.at(0),
+                              time.at(1),
+                              time.at(2),
+                              time.at(3),
+                              {time.at(4), time.at(5)},
+                              time.at(6),
+                              time.at(7)});
+  }
+  return task;
+}
+
 Task to_task(Json const& json) {
   auto const kind = json.at("kind").get<std::string>();
   if (kind == "listing") return ListingTask{json.at("vertices")};
+  if (kind == "maps") return to_map_task(json);
   if (kind == "samples") {
     return SamplesTask{json.at("asked"),
                        json.at("latitude"),

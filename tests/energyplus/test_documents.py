@@ -164,7 +164,7 @@ def test_the_pictures_are_used():
         assert picture.name in used, picture
 
 
-@pytest.mark.parametrize("command", ["check", "view", "export"])
+@pytest.mark.parametrize("command", ["check", "view", "map", "export"])
 def test_options_of_gpu_shading_are_there(patched, command):
     known = subprocess.run([patched.parent / "gpu_shading", command, "--help"], capture_output=True, text=True,
                            check=True).stdout

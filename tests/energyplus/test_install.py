@@ -32,7 +32,7 @@ def test_it_is_complete(installed):
     for path in [*(installed / "bin").iterdir(), *installed.glob("share/bash-completion/completions/*")]:
         assert path.exists(), f"{path} leads nowhere"
     pages = {path.stem for path in installed.glob("share/man/man1/*.1")}
-    assert pages >= commands | {f"gpu_shading-{name}" for name in ("devices", "check", "view", "sample", "export")}
+    assert pages >= commands | {f"gpu_shading-{name}" for name in ("devices", "check", "view", "map", "sample", "export")}
     share = installed / "share" / "gpu_shading"
     examples = {path.name for path in (ROOT / "idf_examples").iterdir() if any(path.glob("*.idf"))}
     assert examples and examples <= {path.name for path in (share / "idf_examples").iterdir()}
@@ -67,7 +67,7 @@ def completions(installed, *words):
 
 def test_completion_offers_what_the_programs_know(installed, patched):
     program = installed / "bin" / "gpu_shading"
-    assert set(completions(installed, program, "")) >= {"devices", "check", "view", "sample", "export"}
+    assert set(completions(installed, program, "")) >= {"devices", "check", "view", "map", "sample", "export"}
     assert completions(installed, program, "exp") == ["export"]
     assert set(completions(installed, program, "view", "--r")) == {"--receiver"}
     assert "--gpu-shading-device" in completions(installed, patched, "--gpu-shading-de")

@@ -25,7 +25,13 @@ TEST(TaskFile, TasksComeBackAsTheyWere) {
       ViewsTask{{{"1.png", {std::sqrt(2.0), 1.0 / 3.0}, not_utf8}, {"2.gif", {}, ""}},
                 folder.path() / not_utf8,
                 640},
-      SamplesTask{"medium samples", -std::acos(0.75), folder.path() / "parts", {3, 8}, 7}};
+      SamplesTask{"medium samples", -std::acos(0.75), folder.path() / "parts", {3, 8}, 7},
+      MapTask{not_utf8,
+              0.1,
+              4,
+              {4, {{6, 21, 12, 3, {1.0 / 3.0, 0.5}, {0.25}, 812.5}}, {"HEDGE"}},
+              folder.path() / not_utf8,
+              7}};
   for (auto const& task : tasks) {
     write_request(file, {task, folder.path() / "reply"});
     auto const request = read_request(file);
