@@ -149,4 +149,18 @@ RunTimes read_run_times(std::istream& eso) {
   return run;
 }
 
+int read_first_year(std::istream& eio) {
+  for (std::string line; std::getline(eio, line);) {
+    // Environment,NAME,WeatherFileRunPeriod,01/01/2017,12/31/2017,...
+    auto const words = comma_separated(line);
+    if (words.size() < 4 || words[0] != "Environment" || words[2] != "WeatherFileRunPeriod")
+      continue;
+    auto const year = parse_number(words[3].substr(words[3].rfind('/') + 1));
+    constexpr double least = 1583.0;  // EnergyPlus's own limits
+    constexpr double most = 9999.0;
+    if (year && *year >= least && *year <= most) return static_cast<int>(*year);
+  }
+  throw Error("eplusout.eio: has no run period with a year");
+}
+
 }  // namespace gpu_shading::energyplus

@@ -26,6 +26,7 @@ struct RunTimes {
   int steps_per_hour = 0;
   std::vector<RunTime> times;          // each time of a year once
   std::vector<std::string> schedules;  // upper case; their values are in `times`
+  int year = 0;  // of the first row; of run_for_year() and run_for_beam() alone
 
   bool operator==(RunTimes const&) const = default;
 };
@@ -55,5 +56,8 @@ double sunlit_fraction(double projected_area, glm::dvec3 const& area, glm::dvec3
 // and, perhaps, Site Direct Solar Radiation Rate per Area at every timestep. Throws Error if two
 // run periods have different sun positions at the same time of the year.
 RunTimes read_run_times(std::istream& eso);
+
+// The year in which the first run period of an eplusout.eio begins. Throws Error if it names none.
+int read_first_year(std::istream& eio);
 
 }  // namespace gpu_shading::energyplus

@@ -154,7 +154,10 @@ RunTimes run_whole_year(EnergyPlusCall const& call, ModelEditor& model) {
   auto year = call;
   year.annual = true;
   auto file = run(year, model, false, folder, "eplusout.eso");
-  return read_run_times(file);
+  auto times = read_run_times(file);
+  std::ifstream eio(folder.path() / "out" / "eplusout.eio");
+  times.year = read_first_year(eio);
+  return times;
 }
 
 }  // namespace

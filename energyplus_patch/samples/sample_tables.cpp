@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -36,11 +37,17 @@ std::string product_of(std::vector<std::pair<int, int>> const& powers,
   return text;
 }
 
-std::string time_of(RunTime const& time, int steps_per_hour) {
-  constexpr int minutes_of_hour = 60;
-  int const minutes = time.timestep * minutes_of_hour / steps_per_hour;
-  return fmt::format("{:02}-{:02} {:02}:{:02}", time.month, time.day,
-                     time.hour - 1 + minutes / minutes_of_hour, minutes % minutes_of_hour);
+// The end of a timestep as ISO 8601 has it: midnight is 00:00 of the next day.
+std::string time_of(RunTimes const& run, RunTime const& time) {
+  using namespace std::chrono;
+  sys_days const day = year(run.year) / time.month / time.day;
+  minutes const minute((time.hour - 1) * 60 + time.timestep * 60 / run.steps_per_hour);
+  auto const end = day + minute;
+  year_month_day const date(floor<days>(end));
+  hh_mm_ss const clock(end - floor<days>(end));
+  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}", static_cast<int>(date.year()),
+                     static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
+                     clock.hours().count(), clock.minutes().count());
 }
 
 std::vector<double> fractions_at(SampleSet const& set, RunTime const& time,
@@ -94,8 +101,7 @@ void write_year(SampleSet const& set, RunTimes const& run, std::ostream& out) {
     Degrees const sun(time.sun);
     fmt::memory_buffer line;
     auto const end = std::back_inserter(line);
-    fmt::format_to(end, "{},{:.4f},{:.4f}", time_of(time, run.steps_per_hour), sun.azimuth,
-                   sun.altitude);
+    fmt::format_to(end, "{},{:.4f},{:.4f}", time_of(run, time), sun.azimuth, sun.altitude);
     for (double const fraction : fractions_at(set, time, factors)) {
       fmt::format_to(end, ",{:.6g}", fraction);
     }

@@ -17,8 +17,8 @@ namespace gpu_shading::energyplus {
 void write_samples(SampleSet const& set, std::ostream& out);
 
 // time,azimuth,altitude, then each receiver's sunlit fraction including schedule values: a row for
-// each time of a run, at the end of its timestep, "MM-DD HH:MM" in standard time. 0 if the sun is
-// down or behind the receiver.
+// each time of a run_for_year(), at the end of its timestep, "YYYY-MM-DD HH:MM" in standard time,
+// where midnight is 00:00 of the next day. 0 if the sun is down or behind the receiver.
 void write_year(SampleSet const& set, RunTimes const& run, std::ostream& out);
 
 }  // namespace gpu_shading::energyplus
