@@ -6,8 +6,8 @@
 
 namespace gpu_shading::energyplus {
 
-void check(ModelRun const& run, bool vertices) {
-  fmt::print("{}", run_task(run, ListingTask{vertices}).text);
+void check(ModelRun const& run, ListingTask const& task) {
+  fmt::print("{}", run_task(run, task).text);
 }
 
 }  // namespace gpu_shading::energyplus

@@ -85,9 +85,12 @@ void add_check(CLI::App& app, Choices const& choices) {
                          "Read a model and its extension objects, and print how each surface takes "
                          "part in the shading calculation, or every error");
   auto const arguments = std::make_shared<ModelArguments>(*command, choices);
-  auto const vertices = std::make_shared<bool>(false);
-  command->add_flag("--vertices", *vertices, "Print the vertices of every surface instead");
-  command->callback([arguments, vertices] { check(arguments->run(), *vertices); });
+  auto const task = std::make_shared<ListingTask>();
+  command->add_flag("--vertices", task->vertices, "Print the vertices of every surface instead");
+  command->add_flag("--json", task->json,
+                    "Print one JSON document; with --vertices, the scene that is rendered: "
+                    "vertices, optics and rules of all surfaces");
+  command->callback([arguments, task] { check(arguments->run(), *task); });
 }
 
 // Arguments of the subcommand "view" besides the model.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <string_view>
 #include <unordered_map>
 
@@ -14,6 +16,8 @@
 
 namespace gpu_shading::energyplus {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 std::string kind_of(std::string const& name, ShadingInput const& input) {
   if (window_of_reveal(name)) return "reveal";
@@ -32,12 +36,10 @@ std::string place(glm::dvec3 const& point, int digits) {
 }
 
 // The position of a screen's texture or pattern, for users who have to align it.
-std::string describe_tile(Model const& model, Surface const& surface) {
+std::optional<TileAxes> tile_of(Model const& model, Surface const& surface) {
   auto const screen = model.screens.by_surface.find(surface.name);
-  if (screen == model.screens.by_surface.end()) return {};
-  auto const axes = tile_axes(surface.polygon, screen->second.maker->placement(surface.polygon));
-  return fmt::format("    tile from {} m, u along {}, v along {}\n", place(axes.origin, 3),
-                     place(axes.u, 4), place(axes.v, 4));
+  if (screen == model.screens.by_surface.end()) return std::nullopt;
+  return tile_axes(surface.polygon, screen->second.maker->placement(surface.polygon));
 }
 
 // All surfaces except placeholders, surroundings and mirrored copies that nothing names.
@@ -76,57 +78,92 @@ std::vector<MeshRow> meshes_of(Scene const& scene, Model const& model) {
   return rows;
 }
 
-// The lines before the table.
-std::string remarks_of(Model const& model) {
-  std::string text;
-  if (!model.lean.remark.empty()) text += model.lean.remark + "\n";
-  if (!model.simplified.warning.empty()) text += model.simplified.warning + "\n";
-  for (auto const& remark : model.surroundings.remarks) text += remark + "\n";
-  return text.empty() ? text : text + "\n";
+ListedSurface row_of(Scene const& scene, Model const& model, std::vector<bool> const& wanted,
+                     SurfaceId id) {
+  auto const& surface = scene[id];
+  ListedSurface row{surface.name, kind_of(surface.name, model.shading), area(surface.polygon)};
+  if (row.area <= 0.0) return row;
+  row.receives = row.kind != "reveal" && id < wanted.size() && wanted[id];
+  if (surface.casting != Casting::never) row.casts = describe_optics(model, surface);
+  row.tile = tile_of(model, surface);
+  return row;
+}
+
+std::string table_of(std::vector<ListedSurface> const& rows) {
+  std::size_t width = 0;
+  std::size_t kind_width = 0;
+  for (auto const& row : rows) {
+    width = std::max(width, row.name.size());
+    kind_width = std::max(kind_width, row.kind.size());
+  }
+  auto text = fmt::format("{:{}}  {:{}}  {:>12}  {:8}  {}\n", "surface", width, "kind", kind_width,
+                          "area [m2]", "receives", "casts");
+  for (auto const& row : rows) {
+    auto const* const none = row.area <= 0.0 ? "not (no area)" : "not";
+    text += fmt::format("{:{}}  {:{}}  {:12.3f}  {:8}  {}\n", row.name, width, row.kind, kind_width,
+                        row.area, row.receives ? "yes" : "no", row.casts.value_or(none));
+    if (!row.tile) continue;
+    text += fmt::format("    tile from {} m, u along {}, v along {}\n", place(row.tile->origin, 3),
+                        place(row.tile->u, 4), place(row.tile->v, 4));
+  }
+  return text;
+}
+
+Json to_json(glm::dvec3 const& vector) { return {vector.x, vector.y, vector.z}; }
+
+Json to_json(ListedSurface const& row) {
+  Json json{{"name", row.name}, {"kind", row.kind}, {"area", row.area}, {"receives", row.receives}};
+  json["casts"] = row.casts ? Json(*row.casts) : Json();
+  if (row.tile) {
+    json["tile"] = {{"origin", to_json(row.tile->origin)},
+                    {"u", to_json(row.tile->u)},
+                    {"v", to_json(row.tile->v)}};
+  }
+  return json;
+}
+
+std::vector<std::string> remarks_of(Model const& model) {
+  std::vector<std::string> remarks;
+  if (!model.lean.remark.empty()) remarks.push_back(model.lean.remark);
+  if (!model.simplified.warning.empty()) remarks.push_back(model.simplified.warning);
+  remarks.insert(remarks.end(), model.surroundings.remarks.begin(),
+                 model.surroundings.remarks.end());
+  return remarks;
 }
 
 }  // namespace
 
-std::string list_surfaces(Scene const& scene, Model const& model, std::vector<bool> const& wanted) {
-  auto const& input = model.shading;
-  auto const ids = listed(scene, model);
-  std::size_t width = 0;
-  std::size_t kind_width = 0;
-  for (auto const id : ids) {
-    width = std::max(width, scene[id].name.size());
-    kind_width = std::max(kind_width, kind_of(scene[id].name, input).size());
+Listing list_surfaces(Scene const& scene, Model const& model, std::vector<bool> const& wanted) {
+  Listing listing{remarks_of(model), {}, describe(make_shading_rule(model.shading, scene, {}))};
+  for (auto const id : listed(scene, model)) {
+    listing.surfaces.push_back(row_of(scene, model, wanted, id));
   }
-  auto text = remarks_of(model);
-  auto const meshes = meshes_of(scene, model);
-  for (auto const& mesh : meshes) {
-    width = std::max(width, scene[mesh.first].name.size());
-    kind_width = std::max(kind_width, kind_of(scene[mesh.first].name, input).size());
-  }
-  text += fmt::format("{:{}}  {:{}}  {:>12}  {:8}  {}\n", "surface", width, "kind", kind_width,
-                      "area [m2]", "receives", "casts");
-  for (auto const id : ids) {
-    auto const& surface = scene[id];
-    auto const size = area(surface.polygon);
-    bool const empty = size <= 0.0;
-    bool const reveal = kind_of(surface.name, input) == "reveal";
-    bool const receives = id < wanted.size() && wanted[id];
-    text += fmt::format("{:{}}  {:{}}  {:12.3f}  {:8}  {}\n", surface.name, width,
-                        kind_of(surface.name, input), kind_width, size,
-                        empty || reveal || !receives ? "no" : "yes",
-                        empty                               ? "not (no area)"
-                        : surface.casting != Casting::never ? describe_optics(model, surface)
-                                                            : "not");
-    if (!empty) text += describe_tile(model, surface);
-  }
-  for (auto const& mesh : meshes) {
+  for (auto const& mesh : meshes_of(scene, model)) {
     auto const& surface = scene[mesh.first];
-    text += fmt::format("{:{}}  {:{}}  {:12.3f}  {:8}  {}\n", surface.name, width,
-                        kind_of(surface.name, input), kind_width, mesh.area, "no",
-                        describe_optics(model, surface, model.surroundings.texture_of(mesh.first)));
+    listing.surfaces.push_back(
+        {surface.name, kind_of(surface.name, model.shading), mesh.area, false,
+         describe_optics(model, surface, model.surroundings.texture_of(mesh.first))});
   }
-  text += describe(make_shading_rule(input, scene, {}));
-  text += fmt::format("{} surfaces\n", ids.size() + meshes.size());
-  return text;
+  return listing;
+}
+
+std::string to_text(Listing const& listing) {
+  std::string text;
+  for (auto const& remark : listing.remarks) text += remark + "\n";
+  if (!text.empty()) text += "\n";
+  return text + table_of(listing.surfaces) + listing.rule +
+         fmt::format("{} surfaces\n", listing.surfaces.size());
+}
+
+std::string to_json_text(Listing const& listing) {
+  Json json{{"format", "gpu_shading check 1"}, {"remarks", listing.remarks}};
+  json["rule"] = Json::array();
+  std::istringstream rule(listing.rule);
+  for (std::string line; std::getline(rule, line);) json["rule"].push_back(line);
+  json["surfaces"] = Json::array();
+  for (auto const& row : listing.surfaces) json["surfaces"].push_back(to_json(row));
+  // Names in IDF files may be in Latin-1.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string list_vertices(Scene const& scene, Model const& model) {

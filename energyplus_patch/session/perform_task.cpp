@@ -14,13 +14,17 @@
 #include "session/map_receivers.h"
 #include "session/open_answers.h"
 #include "session/remarks.h"
+#include "session/scene_document.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 std::string perform(ListingTask const& task, SceneAssembly& scene, Messages const& /*messages*/) {
-  return task.vertices ? list_vertices(scene.surfaces(), scene.model())
-                       : list_surfaces(scene.surfaces(), scene.model(), scene.receives());
+  if (task.vertices) {
+    return task.json ? scene_document(scene) : list_vertices(scene.surfaces(), scene.model());
+  }
+  auto const listing = list_surfaces(scene.surfaces(), scene.model(), scene.receives());
+  return task.json ? to_json_text(listing) : to_text(listing);
 }
 
 std::string perform(ViewsTask const& task, SceneAssembly& scene, Messages const& messages) {

@@ -16,6 +16,7 @@ namespace gpu_shading::energyplus {
 // A table of the surfaces (listing.h).
 struct ListingTask {
   bool vertices = false;  // a table of their vertices instead
+  bool json = false;      // as JSON; with vertices, the scene that is rendered (scene_document.h)
 
   bool operator==(ListingTask const&) const = default;
 };

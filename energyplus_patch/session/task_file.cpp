@@ -34,7 +34,9 @@ auto read(Path const& file, Parse const& parse) {
   }
 }
 
-Json to_json(ListingTask const& task) { return {{"kind", "listing"}, {"vertices", task.vertices}}; }
+Json to_json(ListingTask const& task) {
+  return {{"kind", "listing"}, {"vertices", task.vertices}, {"json", task.json}};
+}
 
 Json to_json(ViewsTask const& task) {
   Json views = Json::array();
@@ -91,7 +93,7 @@ MapTask to_map_task(Json const& json) {
 
 Task to_task(Json const& json) {
   auto const kind = json.at("kind").get<std::string>();
-  if (kind == "listing") return ListingTask{json.at("vertices")};
+  if (kind == "listing") return ListingTask{json.at("vertices"), json.at("json")};
   if (kind == "maps") return to_map_task(json);
   if (kind == "samples") {
     return SamplesTask{json.at("asked"),

@@ -21,7 +21,7 @@ TEST(TaskFile, TasksComeBackAsTheyWere) {
   TemporaryFolder const folder;
   auto const file = folder.path() / "task";
   std::vector<Task> const tasks{
-      ListingTask{}, ListingTask{true},
+      ListingTask{}, ListingTask{true}, ListingTask{false, true},
       ViewsTask{{{"1.png", {std::sqrt(2.0), 1.0 / 3.0}, not_utf8}, {"2.gif", {}, ""}},
                 folder.path() / not_utf8,
                 640},
