@@ -32,7 +32,8 @@ def test_it_is_complete(installed):
     for path in [*(installed / "bin").iterdir(), *installed.glob("share/bash-completion/completions/*")]:
         assert path.exists(), f"{path} leads nowhere"
     pages = {path.stem for path in installed.glob("share/man/man1/*.1")}
-    assert pages >= commands | {f"gpu_shading-{name}" for name in ("devices", "check", "view", "map", "sample", "export")}
+    subcommands = ("devices", "check", "view", "map", "sample", "export")
+    assert pages >= commands | {f"gpu_shading-{name}" for name in subcommands}
     share = installed / "share" / "gpu_shading"
     examples = {path.name for path in (ROOT / "idf_examples").iterdir() if any(path.glob("*.idf"))}
     assert examples and examples <= {path.name for path in (share / "idf_examples").iterdir()}
@@ -72,6 +73,15 @@ def test_completion_offers_what_the_programs_know(installed, patched):
     assert set(completions(installed, program, "view", "--r")) == {"--receiver"}
     assert "--gpu-shading-device" in completions(installed, patched, "--gpu-shading-de")
     assert completions(installed, installed / "bin" / "patch_energyplus", "--f") == ["--force"]
+
+
+def test_the_python_package_finds_its_library(installed):
+    packages = installed / "lib" / "python3" / "dist-packages"
+    code = "import gpu_shading; print(gpu_shading.Scene([[[0, 0, 0], [1, 0, 0], [1, 0, 1]]]).sunlit([180, 0]))"
+    done = subprocess.run([sys.executable, "-c", code], env={"PYTHONPATH": str(packages)}, capture_output=True,
+                          text=True)
+    assert done.stdout == "[1.]\n", done.stderr
+    assert not list(packages.rglob("*.so"))
 
 
 def needed(path):

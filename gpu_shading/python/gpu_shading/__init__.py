@@ -1,0 +1,30 @@
+"""Solar shading by rendering: how much of each surface the sun reaches, for any geometry and sun direction.
+
+    import gpu_shading
+    scene = gpu_shading.Scene(receivers={"window": window}, casters=[overhang])
+    scene.sunlit([[180.0, 45.0]])
+
+Units and axes everywhere: metres; x east, y north, z up; angles in degrees; azimuth clockwise from north, altitude from
+the horizon, angles of incidence from the normal. Scenes come from arrays, or from a model of EnergyPlus
+(Scene.from_energyplus). `check`, `run` and `sample` run EnergyPlus itself. Errors are subclasses of `Error`.
+"""
+
+try:
+    import numpy as _numpy  # noqa: F401
+except ImportError as _error:
+    raise ImportError("gpu_shading needs NumPy: pip install numpy") from _error
+
+from gpu_shading._library import __version__, limit_threads
+from gpu_shading.errors import DeviceError, Error, InvalidInput, RunError
+from gpu_shading.model import check
+from gpu_shading.optics import Screen, Transmittance
+from gpu_shading.rays import Hits, Rays
+from gpu_shading.runs import Run, run
+from gpu_shading.samples import read_samples, sample, write_samples
+from gpu_shading.scene import Renderer, Rule, Scene, Surface
+
+__all__ = [
+    "DeviceError", "Error", "Hits", "InvalidInput", "Rays", "Renderer", "Rule", "Run", "RunError", "Scene", "Screen",
+    "Surface", "Transmittance", "__version__", "check", "limit_threads", "read_samples", "run", "sample",
+    "write_samples",
+]

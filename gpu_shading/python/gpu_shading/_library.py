@@ -1,0 +1,123 @@
+"""The functions of libgpu_shading_python.so (gpu_shading/python/calls.h). Python's other threads run meanwhile."""
+
+from __future__ import annotations
+
+import ctypes
+import weakref
+from collections.abc import Callable
+from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int, c_size_t, c_uint32, c_void_p
+from typing import Any
+
+from gpu_shading import _places
+from gpu_shading.errors import DeviceError, Error, InvalidInput
+
+_INVALID, _DEVICE, _MEMORY = 1, 2, 3
+
+
+class SurfaceRecord(Structure):
+    _fields_ = [("name", c_char_p), ("vertices", c_void_p), ("ring_sizes", c_void_p), ("rings", c_size_t),
+                ("casting", c_int), ("shade", c_void_p), ("schedule", c_int), ("screen", c_void_p),
+                ("origin_u", c_double), ("origin_v", c_double), ("rotation", c_double), ("deployment", c_int)]
+
+
+class SheetRecord(Structure):
+    _fields_ = [("thickness", c_double), ("plane", c_int), ("layers", c_int), ("detail", c_int)]
+
+
+class FactorTable(Structure):
+    _fields_ = [("values", c_void_p), ("rows", c_size_t), ("columns", c_size_t)]
+
+
+class RayRecord(Structure):
+    _fields_ = [("origins", c_void_p), ("directions", c_void_p), ("lengths", c_void_p), ("rays", c_size_t),
+                ("receiver", ctypes.c_int64), ("excluded", c_void_p), ("excluded_count", c_size_t),
+                ("factors", c_void_p), ("factor_count", c_size_t),
+                ("deployments", c_void_p), ("deployment_count", c_size_t)]
+
+
+_MADE = POINTER(c_void_p)
+_CALLS: dict[str, list[Any]] = {
+    "limit_threads": [c_int],
+    "transmittance_constant": [c_double, _MADE],
+    "transmittance_polynomial": [c_void_p, c_size_t, c_int, _MADE],
+    "transmittance_table": [c_void_p, c_void_p, c_size_t, _MADE],
+    "transmittance_glazing": [c_void_p, c_size_t, _MADE],
+    "transmittance_simple_glazing": [c_double, c_double, _MADE],
+    "transmittance_at": [c_void_p, c_void_p, c_size_t, c_void_p],
+    "screen_pattern": [c_int, c_int, c_void_p, POINTER(SheetRecord), _MADE],
+    "screen_tile": [c_double, c_double, c_int, c_int, c_void_p, c_double, POINTER(SheetRecord), _MADE],
+    "screen_sizes": [c_void_p, c_void_p],
+    "screen_tau": [c_void_p, c_void_p, c_void_p, c_size_t, c_void_p],
+    "scene_new": [_MADE],
+    "scene_add": [c_void_p, POINTER(SurfaceRecord)],
+    "scene_set_rule": [c_void_p, c_void_p, c_size_t, c_void_p, c_size_t],
+    "scene_areas": [c_void_p, c_void_p],
+    "renderer_new": [c_void_p, c_char_p, c_int, c_double, _MADE],
+    "renderer_set_deployments": [c_void_p, c_void_p, c_size_t],
+    "renderer_sunlit": [c_void_p, c_void_p, c_size_t, c_void_p, c_size_t, POINTER(FactorTable), c_void_p],
+    "renderer_interior": [c_void_p, c_void_p, c_size_t, c_uint32, c_void_p, c_size_t, POINTER(FactorTable), c_void_p],
+    "rays_new": [c_void_p, c_int, c_int, _MADE],
+    "rays_transmittance": [c_void_p, POINTER(RayRecord), c_void_p],
+    "rays_nearest": [c_void_p, POINTER(RayRecord), c_int, c_void_p, c_void_p],
+}
+_TEXTS: dict[str, list[Any]] = {
+    "message": [], "version": [], "renderer_device": [c_void_p], "renderer_warnings": [c_void_p],
+}
+_RELEASES = ("transmittance", "screen", "scene", "renderer", "rays")
+
+
+def _load() -> ctypes.CDLL:
+    loaded = ctypes.CDLL(str(_places.library()))
+    for name, arguments in (_CALLS | _TEXTS).items():
+        function = getattr(loaded, f"gpu_shading_{name}")
+        function.argtypes = arguments
+        function.restype = c_char_p if name in _TEXTS else c_int
+    for name in _RELEASES:
+        function = getattr(loaded, f"gpu_shading_{name}_release")
+        function.argtypes, function.restype = [c_void_p], None
+    return loaded
+
+
+_LOADED = _load()
+
+
+def text(name: str, *arguments: Any) -> str:
+    """What a function that returns text says."""
+    found: bytes = getattr(_LOADED, f"gpu_shading_{name}")(*arguments)
+    return found.decode(errors="replace")
+
+
+def call(name: str, *arguments: Any) -> None:
+    """Calls a function, and raises what it fails with."""
+    status = getattr(_LOADED, f"gpu_shading_{name}")(*arguments)
+    if status == 0:
+        return
+    if status == _MEMORY:
+        raise MemoryError
+    kind: type[Error] = {_INVALID: InvalidInput, _DEVICE: DeviceError}.get(status, Error)
+    raise kind(text("message"))
+
+
+class Handle:
+    """An object of the library, released with this one."""
+
+    def __init__(self, kind: str, make: str, *arguments: Any) -> None:
+        pointer = c_void_p()
+        call(make, *arguments, byref(pointer))
+        self._as_parameter_ = pointer
+        release: Callable[[c_void_p], None] = getattr(_LOADED, f"gpu_shading_{kind}_release")
+        self._finalizer = weakref.finalize(self, release, pointer)
+
+    @property
+    def pointer(self) -> c_void_p:
+        return self._as_parameter_
+
+
+def limit_threads(count: int) -> None:
+    """From now on at most `count` threads compute at a time in this process, the calling one among them."""
+    if count < 1:
+        raise InvalidInput(f"threads: {count}, expected 1 or more")
+    call("limit_threads", min(count, 1 << 20))
+
+
+__version__ = text("version")

@@ -1,0 +1,17 @@
+"""Exceptions. Each has one line that says what is wrong and what was expected."""
+
+
+class Error(Exception):
+    """Any error of this package."""
+
+
+class InvalidInput(Error, ValueError):
+    """A value, an array or a model that is refused."""
+
+
+class DeviceError(Error, RuntimeError):
+    """The device that was asked for is not there, or was lost."""
+
+
+class RunError(Error, RuntimeError):
+    """EnergyPlus or the gpu_shading program could not do what was asked."""

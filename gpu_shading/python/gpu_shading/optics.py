@@ -1,0 +1,206 @@
+"""What a surface lets pass of the beam: transmittance by angle of incidence, and perforated sheets."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from ctypes import byref
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gpu_shading import _library
+from gpu_shading._arrays import Floats, number, numbers, pointer
+from gpu_shading.errors import InvalidInput
+
+Hole = Literal["round", "square", "slotted", "hexagonal"]
+Arrangement = Literal["straight", "staggered 45", "staggered 60"]
+Plane = Literal["centre", "outside", "inside"]
+Detail = Literal["automatic", "holes", "effective"]
+
+_HOLES = ("round", "square", "slotted", "hexagonal")
+_ARRANGEMENTS = ("straight", "staggered 45", "staggered 60")
+_PLANES = ("centre", "outside", "inside")
+_DETAILS = ("automatic", "holes", "effective")
+_SOLID = 65535
+_MOST_TEXELS_A_SIDE = 16384
+
+
+def choice(value: str, among: Sequence[str], what: str) -> int:
+    if value not in among:
+        raise InvalidInput(f"{what}: {value!r}, expected one of {', '.join(among)}")
+    return among.index(value)
+
+
+class Transmittance:
+    """Beam solar transmittance of a flat shade by angle of incidence, 0 to 1, the same through both faces.
+
+    Made by one of the class's functions. `tau(angles)` evaluates it; angles are in degrees from the normal, 0 to 90.
+    """
+
+    def __init__(self, make: str, *arguments: Any) -> None:
+        arguments = tuple(value.copy() if isinstance(value, np.ndarray) else value for value in arguments)
+        self._made_by = make, arguments
+        prepared = [pointer(value) if isinstance(value, np.ndarray) else value for value in arguments]
+        self.handle = _library.Handle("transmittance", f"transmittance_{make}", *prepared)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        make, arguments = self._made_by
+        return (Transmittance, (make, *arguments))
+
+    @classmethod
+    def constant(cls, value: float) -> Transmittance:
+        """The same at every angle, 0 to 1."""
+        return cls("constant", number(value, "transmittance"))
+
+    @classmethod
+    def polynomial(cls, coefficients: ArrayLike, *, of: Literal["cosine", "degrees"] = "cosine") -> Transmittance:
+        """c[0] + c[1] x + ... + c[8] x^8 at most, where x is the cosine of the angle of incidence, or the angle in
+        degrees. It must stay within 0 and 1."""
+        values = _row(coefficients, "coefficients")
+        return cls("polynomial", values, len(values), int(choice(of, ("cosine", "degrees"), "of") == 0))
+
+    @classmethod
+    def table(cls, angles: ArrayLike, values: ArrayLike) -> Transmittance:
+        """Interpolates two or more points by monotone cubics; angles in degrees, increasing, 0 to 90."""
+        x, y = _row(angles, "angles"), _row(values, "values")
+        if len(x) != len(y):
+            raise InvalidInput(f"values: {len(y)}, expected as many as angles, {len(x)}")
+        return cls("table", x, y, len(x))
+
+    @classmethod
+    def glazing(cls, panes: ArrayLike) -> Transmittance:
+        """Panes from the one that faces the sun to the innermost, one a row: transmittance, front and back reflectance
+        at normal incidence, each 0 to 1. As EnergyPlus computes a construction of them."""
+        rows = numbers(panes, "panes")
+        if rows.ndim != 2 or rows.shape[1] != 3 or not len(rows):
+            raise InvalidInput(f"panes: an array of shape {rows.shape}, expected (panes, 3)")
+        return cls("glazing", rows, len(rows))
+
+    @classmethod
+    def simple_glazing(cls, u_factor: float, shgc: float) -> Transmittance:
+        """A window by its U-factor, W/(m2 K) above 0 and at most 7, and solar heat gain coefficient, 0 to 1."""
+        return cls("simple_glazing", number(u_factor, "u_factor"), number(shgc, "shgc"))
+
+    def tau(self, angles: ArrayLike) -> Floats:
+        """Transmittance at angles of incidence in degrees, in the shape of `angles`."""
+        wanted = np.asarray(np.radians(numbers(angles, "angles")))
+        results = np.empty(wanted.shape)
+        _library.call("transmittance_at", self.handle, pointer(wanted), wanted.size, pointer(results))
+        return results
+
+
+class Screen:
+    """A perforated sheet of any extent, repeated over its surfaces. Lengths are in metres.
+
+    `thickness`: of the sheet, 0 allowed. `plane`: where in it the polygon of a surface lies. `layers`: copies of the
+    holes over the thickness, 1 to 64; None: as many as needed. `detail`: whether holes are drawn one by one, by their
+    effective transmittance, or as their size in pixels asks for.
+    """
+
+    def __init__(self, make: str, *arguments: Any) -> None:
+        arguments = tuple(value.copy() if isinstance(value, np.ndarray) else value for value in arguments)
+        self._made_by = make, arguments
+        *front, sheet = arguments
+        prepared = [pointer(value) if isinstance(value, np.ndarray) else value for value in front]
+        self.handle = _library.Handle("screen", f"screen_{make}", *prepared, byref(_library.SheetRecord(*sheet)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        make, arguments = self._made_by
+        return (Screen, (make, *arguments))
+
+    @classmethod
+    def pattern(cls, hole: Hole, size: float, pitch: float, *, arrangement: Arrangement = "staggered 60",
+                length: float = 0.0, row_pitch: float = 0.0, thickness: float = 0.0, plane: Plane = "centre",
+                detail: Detail = "automatic") -> Screen:
+        """Holes as manufacturers describe them.
+
+        `size`: diameter, side, width of a slot, or width across a hexagon's flats. `pitch`: between the centres of
+        nearest neighbours, or along a row if `row_pitch`, the distance between rows, is given. `length`: of a slot.
+        """
+        lengths = np.array([number(value, what) for value, what in (
+            (size, "size"), (length, "length"), (pitch, "pitch"), (row_pitch, "row_pitch"))])
+        return cls("pattern", choice(hole, _HOLES, "hole"), choice(arrangement, _ARRANGEMENTS, "arrangement"), lengths,
+                   _sheet(thickness, plane, None, detail))
+
+    @classmethod
+    def image(cls, opacity: ArrayLike, width: float, height: float, *, threshold: float | None = 0.5,
+              thickness: float = 0.0, plane: Plane = "centre", layers: int | None = None,
+              detail: Detail = "automatic") -> Screen:
+        """A tile of `width` x `height` whose opacity, 0 (open) to 1 (solid), is given in rows from the bottom up.
+
+        With a threshold, the tile is solid where the interpolated opacity is above it; with None, opacity is
+        fractional. At most 16384 texels each way.
+        """
+        texels = numbers(opacity, "opacity")
+        if texels.ndim != 2 or not 0 < max(texels.shape) <= _MOST_TEXELS_A_SIDE or not texels.size:
+            raise InvalidInput(f"opacity: an array of shape {texels.shape}, expected (rows, columns), at most "
+                               f"{_MOST_TEXELS_A_SIDE} each way")
+        if texels.min() < 0.0 or texels.max() > 1.0:
+            raise InvalidInput(f"opacity: {texels.min():g} to {texels.max():g}, expected 0 to 1")
+        # Halves are rounded down, so that 0.5 is not above a threshold of 0.5.
+        return cls.from_texels(np.ceil(texels * _SOLID - 0.5).astype(np.uint16), width, height, threshold=threshold,
+                               thickness=thickness, plane=plane, layers=layers, detail=detail)
+
+    @classmethod
+    def from_texels(cls, texels: NDArray[np.uint16], width: float, height: float, *, threshold: float | None = 0.5,
+                    thickness: float = 0.0, plane: Plane = "centre", layers: int | None = None,
+                    detail: Detail = "automatic") -> Screen:
+        """The same from opacities of 0 to 65535."""
+        if texels.dtype != np.uint16 or texels.ndim != 2:
+            raise InvalidInput(f"texels: {texels.dtype} of shape {texels.shape}, expected uint16 in rows and columns")
+        rows, columns = texels.shape
+        limit = float("nan") if threshold is None else number(threshold, "threshold", 0.0, 1.0)
+        return cls("tile", number(width, "width"), number(height, "height"), columns, rows,
+                   np.ascontiguousarray(texels), limit, _sheet(thickness, plane, layers, detail))
+
+    def tau(self, theta: ArrayLike, phi: ArrayLike = 0.0) -> Floats:
+        """Fraction of the beam that passes, away from the sheet's edges: exact for patterns, from a table for images.
+
+        Degrees: `theta`, the angle of incidence from the normal, 0 to 90; `phi`, the azimuth about the normal from u
+        (along a row of holes) towards v. The arrays are broadcast against each other.
+        """
+        try:
+            angles = np.broadcast_arrays(np.radians(numbers(theta, "theta")), np.radians(numbers(phi, "phi")))
+        except ValueError as error:
+            if isinstance(error, InvalidInput):
+                raise
+            raise InvalidInput(f"theta and phi: shapes {np.shape(theta)} and {np.shape(phi)} do not fit") from None
+        thetas, phis = (np.ascontiguousarray(angle) for angle in angles)
+        results = np.empty(angles[0].shape)
+        _library.call("screen_tau", self.handle, pointer(thetas), pointer(phis), results.size, pointer(results))
+        return results
+
+    @property
+    def open_fraction(self) -> float:
+        """Open fraction of the sheet's area."""
+        return float(self._sizes()[0])
+
+    @property
+    def hole_size(self) -> float:
+        """The size of a typical hole, m."""
+        return float(self._sizes()[1])
+
+    @property
+    def web(self) -> float:
+        """The width of the narrowest web between holes, m."""
+        return float(self._sizes()[2])
+
+    def _sizes(self) -> Floats:
+        sizes = np.empty(3)
+        _library.call("screen_sizes", self.handle, pointer(sizes))
+        return sizes
+
+
+def _row(values: ArrayLike, what: str) -> Floats:
+    array = numbers(values, what)
+    if array.ndim != 1:
+        raise InvalidInput(f"{what}: an array of shape {array.shape}, expected one row")
+    return array
+
+
+def _sheet(thickness: float, plane: str, layers: int | None, detail: str) -> tuple[float, int, int, int]:
+    if layers is not None and not 1 <= layers <= 64:
+        raise InvalidInput(f"layers: {layers}, expected 1 to 64")
+    return (number(thickness, "thickness"), choice(plane, _PLANES, "plane"), int(layers or 0),
+            choice(detail, _DETAILS, "detail"))

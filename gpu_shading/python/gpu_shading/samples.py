@@ -1,0 +1,109 @@
+"""Sunlit fractions of a year, sampled as --gpu-shading-update sampled:... does, as an xarray Dataset."""
+
+from __future__ import annotations
+
+import csv
+import importlib
+import json
+import os
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from gpu_shading import _programs
+from gpu_shading.errors import InvalidInput
+
+if TYPE_CHECKING:
+    import xarray
+
+Mode = Literal["fine", "medium", "coarse"]
+_FORMAT = "gpu_shading samples 1"
+
+
+def sample(model: _programs.Name, weather: _programs.Name, folder: _programs.Name | None = None, *,
+           mode: Mode = "medium") -> xarray.Dataset:
+    """Samples a model, by `gpu_shading sample`, and returns read_samples() of its tables. `folder`: where they are
+    kept, with which an interrupted call resumes."""
+    _xarray()
+    arguments: list[str | Path] = ["sample", _programs.file(model, "model"), "-w", _programs.file(weather, "weather"),
+                                   "--mode", mode]
+    with tempfile.TemporaryDirectory(prefix="gpu_shading_samples_") as temporary:
+        kept = Path(folder or temporary).absolute()
+        _programs.gpu_shading([*arguments, "-o", kept])
+        return read_samples(kept)
+
+
+def read_samples(folder: _programs.Name) -> xarray.Dataset:
+    """The tables of `gpu_shading sample` as a Dataset.
+
+    Dimensions are `time`, every 15 minutes of the year at the end of the timestep in standard time; `receiver`; and
+    `axis`, x, y, z. Variables: `sunlit_fraction` (time, receiver), 0 to 1; `azimuth` and `altitude` (time) of the sun
+    in degrees; `area` (receiver) in m2; and `normal` (receiver, axis). Attributes say how and of what it was made.
+    """
+    dataset = _xarray().Dataset
+    place = Path(folder)
+    try:
+        about = json.loads((place / "samples.json").read_text(encoding="utf-8"))
+        receivers = [str(receiver["name"]) for receiver in about["receivers"]]
+        times, numbers = _year(place / "year.csv", receivers)
+        if about["format"] != _FORMAT:
+            raise ValueError(f"its format is {about['format']!r}, expected {_FORMAT!r}")
+        made: xarray.Dataset = dataset(
+            {
+                "sunlit_fraction": (("time", "receiver"), numbers[:, 2:],
+                                    {"units": "1", "long_name": "sunlit fraction"}),
+                "azimuth": ("time", numbers[:, 0], {"units": "degree", "long_name": "azimuth, clockwise from north"}),
+                "altitude": ("time", numbers[:, 1], {"units": "degree", "long_name": "altitude, from the horizon"}),
+                "area": ("receiver", [receiver["area"] for receiver in about["receivers"]], {"units": "m2"}),
+                "normal": (("receiver", "axis"),
+                           np.array([receiver["normal"] for receiver in about["receivers"]]).reshape(-1, 3)),
+            },
+            coords={"time": times, "receiver": receivers, "axis": ["x", "y", "z"]},
+            attrs={"mode": about["mode"], "fineness": about["fineness"], "model": about["inputs"]["model"]["name"],
+                   "weather": about["inputs"]["weather"]["name"], "latitude": about["site"]["latitude"],
+                   "longitude": about["site"]["longitude"], "gpu_shading": about["versions"]["gpu_shading"]})
+        return made
+    except FileNotFoundError as error:
+        raise InvalidInput(f"{place}: has no {Path(error.filename).name}: run gpu_shading sample") from None
+    except (KeyError, TypeError, ValueError, UnicodeDecodeError) as error:
+        raise InvalidInput(f"{place}: is not a folder of gpu_shading sample: {error}") from None
+
+
+def write_samples(dataset: xarray.Dataset, file: _programs.Name) -> None:
+    """Writes a Dataset as NetCDF (.nc), or its sunlit fractions as a table of times and receivers in Parquet
+    (.parquet). A file that exists is replaced as a whole."""
+    path = Path(file)
+    if path.suffix not in (".nc", ".parquet"):
+        raise InvalidInput(f"{path}: expected a name that ends in .nc or .parquet")
+    staged = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        if path.suffix == ".nc":
+            dataset.to_netcdf(staged)
+        else:
+            dataset["sunlit_fraction"].to_pandas().to_parquet(staged)
+        os.replace(staged, path)
+    finally:
+        staged.unlink(missing_ok=True)
+
+
+def _year(file: Path, receivers: list[str]) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, np.dtype[np.float64]]]:
+    """(times; azimuth, altitude and each receiver's fraction in rows)"""
+    with open(file, newline="", encoding="utf-8") as lines:
+        rows = csv.reader(lines)
+        header = next(rows, [])
+        if header != ["time", "azimuth", "altitude", *receivers]:
+            raise ValueError(f"{file.name} and samples.json have other receivers")
+        table = list(rows)
+    if any(len(row) != len(header) for row in table):
+        raise ValueError(f"{file.name} has rows of another length")
+    times = np.array([row[0] for row in table], dtype="datetime64[s]").astype("datetime64[ns]")
+    return times, np.array([row[1:] for row in table], dtype=np.float64).reshape(-1, len(header) - 1)
+
+
+def _xarray() -> Any:
+    try:
+        return importlib.import_module("xarray")
+    except ImportError:
+        raise ImportError("samples need xarray: pip install xarray") from None

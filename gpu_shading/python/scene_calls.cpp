@@ -1,0 +1,92 @@
+#include <vector>
+
+#include "gpu_shading/threads.h"
+#include "python/guard.h"
+#include "python/objects.h"
+
+namespace gpu_shading::python {
+
+std::string& message() {
+  thread_local std::string last;
+  return last;
+}
+
+namespace {
+
+Polygon polygon_of(SurfaceRecord const& record) {
+  Polygon polygon;
+  auto const* vertex = record.vertices;
+  for (std::size_t i = 0; i < record.rings; ++i) {
+    Ring ring;
+    ring.reserve(record.ring_sizes[i]);
+    for (std::size_t k = 0; k < record.ring_sizes[i]; ++k, vertex += 3) {
+      ring.emplace_back(vertex[0], vertex[1], vertex[2]);
+    }
+    if (i == 0) {
+      polygon.outline = std::move(ring);
+    } else {
+      polygon.holes.push_back(std::move(ring));
+    }
+  }
+  return polygon;
+}
+
+}  // namespace
+
+char const* gpu_shading_message() { return message().c_str(); }
+
+char const* gpu_shading_version() { return GPU_SHADING_VERSION; }
+
+int gpu_shading_limit_threads(int count) {
+  return guarded([&] { limit_threads(count); });
+}
+
+int gpu_shading_scene_new(SceneObject** made) {
+  return guarded([&] { *made = new SceneObject; });
+}
+
+int gpu_shading_scene_add(SceneObject* scene, SurfaceRecord const* surface) {
+  return guarded([&] {
+    Surface added;
+    added.name = surface->name;
+    added.polygon = polygon_of(*surface);
+    added.casting = enumerator(surface->casting, Casting::never, "casting");
+    if (surface->shade != nullptr) added.transmittance = surface->shade->model;
+    added.schedule = surface->schedule;
+    if (surface->screen != nullptr) added.screen = surface->screen->screen;
+    added.placement = {surface->origin_u, surface->origin_v, surface->rotation};
+    added.deployment = surface->deployment;
+    scene->scene.add(std::move(added));
+  });
+}
+
+int gpu_shading_scene_set_rule(SceneObject* scene, std::uint32_t const* roles, std::size_t surfaces,
+                               std::uint8_t const* zone_shades, std::size_t zones) {
+  return guarded([&] {
+    ShadingRule rule;
+    for (std::size_t i = 0; i < surfaces; ++i) {
+      auto const* role = roles + 4 * i;
+      rule.roles.push_back(
+          {role[0], role[1],
+           enumerator(static_cast<int>(role[2]), ShadingRule::Shades::one_surface, "shades"),
+           role[3]});
+    }
+    rule.zones = zones;
+    rule.zone_shades.assign(zone_shades, zone_shades + zones * zones);
+    scene->scene.set_rule(std::move(rule));
+  });
+}
+
+int gpu_shading_scene_areas(SceneObject const* scene, double* results) {
+  return guarded([&] {
+    for (SurfaceId id = 0; id < scene->scene.size(); ++id) {
+      auto const& polygon = scene->scene[id].polygon;
+      auto const vector = area(polygon) * normal(polygon);
+      for (int axis = 0; axis < 3; ++axis) *results++ = vector[axis];
+    }
+  });
+}
+
+void gpu_shading_scene_release(SceneObject* scene) { delete scene; }
+
+}  // namespace gpu_shading::python

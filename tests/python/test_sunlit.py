@@ -1,0 +1,160 @@
+"""Sunlit fractions of scenes from arrays, against closed forms and exact polygon booleans."""
+
+import pickle
+import threading
+import time
+
+import numpy as np
+import pytest
+from shapes import below_overhang, exact_fraction, overhang, towards, window
+
+import gpu_shading
+
+SUNS = np.array([[azimuth, altitude] for azimuth in range(110, 260, 15) for altitude in range(5, 80, 10)], dtype=float)
+
+
+@pytest.fixture(scope="module")
+def below():
+    return gpu_shading.Scene(receivers={"window": window()}, casters=[overhang()])
+
+
+def test_an_overhang_shades_as_its_profile_angle_says(below):
+    found = below.sunlit(SUNS)[:, 0]
+    error = np.abs(found - below_overhang(*SUNS.T))
+    assert np.count_nonzero((found > 0.05) & (found < 0.95)) > 40
+    # By default 99 % are within 1e-3.
+    assert np.quantile(error, 0.99) < 1e-3
+    assert below.areas.tolist() == [2.0, 22 * 0.5 - 1.0]
+    assert below.normals.tolist() == [[0, -1, 0], [0, 0, 1]]
+
+
+def test_a_smaller_error_is_kept(below):
+    error = np.abs(below.renderer(error=1e-5).sunlit(SUNS)[:, 0] - below_overhang(*SUNS.T))
+    assert np.quantile(error, 0.99) < 1e-5
+
+
+def test_polygons_shade_as_exact_booleans_say(shapely):
+    """Overlapping stars and triangles at three distances."""
+    random = np.random.default_rng(5)
+    receiver, casters = window(4.0, 3.0, 0.0), []
+    for number in range(12):
+        corners = 3 + number % 4 * 2
+        angle = (np.arange(corners) + random.uniform(0, 0.8, corners)) * 2 * np.pi / corners
+        radius = random.uniform(0.2, 0.8, corners)
+        middle = random.uniform([0, 0], [4, 4])
+        y = np.full(corners, -0.3 * (1 + number % 3))
+        casters.append(np.column_stack([middle[0] + radius * np.cos(angle), y, middle[1] + radius * np.sin(angle)]))
+    scene = gpu_shading.Scene(receivers=[receiver], casters=casters, error=1e-4)
+    suns = random.uniform([130, 5], [230, 60], (60, 2))
+    exact = [exact_fraction(shapely, receiver, casters, towards(*sun)) for sun in suns]
+    assert np.ptp(exact) > 0.05 and max(exact) < 0.9
+    error = np.abs(scene.sunlit(suns)[:, 0] - exact)
+    assert error.max() < 1e-4
+
+
+def test_directions_are_angles_or_vectors_in_any_shape(below):
+    vectors = np.array([towards(*sun) for sun in SUNS]) * 7.0
+    flat = below.sunlit(SUNS)
+    assert np.abs(below.sunlit(vectors) - flat).max() < 1e-6
+    assert below.sunlit(SUNS.reshape(5, -1, 2)).shape == (5, len(SUNS) // 5, 1)
+    assert below.sunlit(SUNS[0]).shape == (1,) and below.sunlit(SUNS[:0]).shape == (0, 1)
+    # Long vectors do not overflow.
+    assert below.sunlit(vectors[0] * 1e300) == pytest.approx(flat[0], abs=1e-6)
+
+
+def test_behind_and_projected(below):
+    assert below.sunlit([[0.0, 45.0], [90.0, 10.0]]).tolist() == [[0.0], [0.0]]
+    renderer = below.renderer()
+    facing = np.array([-towards(*sun)[1] for sun in SUNS])
+    areas = renderer.projected_areas(SUNS)[:, 0]
+    assert np.allclose(areas, 2.0 * facing * renderer.sunlit(SUNS)[:, 0], atol=1e-12)
+
+
+def test_many_directions_are_answered_as_few(below):
+    many = np.tile(SUNS, (20, 1))
+    assert len(many) > 1024
+    assert np.array_equal(below.sunlit(many), np.tile(below.sunlit(SUNS), (20, 1)))
+
+
+def test_shades_and_holes():
+    """A sheet of glass with a hole before half of the window."""
+    glass = gpu_shading.Transmittance.polynomial([0.0, 1.1, -0.4])
+    scene = gpu_shading.Scene(receivers={"window": window()})
+    sheet = [[-9, -0.5, -9], [11, -0.5, -9], [11, -0.5, 19], [-9, -0.5, 19]]
+    hole = [[-5, -0.5, -5], [1, -0.5, -5], [1, -0.5, 18], [-5, -0.5, 18]]
+    pane = scene.add(sheet, holes=[hole], transmittance=glass)
+    assert pane == 1 and scene.areas[1] == pytest.approx(20 * 28 - 6 * 23)
+    for altitude in (10.0, 35.0, 60.0):
+        tau = glass.tau(altitude)
+        cosine = np.cos(np.radians(altitude))
+        assert tau == pytest.approx(1.1 * cosine - 0.4 * cosine**2, abs=1e-12)
+        assert scene.sunlit([180.0, altitude])[0] == pytest.approx(0.5 + 0.5 * tau, abs=1e-4)
+
+
+def test_constant_shades_multiply():
+    scene = gpu_shading.Scene(receivers=[window()])
+    for number, tau in enumerate((0.5, 0.3)):
+        scene.add(window(90, 90, -40, -1.0 - number) - [40, 0, 0], transmittance=tau)
+    assert scene.sunlit([180.0, 30.0])[0] == pytest.approx(0.15, abs=1e-6)
+
+
+def test_schedules_are_factors_of_each_direction():
+    scene = gpu_shading.Scene(receivers=[window()])
+    scene.add(window(90, 90, -40, -1.0) - [40, 0, 0], schedule="leaves")
+    suns = [[180.0, 20.0], [200.0, 30.0]]
+    assert scene.schedules == ["leaves"]
+    assert scene.sunlit(suns, factors={"leaves": 0.25})[:, 0] == pytest.approx([0.25, 0.25], abs=1e-6)
+    assert scene.sunlit(suns, factors=[[0.25], [0.75]])[:, 0] == pytest.approx([0.25, 0.75], abs=1e-6)
+    with pytest.raises(gpu_shading.InvalidInput, match="needed for the schedules leaves"):
+        scene.sunlit(suns)
+
+
+def test_a_screen_lets_its_transmittance_pass_and_can_be_withdrawn():
+    screen = gpu_shading.Screen.pattern("round", 0.005, 0.01, arrangement="straight", thickness=0.002)
+    scene = gpu_shading.Scene(receivers=[window()])
+    scene.add(window(90, 90, -40, -1.0) - [40, 0, 0], screen=screen, deployment="sail")
+    for azimuth, altitude in ((180.0, 0.0), (180.0, 30.0), (150.0, 40.0)):
+        theta = np.degrees(np.arccos(-towards(azimuth, altitude)[1]))
+        x, _, z = towards(azimuth, altitude)
+        tau = float(screen.tau(theta, np.degrees(np.arctan2(z, x))))
+        assert scene.sunlit([azimuth, altitude])[0] == pytest.approx(tau, abs=2e-3)
+        half = scene.sunlit([azimuth, altitude], deployments={"sail": 0.5})[0]
+        assert half == pytest.approx(0.5 + 0.5 * tau, abs=2e-3)
+
+
+def test_a_scene_can_be_pickled(below):
+    """As Dask sends it to workers."""
+    scene = gpu_shading.Scene(receivers=[window()])
+    scene.add(overhang(), transmittance=gpu_shading.Transmittance.table([0, 45, 90], [0.8, 0.6, 0.0]))
+    scene.add(overhang(0.2), screen=gpu_shading.Screen.image(np.eye(16), 0.1, 0.1))
+    assert np.array_equal(pickle.loads(pickle.dumps(scene)).sunlit(SUNS), scene.sunlit(SUNS))
+
+
+def test_an_added_surface_counts_at_once():
+    scene = gpu_shading.Scene(receivers=[window()])
+    assert scene.sunlit([180.0, 45.0])[0] == 1.0
+    scene.add(overhang())
+    assert scene.sunlit([180.0, 45.0])[0] == pytest.approx(0.5, abs=2e-3)
+
+
+def test_python_goes_on_while_the_library_computes(below):
+    """The interpreter's lock is released: another thread counts meanwhile."""
+    renderer = below.renderer(resolution=2048)
+    suns = np.random.default_rng(1).uniform([110, 5], [250, 70], (1000, 2))
+    counted, done = [], threading.Event()
+
+    def count():
+        while not done.is_set():
+            counted.append(time.monotonic())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    began = time.monotonic()
+    thread.start()
+    renderer.sunlit(suns)
+    ended = time.monotonic()
+    done.set()
+    thread.join()
+    gaps = np.diff([began, *(at for at in counted if at < ended), ended])
+    assert ended - began > 0.05, "too short to tell"
+    assert gaps.max() < 0.5 * (ended - began)
