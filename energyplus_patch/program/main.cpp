@@ -31,6 +31,7 @@
 #include "program/picture_files.h"
 #include "program/sample.h"
 #include "program/screen.h"
+#include "program/sky.h"
 #include "program/view_times.h"
 
 namespace gpu_shading::energyplus {
@@ -298,17 +299,22 @@ void add_sample(CLI::App& app, Choices const& choices) {
     std::string folder;
     std::string shard;
     int merge = 0;
+    bool sky = false;
   };
   auto* const command = app.add_subcommand(
       "sample",
       "Sample sunlit fractions as --gpu-shading-update sampled:... does, without a run, and write "
-      "tables of the samples and of every 15 minutes of the year");
+      "tables of the samples and of every 15 minutes of the year; or sunlit fractions for patches "
+      "of "
+      "the sky");
   auto const model = std::make_shared<ModelArguments>(*command, choices);
   auto const arguments = std::make_shared<Arguments>();
-  command->add_option("-o,--output", arguments->folder, "Folder for samples.csv and year.csv")
+  command
+      ->add_option("-o,--output", arguments->folder,
+                   "Folder for samples.csv and year.csv, or for sky.csv and sky_view.csv")
       ->required();
-  command->add_option("--mode", arguments->mode, "Density of the samples")
-      ->check(
+  auto* const mode = command->add_option("--mode", arguments->mode, "Density of the samples");
+  mode->check(
           CLI::IsMember({"fine", "medium", "coarse", "paper-fine", "paper-medium", "paper-coarse"}))
       ->capture_default_str();
   auto* const shard = command->add_option(
@@ -323,8 +329,18 @@ void add_sample(CLI::App& app, Choices const& choices) {
       ->excludes(shard)
       ->type_name("N");
   shard->type_name("I/N");
+  command
+      ->add_flag("--sky", arguments->sky,
+                 "Instead, for the patches of EnergyPlus's, Tregenza's and Reinhart's skies, with "
+                 "view factors to the sky; transmittance schedules are at their lowest value and "
+                 "screens fully deployed")
+      ->excludes(mode, shard, command->get_option("--merge"));
   command->callback([model, arguments] {
     auto run = model->run();
+    if (arguments->sky) {
+      sample_sky(run, arguments->folder);
+      return;
+    }
     std::vector<std::string> flag{"--gpu-shading-update=sampled:" + arguments->mode};
     run.choices.update = take_flags(flag).update;
     SampleTask task{arguments->folder};

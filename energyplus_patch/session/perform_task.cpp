@@ -8,6 +8,8 @@
 #include "cache/cache_folder.h"
 #include "extensions/extension_fields.h"
 #include "gpu_shading/error.h"
+#include "runs/run_times.h"
+#include "samples/direction_fractions.h"
 #include "samples/take_samples.h"
 #include "session/draw_views.h"
 #include "session/listing.h"
@@ -37,6 +39,18 @@ std::string perform(ViewsTask const& task, SceneAssembly& scene, Messages const&
   draw_views(task.views, task.folder,
              {renderer, scene.shown(), std::move(receives), scene.optics().factors(), task.size});
   return {};
+}
+
+// For tasks that render: the answers of a device that was checked.
+RenderedAnswers open_for_task(SceneAssembly& scene, Messages const& messages) {
+  auto const& options = scene.model().options;
+  if (options.cache) prepare_cache_folder(*options.cache);
+  auto answers = open_answers(scene, scene.receivers(), options.device, messages);
+  check_device(answers.renderer().device(), options, messages);
+  describe_scene(scene, messages);
+  scene.optics().update({});
+  answers.deploy(scene.optics().deployments());
+  return answers;
 }
 
 // Each position of a screen would need samples of its own.
@@ -69,13 +83,8 @@ SampledScene sampled_scene(SamplesTask const& task, SceneAssembly const& scene,
 std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages const& messages) {
   auto const& options = scene.model().options;
   refuse_moving_screens(scene.optics());
-  if (options.cache) prepare_cache_folder(*options.cache);
-  auto answers = open_answers(scene, scene.receivers(), options.device, messages);
+  auto answers = open_for_task(scene, messages);
   auto const& device = answers.renderer().device();
-  check_device(device, options, messages);
-  describe_scene(scene, messages);
-  scene.optics().update({});
-  answers.deploy(scene.optics().deployments());
   auto const sampled = sampled_scene(task, scene, answers);
   auto line = take_samples(task, options.update.sampling.value(), sampled, describe(device),
                            [&](std::span<SunDirection const> suns) {
@@ -83,6 +92,27 @@ std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages cons
                            });
   store_answers(answers, messages);
   return line;
+}
+
+std::string perform(DirectionsTask const& task, SceneAssembly& scene, Messages const& messages) {
+  auto answers = open_for_task(scene, messages);
+  auto const areas = scene.areas();
+  auto const& factors = scene.optics().factors();
+  std::vector<ReceiverFractions> receivers;
+  for (auto const id : answers.known().receivers) {
+    receivers.push_back({{scene.surfaces()[id].name, areas[id]}, {}});
+  }
+  auto const rendered = answers.at(task.directions, answers.known().receivers);
+  for (std::size_t i = 0; i < task.directions.size(); ++i) {
+    auto const sun = to_vector(task.directions[i]);
+    for (std::size_t k = 0; k < receivers.size(); ++k) {
+      auto& [receiver, fractions] = receivers[k];
+      fractions.push_back(sunlit_fraction(rendered[i][k].at(factors), receiver.area, sun));
+    }
+  }
+  write_fractions(task.file, receivers);
+  store_answers(answers, messages);
+  return fmt::format("{} directions of {} receivers", task.directions.size(), receivers.size());
 }
 
 std::string perform(MapTask const& task, SceneAssembly& scene, Messages const& messages) {

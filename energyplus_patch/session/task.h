@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "maps/map_file.h"
+#include "samples/direction_fractions.h"
 #include "samples/sample_request.h"
 #include "session/view_list.h"
 
@@ -36,7 +37,10 @@ using SamplesTask = SampleRequest;
 // Maps of sun hours and beam energy.
 using MapTask = MapRequest;
 
-using Task = std::variant<ListingTask, ViewsTask, SamplesTask, MapTask>;
+// Sunlit fractions in some directions.
+using DirectionsTask = DirectionsRequest;
+
+using Task = std::variant<ListingTask, ViewsTask, SamplesTask, MapTask, DirectionsTask>;
 
 // How it went.
 struct TaskReply {

@@ -56,6 +56,23 @@ Json to_json(SamplesTask const& task) {
           {"progress", task.progress}};
 }
 
+Json to_json(DirectionsTask const& task) {
+  Json directions = Json::array();
+  for (auto const& direction : task.directions) {
+    directions.push_back({direction.azimuth, direction.altitude});
+  }
+  return {
+      {"kind", "directions"}, {"directions", std::move(directions)}, {"file", task.file.string()}};
+}
+
+DirectionsTask to_directions_task(Json const& json) {
+  DirectionsTask task{{}, json.at("file").get<std::string>()};
+  for (auto const& direction : json.at("directions")) {
+    task.directions.push_back({direction.at(0), direction.at(1)});
+  }
+  return task;
+}
+
 Json to_json(MapTask const& task) {
   Json times = Json::array();
   for (auto const& [month, day, hour, timestep, sun, schedules, beam] : task.run.times) {
@@ -95,6 +112,7 @@ Task to_task(Json const& json) {
   auto const kind = json.at("kind").get<std::string>();
   if (kind == "listing") return ListingTask{json.at("vertices"), json.at("json")};
   if (kind == "maps") return to_map_task(json);
+  if (kind == "directions") return to_directions_task(json);
   if (kind == "samples") {
     return SamplesTask{json.at("asked"),
                        json.at("latitude"),

@@ -21,7 +21,9 @@ TEST(TaskFile, TasksComeBackAsTheyWere) {
   TemporaryFolder const folder;
   auto const file = folder.path() / "task";
   std::vector<Task> const tasks{
-      ListingTask{}, ListingTask{true}, ListingTask{false, true},
+      ListingTask{},
+      ListingTask{true},
+      ListingTask{false, true},
       ViewsTask{{{"1.png", {std::sqrt(2.0), 1.0 / 3.0}, not_utf8}, {"2.gif", {}, ""}},
                 folder.path() / not_utf8,
                 640},
@@ -31,7 +33,8 @@ TEST(TaskFile, TasksComeBackAsTheyWere) {
               4,
               {4, {{6, 21, 12, 3, {1.0 / 3.0, 0.5}, {0.25}, 812.5}}, {"HEDGE"}},
               folder.path() / not_utf8,
-              7}};
+              7},
+      DirectionsTask{{{1.0 / 3.0, 0.5}, {}}, folder.path() / not_utf8}};
   for (auto const& task : tasks) {
     write_request(file, {task, folder.path() / "reply"});
     auto const request = read_request(file);
