@@ -1,5 +1,6 @@
 """The libenergyplusapi.so of a patched folder: every host of it is shaded with GPU_SHADING, and stock without."""
 
+import functools
 import os
 import re
 import subprocess
@@ -12,6 +13,7 @@ from shading_runs import energyplus, results
 
 HOSTS = Path(__file__).resolve().parent / "hosts"
 SCRIPT = energyplus.REPOSITORY / "scripts" / "patch_energyplus"
+FORWARDED = energyplus.REPOSITORY / "energyplus_patch" / "api_library" / "function_names.inc"
 PYTHON_API = energyplus.REPOSITORY / ".venv" / "EnergyPlus-lbnl" / "pyenergyplus"
 OURS = {"energyplus", "_Z13EnergyPlusPgmRKSt6vectorINSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEESaIS5_EERKS5_"}
 
@@ -60,18 +62,23 @@ def python_host(prefix, model, weather, folder, environment):
                   environment)
 
 
+def link(program, folder, *options):
+    """Builds a host with the library of a folder; which one it runs is the loader's choice."""
+    subprocess.run(["cc", "-Wall", "-Wextra", "-Werror", "-o", program, HOSTS / "linked_host.c", "-L", folder,
+                    "-lenergyplusapi", *options], check=True)
+
+
+def linked(program, prefix, model, weather, folder, environment, second=()):
+    variables = {"LD_LIBRARY_PATH": str(prefix)}
+    return finish([program, folder, model, weather, *second], folder, variables | environment)
+
+
 @pytest.fixture(scope="session")
-def linked_host(official, tmp_path_factory):
-    """Linked with the official library; which one it runs is the loader's choice."""
+def linked_host(patched, tmp_path_factory):
+    """Linked with the patched folder."""
     program = tmp_path_factory.mktemp("hosts") / "linked_host"
-    subprocess.run(["cc", "-Wall", "-Wextra", "-Werror", "-o", program, HOSTS / "linked_host.c",
-                    "-L", official.parent, "-lenergyplusapi", "-Wl,--allow-shlib-undefined"], check=True)
-
-    def call(prefix, model, weather, folder, environment, second=()):
-        variables = {"LD_LIBRARY_PATH": str(prefix)}
-        return finish([program, folder, model, weather, *second], folder, variables | environment)
-
-    return call
+    link(program, patched.parent)
+    return functools.partial(linked, program)
 
 
 def timesteps(run):
@@ -115,8 +122,19 @@ for name in sys.stdin.read().split():
     told = subprocess.run([sys.executable, "-c", script, library, patched.parent / "libenergyplusapi-official.so"],
                           input="\n".join(names), capture_output=True, text=True, check=True).stdout
     other = {name for name, same in (line.split() for line in told.splitlines()) if same == "False"}
-    assert other == OURS
-    assert exported(library) >= OURS
+    # By a jump to the official ones.
+    forwarded = set(re.findall(r"^API_FUNCTION\((\w+)\)", FORWARDED.read_text(), re.M))
+    assert len(forwarded) > 150
+    assert other == OURS | forwarded
+    assert exported(library) >= OURS | forwarded
+
+
+def test_functions_of_the_c_api_are_those_of_its_headers(official):
+    headers = (official.parent / "include" / "EnergyPlus" / "api").glob("*.h")
+    text = re.sub(r"//.*", "", "".join(path.read_text() for path in headers))
+    declared = set(re.findall(r"ENERGYPLUSLIB_API\s+[^;(]*?(\w+)\s*\(", text)) - {"__attribute__", "__declspec"}
+    forwarded = set(re.findall(r"^API_FUNCTION\((\w+)\)", FORWARDED.read_text(), re.M))
+    assert forwarded == declared - {"energyplus"}
 
 
 def test_python_api_is_shaded_by_the_variable_alone(with_python, patched, weather, room, tmp_path):
@@ -144,6 +162,13 @@ def test_python_api_without_the_variable_is_stock(with_python, weather, box, tmp
 def test_linked_program_is_shaded_by_the_variable_alone(linked_host, patched, weather, room, tmp_path):
     direct = energyplus.run(patched, room, weather, tmp_path / "direct", ["--gpu-shading", "-D"])
     hosted = linked_host(patched.parent, room, weather, tmp_path / "hosted", {"GPU_SHADING": "on"})
+    assert timesteps(hosted) == timesteps(direct)
+
+
+def test_program_that_was_linked_with_the_official_library_is_shaded(official, patched, weather, room, tmp_path):
+    link(tmp_path / "host", official.parent, "-Wl,--allow-shlib-undefined")
+    direct = energyplus.run(patched, room, weather, tmp_path / "direct", ["--gpu-shading", "-D"])
+    hosted = linked(tmp_path / "host", patched.parent, room, weather, tmp_path / "hosted", {"GPU_SHADING": "on"})
     assert timesteps(hosted) == timesteps(direct)
 
 
