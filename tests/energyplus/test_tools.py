@@ -1,6 +1,7 @@
 """Tools that read and write models keep the extension objects, with the dictionary of the patched prefix."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -11,6 +12,11 @@ from shading_runs import energyplus
 
 TOOLS = energyplus.REPOSITORY / ".venv" / "tools"
 
+# Two of them import tkinter, for windows that nothing here opens.
+WITHOUT_TKINTER = """
+import sys, types
+sys.modules["tkinter"] = types.SimpleNamespace(TclError=Exception)
+"""
 # Each reads a model by the dictionaries of a folder, changes the terrain, and saves it.
 EDITS = {
     "eppy": """
@@ -19,6 +25,14 @@ from eppy.modeleditor import IDF
 IDF.setiddname(sys.argv[1] + "/Energy+.idd")
 model = IDF(sys.argv[2])
 model.idfobjects["BUILDING"][0].Terrain = "City"
+model.saveas(sys.argv[3])
+""",
+    "geomeppy": WITHOUT_TKINTER + """
+from geomeppy import IDF
+IDF.setiddname(sys.argv[1] + "/Energy+.idd")
+model = IDF(sys.argv[2])
+model.idfobjects["BUILDING"][0].Terrain = "City"
+model.translate((10.0, 5.0))
 model.saveas(sys.argv[3])
 """,
     "idfkit": """
@@ -31,6 +45,23 @@ model["Building"].first().terrain = "City"
 save_idf(model, sys.argv[3])
 """,
 }
+# Edits a model and runs EnergyPlus.
+BESOS = WITHOUT_TKINTER + """
+from besos import eplus_funcs, eppy_funcs
+prefix, model, weather, folder = sys.argv[1:]
+building = eppy_funcs.get_building(model, data_dict=prefix + "/Energy+.idd")
+building.idfobjects["BUILDING"][0].Terrain = "City"
+eplus_funcs.run_building(building, out_dir=folder, epw=weather, ep_path=prefix, err_dir=None)
+"""
+# frads knows EnergyPlus's objects alone, and runs EnergyPlus to read an IDF.
+FRADS = """
+import os, sys
+from frads.eplus import EnergyPlusSetup, load_energyplus_model
+model, weather, folder = sys.argv[1:]
+loaded = load_energyplus_model(model)
+os.environ["GPU_SHADING"] = "1"
+EnergyPlusSetup(loaded, weather).run(output_directory=folder, design_day=True)
+"""
 # Runs EnergyPlus by its Python package, which energyplus-api-helpers finds in a folder.
 HELPERS = """
 import sys
@@ -85,22 +116,57 @@ def test_a_screen_is_kept(tool, room, patched, official, weather, tmp_path):
     assert done.returncode != 0 or "GPUShading" not in lost.read_text()
 
 
-def test_api_helpers_are_shaded(room, patched, official, weather, tmp_path):
-    need("energyplus_api_helpers")
+@pytest.fixture(scope="module")
+def with_python(official, tmp_path_factory):
+    """A patched folder of an EnergyPlus with its Python package."""
     package = energyplus.REPOSITORY / ".venv" / "EnergyPlus-lbnl" / "pyenergyplus"
     if not package.is_dir():
         pytest.skip(f"{package} is missing: scripts/setup could not fetch pyenergyplus-lbnl")
-    stock, prefix, out = tmp_path / "EnergyPlus", tmp_path / "EnergyPlus-gpu", tmp_path / "out"
+    folder = tmp_path_factory.mktemp("python")
+    stock, prefix = folder / "EnergyPlus", folder / "EnergyPlus-gpu"
     stock.mkdir()
     for path in official.parent.iterdir():
         (stock / path.name).symlink_to(path.resolve())
     shutil.copytree(package, stock / "pyenergyplus")
     subprocess.run([energyplus.REPOSITORY / "scripts" / "patch_energyplus", stock, prefix, "--build",
                     energyplus.patched_prefix().parent], check=True, capture_output=True)
-    done = python(HELPERS, prefix, "-D", "-w", weather, "-d", out, room, folder=tmp_path, GPU_SHADING="1")
+    return prefix
+
+
+def test_api_helpers_are_shaded(room, with_python, patched, weather, tmp_path):
+    need("energyplus_api_helpers")
+    out = tmp_path / "out"
+    done = python(HELPERS, with_python, "-D", "-w", weather, "-d", out, room, folder=tmp_path, GPU_SHADING="1")
     hosted = energyplus.Run(done.returncode, done.stdout, done.stderr, out, 0.0)
     direct = energyplus.run(patched, room, weather, tmp_path / "direct", ["--gpu-shading", "-D"])
     assert transmitted(hosted) == transmitted(direct)
+
+
+def test_besos_runs_are_shaded(room, patched, weather, tmp_path):
+    need("besos")
+    room.write_text(room.read_text().replace("RunPeriod,Year,1,1,,12,31,", "RunPeriod,Day,10,21,,10,21,"))
+    out = tmp_path / "out"
+    done = python(BESOS, patched.parent, room, weather, out, folder=tmp_path, GPU_SHADING="1", HOME=str(tmp_path))
+    hosted = energyplus.Run(done.returncode, done.stdout, done.stderr, out, 0.0)
+    direct = energyplus.run(patched, room, weather, tmp_path / "direct", ["--gpu-shading"])
+    assert transmitted(hosted) == pytest.approx(transmitted(direct), rel=1e-3)
+
+
+def test_frads_runs_are_shaded(room, with_python, patched, weather, tmp_path):
+    if not (TOOLS / "frads").is_dir():
+        pytest.skip("frads is not installed: with Radiance, SciPy and others it takes 200 MB, so that scripts/setup "
+                    f"leaves it out: pip install --target {TOOLS} frads")
+    direct = energyplus.run(patched, room, weather, tmp_path / "direct", ["--gpu-shading", "-D"])
+    text = room.read_text()
+    screen = re.search(r"^GPUShading:[^;]*;", text, re.M)[0]
+    room.write_text(text.replace(screen, ""))
+    (tmp_path / "screen.idf").write_text(screen)
+    out = tmp_path / "out"
+    out.mkdir()
+    done = python(FRADS, room, weather, out, folder=tmp_path, GPU_SHADING_FILE=str(tmp_path / "screen.idf"),
+                  PYTHONPATH=f"{with_python}:{TOOLS}")
+    hosted = energyplus.Run(done.returncode, done.stdout, done.stderr, out, 0.0)
+    assert transmitted(hosted) == pytest.approx(transmitted(direct), rel=1e-3)
 
 
 def test_a_side_file_of_another_name_is_pointed_out(patched, weather, box, tmp_path):
