@@ -174,12 +174,17 @@ def screen_strips(size):
                        [(*left, top), (*left, bottom), (*right, bottom), (*right, top)])  # fmt: skip
 
 
+def screen_dimensions(screen):
+    """Pitch, diameter and thickness of a sheet with round holes."""
+    diameter = HOLES[screen]
+    return diameter * math.sqrt(math.pi / (2 * math.sqrt(3)) / OPEN), diameter, THICKNESS
+
+
 def screen_object(screen):
     if screen == "gradient":
         return (f"\nGPUShading:PerforatedScreen,Sheet,Screen *,\n  Texture,{IMAGE},,,,,,\n"
                 f"  {THICKNESS};                 !- Thickness {{m}}\n")  # fmt: skip
-    diameter = HOLES[screen]
-    pitch = diameter * math.sqrt(math.pi / (2 * math.sqrt(3)) / OPEN)
+    pitch, diameter, _ = screen_dimensions(screen)
     return (f"\nGPUShading:PerforatedScreen,Sheet,Screen *,\n  Round,,Staggered60,\n"
             f"  {diameter},                 !- Hole Size {{m}}\n  ,\n  {pitch:.7f},               !- Pitch {{m}}\n  ,\n"
             f"  {THICKNESS};                 !- Thickness {{m}}\n")  # fmt: skip
