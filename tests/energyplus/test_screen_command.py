@@ -70,6 +70,23 @@ def test_thick_round_holes_are_the_overlap_of_two_circles(screen, tmp_path):
         assert tau == pytest.approx(values[direction], abs=5.1e-5)
 
 
+def test_round_holes_pass_less_than_in_window_s_formula(screen, tmp_path):
+    """WINDOW (Windows-CalcEngine, circular perforated cell) takes two half ellipses instead of the overlap."""
+    done = screen(PATTERN.format(surfaces="*Panel"), "Mesh", "-o", "out")
+    assert done.returncode == 0, done.stderr
+    values = written(tmp_path / "out" / "Mesh_tau.csv")
+    excess = {}
+    for theta in range(0, 90, 5):
+        of_window = OPEN * max(0.0, 1 - 3 / 5 * math.tan(math.radians(theta)))
+        excess[theta] = (of_window - values[theta, 0]) / OPEN
+        print(f"{theta} degrees: exact {values[theta, 0]:.4f}, WINDOW {of_window:.4f}")
+    assert excess[0] == pytest.approx(0.0, abs=1e-5)
+    assert all(each >= -1e-5 for each in excess.values())
+    # Greatest where acos of the shift over the diameter has a sine of pi/4.
+    shift = math.sqrt(1 - (math.pi / 4) ** 2)
+    assert max(excess.values()) == pytest.approx(1 - shift - lens(1, shift), abs=2e-3)
+
+
 def test_holes_without_thickness_are_open_at_all_angles(screen, tmp_path):
     done = screen(PATTERN.format(surfaces="*").replace("0.003;", "0;"), "-o", "out")
     assert done.returncode == 0, done.stderr
