@@ -1,10 +1,8 @@
 #include "solar/disagreement.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <numeric>
 
 namespace gpu_shading {
@@ -12,19 +10,32 @@ namespace {
 
 double chord_squared(glm::dvec3 const& a, glm::dvec3 const& b) { return glm::dot(a - b, a - b); }
 
-constexpr std::size_t nearby = 4;
+// Days per year that the sun spends near a declination, relative to an equinox.
+double duration_at(double declination) {
+  constexpr double least = 0.02;
+  double const share = declination / most_declination;
+  return 1.0 / std::sqrt(std::max(1.0 - share * share, least));
+}
 
-struct Candidate {
-  HourDirection direction;
-  glm::dvec3 towards_sun{};
-  std::array<std::size_t, nearby> samples{};  // nearest first
-  double distance_squared = 0.0;              // to the nearest existing direction
-  double misses = 0.0;
-};
+}  // namespace
 
-Candidate candidate_at(HourDirection direction, double latitude, SunlitTable const& table) {
+Disagreement::Disagreement(SunlitTable const& table, Misses const& misses, double latitude)
+    : table_(table),
+      misses_(misses),
+      expected_errors_(table.receivers(), 0.0),
+      facing_(table.receivers(), 0.0) {
+  constexpr std::size_t looked_at = 2500;
+  if (table.directions().size() < nearby) return;
+  for (auto const direction : spread_on_arcs(latitude, looked_at)) {
+    candidates_.push_back(candidate_at(direction, latitude));
+  }
+  for (std::size_t receiver = 0; receiver < table.receivers(); ++receiver) estimate(receiver);
+}
+
+Disagreement::Candidate Disagreement::candidate_at(HourDirection direction, double latitude) const {
   Candidate candidate{direction, to_vector(to_direction(direction, latitude))};
-  auto const& known = table.towards_sun();
+  candidate.duration = duration_at(direction.declination);
+  auto const& known = table_.towards_sun();
   std::vector<std::size_t> order(known.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   auto const distance = [&](std::size_t i) {
@@ -37,57 +48,65 @@ Candidate candidate_at(HourDirection direction, double latitude, SunlitTable con
   return candidate;
 }
 
-// Mean of the receivers' errors at samples near the candidate at which the sun faces them.
-double misses_near(Candidate const& candidate, SunlitTable const& table, Misses const& misses) {
+// Mean over the samples near the candidate at which the sun faces the receiver; 0 if there is none.
+double Disagreement::misses_near(Candidate const& candidate, std::size_t receiver) const {
   // The size of a jump does not depend on how finely it is sampled.
-  constexpr double most = 0.1;
-  double sum = 0.0;
-  for (std::size_t receiver = 0; receiver < table.receivers(); ++receiver) {
-    if (!table.faces(receiver, candidate.towards_sun)) continue;
-    double total = 0.0;
-    int lit = 0;
-    for (auto const sample : candidate.samples) {
-      if (!table.lit(receiver)[sample]) continue;
-      total += misses[receiver][sample];
-      ++lit;
-    }
-    if (lit > 0) sum += std::min(total / lit, most);
+  constexpr double most = 0.2;
+  double total = 0.0;
+  int lit = 0;
+  for (auto const sample : candidate.samples) {
+    if (!table_.lit(receiver)[sample]) continue;
+    total += misses_[receiver][sample];
+    ++lit;
   }
-  return sum;
+  return lit > 0 ? std::min(total / lit, most) : 0.0;
 }
 
-// The square root of the number of days per year that the sun spends near a declination, relative
-// to an equinox.
-double weight_of(double declination) {
-  constexpr double least = 0.02;
-  double const share = declination / most_declination;
-  return 1.0 / std::pow(std::max(1.0 - share * share, least), 0.25);
+void Disagreement::estimate(std::size_t receiver) {
+  double misses = 0.0;
+  double faced = 0.0;
+  double whole = 0.0;
+  for (auto const& candidate : candidates_) {
+    whole += candidate.duration;
+    if (!table_.faces(receiver, candidate.towards_sun)) continue;
+    faced += candidate.duration;
+    misses += candidate.duration * misses_near(candidate, receiver);
+  }
+  if (faced == 0.0) return;
+  expected_errors_[receiver] = 0.5 * misses / faced;
+  facing_[receiver] = faced / whole;
 }
 
-}  // namespace
-
-std::vector<HourDirection> where_samples_disagree(SunlitTable const& table, Misses const& misses,
-                                                  double latitude, std::size_t count) {
-  constexpr std::size_t looked_at = 2500;
-  std::vector<Candidate> candidates;
-  if (table.directions().size() < nearby) return {};
-  for (auto const direction : spread_on_arcs(latitude, looked_at)) {
-    auto candidate = candidate_at(direction, latitude, table);
-    candidate.misses = misses_near(candidate, table, misses) * weight_of(direction.declination);
-    candidates.push_back(candidate);
+std::vector<HourDirection> Disagreement::further_directions(std::size_t count,
+                                                            double wanted) const {
+  if (candidates_.empty()) return {};
+  auto candidates = candidates_;
+  std::vector<double> worth(candidates.size(), 0.0);
+  for (std::size_t receiver = 0; receiver < table_.receivers(); ++receiver) {
+    double const error = expected_errors_[receiver];
+    if (facing_[receiver] == 0.0 || error < wanted) continue;
+    double const weight = error * error / facing_[receiver];
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (!table_.faces(receiver, candidates[i].towards_sun)) continue;
+      worth[i] += weight * misses_near(candidates[i], receiver);
+    }
   }
   // If nothing disagrees, choose where samples are farthest apart.
-  constexpr double background = 1e-6;
+  constexpr double background = 1e-9;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    worth[i] = (worth[i] + background) * std::sqrt(candidates[i].duration);
+  }
   std::vector<HourDirection> chosen;
   while (chosen.size() < count) {
-    auto const score = [](Candidate const& c) {
-      return (c.misses + background) * c.distance_squared;
-    };
-    auto const best = std::max_element(
-        candidates.begin(), candidates.end(),
-        [&](Candidate const& a, Candidate const& b) { return score(a) < score(b); });
-    if (best == candidates.end() || best->distance_squared == 0.0) break;
-    auto const found = *best;
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (worth[i] * candidates[i].distance_squared >
+          worth[best] * candidates[best].distance_squared) {
+        best = i;
+      }
+    }
+    if (candidates[best].distance_squared == 0.0) break;
+    auto const found = candidates[best];
     chosen.push_back(found.direction);
     for (auto& c : candidates) {
       c.distance_squared =

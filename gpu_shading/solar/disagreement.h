@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "solar/sun_arcs.h"
@@ -12,10 +14,43 @@ namespace gpu_shading {
 // samples; 0 if the sun does not face it.
 using Misses = std::vector<std::vector<double>>;
 
-// Returns `count` further directions. Each is the candidate with the largest product of the errors
-// of nearby samples, summed over the receivers that the sun faces there, and the square of its
-// distance to the nearest direction, weighted by how long the sun is at that declination.
-std::vector<HourDirection> where_samples_disagree(SunlitTable const& table, Misses const& misses,
-                                                  double latitude, std::size_t count);
+// Where the samples of a table do not predict one another, at 2,500 directions over the year.
+class Disagreement {
+ public:
+  Disagreement(SunlitTable const& table, Misses const& misses, double latitude);
+
+  // Estimated error of each receiver's fraction, mean over the times of a year when the sun faces
+  // it. A sample is predicted from farther away than what lies between samples; the estimate is
+  // half the misses, which is within a factor of 2 for most receivers.
+  std::vector<double> const& expected_errors() const { return expected_errors_; }
+
+  // Returns `count` further directions, one after another where the product of these is largest:
+  // the misses of nearby samples, summed over the receivers that the sun faces there; the square of
+  // the distance to the nearest direction; and how long the sun is at that declination. A receiver
+  // weighs more the larger its expected error is, and the more rarely the sun faces it. Receivers
+  // whose expected error is below `wanted` are left out.
+  std::vector<HourDirection> further_directions(std::size_t count, double wanted) const;
+
+ private:
+  static constexpr std::size_t nearby = 4;
+
+  struct Candidate {
+    HourDirection direction;
+    glm::dvec3 towards_sun{};
+    std::array<std::size_t, nearby> samples{};  // nearest first
+    double distance_squared = 0.0;              // to the nearest existing direction
+    double duration = 0.0;  // of the sun near this declination, relative to an equinox
+  };
+
+  Candidate candidate_at(HourDirection direction, double latitude) const;
+  double misses_near(Candidate const& candidate, std::size_t receiver) const;
+  void estimate(std::size_t receiver);
+
+  SunlitTable const& table_;
+  Misses const& misses_;
+  std::vector<Candidate> candidates_;
+  std::vector<double> expected_errors_;  // by receiver
+  std::vector<double> facing_;           // by receiver: share of the year's sun that it faces
+};
 
 }  // namespace gpu_shading

@@ -1,6 +1,7 @@
 #include "solar/sun_arcs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -30,11 +31,17 @@ Range lit_declinations(double latitude) {
   return {-most_declination, std::min(most_declination, reach)};
 }
 
-void add_arc(double declination, double latitude, double step, bool shifted,
+// In steps. Every other arc is offset by half a step. The others miss noon by a fifth, before and
+// after it in turn: at noon the sun is in the plane of walls that face east and west.
+double shift_of(int arc) {
+  constexpr std::array<double, 4> shifts{0.2, 0.5, -0.2, 0.5};
+  return shifts.at(static_cast<std::size_t>(arc) % shifts.size());
+}
+
+void add_arc(double declination, double latitude, double step, double shift,
              std::vector<HourDirection>& directions) {
   double const sunset = sunset_hour_angle(declination, latitude);
   auto const steps = std::max(2, static_cast<int>(std::lround(2.0 * sunset / step)));
-  double const shift = shifted ? 0.5 : 0.0;
   if (sunset == pi) {
     for (int i = 0; i < steps; ++i) {
       directions.push_back({declination, (2.0 * (i + shift) / steps - 1.0) * pi});
@@ -43,7 +50,7 @@ void add_arc(double declination, double latitude, double step, bool shifted,
   }
   double const end = std::max(sunset - from_horizon, 0.0);
   directions.push_back({declination, -end});
-  for (int i = shifted ? 0 : 1; i < steps; ++i) {
+  for (int i = shift > 0.0 ? 0 : 1; i < steps; ++i) {
     directions.push_back({declination, (2.0 * (i + shift) / steps - 1.0) * end});
   }
   directions.push_back({declination, end});
@@ -54,7 +61,7 @@ std::vector<HourDirection> spread(double latitude, int arcs, double elongated) {
   double const apart = (most - least) / (arcs - 1);
   std::vector<HourDirection> directions;
   for (int arc = 0; arc < arcs; ++arc) {
-    add_arc(least + arc * apart, latitude, elongated * apart, arc % 2 == 1, directions);
+    add_arc(least + arc * apart, latitude, elongated * apart, shift_of(arc), directions);
   }
   return directions;
 }

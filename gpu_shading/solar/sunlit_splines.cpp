@@ -23,11 +23,11 @@ glm::dvec3 place_of(glm::dvec3 const& towards_sun, std::optional<glm::dvec3> con
   return normal ? glm::dvec3(shadow_fall(*normal, towards_sun), 0.0) : towards_sun;
 }
 
-// The prediction of each sample from all the others, minus the sample. Like answers, predictions
-// are limited to 0 .. 1.
+// The prediction of each sample from all the others, minus the sample. Like answers, both are
+// limited to 0 .. 1.
 Eigen::MatrixXd missed_by(RadialSpline const& splines, Eigen::MatrixXd const& values) {
   Eigen::ArrayXXd const told = values.array() - splines.leave_one_out(values).array();
-  return (told.max(0.0).min(1.0) - values.array()).abs();
+  return (told.max(0.0).min(1.0) - values.array().max(0.0).min(1.0)).abs();
 }
 
 Eigen::MatrixXd columns_of(Eigen::MatrixXd const& matrix, std::vector<Index> const& chosen) {
@@ -71,8 +71,10 @@ void SunlitSplines::add_better(SunlitTable const& table, std::vector<std::size_t
   };
   std::array<std::optional<glm::dvec3>, 2> const normals{table.normal(receiver), std::nullopt};
   std::array<RadialSpline, 2> splines{splines_over(normals[0]), splines_over(normals[1])};
-  std::array<Eigen::MatrixXd, 2> const missed{missed_by(splines[0], values),
-                                              missed_by(splines[1], values)};
+  std::array<Eigen::MatrixXd, 2> const released{splines[0].release_limits(values),
+                                                splines[1].release_limits(values)};
+  std::array<Eigen::MatrixXd, 2> const missed{missed_by(splines[0], released[0]),
+                                              missed_by(splines[1], released[1])};
   std::array<std::vector<Index>, 2> chosen;
   for (Index j = 0; j < values.cols(); ++j) {
     bool const by_shadows = missed[0].col(j).sum() <= missed[1].col(j).sum();
@@ -83,7 +85,7 @@ void SunlitSplines::add_better(SunlitTable const& table, std::vector<std::size_t
     std::vector<std::size_t> theirs;
     theirs.reserve(chosen[k].size());
     for (auto const j : chosen[k]) theirs.push_back(columns[static_cast<std::size_t>(j)]);
-    auto fitted = splines[k].fit(columns_of(values, chosen[k]));
+    auto fitted = splines[k].fit(columns_of(released[k], chosen[k]));
     groups_.push_back({normals[k], samples, std::move(theirs), std::move(fitted),
                        columns_of(missed[k], chosen[k]), std::move(splines[k])});
   }

@@ -1,7 +1,7 @@
 // Errors behind shades that may alias with the grid of samples: louvres and fins against their
 // exact sunlit fraction, perforated sheets and triangles at random against exact polygon clipping.
 //
-//     aliasing [ERROR]   one target error instead of four
+//     aliasing [ERROR [EVERY]]   one target error instead of four; one scene in so many
 
 #include <algorithm>
 #include <array>
@@ -71,12 +71,17 @@ RendererOptions options_at(double error) {
   return options;
 }
 
-void print_blades(char const* name, bool upright, double transmittance, double error, double step,
+// Number of scenes if one in `every` is taken.
+int share_of(int scenes, int every) { return std::max(1, scenes / every); }
+
+void print_blades(char const* name, bool upright, double transmittance, double error, int every,
                   int least, int most) {
   Statistics statistics(error);
   std::vector<SunDirection> const suns = spread_suns(12);
+  int scene = 0;
   for (double const size : {0.5, 1.0, 3.0, 6.0, 12.0, 30.0}) {
-    for (int const count : blade_counts(least, most, step, true)) {
+    for (int const count : blade_counts(least, most, 1.05, true)) {
+      if (scene++ % every != 0) continue;
       RegularShades const shades{count, upright, size, transmittance};
       Renderer renderer(shades.scene(), options_at(error));
       double const whole = shades.width() * shades.height();
@@ -140,19 +145,19 @@ void print_pairs(double error, int scenes) {
   statistics.print("pairs of screens");
 }
 
-void print_table(std::vector<double> const& targets) {
+void print_table(std::vector<double> const& targets, int every) {
   std::printf("%s\n", Renderer(Scene(), options_at(1e-3)).device().renderer.c_str());
   std::printf("%-7s %-26s %7s %9s %9s %9s %9s %7s %9s %6s %9s\n", "target", "shades", "views",
               "mean", "99th", "max", "scene", "share", "% beyond", "x 3", "ms");
   for (double const error : targets) {
-    print_soups(error, 20);
-    print_screens(error, 200);
-    print_pairs(error, 40);
+    print_soups(error, share_of(20, every));
+    print_screens(error, share_of(200, every));
+    print_pairs(error, share_of(40, every));
     for (auto const& [least, most] :
          {std::pair(20, 500), std::pair(501, 2000), std::pair(2001, 5000)}) {
-      print_blades("louvres", false, 0.0, error, 1.05, least, most);
-      print_blades("fins", true, 0.0, error, 1.05, least, most);
-      print_blades("glass louvres", false, 0.4, error, 1.05, least, most);
+      print_blades("louvres", false, 0.0, error, every, least, most);
+      print_blades("fins", true, 0.0, error, every, least, most);
+      print_blades("glass louvres", false, 0.4, error, every, least, most);
     }
   }
 }
@@ -163,5 +168,7 @@ void print_table(std::vector<double> const& targets) {
 int main(int count, char** arguments) {
   std::vector<double> targets{3e-3, 1e-3, 1e-4, 1e-5};
   if (count > 1) targets = {std::atof(arguments[1])};
-  return gpu_shading::print_or_say_why("aliasing", [&] { gpu_shading::print_table(targets); });
+  int const every = count > 2 ? std::max(1, std::atoi(arguments[2])) : 1;
+  return gpu_shading::print_or_say_why("aliasing",
+                                       [&] { gpu_shading::print_table(targets, every); });
 }

@@ -100,7 +100,7 @@ def test_samples_are_those_that_energyplus_has_rendered(courtyard_samples, sampl
         sums = ours.setdefault(row["receiver"], {})
         sun = place_of(row["azimuth"], row["altitude"])
         sums[sun] = sums.get(sun, 0.0) + factor * float(row["sunlit_fraction"])
-    assert len(set().union(*ours.values())) == 320
+    assert 320 <= len(set().union(*ours.values())) <= 416
     assert sum(row["scheduled"] != "" for row in rows_of(courtyard_samples / "samples.csv")) > 200
     compared = 0
     for receiver, samples in ours.items():
@@ -153,7 +153,8 @@ def test_year_is_near_the_exact_one(courtyard_samples, courtyard_run):
 def test_tables_have_the_stated_schema(courtyard_samples, courtyard_model):
     about = json.loads((courtyard_samples / "samples.json").read_text())
     names = [receiver["name"] for receiver in about["receivers"]]
-    assert about["directions"] == sum(about["directions_by_round"]) == 320
+    assert about["directions"] == sum(about["directions_by_round"])
+    assert 320 <= about["directions"] <= 416
     assert about["schedules"] == ["LEAVES"]
     assert about["inputs"]["model"]["name"] == courtyard_model.name
     year = rows_of(courtyard_samples / "year.csv")
@@ -223,7 +224,8 @@ def test_shards_killed_and_resumed_are_as_one_go(patched, box_model, weather, tm
         time.sleep(0.02)
     driver.kill()
     kept = {path: path.stat().st_mtime_ns for path in folder.glob("parts/round*.json")}
-    assert 6 <= len(kept) < 16
+    rounds = len(json.loads((tmp_path / "one" / "samples.json").read_text())["directions_by_round"])
+    assert 6 <= len(kept) < 4 * rounds
     assert not (folder / "samples.csv").exists()
 
     status, output, errors = Driver(arguments).finish()
@@ -231,7 +233,7 @@ def test_shards_killed_and_resumed_are_as_one_go(patched, box_model, weather, tm
     assert output.split() == [str(folder)]
     # Of what was there nothing was rendered again.
     assert {path: path.stat().st_mtime_ns for path in kept} == kept
-    assert len(list(folder.glob("parts/round*.json"))) == 16
+    assert len(list(folder.glob("parts/round*.json"))) == 4 * rounds
     for name in TABLES:
         assert (folder / name).read_bytes() == (tmp_path / "one" / name).read_bytes(), name
 

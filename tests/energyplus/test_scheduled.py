@@ -1,6 +1,7 @@
 """Sunlit fractions as schedules, for an EnergyPlus that cannot be patched, against the patched one."""
 
 import csv
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -118,7 +119,7 @@ def test_from_samples(by_patch, patched, weather, tmp_path):
     run = energyplus.run(patched, model, weather, tmp_path / "out",
                          ["--gpu-shading-method=scheduled", "--gpu-shading-update=sampled:medium"])
     expect_scheduled(run)
-    assert "answered from samples at 320" in run.errors
+    assert 320 <= int(re.search(r"answered from samples at (\d+)", run.errors)[1]) <= 416
     found = results.differences(reference, results.Results(run.folder, STEP))
     assert sum(each.mean for each in found) / len(found) < 5e-3
 

@@ -25,8 +25,11 @@ struct Sampling {
   bool operator==(Sampling const&) const = default;
 };
 
-// Maximum number of directions without `paper_grid`: 480, 320 and 238, no more than the paper's
-// grid of the same density has at 42 degrees north.
+// Number of directions without `paper_grid` if no receiver needs more: 480, 320 and 238, no more
+// than the paper's grid of the same density has at 42 degrees north.
+std::size_t usual_directions(Sampling::Density density);
+
+// Maximum number of directions: three tenths more.
 std::size_t most_directions(Sampling::Density density);
 
 // The sunlit areas of each receiver, in order, for each direction, in order.
@@ -75,10 +78,12 @@ class SampleRounds {
 // through the directions at which the sun faces the receiver, so that there are no seams at
 // sunrise, at midnight in polar day, or where the sun turns away. They are functions of where
 // shadows fall on the receiver's plane or of the direction, whichever predicts the samples better
-// from one another (leave-one-out). Six tenths of the directions lie on arcs of equal declination,
-// with every other arc offset by half a step; the others are added in three rounds where the other
-// samples predict a sample worst, over all receivers. Fractions are limited to 0 .. 1, and so are
-// their sums.
+// from one another (leave-one-out). Six tenths of the usual directions lie on arcs of equal
+// declination, offset from one another; the others are added in four rounds
+// where the other samples predict a sample worst, above all for the receivers whose error is
+// estimated to be largest. While the estimate of any receiver is too large, up to three more rounds
+// add directions where those receivers need them. Fractions are limited to 0 .. 1, and so are their
+// sums.
 //
 // The paper's grid instead uses cubic B-splines along the azimuth and then across the days.
 class SampledSunlit {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -46,6 +47,44 @@ TEST(RadialSpline, GoesThroughItsNodesAndKeepsConstants) {
       EXPECT_NEAR(got(0), values(i, 0), 1e-10);
     }
     EXPECT_NEAR(spline.at({9.0, -5.0, 1.0}, fitted)(1), 0.7, 1e-9);
+  }
+}
+
+TEST(RadialSpline, KeepsKinksWhereFractionsReachTheirLimits) {
+  // The shadow of an edge that crosses a receiver as the sun moves.
+  auto const fraction = [](double x, double y) {
+    return std::clamp(0.5 + 0.6 * x + 0.2 * y, 0.0, 1.0);
+  };
+  std::vector<glm::dvec3> nodes;
+  for (int i = -4; i <= 4; ++i) {
+    for (int j = -4; j <= 4; ++j) nodes.emplace_back(0.5 * i + (j % 2) * 0.25, 0.5 * j, 0.0);
+  }
+  MatrixXd values(static_cast<Index>(nodes.size()), 1);
+  for (Index i = 0; i < values.rows(); ++i) {
+    auto const& node = nodes[static_cast<std::size_t>(i)];
+    values(i, 0) = fraction(node.x, node.y);
+  }
+  RadialSpline const spline(nodes);
+  MatrixXd const released = spline.release_limits(values);
+  auto const mean_error = [&](MatrixXd const& through) {
+    auto const fitted = spline.fit(through);
+    double sum = 0.0;
+    int count = 0;
+    for (double x = -1.9; x < 1.9; x += 0.07) {
+      for (double y = -1.9; y < 1.9; y += 0.07) {
+        double const got = std::clamp(spline.at({x, y, 0.0}, fitted)(0), 0.0, 1.0);
+        sum += std::abs(got - fraction(x, y));
+        ++count;
+      }
+    }
+    return sum / count;
+  };
+  EXPECT_LT(mean_error(released), 0.6 * mean_error(values));
+  for (Index i = 0; i < values.rows(); ++i) {
+    EXPECT_NEAR(std::clamp(released(i, 0), 0.0, 1.0), values(i, 0), 1e-12);
+    if (values(i, 0) > 0.0 && values(i, 0) < 1.0) {
+      EXPECT_EQ(released(i, 0), values(i, 0));
+    }
   }
 }
 
