@@ -14,6 +14,7 @@ sys.path.insert(0, str(energyplus.REPOSITORY / "gpu_shading" / "python"))
 TOOLS = energyplus.REPOSITORY / ".venv" / "tools"
 sys.path.append(str(TOOLS))
 PAGE = energyplus.REPOSITORY / "gpu_shading" / "docs" / "python.md"
+NOTEBOOK = energyplus.REPOSITORY / "idf_examples" / "box_with_louvres" / "variants.ipynb"
 MODEL_YEAR = 2017
 RESOLUTION = 256
 
@@ -177,6 +178,25 @@ def test_the_page_says_what_is_so(gs, weather, courtyard, tmp_path, monkeypatch)
         exec(compile(block, str(PAGE), "exec"), names)
         for call, expected in said:
             assert str(eval(call.removeprefix("print"), names)) == expected, call
+
+
+def test_the_notebook_runs(gs, tmp_path, monkeypatch):
+    """Its cells one after another, as Jupyter would run them."""
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    monkeypatch.chdir(NOTEBOOK.parent)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    names = {}
+    for cell in json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] == "code":
+            exec(compile("".join(cell["source"]), NOTEBOOK.name, "exec"), names)
+            assert not cell["outputs"]
+    table = names["table"].reshape(4, 5, 4)
+    # Deeper blades let less through, and so do those that are tilted more towards the low sun of winter.
+    assert (np.diff(table[..., 2:], axis=0) < 0.01).all() and (np.diff(table[:, :, 3], axis=1) < 0.01).all()
+    assert table[0, 0, 2] > 2 * table[-1, -1, 2] and table[0, 0, 3] > 5 * table[-1, -1, 3]
+    assert names["ratios"] == pytest.approx([1.0, 1.0], abs=5e-4)
+    assert len(names["axes"].lines) == 4
 
 
 def test_types_are_checked(tmp_path):

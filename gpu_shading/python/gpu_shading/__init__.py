@@ -15,6 +15,7 @@ except ImportError as _error:
     raise ImportError("gpu_shading needs NumPy: pip install numpy") from _error
 
 from gpu_shading._library import __version__, limit_threads
+from gpu_shading._places import prefix
 from gpu_shading.errors import DeviceError, Error, InvalidInput, RunError
 from gpu_shading.model import check
 from gpu_shading.optics import Screen, Transmittance
@@ -25,6 +26,6 @@ from gpu_shading.scene import Renderer, Rule, Scene, Surface
 
 __all__ = [
     "DeviceError", "Error", "Hits", "InvalidInput", "Rays", "Renderer", "Rule", "Run", "RunError", "Scene", "Screen",
-    "Surface", "Transmittance", "__version__", "check", "limit_threads", "read_samples", "run", "sample",
+    "Surface", "Transmittance", "__version__", "check", "limit_threads", "prefix", "read_samples", "run", "sample",
     "write_samples",
 ]
