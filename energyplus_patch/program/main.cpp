@@ -40,11 +40,13 @@ namespace {
 // Arguments of every subcommand that reads a model.
 class ModelArguments {
  public:
-  // `choices`: from the flags shared with energyplus.
-  ModelArguments(CLI::App& command, Choices choices) : choices_(std::move(choices)) {
+  // `choices`: from the flags shared with energyplus; `weather`: what -w says of itself.
+  ModelArguments(
+      CLI::App& command, Choices choices,
+      std::string const& weather = "Weather file (default: one that comes with EnergyPlus)")
+      : choices_(std::move(choices)) {
     command.add_option("model", model_, "IDF or epJSON file")->required();
-    command.add_option("-w,--weather", weather_,
-                       "Weather file (default: one that comes with EnergyPlus)");
+    command.add_option("-w,--weather", weather_, weather);
     command.footer(std::string(flags_help()));
   }
 
@@ -190,7 +192,8 @@ void add_map(CLI::App& app, Choices const& choices) {
       "Map the sunlit hours and the beam solar energy over receivers, at the model's own timesteps "
       "and with its schedules: for each receiver a picture, a table and a NumPy array, and a list "
       "of all (maps.csv)");
-  auto const model = std::make_shared<ModelArguments>(*command, choices);
+  auto const model = std::make_shared<ModelArguments>(
+      *command, choices, "Weather file: site, calendar and beam radiation (required)");
   auto const order = std::make_shared<MapOrder>();
   command->add_option("--from", order->from, "First day (default: 01-01)")->type_name("MM-DD");
   command->add_option("--to", order->to, "Last day (default: 12-31)")->type_name("MM-DD");
@@ -307,7 +310,8 @@ void add_sample(CLI::App& app, Choices const& choices) {
       "tables of the samples and of every 15 minutes of the year; or sunlit fractions for patches "
       "of "
       "the sky");
-  auto const model = std::make_shared<ModelArguments>(*command, choices);
+  auto const model = std::make_shared<ModelArguments>(
+      *command, choices, "Weather file: site and calendar (required, except with --sky)");
   auto const arguments = std::make_shared<Arguments>();
   command
       ->add_option("-o,--output", arguments->folder,

@@ -59,6 +59,11 @@ std::string day_text(int number) {
   return fmt::format("{:02}-{:02}", number / months_apart, number % months_apart);
 }
 
+std::string describe_days(Period const& period) {
+  if (period.from == period.to) return day_text(period.from);
+  return fmt::format("{} to {}", day_text(period.from), day_text(period.to));
+}
+
 Period period_of(MapOrder const& order) {
   constexpr int first = 101;
   constexpr int last = 1231;
@@ -204,8 +209,7 @@ void draw_maps(ModelRun const& run, MapOrder const& order) {
                  [&](std::ostream& out) { write_array(one.grid, one.map.values, out); });
     summaries.push_back(one.summary);
   }
-  auto const dates =
-      fmt::format("{} to {}, {} times an hour", day_text(period.from), day_text(period.to), steps);
+  auto const dates = fmt::format("{}, {} times an hour", describe_days(period), steps);
   write_pictures(maps, dates, order.common_scale, folder);
   folder.write("maps.csv", [&](std::ostream& out) { write_summaries(summaries, out); });
   folder.commit(about);

@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import os
+import shutil
 import sqlite3
 import subprocess
 import sys
@@ -275,8 +276,9 @@ def test_tables_arrays_and_pictures_agree(box_maps):
         assert picture.mode == "RGB" and min(picture.size) > 300
 
 
-def test_maps_are_replaced_and_files_of_others_are_not(box_maps, weather):
-    model, folder = box_maps
+def test_maps_are_replaced_and_files_of_others_are_not(box_maps, weather, tmp_path):
+    model, made = box_maps
+    folder = shutil.copytree(made, tmp_path / "maps")
     names = sorted(path.name for path in folder.iterdir())
     arguments = [model, "-w", weather, "-o", folder, "--from", "12-21", "--to", "12-21", "--receivers"]
     one = rows_of(folder / "maps.csv")[0]
