@@ -30,7 +30,7 @@ set(CPACK_DEBIAN_CORE_PACKAGE_SHLIBDEPS ON)
 # EnergyPlus needs libX11.
 set(CPACK_DEBIAN_CORE_PACKAGE_DEPENDS "python3, libx11-6")
 set(CPACK_DEBIAN_CORE_PACKAGE_RECOMMENDS
-    "energyplus-gpu-shading-formats, libegl1, python3-pip, python3-jinja2, python3-matplotlib, python3-pil")
+    "energyplus-gpu-shading-formats, libegl1, python3-pip, python3-jinja2, python3-matplotlib, python3-numpy, python3-pil")
 
 set(CPACK_DEBIAN_FORMATS_PACKAGE_NAME energyplus-gpu-shading-formats)
 set(CPACK_DEBIAN_FORMATS_DESCRIPTION

@@ -150,6 +150,8 @@ def test_wheel(suite, bare, patched, model, tmp_path):
     place = bare(suite)
     place.bring(wheel, *model.iterdir())
     follow(place, "Wheel")
+    scene = "gpu_shading.Scene([[[0, 0, 0], [1, 0, 0], [1, 0, 1]]])"
+    assert place.run(f"shading/bin/python -c 'import gpu_shading; print({scene}.sunlit([180, 0]))'", USER) == "[1.]\n"
     assert_answers_of_the_build(place.root / PLACE[1:] / "out", patched, model, tmp_path)
 
 

@@ -40,6 +40,25 @@ def test_its_answers_are_those_of_the_build(environment, patched, louvres, weath
     assert answers[0] and answers[0] == answers[1]
 
 
+PACKAGE = """
+import sys
+import gpu_shading
+window = [[0, 0, 1], [2, 0, 1], [2, 0, 2], [0, 0, 2]]
+overhang = [[-9, -0.5, 2], [11, -0.5, 2], [11, 0, 2], [-9, 0, 2]]
+print(gpu_shading.Scene([window], [overhang]).sunlit([180, 45]).round(2))
+scene = gpu_shading.Scene.from_energyplus(sys.argv[1])
+print(scene.index("SOUTH WINDOW") in scene.receivers, len(gpu_shading.check(sys.argv[1])["surfaces"]) > 6)
+"""
+
+
+def test_its_python_package_computes(environment, box, tmp_path):
+    model = tmp_path / "model.idf"
+    model.write_text(box)
+    done = subprocess.run([environment / "python", "-c", PACKAGE, model], cwd=tmp_path, env=installed_only(),
+                          capture_output=True, text=True)
+    assert done.stdout == "[0.5]\nTrue True\n", done.stderr
+
+
 def test_no_library_of_the_build_is_needed(environment):
     """Every library of ours finds what it needs beside it, or in what every Linux has."""
     package = next((environment.parent / "lib").glob("python3*/site-packages/energyplus_gpu_shading"))

@@ -3,6 +3,7 @@
 import pickle
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -158,3 +159,14 @@ def test_python_goes_on_while_the_library_computes(below):
     gaps = np.diff([began, *(at for at in counted if at < ended), ended])
     assert ended - began > 0.05, "too short to tell"
     assert gaps.max() < 0.5 * (ended - began)
+
+
+def test_threads_that_share_a_renderer_get_their_own_answers():
+    scene = gpu_shading.Scene(receivers=[window()])
+    scene.add(window(90, 90, -40, -1.0) - [40, 0, 0], screen=gpu_shading.Screen.pattern("round", 0.005, 0.01),
+              deployment="sail")
+    shares = np.linspace(0, 1, 8)
+    expected = [scene.sunlit(SUNS, deployments=[share]) for share in shares]
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(lambda share: scene.sunlit(SUNS, deployments=[share]), np.tile(shares, 4)))
+    assert all(np.array_equal(one, other) for one, other in zip(found, expected * 4, strict=True))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import threading
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from ctypes import byref
@@ -262,6 +263,7 @@ class Renderer:
             raise InvalidInput(f"resolution: {resolution}, expected 1 or more pixels")
         self._handle = _library.Handle("renderer", "renderer_new", scene.native(), device.encode(errors="replace"),
                                        int(resolution or 0), number(error, "error"))
+        self._lock = threading.Lock()  # of the deployments and the question that they are for
         self._surfaces = len(scene.surfaces)
         self._vectors = scene._area_vectors()
         self._receivers = scene.receivers
@@ -320,14 +322,16 @@ class Renderer:
              factors: Values | None, deployments: Values | None, *window: int) -> Floats:
         table = self._factor_table(factors, len(angles))
         shares = self._shares(deployments)
-        _library.call("renderer_set_deployments", self._handle, pointer(shares), len(shares))
         results = np.empty((len(angles), len(wanted)))
         step = max(1, min(_MOST_DIRECTIONS, _MOST_ANSWERS // max(1, len(wanted))))
-        for first in range(0, len(angles) if len(wanted) else 0, step):
-            part, rows = angles[first:first + step], table if len(table) == 1 else table[first:first + step]
-            _library.call(question, self._handle, pointer(part), len(part), *window, pointer(wanted), len(wanted),
-                          byref(_library.FactorTable(pointer(rows), *rows.shape)), pointer(results[first:]))
-        for line in _library.text("renderer_warnings", self._handle).splitlines():
+        with self._lock:
+            _library.call("renderer_set_deployments", self._handle, pointer(shares), len(shares))
+            for first in range(0, len(angles) if len(wanted) else 0, step):
+                part, rows = angles[first:first + step], table if len(table) == 1 else table[first:first + step]
+                _library.call(question, self._handle, pointer(part), len(part), *window, pointer(wanted), len(wanted),
+                              byref(_library.FactorTable(pointer(rows), *rows.shape)), pointer(results[first:]))
+            lines = _library.text("renderer_warnings", self._handle).splitlines()
+        for line in lines:
             warnings.warn(line, RuntimeWarning, stacklevel=4)
         return results
 
