@@ -103,9 +103,17 @@ GPUShading:PerforatedScreen,Sheet,Screen,Round,,Staggered60,0.006,,0.009,,0.003,
 """
 
 
-def test_screened_room_with_a_moving_screen(patched, weather, tmp_path):
+PYRAMID = """o Pyramid
+v 1 -3 0\nv 4 -3 0\nv 2.5 -1.5 0\nv 2.5 -2.4 3.5
+f 1 2 4\nf 2 3 4\nf 3 1 4
+"""
+
+
+def test_screened_room_with_a_moving_screen_and_a_mesh(patched, weather, tmp_path):
     path = tmp_path / "room.idf"
-    path.write_text(screened_room.model(objects=screened_room.rectangle("Screen", -0.4) + MOVING))
+    (tmp_path / "pyramid.obj").write_text(PYRAMID)
+    path.write_text(screened_room.model(objects=screened_room.rectangle("Screen", -0.4) + MOVING
+                                        + "GPUShading:Geometry,Pyramid,pyramid.obj,m,Z;\n"))
     of_period(path, (10, 1), (10, 3)).write(path)
     run = energyplus.run(patched, path, weather, tmp_path / "run", ["--gpu-shading"])
     assert run.completed, run.why()
