@@ -22,7 +22,8 @@ __attribute__((visibility("hidden"), used)) std::array<void*, 2 * most_thunks>
 
 // A thunk pushes its number and jumps to the body of its kind. The body aligns the stack, too: a
 // caller leaves that out where the function that it knows does not need it (GCC's
-// -fipa-stack-alignment).
+// -fipa-stack-alignment). Eight words of arguments on the stack are passed on, whether there are so
+// many or not.
 asm(R"(
   .pushsection .text
   .set gpu_shading_thunk, 0
@@ -52,58 +53,74 @@ asm(R"(
   mov %rsp, %rbp
   .cfi_def_cfa_register %rbp
   and $-16, %rsp
-  sub $336, %rsp
-  movaps %xmm0, 0(%rsp)
-  movaps %xmm1, 16(%rsp)
-  movaps %xmm2, 32(%rsp)
-  movaps %xmm3, 48(%rsp)
-  movaps %xmm4, 64(%rsp)
-  movaps %xmm5, 80(%rsp)
-  movaps %xmm6, 96(%rsp)
-  movaps %xmm7, 112(%rsp)
-  movaps %xmm8, 128(%rsp)
-  movaps %xmm9, 144(%rsp)
-  movaps %xmm10, 160(%rsp)
-  movaps %xmm11, 176(%rsp)
-  movaps %xmm12, 192(%rsp)
-  movaps %xmm13, 208(%rsp)
-  movaps %xmm14, 224(%rsp)
-  movaps %xmm15, 240(%rsp)
-  mov %rax, 256(%rsp)
-  mov %rcx, 264(%rsp)
-  mov %rdx, 272(%rsp)
-  mov %rsi, 280(%rsp)
-  mov %rdi, 288(%rsp)
-  mov %r8, 296(%rsp)
-  mov %r9, 304(%rsp)
-  mov %r10, 312(%rsp)
-  mov %r11, 320(%rsp)
+  sub $400, %rsp
+  movaps %xmm0, 64(%rsp)
+  movaps %xmm1, 80(%rsp)
+  movaps %xmm2, 96(%rsp)
+  movaps %xmm3, 112(%rsp)
+  movaps %xmm4, 128(%rsp)
+  movaps %xmm5, 144(%rsp)
+  movaps %xmm6, 160(%rsp)
+  movaps %xmm7, 176(%rsp)
+  movaps %xmm8, 192(%rsp)
+  movaps %xmm9, 208(%rsp)
+  movaps %xmm10, 224(%rsp)
+  movaps %xmm11, 240(%rsp)
+  movaps %xmm12, 256(%rsp)
+  movaps %xmm13, 272(%rsp)
+  movaps %xmm14, 288(%rsp)
+  movaps %xmm15, 304(%rsp)
+  mov %rax, 320(%rsp)
+  mov %rcx, 328(%rsp)
+  mov %rdx, 336(%rsp)
+  mov %rsi, 344(%rsp)
+  mov %rdi, 352(%rsp)
+  mov %r8, 360(%rsp)
+  mov %r9, 368(%rsp)
+  mov %r10, 376(%rsp)
+  mov %r11, 384(%rsp)
+  mov 24(%rbp), %r10
+  mov %r10, 0(%rsp)
+  mov 32(%rbp), %r10
+  mov %r10, 8(%rsp)
+  mov 40(%rbp), %r10
+  mov %r10, 16(%rsp)
+  mov 48(%rbp), %r10
+  mov %r10, 24(%rsp)
+  mov 56(%rbp), %r10
+  mov %r10, 32(%rsp)
+  mov 64(%rbp), %r10
+  mov %r10, 40(%rsp)
+  mov 72(%rbp), %r10
+  mov %r10, 48(%rsp)
+  mov 80(%rbp), %r10
+  mov %r10, 56(%rsp)
   mov 8(%rbp), %r11
   lea gpu_shading_thunk_targets(%rip), %r10
   call *(%r10,%r11,8)
-  movaps 16(%rsp), %xmm1
-  movaps 32(%rsp), %xmm2
-  movaps 48(%rsp), %xmm3
-  movaps 64(%rsp), %xmm4
-  movaps 80(%rsp), %xmm5
-  movaps 96(%rsp), %xmm6
-  movaps 112(%rsp), %xmm7
-  movaps 128(%rsp), %xmm8
-  movaps 144(%rsp), %xmm9
-  movaps 160(%rsp), %xmm10
-  movaps 176(%rsp), %xmm11
-  movaps 192(%rsp), %xmm12
-  movaps 208(%rsp), %xmm13
-  movaps 224(%rsp), %xmm14
-  movaps 240(%rsp), %xmm15
-  mov 264(%rsp), %rcx
-  mov 272(%rsp), %rdx
-  mov 280(%rsp), %rsi
-  mov 288(%rsp), %rdi
-  mov 296(%rsp), %r8
-  mov 304(%rsp), %r9
-  mov 312(%rsp), %r10
-  mov 320(%rsp), %r11
+  movaps 80(%rsp), %xmm1
+  movaps 96(%rsp), %xmm2
+  movaps 112(%rsp), %xmm3
+  movaps 128(%rsp), %xmm4
+  movaps 144(%rsp), %xmm5
+  movaps 160(%rsp), %xmm6
+  movaps 176(%rsp), %xmm7
+  movaps 192(%rsp), %xmm8
+  movaps 208(%rsp), %xmm9
+  movaps 224(%rsp), %xmm10
+  movaps 240(%rsp), %xmm11
+  movaps 256(%rsp), %xmm12
+  movaps 272(%rsp), %xmm13
+  movaps 288(%rsp), %xmm14
+  movaps 304(%rsp), %xmm15
+  mov 328(%rsp), %rcx
+  mov 336(%rsp), %rdx
+  mov 344(%rsp), %rsi
+  mov 352(%rsp), %rdi
+  mov 360(%rsp), %r8
+  mov 368(%rsp), %r9
+  mov 376(%rsp), %r10
+  mov 384(%rsp), %r11
   .endm
 
   .macro GPU_SHADING_THUNK_RETURN
@@ -118,12 +135,12 @@ asm(R"(
 
 gpu_shading_integer_thunk_body:
   GPU_SHADING_THUNK_CALL
-  movaps 0(%rsp), %xmm0
+  movaps 64(%rsp), %xmm0
   GPU_SHADING_THUNK_RETURN
 
 gpu_shading_real_thunk_body:
   GPU_SHADING_THUNK_CALL
-  mov 256(%rsp), %rax
+  mov 320(%rsp), %rax
   GPU_SHADING_THUNK_RETURN
 
   GPU_SHADING_THUNKS gpu_shading_integer_thunks, gpu_shading_integer_thunk_body

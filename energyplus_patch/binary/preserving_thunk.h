@@ -20,8 +20,9 @@ constexpr Result result_of() {
 // was, except that of the result. A caller in the same library may rely on what it knows of a
 // function: which registers it does not change although the System V ABI lets it (GCC's -fipa-ra),
 // and that it needs no aligned stack (-fipa-stack-alignment). Only the lower half of AVX registers
-// is kept: a library that is built without AVX holds nothing in the upper half. All arguments must
-// be in registers. Exceptions pass. The code is never freed. Throws Error if there are too many.
+// is kept: a library that is built without AVX holds nothing in the upper half. At most eight
+// arguments may be on the stack, of a word each. Exceptions pass. The code is never freed. Throws
+// Error if there are too many.
 void* preserve_registers(void* function, Result result);
 
 }  // namespace gpu_shading::energyplus

@@ -144,6 +144,13 @@ double change_all_and_give_real() {
   change_all_registers();
   return 0.5;
 }
+using Digits = int(int, int, int, int, int, int, int, int, int, int, int, int, int, int);
+Digits* original_digits = nullptr;
+int other_digits(int a, int b, int c, int d, int e, int f, int g, int h, int i, int j, int k, int l,
+                 int m, int n) {
+  int const sum = a + b + c + d + e + f + g + h + i + j + k + l + m + n;
+  return 1000 * sum + original_digits(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+}
 int throw_from_entry() { throw Error("from the entry"); }
 
 constexpr std::size_t first_real = 0;      // xmm0 in Registers
@@ -174,6 +181,14 @@ TEST(EntryPatch, OnlyTheRegisterOfARealResultChanges) {
   auto expected = numbered_registers();
   expected[first_real] = std::bit_cast<std::uint64_t>(0.5);
   EXPECT_EQ(registers, expected);
+}
+
+TEST(EntryPatch, ArgumentsOnTheStackArrive) {
+  PatchTarget const target("stack_arguments");
+  int const alone = target.call("call_digits");
+  patch_entries(target.symbols(), {watch("_ZN12_GLOBAL__N_16digitsEiiiiiiiiiiiiii", &other_digits,
+                                         &original_digits)});
+  EXPECT_EQ(target.call("call_digits"), 1000 * (13 * 14 / 2 + 5) + alone);
 }
 
 TEST(EntryPatch, ExceptionsPass) {

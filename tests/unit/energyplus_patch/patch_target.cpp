@@ -56,6 +56,20 @@ extern "C" __attribute__((naked, noinline, used, visibility("hidden"))) int stor
       "ret");
 }
 
+namespace {
+
+// Its last eight arguments are on the stack.
+__attribute__((noinline, used)) int digits(int a, int b, int c, int d, int e, int f, int g, int h,
+                                           int i, int j, int k, int l, int m, int n) {
+  int volatile first = a + b + c + d + e + f;
+  return first + g - h + i - j + k - l + m - n + counter - counter;
+}
+
+}  // namespace
+
+extern "C" EXPORTED int call_digits() {
+  return digits(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, counter);
+}
 extern "C" EXPORTED int call_twice(int value) { return twice(value); }
 extern "C" EXPORTED int call_reads_memory_first() { return reads_memory_first(); }
 extern "C" EXPORTED int call_jumps_first() { return jumps_first(); }
