@@ -90,6 +90,8 @@ void read_reflectances(std::vector<InputObject> const& objects, ShadingInput& in
     if (surface == input.shading_surfaces.end()) continue;
     surface->second.reflectance =
         share(object, "diffuse_solar_reflectance_of_unglazed_part_of_shading_surface", 0.2);
+    surface->second.visible_reflectance =
+        share(object, "diffuse_visible_reflectance_of_unglazed_part_of_shading_surface", 0.2);
     surface->second.glazed = share(object, "fraction_of_shading_surface_that_is_glazed", 0.0);
   }
 }

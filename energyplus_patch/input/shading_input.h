@@ -18,9 +18,11 @@ struct ShadingInput {
   struct ShadingSurface {
     std::string type;
     std::string transmittance_schedule = {};  // or ""
-    // ShadingProperty:Reflectance, with EnergyPlus's defaults: the diffuse solar reflectance, 0 ..
-    // 1, of the part that is not glazed, and the glazed fraction, 0 .. 1.
+    // ShadingProperty:Reflectance, with EnergyPlus's defaults: the diffuse reflectances for solar
+    // radiation and for light, 0 .. 1, of the part that is not glazed, and the glazed fraction, 0
+    // .. 1.
     double reflectance = 0.2;
+    double visible_reflectance = 0.2;
     double glazed = 0.0;
   };
 

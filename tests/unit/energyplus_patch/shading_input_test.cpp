@@ -74,9 +74,11 @@ TEST(ShadingInput, ReflectanceBelongsToItsSurfaceWhereverItStands) {
                "Shading:Site:Detailed,Plain,;ShadingProperty:Reflectance,Nothing,0.5;"));
   auto const& tree = input.shading_surfaces.at("TREE");
   EXPECT_EQ(tree.reflectance, 0.35);
+  EXPECT_EQ(tree.visible_reflectance, 0.4);
   EXPECT_EQ(tree.glazed, 0.25);
   EXPECT_EQ(input.shading_surfaces.at("WALL").reflectance, 1.0);
   EXPECT_EQ(input.shading_surfaces.at("PLAIN").reflectance, 0.2);
+  EXPECT_EQ(input.shading_surfaces.at("PLAIN").visible_reflectance, 0.2);
   EXPECT_EQ(input.shading_surfaces.at("PLAIN").glazed, 0.0);
 }
 
