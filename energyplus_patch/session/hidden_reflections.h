@@ -4,11 +4,9 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
-#include "gpu_shading/rays.h"
-#include "session/scene_assembly.h"
+#include "session/hidden_casters.h"
 
 namespace gpu_shading::energyplus {
 
@@ -39,9 +37,7 @@ struct ReflectedShare {
 
 // What is not in EnergyPlus's input (lean input, surroundings) does to solar radiation that
 // EnergyPlus's surfaces receive by reflection: it stops a part of what other surfaces and the
-// ground reflect, and of what reaches them, and it reflects itself, diffusely. A caster reflects
-// its diffuse reflectance, but not more than it does not let pass; a perforated sheet reflects with
-// the solid share of its area.
+// ground reflect, and of what reaches them, and it reflects itself, diffusely.
 // As in EnergyPlus's SolarReflectionManager, the mean of a surface's side decides about the sky,
 // and the point that is hit about the beam, but a side of which less than a hundredth is in the sun
 // at the hour's first timestep reflects nothing. Not for several threads at once.
@@ -52,7 +48,7 @@ class HiddenReflections {
   explicit HiddenReflections(SceneAssembly const& scene);
 
   // Whether there are hidden casters. Without them, nothing else may be called.
-  bool any() const { return hidden_.has_value(); }
+  bool any() const { return casters_.any(); }
 
   // The rays of the simulation, all of them.
   void set_rays(std::vector<ReflectionRay> rays);
@@ -75,49 +71,27 @@ class HiddenReflections {
   double transmittance(Ray const& ray, int hour);
 
   // Schedules may have other values from now on: another day.
-  void renew() { moment_.reset(); }
+  void renew() {
+    casters_.renew();
+    moment_.reset();
+  }
 
  private:
-  // A hidden caster on the way.
-  struct Layer {
-    SurfaceId surface = 0;
-    glm::dvec3 at{0.0};
-    glm::dvec3 normal{0.0};    // on the side that the ray meets
-    double reflectance = 0.0;  // times what is let pass on the way back
-  };
-  struct Way {
-    std::vector<Layer> layers;
-    double passed = 1.0;  // of all layers
-  };
+  using Layer = HiddenCasters::Layer;
+  using Way = HiddenCasters::Way;
 
   void trace(int hour);
-  Way way_of(Ray const& ray, std::vector<RayLayer> const& layers) const;
-  double reflectance(SurfaceId surface, double transmittance) const;
-  std::vector<double> passed(RayScene const& scene, std::vector<Ray> const& rays) const;
   void keep(glm::dvec3 const& to_sun);
   void reflect(Sun const& sun);
   ReflectedShare sky_share(ReflectionRay const& ray, Way const& way);
-  double sky_view(Layer const& layer);
   bool lit(Layer const& layer, std::optional<glm::dvec3> const& to_sun);
-  RayConditions conditions() const { return {.factors = factors_, .deployments = deployments_}; }
 
-  SceneAssembly const& scene_;
-  Scene surfaces_;
-  std::optional<RayScene> hidden_;  // none: there is no hidden caster
-  std::optional<RayScene> all_;     // EnergyPlus's own surfaces too
+  HiddenCasters casters_;
   std::vector<ReflectionRay> rays_;
   std::vector<Way> ways_;  // by ray, once traced
   std::vector<ReflectedShare> shares_;
-  std::optional<int> moment_;  // the hour of the factors
-  std::vector<double> factors_;
-  std::vector<double> deployments_;
-  // By surface and whether it is the side of its normal.
-  using Side = std::pair<SurfaceId, bool>;
-  Side side_of(Layer const& layer) const;
-  std::map<Side, double> sky_views_;
-  std::map<Side, bool> lit_;
-  std::map<SurfaceId, std::vector<glm::dvec3>> samples_;
-  std::vector<glm::dvec3> const& samples(SurfaceId surface);
+  std::optional<int> moment_;  // the hour of the ways
+  std::map<HiddenCasters::Side, bool> lit_;
 };
 
 }  // namespace gpu_shading::energyplus

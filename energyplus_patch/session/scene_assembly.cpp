@@ -144,11 +144,11 @@ std::vector<SurfaceId> SceneAssembly::shown() const {
   return ids;
 }
 
-Scene SceneAssembly::scene() const {
+Scene SceneAssembly::scene(ShadeOptics::Radiation radiation) const {
   Scene scene;
   for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
     auto surface = surfaces_[id];
-    optics_.apply(surface, model_.surroundings.texture_of(id));
+    optics_.apply(surface, model_.surroundings.texture_of(id), radiation);
     scene.add(std::move(surface));
   }
   std::vector<WallCopy> copies;
@@ -159,7 +159,7 @@ Scene SceneAssembly::scene() const {
     closed.name = wall.name;
     closed.polygon.outline = wall.polygon.outline;
     closed.casting = wall.casting;
-    optics_.apply(closed);
+    optics_.apply(closed, std::nullopt, radiation);
     copies.push_back({id, scene.add(std::move(closed))});
   }
   scene.set_rule(make_shading_rule(model_.shading, scene, copies).rule);

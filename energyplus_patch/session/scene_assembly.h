@@ -69,7 +69,7 @@ class SceneAssembly {
 
   // The scene to render, with the optics as they are now: the surfaces by their ids, then a copy
   // without openings of each wall that has openings.
-  Scene scene() const;
+  Scene scene(ShadeOptics::Radiation radiation = ShadeOptics::Radiation::solar) const;
 
   // The casters that are not EnergyPlus's surfaces, with the optics as they are now for light.
   Scene hidden_casters() const;
