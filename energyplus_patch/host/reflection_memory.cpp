@@ -1,7 +1,5 @@
 #include "host/reflection_memory.h"
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -9,82 +7,11 @@
 #include <span>
 #include <string>
 
+#include "host/object_memory.h"
 #include "host/own_memory.h"
 
 namespace gpu_shading::energyplus {
 namespace {
-
-// Thrown and caught here where something is not as expected.
-struct Unexpected {};
-
-void expect(bool holds) {
-  if (!holds) throw Unexpected{};
-}
-
-// The beginning of ObjexxFCL's Array (ObjexxFCL/Array.hh).
-struct ArrayHeader {
-  std::byte const* table;
-  std::uint64_t owner;
-  std::uint64_t capacity;
-  std::uint64_t size;
-  void* block;
-  std::byte* data;
-  std::int64_t shift;
-  std::byte* shifted;
-};
-static_assert(sizeof(ArrayHeader) == 64);
-
-// The words of an object, up to `size` bytes or to the end of valid memory.
-std::vector<std::byte const*> words_of(std::byte const* object, std::size_t size) {
-  std::vector<std::byte const*> words(size / sizeof(void*));
-  if (read_memory(object, words.data(), words.size() * sizeof(void*))) return words;
-  words.clear();
-  for (std::size_t at = 0; at + sizeof(void*) <= size; at += sizeof(void*)) {
-    auto const word = read_value<std::byte const*>(object + at);
-    if (!word) break;
-    words.push_back(*word);
-  }
-  return words;
-}
-
-// The object of a class to which one of the state's words points.
-std::byte* find_object(State& state, std::byte const* table) {
-  // EnergyPlus's state has some 400 pointers.
-  constexpr std::size_t reach = 0x4000;
-  for (auto const* word : words_of(reinterpret_cast<std::byte const*>(&state), reach)) {
-    if (word == nullptr || reinterpret_cast<std::uintptr_t>(word) % sizeof(void*) != 0) continue;
-    if (read_value<std::byte const*>(word) == table) return const_cast<std::byte*>(word);
-  }
-  throw Unexpected{};
-}
-
-template <typename Element>
-struct ArrayOf {
-  Element* data = nullptr;
-  std::size_t size = 0;
-  std::size_t row = 1;  // of the second index, where there are two
-};
-
-// An array whose indexes begin with 1.
-template <typename Element>
-ArrayOf<Element> read_array(std::byte const* at, bool two_indexes = false) {
-  auto const header = read_value<ArrayHeader>(at);
-  expect(header && header->size <= header->capacity && header->data != nullptr);
-  expect(header->shifted ==
-         header->data - header->shift * static_cast<std::int64_t>(sizeof(Element)));
-  ArrayOf<Element> array{reinterpret_cast<Element*>(header->data), header->size, 1};
-  if (two_indexes) {
-    expect(header->shift >= 2);
-    array.row = static_cast<std::size_t>(header->shift - 1);
-    expect(array.size % array.row == 0);
-  } else {
-    expect(header->shift == 1);
-  }
-  // Both ends can be read.
-  expect(array.size > 0 && read_value<Element>(array.data) &&
-         read_value<Element>(array.data + array.size - 1));
-  return array;
-}
 
 // Where arrays begin in an object, in order.
 struct Place {
@@ -168,8 +95,7 @@ std::size_t find_integer(Layout const& layout, std::size_t begin, std::size_t en
 }
 
 void find_arrays(std::byte const* manager, ReflectionClasses const& classes, Layout& layout) {
-  auto const places =
-      arrays_in(words_of(manager, malloc_usable_size(const_cast<std::byte*>(manager))), classes);
+  auto const places = arrays_in(words_of_block(manager), classes);
   auto const found = std::find_if(places.begin(), places.end(), [&](Place const& place) {
     return place.table == classes.receivers;
   });
@@ -348,8 +274,7 @@ void find_in_surfaces(std::byte const* object, ReflectionClasses const& classes,
   constexpr std::size_t hours = 24;
   auto const all = static_cast<std::size_t>(memory.surfaces);
   bool suns = false;
-  for (auto const& place :
-       arrays_in(words_of(object, malloc_usable_size(const_cast<std::byte*>(object))), classes)) {
+  for (auto const& place : arrays_in(words_of_block(object), classes)) {
     auto const header = read_value<ArrayHeader>(object + place.offset);
     expect(header.has_value());
     if (place.table == classes.numbers && header->size == all && header->shift == 1) {
