@@ -2,19 +2,14 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <utility>
 
+#include "host/daylight_reflection_entries.h"
 #include "host/run.h"
 
 namespace gpu_shading::energyplus {
 namespace {
-
-// EnergyPlus's Vector3<double>, with the same layout.
-struct Vector {
-  double x, y, z;
-
-  bool operator==(Vector const&) const = default;
-};
 
 glm::dvec3 to_glm(Vector const& vector) { return {vector.x, vector.y, vector.z}; }
 
@@ -53,6 +48,9 @@ double share_of(Session& session, Ray const& ray, int hour) {
 double hit_obstruction(State& state, int hour, int window, Vector const& origin,
                        Vector const& direction) {
   auto const before = std::exchange(arrived(), {});  // of this ray alone
+  if (auto* const reflections = guarded([&] { return daylight_reflections(state); })) {
+    reflections->begin_ray(direction);
+  }
   double const passed = original_hit_obstruction(state, hour, window, origin, direction);
   auto* const session = answering_session();
   if (session == nullptr || passed <= 0.0) return passed;
@@ -72,7 +70,12 @@ bool blocked(Session& session, Vector const& from, Vector const& to, double befo
 
 bool hit_interior(State& state, int window, Vector const& from, Vector const& to) {
   arrived() = {};
+  std::optional<bool> image;
+  if (auto* const reflections = guarded([&] { return daylight_reflections(state); })) {
+    image = guarded([&] { return reflections->stops_image(window, from, to); });
+  }
   if (original_hit_interior(state, window, from, to)) return true;
+  if (image) return *image;
   auto* const session = answering_session();
   return session != nullptr && blocked(*session, from, to, 1.0);
 }
@@ -87,7 +90,10 @@ bool hit_between(State& state, int first, int second, Vector const& from, Vector
 
 void coefficients(State& state) {
   if (auto* const session = answering_session()) guarded([&] { session->begin_daylighting(); });
+  auto const reflections = [&] { return guarded([&] { return daylight_reflections(state); }); };
+  if (auto* const active = reflections()) active->begin_period();
   original_coefficients(state);
+  if (auto* const active = reflections()) active->end_period();
 }
 
 }  // namespace

@@ -16,6 +16,13 @@ namespace gpu_shading::energyplus {
 
 using State = EnergyPlus::EnergyPlusData;
 
+// Its Vector3<double>, with the same layout.
+struct Vector {
+  double x, y, z;
+
+  bool operator==(Vector const&) const = default;
+};
+
 // The signature of EnergyPlus's functions that write a message to its .err file and up to two other
 // files.
 using OtherFile = std::optional<std::reference_wrapper<EnergyPlus::InputOutputFile>>;

@@ -90,7 +90,8 @@ Rewrite take_model(std::vector<InputObject> objects, Path const& path,
   auto& run = this_run();
   run.model = understand(
       std::move(objects), path, installation().choices,
-      {find_mentions, installation().daylight_rays, installation().reflection_classes.has_value()});
+      {find_mentions, installation().daylight_rays, installation().reflection_classes.has_value(),
+       installation().daylight_reflections.has_value()});
   if (run.model->options.mode != Mode::off) {
     check_supported(run.model->shading, installation().version);
     // Now, because EnergyPlus may stop at such a surface.

@@ -16,6 +16,7 @@
 #include "gpu_shading/renderer.h"
 #include "gpu_shading_energyplus.h"
 #include "host/daylight_entries.h"
+#include "host/daylight_reflection_entries.h"
 #include "host/input_entries.h"
 #include "host/penumbra_entries.h"
 #include "host/reflection_entries.h"
@@ -98,6 +99,15 @@ bool can_patch(SymbolTable const& symbols, std::vector<EntryPatch> const& entrie
   }
 }
 
+std::optional<Installation::DaylightParts> find_daylight_reflections(SymbolTable const& symbols) {
+  auto const classes = find_daylight_classes(symbols);
+  auto* const element = find_element_function(symbols);
+  if (!classes || element == nullptr || !can_patch(symbols, daylight_reflection_entries())) {
+    return std::nullopt;
+  }
+  return Installation::DaylightParts{*classes, element};
+}
+
 void patch(Loaded const& loaded, Installation& installed) {
   SymbolTable const symbols(loaded.path, loaded.base);
   auto entries = penumbra_entries();
@@ -114,12 +124,19 @@ void patch(Loaded const& loaded, Installation& installed) {
   auto const reflections = reflection_entries();
   if (!surface_ids || !can_patch(symbols, reflections)) reflection_classes.reset();
   if (reflection_classes) entries.insert(entries.end(), reflections.begin(), reflections.end());
+  auto const daylight_reflections =
+      reflection_classes && daylight_rays ? find_daylight_reflections(symbols) : std::nullopt;
+  if (daylight_reflections) {
+    auto const more = daylight_reflection_entries();
+    entries.insert(entries.end(), more.begin(), more.end());
+  }
   EnergyPlusFunctions const functions(symbols);
   ScheduleFunctions const schedules(symbols);
   auto const version = read_version(loaded.path.parent_path());
   patch_entries(symbols, entries);
   installed.surface_ids = surface_ids;
   installed.reflection_classes = reflection_classes;
+  installed.daylight_reflections = daylight_reflections;
   installed.library = loaded.path;
   installed.version = version;
   installed.daylight_rays = daylight_rays;

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "host/daylight_reflection_entries.h"
 #include "host/reflection_memory.h"
 #include "host/run.h"
 #include "host/solar_reflections.h"
@@ -27,6 +28,7 @@ Reflections& reflections() {
 }
 
 void warn() {
+  forget_daylight_reflections();
   reflections().active.reset();
   messages_of(this_run())
       .warning(
@@ -35,29 +37,8 @@ void warn() {
           "--gpu-shading-lean=off, shading surfaces count as opaque");
 }
 
-// What computes reflections in this run; nullptr if EnergyPlus alone does.
-SolarReflections* answering(State& state) {
-  auto const& run = this_run();
-  if (!run.model || !run.model->reflections_answered || run.session == nullptr) return nullptr;
-  auto& known = reflections();
-  if (known.looked) return known.active ? &*known.active : nullptr;
-  known.looked = true;
-  if (run.session->reflections() == nullptr) return nullptr;
-  auto const& installed = installation();
-  std::optional<ReflectionMemory> memory;
-  if (installed.surface_ids && installed.reflection_classes) {
-    memory = find_reflection_memory(state, *run.session, *installed.surface_ids,
-                                    *installed.reflection_classes);
-  }
-  if (memory) {
-    known.active.emplace(std::move(*memory), *run.session, originals());
-    return &*known.active;
-  }
-  warn();
-  return nullptr;
-}
-
 void init(State& state) {
+  forget_daylight_reflections();
   auto& known = reflections();
   known.active.reset();
   known.looked = false;
@@ -76,7 +57,7 @@ template <typename... Hour>
 void compute(bool (SolarReflections::*ours)(State&, Hour...), void (*original)(State&, Hour...),
              State& state, Hour... hour) {
   guarded([&] {
-    auto* const active = answering(state);
+    auto* const active = solar_reflections(state);
     if (active == nullptr) {
       original(state, hour...);
     } else if (!(active->*ours)(state, hour...)) {
@@ -98,6 +79,27 @@ void sky_diffuse(State& state) {
 }
 
 }  // namespace
+
+SolarReflections* solar_reflections(State& state) {
+  auto const& run = this_run();
+  if (!run.model || !run.model->reflections_answered || run.session == nullptr) return nullptr;
+  auto& known = reflections();
+  if (known.looked) return known.active ? &*known.active : nullptr;
+  known.looked = true;
+  if (run.session->reflections() == nullptr) return nullptr;
+  auto const& installed = installation();
+  std::optional<ReflectionMemory> memory;
+  if (installed.surface_ids && installed.reflection_classes) {
+    memory = find_reflection_memory(state, *run.session, *installed.surface_ids,
+                                    *installed.reflection_classes);
+  }
+  if (memory) {
+    known.active.emplace(std::move(*memory), *run.session, originals());
+    return &*known.active;
+  }
+  warn();
+  return nullptr;
+}
 
 std::vector<EntryPatch> reflection_entries() {
   return {

@@ -12,6 +12,7 @@
 #include "host/energyplus.h"
 #include "host/reflection_memory.h"
 #include "host/schedule_functions.h"
+#include "host/surface_luminance.h"
 #include "session/session.h"
 
 namespace gpu_shading::energyplus {
@@ -26,6 +27,12 @@ struct Installation {
   bool daylight_rays = false;               // the functions of daylighting's rays are redirected
   // Where solar reflections are found, if their functions are redirected.
   std::optional<ReflectionClasses> reflection_classes;
+  // What reflections in daylighting need, if their functions are redirected.
+  struct DaylightParts {
+    DaylightClasses classes;
+    ElementFunction* element;
+  };
+  std::optional<DaylightParts> daylight_reflections;
   Choices choices;                // command line over environment
   std::optional<AskedTask> task;  // that EnergyPlus is run for
 };

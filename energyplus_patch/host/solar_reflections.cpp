@@ -253,6 +253,24 @@ RayScene const& SolarReflections::mirror(SurfaceId surface) {
   return mirrors_.emplace(surface, RayScene(scene, {.faces = RayFaces::both})).first->second;
 }
 
+std::vector<SurfaceId> SolarReflections::mirrors_of(std::int32_t window) const {
+  std::vector<SurfaceId> found;
+  for (auto const& receiver : memory_.receivers) {
+    if (receiver.number != window) continue;
+    for (std::int32_t i = 0; i < *receiver.obstruction_count; ++i) {
+      auto const number = receiver.obstructions[i];
+      if (is_mirror(number)) found.push_back(*memory_.ids[static_cast<std::size_t>(number)]);
+    }
+  }
+  return found;
+}
+
+std::optional<double> SolarReflections::distance_to_mirror(SurfaceId surface, Ray const& ray) {
+  auto const met = mirror(surface).layers(ray);
+  if (met.empty()) return std::nullopt;
+  return met.front().distance;
+}
+
 std::vector<SolarReflections::Image> SolarReflections::images(Receiver const& receiver,
                                                               glm::dvec3 const& to_sun, int hour) {
   std::vector<Image> found;
@@ -266,11 +284,10 @@ std::vector<SolarReflections::Image> SolarReflections::images(Receiver const& re
     if (glm::dot(receiver.normal, to_image) <= 0.0) continue;
     for (std::size_t point = 0; point < static_cast<std::size_t>(*receiver.point_count); ++point) {
       auto const& from = receiver.points[point];
-      auto const met = mirror(id).layers({from, to_image});
-      if (met.empty()) continue;
-      double const distance = met.front().distance;
-      auto const at = from + distance * to_image;
-      double passed = hidden().transmittance({from, to_image, distance}, hour);
+      auto const distance = distance_to_mirror(id, {from, to_image});
+      if (!distance) continue;
+      auto const at = from + *distance * to_image;
+      double passed = hidden().transmittance({from, to_image, *distance}, hour);
       if (passed > 0.0) passed *= hidden().transmittance({at, to_sun}, hour);
       found.push_back({point, number, passed});
     }

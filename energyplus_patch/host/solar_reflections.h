@@ -35,6 +35,16 @@ class SolarReflections {
   bool beam_specular(State& state, int hour);
   bool sky_diffuse(State& state);
 
+  ReflectionMemory const& memory() const { return memory_; }
+
+  // Those of EnergyPlus's surfaces in which a window may see the sun's image.
+  std::vector<SurfaceId> mirrors_of(std::int32_t window) const;
+  // How far along the ray it meets one of them, m.
+  std::optional<double> distance_to_mirror(SurfaceId mirror, Ray const& ray);
+
+  // To the sun, at an hour's middle; nothing if it is not up.
+  std::optional<glm::dvec3> sun(int hour) const;
+
  private:
   using Receiver = ReflectionMemory::Receiver;
   // Two of EnergyPlus's arrays.
@@ -54,7 +64,6 @@ class SolarReflections {
   };
 
   HiddenReflections& hidden() const { return *session_.reflections(); }
-  std::optional<glm::dvec3> sun(int hour) const;
   std::vector<ReflectionRay> rays() const;
   template <typename Visit>
   void for_each_ray(Visit const& visit) const;

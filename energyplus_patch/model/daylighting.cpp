@@ -13,9 +13,7 @@ bool has_daylighting(std::vector<InputObject> const& objects) {
   });
 }
 
-bool daylighting_can_be_answered(std::vector<InputObject> const& objects,
-                                 ShadingInput const& input) {
-  if (input.reflections) return false;
+bool daylighting_can_be_answered(std::vector<InputObject> const& objects) {
   return std::none_of(objects.begin(), objects.end(), [](InputObject const& object) {
     return object.type == "Daylighting:DELight:ComplexFenestration" ||
            object.type == "Construction:ComplexFenestrationState" ||

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "idf/input_object.h"
-#include "input/shading_input.h"
 
 namespace gpu_shading::energyplus {
 
@@ -19,9 +18,7 @@ bool has_daylighting(std::vector<InputObject> const& objects);
 
 // Whether all rays of daylighting go through functions that this module can answer: not with
 // DElight, which is a program of its own, nor with complex fenestration, whose rays EnergyPlus
-// traces once when it starts, nor with solar reflections, whose rays ask for the surfaces
-// themselves.
-bool daylighting_can_be_answered(std::vector<InputObject> const& objects,
-                                 ShadingInput const& input);
+// traces once when it starts.
+bool daylighting_can_be_answered(std::vector<InputObject> const& objects);
 
 }  // namespace gpu_shading::energyplus

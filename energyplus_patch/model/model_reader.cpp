@@ -80,9 +80,11 @@ std::vector<std::string> kept(Names const& surfaces, LeanInput const& lean) {
 void plan_rays(std::vector<InputObject> const& objects, Reader const& reader, Model& model) {
   bool const on = model.options.mode != Mode::off;
   EnergyPlusRays rays;
-  rays.daylighting_answered = reader.daylight_rays && on && has_daylighting(objects) &&
-                              daylighting_can_be_answered(objects, model.shading);
   rays.reflections_answered = reader.reflections && on && model.shading.reflections;
+  rays.daylighting_answered =
+      reader.daylight_rays && on && has_daylighting(objects) &&
+      daylighting_can_be_answered(objects) &&
+      (!model.shading.reflections || (rays.reflections_answered && reader.reflections_in_daylight));
   auto const transmitting = transmitting_surfaces(model);
   if (rays.daylighting_answered || rays.reflections_answered) rays.transmitting = transmitting;
   if (reader.find_mentions) {

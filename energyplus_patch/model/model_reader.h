@@ -36,6 +36,8 @@ struct Reader {
   MentionFinder find_mentions;  // for the model's own file; without it, lean input is not planned
   bool daylight_rays = false;   // rays of daylighting can be answered
   bool reflections = false;     // rays of solar reflections can be answered
+  // Those of daylighting can be answered in models with solar reflections, too.
+  bool reflections_in_daylight = false;
 };
 
 // Reads a model's objects together with those of its side file, and resolves all options.

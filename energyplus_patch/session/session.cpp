@@ -76,6 +76,7 @@ void Session::set_time(Moment moment) {
     // The CPU also if it took over from a GPU.
     auto const device = choice_of(answers_->rendered().renderer().device());
     obstructions_.reset();
+    luminance_.reset();
     renew_reflections();
     answers_->close();
     answers_->open(open_answers(scene_, receivers, device, messages_));
@@ -126,12 +127,19 @@ double Session::daylight_transmittance(Ray const& ray, int hour) {
 
 void Session::begin_daylighting() {
   if (obstructions_) obstructions_->renew();
+  if (luminance_) luminance_->renew();
 }
 
 HiddenReflections* Session::reflections() {
   if (!answers_) throw Error("EnergyPlus asks for reflections before its surfaces are complete");
   if (!reflections_) reflections_.emplace(scene_);
   return reflections_->any() ? &*reflections_ : nullptr;
+}
+
+HiddenLuminance* Session::luminance() {
+  if (!answers_) throw Error("EnergyPlus asks for daylight before its surfaces are complete");
+  if (!luminance_) luminance_.emplace(scene_);
+  return luminance_->any() ? &*luminance_ : nullptr;
 }
 
 // With the optics as they are now.

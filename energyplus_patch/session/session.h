@@ -9,6 +9,7 @@
 
 #include "gpu_shading/scene.h"
 #include "model/model_reader.h"
+#include "session/hidden_luminance.h"
 #include "session/hidden_obstructions.h"
 #include "session/hidden_reflections.h"
 #include "session/messages.h"
@@ -74,6 +75,9 @@ class Session {
   // What the same surfaces do to reflected solar radiation; nullptr if there are none.
   HiddenReflections* reflections();
 
+  // What they do to light that daylighting receives by reflection; nullptr if there are none.
+  HiddenLuminance* luminance();
+
   // The last direction to the sun at the first timestep of an hour, 1 .. 24; nothing if EnergyPlus
   // did not ask for it.
   std::optional<glm::dvec3> first_sun(int hour) const;
@@ -95,6 +99,7 @@ class Session {
   std::optional<SunAnswers> answers_;               // once started
   std::optional<HiddenObstructions> obstructions_;  // once asked for
   std::optional<HiddenReflections> reflections_;    // once asked for
+  std::optional<HiddenLuminance> luminance_;        // once asked for
 };
 
 }  // namespace gpu_shading::energyplus
