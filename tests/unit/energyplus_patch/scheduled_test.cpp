@@ -106,6 +106,18 @@ TEST(RunTimes, FileThatIsCut) {
   EXPECT_THROW(read_run_times(cut), Error);
 }
 
+TEST(RunTimes, YearOfTheFirstRunPeriod) {
+  std::string const sizing = "Environment,DAY,SizingPeriod:DesignDay, 10/21,10/21,...\n";
+  std::istringstream eio(sizing +
+                         "Environment,YEAR,WeatherFileRunPeriod,01/01/2017,12/31/2017,Sunday\n"
+                         "Environment,MORE,WeatherFileRunPeriod,01/01/2020,12/31/2020,Sunday\n");
+  EXPECT_EQ(read_first_year(eio), 2017);
+  for (std::string const date : {"", "01/01", "01/01/nan", "01/01/1e300", "01/01/-5"}) {
+    std::istringstream without(sizing + "Environment,YEAR,WeatherFileRunPeriod," + date + ",\n");
+    EXPECT_THROW(read_first_year(without), Error) << date;
+  }
+}
+
 TEST(RunTimes, RunPeriodsThatDisagree) {
   auto const twice = [](std::string const& altitude) {
     return dictionary + "2,1, 3, 1, 0,12, 0.00,15.00,Sunday\n7,180\n8,45\n9,1\n" +
