@@ -108,6 +108,12 @@ def test_a_pass_is_recorded_and_a_failure_is_not(tree, monkeypatch, passes):
             tidy.main()
 
 
+def test_headers_that_gcc_precompiled_are_left_out(tmp_path):
+    (tmp_path / "compile_commands.json").write_text(
+        '[{"command": "c++ -O2 -fpch-preprocess -Winvalid-pch -include /b/x.dir/cmake_pch.hxx -c a.cpp"}]')
+    assert tidy.read_commands(tmp_path) == '[{"command": "c++ -O2 -c a.cpp"}]'
+
+
 def test_a_base_can_be_named(tree, monkeypatch):
     commit("b.cpp", "// other\n")
     commit("a.h", "// other\n")

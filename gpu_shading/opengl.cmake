@@ -38,6 +38,7 @@ target_include_directories(gpu_shading_opengl
 target_link_libraries(gpu_shading_opengl
   PUBLIC gpu_shading
   PRIVATE project_options PkgConfig::EPOXY fmt::fmt ${CMAKE_DL_LIBS})
+precompile(gpu_shading_opengl)
 add_library(gpu_shading_gl MODULE gl_entry/gl_entry.cpp)
 target_link_libraries(gpu_shading_gl PRIVATE project_options gpu_shading_opengl)
 set(exports ${CMAKE_CURRENT_SOURCE_DIR}/gl_entry/exports.map)

@@ -6,7 +6,8 @@ add_library(gpu_shading_python MODULE
   python/scene_calls.cpp)
 target_include_directories(gpu_shading_python PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 target_compile_definitions(gpu_shading_python PRIVATE GPU_SHADING_VERSION="${PROJECT_VERSION}")
-target_link_libraries(gpu_shading_python PRIVATE project_options gpu_shading fmt::fmt)
+target_link_libraries(gpu_shading_python PRIVATE project_options gpu_shading)
+precompile(gpu_shading_python)
 set(exports ${CMAKE_CURRENT_SOURCE_DIR}/python/exports.map)
 target_link_options(gpu_shading_python PRIVATE -Wl,--version-script=${exports} -Wl,--as-needed
                                                -Wl,--gc-sections ${no_undefined})
