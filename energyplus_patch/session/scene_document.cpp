@@ -18,18 +18,18 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Document = nlohmann::ordered_json;
 
 constexpr int steps_a_degree = 2;
 constexpr std::size_t most_texels = std::size_t{4096} * 4096;
 
-std::string text_of(Json const& json) {
+std::string text_of(Document const& json) {
   // Names in IDF files may be in Latin-1.
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump(-1, ' ', false, Document::error_handler_t::replace);
 }
 
-Json to_json(Transmittance const& model) {
-  Json values = Json::array();
+Document to_json(Transmittance const& model) {
+  Document values = Document::array();
   for (int i = 0; i <= 90 * steps_a_degree; ++i) {
     values.push_back(model(glm::radians(static_cast<double>(i) / steps_a_degree)));
   }
@@ -43,7 +43,7 @@ std::string hexadecimal(std::span<std::uint16_t const> texels) {
   return digits;
 }
 
-Json to_json(HolePattern const& pattern) {
+Document to_json(HolePattern const& pattern) {
   constexpr std::array<std::string_view, 4> holes{"round", "square", "slotted", "hexagonal"};
   constexpr std::array<std::string_view, 3> arrangements{"straight", "staggered 45",
                                                          "staggered 60"};
@@ -56,30 +56,30 @@ Json to_json(HolePattern const& pattern) {
           {"row_pitch", perforation.row_pitch}};
 }
 
-Json to_json(OpacityTile const& tile) {
+Document to_json(OpacityTile const& tile) {
   auto const texels = tile.opacity();
   if (texels.size() > most_texels) {
     throw Error(
         fmt::format("a texture of {} x {} texels, expected at most {} in all for a document",
                     tile.columns(), tile.rows(), most_texels));
   }
-  Json json{{"width", tile.width()},
-            {"height", tile.height()},
-            {"columns", tile.columns()},
-            {"rows", tile.rows()},
-            {"opacity", hexadecimal(texels)}};
-  json["threshold"] = tile.threshold() ? Json(*tile.threshold()) : Json();
+  Document json{{"width", tile.width()},
+                {"height", tile.height()},
+                {"columns", tile.columns()},
+                {"rows", tile.rows()},
+                {"opacity", hexadecimal(texels)}};
+  json["threshold"] = tile.threshold() ? Document(*tile.threshold()) : Document();
   return json;
 }
 
-Json to_json(PerforatedScreen const& screen) {
+Document to_json(PerforatedScreen const& screen) {
   constexpr std::array<std::string_view, 3> planes{"centre", "outside", "inside"};
   constexpr std::array<std::string_view, 3> details{"automatic", "holes", "effective"};
   auto const& sheet = screen.sheet();
-  Json json{{"thickness", sheet.thickness},
-            {"plane", planes.at(static_cast<std::size_t>(sheet.plane))},
-            {"detail", details.at(static_cast<std::size_t>(sheet.detail))}};
-  json["layers"] = sheet.layers ? Json(*sheet.layers) : Json();
+  Document json{{"thickness", sheet.thickness},
+                {"plane", planes.at(static_cast<std::size_t>(sheet.plane))},
+                {"detail", details.at(static_cast<std::size_t>(sheet.detail))}};
+  json["layers"] = sheet.layers ? Document(*sheet.layers) : Document();
   if (screen.pattern()) json["pattern"] = to_json(*screen.pattern());
   if (screen.tile()) json["tile"] = to_json(*screen.tile());
   return json;
@@ -96,11 +96,11 @@ class Shared {
     if (added) documents_.push_back(to_json(*object));
     return std::to_string(known->second);
   }
-  Json const& documents() const { return documents_; }
+  Document const& documents() const { return documents_; }
 
  private:
   std::map<T const*, std::size_t> indices_;
-  Json documents_ = Json::array();
+  Document documents_ = Document::array();
 };
 
 // Written piece by piece: a document of each number would take ten times the memory.
@@ -126,8 +126,8 @@ class SurfaceTexts {
   }
 
   std::string const& text() const { return text_; }
-  Json const& transmittances() const { return transmittances_.documents(); }
-  Json const& screens() const { return screens_.documents(); }
+  Document const& transmittances() const { return transmittances_.documents(); }
+  Document const& screens() const { return screens_.documents(); }
 
  private:
   template <typename... Values>
@@ -168,8 +168,8 @@ std::string scene_document(SceneAssembly& assembly) {
   SurfaceTexts surfaces;
   for (SurfaceId id = 0; id < scene.size(); ++id) surfaces.add(scene[id], receives[id]);
   auto const& options = assembly.model().options;
-  Json head{{"format", "gpu_shading scene 1"}, {"error", options.error}};
-  head["resolution"] = options.resolution ? Json(*options.resolution) : Json();
+  Document head{{"format", "gpu_shading scene 1"}, {"error", options.error}};
+  head["resolution"] = options.resolution ? Document(*options.resolution) : Document();
   head["schedules"] = assembly.optics().factor_names();
   head["deployments"] = assembly.optics().deployment_names();
   head["transmittances"] = surfaces.transmittances();

@@ -300,10 +300,6 @@ def test_named_surface_stays(run_both, louvres, added, variable):
 
 
 REASONS = {
-    "daylighting with reflections": (
-        lambda text: text.replace("FullInteriorAndExterior", "FullExteriorWithReflections") +
-        "Daylighting:Controls,Light,Box,SplitFlux,,Continuous,,,,,,,,,Point,1,500;\n"
-        "Daylighting:ReferencePoint,Point,Box,3,3,0.8;\n", "Daylighting:Controls LIGHT"),
     "DElight": (lambda text: text + "Daylighting:Controls,Light,Box,DElight,,Continuous,,,,,,,,,Point,1,500;\n"
                     "Daylighting:ReferencePoint,Point,Box,3,3,0.8;\n", "Daylighting:Controls LIGHT"),
     "shading file": (lambda text: re.sub(r"ShadowCalculation,[^;]*;", "ShadowCalculation,PolygonClipping,Periodic,20,"

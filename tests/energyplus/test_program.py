@@ -79,6 +79,12 @@ def test_check_of_a_missing_file(program, tmp_path):
     assert "missing.idf: no such file" in done.stderr
 
 
+def heed_signals():
+    """Where the tests are run by nohup or in the background of a shell, a program would ignore these."""
+    for each in (signal.SIGHUP, signal.SIGINT):
+        signal.signal(each, signal.SIG_DFL)
+
+
 class Started:
     """gpu_shading check, with EnergyPlus running."""
 
@@ -87,8 +93,7 @@ class Started:
         self.process = subprocess.Popen([patched.parent / "gpu_shading", "check", model], text=True,
                                         stderr=subprocess.PIPE, stdout=subprocess.PIPE,
                                         env={**os.environ, "TMPDIR": str(folder)},
-                                        # Where the tests themselves are run by nohup, it would ignore this one.
-                                        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))
+                                        preexec_fn=heed_signals)
         children = Path(f"/proc/{self.process.pid}/task/{self.process.pid}/children")
         limit = time.monotonic() + 30.0
         while not (found := children.read_text().split()):

@@ -182,9 +182,7 @@ def test_daylighting_and_reflections_do_not_see_placeholders(run, bare, tmp_path
     solar = [each.total(results.SOLAR) for each in runs]
     assert solar[0] > 1
     assert solar[1] == pytest.approx(solar[0], rel=2e-3)
-    warnings = answer.text("eplusout.err")
-    assert "rays of daylighting (Daylighting:Controls Light) do not see GPUShading:SiteContext Town" in warnings
-    assert "rays of solar reflections" not in warnings
+    assert "rays of" not in answer.text("eplusout.err")
 
 
 def lux(run):
