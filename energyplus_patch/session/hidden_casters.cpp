@@ -14,10 +14,10 @@ namespace {
 using std::numbers::pi;
 
 // Patches of equal steps in altitude and in azimuth, from whose middles the sky shines.
-std::vector<SkyPatch> sky_patches(int altitudes, int azimuths, double first_azimuth) {
+std::vector<SkyShare> sky_patches(int altitudes, int azimuths, double first_azimuth) {
   double const altitude_step = pi / 2.0 / altitudes;
   double const azimuth_step = 2.0 * pi / azimuths;
-  std::vector<SkyPatch> patches;
+  std::vector<SkyShare> patches;
   for (int i = 0; i < altitudes; ++i) {
     double const altitude = (i + 0.5) * altitude_step;
     double const solid_angle = std::cos(altitude) * azimuth_step * altitude_step;
@@ -32,7 +32,7 @@ std::vector<SkyPatch> sky_patches(int altitudes, int azimuths, double first_azim
 }
 
 // Those of EnergyPlus's SkyDifSolarShading.
-std::vector<SkyPatch> const& patches_from_surfaces() {
+std::vector<SkyShare> const& patches_from_surfaces() {
   static auto const patches = sky_patches(6, 24, 0.0);
   return patches;
 }
@@ -44,7 +44,7 @@ double deployed(Surface const& surface, std::span<double const> deployments) {
 
 }  // namespace
 
-std::vector<SkyPatch> const& sky_patches_from_ground() {
+std::vector<SkyShare> const& sky_patches_from_ground() {
   static auto const patches = sky_patches(5, 18, 0.5);
   return patches;
 }

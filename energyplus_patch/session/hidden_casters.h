@@ -15,13 +15,13 @@
 namespace gpu_shading::energyplus {
 
 // A direction to the sky, and the share that it has of the irradiance on the horizontal.
-struct SkyPatch {
+struct SkyShare {
   glm::dvec3 direction;
   double share;
 };
 
 // Those that EnergyPlus sees from the ground, for solar reflections and for daylighting.
-std::vector<SkyPatch> const& sky_patches_from_ground();
+std::vector<SkyShare> const& sky_patches_from_ground();
 
 // The casters that are not in EnergyPlus's input (lean input, surroundings), as they stop and
 // reflect radiation. A caster reflects its diffuse reflectance, but not more than it does not let
