@@ -147,16 +147,29 @@ class Holes {
   double highest_ = 0.0;           // frequency that matters, per m, squared
 };
 
+// Screens with the same holes and directions of holes, as the panels of a facade have them.
+struct AlikeScreens {
+  Screens::Entry const* first;
+  Holes holes;
+  int count;
+
+  bool include(Screens::Entry const& screen) const {
+    constexpr double alike = 1e-9;
+    return screen.screen == first->screen && glm::length(screen.u - first->u) < alike &&
+           glm::length(screen.v - first->v) < alike;
+  }
+};
+
 // Upper limit of the squared error of a grid, or anything above `enough`.
-double squared_error(TileGrid const& grid, std::span<Holes const> screens, double enough) {
+double squared_error(TileGrid const& grid, std::span<AlikeScreens const> screens, double enough) {
   constexpr int order = 12;  // straight sides have high frequencies too
   double sum = 0.0;
   for (int row = 0; row <= order && sum < enough; ++row) {
     for (int column = row == 0 ? 1 : -order; column <= order; ++column) {
       glm::dvec2 const vector(column * grid.width, row * grid.rows);
-      for (Holes const& holes : screens) {
+      for (auto const& [first, holes, count] : screens) {
         double const error = holes.error_at(vector);
-        sum += error * error;
+        sum += count * error * error;
       }
     }
   }
@@ -181,16 +194,22 @@ double squared_error(TileGrid const& grid, Holes const& first, Holes const& seco
 }
 
 // Those of screens whose holes are drawn on a tile with so many pixels a side.
-std::vector<Holes> drawn_holes(View const& view, ScreensInView const& screens, int side) {
-  std::vector<Holes> drawn;
+std::vector<AlikeScreens> drawn_holes(View const& view, ScreensInView const& screens, int side) {
+  std::vector<AlikeScreens> drawn;
   for (int const number : screens.numbers) {
     Screens::Entry const& screen = (*screens.screens)[number];
+    auto const alike = std::find_if(drawn.begin(), drawn.end(),
+                                    [&](AlikeScreens const& each) { return each.include(screen); });
+    if (alike != drawn.end()) {
+      ++alike->count;
+      continue;
+    }
     SheetInBeam const& sheet = screens.sheets[static_cast<std::size_t>(number)];
     double const pixel = 2.0 / side * drawn_pixel(screens, screen, view);
     bool const known = sheet.shape != SheetShape::image || std::isfinite(screen.screen->hole());
     if (!known || sheet.layers == solid_sheet || pixel >= static_cast<double>(sheet.blend_to))
       continue;
-    drawn.emplace_back(screen, sheet, view);
+    drawn.push_back({&screen, Holes(screen, sheet, view), 1});
   }
   return drawn;
 }
@@ -211,7 +230,7 @@ TileGrid screen_grid(Tile const& tile, View const& view, ScreensInView const& sc
   constexpr int trials = 12;
   constexpr double stretch = 0.2;
   constexpr double finer = 1.2;
-  std::vector<Holes> const holes = drawn_holes(view, screens, tile.side);
+  auto const holes = drawn_holes(view, screens, tile.side);
   if (holes.empty()) return pixels_of(tile);
   double const side = quick(screens) ? finer * tile.side : tile.side;
   double const enough = 0.015 / tile.side;
@@ -223,8 +242,11 @@ TileGrid screen_grid(Tile const& tile, View const& view, ScreensInView const& sc
     grid.rows = static_cast<int>(std::lround(side * share));
     grid.width = static_cast<int>(std::lround(side * side / grid.rows)) + i;
     double squared = squared_error(grid, holes, least);
-    for (std::size_t k = 1; screens.overlap && k < holes.size(); ++k) {
-      squared += squared_error(grid, holes[0], holes[k], least);
+    // Each with the first one.
+    for (std::size_t k = 0; screens.overlap && k < holes.size(); ++k) {
+      int const others = k == 0 ? holes[k].count - 1 : holes[k].count;
+      if (others == 0) continue;
+      squared += others * squared_error(grid, holes[0].holes, holes[k].holes, least);
     }
     if (squared >= least) continue;
     least = squared;
