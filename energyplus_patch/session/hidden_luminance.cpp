@@ -85,6 +85,7 @@ std::optional<double> HiddenLuminance::sky_on_ground(glm::dvec3 const& point) {
 std::optional<double> HiddenLuminance::seen_sky(glm::dvec3 const& point) const {
   auto const& patches = sky_patches_from_ground();
   std::vector<Ray> upward;
+  upward.reserve(patches.size());
   for (auto const& patch : patches) upward.push_back({point, patch.direction});
   auto const hidden_pass = casters_.transmittances(upward);
   if (std::all_of(hidden_pass.begin(), hidden_pass.end(), [](double p) { return p >= 1.0; })) {

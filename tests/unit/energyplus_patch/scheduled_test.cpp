@@ -1,5 +1,6 @@
 // What goes between EnergyPlus and the renderer where the library cannot be patched: outputs that
 // are read, files that are written.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -113,7 +114,8 @@ TEST(RunTimes, YearOfTheFirstRunPeriod) {
                          "Environment,MORE,WeatherFileRunPeriod,01/01/2020,12/31/2020,Sunday\n");
   EXPECT_EQ(read_first_year(eio), 2017);
   for (std::string const date : {"", "01/01", "01/01/nan", "01/01/1e300", "01/01/-5"}) {
-    std::istringstream without(sizing + "Environment,YEAR,WeatherFileRunPeriod," + date + ",\n");
+    std::istringstream without(
+        fmt::format("{}Environment,YEAR,WeatherFileRunPeriod,{},\n", sizing, date));
     EXPECT_THROW(read_first_year(without), Error) << date;
   }
 }
