@@ -1,0 +1,52 @@
+// What the page is about: the JSON in it, with its arrays of bytes decoded.
+
+function bytesOf(text) {
+  const plain = atob(text);
+  const bytes = new Uint8Array(plain.length);
+  for (let i = 0; i < plain.length; ++i) bytes[i] = plain.charCodeAt(i);
+  return bytes;
+}
+
+function shortsOf(text) {
+  const bytes = bytesOf(text);
+  const shorts = new Uint16Array(bytes.length / 2);
+  for (let i = 0; i < shorts.length; ++i) shorts[i] = bytes[2 * i] | bytes[2 * i + 1] << 8;
+  return shorts;
+}
+
+const content = JSON.parse(document.getElementById("content").textContent);
+content.percents = bytesOf(content.percents);
+content.receiverCount = content.receivers.length;
+
+// The first row of each day in content.percents.
+content.firstHours = [];
+content.days.reduce((first, day) => {
+  content.firstHours.push(first);
+  return first + day.hours.length;
+}, 0);
+
+const MONTHS = ["January", "February", "March", "April", "May", "June", "July", "August", "September", "October",
+  "November", "December"];
+
+function dayText(day) { return `${day.day} ${MONTHS[day.month - 1]}`; }
+function hourText(hour) { return `${String(hour).padStart(2, "0")}:00`; }
+
+// Percent, or content.turnedAway.
+function percentOf(receiver, day, hour) {
+  return content.percents[(content.firstHours[day] + hour) * content.receiverCount + receiver];
+}
+
+function percentText(percent) { return percent === content.turnedAway ? "turned away from the sun" : `${percent} %`; }
+
+function numberText(value, digits) {
+  return value.toLocaleString("en", {minimumFractionDigits: digits, maximumFractionDigits: digits});
+}
+
+// Where a surface faces, in words.
+function facingText(receiver) {
+  const [, azimuth, tilt] = content.receivers[receiver];
+  if (tilt < 0.5) return "up";
+  if (tilt > 179.5) return "down";
+  const points = ["N", "NE", "E", "SE", "S", "SW", "W", "NW"];
+  return `${points[Math.round(azimuth / 45) % 8]} ${numberText(azimuth, 1)}\u00b0`;
+}

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gpu_shading/polygon.h"
+#include "gpu_shading/sun_direction.h"
+
+namespace gpu_shading::energyplus {
+
+// How surfaces of one kind look.
+struct PageStyle {
+  enum class Kind { receiver, opaque, glass, screen };
+
+  Kind kind = Kind::opaque;
+  double passes = 0.0;  // of the beam at normal incidence, 0 .. 1
+  // Of a screen: "round", "square", "slotted", "hexagonal", or "texture" with nothing else.
+  std::string hole;
+  std::string arrangement;  // "straight", "staggered 45", "staggered 60"
+  double size = 0.0;        // m, as are the next three
+  double length = 0.0;
+  double pitch = 0.0;
+  double row_pitch = 0.0;
+
+  bool operator==(PageStyle const&) const = default;
+};
+
+struct PageSurface {
+  std::string name;
+  Polygon polygon;
+  std::size_t style = 0;  // index in RunPage::styles
+};
+
+// What the page tells about a receiver; its table has the same numbers.
+struct PageReceiver {
+  double area = 0.0;     // m2
+  double azimuth = 0.0;  // of the normal, degrees clockwise from true north; 0 if horizontal
+  double tilt = 0.0;     // degrees from the zenith
+  double mean = 0.0;     // sunlit fraction, over the page's hours at which the sun faces it
+  double beam = 0.0;     // of the run, kWh/m2
+};
+
+struct PageHour {
+  int hour = 0;  // at whose end the sun is here, 1 .. 24
+  SunDirection sun;
+};
+
+struct PageDay {
+  int month = 0;
+  int day = 0;
+  std::vector<PageHour> hours;  // with the sun up
+};
+
+// Everything on a page, which is one file that loads nothing.
+struct RunPage {
+  static constexpr std::uint8_t turned_away = 254;  // instead of a percentage
+
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> facts;  // what the run is, and what it says
+  std::vector<PageStyle> styles;
+  std::vector<PageSurface> surfaces;  // the receivers first
+  std::vector<PageReceiver> receivers;
+  std::vector<PageDay> days;
+  // Sunlit, percent: of each receiver at the first hour of the first day, then at the next.
+  std::vector<std::uint8_t> percents;
+  std::vector<std::string> notes;  // what is left out
+};
+
+// The beginning of the line by which a page is known to be ours.
+inline constexpr char const* page_marker = "<meta name=\"generator\" content=\"gpu_shading report";
+
+// The page as HTML. Names may hold anything. Casting surfaces beyond some 2 MB are left out, the
+// smallest first, and the page says so. A build without three.js makes a plain drawing.
+std::string to_html(RunPage page);
+
+}  // namespace gpu_shading::energyplus
