@@ -30,6 +30,15 @@ EnergyPlusFunctions::EnergyPlusFunctions(SymbolTable const& symbols) {
       "9ObjexxFCL7Vector3IdEE",
       sun_cosines_);
   finder.check();
+  FunctionFinder optional(symbols);
+  optional.find("kindOfSim", calendar_.kind);
+  optional.find("currentEnvironmentNum", calendar_.environment);
+  optional.find("month", calendar_.month);
+  optional.find("dayOfMonth", calendar_.day_of_month);
+  optional.find("dayOfYear", calendar_.day_of_year);
+  optional.find("warmupFlag", calendar_.is_warm_up);
+  optional.find("numTimeStepsInHour", calendar_.steps_per_hour);
+  optional.find("todayWeatherBeamSolarRadiationAtTime", calendar_.beam);
 }
 
 void EnergyPlusFunctions::fatal(State& state, std::string const& message) const {
@@ -55,6 +64,41 @@ double EnergyPlusFunctions::latitude(State const& state) const {
     if (pole.y != 0.0) return sine * std::atan2(pole.z, std::abs(pole.y));
   }
   return 0.0;
+}
+
+bool EnergyPlusFunctions::sun_is_up(State const& state, SunOfTime const& day, double hour) const {
+  constexpr double minutes = 60.0;
+  Cosines sun{};
+  sun_cosines_(state, hour, day.equation_of_time / minutes, std::sin(day.declination),
+               std::cos(day.declination), sun);
+  return sun.z > 0.0;
+}
+
+std::optional<RunDay> EnergyPlusFunctions::day(State& state) const {
+  if (!calendar_.complete()) return std::nullopt;
+  // Its enumeration of simulations.
+  constexpr int design_day = 1;
+  constexpr int run_period = 3;
+  int const kind = calendar_.kind(&state);
+  RunDay day;
+  if (kind == design_day) day.kind = RunDay::Kind::design_day;
+  if (kind == run_period) day.kind = RunDay::Kind::run_period;
+  day.environment = calendar_.environment(&state);
+  day.month = calendar_.month(&state);
+  day.day = calendar_.day_of_month(&state);
+  day.warm_up = calendar_.is_warm_up(&state) != 0;
+  day.steps_per_hour = calendar_.steps_per_hour(&state);
+  constexpr int hours = 24;
+  auto const sun = sun_of_day(calendar_.day_of_year(&state));
+  for (int hour = 0; hour < hours; ++hour) {
+    for (int step = 1; step <= day.steps_per_hour; ++step) {
+      // Between hours, the weather may have a beam before sunrise, which EnergyPlus drops.
+      double const end = hour + static_cast<double>(step) / day.steps_per_hour;
+      bool const up = sun_is_up(state, sun, end);
+      day.beam.push_back(up ? calendar_.beam(&state, hour, step) : 0.0);
+    }
+  }
+  return day;
 }
 
 }  // namespace gpu_shading::energyplus

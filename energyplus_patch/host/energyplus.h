@@ -5,6 +5,8 @@
 #include <string>
 
 #include "binary/symbol_table.h"
+#include "gpu_shading/sun_position.h"
+#include "session/run_record.h"
 
 // EnergyPlus's own types, always passed by reference.
 namespace EnergyPlus {
@@ -44,6 +46,9 @@ class EnergyPlusFunctions {
   // without one.
   double latitude(State const& state) const;
 
+  // The day that EnergyPlus is at, with its weather; nothing if the build lacks a function for it.
+  std::optional<RunDay> day(State& state) const;
+
  private:
   // Direction cosines of the sun: east, north, up.
   struct Cosines {
@@ -56,6 +61,29 @@ class EnergyPlusFunctions {
   ShowFunction* show_message_ = nullptr;
   void (*issue_warning_)(State*, char const*) = nullptr;
   SunCosines* sun_cosines_ = nullptr;
+
+  // Whether the sun is above the horizon, at a time in hours of a day.
+  bool sun_is_up(State const& state, SunOfTime const& day, double hour) const;
+
+  // Functions of EnergyPlus's C API, which some builds may lack.
+  struct Calendar {
+    using Number = int(State*);
+    Number* kind = nullptr;
+    Number* environment = nullptr;
+    Number* month = nullptr;
+    Number* day_of_month = nullptr;
+    Number* day_of_year = nullptr;
+    Number* is_warm_up = nullptr;
+    Number* steps_per_hour = nullptr;
+    double (*beam)(State*, int hour, int timestep) = nullptr;  // hours from 0, timesteps from 1
+
+    bool complete() const {
+      return kind != nullptr && environment != nullptr && month != nullptr &&
+             day_of_month != nullptr && day_of_year != nullptr && is_warm_up != nullptr &&
+             steps_per_hour != nullptr && beam != nullptr;
+    }
+  };
+  Calendar calendar_;
 };
 
 }  // namespace gpu_shading::energyplus

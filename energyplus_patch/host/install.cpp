@@ -115,6 +115,9 @@ void patch(Loaded const& loaded, Installation& installed) {
     entries.insert(entries.end(), more.begin(), more.end());
   }
   check_entries(symbols, entries);
+  if (auto const days = day_entries(); can_patch(symbols, days)) {
+    entries.insert(entries.end(), days.begin(), days.end());
+  }
   auto const daylight = daylight_entries();
   auto const daylight_rays = can_patch(symbols, daylight);
   if (daylight_rays) entries.insert(entries.end(), daylight.begin(), daylight.end());

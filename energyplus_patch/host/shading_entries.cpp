@@ -1,6 +1,7 @@
 #include "host/shading_entries.h"
 
 #include <string_view>
+#include <utility>
 
 #include "host/run.h"
 #include "host/unwanted_messages.h"
@@ -11,6 +12,7 @@ namespace {
 void (*original_solar_beam)(State&, int, int) = nullptr;
 void (*original_sky_shading)(State&) = nullptr;
 void (*original_process_shadowing_input)(State&) = nullptr;
+void (*original_solar_calculations)(State&) = nullptr;
 
 void set_time(Moment moment) {
   if (auto* const session = this_run().session) guarded([&] { session->set_time(moment); });
@@ -26,6 +28,17 @@ void solar_beam(State& state, int hour, int timestep) {
 void sky_shading(State& state) {
   set_time({});
   original_sky_shading(state);
+}
+
+// Called for each day, or for each timestep where shading is calculated as often.
+void solar_calculations(State& state) {
+  auto* const session = this_run().session;
+  if (session != nullptr && session->records_days()) {
+    guarded([&] {
+      if (auto day = installation().functions.day(state)) session->begin_day(std::move(*day));
+    });
+  }
+  original_solar_calculations(state);
 }
 
 // Here EnergyPlus warns that shades are opaque to its own pixel counting.
@@ -50,6 +63,11 @@ std::vector<EntryPatch> shading_entries() {
       watch("_ZN10EnergyPlus12SolarShading21processShadowingInputERNS_14EnergyPlusDataE",
             &process_shadowing_input, &original_process_shadowing_input),
   };
+}
+
+std::vector<EntryPatch> day_entries() {
+  return {watch("_ZN10EnergyPlus12SolarShading24PerformSolarCalculationsERNS_14EnergyPlusDataE",
+                &solar_calculations, &original_solar_calculations)};
 }
 
 }  // namespace gpu_shading::energyplus

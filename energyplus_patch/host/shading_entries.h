@@ -10,4 +10,7 @@ namespace gpu_shading::energyplus {
 // warning that transmittance schedules are ignored, which does not apply here.
 std::vector<EntryPatch> shading_entries();
 
+// The function that EnergyPlus calls as a day begins, for the report.
+std::vector<EntryPatch> day_entries();
+
 }  // namespace gpu_shading::energyplus

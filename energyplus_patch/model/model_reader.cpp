@@ -116,6 +116,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
     if (object.file.empty()) object.file = path.string();
   }
   Model model;
+  model.file = path.filename().string();
   auto const side = find_side_file(path, choices);
   if (side) {
     for (auto& object : read_side_file(*side)) {

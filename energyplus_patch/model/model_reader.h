@@ -18,6 +18,7 @@ namespace gpu_shading::energyplus {
 
 // A model as this module understands it.
 struct Model {
+  std::string file;  // its name, without folders
   ShadingInput shading;
   TransparentShades shades;
   PerforatedScreens screens;

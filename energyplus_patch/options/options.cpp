@@ -445,7 +445,7 @@ std::string_view flags_help() {
                                        gpu_shading devices numbers them)
   --gpu-shading-file F                 Extension objects in a file of their own
                                        (default: MODEL.gpu-shading.idf, where it is)
-  --gpu-shading-report DIR             Write pictures of what the sun sees, and counts, to DIR
+  --gpu-shading-report DIR             Write a page with the model in 3D, pictures and answers to DIR
   --gpu-shading-lean auto|on|off       Leave shading surfaces that only cast shadows out of what
                                        EnergyPlus reads (default: auto, where there are many)
   --gpu-shading-cache DIR|off          Keep answers in DIR, so that runs of the same geometry render

@@ -8,7 +8,10 @@ namespace gpu_shading::energyplus {
 void prepare_report(std::filesystem::path const& folder) {
   naming("--gpu-shading-report", [&] {
     StagedFiles files(folder);
-    for (auto const* const name : {sunlit_table, pictures_table, stages_table}) files.add(name);
+    for (auto const* const name :
+         {sunlit_table, pictures_table, stages_table, hours_table, receivers_table}) {
+      files.add(name);
+    }
   });
 }
 

@@ -4,10 +4,12 @@
 
 namespace gpu_shading::energyplus {
 
-// The tables in the folder of --gpu-shading-report.
+// The files in the folder of --gpu-shading-report.
 inline constexpr char const* sunlit_table = "sunlit.csv";
 inline constexpr char const* pictures_table = "pictures.csv";
 inline constexpr char const* stages_table = "stages.csv";
+inline constexpr char const* hours_table = "run_hours.csv";
+inline constexpr char const* receivers_table = "run_receivers.csv";
 
 // Creates the folder if it is missing. Throws Error, naming the option, if the report cannot be
 // written into it.

@@ -13,7 +13,6 @@
 #include "base/file_names.h"
 #include "base/files.h"
 #include "base/naming.h"
-#include "base/staged_files.h"
 #include "base/text.h"
 #include "gpu_shading/error.h"
 #include "options/report_folder.h"
@@ -130,7 +129,8 @@ void write_stages(std::filesystem::path const& file, Stages const& stages) {
 std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer,
                          std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
                          Answers const& answers, std::vector<double> const& factors,
-                         Deployments const& deployments, Stages const& stages) {
+                         Deployments const& deployments, Stages const& stages,
+                         std::function<void(StagedFiles&)> const& more) {
   std::vector<Row> pictures;
   auto const write_sunlit = [&](std::ostream& csv) {
     csv << "receiver,sun azimuth [deg],sun altitude [deg],projected sunlit area [m2],sunlit "
@@ -173,6 +173,7 @@ std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer
                            list(shares));
     }
     files.write(pictures_table, drawn);
+    more(files);
     files.commit();
   });
   return left_out;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/staged_files.h"
 #include "cache/answers.h"
 #include "cache/deployment_states.h"
 #include "gpu_shading/renderer.h"
@@ -33,6 +35,7 @@ struct Deployments {
 //   of
 //                    this report; others in the folder are of earlier ones
 //   stages.csv       stage, wall-clock seconds
+// and what `more` adds.
 // `receivers`: by their numbers; those that were asked for, by surface, are reported. Returns how
 // many pictures were left out, being more than max_report_pictures. Throws Error when the folder
 // cannot be written; all files in it are those of before then.
@@ -40,7 +43,8 @@ inline constexpr std::size_t max_report_pictures = 300;
 std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer,
                          std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
                          Answers const& answers, std::vector<double> const& factors,
-                         Deployments const& deployments, Stages const& stages);
+                         Deployments const& deployments, Stages const& stages,
+                         std::function<void(StagedFiles&)> const& more);
 
 // The table alone. Columns: stage, seconds. Throws Error when the file cannot be written.
 void write_stages(std::filesystem::path const& file, Stages const& stages);

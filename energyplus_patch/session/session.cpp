@@ -14,6 +14,7 @@
 #include "session/perform_task.h"
 #include "session/remarks.h"
 #include "session/report.h"
+#include "session/run_report.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -45,7 +46,11 @@ void Session::start(Messages messages, Schedules schedules, std::function<double
   messages_ = std::move(messages);
   scene_.complete(std::move(schedules));
   auto const& options = scene_.model().options;
-  if (options.report) prepare_report(*options.report);
+  if (options.report) {
+    prepare_report(*options.report);
+    prepare_page(*options.report);
+    record_.emplace(scene_.areas(), scene_.receivers());
+  }
   if (options.cache) prepare_cache_folder(*options.cache);
   answers_.emplace(SunAnswers::Site{scene_.areas(), options.update.sampling, std::move(latitude)});
   answers_->open(open_answers(scene_, scene_.receivers(), options.device, messages_));
@@ -63,9 +68,14 @@ SunAnswers& Session::answers() {
   return *answers_;
 }
 
+void Session::begin_day(RunDay day) {
+  if (record_) record_->begin_day(std::move(day));
+}
+
 void Session::set_time(Moment moment) {
   if (!answers_) return;
   moment_ = moment;
+  if (record_) record_->begin_step(moment);
   if (auto* const first = first_sun_now()) first->reset();
   if (scene_.optics().update(moment)) {
     messages_.warning(
@@ -87,6 +97,7 @@ void Session::set_time(Moment moment) {
 
 void Session::set_sun(SunDirection sun) {
   answers().set_sun(sun);
+  if (record_) record_->set_sun(sun);
   if (auto* const first = first_sun_now()) *first = to_vector(sun);
 }
 
@@ -108,6 +119,7 @@ float Session::projected_sunlit_area(SurfaceId receiver) {
   double const rendered = scene_.unshaded()[receiver]
                               ? answers.unshaded_area(receiver)
                               : answers.area(receiver, scene_.optics().factors());
+  if (record_) record_->note(receiver, rendered);
   return static_cast<float>(rendered * scene_.area_ratio(receiver));
 }
 
@@ -170,9 +182,12 @@ void Session::write_reports() {
   auto& rendered = answers_->rendered();
   auto const& known = rendered.known();
   auto const& optics = scene_.optics();
-  auto const left_out = write_report(*options.report, rendered.renderer(), known.receivers,
-                                     answers_->asked(), known.answers, optics.factors(),
-                                     {optics.deployment_names(), known.states}, stages);
+  record_->end();
+  auto const left_out = write_report(
+      *options.report, rendered.renderer(), known.receivers, answers_->asked(), known.answers,
+      optics.factors(), {optics.deployment_names(), known.states}, stages, [&](StagedFiles& files) {
+        write_run(files, scene_, rendered.renderer().device(), *record_);
+      });
   if (left_out > 0) {
     messages_.remark(
         fmt::format("--gpu-shading-report: the first {} pictures are drawn, {} more are not; "

@@ -13,6 +13,7 @@
 #include "session/hidden_obstructions.h"
 #include "session/hidden_reflections.h"
 #include "session/messages.h"
+#include "session/run_record.h"
 #include "session/scene_assembly.h"
 #include "session/schedules.h"
 #include "session/sun_answers.h"
@@ -52,6 +53,10 @@ class Session {
 
   // Instead of start(): does what a task asks with the surfaces. Returns its text for the user.
   std::string perform(Task const& task, Messages const& messages, Schedules schedules);
+
+  // Whether the report wants the days of the run; then they are handed over as they begin.
+  bool records_days() const { return record_.has_value(); }
+  void begin_day(RunDay day);
 
   // Sets the time at which schedules are evaluated from now on.
   void set_time(Moment moment);
@@ -97,6 +102,7 @@ class Session {
   static constexpr std::size_t hours = 24;
   std::array<std::optional<glm::dvec3>, hours> first_suns_;
   std::optional<SunAnswers> answers_;               // once started
+  std::optional<RunRecord> record_;                 // for the report
   std::optional<HiddenObstructions> obstructions_;  // once asked for
   std::optional<HiddenReflections> reflections_;    // once asked for
   std::optional<HiddenLuminance> luminance_;        // once asked for

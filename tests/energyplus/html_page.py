@@ -78,16 +78,77 @@ def _run(folder, width, height, *options):
     return done.stdout
 
 
-def look_at(page, width, look, folder):
-    """What the JavaScript function `look` returns in the page, and troubles: all that went wrong in it."""
+# Chromium draws WebGL on the CPU.
+SOFTWARE_WEBGL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+DARK = ("--blink-settings=preferredColorScheme=0",)
+# What a page must have for all its readers, as far as a program can tell: faults() lists what is missing.
+FAULTS = """<script>
+function luminance(colour) {
+  const [r, g, b] = colour.map((value) => value / 255).map((value) =>
+    value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+}
+const numbers = (colour) => colour.match(/[\\d.]+/g).map(Number);
+function background(element) {
+  for (let at = element; at; at = at.parentElement) {
+    const colour = numbers(getComputedStyle(at).backgroundColor);
+    if (colour.length === 3 || colour[3] === 1) return colour;
+  }
+  return [255, 255, 255];
+}
+function contrast(element) {
+  const style = getComputedStyle(element);
+  const text = luminance(numbers(element.closest("svg") ? style.fill : style.color));
+  const paper = luminance(background(element));
+  return (Math.max(text, paper) + 0.05) / (Math.min(text, paper) + 0.05);
+}
+function faults() {
+  const found = [];
+  const tell = (what, element) => found.push(`${what}: ${element.outerHTML.slice(0, 120)}`);
+  const seen = (element) => element.getClientRects().length > 0;
+  for (const control of document.querySelectorAll("input, select, textarea")) {
+    if (seen(control) && control.labels.length === 0 && !control.ariaLabel) tell("no label", control);
+  }
+  for (const button of document.querySelectorAll("button, a[href]")) {
+    if (!button.textContent.trim() && !button.ariaLabel) tell("no name", button);
+  }
+  for (const picture of document.querySelectorAll("img, canvas[role=img], svg[role=img]")) {
+    if (!picture.alt && !picture.getAttribute("aria-label")) tell("no description", picture);
+  }
+  for (const cell of document.querySelectorAll("th")) if (!cell.scope) tell("no scope", cell);
+  const ids = [...document.querySelectorAll("[id]")].map((element) => element.id);
+  ids.filter((id, i) => ids.indexOf(id) !== i).forEach((id) => found.push(`id ${id} stands twice`));
+  const levels = [...document.querySelectorAll("h1, h2, h3, h4")].map((heading) => Number(heading.tagName[1]));
+  levels.forEach((level, i) => level > (levels[i - 1] ?? 0) + 1 && found.push(`heading ${i} skips a level`));
+  if (document.querySelectorAll("h1").length !== 1) found.push("not one h1");
+  if (!document.documentElement.lang) found.push("no language");
+  for (const element of document.querySelectorAll("body *")) {
+    const says = [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
+    if (says && seen(element) && !element.closest("script, option, title") && contrast(element) < 4.5) {
+      tell(`contrast ${contrast(element).toFixed(2)}`, element);
+    }
+  }
+  return found;
+}
+</script>"""
+
+
+def look_at(page, width, look, folder, *options, before=""):
+    """What the JavaScript function `look` returns in the page, and troubles: all that went wrong in it. `before`: more
+    elements for its head. Options are the browser's."""
     copy = folder / f"looked-at-{width}.html"
-    text = page.read_text(encoding="utf-8").replace("<head>", "<head>" + WATCH, 1)
+    text = page.read_text(encoding="utf-8").replace("<head>", "<head>" + WATCH + FAULTS + before, 1)
     copy.write_text(text.replace("</body>", REPORT.replace("LOOK", f"({look})") + "</body>"), encoding="utf-8")
-    content = _run(folder, width, 900, "--virtual-time-budget=10000", "--dump-dom", copy.as_uri())
+    content = _run(folder, width, 900, "--virtual-time-budget=10000", *options, "--dump-dom", copy.as_uri())
     found = re.search(r'<pre id="looked-at">(.*?)</pre>', content, re.DOTALL)
     assert found, "the page did not load"
     return json.loads(html.unescape(found[1]))
 
 
-def screenshot(page, width, height, picture):
-    _run(picture.parent, width, height, f"--screenshot={picture}", page.as_uri())
+def screenshot(page, width, height, picture, *options):
+    _run(picture.parent, width, height, *options, f"--screenshot={picture}", page.as_uri())
+
+
+def print_page(page, file, *options):
+    """As a PDF."""
+    _run(file.parent, 1200, 900, *options, "--no-pdf-header-footer", f"--print-to-pdf={file}", page.as_uri())

@@ -1,0 +1,225 @@
+"""The page of a run (--gpu-shading-report): its numbers against EnergyPlus's own, and the page in a browser."""
+
+import csv
+import json
+import re
+import subprocess
+
+import pytest
+from eso_file import EsoFile
+from html_page import DARK, SOFTWARE_WEBGL, look_at, print_page, screenshot
+from PIL import Image
+from shading_runs import energyplus, input_file
+
+SUNLIT = "Surface Outside Face Sunlit Fraction"
+INCIDENT = "Surface Outside Face Incident Beam Solar Radiation Rate per Area"
+HOSTILE = "</SCRIPT><IMG SRC=X ONERROR=ALERT(1)> @LIBRARY@ &AMP \" ' \\U003C"
+SHADES = """GPUShading:TransparentShade, Glass, Neighbour*, Constant, 0.35;
+GPUShading:PerforatedScreen, Mesh, Garden Wall, Round, , Staggered60, 0.1, , 0.15, , 0.01;
+"""
+
+LOOK = """() => {
+  const fire = (id, value, event) => {
+    document.getElementById(id).value = value;
+    document.getElementById(id).dispatchEvent(new Event(event));
+  };
+  const text = (id) => document.getElementById(id).textContent;
+  const outside = [...document.querySelectorAll("main *, header *")].filter((element) =>
+    element.getBoundingClientRect().right > innerWidth + 1 && !element.closest(".scroll, svg, canvas, select"));
+  const colours = () => {
+    view.drawNow?.();
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [300, 200];
+    copy.getContext("2d").drawImage(document.getElementById("view"), 0, 0, 300, 200);
+    const pixels = new Uint32Array(copy.getContext("2d").getImageData(0, 0, 300, 200).data.buffer);
+    return [new Set(pixels).size, pixels.reduce((sum, pixel) => (sum * 31 + pixel) % 1000003, 7)];
+  };
+  const seen = {width: innerWidth, wide: document.documentElement.scrollWidth,
+    outside: outside.map((element) => element.outerHTML.slice(0, 200)), faults: faults(),
+    drawn: view.constructor.name, begins: colours(), missing: text("view-missing"), notes: text("notes"),
+    injected: document.querySelectorAll("img").length};
+  fire("day", 0, "input");
+  fire("hour", 2, "input");
+  seen.moment = text("moment");
+  seen.moved = colours();
+  const press = (key) =>
+    document.getElementById("view").dispatchEvent(new KeyboardEvent("keydown", {key, bubbles: true}));
+  press("ArrowLeft");
+  seen.turned = colours();
+  press("0");
+  seen.reset = colours();
+  fire("receiver", content.names.findIndex((name) => name.includes("SCRIPT")), "change");
+  seen.chosen = text("chosen-name");
+  seen.numbers = [...document.querySelectorAll("#numbers dd")].map((value) => value.textContent);
+  seen.fields = document.querySelectorAll("#carpet .field").length;
+  document.querySelector("#receivers thead th:nth-child(2) button").click();
+  seen.rows = [...document.querySelectorAll("#receivers tbody tr")].map((row) =>
+    [...row.cells].map((cell) => cell.textContent));
+  fire("filter", "roof", "input");
+  seen.filtered = document.querySelectorAll("#receivers tbody tr").length;
+  return seen;
+}"""
+
+
+@pytest.fixture(scope="module")
+def run(patched, courtyard, weather, tmp_path_factory):
+    """(run, its report) of three weeks in March, shading every 20 days, with a hostile name, glass and a screen."""
+    folder = tmp_path_factory.mktemp("page")
+    text = re.sub("East Court Back Window", lambda _: HOSTILE, courtyard.read_text(), flags=re.IGNORECASE)
+    (folder / "courtyard.idf").write_text(text)
+    model = input_file.read(folder / "courtyard.idf")
+    model.remove(lambda name: name in ("runperiod", "shadowcalculation", "output:variable"))
+    model.add("RunPeriod", ["Period", 3, 1, "", 3, 22, "", "Sunday"])
+    model.add("ShadowCalculation", ["PixelCounting", "Periodic", 20])
+    for name in (SUNLIT, INCIDENT):
+        model.add_output_variable(name, "Timestep")
+    model.write(folder / "courtyard.idf")
+    (folder / "courtyard.gpu-shading.idf").write_text(SHADES)
+    report = folder / "report"
+    done = energyplus.run(patched, folder / "courtyard.idf", weather, folder / "out",
+                          ["--gpu-shading", f"--gpu-shading-report={report}"])
+    assert done.completed, done.why()
+    return done, report
+
+
+@pytest.fixture(scope="module")
+def page(run):
+    return run[1] / "index.html"
+
+
+def rows_of(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def outputs(run):
+    return EsoFile(run.folder / "eplusout.eso", "TimeStep")
+
+
+def test_beam_is_that_of_energyplus(run):
+    done, report = run
+    theirs = outputs(done)
+    rows = rows_of(report / "run_receivers.csv")
+    assert len(rows) == 18
+    for row in rows:
+        values = theirs.values[INCIDENT, row["receiver"]].values()
+        beam = sum(values) / (4 * 1000)
+        assert float(row["beam [kWh/m2]"]) == pytest.approx(beam, abs=0.051), row["receiver"]
+        total = float(row["beam [kWh]"])
+        assert total == pytest.approx(beam * float(row["area [m2]"]), rel=3e-4, abs=0.1), row["receiver"]
+    assert sum(float(row["beam [kWh/m2]"]) > 10 for row in rows) >= 12
+
+
+def test_sunlit_fractions_are_those_of_energyplus(run):
+    done, report = run
+    theirs = outputs(done)
+    rows = rows_of(report / "run_hours.csv")
+    assert {row["day"] for row in rows} == {"03-01", "03-21"}
+    compared = 0
+    for row in rows:
+        month, day = map(int, row["day"].split("-"))
+        for receiver in list(row)[4:]:
+            value = theirs.values[SUNLIT, receiver][month, day, int(row["hour"]), 60]
+            assert float(row[receiver]) == pytest.approx(value, abs=6e-5), (receiver, row["day"], row["hour"])
+            compared += 0.01 < value < 0.99
+    assert compared > 50
+
+
+@pytest.fixture(scope="module")
+def on_desktop(page, tmp_path_factory):
+    return look_at(page, 1400, LOOK, tmp_path_factory.mktemp("desktop"), *SOFTWARE_WEBGL)
+
+
+@pytest.fixture(scope="module")
+def on_phone_in_the_dark(page, tmp_path_factory):
+    return look_at(page, 390, LOOK, tmp_path_factory.mktemp("phone"), *SOFTWARE_WEBGL, *DARK)
+
+
+def test_the_page_has_the_numbers_of_the_tables(run, on_desktop):
+    report, seen = run[1], on_desktop
+    hours = [row for row in rows_of(report / "run_hours.csv") if row["day"] == "03-01"]
+    third = hours[2]
+    assert seen["moment"].startswith(f"1 March, {int(third['hour']):02}:00")
+    assert f"{float(third['sun azimuth [deg]']):.1f}\u00b0" in seen["moment"]
+    assert seen["chosen"] == HOSTILE
+    assert seen["numbers"][0] in (f"{100 * float(third[HOSTILE]):.0f} %", "turned away from the sun")
+    assert seen["fields"] == len(rows_of(report / "run_hours.csv"))
+    columns = ("receiver", "area [m2]", "azimuth [deg]", "tilt [deg]", "mean sunlit fraction", "beam [kWh/m2]",
+               "beam [kWh]")
+    theirs = {row["receiver"]: [row[column] for column in columns[1:]] for row in rows_of(report / "run_receivers.csv")}
+    assert {row[0]: [cell.replace(",", "") for cell in row[1:]] for row in seen["rows"]} == theirs
+    areas = [float(row[1].replace(",", "")) for row in seen["rows"]]
+    assert areas == sorted(areas, reverse=True)
+    assert seen["filtered"] == 2
+
+
+@pytest.mark.parametrize("where, width", [("on_desktop", 1400), ("on_phone_in_the_dark", 390)])
+def test_the_page_in_a_browser(request, where, width):
+    seen = request.getfixturevalue(where)
+    assert seen["troubles"] == []
+    assert seen["faults"] == []
+    assert seen["outside"] == [] and seen["wide"] <= max(width, seen["width"])
+    assert seen["injected"] == 0
+    assert seen["drawn"] == "ModelView" and seen["missing"] == ""
+    assert seen["begins"][0] > 100
+    # Another hour, another direction: other pictures. Key 0 brings the first direction back.
+    assert len({seen[key][1] for key in ("begins", "moved", "turned")}) == 3
+    assert seen["reset"] == seen["moved"]
+
+
+@pytest.mark.parametrize("width, options", [(1400, ()), (390, DARK)], ids=["desktop", "phone dark"])
+def test_a_picture_of_the_page(page, tmp_path, width, options):
+    screenshot(page, width, 1500, tmp_path / "page.png", *SOFTWARE_WEBGL, *options)
+    with Image.open(tmp_path / "page.png") as picture:
+        assert len(picture.convert("RGB").getcolors(1 << 24)) > 200
+    print(tmp_path / "page.png")
+
+
+def test_the_page_on_paper(page, tmp_path):
+    print_page(page, tmp_path / "page.pdf", *SOFTWARE_WEBGL, *DARK)
+    assert (tmp_path / "page.pdf").stat().st_size > 20000
+    print(tmp_path / "page.pdf")
+
+
+NO_WEBGL = """<script>HTMLCanvasElement.prototype.getContext = ((whole) => function (kind, ...more) {
+  return kind === "webgl" ? null : whole.call(this, kind, ...more);
+})(HTMLCanvasElement.prototype.getContext);</script>"""
+
+
+def without_library(text):
+    """The page as a build without three.js writes it."""
+    library = re.compile(r"<script>\(function.*?</script>\n(?=<script>\n\"use strict\")", re.DOTALL)
+    return library.sub("", text)
+
+
+@pytest.mark.parametrize("lacks", ["WebGL", "library"])
+def test_without_webgl_there_is_a_plain_drawing(page, tmp_path, lacks):
+    text = page.read_text(encoding="utf-8")
+    plain = tmp_path / "plain.html"
+    plain.write_text(without_library(text) if lacks == "library" else text, encoding="utf-8")
+    seen = look_at(plain, 1000, LOOK, tmp_path, before=NO_WEBGL if lacks == "WebGL" else "")
+    assert seen["troubles"] == [] and seen["faults"] == []
+    assert seen["drawn"] == "PlainDrawing" and lacks in seen["missing"]
+    assert seen["begins"][0] > 20 and seen["begins"] != seen["moved"]
+    assert len(seen["rows"]) == 18
+
+
+def test_the_page_loads_nothing(page):
+    text = page.read_text(encoding="utf-8")
+    assert "default-src 'none'" in text
+    assert HOSTILE not in text
+    content = re.search(r'<script type="application/json" id="content">(.*?)</script>', text, re.DOTALL)[1]
+    assert HOSTILE in json.loads(content)["names"]
+    kinds = {style["kind"] for style in json.loads(content)["styles"]}
+    assert kinds == {"receiver", "opaque", "glass", "screen"}
+
+
+def test_an_index_page_of_somebody_else_is_left_alone(patched, box, weather, tmp_path):
+    (tmp_path / "box.idf").write_text(box)
+    (tmp_path / "report").mkdir()
+    (tmp_path / "report" / "index.html").write_text("<html>mine</html>")
+    done = subprocess.run([patched, "--gpu-shading", f"--gpu-shading-report={tmp_path / 'report'}", "-D", "-w", weather,
+                           "-d", tmp_path / "out", tmp_path / "box.idf"], capture_output=True, text=True)
+    assert done.returncode == 1
+    assert "index.html is not of an earlier report" in done.stderr
+    assert (tmp_path / "report" / "index.html").read_text() == "<html>mine</html>"
