@@ -1,0 +1,113 @@
+#include "answers_library/run.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "answers_library/model_calculation.h"
+#include "answers_library/opaque_calculation.h"
+#include "base/console.h"
+#include "base/error_line.h"
+#include "base/naming.h"
+#include "gpu_shading/error.h"
+#include "gpu_shading_answers.h"
+#include "idf/model_file.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+Rewrite rewrite_for(Model const& model) {
+  return {model.options.mode == Mode::off ? "PolygonClipping" : "PixelCounting",
+          model.options.update.every_timestep ? "Timestep" : "", model.lean.left_out,
+          model.lean.placeholders};
+}
+
+// Returns what EnergyPlus is to read instead of the model.
+Rewrite take_model(std::vector<InputObject> objects, std::filesystem::path const& path,
+                   std::string const& version, MentionFinder const& find_mentions) {
+  auto& run = source_run();
+  constexpr bool daylight_rays = true;
+  auto model = understand(std::move(objects), path, run.choices, {find_mentions, daylight_rays});
+  if (model.options.mode != Mode::off) {
+    check_supported(model.shading, version);
+    // Now, because EnergyPlus may stop at such a surface.
+    if (auto const& warning = model.simplified.warning; !warning.empty()) {
+      print_line("warning: " + warning);
+    }
+    run.model = std::move(model);
+    return rewrite_for(*run.model);
+  }
+  return rewrite_for(model);
+}
+
+std::string read_epjson_text(std::string const& text, std::filesystem::path const& path,
+                             std::string const& version) {
+  auto json = parse_epjson(text);
+  auto const find = [&](Names const& names) { return find_mentions(json, names); };
+  auto objects = naming(path.string(), [&] { return read_epjson(json); });
+  rewrite_epjson(json, take_model(std::move(objects), path, version, find));
+  return json.dump();
+}
+
+std::string read_idf_text(std::string const& text, std::filesystem::path const& path,
+                          std::string const& version) {
+  auto const parsed = parse_idf(text);
+  auto const find = [&](Names const& names) { return find_mentions(parsed, names); };
+  auto objects = naming(path.string(), [&] { return read_idf(parsed); });
+  return rewrite_idf(text, parsed, take_model(std::move(objects), path, version, find));
+}
+
+}  // namespace
+
+SourceRun& source_run() {
+  thread_local SourceRun run;
+  return run;
+}
+
+}  // namespace gpu_shading::energyplus
+
+namespace gpu_shading::answers {
+
+using energyplus::source_run;
+
+Calculation::~Calculation() = default;
+
+std::unique_ptr<Calculation> make_calculation(unsigned size, Log log) {
+  if (auto const& model = source_run().model) {
+    return std::make_unique<energyplus::ModelCalculation>(*model, std::move(log));
+  }
+  return std::make_unique<energyplus::OpaqueCalculation>(size, std::move(log));
+}
+
+std::vector<std::string> take_options(std::vector<std::string> arguments) {
+  auto& run = source_run();
+  run = {};
+  try {
+    run.choices = energyplus::take_flags(arguments);
+    auto const environment = energyplus::read_environment();
+    run.wanted = run.choices.any() || environment.mode;
+    run.choices.fill_from(environment);
+    if (run.wanted) energyplus::apply_to_process(run.choices);
+  } catch (std::exception const& error) {
+    run.wanted = true;
+    run.wrong = energyplus::error_line(error);
+    // EnergyPlus would not know them, and say so instead.
+    std::erase_if(arguments, [](auto const& each) { return each.starts_with("--gpu-shading"); });
+  }
+  return arguments;
+}
+
+std::string options_help() { return std::string(energyplus::flags_help()); }
+
+bool is_wanted() { return source_run().wanted; }
+
+std::string read_model(std::string text, Format format, std::string const& path,
+                       std::string const& version) {
+  auto& run = source_run();
+  if (!run.wrong.empty()) throw Error(run.wrong);
+  if (!run.wanted) return text;
+  return format == Format::idf ? energyplus::read_idf_text(text, path, version)
+                               : energyplus::read_epjson_text(text, path, version);
+}
+
+}  // namespace gpu_shading::answers
