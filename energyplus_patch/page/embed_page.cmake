@@ -4,7 +4,7 @@
 function(embed_page variable)
   set(folder ${CMAKE_CURRENT_SOURCE_DIR}/parts)
   # In the order in which they are run.
-  set(scripts content colours geometry patterns shading sky model_view plain_drawing carpet receivers main)
+  set(scripts content colours geometry patterns shading sky model_view plain_drawing maps carpet receivers main)
   list(TRANSFORM scripts PREPEND ${folder}/)
   list(TRANSFORM scripts APPEND .js)
   set(parts ${folder}/page.html ${folder}/page.css ${scripts} ${ARGN})

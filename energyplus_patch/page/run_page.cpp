@@ -230,6 +230,52 @@ Json to_json(PageDay const& day) {
   return {{"month", day.month}, {"day", day.day}, {"hours", hours}};
 }
 
+float most_of(std::vector<PageMap> const& maps, std::vector<float> PageMap::*values) {
+  float most = 0.0F;
+  for (auto const& map : maps) {
+    // Not greater than it: what is not a number.
+    for (float const value : map.*values) most = value > most ? value : most;
+  }
+  return most;
+}
+
+// In steps of a 250th of the largest value of all maps, 255 where there is no cell.
+std::string map_codes(std::vector<float> const& values, float most) {
+  constexpr float steps = 250.0F;
+  constexpr std::uint8_t none = 255;
+  std::vector<std::uint8_t> codes;
+  codes.reserve(values.size());
+  for (float const value : values) {
+    bool const known = value == value;
+    codes.push_back(
+        known ? static_cast<std::uint8_t>(std::lround(most > 0.0F ? steps * value / most : 0.0F))
+              : none);
+  }
+  return base64(codes);
+}
+
+Json maps_of(RunPage const& page) {
+  auto const most_hours = most_of(page.maps, &PageMap::hours);
+  auto const most_energy = most_of(page.maps, &PageMap::energy);
+  auto const numbers = [](glm::dvec3 const& vector) { return Json{vector.x, vector.y, vector.z}; };
+  Json list = Json::array();
+  for (auto const& map : page.maps) {
+    list.push_back({{"receiver", map.receiver},
+                    {"corner", numbers(map.corner)},
+                    {"right", numbers(map.right)},
+                    {"up", numbers(map.up)},
+                    {"columns", map.columns},
+                    {"rows", map.rows},
+                    {"means", {map.mean_hours, map.mean_energy}},
+                    {"hours", map_codes(map.hours, most_hours)},
+                    {"energy", map_codes(map.energy, most_energy)}});
+  }
+  return {{"from", page.maps_from},
+          {"to", page.maps_to},
+          {"most", {most_hours, most_energy}},
+          {"list", list}};
+}
+
 // From 0 to 1.
 Json colours() {
   Json list = Json::array();
@@ -247,6 +293,7 @@ Json content_of(RunPage const& page) {
   auto const named = all ? page.surfaces.size() : page.receivers.size();
   for (std::size_t i = 0; i < named; ++i) names.push_back(page.surfaces[i].name);
   Json content{{"title", page.title}, {"names", names}, {"geometry", geometry_of(page)}};
+  content["maps"] = maps_of(page);
   content["facts"] = page.facts;
   content["notes"] = page.notes;
   content["colours"] = colours();

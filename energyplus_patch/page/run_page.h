@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +54,20 @@ struct PageDay {
   std::vector<PageHour> hours;  // with the sun up
 };
 
+// A map of a receiver, over its bounding rectangle.
+struct PageMap {
+  std::size_t receiver = 0;  // index in RunPage::receivers
+  glm::dvec3 corner{0.0};    // the lower left one as seen from outside, m
+  glm::dvec3 right{0.0};     // along the lower edge, as long as it is
+  glm::dvec3 up{0.0};
+  std::size_t columns = 0;
+  std::size_t rows = 0;
+  std::vector<float> hours;   // row by row, from below; not a number where there is no cell
+  std::vector<float> energy;  // kWh/m2
+  double mean_hours = 0.0;    // of the receiver
+  double mean_energy = 0.0;
+};
+
 // Everything on a page, which is one file that loads nothing.
 struct RunPage {
   static constexpr std::uint8_t turned_away = 254;  // instead of a percentage
@@ -65,6 +80,9 @@ struct RunPage {
   std::vector<PageDay> days;
   // Sunlit, percent: of each receiver at the first hour of the first day, then at the next.
   std::vector<std::uint8_t> percents;
+  std::vector<PageMap> maps;
+  std::string maps_from;  // the days that they are about, MM-DD
+  std::string maps_to;
   std::vector<std::string> notes;  // what is left out
 };
 

@@ -8,12 +8,16 @@
 #include <fstream>
 #include <glm/trigonometric.hpp>
 #include <string_view>
+#include <unordered_map>
+#include <utility>
 
 #include "base/naming.h"
 #include "base/text.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
+#include "maps/map_folder.h"
+#include "maps/map_grid.h"
 #include "options/report_folder.h"
 #include "page/run_page.h"
 
@@ -171,6 +175,58 @@ RunPage page_of(SceneAssembly const& assembly, DeviceInfo const& device, RunReco
   return page;
 }
 
+// Sums over all maps of a page: one byte for each of the two values.
+constexpr std::size_t most_map_cells = 200000;
+
+// Adds the map of a receiver. Throws Error if it cannot be read.
+void add_map(RunPage& page, std::filesystem::path const& folder, MapFolder::Row const& row,
+             std::size_t receiver) {
+  auto array = read_map_array(folder / (row.stem + ".npy"));
+  // One cell is the bounding rectangle.
+  constexpr double widest = 1e9;
+  MapGrid const whole(page.surfaces[receiver].polygon, widest);
+  auto const& axes = whole.axes();
+  auto const size = whole.cell_size();
+  page.maps.push_back({receiver, axes.origin, size.x * axes.u, size.y * axes.v, array.columns,
+                       array.rows, std::move(array.hours), std::move(array.energy), row.mean_hours,
+                       row.mean_energy});
+}
+
+void add_maps_of(RunPage& page, std::filesystem::path const& folder) {
+  auto const maps = read_map_folder(folder);
+  if (!maps) return;
+  page.maps_from = maps->from;
+  page.maps_to = maps->to;
+  std::unordered_map<std::string, std::size_t> receivers;
+  for (std::size_t i = 0; i < page.receivers.size(); ++i) {
+    receivers.emplace(csv_field(page.surfaces[i].name), i);
+  }
+  std::size_t cells = 0;
+  for (auto const& row : maps->rows) {
+    auto const found = receivers.find(row.receiver);
+    if (found == receivers.end()) continue;
+    add_map(page, folder, row, found->second);
+    cells += page.maps.back().hours.size();
+    if (cells <= most_map_cells) continue;
+    page.maps.pop_back();
+    page.notes.push_back(fmt::format(
+        "Maps of {} receivers are shown; more would make the page too large.", page.maps.size()));
+    return;
+  }
+}
+
+// Maps are not needed: one that cannot be read is no reason to lose a run's report.
+void add_maps(RunPage& page, std::filesystem::path const& report) {
+  for (auto const& folder : {report, report / "maps"}) {
+    try {
+      add_maps_of(page, folder);
+    } catch (std::exception const& error) {
+      page.notes.push_back(fmt::format("Maps are left out: {}", one_line(error.what())));
+    }
+    if (!page.maps.empty()) return;
+  }
+}
+
 void write_receivers(RunPage const& page, std::ostream& csv) {
   csv << "receiver,area [m2],azimuth [deg],tilt [deg],mean sunlit fraction,beam [kWh/m2],"
          "beam [kWh]\n";
@@ -223,10 +279,11 @@ void prepare_page(std::filesystem::path const& folder) {
   });
 }
 
-void write_run(StagedFiles& files, SceneAssembly const& assembly, DeviceInfo const& device,
-               RunRecord const& record) {
+void write_run(StagedFiles& files, std::filesystem::path const& folder,
+               SceneAssembly const& assembly, DeviceInfo const& device, RunRecord const& record) {
   auto const days = chosen_days(record);
   auto page = page_of(assembly, device, record, days);
+  add_maps(page, folder);
   files.write(receivers_table, [&](std::ostream& csv) { write_receivers(page, csv); });
   files.write(hours_table, [&](std::ostream& csv) { write_hours(page, days, csv); });
   files.write(page_file, to_html(std::move(page)));

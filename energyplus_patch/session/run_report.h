@@ -16,8 +16,10 @@ namespace gpu_shading::energyplus {
 //                      solar energy of the run (kWh/m2 and kWh)
 //   run_hours.csv      month and day, hour at whose end the sun is there, its azimuth and altitude
 //                      (degrees), and the sunlit fraction of each receiver, 0 if it faces away
-void write_run(StagedFiles& files, SceneAssembly const& assembly, DeviceInfo const& device,
-               RunRecord const& record);
+// Maps that gpu_shading map has written into the report's folder, or its folder maps, are on the
+// page, too.
+void write_run(StagedFiles& files, std::filesystem::path const& folder,
+               SceneAssembly const& assembly, DeviceInfo const& device, RunRecord const& record);
 
 // Throws Error if the folder has an index.html that is not of this report, or one that cannot be
 // replaced.

@@ -186,7 +186,7 @@ void Session::write_reports() {
   auto const left_out = write_report(
       *options.report, rendered.renderer(), known.receivers, answers_->asked(), known.answers,
       optics.factors(), {optics.deployment_names(), known.states}, stages, [&](StagedFiles& files) {
-        write_run(files, scene_, rendered.renderer().device(), *record_);
+        write_run(files, *options.report, scene_, rendered.renderer().device(), *record_);
       });
   if (left_out > 0) {
     messages_.remark(

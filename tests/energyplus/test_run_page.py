@@ -1,10 +1,12 @@
 """The page of a run (--gpu-shading-report): its numbers against EnergyPlus's own, and the page in a browser."""
 
+import base64
 import csv
 import json
 import re
 import subprocess
 
+import numpy as np
 import pytest
 from eso_file import EsoFile
 from html_page import DARK, SOFTWARE_WEBGL, look_at, print_page, screenshot
@@ -42,6 +44,10 @@ LOOK = """() => {
   fire("hour", 2, "input");
   seen.moment = text("moment");
   seen.moved = colours();
+  fire("colouring", "energy", "change");
+  seen.mapped = colours();
+  seen.scale = text("legend-title");
+  fire("colouring", "", "change");
   const press = (key) =>
     document.getElementById("view").dispatchEvent(new KeyboardEvent("keydown", {key, bubbles: true}));
   press("ArrowLeft");
@@ -76,6 +82,11 @@ def run(patched, courtyard, weather, tmp_path_factory):
     model.write(folder / "courtyard.idf")
     (folder / "courtyard.gpu-shading.idf").write_text(SHADES)
     report = folder / "report"
+    report.mkdir()
+    drawn = subprocess.run([energyplus.patched_prefix() / "gpu_shading", "map", folder / "courtyard.idf", "-w", weather,
+                            "--from", "03-01", "--to", "03-02", "--spacing", "1", "--receivers", "East*",
+                            "-o", report / "maps"], capture_output=True, text=True)
+    assert drawn.returncode == 0, drawn.stderr
     done = energyplus.run(patched, folder / "courtyard.idf", weather, folder / "out",
                           ["--gpu-shading", f"--gpu-shading-report={report}"])
     assert done.completed, done.why()
@@ -163,7 +174,8 @@ def test_the_page_in_a_browser(request, where, width):
     assert seen["drawn"] == "ModelView" and seen["missing"] == ""
     assert seen["begins"][0] > 100
     # Another hour, another direction: other pictures. Key 0 brings the first direction back.
-    assert len({seen[key][1] for key in ("begins", "moved", "turned")}) == 3
+    assert len({seen[key][1] for key in ("begins", "moved", "turned", "mapped")}) == 4
+    assert seen["scale"] == "Beam energy, kWh/m\u00b2, 1 Mar to 2 Mar"
     assert seen["reset"] == seen["moved"]
 
 
@@ -179,6 +191,32 @@ def test_the_page_on_paper(page, tmp_path):
     print_page(page, tmp_path / "page.pdf", *SOFTWARE_WEBGL, *DARK)
     assert (tmp_path / "page.pdf").stat().st_size > 20000
     print(tmp_path / "page.pdf")
+
+
+def content_of(page):
+    text = page.read_text(encoding="utf-8")
+    return json.loads(re.search(r'<script type="application/json" id="content">(.*?)</script>', text, re.DOTALL)[1])
+
+
+def test_maps_are_on_the_page(run):
+    report = run[1]
+    content = content_of(report / "index.html")
+    receivers = content["names"][:len(content["receivers"])]
+    rows = {row["receiver"]: row for row in rows_of(report / "maps" / "maps.csv") if row["receiver"] in receivers}
+    assert len(content["maps"]["list"]) == len(rows) >= 8
+    for one in content["maps"]["list"]:
+        row = rows[content["names"][one["receiver"]]]
+        means = [float(row["sunlit mean [h]"]), float(row["beam mean [kWh/m2]"])]
+        assert one["means"] == pytest.approx(means, rel=1e-9)
+        array = np.load(report / "maps" / f"{row['files']}.npy")
+        assert array.shape == (2, one["rows"], one["columns"])
+        codes = np.frombuffer(base64.b64decode(one["hours"]), np.uint8).reshape(array.shape[1:])
+        known = np.isfinite(array[0])
+        assert (codes[~known] == 255).all()
+        assert codes[known] == pytest.approx(250 * array[0][known] / content["maps"]["most"][0], abs=0.51)
+        # The bounding rectangle.
+        area = float(row["area [m2]"])
+        assert np.linalg.norm(np.cross(one["right"], one["up"])) >= area * (1 - 1e-5)
 
 
 NO_WEBGL = """<script>HTMLCanvasElement.prototype.getContext = ((whole) => function (kind, ...more) {
@@ -208,9 +246,9 @@ def test_the_page_loads_nothing(page):
     text = page.read_text(encoding="utf-8")
     assert "default-src 'none'" in text
     assert HOSTILE not in text
-    content = re.search(r'<script type="application/json" id="content">(.*?)</script>', text, re.DOTALL)[1]
-    assert HOSTILE in json.loads(content)["names"]
-    kinds = {style["kind"] for style in json.loads(content)["styles"]}
+    content = content_of(page)
+    assert HOSTILE in content["names"]
+    kinds = {style["kind"] for style in content["styles"]}
     assert kinds == {"receiver", "opaque", "glass", "screen"}
 
 

@@ -19,9 +19,10 @@ function addPairs(list, pairs) {
 
 function addKeys() {
   const kinds = new Set(content.styles.map((style) => style.kind));
-  const keys = [["turned away from the sun", css(theme().turnedAway)]];
-  if (view instanceof ModelView) keys.unshift(["darker: in shadow now", css(scaleColour(1).map((value) => 0.6 * value))]);
-  if (kinds.has("opaque")) keys.push(["casts shadows only", css(theme().caster)]);
+  const mapped = Boolean(part("colouring").value);
+  const keys = mapped ? [] : [["turned away from the sun", css(theme().turnedAway)]];
+  if (view instanceof ModelView && !mapped) keys.unshift(["darker: in shadow now", css(scaleColour(1).map((value) => 0.6 * value))]);
+  if (kinds.has("opaque")) keys.push([mapped ? "casts shadows only, or has no map" : "casts shadows only", css(theme().caster)]);
   if (kinds.has("glass")) keys.push(["transmits", `#${theme().glass.toString(16)}80`]);
   part("keys").replaceChildren(...keys.map(([text, colour]) => {
     const item = document.createElement("li");
@@ -64,9 +65,13 @@ function showReceiver() {
   const [area, , tilt, mean, beam, total] = content.receivers[receiver];
   part("receiver").value = receiver;
   part("chosen-name").textContent = content.names[receiver];
+  const map = content.maps.list.find((one) => one.receiver === receiver);
   const pairs = [["Area", `${numberText(area, 3)} m\u00b2`], ["Faces", facingText(receiver)],
     ["Tilt", `${numberText(tilt, 1)}\u00b0`], ["Mean sunlit fraction", numberText(mean, 4)],
     ["Beam of the run", `${numberText(beam, 1)} kWh/m\u00b2`], ["Beam in all", `${numberText(total, 1)} kWh`]];
+  for (const [, title, unit, i] of map ? MAP_KINDS : []) {
+    pairs.push([`${title}, ${mapDays()}`, `${numberText(map.means[i], 1)} ${unit}`]);
+  }
   if (content.days.length > 0) {
     pairs.unshift(["Sunlit now", percentText(percentOf(receiver, state.day, state.hour))]);
     part("carpet-plot").replaceChildren(carpet(receiver, [state.day, state.hour], go));
@@ -94,6 +99,32 @@ function choose(receiver) {
   view?.choose(receiver);
   receiverTable.mark(receiver);
   showReceiver();
+}
+
+// The title and the numbers of the scale.
+function showScale(title, most) {
+  part("legend-title").textContent = title;
+  part("ticks").replaceChildren(...[0, 0.25, 0.5, 0.75, 1].map((share) => {
+    const mark = document.createElement("span");
+    mark.textContent = most < 10 ? numberText(share * most, 1) : Math.round(share * most);
+    return mark;
+  }));
+}
+
+function colourBy(kind) {
+  const [, title, unit, i] = MAP_KINDS.find(([key]) => key === kind) || [];
+  if (title) showScale(`${title}, ${unit}, ${mapDays()}`, content.maps.most[i]);
+  else showScale("Sunlit fraction, %", 100);
+  view.colourBy(kind);
+  addKeys();
+}
+
+function addColourings() {
+  if (content.maps.list.length === 0 || !view.colourBy) return;
+  part("colouring").append(new Option("sunlit fraction now", ""),
+    ...MAP_KINDS.map(([kind, title]) => new Option(`map: ${title.toLowerCase()}`, kind)));
+  part("colouring").hidden = part("colouring-label").hidden = false;
+  part("colouring").addEventListener("change", () => colourBy(part("colouring").value));
 }
 
 let playing = null;
@@ -169,14 +200,11 @@ function begin() {
     return paragraph;
   }));
   part("scale").style.background = scaleGradient();
-  part("ticks").replaceChildren(...[0, 25, 50, 75, 100].map((tick) => {
-    const mark = document.createElement("span");
-    mark.textContent = tick;
-    return mark;
-  }));
+  showScale("Sunlit fraction, %", 100);
   addView();
   addKeys();
   addControls();
+  addColourings();
   receiverTable = new ReceiverTable(part("receivers"), part("filter"), part("shown"), choose);
   if (content.days.length > 0) {
     chooseBeginning();

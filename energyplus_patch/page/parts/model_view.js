@@ -75,7 +75,8 @@ class ModelView {
     this.casterEdges = new THREE.LineBasicMaterial({transparent: true, opacity: surfaces.length > 5000 ? 0.12 : 0.55});
     this.sky = new THREE.Group();
     this.choiceLines = new THREE.Group();
-    this.scene.add(this.casters, this.sky, this.choiceLines);
+    this.maps = new THREE.Group();
+    this.scene.add(this.casters, this.maps, this.sky, this.choiceLines);
     this.addLight();
     this.addSurfaces();
     this.addGround();
@@ -88,15 +89,23 @@ class ModelView {
     return this.surfaces.map((_, i) => i).filter((i) => content.styles[this.surfaces[i].style].kind === kind);
   }
 
-  // What casts shadows and is not too far away.
+  // The distance of the farthest surface, if it is not too far away for its shadow to count.
   reach() {
-    return Math.min(boundsOf(this.surfaces).radius * 1.2, 3 * this.radius);
+    const {middle} = this.bounds;
+    let farthest = 0;
+    for (const {rings} of this.surfaces) {
+      for (const point of rings[0] || []) {
+        farthest = Math.max(farthest, Math.hypot(...point.map((value, axis) => value - middle[axis])));
+      }
+    }
+    return Math.min(1.05 * farthest, 4 * this.radius);
   }
 
   addLight() {
     this.light = new THREE.DirectionalLight(0xffffff, 1);
     this.light.castShadow = true;
-    const reach = this.reach();
+    this.lightReach = this.reach();
+    const reach = this.lightReach;
     const size = Math.min(reach > 30 ? 4096 : 2048, this.renderer.capabilities.maxTextureSize);
     const {shadow} = this.light;
     shadow.mapSize.set(size, size);
@@ -261,7 +270,7 @@ class ModelView {
     this.time = [day, hour];
     const direction = content.days[day].hours[hour];
     this.sun = sunDirection(direction);
-    this.light.position.set(...this.sun).multiplyScalar(3 * this.reach());
+    this.light.position.set(...this.sun).multiplyScalar(3 * this.lightReach);
     this.material.uniforms.sun.value.set(...this.sun);
     this.paint();
     this.drawSky();
@@ -270,6 +279,10 @@ class ModelView {
 
   paint() {
     for (let i = 0; i < content.receiverCount; ++i) {
+      if (this.mapKind) {
+        this.receivers.paint(i, theme().caster, 1);
+        continue;
+      }
       const percent = this.time ? percentOf(i, ...this.time) : content.turnedAway;
       this.receivers.paint(i, percentColour(percent), percent === content.turnedAway ? AS_IT_IS : 0.3);
     }
@@ -318,6 +331,17 @@ class ModelView {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.Float32BufferAttribute(places, 3));
     return geometry;
+  }
+
+  // A key of MAP_KINDS, or "" for the sunlit fraction.
+  colourBy(kind) {
+    this.mapKind = kind;
+    this.maps.children.slice().forEach((child) => this.maps.remove(child));
+    for (const map of kind ? content.maps.list : []) {
+      this.maps.add(mapMesh(map, kind, this.surfaces[map.receiver], this.bounds.middle));
+    }
+    this.paint();
+    this.draw();
   }
 
   setCasters(shown) {
