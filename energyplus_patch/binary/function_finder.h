@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
 
 #include "binary/symbol_table.h"
@@ -15,6 +16,15 @@ class FunctionFinder {
   template <typename Function>
   void find(std::string const& name, Function*& function) {
     if (auto* const address = look_up(name)) function = reinterpret_cast<Function*>(address);
+  }
+
+  // The first of these names that the build has, for functions whose signature has changed.
+  template <typename Function>
+  void find_any(std::initializer_list<char const*> names, Function*& function) {
+    for (auto const* const name : names) {
+      if (symbols_.find(name) != nullptr) return find(name, function);
+    }
+    find(*names.begin(), function);
   }
 
   // Throws Error with the list of missing functions, if any.

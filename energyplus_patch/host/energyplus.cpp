@@ -25,9 +25,12 @@ EnergyPlusFunctions::EnergyPlusFunctions(SymbolTable const& symbols) {
   finder.find(show_name("14ShowFatalError"), show_fatal_);
   finder.find(show_name("11ShowMessage"), show_message_);
   finder.find("issueWarning", issue_warning_);
-  finder.find(
-      "_ZN10EnergyPlus7Weather28CalculateSunDirectionCosinesERKNS_14EnergyPlusDataEddddRN"
-      "9ObjexxFCL7Vector3IdEE",
+  // Before 25.1 the state is not const.
+  finder.find_any(
+      {"_ZN10EnergyPlus7Weather28CalculateSunDirectionCosinesERKNS_14EnergyPlusDataEddddRN"
+       "9ObjexxFCL7Vector3IdEE",
+       "_ZN10EnergyPlus7Weather28CalculateSunDirectionCosinesERNS_14EnergyPlusDataEddddRN"
+       "9ObjexxFCL7Vector3IdEE"},
       sun_cosines_);
   finder.check();
   FunctionFinder optional(symbols);

@@ -1,14 +1,15 @@
 #pragma once
 
-#include <string>
-#include <unordered_map>
-#include <utility>
+#include <memory>
 
 #include "binary/symbol_table.h"
 #include "host/energyplus.h"
 #include "session/schedules.h"
 
 namespace gpu_shading::energyplus {
+
+// How a release of EnergyPlus keeps schedules.
+class ScheduleInterface;
 
 // The functions of EnergyPlus that read its schedules, looked up by name.
 class ScheduleFunctions {
@@ -22,19 +23,7 @@ class ScheduleFunctions {
   Schedules of(State& state) const;
 
  private:
-  struct Schedule;  // EnergyPlus's own
-  using Get = Schedule*(State&, std::string const&);
-  using Extreme = double(Schedule*, State&);
-  using AtHour = double(Schedule const*, State&, int hour, int timestep);
-
-  Schedule* find(State& state, std::string const& name) const;
-  double at_hour(Schedule const& schedule, State& state, int hour, int timestep) const;
-
-  Get* get_ = nullptr;
-  Extreme* minimum_ = nullptr;
-  Extreme* maximum_ = nullptr;
-  AtHour* constant_at_hour_ = nullptr;
-  AtHour* detailed_at_hour_ = nullptr;
+  std::shared_ptr<ScheduleInterface const> interface_;
 };
 
 }  // namespace gpu_shading::energyplus

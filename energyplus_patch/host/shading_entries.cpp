@@ -55,13 +55,15 @@ void process_shadowing_input(State& state) {
 }  // namespace
 
 std::vector<EntryPatch> shading_entries() {
+  auto warning = watch("_ZN10EnergyPlus12SolarShading21processShadowingInputERNS_14EnergyPlusDataE",
+                       &process_shadowing_input, &original_process_shadowing_input);
+  warning.needed = false;  // not before 24.2: the warning is written
   return {
       watch("_ZN10EnergyPlus12SolarShading25FigureSolarBeamAtTimestepERNS_14EnergyPlusDataEii",
             &solar_beam, &original_solar_beam),
       watch("_ZN10EnergyPlus12SolarShading18SkyDifSolarShadingERNS_14EnergyPlusDataE", &sky_shading,
             &original_sky_shading),
-      watch("_ZN10EnergyPlus12SolarShading21processShadowingInputERNS_14EnergyPlusDataE",
-            &process_shadowing_input, &original_process_shadowing_input),
+      warning,
   };
 }
 
