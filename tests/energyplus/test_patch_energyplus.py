@@ -10,7 +10,7 @@ import subprocess
 from importlib.machinery import SourceFileLoader
 
 import pytest
-from shading_runs import energyplus, output_folder
+from shading_runs import energyplus, output_folder, self_check
 
 SCRIPT = energyplus.REPOSITORY / "scripts" / "patch_energyplus"
 
@@ -185,6 +185,37 @@ def test_force_accepts_another_version(prefix, build, tmp_path):
     assert patch(prefix, tmp_path / "patched", "--build", build, "--force").returncode == 0
 
 
+def test_another_release_is_checked(patched, official, tmp_path, monkeypatch, capsys):
+    """The official 25.2.0 in the place of a release that was never tested."""
+    script = load_script()
+    monkeypatch.setattr(script, "TESTED_VERSION", "24.1.0")
+    script.patch(official.parent, tmp_path / "patched", build=energyplus.build_folder())
+    said = capsys.readouterr().err
+    assert "EnergyPlus 25.2.0 has not been tested" in said and "agrees with polygon clipping" in said
+    assert (tmp_path / "patched" / "energyplus").is_file()
+
+
+def test_another_release_that_renders_something_else_is_refused(patched, tmp_path):
+    """It renders overhangs of half their depth."""
+    program = tmp_path / "energyplus"
+    program.write_text(f"""\
+#!/bin/sh
+for model; do :; done
+[ "$1" != --gpu-shading ] || sed -i 's/_y_coordinate": -1,/_y_coordinate": -0.5,/g' "$model"
+exec {patched} "$@"
+""")
+    program.chmod(0o755)
+    with pytest.raises(self_check.Disagreement, match="sunlit fraction of (SOUTH|WINDOW) that differs by 0"):
+        self_check.check(tmp_path, "25.2.0")
+
+
+def test_another_release_that_does_not_run_is_refused(prefix, build, tmp_path):
+    (prefix / "libenergyplusapi.so").write_bytes(b"\x7fELF\0libenergyplusapi.so.25.1.0\0")
+    done = patch(prefix, tmp_path / "patched", "--build", build)
+    assert done.returncode == 1 and "a short run of it failed" in done.stderr and "--force" in done.stderr
+    assert not (tmp_path / "patched").exists()
+
+
 @pytest.mark.parametrize("step", ["make", "_exchange"])
 def test_a_failure_leaves_the_former_prefix(step, prefix, build, tmp_path, monkeypatch):
     script = load_script()
@@ -259,7 +290,7 @@ def test_runs_where_it_is_installed(prefix, build, tmp_path):
     share = tmp_path / "share"
     (share / "shading_runs").mkdir(parents=True)
     for name in ("patch_energyplus", "shading_runs/__init__.py", "shading_runs/output_folder.py",
-                 "shading_runs/version.py"):
+                 "shading_runs/self_check.py", "shading_runs/version.py"):
         shutil.copy2(SCRIPT.parent / name, share / name)
     (share / "lib").mkdir()
     for path in (build / "energyplus_patch").iterdir():
