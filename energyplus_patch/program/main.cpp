@@ -275,9 +275,16 @@ void add_screen(CLI::App& app, Choices const& choices) {
       "-o,--output", *folder,
       "Folder for NAME_tau.csv (transmittance by angles), NAME_tau.svg (polar plot) "
       "and NAME_tile.png (one tile of the sheet)");
+  auto const bsdf = std::make_shared<std::string>();
+  command
+      ->add_option("--bsdf", *bsdf,
+                   "File for the direct transmission of one screen as a BSDF, in WINDOW's XML "
+                   "with Klems's 145 x 145 directions")
+      ->type_name("FILE");
   command->footer(std::string(flags_help()));
-  command->callback([task, folder, choices] {
+  command->callback([task, folder, bsdf, choices] {
     if (!folder->empty()) task->folder = *folder;
+    if (!bsdf->empty()) task->bsdf = *bsdf;
     describe_screens(*task, choices);
   });
 }

@@ -28,6 +28,7 @@
 #include "model/model_reader.h"
 #include "model/shading_outlines.h"
 #include "program/model_run.h"
+#include "program/screen_bsdf.h"
 #include "program/screen_optics.h"
 #include "program/screen_plot.h"
 #include "program/tile_picture.h"
@@ -264,6 +265,16 @@ void write_files(std::vector<DescribedScreen> const& screens, StagedFiles& files
   for (auto const& name : written) fmt::print("{}\n", (folder / name).string());
 }
 
+void write_bsdf_file(std::vector<DescribedScreen> const& screens, Path const& file) {
+  auto const& described = screens.front();
+  auto const& object = described.named.maker->object();
+  write_whole_file(file, [&](std::ostream& xml) {
+    write_bsdf(*described.screen, described.rotation, printable(object),
+               one_line(described.description), xml);
+  });
+  fmt::print("{}\n", file.string());
+}
+
 }  // namespace
 
 void describe_screens(ScreenTask const& task, Choices const& choices) {
@@ -271,6 +282,10 @@ void describe_screens(ScreenTask const& task, Choices const& choices) {
   auto const model = read_model(task.model, choices);
   auto const screens = describe(choose(screens_of(model.screens), task), task.model, model.shading);
   for (auto const& warning : model.screens.warnings()) print_line("warning: " + warning);
+  if (task.bsdf && screens.size() != 1) {
+    throw Error(fmt::format("--bsdf {}: one file is for one screen, but {} are chosen; name one",
+                            task.bsdf->string(), screens.size()));
+  }
   std::optional<StagedFiles> files;
   if (task.folder) files.emplace(*task.folder);
   for (auto const& screen : screens) {
@@ -279,6 +294,7 @@ void describe_screens(ScreenTask const& task, Choices const& choices) {
   }
   print_legend();
   if (files) write_files(screens, *files, *task.folder);
+  if (task.bsdf) write_bsdf_file(screens, *task.bsdf);
 }
 
 }  // namespace gpu_shading::energyplus

@@ -153,6 +153,12 @@ def _call(program, words, folder, **options):
                           stdout=subprocess.PIPE, **options).stdout
 
 
+def trace(folder, scene, rays, *options):
+    """What rtrace says, a line for each of some lines with a place and a direction; `scene`: a file in the folder."""
+    (folder / "scene.oct").write_bytes(_call("oconv", [scene], folder))
+    return _call("rtrace", ["-h", *options, "scene.oct"], folder, input=rays.encode()).decode()
+
+
 class Building:
     """Receivers with points on them, and what shades them."""
 

@@ -6,6 +6,7 @@ import subprocess
 import xml.etree.ElementTree as ElementTree
 
 import pytest
+import radiance
 import screened_room
 from shading_runs import energyplus
 from test_screens import PATTERN, TEXTURE, model, write_grey_image
@@ -201,3 +202,103 @@ def test_the_documents_show_what_is_printed(patched, tmp_path):
     assert done.returncode == 0, done.stderr
     page = energyplus.REPOSITORY / "gpu_shading" / "docs" / "running.md"
     assert f"```text\n{done.stdout}```\n" in page.read_text()
+
+
+KLEMS = ((0, 5, 1), (5, 15, 8), (15, 25, 16), (25, 35, 20), (35, 45, 24), (45, 55, 24), (55, 65, 24), (65, 75, 16),
+         (75, 90, 12))
+SQUARE, PITCH, THICKNESS, TURN = 0.005, 0.008, 0.003, 30
+SQUARES = (f"GPUShading:PerforatedScreen,Squares <&>,hood,Square,,Straight,{SQUARE},,{PITCH},,{THICKNESS}"
+           f",,,,,,,,,,{TURN};\n")
+
+
+def squares(theta, phi):
+    """Closed form: the overlap of two squares that are turned by 30 degrees."""
+    shift = THICKNESS * math.tan(math.radians(theta))
+    along = [abs(shift * turn(math.radians(phi - TURN))) for turn in (math.cos, math.sin)]
+    return math.prod(max(0.0, SQUARE - length) for length in along) / PITCH**2
+
+
+def patch_of(theta, phi):
+    """(theta from, to, phi from, to) of the patch around a direction, and the steradians times the cosine."""
+    low, high, count = next(row for row in KLEMS if row[0] <= theta < row[1])
+    step = 360 / count
+    middle = round(phi / step) * step
+    solid = math.pi * (math.sin(math.radians(high))**2 - math.sin(math.radians(low))**2) / count
+    return (low, high, middle - step / 2, middle + step / 2), solid
+
+
+def mean_of(patch, count=120):
+    """Of squares() over a patch's projected solid angle, by the midpoint rule over angles."""
+    low, high, left, right = patch
+    total = weights = 0.0
+    for i in range(count):
+        theta = low + (high - low) * (i + 0.5) / count
+        weight = math.sin(2 * math.radians(theta))
+        weights += weight
+        total += weight * sum(squares(theta, left + (right - left) * (k + 0.5) / count) for k in range(count)) / count
+    return total / weights
+
+
+def test_a_bsdf_is_klems_full_basis(screen, tmp_path):
+    done = screen(SQUARES, "--bsdf", "squares.xml")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.endswith("\nsquares.xml\n")
+    space = {"w": "http://windows.lbl.gov"}
+    root = ElementTree.parse(tmp_path / "squares.xml").getroot()
+    assert root.find(".//w:Material/w:Name", space).text == "Squares <&>"
+    counts = [int(block.find("w:nPhis", space).text) for block in root.iterfind(".//w:AngleBasisBlock", space)]
+    assert counts == [count for _, _, count in KLEMS]
+    blocks = root.findall(".//w:WavelengthData", space)
+    assert [(block.find("w:Wavelength", space).text, block.find(".//w:WavelengthDataDirection", space).text)
+            for block in blocks] == [(wavelength, f"Transmission {side}")
+                                     for wavelength in ("Solar", "Visible") for side in ("Front", "Back")]
+    for block in blocks:
+        values = [float(word) for word in block.find(".//w:ScatteringData", space).text.replace(",", " ").split()]
+        assert len(values) == 145 * 145
+        at = 0
+        for low, high, count in KLEMS:
+            for patch in range(count):
+                around, solid = patch_of((low + high) / 2, patch * 360 / count)
+                # Seen from inside, azimuths run the other way.
+                mirrored = (around[0], around[1], 180 - around[3], 180 - around[2])
+                if block is blocks[0] and patch % 5 == 0:
+                    assert values[146 * at] * solid == pytest.approx(mean_of(mirrored, 60), abs=1.5e-3), (low, patch)
+                at += 1
+        assert sum(map(bool, values)) == sum(map(bool, values[::146]))
+
+
+def test_radiance_passes_the_beam_of_a_bsdf(screen, tmp_path):
+    """The radiance of a sheet that faces south, seen from inside against the sun, for suns in different patches.
+
+    The squares are turned, so that a mirrored azimuth would be off by 0.02 at 40 degrees.
+    """
+    if radiance.is_missing():
+        pytest.skip(f"{radiance.FOLDER} is missing: scripts/setup could not fetch pyradiance")
+    assert screen(SQUARES, "--bsdf", "squares.xml").returncode == 0
+    half = 0.25
+    irradiance = 1000 * 2 * math.pi * (1 - math.cos(math.radians(half)))
+    compared = 0
+    for theta, phi in ((0, 0), (20, 0), (30, 54), (40, 60), (40, 120), (40, 300), (50, 15), (50, 165), (60, 45)):
+        # The beam goes on to theta from north, and from east towards up as seen from outside.
+        beam = (math.sin(math.radians(theta)) * math.cos(math.radians(phi)), math.cos(math.radians(theta)),
+                math.sin(math.radians(theta)) * math.sin(math.radians(phi)))
+        to_sun = " ".join(f"{-value:.9f}" for value in beam)
+        (tmp_path / "scene.rad").write_text(
+            f"void light sun 0 0 3 1000 1000 1000\nsun source sol 0 0 4 {to_sun} {2 * half}\n"
+            "void BSDF sheet 6 0 squares.xml 0 0 1 . 0 0\n"
+            "sheet polygon wall 0 0 12  1 0 -1  -1 0 -1  -1 0 1  1 0 1\n")  # its front, inside, is north
+        ray = " ".join(f"{value:.9f}" for value in (*beam, *(-value for value in beam)))
+        seen = float(radiance.trace(tmp_path, "scene.rad", f"{ray}\n", "-ab", "0", "-dj", "0", "-dt", "0", "-ss", "0").split()[0])
+        patch, solid = patch_of(theta, (180 - phi) % 360)
+        mean = mean_of((patch[0], patch[1], 180 - patch[3], 180 - patch[2]))
+        passed = seen * solid / (irradiance * math.cos(math.radians(theta)))
+        assert passed == pytest.approx(mean, abs=2e-4), (theta, phi)
+        compared += 0.01 < mean < 0.39
+    assert compared >= 7
+
+
+def test_a_bsdf_is_of_one_screen(screen, tmp_path):
+    done = screen(SQUARES + PATTERN.format(surfaces="Building Panel"), "--bsdf", "both.xml")
+    assert done.returncode == 1
+    assert "--bsdf both.xml: one file is for one screen, but 2 are chosen; name one" in done.stderr
+    assert not (tmp_path / "both.xml").exists()
