@@ -77,11 +77,12 @@ void Recorder::begin_query(Query query) {
 
 void Recorder::end_query() { counting_.reset(); }
 
-// Each surface is drawn within a query. Vertices that no query has drawn yet are taken triangle by
-// triangle, since it is not known which of them belong together.
-void Recorder::learn_surfaces() {
+// Each surface is drawn within a query, or is a window that is left out. Vertices that no query has
+// drawn yet are taken triangle by triangle, since it is not known which of them belong together.
+void Recorder::learn_surfaces(std::optional<DrawnRange> window) {
   constexpr std::uint32_t corners = 3;
   std::vector<DrawnRange> asked;
+  if (window) asked.push_back(*window);
   for (auto const& [query, question] : questions_) {
     if (question.surface.count > 0) asked.push_back(question.surface);
   }
@@ -110,6 +111,14 @@ std::size_t Recorder::surface_at(DrawnRange range) const {
   auto const found = std::lower_bound(surfaces_.begin(), surfaces_.end(), range);
   bool const known = found != surfaces_.end() && *found == range;
   return known ? static_cast<std::size_t>(found - surfaces_.begin()) : surfaces_.size();
+}
+
+bool Recorder::knows_surfaces_of(Scene const& scene) const {
+  return std::all_of(scene.queries.begin(), scene.queries.end(), [&](Query query) {
+    auto const asked = questions_.find(query);
+    return asked == questions_.end() || asked->second.surface.count == 0 ||
+           knows(asked->second.surface);
+  });
 }
 
 // The vertices that a scene leaves out, which are a window's; empty if it leaves out none.
@@ -157,9 +166,8 @@ int Recorder::result(Query query) {
   // A surface without area, or a view without any, whose pixels have no area either.
   if (question.surface.count == 0 || !scene->view) return 0;
   auto const window = hidden(*scene);
-  bool const known = surface_at(question.surface) < surfaces_.size() &&
-                     (!window || surface_at(*window) < surfaces_.size());
-  if (!known) learn_surfaces();
+  bool const known = knows_surfaces_of(*scene) && (!window || knows(*window));
+  if (!known) learn_surfaces(window);
   if (!window) {
     auto const area = answers_->sunlit_area(scene->view->towards_sun, surface_at(question.surface));
     question.count = to_count(area, scene->pixel_area);

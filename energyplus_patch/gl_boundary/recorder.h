@@ -57,8 +57,10 @@ class Recorder {
     std::optional<int> count;  // once it is known
   };
 
-  void learn_surfaces();
+  void learn_surfaces(std::optional<DrawnRange> window);
   std::size_t surface_at(DrawnRange range) const;
+  bool knows(DrawnRange range) const { return surface_at(range) < surfaces_.size(); }
+  bool knows_surfaces_of(Scene const& scene) const;
   std::optional<DrawnRange> hidden(Scene const& scene) const;
   void answer_interiors(Scene const& scene, std::size_t window);
 

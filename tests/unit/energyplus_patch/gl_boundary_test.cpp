@@ -365,6 +365,30 @@ TEST(RenderedModel, HalfCoveredSquare) {
   EXPECT_NEAR(penumbra.retrieve(0), std::sqrt(0.5), 1e-4);
 }
 
+// As OpenGL draws them: whichever way the triangles turn.
+TEST(RenderedModel, SurfacesHaveTwoSides) {
+  RendererOptions options;
+  options.device.kind = DeviceChoice::Kind::cpu;
+  Recorder recorder(std::make_unique<RenderedModel>(options));
+  Penumbra penumbra({rectangle({0, 0, 0}, 1, 1), rectangle({-1, -0.5F, -2}, 3, 1)}, 512, recorder);
+  penumbra.set_sun(0.0F, -quarter_turn + 1e-4F);
+  penumbra.submit();
+  EXPECT_NEAR(penumbra.retrieve(0), 0.5, 5e-4);
+  EXPECT_NEAR(penumbra.retrieve(1), 3.0, 1e-4);
+}
+
+TEST(Recorder, KnowsAWindowThatWasNotAskedAbout) {
+  Asked asked;
+  Recorder recorder(std::make_unique<FixedAnswers>(asked));
+  Penumbra penumbra(
+      {rectangle({0, 0, 0}, 2, 4), rectangle({1.5F, 1, 3}, 1, 1), rectangle({2, 0, 0}, 2, 4)}, 512,
+      recorder);
+  penumbra.set_sun(0.0F, 1.0F);
+  auto const interiors = penumbra.interiors(1, {0, 2});
+  EXPECT_NEAR(interiors[1], 0.125, 1e-5);
+  EXPECT_THAT(asked.surfaces, ElementsAre(DrawnRange{0, 6}, DrawnRange{6, 6}, DrawnRange{12, 6}));
+}
+
 TEST(RenderedModel, FloorBehindASkylight) {
   RendererOptions options;
   options.device.kind = DeviceChoice::Kind::cpu;
