@@ -21,9 +21,10 @@ GElf_Shdr header_of(Elf_Scn* section) {
   return header;
 }
 
-Elf_Scn* find_symbol_section(Elf* elf) {
+Elf_Scn* find_symbol_section(Elf* elf, Symbols which) {
+  GElf_Word const type = which == Symbols::all ? SHT_SYMTAB : SHT_DYNSYM;
   for (Elf_Scn* section = nullptr; (section = elf_nextscn(elf, section)) != nullptr;) {
-    if (header_of(section).sh_type == SHT_SYMTAB) return section;
+    if (header_of(section).sh_type == type) return section;
   }
   return nullptr;
 }
@@ -33,14 +34,14 @@ constexpr std::string_view table_prefix = "_ZTV";
 
 }  // namespace
 
-SymbolTable::SymbolTable(std::filesystem::path library, std::byte* base)
+SymbolTable::SymbolTable(std::filesystem::path library, std::byte* base, Symbols which)
     : library_(std::move(library)) {
   elf_version(EV_CURRENT);
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
   FileDescriptor const file(open(library_.c_str(), O_RDONLY | O_CLOEXEC));
   ElfHandle const elf(elf_begin(file.get(), ELF_C_READ_MMAP, nullptr), &elf_end);
   if (!elf) throw Error(fmt::format("{}: cannot be read as an ELF file", library_.string()));
-  Elf_Scn* const section = find_symbol_section(elf.get());
+  Elf_Scn* const section = find_symbol_section(elf.get(), which);
   if (section == nullptr) {
     throw Error(
         fmt::format("{}: has no symbol table (stripped), so its shading interface cannot be "

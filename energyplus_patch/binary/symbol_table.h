@@ -16,12 +16,17 @@ struct Symbol {
   std::uint64_t file_offset = 0;  // of a function: offset of its code in the library's file
 };
 
+// Which symbols of a library: all, including local ones, from .symtab, or those that it exports,
+// from .dynsym, which a stripped library has as well.
+enum class Symbols { all, exported };
+
 // The functions and the tables of virtual functions of a loaded shared library by their mangled
-// names, including local ones. They are read from .symtab in its file; dlsym searches .dynsym only.
+// names, read from its file. (dlsym does not tell their sizes.)
 class SymbolTable {
  public:
-  // `base`: the library's load address. Throws Error if the file cannot be read or is stripped.
-  SymbolTable(std::filesystem::path library, std::byte* base);
+  // `base`: the library's load address. Throws Error if the file cannot be read or has no such
+  // symbols.
+  SymbolTable(std::filesystem::path library, std::byte* base, Symbols which = Symbols::all);
 
   // nullptr if there is no such function.
   Symbol const* find(std::string_view name) const;

@@ -1,9 +1,13 @@
 #include "gl_boundary/session_answers.h"
 
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
 #include <utility>
 
 #include "gl_boundary/named_surfaces.h"
 #include "gpu_shading/error.h"
+#include "session/foreseen_directions.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -16,9 +20,21 @@ namespace {
   unknown_schedule(name, {});
 }
 
+// A patch of the sky where the direction is one, rounded to single precision.
+SunDirection without_rounding(SunDirection sun) {
+  constexpr double step = std::numbers::pi / 12.0;
+  constexpr double rounding = 3e-6;
+  SunDirection const patch{std::round(sun.azimuth / step) * step,
+                           (std::floor(sun.altitude / step) + 0.5) * step};
+  bool const same = glm::distance(to_vector(patch), to_vector(sun)) < rounding;
+  return same && is_sky_patch(patch) ? patch : sun;
+}
+
 }  // namespace
 
-SessionAnswers::SessionAnswers(Input input) : input_(std::move(input)), session_(input_.model) {}
+SessionAnswers::SessionAnswers(Input input) : input_(std::move(input)), session_(input_.model) {
+  if (!input_.schedules.range) input_.schedules = {unknown_range, unknown_schedule};
+}
 
 void SessionAnswers::set_model(std::span<glm::vec3 const> vertices,
                                std::span<DrawnRange const> surfaces) {
@@ -26,13 +42,35 @@ void SessionAnswers::set_model(std::span<glm::vec3 const> vertices,
   for (auto& surface : name_surfaces(vertices, surfaces, input_.named)) {
     session_.add(std::move(surface));
   }
-  session_.start(input_.messages, {unknown_range, unknown_schedule}, input_.latitude);
+  warn_of_mirrored();
+  session_.start(input_.messages, input_.schedules, input_.latitude);
+}
+
+// The copies of shading surfaces that face the other way are never drawn.
+void SessionAnswers::warn_of_mirrored() const {
+  auto const& input = session_.input();
+  if (!(input.reflections || input.mirrored_shown()) || session_.shading_surfaces().empty()) return;
+  input_.messages.warning(
+      "EnergyPlus does not draw mirrored shading surfaces: their sunlit fraction is reported as 0, "
+      "and solar radiation that the back of a shading surface reflects is lost");
+}
+
+// EnergyPlus looks at the sky once for all times, or at each time after the sun.
+void SessionAnswers::set_time(SunDirection sun) {
+  if (!input_.time_of) return;
+  if (is_sky_patch(sun)) {
+    if (!input_.model.shading.detailed_sky) session_.set_time({});
+  } else if (auto const moment = input_.time_of(to_vector(sun))) {
+    session_.set_time(*moment);
+  }
 }
 
 void SessionAnswers::set_sun(glm::dvec3 const& towards_sun) {
   if (towards_sun == sun_) return;
   sun_ = towards_sun;
-  session_.set_sun(to_direction(towards_sun));
+  auto const sun = without_rounding(to_direction(towards_sun));
+  set_time(sun);
+  session_.set_sun(sun);
 }
 
 double SessionAnswers::sunlit_area(glm::dvec3 const& towards_sun, std::size_t surface) {

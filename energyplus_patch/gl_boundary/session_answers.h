@@ -1,16 +1,17 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gl_boundary/boundary_answers.h"
+#include "session/schedules.h"
 #include "session/session.h"
 
 namespace gpu_shading::energyplus {
 
-// Answers of a session, for a model that is known. Its schedules are not: the time of a question
-// does not reach OpenGL.
+// Answers of a session, for a model that is known.
 class SessionAnswers : public BoundaryAnswers {
  public:
   struct Input {
@@ -18,6 +19,10 @@ class SessionAnswers : public BoundaryAnswers {
     std::vector<Surface> named;  // as EnergyPlus lists them
     Messages messages;
     std::function<double()> latitude;  // of the site, in radians
+    Schedules schedules;               // needed where the model's shades have any
+    // The time that a direction to the sun stands for; needed for schedules. Nothing where it is
+    // not known.
+    std::function<std::optional<Moment>(glm::dvec3 const&)> time_of;
   };
 
   explicit SessionAnswers(Input input);
@@ -32,6 +37,8 @@ class SessionAnswers : public BoundaryAnswers {
   void finish();
 
  private:
+  void warn_of_mirrored() const;
+  void set_time(SunDirection sun);
   void set_sun(glm::dvec3 const& towards_sun);
 
   Input input_;

@@ -1,8 +1,5 @@
-#include <dlfcn.h>
 #include <fmt/format.h>
-#include <link.h>
 
-#include <filesystem>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -10,6 +7,8 @@
 
 #include "base/c_interface.h"
 #include "base/error_line.h"
+#include "base/process.h"
+#include "base/shared_library.h"
 #include "binary/entry_patch.h"
 #include "binary/symbol_table.h"
 #include "gpu_shading/error.h"
@@ -17,55 +16,26 @@
 #include "gpu_shading_energyplus.h"
 #include "host/daylight_entries.h"
 #include "host/daylight_reflection_entries.h"
+#include "host/glfw_entries.h"
 #include "host/input_entries.h"
+#include "host/loaded_library.h"
 #include "host/penumbra_entries.h"
 #include "host/reflection_entries.h"
 #include "host/run.h"
 #include "host/shading_entries.h"
 #include "host/unwanted_messages.h"
+#include "hosted/opengl_run.h"
+#include "idf/model_file.h"
+#include "options/command_line.h"
 #include "options/options.h"
 #include "runs/installation.h"
+#include "scheduled/hosted_run.h"
 #include "scheduled/scheduled_run.h"
 #include "session/remarks.h"
 #include "session/scene_assembly.h"
 
 namespace gpu_shading::energyplus {
 namespace {
-
-// The load address of a library in this process.
-struct Loaded {
-  std::filesystem::path path;
-  std::byte* base = nullptr;
-};
-
-Loaded find_loaded(char const* wanted) {
-  struct Search {
-    std::filesystem::path wanted;
-    Loaded found;
-  } search;
-  if (wanted != nullptr) search.wanted = official_behind(wanted);
-  dl_iterate_phdr(
-      [](dl_phdr_info* info, std::size_t, void* context) {
-        auto& s = *static_cast<Search*>(context);
-        if (info->dlpi_name == nullptr || *info->dlpi_name == '\0') return 0;
-        auto const path = std::filesystem::weakly_canonical(info->dlpi_name);
-        bool const match = s.wanted.empty()
-                               ? path.filename().string().starts_with("libenergyplusapi") &&
-                                     official_behind(path) == path
-                               : path == s.wanted;
-        if (!match) return 0;
-        // NOLINTNEXTLINE(performance-no-int-to-ptr)
-        s.found = {path, reinterpret_cast<std::byte*>(info->dlpi_addr)};
-        return 1;
-      },
-      &search);
-  if (search.found.path.empty()) {
-    throw Error(
-        fmt::format("{}: EnergyPlus's library must be loaded before GPU shading is installed",
-                    wanted == nullptr ? "libenergyplusapi" : wanted));
-  }
-  return search.found;
-}
 
 // What a host hands over, over the environment. Throws Error.
 Choices given_choices(int count, char const* const* options) {
@@ -189,6 +159,36 @@ void try_device(Choices const& choices) {
   check_device(renderer.device(), options, {ignore, ignore, ignore});
 }
 
+// Leads the library's calls of OpenGL to us. Throws CannotPatch.
+void redirect_opengl(char const* library) {
+  auto const loaded = find_loaded(library);
+  try {
+    SymbolTable const symbols(loaded.path, loaded.base, Symbols::exported);
+    if (symbols.find("glfwInit") == nullptr) {
+      throw Error(fmt::format("{}: was compiled without OpenGL", loaded.path.string()));
+    }
+    patch_entries(symbols, glfw_entries());
+  } catch (Error const& error) {
+    throw CannotPatch(error.what());
+  }
+}
+
+// Throws CannotPatch where the library or the model does not allow this method.
+int run_opengl(char const* library, Choices choices, std::vector<std::string> const& arguments) {
+  SharedLibrary const loaded(library);  // stays loaded
+  auto const line = read_command_line(arguments);
+  if (line.preprocessed) {
+    throw CannotPatch(
+        "-m: an EPMacro model cannot be answered through OpenGL; create its IDF first");
+  }
+  bool const readable = line.model && std::filesystem::exists(*line.model) &&
+                        (is_idf(*line.model) || is_epjson(*line.model));
+  if (!readable) return run_hosted(library, arguments, {});
+  redirect_opengl(library);
+  auto read = read_hosted(*line.model, choices);
+  return run_by_opengl(library, own_folder() / "energyplus", line, arguments, std::move(read));
+}
+
 thread_local std::string message;
 
 int install_with(char const* library, int count, char const* const* options, By by) {
@@ -230,6 +230,26 @@ extern "C" EXPORTED int gpu_shading_run_scheduled(char const* energyplus_library
     auto const choices = gpu_shading::energyplus::given_choices(count, options);
     gpu_shading::energyplus::try_device(choices);
     return gpu_shading::energyplus::run_scheduled(energyplus_library, choices, {argv, argv + argc});
+  } catch (std::exception const& error) {
+    message = gpu_shading::energyplus::error_line(error);
+    return gpu_shading::energyplus::not_run;
+  }
+}
+
+extern "C" EXPORTED int gpu_shading_run_opengl(char const* energyplus_library, int count,
+                                               char const* const* options, int argc,
+                                               char const* const* argv) {
+  using gpu_shading::energyplus::message;
+  constexpr int cannot_patch = -2;
+  try {
+    message.clear();
+    auto choices = gpu_shading::energyplus::given_choices(count, options);
+    gpu_shading::energyplus::try_device(choices);
+    return gpu_shading::energyplus::run_opengl(energyplus_library, std::move(choices),
+                                               {argv, argv + argc});
+  } catch (gpu_shading::energyplus::CannotPatch const& error) {
+    message = error.what();
+    return cannot_patch;
   } catch (std::exception const& error) {
     message = gpu_shading::energyplus::error_line(error);
     return gpu_shading::energyplus::not_run;

@@ -33,6 +33,13 @@ char const* gpu_shading_message(void);
  * NULL. */
 char const* gpu_shading_unwritten(void);
 
+/* A whole run of an EnergyPlus library whose shading functions cannot be patched, which need not be
+ * loaded: it counts pixels, and its calls of OpenGL are answered. Arguments as below. Returns
+ * EnergyPlus's exit status, or with the reason in gpu_shading_message() -2 where the library or the
+ * model does not allow it, and -1 for any other error. One such run per process. */
+int gpu_shading_run_opengl(char const* energyplus_library, int count, char const* const* options,
+                           int argc, char const* const* argv);
+
 /* A whole run of an EnergyPlus library that cannot be patched, which need not be loaded: sunlit
  * fractions are rendered first and go in as schedules. `options` as above; `argv`: EnergyPlus's own
  * arguments without the program. The folder of this process's program has to hold one by the name

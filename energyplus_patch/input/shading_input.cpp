@@ -52,6 +52,12 @@ void read_shadow_calculation(InputObject const& object, ShadingInput& input) {
   }
   input.every_timestep =
       same_name(object["shading_calculation_update_frequency_method"], "Timestep");
+  constexpr double least_days = 1.0;
+  constexpr double most_days = 366.0;
+  auto const days = parse_number(object["shading_calculation_update_frequency"]);
+  if (days) {
+    input.update_days = static_cast<int>(std::clamp(*days, least_days, most_days));
+  }
   input.detailed_sky =
       same_name(object["sky_diffuse_modeling_algorithm"], "DetailedSkyDiffuseModeling");
   input.disable_within_groups = yes(object, "disable_self_shading_within_shading_zone_groups");

@@ -30,6 +30,7 @@ struct ShadingInput {
   std::string shading_method;  // as written, or ""
   std::optional<int> pixel_counting_resolution;
   bool every_timestep = false;  // Shading Calculation Update Frequency Method
+  int update_days = 20;         // ... Update Frequency: of Periodic
   bool detailed_sky = false;    // Sky Diffuse Modeling Algorithm
 
   bool minimal_shadowing = false;       // Building: Solar Distribution

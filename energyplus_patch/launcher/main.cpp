@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -100,17 +101,20 @@ class Words {
 
 // Our module's functions, include/gpu_shading_energyplus.h.
 struct Module {
+  using Run = int(char const* library, int, char const* const* flags, int, char const* const*);
+
   Module() {
     void* const library = load(own_folder() / patch_library);
     install = find<int(char const*, int, char const* const*)>(library, "gpu_shading_install");
-    run_scheduled = find<int(char const*, int, char const* const*, int, char const* const*)>(
-        library, "gpu_shading_run_scheduled");
+    run_opengl = find<Run>(library, "gpu_shading_run_opengl");
+    run_scheduled = find<Run>(library, "gpu_shading_run_scheduled");
     message = find<char const*()>(library, "gpu_shading_message");
     unwritten = find<char const*()>(library, "gpu_shading_unwritten");
   }
 
   int (*install)(char const*, int, char const* const*);
-  int (*run_scheduled)(char const*, int, char const* const*, int, char const* const*);
+  Run* run_opengl;
+  Run* run_scheduled;
   char const* (*message)();
   char const* (*unwritten)();
 };
@@ -124,6 +128,27 @@ int run_scheduled(Path const& energyplus, Module const& module,
   return status;
 }
 
+// Empty where the library or the model does not allow this; the module's message says why.
+std::optional<int> run_opengl(Path const& energyplus, Module const& module,
+                              std::vector<std::string> const& arguments, Words const& flags) {
+  constexpr int cannot_patch = -2;
+  Words const words(arguments);
+  int const status = module.run_opengl(energyplus.c_str(), flags.count(), flags.data(),
+                                       words.count(), words.data());
+  if (status == cannot_patch) return std::nullopt;
+  if (status < 0) throw Error(module.message());
+  return status;
+}
+
+// For a library whose shading functions cannot be redirected.
+int run_unpatched(Path const& energyplus, Module const& module,
+                  std::vector<std::string> const& arguments, Words const& flags) {
+  print_line(fmt::format("this EnergyPlus cannot be patched: {}", module.message()));
+  if (auto const status = run_opengl(energyplus, module, arguments, flags)) return *status;
+  print_line(fmt::format("sunlit fractions are passed as schedules: {}", module.message()));
+  return run_scheduled(energyplus, module, arguments, flags);
+}
+
 // The program's name and EnergyPlus's arguments.
 int run_shaded(char const* program, std::vector<std::string> arguments, Choices const& choices) {
   auto const energyplus = find_energyplus_library(own_folder());
@@ -132,13 +157,16 @@ int run_shaded(char const* program, std::vector<std::string> arguments, Choices 
   auto const method = choices.method.value_or(Method::automatic);
   Module const module;
   if (method == Method::scheduled) return run_scheduled(energyplus, module, arguments, flags);
+  if (method == Method::opengl) {
+    if (auto const status = run_opengl(energyplus, module, arguments, flags)) return *status;
+    throw Error(module.message());
+  }
 
   void* const library = load(energyplus);
   constexpr int cannot_patch = 2;
   int const installed = module.install(energyplus.c_str(), flags.count(), flags.data());
   if (installed == cannot_patch && method == Method::automatic) {
-    print_line(fmt::format("sunlit fractions are passed as schedules: {}", module.message()));
-    return run_scheduled(energyplus, module, arguments, flags);
+    return run_unpatched(energyplus, module, arguments, flags);
   }
   if (installed != 0) throw Error(module.message());
   arguments.insert(arguments.begin(), program);

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -12,12 +10,12 @@
 #include "base/console.h"
 #include "base/error_line.h"
 #include "base/process.h"
-#include "cache/cache_folder.h"
 #include "gpu_shading/error.h"
+#include "hosted/opengl_run.h"
 #include "idf/model_file.h"
-#include "opengl32/hosted_model.h"
-#include "opengl32/run_answers.h"
-#include "options/report_folder.h"
+#include "options/command_line.h"
+#include "options/options.h"
+#include "scheduled/hosted_run.h"
 #include "scheduled/scheduled_run.h"
 
 // Runs EnergyPlus in this process for energyplus.exe of ours, which has loaded this library.
@@ -26,6 +24,7 @@ namespace gpu_shading::energyplus {
 namespace {
 
 constexpr char const* energyplus_library = "energyplusapi.dll";
+constexpr char const* official_program = "energyplus-official.exe";
 constexpr int not_wanted = -1;
 
 // A path made of UTF-8, of which std::filesystem::path has taken every byte for a character.
@@ -38,24 +37,6 @@ void read_utf8(std::optional<std::filesystem::path>& path) {
     bytes += static_cast<char8_t>(c);
   }
   path = std::filesystem::path(bytes);
-}
-
-int run_rendered(CommandLine const& line, std::vector<std::string> arguments,
-                 Choices const& choices) {
-  TemporaryFolder const folder;
-  auto hosted = prepare_hosted(line, choices, folder.path());
-  auto const& options = hosted.input.model.options;
-  if (options.cache) prepare_cache_folder(*options.cache);
-  if (options.report) prepare_report(*options.report);
-  if (line.model_at) {
-    arguments[*line.model_at] = hosted.path.string();
-  } else {
-    arguments.push_back(hosted.path.string());
-  }
-  if (!hosted.input.named.empty()) answer_with(std::move(hosted.input));
-  int const status = run_hosted(own_folder() / energyplus_library, arguments, hosted.messages);
-  finish_answers();
-  return status;
 }
 
 int run(std::vector<std::string> arguments) {
@@ -80,19 +61,9 @@ int run(std::vector<std::string> arguments) {
   choices.folder = std::filesystem::absolute(*line.model).parent_path();
   choices.file = find_side_file(*line.model, choices);
   auto const method = choices.method.value_or(Method::automatic);
-  auto const model = read_hosted(*line.model, choices);
-  if (model.options.mode != Mode::off && has_schedules(model)) {
-    constexpr char const* why =
-        "the model has Transmittance or Deployment Schedules, whose values at the time of a "
-        "question are not known on Windows";
-    if (method == Method::patched) throw Error(why);
-    if (method == Method::automatic) {
-      print_line(fmt::format("sunlit fractions are passed as schedules: {}", why));
-    }
-    return run_scheduled(library, choices, arguments);
-  }
   if (method == Method::scheduled) return run_scheduled(library, choices, arguments);
-  return run_rendered(line, std::move(arguments), choices);
+  return run_by_opengl(library, own_folder() / official_program, line, std::move(arguments),
+                       read_hosted(*line.model, choices));
 }
 
 }  // namespace

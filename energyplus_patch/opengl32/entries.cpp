@@ -2,10 +2,8 @@
 
 #include <windows.h>
 
-#include <string_view>
-
-#include "opengl32/penumbra_functions.h"
 #include "opengl32/system_opengl.h"
+#include "opengl32/wgl_functions.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -21,11 +19,6 @@ bool in_energyplus() {
 }
 
 }  // namespace
-
-void* find_function(char const* name) {
-  if (auto* const function = penumbra_function(name)) return function;
-  return std::string_view(name).starts_with("wgl") ? nullptr : reinterpret_cast<void*>(&nothing);
-}
 
 }  // namespace gpu_shading::energyplus
 

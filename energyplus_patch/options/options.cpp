@@ -57,8 +57,9 @@ Assets parse_assets(std::string const& text) {
 Method parse_method(std::string const& text) {
   if (same_name(text, "auto")) return Method::automatic;
   if (same_name(text, "patched")) return Method::patched;
+  if (same_name(text, "opengl")) return Method::opengl;
   if (same_name(text, "scheduled")) return Method::scheduled;
-  throw Error(fmt::format("is \"{}\", expected auto, patched or scheduled", text));
+  throw Error(fmt::format("is \"{}\", expected auto, patched, opengl or scheduled", text));
 }
 
 int parse_threads(std::string const& text) {
@@ -256,6 +257,8 @@ std::string name_of(Method method) {
   switch (method) {
     case Method::patched:
       return "patched";
+    case Method::opengl:
+      return "opengl";
     case Method::scheduled:
       return "scheduled";
     case Method::automatic:
@@ -450,10 +453,11 @@ std::string_view flags_help() {
                                        EnergyPlus reads (default: auto, where there are many)
   --gpu-shading-cache DIR|off          Keep answers in DIR, so that runs of the same geometry render
                                        nothing again (default: off)
-  --gpu-shading-method auto|patched|scheduled
-                                       How sunlit fractions get into EnergyPlus: in its own process,
-                                       or as schedules rendered before the run (default: auto,
-                                       patched where that can be)
+  --gpu-shading-method auto|patched|opengl|scheduled
+                                       How sunlit fractions get into EnergyPlus: by its redirected
+                                       shading functions, through its calls of OpenGL, or as schedules
+                                       rendered before the run (default: auto, the first that this
+                                       EnergyPlus allows)
   --gpu-shading-assets restricted|any  Which images and meshes are read (default: restricted, to PNG,
                                        JPEG, TIFF, EXR, BMP, TGA, HDR, OBJ, COLLADA and glTF, with
                                        the files beside them that they name). any: all formats of

@@ -38,8 +38,9 @@ struct Update {
 
 // How sunlit fractions reach EnergyPlus.
 enum class Method {
-  automatic,  // by patching, if the library can be patched
-  patched,
+  automatic,  // the first of these that the library allows
+  patched,    // its shading functions are redirected to ours
+  opengl,     // it counts pixels, and its calls of OpenGL are answered
   scheduled,  // as schedules, rendered before the run
 };
 

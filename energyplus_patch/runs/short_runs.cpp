@@ -26,13 +26,16 @@ bool starts(std::string_view type, std::string_view prefix) {
   return type.size() >= prefix.size() && same_name(type.substr(0, prefix.size()), prefix);
 }
 
-// Only run periods, without sizing.
-std::vector<NewField> simulation_control() {
+enum class Periods { run, sizing, all };
+
+// Without sizing.
+std::vector<NewField> simulation_control(Periods periods) {
+  auto const yes_if = [](bool wanted) { return wanted ? "Yes" : "No"; };
   return {{"do_zone_sizing_calculation", "No"},
           {"do_system_sizing_calculation", "No"},
           {"do_plant_sizing_calculation", "No"},
-          {"run_simulation_for_sizing_periods", "No"},
-          {"run_simulation_for_weather_file_run_periods", "Yes"}};
+          {"run_simulation_for_sizing_periods", yes_if(periods != Periods::run)},
+          {"run_simulation_for_weather_file_run_periods", yes_if(periods != Periods::sizing)}};
 }
 
 void shorten_run_periods(ModelEditor& model) {
@@ -54,7 +57,7 @@ void reduce_to_surfaces(ModelEditor& model) {
     return is_extension(type) || starts(type, "Output") || same_name(type, "ShadowCalculation") ||
            same_name(type, "SimulationControl");
   });
-  model.add("SimulationControl", simulation_control());
+  model.add("SimulationControl", simulation_control(Periods::run));
   shorten_run_periods(model);
   model.edit("Building", [](EditedObject& building) {
     building.set({5, "solar_distribution"}, "MinimalShadowing");
@@ -68,15 +71,17 @@ void report_at_timesteps(ModelEditor& model, std::string const& key, std::string
 }
 
 // Reduces a model to its calendar, site and schedules.
-void reduce_to_times(ModelEditor& model, std::vector<std::string> const& schedules) {
-  model.remove([](std::string_view type) {
+void reduce_to_times(ModelEditor& model, std::vector<std::string> const& schedules,
+                     Periods periods = Periods::run) {
+  model.remove([&](std::string_view type) {
     bool const kept = same_name(type, "Version") || same_name(type, "Timestep") ||
                       same_name(type, "Site:Location") ||
                       same_name(type, "Site:VariableLocation") || starts(type, "RunPeriod") ||
-                      starts(type, "Schedule");
+                      starts(type, "Schedule") ||
+                      (periods != Periods::run && starts(type, "SizingPeriod"));
     return !kept || same_name(type, "Schedule:File:Shading");
   });
-  model.add("SimulationControl", simulation_control());
+  model.add("SimulationControl", simulation_control(periods));
   model.add("Building", {{"name", "Sun"}, {"north_axis", 0}});
   model.add("GlobalGeometryRules", {{"starting_vertex_position", "UpperLeftCorner"},
                                     {"vertex_entry_direction", "Counterclockwise"},
@@ -194,6 +199,23 @@ RunTimes run_for_beam(EnergyPlusCall const& call, std::vector<std::string> const
   reduce_to_times(*model, schedules);
   report_at_timesteps(*model, "*", "Site Direct Solar Radiation Rate per Area");
   return run_whole_year(call, *model);
+}
+
+ScheduleDays run_for_schedules(EnergyPlusCall const& call,
+                               std::vector<std::string> const& schedules) {
+  auto const model = edit_model(call.model);
+  bool sizing = false;
+  for (char const* const type : {"SizingPeriod:DesignDay", "SizingPeriod:WeatherFileDays",
+                                 "SizingPeriod:WeatherFileConditionType"}) {
+    model->edit(type, [&](EditedObject const&) { sizing = true; });
+  }
+  reduce_to_times(*model, schedules,
+                  call.design_days ? Periods::sizing
+                  : sizing         ? Periods::all
+                                   : Periods::run);
+  TemporaryFolder const folder;
+  auto file = run(call, *model, false, folder, "eplusout.eso");
+  return read_schedule_days(file);
 }
 
 Path place_model(ModelEditor& model, Path const& original, Path const& folder) {

@@ -7,6 +7,7 @@
 
 #include "runs/drawing.h"
 #include "runs/run_times.h"
+#include "runs/schedule_days.h"
 
 namespace gpu_shading::energyplus {
 
@@ -39,6 +40,11 @@ RunTimes run_for_year(EnergyPlusCall const& call, std::vector<std::string> const
 // The same at the model's own timestep, with the direct normal irradiance of the weather file as
 // EnergyPlus uses it.
 RunTimes run_for_beam(EnergyPlusCall const& call, std::vector<std::string> const& schedules);
+
+// The values of schedules on every day of the model's design days and run periods, or of the design
+// days alone (-D). Throws Error likewise.
+ScheduleDays run_for_schedules(EnergyPlusCall const& call,
+                               std::vector<std::string> const& schedules);
 
 // Writes a model into a folder under its own name, with links to the files beside the original, so
 // that relative file names work.

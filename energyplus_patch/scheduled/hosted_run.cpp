@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -15,7 +16,7 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-// The C API, as in EnergyPlus/api/state.h and runtime.h.
+// The C API, as in EnergyPlus/api/state.h, runtime.h and datatransfer.h.
 using State = void*;
 
 struct Api {
@@ -29,6 +30,11 @@ struct Api {
     library.find("issueText", issue_text);
     library.find("callbackBeginNewEnvironment", on_new_environment);
     library.find("registerProgressCallback", on_progress);
+    library.find("month", month);
+    library.find("dayOfMonth", day_of_month);
+    library.find("dayOfYear", day_of_year);
+    library.find("dayOfWeek", day_of_week);
+    library.find("holidayIndex", holiday_index);
   }
 
   State (*new_state)() = nullptr;
@@ -39,6 +45,11 @@ struct Api {
   void (*issue_text)(State, char const*) = nullptr;
   void (*on_new_environment)(State, void (*)(State)) = nullptr;
   void (*on_progress)(State, void (*)(int)) = nullptr;
+  int (*month)(State) = nullptr;
+  int (*day_of_month)(State) = nullptr;
+  int (*day_of_year)(State) = nullptr;
+  int (*day_of_week)(State) = nullptr;
+  int (*holiday_index)(State) = nullptr;
 };
 
 // The run of this thread, for callbacks, which receive no data of ours.
@@ -118,6 +129,21 @@ void warn_hosted_run(std::string const& line) {
 void tell_hosted_run(std::string const& line) {
   auto const& run = hosted();
   if (run.state != nullptr) run.api->issue_text(run.state, ("gpu_shading: " + line).c_str());
+}
+
+std::optional<HostedDay> hosted_day() {
+  // As EnergyPlus numbers and names them.
+  constexpr std::array<char const*, 13> types{
+      "",          "Sunday",   "Monday",  "Tuesday",         "Wednesday",       "Thursday",
+      "Friday",    "Saturday", "Holiday", "SummerDesignDay", "WinterDesignDay", "CustomDay1",
+      "CustomDay2"};
+  auto const& run = hosted();
+  if (run.state == nullptr) return std::nullopt;
+  auto const& api = *run.api;
+  int const special = api.holiday_index(run.state);
+  auto const type = static_cast<std::size_t>(special > 0 ? special : api.day_of_week(run.state));
+  return HostedDay{api.month(run.state), api.day_of_month(run.state), api.day_of_year(run.state),
+                   type < types.size() ? types.at(type) : ""};
 }
 
 }  // namespace gpu_shading::energyplus

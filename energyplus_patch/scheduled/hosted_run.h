@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,5 +23,16 @@ int run_hosted(std::filesystem::path const& library, std::vector<std::string> co
 // run they do nothing.
 void warn_hosted_run(std::string const& line);
 void tell_hosted_run(std::string const& line);
+
+// The day that EnergyPlus is computing.
+struct HostedDay {
+  int month = 0;
+  int day = 0;
+  int day_of_year = 0;
+  std::string type;  // "Sunday", "SummerDesignDay", ...
+};
+
+// Of such a run; nothing without one.
+std::optional<HostedDay> hosted_day();
 
 }  // namespace gpu_shading::energyplus

@@ -172,16 +172,29 @@ def test_without_the_flag_it_is_the_official_program(wine, stock, rendering, wea
     assert failed.returncode == wine.run([stock, "--no-such-option"]).returncode != 0
 
 
-def test_schedules_of_shades_are_passed_on(wine, rendering, weather, box, tmp_path):
-    """The time of a question does not reach the library, but the run period's is known before."""
-    model = tmp_path / "model.idf"
-    own = box.replace("Louvre 1,,4", "Louvre 1,Half,4")
-    assert own != box
-    model.write_text(own + "Schedule:Constant,Half,,0.5;\n")
-    done = wine.run_energyplus(rendering, model, weather, tmp_path / "out", ["--gpu-shading"])
-    assert done.completed, done.why()
-    assert "gpu_shading: sunlit fractions are passed as schedules: the model has Transmittance" in done.errors
-    assert done.method == "Scheduled"
+def test_schedules_at_the_time_of_a_question(wine, rendering, patched, weather, louvres, tmp_path):
+    """Louvres that a schedule opens by the clock, other on design days than on others."""
+    path = tmp_path / "louvres.idf"
+    text = louvres(3)
+    for number in (1, 2, 3):
+        text = text.replace(f"Louvre {number},,4", f"Louvre {number},Opening,4")
+    assert text.count("Opening") == 3
+    path.write_text(text + "Schedule:Compact,Opening,,Through: 12/31,For: SummerDesignDay,Until: 11:30,0.1,"
+                    "Until: 24:00,0.6,For: AllOtherDays,Until: 10:00,0.2,Until: 14:15,0.7,Until: 24:00,0;\n")
+    own = input_file.read(path)
+    own.add_unique("RunPeriod", ["Days", 5, 30, 2017, 6, 1],
+                   ["name", "begin_month", "begin_day_of_month", "begin_year", "end_month", "end_day_of_month"])
+    own.set_field("SimulationControl", (3, "run_simulation_for_sizing_periods"), "Yes")
+    results.instrument(own, "Timestep")
+    model = input_file.place_copy(own, path, tmp_path / "input")
+    ours = wine.run_energyplus(rendering, model, weather, tmp_path / "ours", ["--gpu-shading"])
+    assert ours.completed, ours.why()
+    linux = energyplus.run(patched, model, weather, tmp_path / "linux", ["--gpu-shading", "--gpu-shading-device=cpu"])
+    assert linux.completed
+    found = results.differences(*(results.Results(run.folder, "Zone Timestep") for run in (linux, ours)))
+    assert any(0.05 < value < 0.95 for each in found for value in each.reference)
+    for each in found:
+        assert each.largest < SAME, f"{each.receiver.name}: {each.largest} from the answer on Linux"
 
 
 def test_an_error_in_an_extension_object_stops_before_the_run(wine, rendering, weather, box, tmp_path):

@@ -1,8 +1,5 @@
-#include "opengl32/run_answers.h"
+#include "hosted/opengl_answers.h"
 
-#include <windows.h>
-
-#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <utility>
@@ -12,13 +9,6 @@
 
 namespace gpu_shading::energyplus {
 namespace {
-
-// The library's threads must not lose their code when GLFW unloads it.
-void stay_loaded() {
-  HMODULE self = nullptr;
-  GetModuleHandleExA(GET_MODULE_HANDLE_EX_FLAG_PIN | GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS,
-                     reinterpret_cast<char const*>(&stay_loaded), &self);
-}
 
 RendererOptions options_of_environment() {
   constexpr char const* variable = "GPU_SHADING_ERROR";
@@ -36,7 +26,7 @@ RendererOptions options_of_environment() {
   return options;
 }
 
-// The session of this process, which outlives EnergyPlus's contexts.
+// The session of this run, which outlives EnergyPlus's contexts.
 std::unique_ptr<SessionAnswers>& session() {
   static std::unique_ptr<SessionAnswers> instance;
   return instance;
@@ -65,19 +55,13 @@ void answer_with(SessionAnswers::Input input) {
 }
 
 void finish_answers() {
-  if (session()) session()->finish();
+  auto const finished = std::move(session());
+  if (finished) finished->finish();
 }
 
 std::unique_ptr<BoundaryAnswers> answers_of_run() {
-  stay_loaded();
   if (session()) return std::make_unique<OfSession>();
   return std::make_unique<RenderedModel>(options_of_environment());
-}
-
-void end_run(std::exception const& error) {
-  std::fprintf(stderr, "gpu_shading: error: %s\n", error.what());
-  std::fflush(stderr);
-  ExitProcess(EXIT_FAILURE);
 }
 
 }  // namespace gpu_shading::energyplus

@@ -1,19 +1,14 @@
-#include "opengl32/penumbra_functions.h"
-
-#include <windows.h>
+#include "hosted/opengl_functions.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string_view>
 #include <utility>
 
-#include "gl_boundary/recorder.h"
-#include "opengl32/run_answers.h"
-
-// OpenGL 2.1 as far as GLFW 3.3.8 and Penumbra notice. What is not here succeeds and does nothing.
+// OpenGL 2.1 as far as GLFW 3.3.8, glad and Penumbra notice. What is not here succeeds and does
+// nothing.
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -30,12 +25,10 @@ constexpr Enum gl_compile_status = 0x8B81;
 constexpr Enum gl_link_status = 0x8B82;
 constexpr Enum gl_framebuffer_complete = 0x8CD5;
 
-// An OpenGL context: Penumbra has one for each model.
-struct Context {
-  Recorder recorder{answers_of_run()};
-  HDC device = nullptr;
-};
-thread_local Context* current = nullptr;
+thread_local OpenGlContext* current = nullptr;
+
+// A function of OpenGL that changes nothing here.
+long long nothing() { return 0; }
 
 // Calls `use` with the current context's recorder. Penumbra cannot be told of an error.
 template <typename Use>
@@ -47,15 +40,15 @@ void record(Use const& use) {
 char const* get_string(Enum name) {
   switch (name) {
     case gl_vendor:
-      return "gpu_shading";
+      return "Mesa";  // Penumbra takes a vendor that it does not know for an error
     case gl_renderer:
-      return "gpu_shading, on the CPU";
+      return "gpu_shading";
     case gl_version:
       return "2.1.0";
     case gl_shading_language_version:
       return "1.20";
     case gl_extensions:
-      return "GL_ARB_vertex_array_object GL_EXT_framebuffer_object";
+      return opengl_extensions;
     default:
       return "";
   }
@@ -147,51 +140,6 @@ void get_query(std::uint32_t name, Enum /*what*/, int* value) {
   record([&](Recorder& recorder) { *value = recorder.result(name); });
 }
 
-// WGL, by which GLFW makes a context.
-
-void* create_context(HDC /*device*/) {
-  void* context = nullptr;
-  or_end_run([&] { context = std::make_unique<Context>().release(); });
-  return context;
-}
-
-int delete_context(void* context) {
-  auto* const deleted = static_cast<Context*>(context);
-  if (current == deleted) current = nullptr;
-  or_end_run([&] { std::unique_ptr<Context>{deleted}.reset(); });
-  return 1;
-}
-
-int make_current(HDC device, void* context) {
-  current = static_cast<Context*>(context);
-  if (current != nullptr) current->device = device;
-  return 1;
-}
-
-void* get_current_context() { return current; }
-HDC get_current_device() { return current == nullptr ? nullptr : current->device; }
-int succeed() { return 1; }
-
-// The only pixel format.
-int describe_pixel_format(HDC /*device*/, int /*format*/, UINT size,
-                          PIXELFORMATDESCRIPTOR* description) {
-  if (description == nullptr || size < sizeof(PIXELFORMATDESCRIPTOR)) return 1;
-  constexpr BYTE channel = 8;
-  *description = {};
-  description->nSize = sizeof(PIXELFORMATDESCRIPTOR);
-  description->nVersion = 1;
-  description->dwFlags = PFD_DRAW_TO_WINDOW | PFD_SUPPORT_OPENGL | PFD_DOUBLEBUFFER;
-  description->iPixelType = PFD_TYPE_RGBA;
-  description->cColorBits = 4 * channel;
-  description->cRedBits = channel;
-  description->cGreenBits = channel;
-  description->cBlueBits = channel;
-  description->cAlphaBits = channel;
-  description->cDepthBits = 3 * channel;
-  description->cStencilBits = channel;
-  return 1;
-}
-
 template <typename Function>
 void* pointer(Function* function) {
   return reinterpret_cast<void*>(function);
@@ -199,8 +147,12 @@ void* pointer(Function* function) {
 
 }  // namespace
 
-void* penumbra_function(char const* name) {
-  static std::array<std::pair<std::string_view, void*>, 35> const functions{{
+void use_context(OpenGlContext* context) { current = context; }
+
+OpenGlContext* current_context() { return current; }
+
+void* opengl_function(std::string_view name) {
+  static std::array<std::pair<std::string_view, void*>, 24> const functions{{
       {"glGetString", pointer(&get_string)},
       {"glGetIntegerv", pointer(&get_integers)},
       {"glCheckFramebufferStatus", pointer(&framebuffer_status)},
@@ -225,23 +177,11 @@ void* penumbra_function(char const* name) {
       {"glBeginQuery", pointer(&begin_query)},
       {"glEndQuery", pointer(&end_query)},
       {"glGetQueryObjectiv", pointer(&get_query)},
-      {"wglCreateContext", pointer(&create_context)},
-      {"wglDeleteContext", pointer(&delete_context)},
-      {"wglMakeCurrent", pointer(&make_current)},
-      {"wglGetCurrentContext", pointer(&get_current_context)},
-      {"wglGetCurrentDC", pointer(&get_current_device)},
-      {"wglShareLists", pointer(&succeed)},
-      {"wglChoosePixelFormat", pointer(&succeed)},
-      {"wglGetPixelFormat", pointer(&succeed)},
-      {"wglSetPixelFormat", pointer(&succeed)},
-      {"wglSwapBuffers", pointer(&succeed)},
-      {"wglDescribePixelFormat", pointer(&describe_pixel_format)},
   }};
-  if (std::string_view(name) == "wglGetProcAddress") return pointer(&find_function);
   for (auto const& [known, function] : functions) {
     if (known == name) return function;
   }
-  return nullptr;
+  return pointer(&nothing);
 }
 
 }  // namespace gpu_shading::energyplus

@@ -17,7 +17,9 @@ void answer_with(SessionAnswers::Input input);
 // EnergyPlus has ended: the session says what it rendered. Throws Error.
 void finish_answers();
 
-// Ends the process with a line that says why. EnergyPlus would go on with wrong answers.
+// Called while an exception is handled: prints it and ends the run, since EnergyPlus would go on
+// with wrong answers. On Windows, that is the end of the process; elsewhere, an exception that
+// EnergyPlus catches and reports.
 [[noreturn]] void end_run(std::exception const& error);
 
 template <typename Action>

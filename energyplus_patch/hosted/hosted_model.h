@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "gl_boundary/session_answers.h"
+#include "options/options.h"
+#include "runs/short_runs.h"
+#include "scheduled/hosted_run.h"
+
+namespace gpu_shading::energyplus {
+
+// The user's model: what is known of it, and what EnergyPlus is to read instead, with PixelCounting
+// and without extension objects and surfaces that only cast shadows.
+struct HostedText {
+  Model model;
+  std::string text;
+};
+
+// The same, as EnergyPlus is to be run with it.
+struct HostedModel {
+  std::filesystem::path path;   // in a folder for this run
+  SessionAnswers::Input input;  // without `named` where nothing is to be rendered
+  RunMessages messages;
+};
+
+// Throws Error.
+HostedText read_hosted(std::filesystem::path const& path, Choices const& choices);
+
+// Writes the model into `folder`, and has EnergyPlus list its surfaces. `call`: with the user's
+// model. Throws Error.
+HostedModel prepare_hosted(HostedText read, EnergyPlusCall call,
+                           std::filesystem::path const& folder);
+
+}  // namespace gpu_shading::energyplus
