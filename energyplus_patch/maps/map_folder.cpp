@@ -76,7 +76,7 @@ MapFolder::Row row_of(std::string const& line) {
 
 std::string day_of(nlohmann::json const& about, char const* key) {
   static std::regex const form("[01][0-9]-[0-3][0-9]");
-  auto const day = about.value(key, "");
+  std::string day = about.value(key, "");
   if (!std::regex_match(day, form)) throw Error(fmt::format("{}: expected MM-DD", key));
   return day;
 }

@@ -288,7 +288,8 @@ def test_radiance_passes_the_beam_of_a_bsdf(screen, tmp_path):
             "void BSDF sheet 6 0 squares.xml 0 0 1 . 0 0\n"
             "sheet polygon wall 0 0 12  1 0 -1  -1 0 -1  -1 0 1  1 0 1\n")  # its front, inside, is north
         ray = " ".join(f"{value:.9f}" for value in (*beam, *(-value for value in beam)))
-        seen = float(radiance.trace(tmp_path, "scene.rad", f"{ray}\n", "-ab", "0", "-dj", "0", "-dt", "0", "-ss", "0").split()[0])
+        options = ("-ab", "0", "-dj", "0", "-dt", "0", "-ss", "0")
+        seen = float(radiance.trace(tmp_path, "scene.rad", f"{ray}\n", *options).split()[0])
         patch, solid = patch_of(theta, (180 - phi) % 360)
         mean = mean_of((patch[0], patch[1], 180 - patch[3], 180 - patch[2]))
         passed = seen * solid / (irradiance * math.cos(math.radians(theta)))
