@@ -2,6 +2,7 @@
 
 #include "assets/elevation_file.h"
 #include "assets/image_file.h"
+#include "assets/labelled_image.h"
 #include "assets/mesh_file.h"
 #include "assets/picture_sheet.h"
 #include "assets/texture_file.h"
@@ -28,6 +29,11 @@ namespace {
 decoding::Elevations read_elevations(std::filesystem::path const& path) { refuse(path); }
 
 std::string encode_image(std::string const& name, Image const& /*image*/) { refuse_picture(name); }
+
+std::string encode_labelled(std::string const& name, Image const& /*image*/,
+                            std::vector<Label> const& /*labels*/) {
+  refuse_picture(name);
+}
 
 bool states_its_axes(std::filesystem::path const& path, Assets /*assets*/) { refuse(path); }
 

@@ -100,6 +100,7 @@ void add_check(CLI::App& app, Choices const& choices) {
 struct ViewArguments {
   std::string receiver;
   std::vector<double> sun;
+  std::vector<double> camera;
   std::string at;
   std::string day;
   std::string list;
@@ -119,6 +120,22 @@ std::vector<SunTime> view_times(ModelRun const& model, ViewArguments const& argu
   return sun_times(arguments.day, clock, step);
 }
 
+std::optional<SunDirection> camera_of(ViewArguments const& arguments) {
+  if (arguments.camera.empty()) return std::nullopt;
+  if (!arguments.receiver.empty() || !arguments.list.empty()) {
+    throw Error("--camera: draws the whole model; leave out --receiver and --list");
+  }
+  auto const [azimuth, altitude] = std::pair(arguments.camera[0], arguments.camera[1]);
+  constexpr double zenith = 90.0;
+  constexpr double circle = 360.0;
+  if (!(altitude > 0.0 && altitude <= zenith && std::abs(azimuth) <= circle)) {
+    throw Error(fmt::format(
+        "--camera {},{}: expected an azimuth from -360 to 360 and an altitude above 0, up to 90",
+        azimuth, altitude));
+  }
+  return direction_of_degrees(azimuth, altitude);
+}
+
 void run_view(ModelRun const& model, ViewArguments const& arguments) {
   std::filesystem::path const output = arguments.output;
   constexpr int usual = 800;
@@ -130,9 +147,11 @@ void run_view(ModelRun const& model, ViewArguments const& arguments) {
     throw Error(
         "expected --at \"MM-DD HH:MM\", --day MM-DD, --sun AZIMUTH,ALTITUDE, or --list FILE");
   }
+  auto const camera = camera_of(arguments);
+  auto const title = camera ? model.model.filename().string() + ", " : "";
   std::vector<CaptionedView> views;
   for (auto const& time : view_times(model, arguments)) {
-    views.push_back({{"", time.sun, arguments.receiver}, time.caption});
+    views.push_back({{"", time.sun, arguments.receiver, camera}, title + time.caption});
   }
   constexpr int usual_of_many = 400;
   draw_together(model, views, output,
@@ -172,6 +191,14 @@ void add_view(CLI::App& app, Choices const& choices) {
                    "A file that lists pictures to draw without captions, one per line: PICTURE "
                    "AZIMUTH ALTITUDE [RECEIVER]");
   when->require_option(0, 1);
+  command
+      ->add_option(
+          "--camera", arguments->camera,
+          "Draw the model with its shadows as seen from here instead of from the sun, with "
+          "north and a scale: azimuth clockwise from true north and altitude, in degrees")
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("AZIMUTH,ALTITUDE");
   command
       ->add_option("-o,--output", arguments->output,
                    "The picture, in the format of its file name extension; with --list, the folder "

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/scene_view.h"
+#include "session/view_marks.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -45,6 +46,13 @@ std::vector<std::optional<double>> sunlit_fractions(Drawing const& drawing, SunD
   return fractions;
 }
 
+std::string draw_whole(SceneView& scene, SunView const& view,
+                       std::vector<std::optional<double>> const& fractions, int size) {
+  if (!view.camera) return encode_image(view.picture, scene.draw(view.sun, fractions, size));
+  return encode_with_marks(view.picture, scene.draw(*view.camera, view.sun, fractions, size),
+                           scene.scale(*view.camera, fractions, size));
+}
+
 }  // namespace
 
 void draw_views(std::vector<SunView> const& views, std::filesystem::path const& folder,
@@ -52,7 +60,6 @@ void draw_views(std::vector<SunView> const& views, std::filesystem::path const& 
   StagedFiles files(folder);
   std::optional<SceneView> whole;
   for (auto const& view : views) {
-    Image image;
     if (view.receiver.empty()) {
       auto const fractions = sunlit_fractions(drawing, view.sun);
       // By the device that gave them, which may be the CPU in place of a GPU that was wrong.
@@ -60,12 +67,13 @@ void draw_views(std::vector<SunView> const& views, std::filesystem::path const& 
         whole.emplace(drawing.renderer.scene(), drawing.shown,
                       choice_of(drawing.renderer.device()));
       }
-      image = whole->draw(view.sun, fractions, drawing.size);
+      files.write(view.picture, draw_whole(*whole, view, fractions, drawing.size));
     } else {
       auto const receiver = find(drawing, view.receiver);
-      image = drawing.renderer.sun_view(view.sun, receiver, drawing.size, drawing.factors);
+      files.write(view.picture, encode_image(view.picture, drawing.renderer.sun_view(
+                                                               view.sun, receiver, drawing.size,
+                                                               drawing.factors)));
     }
-    files.write(view.picture, encode_image(view.picture, image));
   }
   files.commit();
 }

@@ -40,8 +40,11 @@ Json to_json(ListingTask const& task) {
 
 Json to_json(ViewsTask const& task) {
   Json views = Json::array();
-  for (auto const& [picture, sun, receiver] : task.views) {
+  for (auto const& [picture, sun, receiver, camera] : task.views) {
     views.push_back(Json::array({picture, sun.azimuth, sun.altitude, receiver}));
+    if (!camera) continue;
+    views.back().push_back(camera->azimuth);
+    views.back().push_back(camera->altitude);
   }
   return {{"kind", "views"},
           {"views", std::move(views)},
@@ -123,6 +126,10 @@ Task to_task(Json const& json) {
   ViewsTask task{{}, json.at("folder").get<std::string>(), json.at("size")};
   for (auto const& view : json.at("views")) {
     task.views.push_back({view.at(0), {view.at(1), view.at(2)}, view.at(3)});
+    constexpr std::size_t with_camera = 6;
+    if (view.size() == with_camera) {
+      task.views.back().camera = SunDirection{view.at(4), view.at(5)};
+    }
   }
   return task;
 }

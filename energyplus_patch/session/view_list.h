@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,8 @@ struct SunView {
   std::string picture;   // name of a file, without folders and blanks
   SunDirection sun;      // above the horizon
   std::string receiver;  // its name, in any case; empty: the whole scene
+  // Where the whole scene is seen from, with shadows; none: from the sun.
+  std::optional<SunDirection> camera = std::nullopt;
 
   bool operator==(SunView const&) const = default;
 };

@@ -18,7 +18,13 @@ inline constexpr Colour black(0.0);
 inline constexpr Colour white(brightest);
 inline constexpr Colour yellow(brightest, brightest, 0.0);
 inline constexpr Colour blue(0.0, 0.0, brightest);
-inline constexpr Colour sky = white;
+inline constexpr Colour sky(226.0, 234.0, 243.0);  // neither white nor a grey
+// In a view from elsewhere than the sun:
+inline constexpr Colour ground(229.0, 233.0, 229.0);
+inline constexpr Colour sand(208.0, 200.0, 186.0);   // casts shadows only
+inline constexpr Colour slate(128.0, 138.0, 152.0);  // a receiver that faces away from the sun
+inline constexpr Colour bronze(156.0, 108.0, 62.0);  // a perforated screen
+inline constexpr Colour glass(120.0, 176.0, 200.0);  // a surface that transmits
 
 // Grey by a surface's tilt to the sun: light where it faces the sun, dark where it is edge-on.
 Colour tilt_grey(Surface const& surface, glm::dvec3 const& towards_sun);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -14,6 +15,7 @@
 #include "gpu_shading/fraction_colour.h"
 #include "pictures/colours.h"
 #include "pictures/picture_frame.h"
+#include "pictures/shadow_map.h"
 #include "scene/bvh.h"
 #include "scene/triangulation.h"
 #include "view/transmission.h"
@@ -70,6 +72,39 @@ Colour pixel_colour(Samples const& seen, std::vector<Colour> const& by_number, i
   return sum / static_cast<double>(samples * samples);
 }
 
+// Where the plane of a surface is met by the ray of a sample of a view, m.
+class SampledPlaces {
+ public:
+  SampledPlaces(Scene const& scene, SunAxes const& axes, PictureFrame const& frame,
+                PictureGrid const& grid, glm::dvec3 const& middle)
+      : scene_(scene), axes_(axes), frame_(frame), grid_(grid), middle_(middle) {}
+
+  glm::dvec3 operator()(SurfaceId surface, glm::dvec3 const& facing, std::size_t sample) const {
+    return on_plane(facing, scene_[surface].polygon.outline.front(), sample);
+  }
+  // By a normal of the plane and a place on it.
+  glm::dvec3 on_plane(glm::dvec3 const& facing, glm::dvec3 const& on, std::size_t sample) const {
+    auto const columns = static_cast<std::size_t>(grid_.width);
+    std::size_t const column = sample % columns;
+    std::size_t const row = sample / columns;
+    glm::dvec2 const share((static_cast<double>(column) + 0.5) / grid_.width,
+                           (static_cast<double>(row) + 0.5) / grid_.height);
+    auto const at = frame_.low + share * (frame_.high - frame_.low);
+    glm::dvec3 const place = middle_ + at.x * axes_.right + at.y * axes_.up;
+    double const slope = glm::dot(facing, axes_.towards_sun);
+    constexpr double edge = 1e-6;
+    if (std::abs(slope) < edge) return place;
+    return place + glm::dot(facing, on - place) / slope * axes_.towards_sun;
+  }
+
+ private:
+  Scene const& scene_;
+  SunAxes const& axes_;
+  PictureFrame const& frame_;
+  PictureGrid const& grid_;
+  glm::dvec3 const& middle_;
+};
+
 }  // namespace
 
 class SceneView::Implementation {
@@ -85,10 +120,7 @@ class SceneView::Implementation {
   }
 
   Image draw(SunDirection sun, std::span<std::optional<double> const> fractions, int size) {
-    int const most = raster_->most_pixels() / samples;
-    if (size < 1 || size > most) {
-      throw Error(fmt::format("size {} of a view: expected 1 to {} pixels", size, most));
-    }
+    check(size);
     glm::dvec3 const towards_sun = to_vector(sun);
     SunAxes const axes(towards_sun);
     PictureGrid grid = make_grid(find_frame(axes, fractions), axes, middle_, reach_, size);
@@ -103,7 +135,102 @@ class SceneView::Implementation {
     });
   }
 
+  Image draw(SunDirection camera, SunDirection sun,
+             std::span<std::optional<double> const> fractions, int size) {
+    check(size);
+    SunAxes const axes(to_vector(camera));
+    auto const frame = find_frame(axes, fractions);
+    PictureGrid grid = make_grid(frame, axes, middle_, reach_, size);
+    int const width = std::exchange(grid.width, samples * grid.width);
+    int const height = std::exchange(grid.height, samples * grid.height);
+    auto const opaque = std::span(shown_).first(opaque_);
+    Samples const seen{raster_->nearest(grid, shown_), raster_->nearest(grid, opaque),
+                       static_cast<std::size_t>(grid.width)};
+    SunAxes const from_sun(to_vector(sun));
+    ShadowMap const shadows(*raster_, shown_, opaque_, find_frame(from_sun, fractions), from_sun,
+                            middle_, reach_);
+    SampledPlaces const places(scene_, axes, frame, grid, middle_);
+    auto const normals = normals_of_shown();
+    constexpr double dark = 0.6;
+    auto const colour = [&](std::uint32_t number, std::size_t sample) -> Colour {
+      if (number == 0) {
+        glm::dvec3 const up(0.0, 0.0, 1.0);
+        auto const place = places.on_plane(up, {0.0, 0.0, lowest_}, sample);
+        return (dark + (1.0 - dark) * shadows.light_on_ground(place)) * ground;
+      }
+      SurfaceId const id = number - 1;
+      auto const facing =
+          glm::dot(normals[id], axes.towards_sun) < 0.0 ? -normals[id] : normals[id];
+      auto const fraction = id < fractions.size() ? fractions[id] : std::nullopt;
+      bool const outside = glm::dot(normals[id], axes.towards_sun) > 0.0;
+      double const towards = glm::dot(facing, from_sun.towards_sun);
+      if (fraction && outside && towards <= 0.0) return slate;
+      double const light = towards > 0.0 ? shadows.light(id, places(id, facing, sample)) : 0.0;
+      return (dark + (1.0 - dark) * light) * unlit_colour(id, fraction, outside, facing);
+    };
+    return make_image(width, height,
+                      [&](int column, int row) { return camera_pixel(seen, colour, column, row); });
+  }
+
+  ViewScale scale(SunDirection camera, std::span<std::optional<double> const> fractions,
+                  int size) const {
+    SunAxes const axes(to_vector(camera));
+    double const pixels = size / find_frame(axes, fractions).longer();
+    return {pixels, pixels * axes.right.y, pixels * axes.up.y};
+  }
+
  private:
+  void check(int size) const {
+    int const most = raster_->most_pixels() / samples;
+    if (size < 1 || size > most) {
+      throw Error(fmt::format("size {} of a view: expected 1 to {} pixels", size, most));
+    }
+  }
+
+  std::vector<glm::dvec3> normals_of_shown() const {
+    std::vector<glm::dvec3> normals(scene_.size());
+    for (SurfaceId const id : shown_) normals[id] = normal(scene_[id].polygon);
+    return normals;
+  }
+
+  // In the sun. Tilts are told apart where colours mean nothing.
+  Colour unlit_colour(SurfaceId id, std::optional<double> const& fraction, bool outside,
+                      glm::dvec3 const& facing) const {
+    if (fraction && outside) return fraction_colour(*fraction);
+    glm::dvec3 const brightest_facing = glm::normalize(glm::dvec3(0.35, -0.55, 0.75));
+    constexpr double flat = 0.88;
+    double const tilt = flat + (1.0 - flat) * glm::dot(facing, brightest_facing);
+    if (scene_[id].screen) return tilt * bronze;
+    return tilt * (transmits(scene_[id]) ? glass : sand);
+  }
+
+  // The mean of a pixel's samples, by colour(number, sample).
+  template <typename ColourOf>
+  Colour camera_pixel(Samples const& seen, ColourOf const& colour, int column, int row) const {
+    constexpr double edge = 0.45;
+    Colour sum(0.0);
+    for (int y = samples * row; y < samples * (row + 1); ++y) {
+      for (int x = samples * column; x < samples * (column + 1); ++x) {
+        auto const at = static_cast<std::size_t>(y) * seen.columns + static_cast<std::size_t>(x);
+        Colour mixed = colour(seen.front[at], at);
+        if (seen.front[at] != seen.behind[at]) {
+          mixed = glm::mix(mixed, colour(seen.behind[at], at), share_through(seen.front[at], x, y));
+        }
+        sum += seen.is_edge(at) ? edge * mixed : mixed;
+      }
+    }
+    return sum / static_cast<double>(samples * samples);
+  }
+
+  // A screen is a raster of open samples, other surfaces are half transparent.
+  double share_through(std::uint32_t number, int x, int y) const {
+    constexpr int period = 6;
+    constexpr double half = 0.5;
+    if (!scene_[number - 1].screen) return half;
+    bool const odd = (y / (period / 2)) % 2 != 0;
+    return (x + (odd ? period / 2 : 0)) % period < period / 2 ? 0.0 : 1.0;
+  }
+
   template <typename Action>
   void for_each_point(Action const& action) const {
     for (SurfaceId const id : shown_) {
@@ -116,6 +243,7 @@ class SceneView::Implementation {
     for_each_point([&](SurfaceId, glm::dvec3 const& point) { all.include(point); });
     if (all.empty()) throw Error("there is no surface to view");
     middle_ = all.centre();
+    lowest_ = all.low.z;
     reach_ = std::max(1.0, glm::distance(all.low, all.high));
   }
 
@@ -140,6 +268,8 @@ class SceneView::Implementation {
       bool const receives = id < fractions.size() && fractions[id];
       by_number[id + 1] =
           receives ? fraction_colour(*fractions[id]) : tilt_grey(scene_[id], towards_sun);
+      // A grey screen before a grey wall would not be seen.
+      if (scene_[id].screen) by_number[id + 1] *= bronze / brightest;
     }
     return by_number;
   }
@@ -149,6 +279,7 @@ class SceneView::Implementation {
   std::vector<SurfaceId> shown_;  // those that transmit last
   std::size_t opaque_ = 0;        // how many do not
   glm::dvec3 middle_{0.0};
+  double lowest_ = 0.0;  // height of the lowest surface
   double reach_ = 1.0;
   std::unique_ptr<PictureRaster> raster_;
 };
@@ -158,6 +289,16 @@ SceneView::SceneView(Scene const& scene, std::span<SurfaceId const> shown,
     : implementation_(std::make_unique<Implementation>(scene, shown, device)) {}
 
 SceneView::~SceneView() = default;
+
+Image SceneView::draw(SunDirection camera, SunDirection sun,
+                      std::span<std::optional<double> const> fractions, int size) {
+  return implementation_->draw(camera, sun, fractions, size);
+}
+
+ViewScale SceneView::scale(SunDirection camera, std::span<std::optional<double> const> fractions,
+                           int size) const {
+  return implementation_->scale(camera, fractions, size);
+}
 
 Image SceneView::draw(SunDirection sun, std::span<std::optional<double> const> fractions,
                       int size) {

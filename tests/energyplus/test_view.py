@@ -214,3 +214,47 @@ def test_a_missing_font_is_replaced_or_left_out(kept, patched, tmp_path):
     with Image.open(picture) as written:
         text = written.convert("RGB").crop((0, 0, written.width, 20))
         assert (len(text.getcolors()) > 1) == (kept == 1)
+
+
+def dark_share(path, fraction):
+    """The share of a receiver that is in shadow, of a fraction's colour and of the darker one."""
+    with Image.open(path) as picture:
+        pixels = np.asarray(picture.convert("RGB"), float)
+    lit, dark = (np.abs(pixels - share * colour(fraction)).max(axis=2) < CIVIDIS for share in (1, 0.6))
+    assert lit.mean() > 0.02
+    return dark.sum() / (lit.sum() + dark.sum())
+
+
+def test_a_camera_shows_shadows(view, tmp_path):
+    """The shadow that is drawn on a window is as large as its sunlit fraction says."""
+    sun = (150.0, 30.0)
+    done = view("--sun", "{},{}".format(*sun), "--camera", "180,1", "-o", "camera.png", "--size", "900")
+    assert done.returncode == 0, done.stderr
+    exact = window_with_shades.sunlit_area("south", True, True, *sun) / window_with_shades.SIZE**2
+    assert dark_share(tmp_path / "camera.png", exact) == pytest.approx(1 - exact, abs=0.02)
+
+
+def test_the_camera_of_an_animation_stands_still(view, tmp_path):
+    done = view("--day", "06-21", "--camera", "160,30", "-o", "day.gif", "--size", "160")
+    assert done.returncode == 0, done.stderr
+    with Image.open(tmp_path / "day.gif") as picture:
+        frames = []
+        for number in (0, picture.n_frames // 2, picture.n_frames - 1):
+            picture.seek(number)
+            frames.append(np.asarray(picture.convert("RGB"), int))
+    # The arrow and the scale bar are where they were, but for the colours of an animation; shadows are not.
+    assert len({frame.shape for frame in frames}) == 1
+    marks = [frame[-40:, :100].max(axis=2) < 90 for frame in frames]
+    assert marks[0].sum() > 40
+    assert all((mark & marks[0]).sum() > 0.9 * marks[0].sum() for mark in marks)
+    assert (frames[0] != frames[1]).any()
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (("--receiver", "Window", "--camera", "180,30"), "--camera: draws the whole model"),
+    (("--camera", "180,0"), "--camera 180,0: expected an azimuth"),
+    (("--camera", "nan,30"), "--camera nan,30: expected an azimuth"),
+])
+def test_cameras_that_are_wrong(view, arguments, words):
+    done = view(*arguments, "--sun", "180,60", "-o", "camera.png")
+    assert done.returncode == 1 and words in done.stderr, done.stderr

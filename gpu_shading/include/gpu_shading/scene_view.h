@@ -11,8 +11,16 @@
 
 namespace gpu_shading {
 
-// Draws a whole scene as the sun sees it, in parallel projection along its rays with world-up up,
-// on the CPU or with OpenGL. Every function throws DeviceError if the device fails.
+// How long things are in a picture.
+struct ViewScale {
+  double pixels_per_metre = 0.0;  // across the view
+  double north_right = 0.0;       // of a metre to the north, pixels to the right
+  double north_up = 0.0;
+};
+
+// Draws a whole scene as the sun sees it, or from elsewhere with shadows, in parallel projection
+// along its rays with world-up up, on the CPU or with OpenGL. Every function throws DeviceError if
+// the device fails.
 class SceneView {
  public:
   // Draws the surfaces `shown` of a scene, which must outlive this object. Those that transmit are
@@ -28,6 +36,14 @@ class SceneView {
   // number of pixels on its longer side. Throws Error if there is no receiver, or if the size is
   // out of range (1 .. DeviceInfo::max_resolution).
   Image draw(SunDirection sun, std::span<std::optional<double> const> fractions, int size);
+
+  // The same from the direction of `camera`, which is one of azimuth and altitude, too. What the
+  // sun does not reach is darker; receivers that face away from the sun are slate grey, and others
+  // sand-coloured. Shadows come from a picture of 3,000 pixels a side, and illustrate.
+  Image draw(SunDirection camera, SunDirection sun,
+             std::span<std::optional<double> const> fractions, int size);
+  ViewScale scale(SunDirection camera, std::span<std::optional<double> const> fractions,
+                  int size) const;
 
  private:
   class Implementation;
