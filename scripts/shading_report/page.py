@@ -7,7 +7,7 @@ import jinja2
 import numpy as np
 from shading_runs import results, verdict
 
-from shading_report import charts, facts, origin, pictures
+from shading_report import building, charts, facts, origin, pictures
 
 HERE = Path(__file__).resolve().parent
 
@@ -160,6 +160,13 @@ def _months(runs, by_month):
     return found
 
 
+def _numbered(lines, shown):
+    """The receivers to number, with those that differ most first: [line]."""
+    first = [line for line in lines if line.anchor]
+    first.sort(key=lambda line: list(shown.values()).index(line.anchor))
+    return (first + [line for line in lines if not line.anchor])[:building.MOST_NUMBERS]
+
+
 def write(output, everything, weather, most, further):
     """Writes DIR/report.html about the runs that have results, the reference first. Returns its path.
 
@@ -175,6 +182,11 @@ def write(output, everything, weather, most, further):
     shown = {name: f"receiver-{number}" for number, name in enumerate(chosen, start=1)}
     details = [_detail(anchor, name, runs, calendar) for name, anchor in shown.items()]
     without_pictures = _draw(details, runs, weather, output) if details else ""
+    lines = _lines(runs, shown)
+    numbered = _numbered(lines, shown)
+    buildings, without_building = building.draw(
+        runs, weather, {line.receiver.name: (number, line.sunlit[0] or 0.0)
+                        for number, line in enumerate(numbered, start=1)})
     by_environment, by_month = facts.energies(runs, calendar)
     timed = [(run.label, origin.stages(run)) for run in runs]
 
@@ -199,7 +211,10 @@ def write(output, everything, weather, most, further):
         month_charts=_months(runs, by_month),
         peaks=facts.peaks(runs, calendar),
         daylight=facts.daylight(runs, calendar),
-        lines=_lines(runs, shown),
+        lines=lines,
+        numbered=numbered,
+        buildings=buildings,
+        without_building=without_building,
         overall=_overall(runs),
         details=details,
         without_pictures=without_pictures,

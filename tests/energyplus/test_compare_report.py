@@ -2,6 +2,8 @@
 
 import csv
 import hashlib
+import html
+import re
 import subprocess
 
 import daylit_rooms
@@ -193,6 +195,20 @@ def test_the_page_says_what_ran(page, variants, model, weather):
         cull = next(float(row["seconds"]) for row in csv.DictReader(file) if row["stage"] == "cull")
     shown = [number(row[2]) for row in stages if row[1] == "rendering: cull"]
     assert any(value == pytest.approx(cull, abs=0.01) for value in shown)
+
+
+def test_the_building_is_drawn_with_its_receivers_numbered(variants):
+    text = (variants / "report.html").read_text(encoding="utf-8")
+    figure = re.search(r'<figure id="building">.*?</figure>', text, re.DOTALL)[0]
+    names = [html.unescape(re.sub("<.*?>", "", name)) for name in re.findall(r"<li>(.*?)</li>", figure)]
+    assert len(names) == len(set(names)) == len(Tables(text).tables["table-receivers"]) - 1
+    seen = set()
+    for drawing in re.findall(r'<svg class="building".*?</svg>', figure, re.DOTALL):
+        numbers = [int(number) for number in re.findall(r"<text[^>]*>(\d+)</text>", drawing)]
+        assert len(numbers) == len(set(numbers))
+        seen |= set(numbers)
+    # From two corners, all but a few that something hides.
+    assert seen <= set(range(1, len(names) + 1)) and len(seen) >= 0.7 * len(names)
 
 
 def test_the_page_needs_nothing_else(page):
