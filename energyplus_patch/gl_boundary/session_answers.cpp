@@ -43,6 +43,10 @@ void SessionAnswers::set_model(std::span<glm::vec3 const> vertices,
     session_.add(std::move(surface));
   }
   warn_of_mirrored();
+  if (input_.task) {
+    input_.task->finish(session_.perform(input_.task->task(), input_.messages, input_.schedules));
+    throw TaskDone();
+  }
   session_.start(input_.messages, input_.schedules, input_.latitude);
 }
 
@@ -85,6 +89,10 @@ std::vector<double> SessionAnswers::interior_areas(glm::dvec3 const& towards_sun
   std::vector<SurfaceId> const ids(interiors.begin(), interiors.end());
   auto const areas = session_.interior_areas(static_cast<SurfaceId>(window), ids);
   return {areas.begin(), areas.end()};
+}
+
+void SessionAnswers::fail(std::string const& why) {
+  if (input_.task) input_.task->fail(why);
 }
 
 void SessionAnswers::finish() { session_.finish(); }

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "gl_boundary/boundary_answers.h"
+#include "session/asked_task.h"
 #include "session/schedules.h"
 #include "session/session.h"
 
@@ -23,6 +25,8 @@ class SessionAnswers : public BoundaryAnswers {
     // The time that a direction to the sun stands for; needed for schedules. Nothing where it is
     // not known.
     std::function<std::optional<Moment>(glm::dvec3 const&)> time_of;
+    // That EnergyPlus is run for, if it is: set_model() does it, and throws TaskDone.
+    std::shared_ptr<AskedTask> task;
   };
 
   explicit SessionAnswers(Input input);
@@ -32,6 +36,9 @@ class SessionAnswers : public BoundaryAnswers {
   double sunlit_area(glm::dvec3 const& towards_sun, std::size_t surface) override;
   std::vector<double> interior_areas(glm::dvec3 const& towards_sun, std::size_t window,
                                      std::vector<std::size_t> const& interiors) override;
+
+  // Replies to the task, if there is one, that it cannot be done.
+  void fail(std::string const& why);
 
   // As Session::finish().
   void finish();

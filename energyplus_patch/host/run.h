@@ -8,11 +8,11 @@
 #include <string>
 
 #include "binary/stored_result.h"
-#include "host/asked_task.h"
 #include "host/energyplus.h"
 #include "host/reflection_memory.h"
 #include "host/schedule_functions.h"
 #include "host/surface_luminance.h"
+#include "session/asked_task.h"
 #include "session/session.h"
 
 namespace gpu_shading::energyplus {
@@ -51,9 +51,6 @@ Run& this_run();
 
 // Where a session's messages go: this run's .err and .eio.
 Messages messages_of(Run const& run);
-
-// Thrown when the task that EnergyPlus is run for is done.
-class TaskDone : public std::exception {};
 
 // Ends EnergyPlus's run: with a fatal message, which is EnergyPlus's own way. An exception other
 // than TaskDone is an error, printed and replied to a task.

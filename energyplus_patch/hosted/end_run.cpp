@@ -6,8 +6,10 @@
 namespace gpu_shading::energyplus {
 
 void end_run(std::exception const& error) {
+  if (dynamic_cast<TaskDone const*>(&error) != nullptr) throw TaskDone();
   auto const why = error_line(error);
   print_line("error: " + why);
+  fail_task(why);
   throw Error("gpu_shading: " + why);
 }
 

@@ -10,7 +10,10 @@ namespace gpu_shading::energyplus {
 
 // Exceptions of MinGW do not pass through EnergyPlus, which is compiled by another compiler.
 void end_run(std::exception const& error) {
-  std::fprintf(stderr, "gpu_shading: error: %s\n", error_line(error).c_str());
+  if (dynamic_cast<TaskDone const*>(&error) != nullptr) ExitProcess(EXIT_SUCCESS);
+  auto const why = error_line(error);
+  std::fprintf(stderr, "gpu_shading: error: %s\n", why.c_str());
+  fail_task(why);
   std::fflush(stderr);
   ExitProcess(EXIT_FAILURE);
 }

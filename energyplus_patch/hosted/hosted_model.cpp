@@ -36,10 +36,11 @@ Rewrite rewrite_for(Model const& model) {
           model.lean.placeholders};
 }
 
-Messages messages_of_run() {
-  return {[](std::string const& line) {
+Messages messages_of_run(std::shared_ptr<AskedTask> const& task) {
+  return {[task](std::string const& line) {
             print_line("warning: " + line);
             warn_hosted_run(line);
+            if (task) task->warn(line);
           },
           [](std::string const& line) {
             print_line(line);
@@ -97,6 +98,7 @@ void add_schedules(HostedModel& hosted, Model const& model, EnergyPlusCall const
 }  // namespace
 
 HostedText read_hosted(Path const& path, Choices const& choices) {
+  auto const task = choices.task ? std::make_shared<AskedTask>(*choices.task) : nullptr;
   auto text = read_text_file(path);
   return naming(path.string(), [&]() -> HostedText {
     if (is_epjson(path)) {
@@ -104,13 +106,13 @@ HostedText read_hosted(Path const& path, Choices const& choices) {
       auto const find = [&](Names const& names) { return find_mentions(json, names); };
       auto model = understand(read_epjson(json), path, choices, {find, false});
       rewrite_epjson(json, rewrite_for(model));
-      return {std::move(model), json.dump(1)};
+      return {std::move(model), json.dump(1), task};
     }
     auto const parsed = parse_idf(text);
     auto const find = [&](Names const& names) { return find_mentions(parsed, names); };
     auto model = understand(read_idf(parsed), path, choices, {find, false});
     text = rewrite_idf(text, parsed, rewrite_for(model));
-    return {std::move(model), std::move(text)};
+    return {std::move(model), std::move(text), task};
   });
 }
 
@@ -136,7 +138,8 @@ HostedModel prepare_hosted(HostedText read, EnergyPlusCall call, Path const& fol
   add_schedules(hosted, model, call);
   hosted.input.named = surfaces_of(run_for_surfaces(call), model.shading);
   hosted.input.model = std::move(model);
-  hosted.input.messages = messages_of_run();
+  hosted.input.messages = messages_of_run(read.task);
+  hosted.input.task = read.task;
   hosted.input.latitude = [weather = call.weather] {
     if (!weather) throw Error("-w: a weather file is required (it sets the site)");
     return glm::radians(read_weather_site(*weather).latitude);

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "gl_boundary/session_answers.h"
 #include "options/options.h"
 #include "runs/short_runs.h"
 #include "scheduled/hosted_run.h"
+#include "session/asked_task.h"
 
 namespace gpu_shading::energyplus {
 
@@ -15,6 +17,7 @@ namespace gpu_shading::energyplus {
 struct HostedText {
   Model model;
   std::string text;
+  std::shared_ptr<AskedTask> task;  // that EnergyPlus is run for, if it is
 };
 
 // The same, as EnergyPlus is to be run with it.

@@ -59,6 +59,10 @@ void finish_answers() {
   if (finished) finished->finish();
 }
 
+void fail_task(std::string const& why) {
+  if (session()) session()->fail(why);
+}
+
 std::unique_ptr<BoundaryAnswers> answers_of_run() {
   if (session()) return std::make_unique<OfSession>();
   return std::make_unique<RenderedModel>(options_of_environment());

@@ -17,9 +17,12 @@ void answer_with(SessionAnswers::Input input);
 // EnergyPlus has ended: the session says what it rendered. Throws Error.
 void finish_answers();
 
+// Replies to the task that EnergyPlus is run for, if there is one, that it cannot be done.
+void fail_task(std::string const& why);
+
 // Called while an exception is handled: prints it and ends the run, since EnergyPlus would go on
-// with wrong answers. On Windows, that is the end of the process; elsewhere, an exception that
-// EnergyPlus catches and reports.
+// with wrong answers. TaskDone ends it without a message. On Windows, that is the end of the
+// process; elsewhere, an exception that EnergyPlus catches and reports.
 [[noreturn]] void end_run(std::exception const& error);
 
 template <typename Action>

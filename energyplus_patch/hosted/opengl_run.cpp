@@ -21,7 +21,7 @@ int run_by_opengl(std::filesystem::path const& library, std::filesystem::path co
                   CommandLine const& line, std::vector<std::string> arguments, HostedText read) {
   auto const& options = read.model.options;
   if (options.cache) prepare_cache_folder(*options.cache);
-  if (options.report) prepare_report(*options.report);
+  if (options.report && !read.task) prepare_report(*options.report);
   TemporaryFolder const folder;
   auto hosted = prepare_hosted(
       std::move(read),

@@ -142,9 +142,10 @@ std::optional<int> run_opengl(Path const& energyplus, Module const& module,
 
 // For a library whose shading functions cannot be redirected.
 int run_unpatched(Path const& energyplus, Module const& module,
-                  std::vector<std::string> const& arguments, Words const& flags) {
+                  std::vector<std::string> const& arguments, Words const& flags, bool task) {
   print_line(fmt::format("this EnergyPlus cannot be patched: {}", module.message()));
   if (auto const status = run_opengl(energyplus, module, arguments, flags)) return *status;
+  if (task) throw Error(module.message());
   print_line(fmt::format("sunlit fractions are passed as schedules: {}", module.message()));
   return run_scheduled(energyplus, module, arguments, flags);
 }
@@ -166,7 +167,7 @@ int run_shaded(char const* program, std::vector<std::string> arguments, Choices 
   constexpr int cannot_patch = 2;
   int const installed = module.install(energyplus.c_str(), flags.count(), flags.data());
   if (installed == cannot_patch && method == Method::automatic) {
-    return run_unpatched(energyplus, module, arguments, flags);
+    return run_unpatched(energyplus, module, arguments, flags, choices.task.has_value());
   }
   if (installed != 0) throw Error(module.message());
   arguments.insert(arguments.begin(), program);

@@ -29,10 +29,10 @@ Path some_weather() {
   throw Error(fmt::format("{}: no weather file; name one with -w", folder.string()));
 }
 
-// The flags with which EnergyPlus is run here: rendering is on, in its own process.
+// The flags with which EnergyPlus is run here: rendering is on, while it runs.
 std::vector<std::string> flags_of(Choices choices, Path const& task) {
   if (choices.mode != Mode::require) choices.mode = Mode::automatic;
-  choices.method = Method::patched;
+  if (choices.method == Method::scheduled) choices.method = Method::automatic;
   choices.task = task;
   return to_flags(choices);
 }

@@ -57,16 +57,4 @@ std::filesystem::path official_behind(std::filesystem::path const& library) {
   return std::filesystem::exists(link) ? std::filesystem::canonical(link) : path;
 }
 
-std::filesystem::path find_launcher() {
-  auto launcher = own_folder() / "energyplus";
-  if (!std::filesystem::exists(own_folder() / "libenergyplusapi.so")) {
-    throw Error(
-        fmt::format("{}: is not a patched EnergyPlus; run gpu_shading from a folder created by "
-                    "patch_energyplus",
-                    own_folder().string()));
-  }
-  find_energyplus_library(own_folder());
-  return launcher;
-}
-
 }  // namespace gpu_shading::energyplus

@@ -123,6 +123,15 @@ def test_chosen_by_itself_where_the_library_has_no_symbols(stripped, patched, co
     assert "schedules" not in run.errors
 
 
+def test_the_program_uses_it(stripped, patched, courtyard):
+    tables = []
+    for folder in (patched.parent, stripped.parent):
+        done = subprocess.run([folder / "gpu_shading", "check", courtyard], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        tables.append([line for line in done.stdout.splitlines() if " reveal " not in line])
+    assert len(tables[0]) > 20 and tables[0] == tables[1]
+
+
 def test_what_it_lacks_is_one_warning_each(patched, box, weather, tmp_path):
     model = tmp_path / "model.idf"
     model.write_text(box.replace("FullInteriorAndExterior", "FullExteriorWithReflections")

@@ -1,4 +1,4 @@
-#include "host/asked_task.h"
+#include "session/asked_task.h"
 
 #include <cstdio>
 #include <exception>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <string>
 
@@ -28,5 +29,8 @@ class AskedTask {
   TaskReply reply_;
   bool replied_ = false;
 };
+
+// Thrown when the task that EnergyPlus is run for is done.
+class TaskDone : public std::exception {};
 
 }  // namespace gpu_shading::energyplus
