@@ -51,13 +51,19 @@ void shorten_run_periods(ModelEditor& model) {
   });
 }
 
+enum class Control {
+  of_run_periods,  // one day, without sizing
+  of_model,
+};
+
 // Reduces a model to what a drawing of the surfaces needs.
-void reduce_to_surfaces(ModelEditor& model) {
-  model.remove([](std::string_view type) {
+void reduce_to_surfaces(ModelEditor& model, Control control) {
+  bool const own = control == Control::of_model;
+  model.remove([&](std::string_view type) {
     return is_extension(type) || starts(type, "Output") || same_name(type, "ShadowCalculation") ||
-           same_name(type, "SimulationControl");
+           (!own && same_name(type, "SimulationControl"));
   });
-  model.add("SimulationControl", simulation_control(Periods::run));
+  if (!own) model.add("SimulationControl", simulation_control(Periods::run));
   shorten_run_periods(model);
   model.edit("Building", [](EditedObject& building) {
     building.set({5, "solar_distribution"}, "MinimalShadowing");
@@ -136,6 +142,7 @@ std::ifstream run(EnergyPlusCall const& call, ModelEditor& model, bool expand,
   if (call.weather) command.insert(command.end(), {"-w", call.weather->string()});
   if (expand) command.emplace_back("-x");
   if (call.annual) command.emplace_back("-a");
+  if (call.design_days) command.emplace_back("-D");
   command.push_back(path.string());
   auto const log = folder.path() / "log.txt";
   // An empty variable counts as unset, so EnergyPlus runs unmodified.
@@ -158,6 +165,7 @@ RunTimes run_whole_year(EnergyPlusCall const& call, ModelEditor& model) {
   TemporaryFolder const folder;
   auto year = call;
   year.annual = true;
+  year.design_days = false;
   auto file = run(year, model, false, folder, "eplusout.eso");
   auto times = read_run_times(file);
   std::ifstream eio(folder.path() / "out" / "eplusout.eio");
@@ -167,21 +175,39 @@ RunTimes run_whole_year(EnergyPlusCall const& call, ModelEditor& model) {
 
 }  // namespace
 
-std::vector<DrawnSurface> run_for_surfaces(EnergyPlusCall const& call) {
+namespace {
+
+std::vector<DrawnSurface> draw(EnergyPlusCall const& call, Control control) {
   auto const model = edit_model(call.model);
-  reduce_to_surfaces(*model);
+  reduce_to_surfaces(*model, control);
   TemporaryFolder const folder;
   auto day = call;
   day.annual = false;
+  day.design_days = call.design_days && control == Control::of_model;
   auto file = run(day, *model, call.expand, folder, "eplusout.dxf");
   return read_drawing(file);
+}
+
+}  // namespace
+
+std::vector<DrawnSurface> run_for_surfaces(EnergyPlusCall const& call) {
+  try {
+    return draw(call, Control::of_run_periods);
+  } catch (Interrupted const&) {
+    throw;
+  } catch (Error const&) {
+    // Without run periods, or with equipment that has to be sized.
+    return draw(call, Control::of_model);
+  }
 }
 
 RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> const& schedules) {
   auto const model = edit_model(call.model);
   reduce_to_times(*model, schedules);
   TemporaryFolder const folder;
-  auto file = run(call, *model, false, folder, "eplusout.eso");
+  auto periods = call;
+  periods.design_days = false;
+  auto file = run(periods, *model, false, folder, "eplusout.eso");
   return read_run_times(file);
 }
 

@@ -23,8 +23,9 @@ struct EnergyPlusCall {
   bool design_days = false;  // -D: no run period
 };
 
-// EnergyPlus's own surfaces, from a run that ends after drawing them: at most a day, without sizing
-// and shading. Throws Error with EnergyPlus's reasons if it does not get there.
+// EnergyPlus's own surfaces, from a run that ends after drawing them: a day without sizing and
+// shading or, where EnergyPlus needs more, what the model asks for without shading. Throws Error
+// with EnergyPlus's reasons if it does not get there.
 std::vector<DrawnSurface> run_for_surfaces(EnergyPlusCall const& call);
 
 // Every timestep of the model's run periods, with EnergyPlus's own sun and schedule values, from a

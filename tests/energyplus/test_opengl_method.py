@@ -41,7 +41,8 @@ def compared(patched, model, weather, folder, options=("-D",), frequency="Hourly
     return run, max(found, key=lambda each: each.largest)
 
 
-@pytest.mark.parametrize("name", ["courtyard", "canopy", "screened room", "SolarShadingTest.idf"])
+@pytest.mark.parametrize("name", ["courtyard", "canopy", "screened room", "SolarShadingTest.idf",
+                                  "RefBldgSmallOfficeNew2004_Chicago.idf"])
 def test_as_patched(name, patched, courtyard, weather, tmp_path):
     model = tmp_path / f"{name.removesuffix('.idf')}.idf"
     options = ["-D"]
