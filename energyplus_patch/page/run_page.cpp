@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Vertices that a page may have: with three coordinates of two bytes, a third more as text.
-constexpr std::size_t most_vertices = 240000;
+constexpr std::size_t most_vertices = 190000;
 // More names than this of surfaces that only cast shadows are left out.
 constexpr std::size_t most_caster_names = 3000;
 constexpr std::size_t most_in_ring = 60000;

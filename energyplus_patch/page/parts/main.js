@@ -18,7 +18,7 @@ function addPairs(list, pairs) {
 }
 
 function addKeys() {
-  const kinds = new Set(content.styles.map((style) => style.kind));
+  const kinds = new Set(view.surfaces.map((surface) => content.styles[surface.style].kind));
   const mapped = Boolean(part("colouring").value);
   const keys = mapped ? [] : [["turned away from the sun", css(theme().turnedAway)]];
   if (view instanceof ModelView && !mapped) keys.unshift(["darker: in shadow now", css(scaleColour(1).map((value) => 0.6 * value))]);

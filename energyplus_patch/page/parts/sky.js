@@ -15,6 +15,11 @@ function textSprite(text, colour, height) {
   context.font = "bold 88px sans-serif";
   context.textAlign = "center";
   context.textBaseline = "middle";
+  // A halo, because it may be before anything.
+  context.strokeStyle = theme().halo;
+  context.lineWidth = 16;
+  context.lineJoin = "round";
+  context.strokeText(text, 64, 68);
   context.fillStyle = colour;
   context.fillText(text, 64, 68);
   const sprite = new THREE.Sprite(new THREE.SpriteMaterial({map: new THREE.CanvasTexture(canvas), depthTest: false,
