@@ -11,6 +11,7 @@
 namespace gpu_shading {
 namespace {
 
+// Each call is a statement of its own: compilers differ in the order of a function's arguments.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : engine_(seed) {}
@@ -80,8 +81,10 @@ RandomScene random_scene(std::uint32_t seed) {
   Random random(seed);
   RandomScene result;
   Axes const axes(random.direction(), random);
-  glm::dvec3 const centre(random.between(-20.0, 20.0), random.between(-20.0, 20.0),
-                          random.between(0.0, 20.0));
+  double const up = random.between(0.0, 20.0);
+  double const north = random.between(-20.0, 20.0);
+  double const east = random.between(-20.0, 20.0);
+  glm::dvec3 const centre(east, north, up);
   double const radius = random.between(0.5, 3.0);
   result.scene.add({"receiver", random_polygon(random, centre, axes, radius)});
 
@@ -93,9 +96,10 @@ RandomScene random_scene(std::uint32_t seed) {
   for (int i = 0; i < casters; ++i) {
     // On or near a ray from the receiver, so that most of them shade it.
     double const away = random.between(0.1, 8.0);
+    double const upwards = random.between(-1.0, 1.0);
+    double const sideways = random.between(-1.0, 1.0);
     glm::dvec3 const at =
-        centre + towards_sun * away +
-        radius * (axes.right * random.between(-1.0, 1.0) + axes.up * random.between(-1.0, 1.0));
+        centre + towards_sun * away + radius * (axes.right * sideways + axes.up * upwards);
     Axes const tilt(random.direction(), random);
     result.scene.add(
         {"caster", random_polygon(random, at, tilt, radius * random.between(0.2, 1.0))});
@@ -111,10 +115,14 @@ Scene triangle_soup(int count, std::uint32_t seed) {
   Scene scene;
   scene.add({"receiver", south_facing(0, 0, 0, 3, 2)});
   for (int i = 0; i < count; ++i) {
-    glm::dvec3 const corner(between(-1, 4), between(-2.0, -0.2), between(-0.5, 3.5));
+    double const height = between(-0.5, 3.5);
+    double const behind = between(-2.0, -0.2);
+    glm::dvec3 const corner(between(-1, 4), behind, height);
     double const size = 6.0 / std::sqrt(count) * between(0.2, 1.0);
     auto const edge = [&] {
-      return size * glm::dvec3(between(-0.5, 0.5), between(-0.09, 0.09), between(-0.5, 0.5));
+      double const z = between(-0.5, 0.5);
+      double const y = between(-0.09, 0.09);
+      return size * glm::dvec3(between(-0.5, 0.5), y, z);
     };
     glm::dvec3 const a = edge();
     scene.add({"leaf", {{corner, corner + a, corner + edge()}, {}}});
