@@ -197,6 +197,16 @@ def test_schedules_at_the_time_of_a_question(wine, rendering, patched, weather, 
         assert each.largest < SAME, f"{each.receiver.name}: {each.largest} from the answer on Linux"
 
 
+def test_the_program_lists_surfaces_as_on_linux(wine, rendering, patched, courtyard):
+    tables = []
+    for done in (wine.run([rendering.parent / "gpu_shading.exe", "check", windows.name_path(courtyard)]),
+                 subprocess.run([patched.parent / "gpu_shading", "check", courtyard], capture_output=True, text=True)):
+        assert done.returncode == 0, done.stderr
+        # Reveals are numbered from the drawing.
+        tables.append([line.rstrip() for line in done.stdout.splitlines() if " reveal " not in line])
+    assert len(tables[0]) > 20 and tables[0] == tables[1]
+
+
 def test_an_error_in_an_extension_object_stops_before_the_run(wine, rendering, weather, box, tmp_path):
     model = tmp_path / "model.idf"
     model.write_text(box + "GPUShading:TransparentShade,Glass,Louvre 1,Constant,,,2;\n")

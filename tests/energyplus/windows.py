@@ -55,8 +55,9 @@ def patch_energyplus(wine, folder):
     """The folder that patch_energyplus.cmd makes of EnergyPlus for Windows; its program."""
     unzipped = folder.parent / "unzipped"
     unzipped.mkdir()
+    ours = ("opengl32.dll", "energyplus.exe", "gpu_shading.exe")
     for file in (energyplus.REPOSITORY / "scripts" / "packaging" / "windows" / "patch_energyplus.cmd",
-                 *(build_folder() / "energyplus_patch" / name for name in ("opengl32.dll", "energyplus.exe"))):
+                 *(build_folder() / "energyplus_patch" / name for name in ours)):
         shutil.copy(file, unzipped)
     done = wine.run(["cmd", "/c", name_path(unzipped / "patch_energyplus.cmd"), name_path(official_folder()),
                      name_path(folder)])

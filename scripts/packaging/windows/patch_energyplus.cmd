@@ -15,6 +15,8 @@ copy "%~dp0energyplus.exe" "%~2" >nul
 if errorlevel 1 goto failed
 copy "%~dp0opengl32.dll" "%~2" >nul
 if errorlevel 1 goto failed
+copy "%~dp0gpu_shading.exe" "%~2" >nul
+if errorlevel 1 goto failed
 echo patch_energyplus: created "%~2"; run "%~2\energyplus.exe" --gpu-shading ...
 exit /b 0
 

@@ -5,7 +5,7 @@ if(GPU_SHADING_TESTS)
   add_subdirectory(tests)
 endif()
 
-install(TARGETS opengl32 windows_launcher RUNTIME DESTINATION . COMPONENT windows)
+install(TARGETS opengl32 windows_launcher gpu_shading_program RUNTIME DESTINATION . COMPONENT windows)
 install(FILES scripts/packaging/windows/patch_energyplus.cmd DESTINATION . COMPONENT windows)
 install(FILES gpu_shading/docs/windows.md DESTINATION . RENAME README.md COMPONENT windows)
 # Of the libraries that are compiled in.
