@@ -174,7 +174,8 @@ void redirect_opengl(char const* library) {
 }
 
 // Throws CannotPatch where the library or the model does not allow this method.
-int run_opengl(char const* library, Choices choices, std::vector<std::string> const& arguments) {
+int run_opengl(char const* library, Choices const& choices,
+               std::vector<std::string> const& arguments) {
   SharedLibrary const loaded(library);  // stays loaded
   auto const line = read_command_line(arguments);
   if (line.preprocessed) {
@@ -243,10 +244,9 @@ extern "C" EXPORTED int gpu_shading_run_opengl(char const* energyplus_library, i
   constexpr int cannot_patch = -2;
   try {
     message.clear();
-    auto choices = gpu_shading::energyplus::given_choices(count, options);
+    auto const choices = gpu_shading::energyplus::given_choices(count, options);
     gpu_shading::energyplus::try_device(choices);
-    return gpu_shading::energyplus::run_opengl(energyplus_library, std::move(choices),
-                                               {argv, argv + argc});
+    return gpu_shading::energyplus::run_opengl(energyplus_library, choices, {argv, argv + argc});
   } catch (gpu_shading::energyplus::CannotPatch const& error) {
     message = error.what();
     return cannot_patch;
