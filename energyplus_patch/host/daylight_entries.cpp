@@ -11,8 +11,6 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-glm::dvec3 to_glm(Vector const& vector) { return {vector.x, vector.y, vector.z}; }
-
 // Below this, EnergyPlus counts a surface as opaque.
 constexpr double opaque_below = 1e-6;
 

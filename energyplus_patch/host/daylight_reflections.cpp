@@ -10,8 +10,6 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-glm::dvec3 to_glm(Vector const& vector) { return {vector.x, vector.y, vector.z}; }
-
 double constexpr unlimited = std::numeric_limits<double>::infinity();
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 
@@ -24,6 +25,8 @@ struct Vector {
 
   bool operator==(Vector const&) const = default;
 };
+
+inline glm::dvec3 to_glm(Vector const& vector) { return {vector.x, vector.y, vector.z}; }
 
 // The signature of EnergyPlus's functions that write a message to its .err file and up to two other
 // files.

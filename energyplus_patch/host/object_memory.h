@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -15,6 +16,11 @@ struct Unexpected {};
 
 inline void expect(bool holds) {
   if (!holds) throw Unexpected{};
+}
+
+// Equal but for rounding.
+inline bool is_near(double a, double b) {
+  return std::abs(a - b) <= 1e-9 * (std::abs(a) + std::abs(b));
 }
 
 // The beginning of ObjexxFCL's Array (ObjexxFCL/Array.hh).

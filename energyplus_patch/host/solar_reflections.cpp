@@ -8,6 +8,8 @@
 #include <set>
 #include <string>
 
+#include "host/object_memory.h"
+
 namespace gpu_shading::energyplus {
 
 // Changes of EnergyPlus's memory that are taken back at the end.
@@ -39,8 +41,6 @@ constexpr double sun_is_up_value = 1e-5;
 
 // A number that EnergyPlus does not compute.
 constexpr double untouched = -1234.5;
-
-bool near(double a, double b) { return std::abs(a - b) <= 1e-9 * (std::abs(a) + std::abs(b)); }
 
 }  // namespace
 
@@ -310,7 +310,7 @@ std::optional<std::pair<double*, double*>> SolarReflections::learn_specular(Stat
   std::vector<double*> set;
   for (auto* const array : memory_.by_hour) {
     if (array[at] == untouched) continue;
-    if (!near(array[at], untouched / *first.point_count)) return std::nullopt;
+    if (!is_near(array[at], untouched / *first.point_count)) return std::nullopt;
     set.push_back(array);
   }
   if (set.size() != 2) return std::nullopt;

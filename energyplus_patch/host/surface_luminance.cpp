@@ -1,6 +1,5 @@
 #include "host/surface_luminance.h"
 
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "host/object_memory.h"
@@ -31,8 +30,6 @@ std::int32_t find_placeholder(ReflectionMemory const& memory, Session const& ses
   }
   throw Unexpected{};
 }
-
-bool near(double a, double b) { return std::abs(a - b) <= 1e-9 * (std::abs(a) + std::abs(b)); }
 
 }  // namespace
 
@@ -106,11 +103,11 @@ void SurfaceLuminance::find_sums(Ray const& ray) {
   auto const added = measure(ray, {placeholder_});
   for (std::size_t i = 0; i < added.size(); ++i) {
     double const sun = added[i][0].sun;
-    if (near(sun, 1.0)) {
+    if (is_near(sun, 1.0)) {
       expect(window_ == nullptr);
       window_ = arrays_[i];
       window_array_ = i;
-    } else if (near(sun, ray.direction.z)) {
+    } else if (is_near(sun, ray.direction.z)) {
       expect(direct_ == nullptr);
       direct_ = arrays_[i];
     } else {
@@ -124,7 +121,7 @@ double SurfaceLuminance::measure_sky(Ray const& ray, Measured const& measured) c
   auto const added = measure(ray, measured)[window_array_][0].skies;
   double const sky = added[0] / ray.horizontal.skies[0];
   for (std::size_t i = 1; i < added.size(); ++i) {
-    expect(near(added[i], sky * ray.horizontal.skies[i]));
+    expect(is_near(added[i], sky * ray.horizontal.skies[i]));
   }
   return sky;
 }
@@ -140,8 +137,8 @@ void SurfaceLuminance::find_reflectance(Ray const& ray) {
     double const other = 2.0 * kept + 0.25;
     double const after = measure_sky(ray, {placeholder_, value, other});
     *value = kept;
-    if (near(after, before)) continue;
-    expect(reflectance_ == nullptr && near(after, before / kept * other));
+    if (is_near(after, before)) continue;
+    expect(reflectance_ == nullptr && is_near(after, before / kept * other));
     reflectance_ = value;
   }
   expect(reflectance_ != nullptr);

@@ -21,7 +21,7 @@ namespace {
 
 // Maximum number of texels of a tile made from a pattern, each of which takes 256 points.
 constexpr double most_texels = 1U << 26U;
-constexpr float solid_value = 65535.0F;
+constexpr float solid_value = OpacityTile::solid_texel;
 
 void check_threshold(std::optional<double> threshold) {
   // In single precision, like the texels that are compared with it.
@@ -165,9 +165,9 @@ double OpacityTile::open_fraction() const {
     for (std::uint16_t const value : *opacity_) open += value < solid ? 1U : 0U;
     return static_cast<double>(open) / static_cast<double>(opacity_->size());
   }
-  constexpr std::uint16_t most = 65535;
-  for (std::uint16_t const value : *opacity_) open += static_cast<std::uint64_t>(most - value);
-  return static_cast<double>(open) / most / static_cast<double>(opacity_->size());
+  for (std::uint16_t const value : *opacity_)
+    open += static_cast<std::uint64_t>(solid_texel - value);
+  return static_cast<double>(open) / solid_texel / static_cast<double>(opacity_->size());
 }
 
 void OpacityTile::find_web() {

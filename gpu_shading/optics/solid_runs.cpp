@@ -8,9 +8,9 @@ namespace gpu_shading {
 namespace {
 
 // Lengths of the runs that cross a row of texels, each texel on a line of its own.
-class Lines {
+class RunLengths {
  public:
-  explicit Lines(std::size_t count) : lengths_(count, none) {}
+  explicit RunLengths(std::size_t count) : lengths_(count, none) {}
 
   // Lines `first` to `end` cross the texels from `texel` on. A run only begins after an open texel.
   void meet(std::size_t first, std::size_t end, std::uint16_t const* texel, std::uint16_t solid,
@@ -104,7 +104,7 @@ SolidRuns::Counts SolidRuns::across_columns(std::span<std::uint16_t const> texel
   std::size_t const copies = du == 0 ? 1 : (columns_ + rows_ - 1) / rows_;
   std::size_t const most = copies * rows_;
   Counts counts(2 * most + 1, 0);
-  Lines lines(columns_);
+  RunLengths lines(columns_);
   for (std::size_t step = 0; step < 2 * most; ++step) {
     if (step == most) lines.close();
     if (step >= most && lines.all_ended()) break;

@@ -8,7 +8,7 @@ namespace gpu_shading {
 namespace {
 
 constexpr int block_log2 = 3;
-constexpr float solid_value = 65535.0F;
+constexpr float highest = OpacityTile::solid_texel;
 
 std::size_t parts(std::size_t count, int size_log2) {
   return (count + (std::size_t{1} << static_cast<unsigned>(size_log2)) - 1) >>
@@ -17,11 +17,11 @@ std::size_t parts(std::size_t count, int size_log2) {
 
 // The largest value that a shader, after dividing it, does not find above the threshold.
 float most_open(float threshold) {
-  float value = threshold * solid_value;
-  while (value / solid_value > threshold) value = std::nextafter(value, 0.0F);
-  for (float next = value; next / solid_value <= threshold;) {
+  float value = threshold * highest;
+  while (value / highest > threshold) value = std::nextafter(value, 0.0F);
+  for (float next = value; next / highest <= threshold;) {
     value = next;
-    next = std::nextafter(next, 2.0F * solid_value);
+    next = std::nextafter(next, 2.0F * highest);
   }
   return value;
 }
@@ -150,7 +150,7 @@ float TileRays::sample(double x, double y) const {
 float TileRays::opacity(double u, double v) const {
   float const value = sample(wrapped(u / tile_.texel_width() - 0.5, columns_),
                              wrapped(v / tile_.texel_height() - 0.5, rows_));
-  if (!thresholded_) return value / solid_value;
+  if (!thresholded_) return value / highest;
   return value > most_open_ ? 1.0F : 0.0F;
 }
 
@@ -172,7 +172,7 @@ std::size_t TileRays::follow(double u, double v, Direction const& direction, dou
   float before = passed;
   bool has_before = false;
   // Smaller rises of fractional opacity are ignored.
-  float const negligible = thresholded_ ? 0.0F : (1.0F - solid) * solid_value;
+  float const negligible = thresholded_ ? 0.0F : (1.0F - solid) * highest;
   auto const nothing_in = [&](std::uint16_t largest) {
     return static_cast<float>(largest) <= passed + negligible;
   };
@@ -201,9 +201,9 @@ std::size_t TileRays::follow(double u, double v, Direction const& direction, dou
         rises.push_back({walk.shift() - back, 1.0F});
         break;
       }
-      rises.push_back({walk.shift() - back / 2.0, value / solid_value});
+      rises.push_back({walk.shift() - back / 2.0, value / highest});
       passed = value;
-      if (value >= solid * solid_value) break;
+      if (value >= solid * highest) break;
     }
     before = value;
     has_before = true;

@@ -40,14 +40,14 @@ Ring common(Ring ring, Ring const& by) {
   return ring;
 }
 
-struct Part {
+struct PartOnTile {
   int screen;
   Ring on_tile;
 };
 
-std::vector<Part> parts_on_tile(ScreensInView const& screens, View const& view) {
+std::vector<PartOnTile> parts_on_tile(ScreensInView const& screens, View const& view) {
   Ring const tile{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-  std::vector<Part> parts;
+  std::vector<PartOnTile> parts;
   for (int const number : screens.numbers) {
     for (Screens::Quadrilateral const& part : (*screens.screens)[number].parts) {
       Ring ring;
@@ -68,7 +68,7 @@ std::vector<Part> parts_on_tile(ScreensInView const& screens, View const& view) 
 bool any_overlap(ScreensInView const& screens, View const& view) {
   // Of the tile, of area 4: neighbours that touch do not overlap.
   constexpr double least = 1e-6;
-  std::vector<Part> const parts = parts_on_tile(screens, view);
+  std::vector<PartOnTile> const parts = parts_on_tile(screens, view);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (std::size_t k = i + 1; k < parts.size(); ++k) {
       if (parts[i].screen == parts[k].screen) continue;

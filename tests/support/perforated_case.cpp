@@ -6,20 +6,12 @@
 #include <limits>
 #include <utility>
 
+#include "support/plane_ring.h"
+
 namespace gpu_shading {
 namespace {
 
 using std::numbers::pi;
-
-double crossed(glm::dvec2 const& a, glm::dvec2 const& b) { return a.x * b.y - a.y * b.x; }
-
-double signed_area(std::vector<glm::dvec2> const& ring) {
-  double twice = 0.0;
-  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-    twice += crossed(ring[i] - ring[0], ring[i + 1] - ring[0]);
-  }
-  return twice / 2.0;
-}
 
 glm::dvec3 unit_normal(Ring const& ring) {
   return glm::normalize(glm::cross(ring[1] - ring[0], ring[2] - ring[1]));

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
+#include "support/plane_ring.h"
 #include "support/shapes.h"
 
 namespace gpu_shading {
@@ -20,16 +21,6 @@ namespace {
 
 using std::numbers::pi;
 using Ring = std::vector<glm::dvec2>;
-
-double crossed(glm::dvec2 const& a, glm::dvec2 const& b) { return a.x * b.y - a.y * b.x; }
-
-double signed_area(Ring const& ring) {
-  double twice = 0.0;
-  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-    twice += crossed(ring[i] - ring[0], ring[i + 1] - ring[0]);
-  }
-  return twice / 2.0;
-}
 
 // What of a convex ring is on the left of a line.
 void clip(Ring& ring, Ring& spare, glm::dvec2 const& from, glm::dvec2 const& along) {

@@ -12,7 +12,7 @@ namespace gpu_shading {
 
 // A raster of the tile of a perforated sheet, whose axes and units are as in hole_pattern.h: row
 // after row along u, the first at v = 0. Each texel holds the opacity of
-// its area, 0 (open) .. 65535 (solid), for opacities 0 .. 1. Opacity is interpolated bilinearly
+// its area, 0 (open) .. solid_texel, for opacities 0 .. 1. Opacity is interpolated bilinearly
 // between the centres of texels, across the tile's edges too. A thresholded tile has opacity 1
 // where this value is above the threshold and 0 elsewhere, evaluated in single precision as in a
 // shader. Other tiles have fractional opacity, which counts once along a ray: the largest value
@@ -23,6 +23,7 @@ namespace gpu_shading {
 class OpacityTile {
  public:
   static constexpr int most_texels_a_side = 16384;
+  static constexpr std::uint16_t solid_texel = 65535;
 
   OpacityTile(double width, double height, int columns, int rows,
               std::vector<std::uint16_t> opacity, std::optional<double> threshold = 0.5);
