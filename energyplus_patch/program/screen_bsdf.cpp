@@ -16,7 +16,7 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-constexpr double circle = 360.0;
+constexpr double full_turn = 360.0;
 
 // Patches between two angles from the normal, degrees.
 struct PatchRow {
@@ -58,8 +58,8 @@ double mean_transmittance(PerforatedScreen const& screen, double rotation, Patch
   for (int i = 0; i < polar; ++i) {
     double const theta = glm::degrees(std::asin(std::sqrt(low + step * (i + 0.5))));
     for (int k = 0; k < azimuths; ++k) {
-      double const azimuth = circle / row.patches * (patch - 0.5 + (k + 0.5) / azimuths);
-      constexpr double half = circle / 2.0;
+      double const azimuth = full_turn / row.patches * (patch - 0.5 + (k + 0.5) / azimuths);
+      constexpr double half = full_turn / 2.0;
       sum += transmittance(screen, theta, half - azimuth - rotation);
     }
   }
