@@ -1,5 +1,6 @@
 """tidy.py checks what a change can affect, and everything if it cannot tell."""
 
+import json
 import os
 import subprocess
 from pathlib import Path
@@ -108,10 +109,38 @@ def test_a_pass_is_recorded_and_a_failure_is_not(tree, monkeypatch, passes):
             tidy.main()
 
 
+def compile_commands(folder, command, file):
+    (folder / "compile_commands.json").write_text(
+        json.dumps([{"directory": str(folder), "file": file, "command": command}]))
+    return [(entry["file"], entry["command"]) for entry in tidy.read_commands(folder)]
+
+
 def test_headers_that_gcc_precompiled_are_left_out(tmp_path):
-    (tmp_path / "compile_commands.json").write_text(
-        '[{"command": "c++ -O2 -fpch-preprocess -Winvalid-pch -include /b/x.dir/cmake_pch.hxx -c a.cpp"}]')
-    assert tidy.read_commands(tmp_path) == '[{"command": "c++ -O2 -c a.cpp"}]'
+    command = "c++ -O2 -fpch-preprocess -Winvalid-pch -include /b/x.dir/cmake_pch.hxx -c a.cpp"
+    assert compile_commands(tmp_path, command, "a.cpp") == [(str(tmp_path / "a.cpp"), "c++ -O2 -c a.cpp")]
+
+
+def test_sources_that_are_compiled_as_one_are_checked_one_by_one(tmp_path):
+    (tmp_path / "Unity").mkdir()
+    (tmp_path / "Unity/unity_0_cxx.cxx").write_text('/* generated */\n#include "/s/a.cpp"\n\n#include "/s/b.cpp"\n')
+    file = f"{tmp_path}/Unity/unity_0_cxx.cxx"
+    assert compile_commands(tmp_path, f"c++ -Wshadow=local -o u.o -c {file}", file) == [
+        ("/s/a.cpp", "c++ -Wshadow -o u.o -c /s/a.cpp"), ("/s/b.cpp", "c++ -Wshadow -o u.o -c /s/b.cpp")]
+
+
+def test_a_change_beside_a_source_affects_that_source_alone(tree):
+    """a.cpp and b.cpp are compiled as one, from build/Unity/unity_0_cxx.cxx."""
+    file = tree / "build/Unity/unity_0_cxx.cxx"
+    file.parent.mkdir()
+    file.write_text(f'#include "{tree}/a.cpp"\n#include "{tree}/b.cpp"\n')
+    Path("build/build.ninja").write_text(NINJA.split("build a.o")[0] + f"build u.o: cxx {file}\n")
+    subprocess.run(["ninja", "-C", "build"], check=True, capture_output=True)
+    commands = subprocess.run(["ninja", "-C", "build", "-t", "compdb"], check=True, capture_output=True).stdout
+    Path("build/compile_commands.json").write_bytes(commands)
+    commit("b.cpp", "// other\n")
+    assert selected() == ["b.cpp"]
+    commit("a.h", "// other\n")  # which of the two includes it is not known
+    assert selected() == ["a.cpp", "b.cpp"]
 
 
 def test_a_base_can_be_named(tree, monkeypatch):

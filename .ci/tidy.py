@@ -3,12 +3,13 @@
 
 .ci/tidy.py BUILD [--all] [--record]
 
-A file is checked if it, or a header that it includes, differs from the base: by commits, in the work
-tree, or not yet tracked. What a file includes is read from the build, so build first; a file whose
-includes are unknown is checked. The base is the commit named by GPU_SHADING_TIDY_BASE, else the merge
-base with origin/main, else with main: each commit on main has passed this check, so the files that
-equal the base have passed as well. If HEAD is on main itself, the base is the commit in .ci/tidy_base,
-whose files are all known to have passed. With --record, a pass writes HEAD there.
+A file is checked if it, or a header that it or a source compiled with it includes, differs from the
+base: by commits, in the work tree, or not yet tracked. What a file includes is read from the build, so
+build first; a file whose includes are unknown is checked. The base is the commit named by
+GPU_SHADING_TIDY_BASE, else the merge base with origin/main, else with main: each commit on main has
+passed this check, so the files that equal the base have passed as well. If HEAD is on main itself, the
+base is the commit in .ci/tidy_base, whose files are all known to have passed. With --record, a pass
+writes HEAD there.
 
 All files are checked if there is no base in the history of HEAD, if the checks changed (.clang-tidy,
 this script, or scripts/setup, which chooses clang-tidy's version), and with --all.
@@ -64,6 +65,16 @@ def changed_since(base):
     return set(differing.splitlines()) | set(untracked.splitlines())
 
 
+UNITY = re.compile(r"/Unity/unity_\w+_cxx\.cxx$")
+
+
+def sources_of(file):
+    """The sources that a file of CMake's unity build includes, or the file itself."""
+    if not UNITY.search(str(file)):
+        return [file]
+    return [Path(path) for path in re.findall(r'^#include "(.+)"$', file.read_text(), re.MULTILINE)]
+
+
 def read_dependencies(build):
     """By object file, the paths from the root of the sources of ours that it is compiled from."""
     listing = subprocess.run(["ninja", "-C", build, "-t", "deps"], capture_output=True, text=True).stdout
@@ -80,9 +91,20 @@ def read_dependencies(build):
 
 
 def read_commands(build):
-    """Text of compile_commands.json without g++'s precompiled headers, which clang-tidy cannot read."""
-    commands = (build / "compile_commands.json").read_text()
-    return re.sub(r" -Winvalid-pch -include \S+/cmake_pch\.hxx| -fpch-preprocess", "", commands)
+    """compile_commands.json with an entry for each source of ours, not for several that are compiled as one.
+
+    Without g++'s precompiled headers, which clang-tidy cannot read, and its kinds of -Wshadow.
+    """
+    entries = []
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        file = Path(entry["directory"], entry["file"])
+        command = re.sub(
+            r" -Winvalid-pch -include \S+/cmake_pch\.hxx| -fpch-preprocess", "", entry["command"]
+        ).replace("-Wshadow=local", "-Wshadow")
+        for source in sources_of(file):
+            own = command if source == file else command.replace(f" -c {entry['file']}", f" -c {source}")
+            entries.append({**entry, "file": str(source), "command": own})
+    return entries
 
 
 def digest(*parts):
@@ -102,13 +124,17 @@ def select(build, everything):
     dependencies = read_dependencies(build)
     checks = b"".join((ROOT / path).read_bytes() for path in (".clang-tidy", "tests/.clang-tidy", ".ci/tidy.py"))
     work = {}
-    for entry in json.loads(read_commands(build)):
-        source = Path(entry["directory"], entry["file"]).resolve()
+    entries = read_commands(build)
+    compiled = [Path(entry["file"]).resolve() for entry in entries]
+    own_sources = {str(source.relative_to(ROOT)) for source in compiled if ROOT in source.parents}
+    for source, entry in zip(compiled, entries, strict=True):
         if ROOT not in source.parents or build in source.parents:
             continue
         path = str(source.relative_to(ROOT))
         found = re.search(r" -o (\S+)", entry["command"])
         included = dependencies.get(found.group(1)) if found else None
+        if included is not None:  # with the headers of those that are compiled with it
+            included = included - own_sources | {path}
         if base and included is not None and not changed & (included | {path}):
             continue
         contents = [(ROOT / name).read_bytes() for name in sorted(included or ()) if (ROOT / name).is_file()]
@@ -122,7 +148,7 @@ def main():
     build = (ROOT / sys.argv[1]).resolve()
     passed = build / "clang-tidy"
     passed.mkdir(exist_ok=True)
-    (passed / "compile_commands.json").write_text(read_commands(build))
+    (passed / "compile_commands.json").write_text(json.dumps(read_commands(build)))
     work, reason = select(build, "--all" in sys.argv[2:])
     remembered = [source for source, key in work.items() if key and (passed / key).exists()]
     for source in remembered:
