@@ -119,13 +119,32 @@ TileGrid fine_grid(Tile const& tile) {
 }
 
 struct Coverage::InteriorPiece {
-  std::size_t surface = 0;  // its index in the question
-  PixelMask mask;
+  std::size_t surface;  // its index in the question
+  ConvexArea area;
   DepthPlane depth;
+};
 
-  double depth_at(std::size_t word, int bit) const {
-    return depth.at(mask.column(word) + bit, mask.row(word));
+// Some rows of a tile, few enough that the masks of all pieces there stay in a processor's cache.
+struct Coverage::Band {
+  struct Part {
+    InteriorPiece const* piece = nullptr;
+    PixelMask mask;  // of the band's rows
+
+    double depth_at(std::size_t word, int bit) const {
+      return piece->depth.at(mask.column(word) + bit, mask.row(word));
+    }
+  };
+
+  std::span<Part> parts() { return std::span(kept).first(count); }
+  std::span<Part const> parts() const { return std::span(kept).first(count); }
+  std::span<std::uint64_t const> rows_of(PixelMask const& mask) const {
+    return mask.words().subspan(first_word, words);
   }
+
+  std::size_t first_word = 0;  // of the tile's words
+  std::size_t words = 0;
+  std::vector<Part> kept;  // with their memory, from one band to the next
+  std::size_t count = 0;
 };
 
 template <typename Use>
@@ -292,119 +311,129 @@ LuminanceSums Coverage::scheduled(Tile const& tile, TileGrid const& grid, View c
   return totals.result();
 }
 
-std::vector<LuminanceSums> Coverage::lit_inside(PixelMask const& lit,
-                                                std::span<InteriorPiece const> pieces,
-                                                std::size_t interiors) {
-  std::vector<std::uint64_t> counts(interiors);
-  for (InteriorPiece const& piece : pieces) {
-    counts[piece.surface] += count_common(lit.words(), piece.mask.words());
+void Coverage::add_lit(PixelMask const& lit, Band const& band, std::span<LuminanceSums> sums) {
+  for (Band::Part const& part : band.parts()) {
+    std::uint64_t const count = count_common(band.rows_of(lit), part.mask.words());
+    sums[part.piece->surface].unscheduled += static_cast<double>(count);
   }
-  std::vector<LuminanceSums> sums;
-  sums.reserve(counts.size());
-  for (std::uint64_t const count : counts) sums.push_back({static_cast<double>(count), {}});
-  return sums;
 }
 
-std::vector<LuminanceSums> Coverage::luminance_inside(PixelMask const& lit,
-                                                      LuminanceTile const& shaded,
-                                                      PassedSchedules const& passed,
-                                                      std::span<InteriorPiece const> pieces,
-                                                      std::size_t interiors) {
+void Coverage::add_luminance(PixelMask const& lit, LuminanceTile const& shaded,
+                             PassedSchedules const& passed, Band const& band,
+                             std::span<ScheduledTotals> totals) {
   CombinationSums by_combination(passed.combinations());
   std::vector<CombinationSums::Sum> taken;
-  std::vector<ScheduledTotals> totals(interiors);
-  std::span<std::uint64_t const> const words = lit.words();
-  for (InteriorPiece const& piece : pieces) {
+  std::span<std::uint64_t const> const words = band.rows_of(lit);
+  for (Band::Part const& part : band.parts()) {
     for (std::size_t word = 0; word < words.size(); ++word) {
-      each_bit(words[word] & piece.mask.words()[word], word, [&](std::size_t pixel) {
-        by_combination.add(passed.pixels()[pixel], shaded.pixels()[pixel]);
-      });
+      each_bit(words[word] & part.mask.words()[word], band.first_word + word,
+               [&](std::size_t pixel) {
+                 by_combination.add(passed.pixels()[pixel], shaded.pixels()[pixel]);
+               });
     }
     taken.clear();
     by_combination.take(taken);
-    totals[piece.surface].add(passed, taken);
+    totals[part.piece->surface].add(passed, taken);
   }
-  std::vector<LuminanceSums> sums;
-  sums.reserve(totals.size());
-  for (ScheduledTotals const& total : totals) sums.push_back(total.result());
-  return sums;
 }
 
 std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& view,
                                                  CastersInView const& casters, Samples samples,
                                                  View const& behind,
                                                  std::span<SurfaceId const> interiors) const {
+  static thread_local PixelMask lit;
   TileGrid const grid = grid_of(tile, view, casters, samples);
   View const pixels = in_pixels(view, grid);
-  PixelMask lit;
   lit.start(grid.columns(), 0, grid.rows);
   light(lit, tile, grid);
   std::uint64_t const own = lit.lit();
   if (own == 0) return sums_inside(tile, view, casters, Samples::pixels, behind, interiors);
-  std::vector<LuminanceSums> sums;
+  auto const pieces = interior_pieces(grid, in_pixels(behind, grid), interiors);
+  std::vector<LuminanceSums> sums(interiors.size());
   if (casters.opaque()) {
     darken(lit, grid.side(), pixels, casters.surfaces);
-    sums = lit_inside(lit, find_inside(grid, in_pixels(behind, grid), interiors, lit),
-                      interiors.size());
+    each_band(grid, lit, pieces, [&](Band const& band) { add_lit(lit, band, sums); });
   } else {
-    LuminanceTile shaded;
-    PassedSchedules passed;
+    static thread_local LuminanceTile shaded;
+    static thread_local PassedSchedules passed;
     shaded.start(grid.columns(), 0, grid.rows);
     passed.start(grid.columns(), 0, grid.rows);
     shade(lit, shaded, &passed, pixels, casters);
-    sums = luminance_inside(lit, shaded, passed,
-                            find_inside(grid, in_pixels(behind, grid), interiors, lit),
-                            interiors.size());
+    std::vector<ScheduledTotals> totals(interiors.size());
+    each_band(grid, lit, pieces,
+              [&](Band const& band) { add_luminance(lit, shaded, passed, band, totals); });
+    std::transform(totals.begin(), totals.end(), sums.begin(),
+                   [](ScheduledTotals const& total) { return total.result(); });
   }
   for (LuminanceSums& part : sums) scale(part, tile, own);
   return sums;
 }
 
-std::vector<Coverage::InteriorPiece> Coverage::find_inside(TileGrid const& grid, View const& pixels,
-                                                           std::span<SurfaceId const> interiors,
-                                                           PixelMask const& lit) const {
+std::vector<Coverage::InteriorPiece> Coverage::interior_pieces(
+    TileGrid const& grid, View const& pixels, std::span<SurfaceId const> interiors) const {
   std::vector<InteriorPiece> found;
-  std::vector<std::uint64_t> covered(lit.words().size());
-  std::vector<std::uint64_t> several(lit.words().size());
   for (std::size_t i = 0; i < interiors.size(); ++i) {
     pieces_.each(interiors[i], pixels, [&](ProjectedPiece const& piece) {
-      ConvexArea const area = piece.area(grid.side());
-      if (area.first_row >= area.end_row) return;
-      InteriorPiece& added = found.emplace_back();
-      added.surface = i;
-      added.depth = piece.depth();
-      added.mask.start(grid.columns(), 0, grid.rows);
-      added.mask.light(area);
+      found.push_back({i, piece.area(grid.side()), piece.depth()});
+    });
+  }
+  return found;
+}
+
+template <typename Use>
+void Coverage::each_band(TileGrid const& grid, PixelMask const& lit,
+                         std::span<InteriorPiece const> pieces, Use use) {
+  constexpr std::size_t most_words = 4096;
+  static thread_local Band band;
+  static thread_local std::vector<std::uint64_t> covered;
+  static thread_local std::vector<std::uint64_t> several;
+  std::size_t const words_a_row = lit.words().size() / static_cast<std::size_t>(grid.rows);
+  int const rows = std::max(1, static_cast<int>(most_words / words_a_row));
+  for (int first = 0; first < grid.rows; first += rows) {
+    int const end = std::min(first + rows, grid.rows);
+    band.first_word = static_cast<std::size_t>(first) * words_a_row;
+    band.words = static_cast<std::size_t>(end - first) * words_a_row;
+    band.count = 0;
+    covered.assign(band.words, 0);
+    several.assign(band.words, 0);
+    for (InteriorPiece const& piece : pieces) {
+      if (piece.area.first_row >= end || piece.area.end_row <= first) continue;
+      if (band.count == band.kept.size()) band.kept.emplace_back();
+      Band::Part& added = band.kept[band.count++];
+      added.piece = &piece;
+      added.mask.start(grid.columns(), first, end);
+      added.mask.light(piece.area);
       std::span<std::uint64_t const> const words = std::as_const(added.mask).words();
       for (std::size_t k = 0; k < words.size(); ++k) {
         several[k] |= covered[k] & words[k];
         covered[k] |= words[k];
       }
-    });
-  }
-  // In a closed room, two surfaces hardly ever cover the same pixel.
-  for (std::size_t word = 0; word < several.size(); ++word) {
-    for (std::uint64_t rest = several[word] & lit.words()[word]; rest != 0; rest &= rest - 1) {
-      keep_nearest(found, word, std::countr_zero(rest));
     }
+    // In a closed room, two surfaces hardly ever cover the same pixel.
+    std::span<std::uint64_t const> const lit_words = band.rows_of(lit);
+    for (std::size_t word = 0; word < several.size(); ++word) {
+      for (std::uint64_t rest = several[word] & lit_words[word]; rest != 0; rest &= rest - 1) {
+        keep_nearest(band, word, std::countr_zero(rest));
+      }
+    }
+    use(std::as_const(band));
   }
-  return found;
 }
 
-void Coverage::keep_nearest(std::span<InteriorPiece> pieces, std::size_t word, int bit) {
+void Coverage::keep_nearest(Band& band, std::size_t word, int bit) {
   std::uint64_t const pixel = std::uint64_t{1} << static_cast<unsigned>(bit);
-  InteriorPiece* nearest = nullptr;
+  std::uint64_t* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
-  for (InteriorPiece& piece : pieces) {
-    std::uint64_t& pixels = piece.mask.words()[word];
+  for (Band::Part& part : band.parts()) {
+    std::uint64_t& pixels = part.mask.words()[word];
     if ((pixels & pixel) == 0) continue;
-    double const depth = piece.depth_at(word, bit);
+    double const depth = part.depth_at(word, bit);
     if (nearest != nullptr && !(depth < least)) {
       pixels &= ~pixel;
       continue;
     }
-    if (nearest != nullptr) nearest->mask.words()[word] &= ~pixel;
-    nearest = &piece;
+    if (nearest != nullptr) *nearest &= ~pixel;
+    nearest = &pixels;
     least = depth;
   }
 }

@@ -71,6 +71,7 @@ class Coverage {
 
  private:
   struct InteriorPiece;
+  struct Band;
 
   // The areas of a caster in a view with x and y in pixels, one after another.
   template <typename Use>
@@ -92,21 +93,20 @@ class Coverage {
   void darken(PixelMask& mask, int side, View const& pixels,
               std::span<SurfaceId const> casters) const;
 
-  // Sums over the lit samples of the pieces of each of some interior surfaces.
-  static std::vector<LuminanceSums> lit_inside(PixelMask const& lit,
-                                               std::span<InteriorPiece const> pieces,
-                                               std::size_t interiors);
-  static std::vector<LuminanceSums> luminance_inside(PixelMask const& lit,
-                                                     LuminanceTile const& shaded,
-                                                     PassedSchedules const& passed,
-                                                     std::span<InteriorPiece const> pieces,
-                                                     std::size_t interiors);
-
-  // Each pixel in one of them: where several are, in the nearest.
-  std::vector<InteriorPiece> find_inside(TileGrid const& grid, View const& pixels,
-                                         std::span<SurfaceId const> interiors,
-                                         PixelMask const& lit) const;
-  static void keep_nearest(std::span<InteriorPiece> pieces, std::size_t word, int bit);
+  // Where each piece of the interior surfaces is.
+  std::vector<InteriorPiece> interior_pieces(TileGrid const& grid, View const& pixels,
+                                             std::span<SurfaceId const> interiors) const;
+  // Calls use(band) for all rows, in order, with each sample in one piece: where several are, in
+  // the nearest.
+  template <typename Use>
+  static void each_band(TileGrid const& grid, PixelMask const& lit,
+                        std::span<InteriorPiece const> pieces, Use use);
+  static void keep_nearest(Band& band, std::size_t word, int bit);
+  // Add the lit samples of each piece to the sums of its surface.
+  static void add_lit(PixelMask const& lit, Band const& band, std::span<LuminanceSums> sums);
+  static void add_luminance(PixelMask const& lit, LuminanceTile const& shaded,
+                            PassedSchedules const& passed, Band const& band,
+                            std::span<ScheduledTotals> totals);
 
   SurfacePieces pieces_;
 };
