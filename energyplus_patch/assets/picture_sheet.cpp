@@ -1,17 +1,11 @@
 #include "assets/picture_sheet.h"
 
-#include <fmt/format.h>
-
-#include <array>
 #include <cmath>
 
-#include "assets/memory_file.h"
-#include "assets/plugin.h"
+#include "assets/picture_call.h"
 #include "base/text.h"
-#include "gpu_shading/error.h"
 #include "gpu_shading/fraction_colour.h"
 #include "gpu_shading/scene_view.h"
-#include "picture_plugin/picture_plugin.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -34,8 +28,6 @@ bool is_animation(std::filesystem::path const& path) {
 }
 
 std::string encode_sheet(std::string const& name, PictureSheet const& sheet) {
-  static auto const write = reinterpret_cast<decltype(&gpu_shading_write_sheet)>(
-      plugin_function(gpu_shading_picture_library, "pictures", "gpu_shading_write_sheet"));
   std::vector<char const*> pictures;
   std::vector<char const*> captions;
   for (auto const& item : sheet.items) {
@@ -52,12 +44,7 @@ std::string encode_sheet(std::string const& name, PictureSheet const& sheet) {
                               columns,
                               is_animation(name) ? 1 : 0,
                               frames_per_second};
-  MemoryFile const file;
-  std::array<char, 512> message{};
-  if (write(file.path().c_str(), name.c_str(), &all, message.data(), message.size()) != 0) {
-    throw Error(fmt::format("{}: cannot be drawn: {}", name, message.data()));
-  }
-  return file.contents();
+  return write_picture<decltype(gpu_shading_write_sheet)>("gpu_shading_write_sheet", name, all);
 }
 
 }  // namespace gpu_shading::energyplus
