@@ -13,15 +13,6 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-glm::dvec3 longest_edge(Ring const& ring) {
-  glm::dvec3 longest{0.0};
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    auto const edge = ring[(i + 1) % ring.size()] - ring[i];
-    if (glm::dot(edge, edge) > glm::dot(longest, longest)) longest = edge;
-  }
-  return longest;
-}
-
 // The unit vector up the slope; along the longest edge or across it, towards north, if the surface
 // is horizontal.
 glm::dvec3 up_the_map(Polygon const& polygon, glm::dvec3 const& normal) {
@@ -71,34 +62,13 @@ double area_of(FlatRing const& ring) {
   return std::abs(twice) / 2.0;
 }
 
-// By the odd-even rule.
-bool is_inside(std::vector<FlatRing> const& rings, glm::dvec2 const& point) {
-  bool odd = false;
-  for (auto const& ring : rings) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      auto const& a = ring[i];
-      auto const& b = ring[(i + 1) % ring.size()];
-      if ((a.y > point.y) == (b.y > point.y)) continue;
-      if (point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
-    }
-  }
-  return odd;
-}
-
-// The i-th point of the R2 sequence (Roberts 2018), which fills the unit square evenly.
-glm::dvec2 share(std::size_t i) {
-  // The powers of the inverse of the plastic number.
-  constexpr glm::dvec2 step{0.7548776662466927, 0.5698402909980532};
-  return glm::fract(glm::dvec2(0.5) + static_cast<double>(i + 1) * step);
-}
-
 // The i-th point inside the parts of a cell; `other` if they are too small for the points to meet.
 glm::dvec2 point_inside(std::vector<FlatRing> const& parts, glm::dvec2 const& low,
                         glm::dvec2 const& size, std::size_t i, glm::dvec2 const& other) {
   constexpr std::size_t tries = 64;
   constexpr std::size_t stride = 1000003;
   for (std::size_t attempt = 0; attempt < tries; ++attempt) {
-    auto const point = low + share(i + attempt * stride) * size;
+    auto const point = low + spread_point(i + attempt * stride) * size;
     if (is_inside(parts, point)) return point;
   }
   return other;
@@ -179,7 +149,7 @@ void MapGrid::add_cell(int column, int row) {
 
 glm::dvec3 MapGrid::point(MapCell const& cell, std::size_t i) const {
   auto const low = glm::dvec2(cell.column, cell.row) * cell_size_;
-  if (cell.parts.empty()) return axes_.place(low + share(i) * cell_size_);
+  if (cell.parts.empty()) return axes_.place(low + spread_point(i) * cell_size_);
   return axes_.place(point_inside(cell.parts, low, cell_size_, i, cell.centre));
 }
 

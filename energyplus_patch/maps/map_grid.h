@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gpu_shading/polygon.h"
+#include "maps/flat_polygon.h"
 
 namespace gpu_shading::energyplus {
 
@@ -23,15 +24,13 @@ struct MapAxes {
   bool operator==(MapAxes const&) const = default;
 };
 
-using FlatRing = std::vector<glm::dvec2>;  // in u and v, m
-
 // A cell of the grid, cut off at the receiver's edges and at the openings in it.
 struct MapCell {
   int column = 0;  // along u, from the left
   int row = 0;     // along v, from below
   double area = 0.0;
   glm::dvec2 centre{0.0};       // of the cell; if it is cut, of its part inside
-  std::vector<FlatRing> parts;  // what is inside, by the odd-even rule, if it is cut
+  std::vector<FlatRing> parts;  // in u and v, m: what is inside, by the odd-even rule, if it is cut
 };
 
 // A receiver cut into cells of equal size, along its bounding rectangle.

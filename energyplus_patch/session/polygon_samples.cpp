@@ -1,9 +1,9 @@
 #include "session/polygon_samples.h"
 
-#include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+
+#include "maps/flat_polygon.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -21,31 +21,6 @@ struct Plane {
     return origin + point.x * along + point.y * across;
   }
 };
-
-glm::dvec3 longest_edge(Ring const& ring) {
-  glm::dvec3 longest{0.0};
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    auto const edge = ring[(i + 1) % ring.size()] - ring[i];
-    if (glm::dot(edge, edge) > glm::dot(longest, longest)) longest = edge;
-  }
-  return longest;
-}
-
-using FlatRing = std::vector<glm::dvec2>;
-
-// By the odd-even rule.
-bool inside(std::vector<FlatRing> const& rings, glm::dvec2 const& point) {
-  bool odd = false;
-  for (auto const& ring : rings) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      auto const& a = ring[i];
-      auto const& b = ring[(i + 1) % ring.size()];
-      if ((a.y > point.y) == (b.y > point.y)) continue;
-      if (point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
-    }
-  }
-  return odd;
-}
 
 }  // namespace
 
@@ -70,14 +45,11 @@ std::vector<glm::dvec3> polygon_samples(Polygon const& polygon, std::size_t coun
     high = glm::max(high, point);
   }
 
-  // The powers of the inverse of the plastic number.
-  constexpr glm::dvec2 step{0.7548776662466927, 0.5698402909980532};
   constexpr std::size_t tries = 64;  // for each point that is wanted
   std::vector<glm::dvec3> points;
-  for (std::size_t i = 1; i <= tries * count && points.size() < count; ++i) {
-    auto const share = glm::fract(glm::dvec2(0.5) + static_cast<double>(i) * step);
-    auto const point = low + share * (high - low);
-    if (inside(rings, point)) points.push_back(plane.place(point));
+  for (std::size_t i = 0; i < tries * count && points.size() < count; ++i) {
+    auto const point = low + spread_point(i) * (high - low);
+    if (is_inside(rings, point)) points.push_back(plane.place(point));
   }
   return points;
 }

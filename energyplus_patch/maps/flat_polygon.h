@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "gpu_shading/polygon.h"
+
+// Polygons in their plane, and points spread over them.
+namespace gpu_shading::energyplus {
+
+using FlatRing = std::vector<glm::dvec2>;
+
+// From one vertex of a ring to the next.
+glm::dvec3 longest_edge(Ring const& ring);
+
+// Whether an odd number of rings encloses a point.
+bool is_inside(std::vector<FlatRing> const& rings, glm::dvec2 const& point);
+
+// The i-th point, from 0, of the R2 sequence (Roberts 2018), which fills the unit square evenly.
+glm::dvec2 spread_point(std::size_t i);
+
+}  // namespace gpu_shading::energyplus
