@@ -16,12 +16,6 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-Rewrite rewrite_for(Model const& model) {
-  return {model.options.mode == Mode::off ? "PolygonClipping" : "PixelCounting",
-          model.options.update.every_timestep ? "Timestep" : "", model.lean.left_out,
-          model.lean.placeholders};
-}
-
 // Returns what EnergyPlus is to read instead of the model.
 Rewrite take_model(std::vector<InputObject> objects, std::filesystem::path const& path,
                    std::string const& version, MentionFinder const& find_mentions) {

@@ -56,12 +56,6 @@ nlohmann::json (*original_read_json)(Path const&, std::ios_base::openmode) = nul
 void (*original_end)(State&) = nullptr;
 void (*original_abort)(State&) = nullptr;
 
-Rewrite rewrite_for(Model const& model) {
-  return {model.options.mode == Mode::off ? "PolygonClipping" : "PixelCounting",
-          model.options.update.every_timestep ? "Timestep" : "", model.lean.left_out,
-          model.lean.placeholders};
-}
-
 // Objects that polygon clipping ignores.
 void warn_of_missing_surroundings(Run const& run) {
   if (run.model->surroundings.empty()) return;

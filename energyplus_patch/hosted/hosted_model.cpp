@@ -30,12 +30,6 @@ namespace {
 
 using Path = std::filesystem::path;
 
-Rewrite rewrite_for(Model const& model) {
-  return {model.options.mode == Mode::off ? "PolygonClipping" : "PixelCounting",
-          model.options.update.every_timestep ? "Timestep" : "", model.lean.left_out,
-          model.lean.placeholders};
-}
-
 Messages messages_of_run(std::shared_ptr<AskedTask> const& task) {
   return {[task](std::string const& line) {
             print_line("warning: " + line);

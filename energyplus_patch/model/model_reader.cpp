@@ -152,4 +152,10 @@ Model read_model(std::filesystem::path const& path, Choices const& choices) {
   return understand(read_objects(path), path, choices);
 }
 
+Rewrite rewrite_for(Model const& model) {
+  return {model.options.mode == Mode::off ? "PolygonClipping" : "PixelCounting",
+          model.options.update.every_timestep ? "Timestep" : "", model.lean.left_out,
+          model.lean.placeholders};
+}
+
 }  // namespace gpu_shading::energyplus

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "idf/input_object.h"
+#include "idf/model_file.h"
 #include "input/perforated_screens.h"
 #include "input/shading_input.h"
 #include "input/transparent_shades.h"
@@ -49,6 +50,9 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
 
 // The same, from the model's file (.idf, .imf or .epJSON).
 Model read_model(std::filesystem::path const& path, Choices const& choices);
+
+// What EnergyPlus is to read in place of the model's file.
+Rewrite rewrite_for(Model const& model);
 
 // The file of extension objects of a model: choices.file, or the one beside the model, or none.
 std::optional<std::filesystem::path> find_side_file(std::filesystem::path const& model,
