@@ -13,6 +13,7 @@
 #include <span>
 #include <string_view>
 
+#include "base/markup_text.h"
 #include "gpu_shading/fraction_colour.h"
 #include "page/page_parts.h"
 
@@ -56,29 +57,6 @@ std::string base64(std::vector<std::uint16_t> const& values) {
   return base64(bytes);
 }
 
-std::string html_escaped(std::string_view text) {
-  std::string escaped;
-  for (char const character : text) {
-    switch (character) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += character;
-    }
-  }
-  return escaped;
-}
-
 // For a script element, which ends at the first "</script", whatever is around it.
 std::string script_text(Json const& json) {
   std::string text;
@@ -91,11 +69,6 @@ std::string script_text(Json const& json) {
     }
   }
   return text;
-}
-
-std::string valid_text(std::string const& text) {
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
-      .get<std::string>();
 }
 
 std::size_t vertices_of(Polygon const& polygon) {
@@ -325,7 +298,7 @@ std::string filled(std::string_view text, std::map<std::string_view, std::string
 std::string to_html(RunPage page) {
   simplify(page);
   return filled(page_parts::page_html, {{"marker", page_marker},
-                                        {"title", html_escaped(valid_text(page.title))},
+                                        {"title", markup_text(page.title)},
                                         {"style", page_parts::page_css},
                                         {"content", script_text(content_of(page))},
                                         {"library", page_parts::three_js},

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/markup_text.h"
 #include "program/screen_optics.h"
 
 namespace gpu_shading::energyplus {
@@ -94,27 +95,6 @@ std::string matrix_text(std::vector<double> const& values) {
   return text;
 }
 
-std::string escaped(std::string const& text) {
-  std::string safe;
-  for (char const character : text) {
-    switch (character) {
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '&':
-        safe += "&amp;";
-        break;
-      default:
-        // Names in IDF files may be in Latin-1.
-        safe += static_cast<unsigned char>(character) < 0x80 ? character : '?';
-    }
-  }
-  return safe;
-}
-
 void write_basis(std::ostream& xml) {
   xml << "<AngleBasis>\n<AngleBasisName>LBNL/Klems Full</AngleBasisName>\n";
   for (auto const& row : klems_full) {
@@ -158,7 +138,7 @@ void write_bsdf(PerforatedScreen const& screen, double rotation, std::string con
   xml << fmt::format(
       "<Name>{}</Name>\n<Manufacturer>{}</Manufacturer>\n"
       "<Thickness unit=\"Millimeter\">{:g}</Thickness>\n<DeviceType>Other</DeviceType>\n",
-      escaped(name), escaped(description), millimetres * screen.sheet().thickness);
+      markup_text(name), markup_text(description), millimetres * screen.sheet().thickness);
   xml << "</Material>\n<DataDefinition>\n<IncidentDataStructure>Columns</IncidentDataStructure>\n";
   write_basis(xml);
   xml << "</DataDefinition>\n";

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
-#include <nlohmann/json.hpp>
 
+#include "base/markup_text.h"
 #include "gpu_shading/fraction_colour.h"
 #include "program/screen_optics.h"
 
@@ -25,30 +25,6 @@ constexpr int last_theta = 88;
 constexpr int phi_step = 5;
 constexpr double right_angle = 90.0;
 constexpr int circle = 360;
-
-std::string xml_text(std::string const& text) {
-  using Json = nlohmann::json;
-  // What is not UTF-8 would make the file malformed.
-  auto const valid = Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
-                         .get<std::string>();
-  std::string escaped;
-  for (char const letter : valid) {
-    switch (letter) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      default:
-        escaped += letter;
-    }
-  }
-  return escaped;
-}
 
 glm::dvec2 place(double theta, double phi) {
   double const distance = radius * theta / right_angle;
@@ -163,7 +139,7 @@ void write_polar_plot(PerforatedScreen const& screen, std::string const& title,
                       std::string const& subtitle, std::ostream& svg) {
   double const open = screen.open_fraction();
   double const most = open > 0.0 ? open : 1.0;
-  auto const name = xml_text(title);
+  auto const name = markup_text(title);
   svg << fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
       "height=\"{1}\" role=\"img\" aria-labelledby=\"title about\" font-family=\"sans-serif\" "
@@ -172,9 +148,9 @@ void write_polar_plot(PerforatedScreen const& screen, std::string const& title,
       "<desc id=\"about\">Polar plot of the fraction of the beam that passes, by angle of "
       "incidence and azimuth. {3}</desc>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
-      width, height, name, xml_text(subtitle));
+      width, height, name, markup_text(subtitle));
   svg << "<g font-size=\"20\" font-weight=\"bold\">" << label(24.0, 36.0, "start", name) << "</g>\n"
-      << "<g font-size=\"13\">" << label(24.0, 60.0, "start", xml_text(subtitle)) << "</g>\n";
+      << "<g font-size=\"13\">" << label(24.0, 60.0, "start", markup_text(subtitle)) << "</g>\n";
   write_cells(screen, most, svg);
   write_axes(svg);
   write_scale(most, svg);

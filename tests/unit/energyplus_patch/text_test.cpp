@@ -7,6 +7,8 @@
 #include <regex>
 #include <string>
 
+#include "base/markup_text.h"
+#include "base/markup_text.h"
 #include "base/nearest_word.h"
 
 namespace gpu_shading::energyplus {
@@ -87,6 +89,14 @@ TEST(Text, AMessageIsOneLine) {
   EXPECT_TRUE(cut.starts_with("model.idf: x"));
   EXPECT_TRUE(cut.ends_with("x, expected a number"));
   EXPECT_EQ(printable("a\nb"), "a\\nb");
+}
+
+TEST(MarkupText, ClosesNoTagAndIsUtf8) {
+  EXPECT_EQ(markup_text("a</title>&\"b\"\n\xe9"), "a&lt;/title&gt;&amp;&quot;b&quot;?\xef\xbf\xbd");
+  EXPECT_EQ(markup_text("S\xc3\xbc"
+                        "d"),
+            "S\xc3\xbc"
+            "d");
 }
 
 }  // namespace
