@@ -10,7 +10,8 @@ enum class Result { integer, real };
 
 template <typename Type>
 constexpr Result result_of() {
-  if constexpr (!std::is_void_v<Type> && std::is_trivially_copyable_v<Type>) {
+  if constexpr (!std::is_void_v<Type> && !std::is_pointer_v<Type> &&
+                std::is_trivially_copyable_v<Type>) {
     static_assert(sizeof(Type) <= sizeof(void*), "only the first register of a result is returned");
   }
   return std::is_floating_point_v<Type> ? Result::real : Result::integer;
