@@ -8,7 +8,6 @@
 #include <string>
 
 #include "base/markup_text.h"
-#include "base/markup_text.h"
 #include "base/nearest_word.h"
 
 namespace gpu_shading::energyplus {
