@@ -209,7 +209,7 @@ def test_a_killed_view_leaves_whole_pictures(patched, program, model, tmp_path):
     folder = tmp_path / "pictures"
     lines = [f"{number:03}.png {100 + number} 30\n" for number in range(60)]
     (tmp_path / "views.txt").write_text("".join(lines))
-    arguments = ["view", model, "--list", tmp_path / "views.txt", "-o", folder, "--size", "500"]
+    arguments = ["view", model, "--list", tmp_path / "views.txt", "-o", folder, "--size", "200"]
     began = time.monotonic()
     assert program(*arguments).returncode == 0
     whole = time.monotonic() - began
