@@ -10,6 +10,7 @@ from shading_runs import energyplus
 
 CALLS = ("open", "write", "fsync", "rename", "mkdir")
 COMMANDS = ("check", "view", "sample", "export", "run")
+WRITERS = (*COMMANDS, "map")
 
 
 def built(name):
@@ -104,12 +105,14 @@ def command(request, patched, model, weather, tmp_path_factory):
         "export": ([program, "export", model, "-w", weather, "--scheduled", folder / "out"], ["out/**/*"]),
         "run": ([patched, "--gpu-shading", f"--gpu-shading-report={folder / 'report'}",
                  f"--gpu-shading-cache={folder / 'cache'}", "-w", weather, "-D", "-d", folder.parent / "energyplus",
-                 model], ["report/*.csv", "report/*.png", "cache/*.sunlit"]),
+                 model], ["report/*.csv", "report/*.png", "report/*.html", "cache/*.sunlit"]),
+        "map": ([program, "map", model, "-w", weather, "--from", "06-21", "--to", "06-21", "--receivers", "South",
+                 "-o", folder / "out"], ["out/*"]),
     }[name]
     return Command(name, words, folder, finals)
 
 
-@pytest.mark.parametrize("command", COMMANDS, indirect=True)
+@pytest.mark.parametrize("command", WRITERS, indirect=True)
 def test_no_failing_call_leaves_a_cut_file_or_passes_unnoticed(command, failing_calls, tmp_path):
     whole = command.run_whole()
     tried = 0
@@ -129,7 +132,7 @@ def test_no_failing_call_leaves_a_cut_file_or_passes_unnoticed(command, failing_
 
 def strides(count):
     """Numbers from 1 to `count`: close to each other at first, where a program starts, and then all along it."""
-    steps = 12
+    steps = 8
     return sorted({round(count ** (i / steps)) for i in range(steps + 1)} |
                   {1 + (count - 1) * i // steps for i in range(steps)})
 

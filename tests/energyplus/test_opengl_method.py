@@ -3,8 +3,8 @@
 import os
 import shutil
 import subprocess
-import sys
 
+import example_models
 import pytest
 import screened_room
 from shading_runs import energyplus, input_file, results
@@ -13,11 +13,6 @@ SCRIPT = energyplus.REPOSITORY / "scripts" / "patch_energyplus"
 SAME = 1e-4  # single precision, and counts of 512 x 512 pixels
 PASSED = "sunlit fractions are passed to EnergyPlus through its calls of OpenGL"
 FLAG = "--gpu-shading-method=opengl"
-
-
-def canopy():
-    folder = energyplus.REPOSITORY / "idf_examples" / "canopy"
-    return subprocess.run([sys.executable, folder / "generate.py"], capture_output=True, text=True, check=True).stdout
 
 
 def compared(patched, model, weather, folder, options=("-D",), frequency="Hourly", program=None):
@@ -49,7 +44,7 @@ def test_as_patched(name, patched, courtyard, weather, tmp_path):
     if name == "courtyard":
         model.write_text(courtyard.read_text())
     elif name == "canopy":
-        model.write_text(canopy())
+        model.write_text(example_models.canopy())
     elif name == "screened room":
         model.write_text(screened_room.model(screen="small holes"))
     else:
