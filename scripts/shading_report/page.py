@@ -7,7 +7,7 @@ import jinja2
 import numpy as np
 from shading_runs import results, verdict
 
-from shading_report import building, charts, facts, origin, pictures
+from shading_report import building, charts, facts, origin, pictures, tables
 
 HERE = Path(__file__).resolve().parent
 
@@ -167,11 +167,8 @@ def _numbered(lines, shown):
     return (first + [line for line in lines if not line.anchor])[:building.MOST_NUMBERS]
 
 
-def write(output, everything, weather, most, further):
-    """Writes DIR/report.html about the runs that have results, the reference first. Returns its path.
-
-    most: number of receivers shown hour by hour, those that differ most.
-    """
+def _gather(output, everything, weather, most, further):
+    """What the page and its table are made of; draws the pictures into the output folder."""
     runs = [run for run in everything if run.results]
     calendar = facts.Calendar(runs[0].results)
     names = [found.receiver.name for found in runs[1].found
@@ -189,14 +186,7 @@ def write(output, everything, weather, most, further):
                         for number, line in enumerate(numbered, start=1)})
     by_environment, by_month = facts.energies(runs, calendar)
     timed = [(run.label, origin.stages(run)) for run in runs]
-
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
-                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters |= {"number": _number, "fraction": _fraction, "difference": _difference,
-                            "signed_difference": _signed_difference}
-    text = environment.get_template("page.html").render(
-        style=(HERE / "page.css").read_text(encoding="utf-8"),
-        script=(HERE / "page.js").read_text(encoding="utf-8"),
+    return dict(
         model=runs[0].model.name,
         weather=weather.name,
         written=origin.written(),
@@ -223,6 +213,25 @@ def write(output, everything, weather, most, further):
         stage_chart=charts.stages(timed, "Seconds of each run by stage"),
         origin=origin.rows(runs, weather, further),
     )
+
+
+def write(output, everything, weather, most, further):
+    """Writes DIR/report.html about the runs that have results, the reference first, and DIR/report.csv with the page's
+    numbers. Returns the page's path.
+
+    most: number of receivers shown hour by hour, those that differ most.
+    """
+    page = _gather(output, everything, weather, most, further)
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment.filters |= {"number": _number, "fraction": _fraction, "difference": _difference,
+                            "signed_difference": _signed_difference}
+    text = environment.get_template("page.html").render(
+        style=(HERE / "page.css").read_text(encoding="utf-8"),
+        script=(HERE / "page.js").read_text(encoding="utf-8"),
+        **page,
+    )
+    tables.write(output / "report.csv", page)
     path = output / "report.html"
     path.write_text(text, encoding="utf-8")
     return path

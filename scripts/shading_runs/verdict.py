@@ -39,6 +39,12 @@ def _ignored(runs, other):
             "are of different buildings.")
 
 
+def share_beyond(other, limit):
+    """The share of the hours with |d| beyond a limit, 0 to 1."""
+    values = [value for found in other.found for value in found.values]
+    return sum(abs(value) > limit for value in values) / max(1, len(values))
+
+
 def _sunlit(other, limit):
     values = [abs(value) for found in other.found for value in found.values]
     if not values:
@@ -48,7 +54,7 @@ def _sunlit(other, limit):
     within = results.percentile(values, 0.99)
     if within <= limit:
         return f"Sunlit fractions agree: 99 % of the hours are within {max(within, 1e-9):.1g}."
-    share, mean = 100 * sum(value > limit for value in values) / len(values), sum(values) / len(values)
+    share, mean = 100 * share_beyond(other, limit), sum(values) / len(values)
     return f"Sunlit fractions differ: {share:.0f} % of the hours by more than {limit:g}, and by {mean:.2g} in the mean."
 
 

@@ -1,5 +1,7 @@
 """Reads a page's tables, and looks at pages in a browser."""
 
+import bisect
+import csv
 import html.parser
 import json
 import re
@@ -62,6 +64,39 @@ def number(text):
     return float(text.replace("–", "nan").replace("\u2212", "-").replace(",", ""))
 
 
+_NUMBER = re.compile(r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e[+-]\d+)?(\s%)?")
+
+
+def _numbers(text):
+    """[(number as printed, its value, half a unit of its last digit, whether it is a percentage)]."""
+    plain = re.sub(r"(?<=\d),(?=\d{3})", "", text.replace("\u2212", "-"))
+    found = []
+    for match in _NUMBER.finditer(plain):
+        mantissa, _, exponent = match[0].removesuffix(match[1] or "").partition("e")
+        half = 0.5 * 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
+        found.append((match[0], abs(float(match[0].removesuffix(match[1] or ""))), half, bool(match[1])))
+    return found
+
+
+def _cells(table):
+    with open(table, newline="", encoding="utf-8") as file:
+        for row in csv.reader(file):
+            yield from row
+
+
+def not_in_tables(texts, tables):
+    """The numbers in some texts that no CSV file has, to the digits that are printed; a percentage may be a fraction
+    there, and a sign a word."""
+    values = sorted({value for table in tables for cell in _cells(table) for _, value, _, _ in _numbers(cell)})
+
+    def has(value, half):
+        place = bisect.bisect_left(values, value - half * (1 + 1e-6))
+        return place < len(values) and values[place] <= value + half * (1 + 1e-6)
+
+    return [printed for text in texts for printed, value, half, is_percentage in _numbers(text)
+            if not has(value, half) and not (is_percentage and has(value / 100, half / 100))]
+
+
 def browser():
     """A headless Chromium; skips where there is none."""
     found = next(filter(None, map(shutil.which, BROWSERS)), None)
@@ -101,6 +136,18 @@ function contrast(element) {
   const text = luminance(numbers(element.closest("svg") ? style.fill : style.color));
   const paper = luminance(background(element));
   return (Math.max(text, paper) + 0.05) / (Math.min(text, paper) + 0.05);
+}
+// What a reader sees, piece by piece, without charts and controls.
+function texts() {
+  const found = [];
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  while (walker.nextNode()) {
+    const element = walker.currentNode.parentElement;
+    const left = element.closest("svg, script, style, select, button, [aria-hidden=true]");
+    const text = walker.currentNode.textContent.trim();
+    if (text && !left && element.getClientRects().length > 0) found.push(text);
+  }
+  return found;
 }
 function faults() {
   const found = [];

@@ -10,7 +10,7 @@ import daylit_rooms
 import numpy as np
 import pytest
 from eso_file import EsoFile
-from html_page import Tables, look_at, number, screenshot
+from html_page import DARK, Tables, look_at, not_in_tables, number, screenshot
 from PIL import Image
 from shading_runs import energyplus, input_file, methods
 from shading_runs.energyplus import Run
@@ -25,7 +25,6 @@ QUANTITIES = {
 }
 WEST_ZONES = 3  # of which the model has one
 RECEIVERS = 3
-WIDTHS = (480, 1280)
 
 # Half a unit of the last digit that the page prints.
 ENERGY = 0.005 + 1e-9
@@ -51,10 +50,14 @@ LOOK = """() => {
     width: innerWidth,
     wide: document.documentElement.scrollWidth,
     outside: outside.map((element) => element.outerHTML.slice(0, 200)),
+    scrolled: [...document.querySelectorAll(".months table, caption")].filter((element) =>
+      element.getBoundingClientRect().right > innerWidth).map((element) => element.textContent.slice(0, 60)),
     charts: charts.map((chart) => [chart.getAttribute("aria-label"), marks(chart), chart.clientWidth]),
     images: [...document.images].map((image) => [image.alt, image.naturalWidth]),
     sorted: [...table.tBodies[0].rows].map((row) => Number(row.cells[heading].dataset.value)),
     smallest: Math.min(...charts.map((chart) => chart.getBoundingClientRect().height)),
+    faults: faults(),
+    texts: texts(),
   };
 }"""
 
@@ -123,15 +126,13 @@ def test_energies_are_those_reported(page, reported):
 
 
 def test_months_are_those_reported(page, reported):
-    rows = {row[0]: list(map(number, row[1:])) for row in page.tables["table-months"][2:]}
-    assert list(rows) == ["Sep", "Oct"]
-    for month, name in ((9, "Sep"), (10, "Oct")):
-        expected = []
-        for variable in QUANTITIES.values():
+    for number_of, (quantity, variable) in enumerate(QUANTITIES.items(), start=1):
+        rows = {row[0]: list(map(number, row[1:])) for row in page.tables[f"table-months-{number_of}"][1:]}
+        assert list(rows) == ["Sep", "Oct"]
+        for month, name in ((9, "Sep"), (10, "Oct")):
             before, after = (sum(value for when, value in hourly_sum(eso, variable).items() if when[0] == month)
                              for eso in reported)
-            expected += [before, after, after - before]
-        assert rows[name] == pytest.approx(expected, abs=ENERGY)
+            assert rows[name] == pytest.approx([before, after, after - before], abs=ENERGY), quantity
 
 
 def test_peaks_are_the_largest_hours_reported(page, reported):
@@ -216,14 +217,17 @@ def test_the_page_needs_nothing_else(page):
     assert [reference for reference in page.references if not reference.startswith(("#", "data:"))] == []
 
 
-@pytest.mark.parametrize("width", WIDTHS)
-def test_the_page_in_a_browser(variants, tmp_path, width):
-    seen = look_at(variants / "report.html", width, LOOK, tmp_path)
+@pytest.mark.parametrize("width, options", [(480, DARK), (1280, ())], ids=["phone dark", "desktop"])
+def test_the_page_in_a_browser(variants, tmp_path, width, options):
+    seen = look_at(variants / "report.html", width, LOOK, tmp_path, *options)
     assert seen["troubles"] == []
+    assert seen["faults"] == []
+    assert len(seen["texts"]) > 300
+    assert not_in_tables(seen["texts"], [variants / f"{name}.csv" for name in ("report", "receivers", "hourly")]) == []
     assert seen["width"] == width
     assert seen["folded"] == RECEIVERS - 1
     assert seen["wide"] <= width
-    assert seen["outside"] == []
+    assert seen["outside"] == [] and seen["scrolled"] == []
     # Two of all receivers, three of months, one of seconds; of each receiver three maps, scatter and histogram.
     assert len(seen["charts"]) == 2 + 3 + 1 + 5 * RECEIVERS
     for label, marks, chart_width in seen["charts"]:
@@ -233,7 +237,7 @@ def test_the_page_in_a_browser(variants, tmp_path, width):
     assert all(natural > 50 for _, natural in seen["images"])
     assert seen["sorted"] == sorted(seen["sorted"], reverse=True) and seen["sorted"][0] > 0.01
 
-    screenshot(variants / "report.html", width, 3000, tmp_path / "page.png")
+    screenshot(variants / "report.html", width, 3000, tmp_path / "page.png", *options)
     with Image.open(tmp_path / "page.png") as picture:
         assert picture.size == (width, 3000)
         assert len(picture.convert("RGB").getcolors(1 << 24)) > 100
@@ -248,7 +252,7 @@ def test_polygon_clipping_is_the_reference_where_none_is_named(official, patched
     tables = Tables((tmp_path / "report.html").read_text(encoding="utf-8")).tables
     assert tables["table-energy"][0][2:4] == ["PolygonClipping kWh", "Renderer kWh"]
     assert [row[0] for row in tables["table-energy"][1:] if row[0]] == ["CLEAR AUTUMN DAY"]
-    assert "table-months" not in tables  # a design day is no month
+    assert "table-months-1" not in tables  # a design day is no month
 
 
 def test_one_folder_for_one_model_after_another(patched, courtyard, weather, tmp_path):
