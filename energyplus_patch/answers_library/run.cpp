@@ -1,5 +1,7 @@
 #include "answers_library/run.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -51,6 +53,16 @@ std::string read_idf_text(std::string const& text, std::filesystem::path const& 
   return rewrite_idf(text, parsed, take_model(std::move(objects), path, version, find));
 }
 
+// EnergyPlus itself asks this library, which is no choice.
+void warn_of_method(Choices const& choices) {
+  auto const method = choices.method.value_or(Method::automatic);
+  if (method == Method::automatic) return;
+  print_line(
+      fmt::format("warning: --gpu-shading-method {}: ignored, because this EnergyPlus was compiled "
+                  "with gpu_shading",
+                  name_of(method)));
+}
+
 }  // namespace
 
 SourceRun& source_run() {
@@ -81,7 +93,10 @@ std::vector<std::string> take_options(std::vector<std::string> arguments) {
     auto const environment = energyplus::read_environment();
     run.wanted = run.choices.any() || environment.mode;
     run.choices.fill_from(environment);
-    if (run.wanted) energyplus::apply_to_process(run.choices);
+    if (run.wanted) {
+      energyplus::warn_of_method(run.choices);
+      energyplus::apply_to_process(run.choices);
+    }
   } catch (std::exception const& error) {
     run.wanted = true;
     run.wrong = energyplus::error_line(error);

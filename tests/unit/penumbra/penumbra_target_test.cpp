@@ -289,4 +289,11 @@ TEST_F(PenumbraModel, RefusesWrongOptionsAndModels) {
   EXPECT_THAT(read("GPUShading:TransparentShade,Foil,Screen,Constant,5;"), HasSubstr("Foil"));
 }
 
+TEST_F(PenumbraModel, SaysThatItHasOneMethod) {
+  testing::internal::CaptureStderr();
+  Penumbra::take_options({"--gpu-shading-method=scheduled"});
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              HasSubstr("--gpu-shading-method scheduled: ignored"));
+}
+
 }  // namespace
