@@ -305,8 +305,8 @@ void add_screen(CLI::App& app, Choices const& choices) {
   auto const bsdf = std::make_shared<std::string>();
   command
       ->add_option("--bsdf", *bsdf,
-                   "File for the direct transmission of one screen as a BSDF, in WINDOW's XML "
-                   "with Klems's 145 x 145 directions")
+                   "File for one screen as a BSDF, in WINDOW's XML with Klems's 145 x 145 "
+                   "directions: direct transmission, and diffuse reflection of the faces")
       ->type_name("FILE");
   command->footer(std::string(flags_help()));
   command->callback([task, folder, bsdf, choices] {

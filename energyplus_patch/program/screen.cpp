@@ -197,8 +197,8 @@ void print_legend() {
   fmt::print(
       "\nFraction of the beam that passes, tau, by angle of incidence from the normal, theta, and\n"
       "azimuth about the normal, phi, in degrees. u (phi = 0) runs to the right along the lower\n"
-      "edge of the surface as seen from outside, and v (phi = 90) runs up. Both faces are alike,\n"
-      "and so are phi and phi + 180.\n");
+      "edge of the surface as seen from outside, and v (phi = 90) runs up; there, theta is the\n"
+      "profile angle. Both faces are alike, and so are phi and phi + 180.\n");
 }
 
 void write_table(PerforatedScreen const& screen, std::ostream& csv) {
@@ -265,11 +265,39 @@ void write_files(std::vector<DescribedScreen> const& screens, StagedFiles& files
   for (auto const& name : written) fmt::print("{}\n", (folder / name).string());
 }
 
-void write_bsdf_file(std::vector<DescribedScreen> const& screens, Path const& file) {
-  auto const& described = screens.front();
+// As EnergyPlus has it for solar reflections: of the model's ShadingProperty:Reflectance, or its
+// default.
+SheetReflectance reflectance_of(std::string const& surface, ShadingInput const& shading) {
+  auto const found = shading.shading_surfaces.find(surface);
+  auto const properties =
+      found == shading.shading_surfaces.end() ? ShadingInput::ShadingSurface{} : found->second;
+  double const matt = 1.0 - properties.glazed;
+  return {matt * properties.reflectance, matt * properties.visible_reflectance};
+}
+
+SheetReflectance reflectance_of(NamedScreen const& named, ShadingInput const& shading,
+                                Path const& file) {
+  auto const& first = named.surfaces.front();
+  auto const reflectance = reflectance_of(first, shading);
+  auto const differs = [&](std::string const& surface) {
+    return reflectance_of(surface, shading) != reflectance;
+  };
+  auto const other = std::find_if(named.surfaces.begin(), named.surfaces.end(), differs);
+  if (other != named.surfaces.end()) {
+    print_line(
+        fmt::format("warning: --bsdf {}: {} and {} have different reflectances; the file has "
+                    "those of {}",
+                    file.string(), printable(first), printable(*other), printable(first)));
+  }
+  return reflectance;
+}
+
+void write_bsdf_file(DescribedScreen const& described, ShadingInput const& shading,
+                     Path const& file) {
   auto const& object = described.named.maker->object();
+  auto const reflectance = reflectance_of(described.named, shading, file);
   write_whole_file(file, [&](std::ostream& xml) {
-    write_bsdf(*described.screen, described.rotation, printable(object),
+    write_bsdf(*described.screen, described.rotation, reflectance, printable(object),
                one_line(described.description), xml);
   });
   fmt::print("{}\n", file.string());
@@ -294,7 +322,7 @@ void describe_screens(ScreenTask const& task, Choices const& choices) {
   }
   print_legend();
   if (files) write_files(screens, *files, *task.folder);
-  if (task.bsdf) write_bsdf_file(screens, *task.bsdf);
+  if (task.bsdf) write_bsdf_file(screens.front(), model.shading, *task.bsdf);
 }
 
 }  // namespace gpu_shading::energyplus

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <numbers>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/markup_text.h"
@@ -36,6 +37,12 @@ constexpr std::array<PatchRow, 9> klems_full{{{0.0, 0.0, 5.0, 1},
                                               {60.0, 55.0, 65.0, 24},
                                               {70.0, 65.0, 75.0, 16},
                                               {82.5, 75.0, 90.0, 12}}};
+
+std::size_t patch_count() {
+  std::size_t count = 0;
+  for (auto const& row : klems_full) count += static_cast<std::size_t>(row.patches);
+  return count;
+}
 
 double squared_sine(double degrees) {
   double const sine = std::sin(glm::radians(degrees));
@@ -79,20 +86,29 @@ std::vector<double> diagonal(PerforatedScreen const& screen, double rotation) {
   return values;
 }
 
-std::string matrix_text(std::vector<double> const& values) {
+// The whole matrix by a function of row and column.
+template <typename Value>
+std::string matrix_text(std::size_t size, Value const& value) {
   std::string text;
-  for (std::size_t row = 0; row < values.size(); ++row) {
-    for (std::size_t column = 0; column < values.size(); ++column) {
-      if (column > 0) text += ',';
-      if (row == column) {
-        fmt::format_to(std::back_inserter(text), "{:.6g}", values[row]);
-      } else {
-        text += '0';
-      }
+  for (std::size_t row = 0; row < size; ++row) {
+    for (std::size_t column = 0; column < size; ++column) {
+      fmt::format_to(std::back_inserter(text), "{:.6g},", value(row, column));
     }
-    text += ",\n";
+    text += '\n';
   }
   return text;
+}
+
+std::string transmission_text(PerforatedScreen const& screen, double rotation) {
+  auto const values = diagonal(screen, rotation);
+  return matrix_text(values.size(), [&](std::size_t row, std::size_t column) {
+    return row == column ? values[row] : 0.0;
+  });
+}
+
+std::string reflection_text(PerforatedScreen const& screen, double reflectance) {
+  double const value = reflectance * (1.0 - screen.open_fraction()) / std::numbers::pi;
+  return matrix_text(patch_count(), [&](std::size_t, std::size_t) { return value; });
 }
 
 void write_basis(std::ostream& xml) {
@@ -106,8 +122,9 @@ void write_basis(std::ostream& xml) {
   xml << "</AngleBasis>\n";
 }
 
-void write_block(std::string_view wavelength, std::string_view direction, std::string const& matrix,
-                 std::ostream& xml) {
+void write_block(std::string_view wavelength, std::string const& direction,
+                 std::string const& matrix, std::ostream& xml) {
+  auto const* const type = direction.starts_with("Reflection") ? "BRDF" : "BTDF";
   xml << fmt::format(
       "<WavelengthData>\n<LayerNumber>System</LayerNumber>\n"
       "<Wavelength unit=\"Integral\">{}</Wavelength>\n"
@@ -116,36 +133,51 @@ void write_block(std::string_view wavelength, std::string_view direction, std::s
       "<WavelengthDataDirection>{}</WavelengthDataDirection>\n"
       "<ColumnAngleBasis>LBNL/Klems Full</ColumnAngleBasis>\n"
       "<RowAngleBasis>LBNL/Klems Full</RowAngleBasis>\n"
-      "<ScatteringDataType>BTDF</ScatteringDataType>\n<ScatteringData>\n",
-      wavelength, direction);
+      "<ScatteringDataType>{}</ScatteringDataType>\n<ScatteringData>\n",
+      wavelength, direction, type);
   xml << matrix << "</ScatteringData>\n</WavelengthDataBlock>\n</WavelengthData>\n";
+}
+
+void write_head(PerforatedScreen const& screen, SheetReflectance const& reflectance,
+                std::string const& name, std::string const& description, std::ostream& xml) {
+  constexpr double millimetres = 1000.0;
+  xml << fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<!-- By gpu_shading screen.\n"
+      "     Transmission: the beam that passes the holes straight on, away from the edges of the "
+      "sheet.\n"
+      "     Reflection: diffuse, of the solid share of the faces, {:.4f}, times their reflectance, "
+      "{:g} (solar) and {:g} (visible).\n"
+      "     Not in it: light that the walls of holes reflect, and infrared properties. -->\n",
+      1.0 - screen.open_fraction(), reflectance.solar, reflectance.visible);
+  xml << "<WindowElement xmlns=\"http://windows.lbl.gov\" "
+         "xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
+         "xsi:schemaLocation=\"http://windows.lbl.gov/BSDF-v1.7.xsd\">\n"
+         "<WindowElementType>System</WindowElementType>\n<FileType>BSDF</FileType>\n"
+         "<Optical>\n<Layer>\n";
+  xml << fmt::format(
+      "<Material>\n<Name>{}</Name>\n<Manufacturer>{}</Manufacturer>\n"
+      "<Thickness unit=\"Millimeter\">{:g}</Thickness>\n<DeviceType>Other</DeviceType>\n"
+      "</Material>\n",
+      markup_text(name), markup_text(description), millimetres * screen.sheet().thickness);
 }
 
 }  // namespace
 
-void write_bsdf(PerforatedScreen const& screen, double rotation, std::string const& name,
+void write_bsdf(PerforatedScreen const& screen, double rotation,
+                SheetReflectance const& reflectance, std::string const& name,
                 std::string const& description, std::ostream& xml) {
-  constexpr double millimetres = 1000.0;
-  xml << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-         "<!-- By gpu_shading screen. In it: the beam that passes the holes straight on, away from "
-         "the edges of the sheet.\n     Not in it: what the sheet reflects, light that the walls "
-         "of holes reflect, and the visible or infrared\n     properties of a material. -->\n"
-         "<WindowElement xmlns=\"http://windows.lbl.gov\" "
-         "xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
-         "xsi:schemaLocation=\"http://windows.lbl.gov/BSDF-v1.7.xsd\">\n"
-         "<WindowElementType>System</WindowElementType>\n<FileType>BSDF</FileType>\n"
-         "<Optical>\n<Layer>\n<Material>\n";
-  xml << fmt::format(
-      "<Name>{}</Name>\n<Manufacturer>{}</Manufacturer>\n"
-      "<Thickness unit=\"Millimeter\">{:g}</Thickness>\n<DeviceType>Other</DeviceType>\n",
-      markup_text(name), markup_text(description), millimetres * screen.sheet().thickness);
-  xml << "</Material>\n<DataDefinition>\n<IncidentDataStructure>Columns</IncidentDataStructure>\n";
+  write_head(screen, reflectance, name, description, xml);
+  xml << "<DataDefinition>\n<IncidentDataStructure>Columns</IncidentDataStructure>\n";
   write_basis(xml);
   xml << "</DataDefinition>\n";
-  auto const matrix = matrix_text(diagonal(screen, rotation));
-  for (auto const* const wavelength : {"Solar", "Visible"}) {
-    for (auto const* const direction : {"Transmission Front", "Transmission Back"}) {
-      write_block(wavelength, direction, matrix, xml);
+  auto const passed = transmission_text(screen, rotation);
+  for (auto const& [wavelength, share] :
+       {std::pair("Solar", reflectance.solar), std::pair("Visible", reflectance.visible)}) {
+    auto const reflected = reflection_text(screen, share);
+    for (auto const* const side : {"Front", "Back"}) {
+      write_block(wavelength, fmt::format("Transmission {}", side), passed, xml);
+      write_block(wavelength, fmt::format("Reflection {}", side), reflected, xml);
     }
   }
   xml << "</Layer>\n</Optical>\n</WindowElement>\n";

@@ -15,7 +15,7 @@ namespace {
 
 // Pixels.
 constexpr double width = 760.0;
-constexpr double height = 680.0;
+constexpr double height = 696.0;
 constexpr glm::dvec2 centre{330.0, 370.0};
 constexpr double radius = 240.0;
 
@@ -155,9 +155,9 @@ void write_polar_plot(PerforatedScreen const& screen, std::string const& title,
   write_axes(svg);
   write_scale(most, svg);
   svg << "<g font-size=\"13\">"
+      << label(24.0, height - 35.0, "start", "tau: fraction of the beam that passes.")
       << label(24.0, height - 16.0, "start",
-               "tau: fraction of the beam that passes. Radius: angle of incidence. Around: azimuth "
-               "from u to v, seen from outside.")
+               "Radius: angle of incidence. Around: azimuth from u to v, seen from outside.")
       << "</g>\n"
       << "</svg>\n";
 }
