@@ -71,7 +71,11 @@ Period period_of(MapOrder const& order) {
           order.to.empty() ? last : parse_day("--to", order.to)};
 }
 
-// The times of the period with the sun up.
+// The times of the period with the sun up, from a run of EnergyPlus with nothing but calendar,
+// weather and schedules: a second or two for a year of any model. The run that traces cannot tell
+// them: it ends at its first question about shading, before any weather, and without that end it
+// would simulate the building for the whole year. The model is read here for the names of the
+// schedules, which EnergyPlus only reports if it is asked for them by name.
 RunTimes times_of(ModelRun const& run, Period const& period) {
   EnergyPlusCall call;
   call.program = find_launcher();
