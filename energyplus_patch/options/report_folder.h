@@ -8,6 +8,7 @@ namespace gpu_shading::energyplus {
 inline constexpr char const* sunlit_table = "sunlit.csv";
 inline constexpr char const* pictures_table = "pictures.csv";
 inline constexpr char const* stages_table = "stages.csv";
+inline constexpr char const* facts_table = "run_facts.csv";
 inline constexpr char const* hours_table = "run_hours.csv";
 inline constexpr char const* receivers_table = "run_receivers.csv";
 

@@ -227,6 +227,13 @@ void add_maps(RunPage& page, std::filesystem::path const& report) {
   }
 }
 
+void write_facts(RunPage const& page, std::ostream& csv) {
+  csv << "fact,value\n";
+  for (auto const& [fact, value] : page.facts) {
+    csv << fmt::format("{},{}\n", csv_field(fact), csv_field(value));
+  }
+}
+
 void write_receivers(RunPage const& page, std::ostream& csv) {
   csv << "receiver,area [m2],azimuth [deg],tilt [deg],mean sunlit fraction,beam [kWh/m2],"
          "beam [kWh]\n";
@@ -284,6 +291,7 @@ void write_run(StagedFiles& files, std::filesystem::path const& folder,
   auto const days = chosen_days(record);
   auto page = page_of(assembly, device, record, days);
   add_maps(page, folder);
+  files.write(facts_table, [&](std::ostream& csv) { write_facts(page, csv); });
   files.write(receivers_table, [&](std::ostream& csv) { write_receivers(page, csv); });
   files.write(hours_table, [&](std::ostream& csv) { write_hours(page, days, csv); });
   files.write(page_file, to_html(std::move(page)));

@@ -16,6 +16,7 @@ namespace gpu_shading::energyplus {
 //                      solar energy of the run (kWh/m2 and kWh)
 //   run_hours.csv      month and day, hour at whose end the sun is there, its azimuth and altitude
 //                      (degrees), and the sunlit fraction of each receiver, 0 if it faces away
+//   run_facts.csv      what the page says below its title
 // Maps that gpu_shading map has written into the report's folder, or its folder maps, are on the
 // page, too.
 void write_run(StagedFiles& files, std::filesystem::path const& folder,

@@ -9,7 +9,7 @@ import subprocess
 import numpy as np
 import pytest
 from eso_file import EsoFile
-from html_page import DARK, SOFTWARE_WEBGL, look_at, print_page, screenshot
+from html_page import DARK, SOFTWARE_WEBGL, look_at, not_in_tables, print_page, screenshot
 from PIL import Image
 from shading_runs import energyplus, input_file
 
@@ -61,6 +61,7 @@ LOOK = """() => {
   document.querySelector("#receivers thead th:nth-child(2) button").click();
   seen.rows = [...document.querySelectorAll("#receivers tbody tr")].map((row) =>
     [...row.cells].map((cell) => cell.textContent));
+  seen.texts = texts();
   fire("filter", "roof", "input");
   seen.filtered = document.querySelectorAll("#receivers tbody tr").length;
   return seen;
@@ -164,6 +165,14 @@ def test_the_page_has_the_numbers_of_the_tables(run, on_desktop):
     assert seen["filtered"] == 2
 
 
+def test_every_number_is_in_a_table(run, on_desktop):
+    tables = [*run[1].glob("run_*.csv"), run[1] / "maps" / "maps.csv"]
+    texts = on_desktop["texts"]
+    assert len(tables) == 4 and len(texts) > 150
+    assert not_in_tables(texts, tables) == []
+    assert not_in_tables([*texts, "7.654321 kWh"], tables) == ["7.654321"]
+
+
 @pytest.mark.parametrize("where, width", [("on_desktop", 1400), ("on_phone_in_the_dark", 390)])
 def test_the_page_in_a_browser(request, where, width):
     seen = request.getfixturevalue(where)
@@ -238,7 +247,7 @@ def test_without_webgl_there_is_a_plain_drawing(page, tmp_path, lacks):
     seen = look_at(plain, 1000, LOOK, tmp_path, before=NO_WEBGL if lacks == "WebGL" else "")
     assert seen["troubles"] == [] and seen["faults"] == []
     assert seen["drawn"] == "PlainDrawing" and lacks in seen["missing"]
-    assert seen["begins"][0] > 20 and seen["begins"] != seen["moved"]
+    assert seen["begins"][0] > 20 and len({seen[key][1] for key in ("begins", "moved", "mapped")}) == 3
     assert len(seen["rows"]) == 18
 
 

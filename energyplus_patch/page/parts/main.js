@@ -120,10 +120,10 @@ function colourBy(kind) {
 }
 
 function addColourings() {
-  if (content.maps.list.length === 0 || !view.colourBy) return;
+  if (content.maps.list.length === 0) return;
   part("colouring").append(new Option("sunlit fraction now", ""),
     ...MAP_KINDS.map(([kind, title]) => new Option(`map: ${title.toLowerCase()}`, kind)));
-  part("colouring").hidden = part("colouring-label").hidden = false;
+  part("colourings").hidden = part("of-maps").hidden = false;
   part("colouring").addEventListener("change", () => colourBy(part("colouring").value));
 }
 
@@ -162,7 +162,7 @@ function addView() {
     part("view-missing").textContent = typeof THREE === "undefined"
       ? "A plain drawing without shadows: this build has no library for drawings in 3D."
       : "A plain drawing without shadows: this browser has no WebGL.";
-    part("view-help").hidden = true;
+    part("view-help").hidden = part("path-label").hidden = true;
   }
   view.onChoose = choose;
 }

@@ -8,14 +8,27 @@ function mapDays() {
   return `${text(content.maps.from)} to ${text(content.maps.to)}`;
 }
 
-function mapTexture(map, kind) {
+// Red, green, blue and opacity of each cell, from the lowest row up.
+function mapTexels(map, kind) {
   const codes = bytesOf(map[kind]);
-  const texels = new Uint8Array(4 * codes.length);
+  const texels = new Uint8ClampedArray(4 * codes.length);
   codes.forEach((code, i) => texels.set(code === 255 ? [0, 0, 0, 0] : [...scaleColour(code / 250), 255], 4 * i));
-  const texture = new THREE.DataTexture(texels, map.columns, map.rows, THREE.RGBAFormat);
+  return texels;
+}
+
+function mapTexture(map, kind) {
+  const texture = new THREE.DataTexture(new Uint8Array(mapTexels(map, kind)), map.columns, map.rows, THREE.RGBAFormat);
   texture.magFilter = texture.minFilter = THREE.NearestFilter;
   texture.needsUpdate = true;
   return texture;
+}
+
+// A canvas with a pixel for each cell, the lowest row at the top.
+function mapCanvas(map, kind) {
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [map.columns, map.rows];
+  canvas.getContext("2d").putImageData(new ImageData(mapTexels(map, kind), map.columns, map.rows), 0, 0);
+  return canvas;
 }
 
 // The receiver's surface with its map on it.

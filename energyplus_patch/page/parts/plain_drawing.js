@@ -8,6 +8,7 @@ class PlainDrawing {
     this.onChoose = () => {};
     this.direction = [0.75, -1, 0.62];
     this.castersShown = true;
+    this.maps = new Map(); // by receiver: {map, picture}
     canvas.addEventListener("click", (event) => this.pick(event));
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
@@ -22,6 +23,11 @@ class PlainDrawing {
   choose(receiver) { this.chosen = receiver; this.draw(); }
   setCasters(shown) { this.castersShown = shown; this.draw(); }
   setPath() {}
+  colourBy(kind) {
+    this.mapKind = kind;
+    this.maps = new Map((kind ? content.maps.list : []).map((map) => [map.receiver, {map, picture: mapCanvas(map, kind)}]));
+    this.draw();
+  }
   copyTo(canvas) {
     canvas.height = canvas.width * this.canvas.height / this.canvas.width;
     canvas.getContext("2d").drawImage(this.canvas, 0, 0, canvas.width, canvas.height);
@@ -29,7 +35,7 @@ class PlainDrawing {
   refreshTheme() { this.draw(); }
 
   colourOf(number) {
-    if (number >= content.receiverCount) return theme().caster;
+    if (number >= content.receiverCount || this.mapKind) return theme().caster;
     return this.time ? percentColour(percentOf(number, ...this.time)) : theme().turnedAway;
   }
 
@@ -62,8 +68,49 @@ class PlainDrawing {
       context.strokeStyle = one.number === this.chosen ? `#${theme().choice.toString(16).padStart(6, "0")}` : "#30353b";
       context.lineWidth = one.number === this.chosen ? 3 : 1;
       context.fill(one.path, "evenodd");
+      if (this.maps.has(one.number)) this.drape(one.path, this.maps.get(one.number), place);
       context.stroke(one.path);
     }
+    context.globalAlpha = 1;
+    this.drawNorth(right, up);
+  }
+
+  // An arrow to the north in the lower right corner.
+  drawNorth(right, up) {
+    const context = this.canvas.getContext("2d");
+    const length = 34 * devicePixelRatio;
+    const [x, y] = [this.canvas.width - 1.6 * length, this.canvas.height - 1.6 * length];
+    const [dx, dy] = [right[1], -up[1]];
+    const place = (along, across) => [x + length * (along * dx - across * dy), y + length * (along * dy + across * dx)];
+    context.fillStyle = context.strokeStyle = theme().north;
+    context.lineWidth = 2 * devicePixelRatio;
+    context.beginPath();
+    context.moveTo(...place(-0.7, 0));
+    context.lineTo(...place(0.4, 0));
+    context.stroke();
+    context.beginPath();
+    for (const corner of [[0.8, 0], [0.35, 0.18], [0.35, -0.18]]) context.lineTo(...place(...corner));
+    context.fill();
+    context.font = `bold ${15 * devicePixelRatio}px sans-serif`;
+    context.textAlign = "center";
+    context.textBaseline = "middle";
+    context.fillText("N", ...place(1.25, 0));
+  }
+
+  // In parallel projection, the rectangle of a map is a parallelogram. `place`: of a point on the canvas.
+  drape(path, {map, picture}, place) {
+    const context = this.canvas.getContext("2d");
+    const [x, y] = place(map.corner);
+    const along = (side) => place(map.corner.map((value, axis) => value + side[axis]));
+    const [rightX, rightY] = along(map.right);
+    const [upX, upY] = along(map.up);
+    context.save();
+    context.clip(path, "evenodd");
+    context.imageSmoothingEnabled = false;
+    context.setTransform((rightX - x) / map.columns, (rightY - y) / map.columns, (upX - x) / map.rows, (upY - y) / map.rows,
+      x, y);
+    context.drawImage(picture, 0, 0);
+    context.restore();
   }
 
   pick(event) {
