@@ -82,41 +82,6 @@ bool is_drawable(Polygon const& polygon) {
          std::all_of(polygon.holes.begin(), polygon.holes.end(), small);
 }
 
-// Leaves out the smallest surfaces that only cast shadows, until the others fit.
-void simplify(RunPage& page) {
-  auto const first = page.receivers.size();
-  std::vector<std::size_t> casters(page.surfaces.size() - first);
-  std::iota(casters.begin(), casters.end(), first);
-  std::vector<double> areas(page.surfaces.size(), 0.0);
-  for (auto const i : casters) areas[i] = area(page.surfaces[i].polygon);
-  std::stable_sort(casters.begin(), casters.end(),
-                   [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
-  std::vector<bool> kept(page.surfaces.size(), false);
-  std::size_t vertices = 0;
-  std::size_t drawn = 0;
-  for (std::size_t i = 0; i < first; ++i) {
-    kept[i] = true;
-    vertices += vertices_of(page.surfaces[i].polygon);
-  }
-  for (auto const i : casters) {
-    vertices += vertices_of(page.surfaces[i].polygon);
-    if (vertices > most_vertices) break;
-    kept[i] = is_drawable(page.surfaces[i].polygon);
-    drawn += kept[i] ? 1 : 0;
-  }
-  if (drawn < casters.size()) {
-    page.notes.push_back(
-        fmt::format("The drawing is simplified: it has {} of {} casting surfaces, the largest. "
-                    "The sunlit fractions are those of the whole model.",
-                    drawn, casters.size()));
-  }
-  std::vector<PageSurface> surfaces;
-  for (std::size_t i = 0; i < page.surfaces.size(); ++i) {
-    if (kept[i]) surfaces.push_back(std::move(page.surfaces[i]));
-  }
-  page.surfaces = std::move(surfaces);
-}
-
 struct Extent {
   glm::dvec3 low{0.0};
   double step = 1.0;  // m
@@ -294,6 +259,40 @@ std::string filled(std::string_view text, std::map<std::string_view, std::string
 }
 
 }  // namespace
+
+void simplify(RunPage& page) {
+  auto const first = page.receivers.size();
+  std::vector<std::size_t> casters(page.surfaces.size() - first);
+  std::iota(casters.begin(), casters.end(), first);
+  std::vector<double> areas(page.surfaces.size(), 0.0);
+  for (auto const i : casters) areas[i] = area(page.surfaces[i].polygon);
+  std::stable_sort(casters.begin(), casters.end(),
+                   [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
+  std::vector<bool> kept(page.surfaces.size(), false);
+  std::size_t vertices = 0;
+  std::size_t drawn = 0;
+  for (std::size_t i = 0; i < first; ++i) {
+    kept[i] = true;
+    vertices += vertices_of(page.surfaces[i].polygon);
+  }
+  for (auto const i : casters) {
+    vertices += vertices_of(page.surfaces[i].polygon);
+    if (vertices > most_vertices) break;
+    kept[i] = is_drawable(page.surfaces[i].polygon);
+    drawn += kept[i] ? 1 : 0;
+  }
+  if (drawn < casters.size()) {
+    page.notes.push_back(
+        fmt::format("The drawing is simplified: it has {} of {} casting surfaces, the largest. "
+                    "The sunlit fractions are those of the whole model.",
+                    drawn, casters.size()));
+  }
+  std::vector<PageSurface> surfaces;
+  for (std::size_t i = 0; i < page.surfaces.size(); ++i) {
+    if (kept[i]) surfaces.push_back(std::move(page.surfaces[i]));
+  }
+  page.surfaces = std::move(surfaces);
+}
 
 std::string to_html(RunPage page) {
   simplify(page);

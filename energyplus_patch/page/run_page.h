@@ -89,8 +89,11 @@ struct RunPage {
 // The beginning of the line by which a page is known to be ours.
 inline constexpr char const* page_marker = "<meta name=\"generator\" content=\"gpu_shading report";
 
-// The page as HTML. Names may hold anything. Casting surfaces beyond some 2 MB are left out, the
-// smallest first, and the page says so. A build without three.js makes a plain drawing.
+// Leaves out casting surfaces beyond some 2 MB, the smallest first, and adds a note that says so.
+void simplify(RunPage& page);
+
+// The page as HTML, simplified. Names may hold anything. A build without three.js makes a plain
+// drawing.
 std::string to_html(RunPage page);
 
 }  // namespace gpu_shading::energyplus

@@ -232,6 +232,7 @@ void write_facts(RunPage const& page, std::ostream& csv) {
   for (auto const& [fact, value] : page.facts) {
     csv << fmt::format("{},{}\n", csv_field(fact), csv_field(value));
   }
+  for (auto const& note : page.notes) csv << fmt::format("Note,{}\n", csv_field(note));
 }
 
 void write_receivers(RunPage const& page, std::ostream& csv) {
@@ -291,6 +292,7 @@ void write_run(StagedFiles& files, std::filesystem::path const& folder,
   auto const days = chosen_days(record);
   auto page = page_of(assembly, device, record, days);
   add_maps(page, folder);
+  simplify(page);
   files.write(facts_table, [&](std::ostream& csv) { write_facts(page, csv); });
   files.write(receivers_table, [&](std::ostream& csv) { write_receivers(page, csv); });
   files.write(hours_table, [&](std::ostream& csv) { write_hours(page, days, csv); });

@@ -28,16 +28,21 @@ function carpet(receiver, now, onGo) {
     "aria-label": `Sunlit fraction of ${content.names[receiver]} by day and hour`});
   const pattern = svg("pattern", {id: "away-pattern", width: 5, height: 5, patternUnits: "userSpaceOnUse"});
   pattern.append(svg("path", {d: "M0 5 L5 0"}));
-  plot.append(pattern);
+  // Filled once: on paper, each filling is a picture.
+  const away = svg("path", {class: "hatched"});
+  plot.append(pattern, away);
+  const hatched = [];
   content.days.forEach((day, d) => day.hours.forEach(([hour], h) => {
     const percent = percentOf(receiver, d, h);
     const field = svg("rect", {x: x(d).toFixed(2), y: y(hour), width: column.toFixed(2), height: row,
       class: percent === content.turnedAway ? "field away" : "field"});
     if (percent !== content.turnedAway) field.setAttribute("fill", css(scaleColour(percent / 100)));
+    else hatched.push(`M${x(d).toFixed(2)} ${y(hour)}h${column.toFixed(2)}v${row}h${-column.toFixed(2)}z`);
     field.append(svg("title", {}, `${dayText(day)}, ${hourText(hour)}: ${percentText(percent)}`));
     field.addEventListener("click", () => onGo(d, h));
     plot.append(field);
   }));
+  away.setAttribute("d", hatched.join(""));
   plot.append(svg("rect", {x: left, y: 4, width: width - left - 2, height: bottom - 4, class: "frame"}));
   for (let hour = first; hour <= last; ++hour) {
     if (hour % 3 === 0) plot.append(svg("text", {x: left - 4, y: y(hour) + row - 2, "text-anchor": "end"}, hourText(hour)));

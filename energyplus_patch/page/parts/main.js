@@ -185,10 +185,11 @@ function refreshTheme() {
   view.refreshTheme();
 }
 
-// On paper everything is in the light theme, and the model is a copy in a shape that fits a page.
+// On paper everything is in the light theme, the model is a copy in a shape that fits a page, and the table is shorter.
 function print(begins) {
   printing = begins;
   refreshTheme();
+  receiverTable.fill();
   if (begins) view.copyTo?.(part("paper-view"));
 }
 

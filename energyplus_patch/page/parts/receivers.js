@@ -3,6 +3,7 @@
 const COLUMNS = [["Receiver", 0], ["Area, m\u00b2", 3], ["Azimuth, \u00b0", 1], ["Tilt, \u00b0", 1], ["Mean sunlit fraction", 4],
   ["Beam, kWh/m\u00b2", 1], ["Beam, kWh", 1]];
 const MOST_ROWS = 500;
+const MOST_ROWS_ON_PAPER = 100;
 
 class ReceiverTable {
   constructor(table, filter, shown, onChoose) {
@@ -46,8 +47,9 @@ class ReceiverTable {
       else cell.setAttribute("aria-sort", this.ascending ? "ascending" : "descending");
     });
     const body = this.table.tBodies[0];
-    body.replaceChildren(...rows.slice(0, MOST_ROWS).map((receiver) => this.row(receiver)));
-    this.shown.textContent = rows.length > MOST_ROWS ? `first ${MOST_ROWS} of ${rows.length}`
+    const most = printing ? MOST_ROWS_ON_PAPER : MOST_ROWS;
+    body.replaceChildren(...rows.slice(0, most).map((receiver) => this.row(receiver)));
+    this.shown.textContent = rows.length > most ? `first ${most} of ${rows.length}`
       : `${rows.length} of ${content.receiverCount}`;
     this.mark(this.chosen);
   }
