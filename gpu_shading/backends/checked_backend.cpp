@@ -48,6 +48,10 @@ CheckedBackend::CheckedBackend(std::unique_ptr<ViewBackend> device,
 
 DeviceInfo const& CheckedBackend::device() const { return device_ ? info_ : reference_->device(); }
 
+bool CheckedBackend::samples_pixels(ReceiverView const& view) const {
+  return (device_ ? device_ : reference_)->samples_pixels(view);
+}
+
 void CheckedBackend::add(std::vector<ReceiverView> views) {
   if (!device_) return reference_->add(std::move(views));
   for (ReceiverView const& view : views) {

@@ -30,6 +30,7 @@ class CheckedBackend : public ViewBackend {
                  BackendInput const& input, Warn warn);
 
   DeviceInfo const& device() const override;
+  bool samples_pixels(ReceiverView const& view) const override;
 
   void add(std::vector<ReceiverView> views) override;
   std::vector<ViewSums> finish() override;

@@ -17,6 +17,11 @@ namespace {
 // Number of casters from which several cores share a view.
 constexpr std::size_t worth_sharing = 200;
 
+// Pixels per side of a tile up to which holes smaller than pixels are replaced by their effective
+// transmittance, which takes no account of where the receiver's edges cut them: with holes of a
+// millimetre over some metres, that is an error of 3e-5.
+constexpr int largest_by_effect = 4096;
+
 }  // namespace
 
 DeviceInfo cpu_device() {
@@ -35,6 +40,11 @@ CpuBackend::CpuBackend(BackendInput const& input)
       coverage_(input.meshes),
       transmission_(input.transmission),
       statistics_(input.statistics) {}
+
+bool CpuBackend::samples_pixels(ReceiverView const& view) const {
+  return view.transmits && transmission_.any_schedule(view.casters) &&
+         !transmission_.any_screen(view.casters);
+}
 
 CpuBackend::ViewScreens CpuBackend::note_screens(ReceiverView const& view,
                                                  std::vector<ScreensAtDirection>& directions) {
@@ -86,6 +96,8 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
   View const in_front = view_in_front(*view.frame, tile.map, view.towards_sun);
   CastersInView casters{view.casters, {}, screens};
   casters.screens.overlap = !view.at_pixels && any_overlap(screens, in_front);
+  casters.screens.every_hole =
+      casters.screens.overlap || (!view.at_pixels && tile.side > largest_by_effect);
   if (view.transmits) {
     plain = transmission_.plain_among(view.casters);
     shades.reserve(plain.size());

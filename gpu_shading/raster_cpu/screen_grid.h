@@ -9,10 +9,6 @@ namespace gpu_shading {
 // Samples of a tile behind perforated screens: nearly as many as it has pixels, on a grid with
 // which the screens' holes do not alias, of some grids with more columns and fewer rows. `view` is
 // that of the casters in front.
-//
-// The mean of a screen over a grid is wrong by the amplitude of each of the screen's frequencies
-// times that of the receiver's outline, at the frequency's distance from the nearest vector of the
-// grid's reciprocal lattice.
 TileGrid screen_grid(Tile const& tile, View const& view, ScreensInView const& screens);
 
 }  // namespace gpu_shading

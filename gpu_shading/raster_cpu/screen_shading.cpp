@@ -212,13 +212,6 @@ void shade(LuminanceTile& shaded, PixelMask& lit, View const& pixels, Screens::E
 
 }  // namespace
 
-double pixel_in_sheet(Screens::Entry const& screen, View const& pixels) {
-  glm::dvec3 const x(pixels.x);
-  glm::dvec3 const y(pixels.y);
-  return 1.0 / std::sqrt(std::abs(glm::dot(x, screen.u) * glm::dot(y, screen.v) -
-                                  glm::dot(x, screen.v) * glm::dot(y, screen.u)));
-}
-
 bool all_or_nothing(ScreensInView const& in_view, View const& pixels) {
   return std::all_of(in_view.numbers.begin(), in_view.numbers.end(), [&](int number) {
     SheetInBeam const& sheet = in_view.sheets[static_cast<std::size_t>(number)];

@@ -15,18 +15,16 @@ struct ScreensInView {
   Screens const* screens = nullptr;
   std::span<SheetInBeam const> sheets;  // by number
   std::span<int const> numbers;         // of screens in view
-  // Some ray passes two of them: what it passes depends on how their holes meet, and holes are
-  // drawn for any size of pixels, unless a screen is to be drawn by its effect.
+  // Some ray passes two of them: what it passes depends on how their holes meet.
   bool overlap = false;
+  // Holes are drawn for any size of pixels, unless a screen is to be drawn by its effect.
+  bool every_hole = false;
 };
 
-// The size of pixels in a screen's plane, m; `pixels` has its x and y in pixels.
-double pixel_in_sheet(Screens::Entry const& screen, View const& pixels);
-
-// The same, or 0 where holes are drawn for any size.
+// The size of pixels in a screen's plane, m, or 0 where holes are drawn for any size.
 inline double drawn_pixel(ScreensInView const& in_view, Screens::Entry const& screen,
                           View const& pixels) {
-  return in_view.overlap ? 0.0 : pixel_in_sheet(screen, pixels);
+  return in_view.every_hole ? 0.0 : pixel_in_sheet(screen, pixels);
 }
 
 // Whether screens let the beam pass or not, and nothing between.

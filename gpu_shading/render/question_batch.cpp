@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "render/tile_stretch.h"
 #include "threads/parallel.h"
 #include "view/stopwatch.h"
 
@@ -61,11 +62,23 @@ void QuestionBatch::take(Asked const& asked, InView in_view, std::vector<Receive
   in_view.detail.across += static_cast<double>(std::min<std::size_t>(question.interiors.size(), 6));
   int const side =
       parts_.receivers.side_for(seen, in_view, parts_.transmission.any_screen(in_view.casters));
-  Tile& tile = parts_.receivers.tile(question.receiver, side);
   bool const transmits = parts_.transmission.any_transmits(in_view.casters);
-  viewed_.push_back({asked, &tile, in_view.casters.size(), transmits});
-  views.push_back({question.receiver, &*seen.frame, &tile, question.towards_sun, asked.cosine,
-                   std::move(in_view.casters), transmits, question.through, question.interiors});
+  ReceiverView view{question.receiver, &*seen.frame,
+                    nullptr,           question.towards_sun,
+                    asked.cosine,      std::move(in_view.casters),
+                    transmits,         question.through,
+                    question.interiors};
+  Tile& tile = tile_for(view, side);
+  view.tile = &tile;
+  viewed_.push_back({asked, &tile, view.casters.size(), transmits});
+  views.push_back(std::move(view));
+}
+
+Tile& QuestionBatch::tile_for(ReceiverView const& view, int side) {
+  Tile& tile = parts_.receivers.tile(view.receiver, side);
+  if (!parts_.backend.samples_pixels(view)) return tile;
+  double const stretch = stretch_without_aliasing(view, tile, parts_.scene, parts_.transmission);
+  return parts_.receivers.tile(view.receiver, side, stretch);
 }
 
 void QuestionBatch::finish() {

@@ -52,6 +52,7 @@ class QuestionBatch {
   void look();
   // Answers immediately if nothing is in view, otherwise adds the view.
   void take(Asked const& asked, InView in_view, std::vector<ReceiverView>& views);
+  Tile& tile_for(ReceiverView const& view, int side);
   void answer(Viewed const& viewed, ViewSums const& sums);
   Sunlit sunlit(LuminanceSums const& sums, Viewed const& viewed, std::uint64_t pixels) const;
 

@@ -28,12 +28,13 @@ int Receivers::side_for(Receiver const& receiver, InView const& in_view, bool sc
   return screened ? size_.side_with_screens(side) : side;
 }
 
-Tile& Receivers::tile(SurfaceId id, int side) {
+Tile& Receivers::tile(SurfaceId id, int side, double stretch) {
   Receiver& receiver = find(id);
-  auto const known = receiver.tiles.find(side);
+  std::pair const kind(side, stretch);
+  auto const known = receiver.tiles.find(kind);
   if (known != receiver.tiles.end()) return known->second;
-  return receiver.tiles.emplace(side, make_tile(surface(id).polygon, *receiver.frame, side, most_))
-      .first->second;
+  Tile tile = make_tile(surface(id).polygon, *receiver.frame, side, most_, stretch);
+  return receiver.tiles.emplace(kind, std::move(tile)).first->second;
 }
 
 void Receivers::bound(SurfaceId id, Tile& tile) {

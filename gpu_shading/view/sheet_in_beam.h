@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/screens.h"
+#include "view/view.h"
 
 namespace gpu_shading {
 
@@ -48,6 +49,9 @@ struct SheetInBeam {
   int regions_up = 0;
   std::vector<glm::vec4> regions;
 };
+
+// The size of pixels in a screen's plane, m; `pixels` has its x and y in pixels.
+double pixel_in_sheet(Screens::Entry const& screen, View const& pixels);
 
 // Whether the effective transmittance varies between regions. Computes the screen's table.
 bool varies(PerforatedScreen const& screen);

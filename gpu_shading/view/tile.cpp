@@ -27,8 +27,7 @@ void lay_out(Tile& tile, Mesh const& mesh, PlaneFrame const& frame) {
 
 // Shifts of less than half a pixel, for which the margin leaves room, by powers of the plastic
 // number, which spread evenly for any count (Roberts' R2 sequence).
-void place_lattice(Tile& tile, Mesh const& mesh, PlaneFrame const& frame, double net) {
-  constexpr int places = 16;
+void place_lattice(Tile& tile, Mesh const& mesh, PlaneFrame const& frame, double net, int places) {
   constexpr double plastic = 1.32471795724474602596;
   glm::dvec2 const middle = tile.map.offset;
   double const wanted = net / tile.pixel_area;
@@ -55,20 +54,23 @@ Polygon bounding_rectangle(PlaneFrame const& frame) {
 
 }  // namespace
 
-Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, int most) {
+Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, int most,
+               double stretch) {
   double const net = area(polygon);
   double const wanted = std::max(fewest_pixels, resolution * (resolution / 64.0));
   int const limit = std::max(resolution, std::min(largest_side, most));
   Tile tile;
   tile.side = resolution;
   for (;;) {
-    tile.map = fit_tile(frame, polygon.outline, tile.side);
+    tile.map = fit_tile(frame, polygon.outline, tile.side, stretch);
     tile.pixel_area = tile.map.pixel_area(tile.side);
     if (net >= wanted * tile.pixel_area || tile.side > limit / 2) break;
     tile.side *= 2;
   }
   if (net < fewest_pixels * tile.pixel_area) return bounding_tile(polygon, frame, tile.side);
-  place_lattice(tile, triangulate(polygon), frame, net);
+  // A stretched tile is one of several of a receiver, and few views have the same.
+  int const places = stretch == 1.0 ? 16 : 2;
+  place_lattice(tile, triangulate(polygon), frame, net, places);
   return tile.counted_pixels > 0 ? tile : bounding_tile(polygon, frame, tile.side);
 }
 

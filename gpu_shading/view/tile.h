@@ -26,8 +26,9 @@ struct Tile {
 // rectangle, such as the ring of wall around a large window, has fewer than resolution^2 / 64
 // pixels or fewer than 16, up to the larger of `resolution` and the smaller of 4096 and `most`.
 // Among several offsets of the pixel grid, the one is used at which the receiver's own pixels come
-// closest to its area.
-Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, int most);
+// closest to its area. `stretch`: as fit_tile() has it.
+Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, int most,
+               double stretch = 1.0);
 
 // For receivers that are still too thin: the whole bounding rectangle, which always has a pixel in
 // its centre.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
@@ -22,6 +23,24 @@ glm::dmat2 golden_turn() {
 glm::dvec2 in_plane(PlaneFrame const& frame, glm::dvec3 const& point) {
   glm::dvec3 const p = point - frame.origin;
   return {glm::dot(frame.u, p), glm::dot(frame.v, p)};
+}
+
+struct OutlineBounds {
+  glm::dvec2 low{std::numeric_limits<double>::infinity()};
+  glm::dvec2 high{-std::numeric_limits<double>::infinity()};
+
+  glm::dvec2 size() const { return high - low; }
+  glm::dvec2 middle() const { return 0.5 * (low + high); }
+};
+
+OutlineBounds outline_bounds(PlaneFrame const& frame, Ring const& outline, glm::dmat2 const& map) {
+  OutlineBounds bounds;
+  for (glm::dvec3 const& vertex : outline) {
+    glm::dvec2 const place = map * in_plane(frame, vertex);
+    bounds.low = glm::min(bounds.low, place);
+    bounds.high = glm::max(bounds.high, place);
+  }
+  return bounds;
 }
 
 View slide(PlaneFrame const& frame, TileMap const& map, glm::dvec3 const& towards_sun) {
@@ -47,22 +66,23 @@ double TileMap::pixel_area(int resolution) const {
   return side * side / std::abs(glm::determinant(matrix));
 }
 
-TileMap fit_tile(PlaneFrame const& frame, Ring const& outline, int resolution) {
-  glm::dmat2 const to_square(1.0 / frame.width, 0.0, 0.0, 1.0 / frame.height);
-  glm::dmat2 const turned = golden_turn() * to_square;
-  glm::dvec2 low(std::numeric_limits<double>::infinity());
-  glm::dvec2 high(-low);
-  for (glm::dvec3 const& vertex : outline) {
-    glm::dvec2 const place = turned * in_plane(frame, vertex);
-    low = glm::dvec2(std::min(low.x, place.x), std::min(low.y, place.y));
-    high = glm::dvec2(std::max(high.x, place.x), std::max(high.y, place.y));
-  }
+TileMap fit_tile(PlaneFrame const& frame, Ring const& outline, int resolution, double stretch) {
   double const margin = std::min(1.0, resolution / 8.0);
   double const filled = 2.0 * (1.0 - 2.0 * margin / resolution);
-  glm::dvec2 const scale(filled / (high.x - low.x), filled / (high.y - low.y));
+  glm::dmat2 const to_square(1.0 / frame.width, 0.0, 0.0, 1.0 / frame.height);
+  glm::dmat2 const turned = golden_turn() * to_square;
+  glm::dvec2 const size = outline_bounds(frame, outline, turned).size();
+  glm::dmat2 const scale(filled / size.x, 0.0, 0.0, filled / size.y);
   TileMap map;
-  map.matrix = glm::dmat2(scale.x, 0.0, 0.0, scale.y) * turned;
-  map.offset = -0.5 * scale * (low + high);
+  if (stretch == 1.0) {
+    map.matrix = scale * turned;
+  } else {
+    glm::dmat2 const stretched =
+        scale * golden_turn() * glm::dmat2(stretch, 0.0, 0.0, 1.0 / stretch) * to_square;
+    glm::dvec2 const across = outline_bounds(frame, outline, stretched).size();
+    map.matrix = std::min(1.0, filled / std::max(across.x, across.y)) * stretched;
+  }
+  map.offset = -outline_bounds(frame, outline, map.matrix).middle();
   return map;
 }
 

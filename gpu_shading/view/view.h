@@ -26,7 +26,11 @@ struct TileMap {
   double pixel_area(int resolution) const;
 };
 
-TileMap fit_tile(PlaneFrame const& frame, Ring const& outline, int resolution);
+// `stretch`: by which the square is longer along u and shorter along v, for another lattice of
+// samples, which aliases with other periods; the golden slope serves any. A tile that is stretched
+// has a wider margin, two ways.
+TileMap fit_tile(PlaneFrame const& frame, Ring const& outline, int resolution,
+                 double stretch = 1.0);
 
 // An affine view of the scene: each row is a vector to multiply with a point's coordinates relative
 // to `origin`, and a constant. z is 0 (nearest) to 1; `cut` keeps points where it is 0 or more.

@@ -76,6 +76,10 @@ class ViewBackend {
 
   virtual DeviceInfo const& device() const = 0;
 
+  // Whether it samples a view at the centres of its tile's pixels, so that the tile should not
+  // alias with what repeats in the view. The view has no tile yet.
+  virtual bool samples_pixels(ReceiverView const& /*view*/) const { return true; }
+
   // Takes a batch of views, which may be started at once or later. Throws DeviceError if the device
   // fails, and Error if a view cannot be answered; then call forget() to discard what was taken.
   virtual void add(std::vector<ReceiverView> views) = 0;

@@ -1,7 +1,10 @@
 // Errors behind shades that may alias with the grid of samples: louvres and fins against their
 // exact sunlit fraction, perforated sheets and triangles at random against exact polygon clipping.
 //
-//     aliasing [ERROR [EVERY]]   one target error instead of four; one scene in so many
+//     aliasing [--pixels] [ERROR [EVERY]]
+//
+// --pixels: at the centres of pixels, where OpenGL samples. One target error instead of four; one
+// scene in so many.
 
 #include <algorithm>
 #include <array>
@@ -10,9 +13,11 @@
 #include <cstdlib>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/exact.h"
+#include "support/pixels_on_cpu.h"
 #include "support/random_scene.h"
 #include "support/regular_shades.h"
 #include "support/regular_sheets.h"
@@ -64,26 +69,33 @@ class Statistics {
   double seconds_ = 0.0;
 };
 
-RendererOptions options_at(double error) {
-  RendererOptions options;
-  options.error = error;
-  options.device = on_cpu;
-  return options;
-}
+// How a scene is computed.
+struct How {
+  double error;
+  bool at_pixels;
+
+  Renderer renderer(Scene scene) const {
+    RendererOptions options;
+    options.error = error;
+    options.device = on_cpu;
+    return at_pixels ? counting_pixels(std::move(scene), options)
+                     : Renderer(std::move(scene), options);
+  }
+};
 
 // Number of scenes if one in `every` is taken.
 int share_of(int scenes, int every) { return std::max(1, scenes / every); }
 
-void print_blades(char const* name, bool upright, double transmittance, double error, int every,
+void print_blades(char const* name, bool upright, double transmittance, How const& how, int every,
                   int least, int most) {
-  Statistics statistics(error);
+  Statistics statistics(how.error);
   std::vector<SunDirection> const suns = spread_suns(12);
   int scene = 0;
   for (double const size : {0.5, 1.0, 3.0, 6.0, 12.0, 30.0}) {
     for (int const count : blade_counts(least, most, 1.05, true)) {
       if (scene++ % every != 0) continue;
       RegularShades const shades{count, upright, size, transmittance};
-      Renderer renderer(shades.scene(), options_at(error));
+      Renderer renderer = how.renderer(shades.scene());
       double const whole = shades.width() * shades.height();
       std::vector<double> errors;
       double const start = processor_seconds();
@@ -98,13 +110,13 @@ void print_blades(char const* name, bool upright, double transmittance, double e
   statistics.print(std::string(name) + " " + std::to_string(least) + " to " + std::to_string(most));
 }
 
-void print_soups(double error, int scenes) {
-  Statistics statistics(error);
+void print_soups(How const& how, int scenes) {
+  Statistics statistics(how.error);
   std::vector<SunDirection> const suns = spread_suns(20);
   for (int i = 0; i < scenes; ++i) {
     int const count = 200 + 1800 * i / std::max(scenes - 1, 1);
     Scene const scene = triangle_soup(count, static_cast<std::uint32_t>(1 + i));
-    Renderer renderer(scene, options_at(error));
+    Renderer renderer = how.renderer(scene);
     std::vector<double> errors;
     double seconds = 0.0;
     for (SunDirection const sun : suns) {
@@ -119,8 +131,8 @@ void print_soups(double error, int scenes) {
   statistics.print("triangles");
 }
 
-void print_screens(double error, int scenes) {
-  Statistics statistics(error);
+void print_screens(How const& how, int scenes) {
+  Statistics statistics(how.error);
   std::vector<SunDirection> const suns = spread_suns(30);
   std::mt19937 generator(1);
   constexpr std::array sizes{0.5, 1.0, 3.0, 6.0};
@@ -128,36 +140,41 @@ void print_screens(double error, int scenes) {
     double const size = sizes.at(generator() % sizes.size());
     RegularSheets const sheets(size, 0.7 * size, {random_sheet(generator)});
     double seconds = 0.0;
-    statistics.add_scene(errors_behind(sheets, error, suns, seconds), seconds);
+    Renderer renderer = how.renderer(sheets.scene());
+    std::vector<double> const errors = errors_behind(sheets, renderer, suns, seconds);
+    statistics.add_scene(errors, seconds);
   }
   statistics.print("screens");
 }
 
-void print_pairs(double error, int scenes) {
-  Statistics statistics(error);
+void print_pairs(How const& how, int scenes) {
+  Statistics statistics(how.error);
   std::vector<SunDirection> const suns = spread_suns(10);
   std::mt19937 generator(7);
   for (int i = 0; i < scenes; ++i) {
     RegularSheets const sheets(0.3, 0.21, random_pair(generator, i));
     double seconds = 0.0;
-    statistics.add_scene(errors_behind(sheets, error, suns, seconds), seconds);
+    Renderer renderer = how.renderer(sheets.scene());
+    std::vector<double> const errors = errors_behind(sheets, renderer, suns, seconds);
+    statistics.add_scene(errors, seconds);
   }
   statistics.print("pairs of screens");
 }
 
-void print_table(std::vector<double> const& targets, int every) {
-  std::printf("%s\n", Renderer(Scene(), options_at(1e-3)).device().renderer.c_str());
+void print_table(std::vector<double> const& targets, bool at_pixels, int every) {
+  std::printf("CPU%s\n", at_pixels ? ", centres of pixels" : "");
   std::printf("%-7s %-26s %7s %9s %9s %9s %9s %7s %9s %6s %9s\n", "target", "shades", "views",
               "mean", "99th", "max", "scene", "share", "% beyond", "x 3", "ms");
   for (double const error : targets) {
-    print_soups(error, share_of(20, every));
-    print_screens(error, share_of(200, every));
-    print_pairs(error, share_of(40, every));
+    How const how{error, at_pixels};
+    print_soups(how, share_of(20, every));
+    print_screens(how, share_of(200, every));
+    print_pairs(how, share_of(40, every));
     for (auto const& [least, most] :
          {std::pair(20, 500), std::pair(501, 2000), std::pair(2001, 5000)}) {
-      print_blades("louvres", false, 0.0, error, every, least, most);
-      print_blades("fins", true, 0.0, error, every, least, most);
-      print_blades("glass louvres", false, 0.4, error, every, least, most);
+      print_blades("louvres", false, 0.0, how, every, least, most);
+      print_blades("fins", true, 0.0, how, every, least, most);
+      print_blades("glass louvres", false, 0.4, how, every, least, most);
     }
   }
 }
@@ -166,9 +183,12 @@ void print_table(std::vector<double> const& targets, int every) {
 }  // namespace gpu_shading
 
 int main(int count, char** arguments) {
+  std::vector<std::string> given(arguments + 1, arguments + count);
+  bool const at_pixels = !given.empty() && given[0] == "--pixels";
+  if (at_pixels) given.erase(given.begin());
   std::vector<double> targets{3e-3, 1e-3, 1e-4, 1e-5};
-  if (count > 1) targets = {std::atof(arguments[1])};
-  int const every = count > 2 ? std::max(1, std::atoi(arguments[2])) : 1;
-  return gpu_shading::print_or_say_why("aliasing",
-                                       [&] { gpu_shading::print_table(targets, every); });
+  if (!given.empty()) targets = {std::atof(given[0].c_str())};
+  int const every = given.size() > 1 ? std::max(1, std::atoi(given[1].c_str())) : 1;
+  return gpu_shading::print_or_say_why(
+      "aliasing", [&] { gpu_shading::print_table(targets, at_pixels, every); });
 }

@@ -15,6 +15,7 @@
 #include "support/exact.h"
 #include "support/pixel_count.h"
 #include "support/random_scene.h"
+#include "support/regular_shades.h"
 #include "support/shapes.h"
 
 namespace gpu_shading {
@@ -186,6 +187,24 @@ TEST(Accuracy, NinetyNineOfAHundredAreWithinTheErrorAskedFor) {
     // Nor much finer than that: pixels are time.
     EXPECT_GT(mean, 0.03 * error);
   }
+}
+
+// Which alias with the pixels of some tiles by up to 5e-3.
+TEST(Accuracy, DrawnBehindManyFinsIsWithinTheTarget) {
+  double most = 0.0;
+  for (int const count : blade_counts(500, 2000, 1.5, true)) {
+    RegularShades const shades{count, true};
+    RendererOptions options;
+    options.device = by_opengl;
+    Renderer renderer(shades.scene(), options);
+    for (SunDirection const sun : spread_suns(2)) {
+      double const cosine = -std::cos(sun.azimuth) * std::cos(sun.altitude);
+      double const whole = shades.width() * shades.height() * cosine;
+      double const got = sunlit(renderer, sun, 0).projected_area / whole;
+      most = std::max(most, std::abs(got - shades.sunlit_fraction(sun)));
+    }
+  }
+  EXPECT_LT(most, 1e-3);
 }
 
 }  // namespace

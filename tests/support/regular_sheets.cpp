@@ -178,13 +178,19 @@ std::optional<RegularSheets::Passing> RegularSheets::project(Sheet const& sheet,
   glm::dvec2 const shift(sheet.thickness / cosine *
                          glm::dvec2(glm::dot(u, towards_sun), glm::dot(v, towards_sun)));
   int const sides = sheets_.size() > 1 ? 48 : (fine ? 96 : 512);
-  Ring const outline = outline_of(sheet.holes, sides);
-  Ring passing = outline;
-  Ring spare;
-  clip(passing, spare, outline, -shift);
+  auto const overlap = [&](int many) {
+    Ring const outline = outline_of(sheet.holes, many);
+    Ring passing = outline;
+    Ring spare;
+    clip(passing, spare, outline, -shift);
+    for (glm::dvec2& p : passing) p = in_sheet(p);
+    if (signed_area(passing) < 0.0) std::reverse(passing.begin(), passing.end());
+    return passing;
+  };
   Passing found;
-  for (glm::dvec2 const& p : passing) found.outline.push_back(in_sheet(p));
-  if (signed_area(found.outline) < 0.0) std::reverse(found.outline.begin(), found.outline.end());
+  found.outline = overlap(sides);
+  // The error of polygons for arcs falls with the square of their number of sides.
+  found.area = (4.0 * signed_area(overlap(2 * sides)) - signed_area(found.outline)) / 3.0;
   // The inside face, half of the thickness nearer to the receiver.
   glm::dvec2 const origin = on_receiver(ring[1] - 0.5 * sheet.thickness * out);
   found.origins = {origin};
@@ -228,7 +234,6 @@ double RegularSheets::through_one(Passing const& passing) const {
     }
   }
   glm::dmat2 const to_lattice = glm::inverse(glm::dmat2(passing.a, passing.b));
-  double const each = signed_area(passing.outline);
   double sum = 0.0;
   Ring clipped;
   Ring spare;
@@ -272,7 +277,7 @@ double RegularSheets::through_one(Passing const& passing) const {
         continue;
       }
       clip_from(first, first_in - 1.0);
-      sum += each * (end_in - first_in + 1.0);
+      sum += passing.area * (end_in - first_in + 1.0);
       clip_from(end_in + 1.0, end);
     }
   }
@@ -365,7 +370,7 @@ std::vector<RegularSheets::Sheet> random_pair(std::mt19937& generator, int numbe
 
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-std::vector<double> errors_behind(RegularSheets const& sheets, double target,
+std::vector<double> errors_behind(RegularSheets const& sheets, Renderer& renderer,
                                   std::span<SunDirection const> suns, double& seconds) {
   std::vector<SunDirection> asked;
   std::vector<double> exact;
@@ -376,10 +381,6 @@ std::vector<double> errors_behind(RegularSheets const& sheets, double target,
     exact.push_back(*fraction);
   }
   if (2 * asked.size() < suns.size()) return {};
-  RendererOptions options;
-  options.error = target;
-  options.device = on_cpu;
-  Renderer renderer(sheets.scene(), options);
   constexpr std::array<SurfaceId, 1> receiver{0};
   // Computes what is kept.
   renderer.projected_sunlit_areas(sun_at(180, 1), receiver);

@@ -9,6 +9,7 @@
 
 #include "gpu_shading/hole_pattern.h"
 #include "gpu_shading/perforated_screen.h"
+#include "gpu_shading/renderer.h"
 #include "gpu_shading/scene.h"
 #include "gpu_shading/screen_placement.h"
 #include "gpu_shading/sun_direction.h"
@@ -47,6 +48,7 @@ class RegularSheets {
   // What passes a sheet's holes, on the receiver's plane: an outline, repeated by a lattice.
   struct Passing {
     Ring outline;
+    double area = 0.0;                // of a whole hole, without the error of the outline's arcs
     std::vector<glm::dvec2> origins;  // of one hole or, staggered, of two
     glm::dvec2 a{0.0};
     glm::dvec2 b{0.0};
@@ -62,9 +64,9 @@ class RegularSheets {
   std::vector<Sheet> sheets_;
 };
 
-// The errors of the sunlit fraction on the CPU with a target error; none where most directions have
-// no exact fraction. `seconds` takes the time of the CPU.
-std::vector<double> errors_behind(RegularSheets const& sheets, double target,
+// The errors of the sunlit fraction by a renderer of the sheets' scene; none where most directions
+// have no exact fraction. `seconds` takes the time of the CPU.
+std::vector<double> errors_behind(RegularSheets const& sheets, Renderer& renderer,
                                   std::span<SunDirection const> suns, double& seconds);
 
 // CPU time of all threads of this process.

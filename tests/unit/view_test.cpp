@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -58,6 +59,24 @@ TEST(View, EdgesCrossThePixelLatticeAtTheGoldenSlope) {
   TileMap const map = fit_tile(frame, square.outline, 512);
   glm::dvec2 const edge = map(frame, {2, 0, 0}) - map(frame, {0, 0, 0});
   EXPECT_NEAR(edge.y / edge.x, (std::sqrt(5.0) - 1.0) / 2.0, 1e-12);
+}
+
+TEST(View, AStretchedTileHoldsTheReceiverAndNearlyAsManyOfItsPixels) {
+  Polygon const square{{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, {}};
+  PlaneFrame const frame = *plane_frame(square);
+  double const pixel = fit_tile(frame, square.outline, 512).pixel_area(512);
+  for (double const stretch : {0.9, 0.97, 1.04, 1.1}) {
+    TileMap const map = fit_tile(frame, square.outline, 512, stretch);
+    glm::dvec2 const u = map(frame, {2, 0, 0}) - map(frame, {0, 0, 0});
+    glm::dvec2 const v = map(frame, {0, 2, 0}) - map(frame, {0, 0, 0});
+    EXPECT_NEAR(glm::length(u) / glm::length(v), stretch * stretch, 1e-9);
+    EXPECT_NEAR(glm::dot(u, v), 0.0, 1e-12);
+    for (glm::dvec3 const& vertex : square.outline) {
+      glm::dvec2 const place = glm::abs(map(frame, vertex));
+      EXPECT_LE(std::max(place.x, place.y), 1.0 - 2.0 / 512 + 1e-12);
+    }
+    EXPECT_NEAR(map.pixel_area(512) / pixel, 1.03, 0.04);
+  }
 }
 
 TEST(View, CutsAtTheClearanceBeforeThePlane) {

@@ -14,18 +14,23 @@ namespace gpu_shading {
 class PixelsOnCpu : public CpuBackend {
  public:
   using CpuBackend::CpuBackend;
+  bool samples_pixels(ReceiverView const& /*view*/) const override { return true; }
   void add(std::vector<ReceiverView> views) override {
     for (ReceiverView& view : views) view.at_pixels = true;
     CpuBackend::add(std::move(views));
   }
 };
 
-inline Renderer counting_pixels(Scene scene, int resolution) {
-  RendererOptions options;
-  options.resolution = resolution;
+inline Renderer counting_pixels(Scene scene, RendererOptions const& options) {
   return RendererWithBackend::make(std::move(scene), options, [](BackendInput const& input) {
     return std::make_unique<PixelsOnCpu>(input);
   });
+}
+
+inline Renderer counting_pixels(Scene scene, int resolution) {
+  RendererOptions options;
+  options.resolution = resolution;
+  return counting_pixels(std::move(scene), options);
 }
 
 }  // namespace gpu_shading

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/repeat.h"
+#include "scene/screens.h"
+#include "view/blade_spectrum.h"
+#include "view/hole_spectrum.h"
+#include "view/sheet_in_beam.h"
+#include "view/tile.h"
+#include "view/view.h"
+
+namespace gpu_shading {
+
+// How much what repeats in a view aliases with a grid of samples. The mean of a pattern over a grid
+// is wrong by the amplitude of each of the pattern's frequencies times that of the receiver's
+// outline, at the frequency's distance from the nearest vector of the grid's reciprocal lattice.
+class Aliasing {
+ public:
+  // `view` is that of the casters in front, on the tile.
+  Aliasing(View const& view, OutlineSpectrum const& outline) : view_(view), outline_(outline) {}
+
+  // A screen whose holes are drawn.
+  void add(Screens::Entry const& screen, SheetInBeam const& sheet);
+  // Some of the receiver's casters, this share of those that were looked at.
+  void add(Repeat const& repeat, double share);
+  // Rays pass more than one of the screens.
+  void overlap();
+
+  bool none() const { return screens_.empty() && blades_.empty(); }
+  // Upper limit of the squared error of a grid, or anything above `enough`.
+  double squared_error(TileGrid const& grid, double enough) const;
+
+ private:
+  // Screens with the same holes and directions of holes, as the panels of a facade have them.
+  struct AlikeScreens {
+    Screens::Entry const* first;
+    HoleSpectrum holes;
+    int count;
+
+    bool include(Screens::Entry const& screen) const;
+  };
+
+  double squared_error_of_each(TileGrid const& grid, double enough) const;
+  double squared_error_of_pairs(TileGrid const& grid, HoleSpectrum const& second,
+                                double enough) const;
+
+  View const& view_;
+  OutlineSpectrum outline_;
+  std::vector<AlikeScreens> screens_;
+  std::vector<BladeSpectrum> blades_;
+  std::vector<HoleSpectrum::Frequency> first_;  // of the first screen, if they overlap
+};
+
+}  // namespace gpu_shading
