@@ -85,8 +85,13 @@ void each_bit(std::uint64_t word, std::size_t number, Use use) {
 // Calls use(first, end) for parts of a number of rows, on at most this many threads.
 template <typename Use>
 void in_rows(int rows, int threads, Use use) {
-  if (threads <= 1) return use(0, rows);
-  int const share = (rows + threads - 1) / threads;
+  // The largest tiles would take too much memory at once.
+  constexpr int most = 2048;
+  if (threads <= 1) {
+    for (int first = 0; first < rows; first += most) use(first, std::min(first + most, rows));
+    return;
+  }
+  int const share = std::min((rows + threads - 1) / threads, most);
   for_each_index(static_cast<std::size_t>((rows + share - 1) / share), [&](std::size_t part) {
     int const first = static_cast<int>(part) * share;
     use(first, std::min(first + share, rows));

@@ -30,7 +30,11 @@ TileSize tile_size(RendererOptions const& options, DeviceInfo const& device) {
       throw Error(fmt::format("error {}: expected {} to {}", options.error,
                               RendererOptions::least_error, RendererOptions::most_error));
     }
-    return TileSize::for_error(options.error, device.max_resolution);
+    // Layers of more pixels would fill a GPU's memory.
+    constexpr int most_drawn = 4096;
+    bool const drawn = device.index >= 0;
+    return TileSize::for_error(
+        options.error, drawn ? std::min(most_drawn, device.max_resolution) : device.max_resolution);
   }
   if (*options.resolution < 1 || *options.resolution > device.max_resolution) {
     throw Error(fmt::format("resolution {}: expected 1 to {} pixels, the range of the device '{}'",

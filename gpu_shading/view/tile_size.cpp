@@ -39,6 +39,7 @@ TileSize TileSize::for_error(double error, int most) {
   size.error_ = error;
   size.least_ = limit(64.0, error, std::min(most, largest));
   size.most_ = limit(512.0, error, std::min(most, largest));
+  size.screened_ = (limit(512.0, error, most) + 1) / 2;
   for (size.enough_ = 1.0; expected_error({0.0, size.enough_}, size.most_) < error ||
                            expected_error({size.enough_, 0.0}, size.most_) < error;) {
     size.enough_ *= 2.0;

@@ -25,14 +25,15 @@ class TileSize {
   static TileSize fixed(int side);
   // The number of pixels, 2^n or 3 x 2^n, that keeps the error of the sunlit fraction within
   // `error` in 99 % of cases, between limits: 64 and 512 at 1e-3, changing with the error to the
-  // power of -2/3, at most 4096, and at most `most`.
+  // power of -2/3, at most 4096, and at most `most`. Behind perforated sheets, a tile may have as
+  // many as `most`.
   static TileSize for_error(double error, int most);
 
   int side(Detail const& detail) const;
 
   // With perforated sheets in view, whose holes have edges of their own: at least half of the
-  // maximum.
-  int side_with_screens(int side) const { return std::max(side, fixed_ ? 1 : (most_ + 1) / 2); }
+  // maximum, were it not limited to 4096.
+  int side_with_screens(int side) const { return std::max(side, fixed_ ? 1 : screened_); }
 
   int least() const { return least_; }
   int most() const { return most_; }
@@ -46,6 +47,7 @@ class TileSize {
   double error_ = 0.0;
   int least_ = 0;
   int most_ = 0;
+  int screened_ = 0;
   double enough_ = 0.0;
 };
 

@@ -41,6 +41,11 @@ TEST(TileSize, FixedIsFixed) {
   EXPECT_EQ(TileSize::for_error(1e-3, 16384).side_with_screens(64), 256);
 }
 
+TEST(TileSize, BehindScreensFollowsTheErrorFarther) {
+  EXPECT_EQ(TileSize::for_error(1e-5, 16384).side_with_screens(64), 6144);  // half of 11,031
+  EXPECT_EQ(TileSize::for_error(1e-5, 4096).side_with_screens(64), 2048);
+}
+
 class DetailOfShadows : public testing::Test {
  protected:
   // In a window facing south, 4 m wide and 2 m high.
