@@ -54,31 +54,20 @@ HiddenCasters::HiddenCasters(SceneAssembly const& scene, ShadeOptics::Radiation 
     : scene_(scene),
       radiation_(radiation),
       sample_count_(samples),
-      surfaces_(scene.scene(radiation)) {
+      surfaces_(scene.scene(radiation)),
+      by_hour_(scene.optics()) {
   auto const casters = scene.hidden(surfaces_);
   if (casters.empty()) return;
   hidden_.emplace(surfaces_, RayOptions{.faces = RayFaces::both, .casters = casters});
   all_.emplace(surfaces_, RayOptions{.faces = RayFaces::both});
 }
 
-HiddenCasters::Shares const& HiddenCasters::shares_at(int hour) {
-  auto& known = by_hour_.at(static_cast<std::size_t>(hour - 1));
-  if (!known) {
-    auto const& optics = scene_.optics();
-    Moment const moment{hour, 1};
-    known = Shares{optics.factors_at(moment), optics.deployments_at(moment)};
-  }
-  return *known;
-}
-
 bool HiddenCasters::set_hour(int hour) {
-  auto const& shares = shares_at(hour);
+  auto const& shares = by_hour_.at(hour);
   if (shares == shares_) return false;
   shares_ = shares;
   return true;
 }
-
-void HiddenCasters::renew() { by_hour_ = {}; }
 
 std::vector<HiddenCasters::Way> HiddenCasters::ways(std::span<Ray const> rays) const {
   std::vector<std::vector<RayLayer>> met(rays.size());
@@ -147,7 +136,7 @@ std::vector<glm::dvec3> const& HiddenCasters::samples(SurfaceId surface) {
 }
 
 unsigned HiddenCasters::sky_version() {
-  if (auto const& shares = shares_at(1); shares != sky_shares_) {
+  if (auto const& shares = by_hour_.at(1); shares != sky_shares_) {
     sky_shares_ = shares;
     sky_views_.clear();
     ++sky_version_;
@@ -175,7 +164,7 @@ double HiddenCasters::sky_view(Layer const& layer) {
   }
   if (rays.empty()) return 0.0;
   std::vector<double> all_pass(rays.size());
-  all_->transmittances(rays, conditions_of(sky_shares_), all_pass);
+  all_->transmittances(rays, sky_shares_.conditions(), all_pass);
   double seen = 0.0;
   for (std::size_t i = 0; i < rays.size(); ++i) seen += weights[i] * all_pass[i];
   // EnergyPlus's view factor of the sky, times its ratio of shaded to unshaded.

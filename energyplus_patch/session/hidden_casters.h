@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <map>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "gpu_shading/rays.h"
+#include "session/hour_shares.h"
 #include "session/scene_assembly.h"
 
 namespace gpu_shading::energyplus {
@@ -56,7 +56,7 @@ class HiddenCasters {
   bool set_hour(int hour);
 
   // Schedules may have other values from now on: another day.
-  void renew();
+  void renew() { by_hour_.renew(); }
 
   // The product of what casters let pass, 0 .. 1: hidden ones only, or EnergyPlus's own surfaces
   // too.
@@ -83,19 +83,7 @@ class HiddenCasters {
   std::vector<glm::dvec3> const& samples(SurfaceId surface);
 
  private:
-  struct Shares {
-    std::vector<double> factors;
-    std::vector<double> deployments;
-
-    bool operator==(Shares const&) const = default;
-  };
-  static constexpr std::size_t hours = 24;
-
-  Shares const& shares_at(int hour);
-  static RayConditions conditions_of(Shares const& shares) {
-    return {.factors = shares.factors, .deployments = shares.deployments};
-  }
-  RayConditions conditions() const { return conditions_of(shares_); }
+  RayConditions conditions() const { return shares_.conditions(); }
   Way way_of(Ray const& ray, std::vector<RayLayer> const& layers) const;
   double reflectance(SurfaceId surface, double transmittance) const;
 
@@ -105,10 +93,10 @@ class HiddenCasters {
   Scene surfaces_;
   std::optional<RayScene> hidden_;  // none: there is no hidden caster
   std::optional<RayScene> all_;
-  Shares shares_;  // of the hour
-  std::array<std::optional<Shares>, hours> by_hour_;
+  HourShares by_hour_;
+  HourShares::Shares shares_;  // of the hour
   std::map<Side, double> sky_views_;
-  Shares sky_shares_;  // of the first hour
+  HourShares::Shares sky_shares_;  // of the first hour
   unsigned sky_version_ = 0;
   std::map<SurfaceId, std::vector<glm::dvec3>> samples_;
 };

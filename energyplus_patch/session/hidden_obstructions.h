@@ -1,10 +1,9 @@
 #pragma once
 
-#include <array>
 #include <optional>
-#include <vector>
 
 #include "gpu_shading/rays.h"
+#include "session/hour_shares.h"
 #include "session/scene_assembly.h"
 
 namespace gpu_shading::energyplus {
@@ -22,19 +21,11 @@ class HiddenObstructions {
   double transmittance(Ray const& ray, int hour);
 
   // Schedules may have other values from now on: another day.
-  void renew() { shares_ = {}; }
+  void renew() { shares_.renew(); }
 
  private:
-  struct Shares {
-    std::vector<double> factors;
-    std::vector<double> deployments;
-  };
-  Shares const& shares_of(int hour);
-
-  SceneAssembly const& scene_;
   std::optional<RayScene> rays_;  // none: there is no obstruction
-  static constexpr int hours = 24;
-  std::array<std::optional<Shares>, hours> shares_;
+  HourShares shares_;
 };
 
 }  // namespace gpu_shading::energyplus
