@@ -91,17 +91,24 @@ std::optional<RunDay> EnergyPlusFunctions::day(State& state) const {
   day.day = calendar_.day_of_month(&state);
   day.warm_up = calendar_.is_warm_up(&state) != 0;
   day.steps_per_hour = calendar_.steps_per_hour(&state);
+  return day;
+}
+
+std::vector<double> EnergyPlusFunctions::beam_of_day(State& state) const {
+  if (!calendar_.complete()) return {};
   constexpr int hours = 24;
+  int const steps_per_hour = calendar_.steps_per_hour(&state);
+  std::vector<double> beam;
   auto const sun = sun_of_day(calendar_.day_of_year(&state));
   for (int hour = 0; hour < hours; ++hour) {
-    for (int step = 1; step <= day.steps_per_hour; ++step) {
+    for (int step = 1; step <= steps_per_hour; ++step) {
       // Between hours, the weather may have a beam before sunrise, which EnergyPlus drops.
-      double const end = hour + static_cast<double>(step) / day.steps_per_hour;
+      double const end = hour + static_cast<double>(step) / steps_per_hour;
       bool const up = sun_is_up(state, sun, end);
-      day.beam.push_back(up ? calendar_.beam(&state, hour, step) : 0.0);
+      beam.push_back(up ? calendar_.beam(&state, hour, step) : 0.0);
     }
   }
-  return day;
+  return beam;
 }
 
 }  // namespace gpu_shading::energyplus

@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "binary/symbol_table.h"
 #include "gpu_shading/sun_position.h"
@@ -49,8 +50,10 @@ class EnergyPlusFunctions {
   // without one.
   double latitude(State const& state) const;
 
-  // The day that EnergyPlus is at, with its weather; nothing if the build lacks a function for it.
+  // The day that EnergyPlus is at, without its beam; nothing if the build lacks a function for it.
   std::optional<RunDay> day(State& state) const;
+  // The beam of that day (RunDay::beam).
+  std::vector<double> beam_of_day(State& state) const;
 
  private:
   // Direction cosines of the sun: east, north, up.

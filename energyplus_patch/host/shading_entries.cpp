@@ -1,7 +1,6 @@
 #include "host/shading_entries.h"
 
 #include <string_view>
-#include <utility>
 
 #include "host/run.h"
 #include "host/unwanted_messages.h"
@@ -35,7 +34,10 @@ void solar_calculations(State& state) {
   auto* const session = this_run().session;
   if (session != nullptr && session->records_days()) {
     guarded([&] {
-      if (auto day = installation().functions.day(state)) session->begin_day(std::move(*day));
+      auto const& functions = installation().functions;
+      if (auto const day = functions.day(state)) {
+        session->begin_day(*day, [&] { return functions.beam_of_day(state); });
+      }
     });
   }
   original_solar_calculations(state);

@@ -24,13 +24,15 @@ RunRecord::RunRecord(std::vector<glm::dvec3> areas, std::vector<SurfaceId> recei
   }
 }
 
-void RunRecord::begin_day(RunDay day) {
+void RunRecord::begin_day(RunDay const& day, Beam const& beam) {
   bool const same = day_ && day_->environment == day.environment && day_->month == day.month &&
                     day_->day == day.day && day_->warm_up == day.warm_up;
   if (same && !day.warm_up) return;  // another timestep of it
   end_day();
-  day_ = std::move(day);
+  day_ = day;
   step_ = nullptr;
+  bool const counts = day.kind != RunDay::Kind::other && !day.warm_up;
+  beam_ = counts ? beam() : std::vector<double>{};
 }
 
 void RunRecord::begin_step(Moment moment) {
@@ -86,11 +88,11 @@ void RunRecord::end_day() {
 void RunRecord::add_beam() {
   constexpr double watt_hours = 1000.0;  // per kWh
   auto& beam = period().beam;
-  auto const steps = std::min(steps_.size(), day_->beam.size());
+  auto const steps = std::min(steps_.size(), beam_.size());
   for (std::size_t i = 0; i < steps; ++i) {
-    if (!steps_[i].sun || day_->beam[i] <= 0.0) continue;
+    if (!steps_[i].sun || beam_[i] <= 0.0) continue;
     auto const towards_sun = to_vector(*steps_[i].sun);
-    double const energy = day_->beam[i] / day_->steps_per_hour / watt_hours;
+    double const energy = beam_[i] / day_->steps_per_hour / watt_hours;
     for (std::size_t k = 0; k < receivers_.size(); ++k) {
       float const fraction = steps_[i].fractions[k];
       if (fraction <= 0.0F) continue;

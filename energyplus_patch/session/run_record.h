@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
@@ -21,7 +22,6 @@ struct RunDay {
   int day = 0;
   bool warm_up = false;
   int steps_per_hour = 1;
-  std::vector<double> beam;  // direct normal irradiance, W/m2, of every timestep of the day
 };
 
 // The sunlit fractions that EnergyPlus was given, by day and hour, and the beam solar energy that
@@ -45,7 +45,10 @@ class RunRecord {
 
   // What EnergyPlus says, in its order: a day begins; a timestep of it, whose sun and answers hold
   // for this day and those that follow, until others are given; the sun; m2 normal to its beam.
-  void begin_day(RunDay day);
+  // The direct normal irradiance, W/m2, at every timestep of a day is asked for where it counts.
+  // A day may begin again at each of its timesteps.
+  using Beam = std::function<std::vector<double>()>;
+  void begin_day(RunDay const& day, Beam const& beam);
   void begin_step(Moment moment);
   void set_sun(SunDirection sun);
   void note(SurfaceId receiver, double projected_area);
@@ -84,6 +87,7 @@ class RunRecord {
   std::vector<SurfaceId> receivers_;
   std::vector<std::optional<std::size_t>> columns_;  // of receivers, by surface
   std::optional<RunDay> day_;
+  std::vector<double> beam_;  // of the day
   std::vector<Step> steps_;
   bool has_new_steps_ = false;
   Step* step_ = nullptr;  // being answered

@@ -68,8 +68,8 @@ SunAnswers& Session::answers() {
   return *answers_;
 }
 
-void Session::begin_day(RunDay day) {
-  if (record_) record_->begin_day(std::move(day));
+void Session::begin_day(RunDay const& day, RunRecord::Beam const& beam) {
+  if (record_) record_->begin_day(day, beam);
 }
 
 void Session::set_time(Moment moment) {

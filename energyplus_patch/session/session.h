@@ -56,7 +56,7 @@ class Session {
 
   // Whether the report wants the days of the run; then they are handed over as they begin.
   bool records_days() const { return record_.has_value(); }
-  void begin_day(RunDay day);
+  void begin_day(RunDay const& day, RunRecord::Beam const& beam);
 
   // Sets the time at which schedules are evaluated from now on.
   void set_time(Moment moment);

@@ -14,8 +14,13 @@ RunRecord record_of_a_box() {
   return RunRecord({{0.0, -2.0, 0.0}, {0.0, 2.0, 0.0}, {0.0, 0.0, 3.0}}, {0, 1, 2});
 }
 
-RunDay day_of(int month, int day, double beam, bool warm_up = false) {
-  return {RunDay::Kind::run_period, 1, month, day, warm_up, 1, std::vector<double>(24, beam)};
+RunDay day_of(int month, int day, bool warm_up = false) {
+  return {RunDay::Kind::run_period, 1, month, day, warm_up, 1};
+}
+
+// The same at all hours.
+auto beam_of(double beam) {
+  return [beam] { return std::vector<double>(24, beam); };
 }
 
 SunDirection const noon{180.0 * degree, 60.0 * degree};
@@ -29,11 +34,11 @@ void shade(RunRecord& record) {
 
 TEST(RunRecord, AddsTheBeamOfDaysWithoutWarmUp) {
   auto record = record_of_a_box();
-  record.begin_day(day_of(3, 1, 500.0, true));
+  record.begin_day(day_of(3, 1, true), beam_of(500.0));
   shade(record);
-  record.begin_day(day_of(3, 1, 500.0, true));
-  record.begin_day(day_of(3, 1, 500.0));
-  record.begin_day(day_of(3, 2, 300.0));  // with the shadows of the day before
+  record.begin_day(day_of(3, 1, true), beam_of(500.0));
+  record.begin_day(day_of(3, 1), beam_of(500.0));
+  record.begin_day(day_of(3, 2), beam_of(300.0));  // with the shadows of the day before
   record.end();
   EXPECT_EQ(record.simulated(), 2U);
   ASSERT_EQ(record.days().size(), 1U);
@@ -49,9 +54,32 @@ TEST(RunRecord, AddsTheBeamOfDaysWithoutWarmUp) {
   EXPECT_NEAR(record.beam()[2], 0.8 * std::sin(60.0 * degree), 1e-6);
 }
 
+// With shadows at every timestep, EnergyPlus begins the day at each of them.
+TEST(RunRecord, AsksForTheBeamOnceADay) {
+  auto record = record_of_a_box();
+  int asked = 0;
+  auto const begin = [&](int day, bool warm_up) {
+    for (int hour = 1; hour <= 24; ++hour) {
+      record.begin_day(day_of(3, day, warm_up), [&] {
+        ++asked;
+        return std::vector<double>(24, 500.0);
+      });
+      if (hour == 12) shade(record);
+    }
+  };
+  begin(1, true);
+  EXPECT_EQ(asked, 0);
+  begin(1, false);
+  begin(2, false);
+  EXPECT_EQ(asked, 2);
+  record.end();
+  EXPECT_EQ(record.simulated(), 2U);
+  EXPECT_NEAR(record.beam()[0], 2 * 0.5 * 0.5 * std::cos(60.0 * degree), 1e-6);
+}
+
 TEST(RunRecord, LeavesPatchesOfTheSkyOut) {
   auto record = record_of_a_box();
-  record.begin_day(day_of(3, 1, 500.0));
+  record.begin_day(day_of(3, 1), beam_of(500.0));
   shade(record);
   record.set_sun({15.0 * degree, 7.5 * degree});
   record.note(0, 0.0);
@@ -66,14 +94,14 @@ TEST(RunRecord, LeavesPatchesOfTheSkyOut) {
 
 TEST(RunRecord, HasDesignDaysIfThereIsNothingElse) {
   auto record = record_of_a_box();
-  auto sizing = day_of(7, 21, 900.0);
+  auto sizing = day_of(7, 21);
   sizing.kind = RunDay::Kind::design_day;
-  record.begin_day(sizing);
+  record.begin_day(sizing, beam_of(900.0));
   shade(record);
   record.end();
   EXPECT_TRUE(record.of_design_days());
   EXPECT_EQ(record.days().front().month, 7);
-  record.begin_day(day_of(3, 1, 500.0));
+  record.begin_day(day_of(3, 1), beam_of(500.0));
   shade(record);
   record.end();
   EXPECT_FALSE(record.of_design_days());
@@ -88,7 +116,7 @@ TEST(RunRecord, KeepsFewerDaysOfManyReceivers) {
   RunRecord record(std::vector<glm::dvec3>(receivers, {0.0, 0.0, 1.0}), all);
   for (int month = 1; month <= 12; ++month) {
     for (int day = 1; day <= 28; day += 9) {
-      record.begin_day(day_of(month, day, 100.0));
+      record.begin_day(day_of(month, day), beam_of(100.0));
       for (int hour = 10; hour <= 14; ++hour) {
         record.begin_step({hour, 1});
         record.set_sun(noon);
