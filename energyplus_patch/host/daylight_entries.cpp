@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "host/daylight_memory_entries.h"
 #include "host/daylight_reflection_entries.h"
 #include "host/run.h"
 
@@ -38,22 +39,44 @@ Session* answering_session() {
   return run.model && run.model->daylighting_answered ? run.session : nullptr;
 }
 
+// `follow`'s answer to a ray, from memory if it is known.
+template <typename Follow>
+double kept_answer(DaylightMemory::Ray kind, int window, Vector const& from, Vector const& to,
+                   Follow const& follow) {
+  auto* const memory = daylight_memory();
+  auto* const kept = memory == nullptr ? nullptr : memory->rays();
+  if (kept == nullptr) return follow();
+  auto const question = DaylightMemory::question(kind, window, to_glm(from), to_glm(to));
+  if (auto const* const known = kept->find(question)) return *known;
+  double const answer = follow();
+  guarded([&] { kept->keep(question, answer); });
+  return answer;
+}
+
 double share_of(Session& session, Ray const& ray, int hour) {
   double const share = guarded([&] { return session.daylight_transmittance(ray, hour); });
   return share < opaque_below ? 0.0 : share;
 }
 
-double hit_obstruction(State& state, int hour, int window, Vector const& origin,
-                       Vector const& direction) {
-  auto const before = std::exchange(arrived(), {});  // of this ray alone
+// What EnergyPlus's surfaces and ours let pass.
+double obstructions(State& state, int hour, int window, Vector const& origin,
+                    Vector const& direction) {
   if (auto* const reflections = guarded([&] { return daylight_reflections(state); })) {
     reflections->begin_ray(direction);
   }
   double const passed = original_hit_obstruction(state, hour, window, origin, direction);
   auto* const session = answering_session();
   if (session == nullptr || passed <= 0.0) return passed;
-  double const share = share_of(*session, {to_glm(origin), to_glm(direction)}, hour);
-  return passed * share * (before.at == origin ? before.share : 1.0);
+  return passed * share_of(*session, {to_glm(origin), to_glm(direction)}, hour);
+}
+
+double hit_obstruction(State& state, int hour, int window, Vector const& origin,
+                       Vector const& direction) {
+  auto const before = std::exchange(arrived(), {});  // of this ray alone
+  double const reached = before.at == origin ? before.share : 1.0;
+  auto const follow = [&] { return obstructions(state, hour, window, origin, direction); };
+  return reached *
+         kept_answer(DaylightMemory::Ray::through_window, window, origin, direction, follow);
 }
 
 // Whether nothing passes; `before`: what passed up to the start of the segment.
@@ -66,7 +89,7 @@ bool blocked(Session& session, Vector const& from, Vector const& to, double befo
   return arrived().share <= 0.0;
 }
 
-bool hit_interior(State& state, int window, Vector const& from, Vector const& to) {
+bool follow_interior(State& state, int window, Vector const& from, Vector const& to) {
   arrived() = {};
   std::optional<bool> image;
   if (auto* const reflections = guarded([&] { return daylight_reflections(state); })) {
@@ -76,6 +99,17 @@ bool hit_interior(State& state, int window, Vector const& from, Vector const& to
   if (image) return *image;
   auto* const session = answering_session();
   return session != nullptr && blocked(*session, from, to, 1.0);
+}
+
+bool hit_interior(State& state, int window, Vector const& from, Vector const& to) {
+  // What passes, or a negative number if EnergyPlus's own surfaces let nothing pass.
+  auto const follow = [&] {
+    bool const blocked = follow_interior(state, window, from, to);
+    return blocked && arrived().share > 0.0 ? -1.0 : arrived().share;
+  };
+  double const passed = kept_answer(DaylightMemory::Ray::in_room, window, from, to, follow);
+  arrived() = passed < 0.0 ? Arrived{} : Arrived{to, passed};
+  return passed <= 0.0;
 }
 
 // From an interior window to an exterior one, after the way to the interior one.
@@ -88,6 +122,7 @@ bool hit_between(State& state, int first, int second, Vector const& from, Vector
 
 void coefficients(State& state) {
   if (auto* const session = answering_session()) guarded([&] { session->begin_daylighting(); });
+  begin_daylight_memory(state);
   auto const reflections = [&] { return guarded([&] { return daylight_reflections(state); }); };
   if (auto* const active = reflections()) active->begin_period();
   original_coefficients(state);

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "host/daylight_memory_entries.h"
 #include "host/object_memory.h"
 #include "host/reflection_entries.h"
 #include "host/run.h"
@@ -53,7 +54,9 @@ bool answer(State& state, Action const& action) {
   });
 }
 
+// EnergyPlus asks for it where the sun is up.
 void horizontal(State& state, Illuminance& at) {
+  if (auto* const memory = daylight_memory()) memory->note_sun();
   original_horizontal(state, at);
   answer(state, [&](DaylightReflections& active) { active.add_horizontal(at); });
 }
@@ -81,6 +84,7 @@ double sky_on_ground(State& state, Vector const& point, int altitudes, int azimu
 }
 
 void inter_reflected(State& state, int sun_position, int hour, int enclosure, int window) {
+  SkyIntegral const kept(hour, window);
   bool const done = answer(state, [&](DaylightReflections& active) {
     active.inter_reflected(state, sun_position, hour, enclosure, window);
   });

@@ -42,6 +42,7 @@ EnergyPlusFunctions::EnergyPlusFunctions(SymbolTable const& symbols) {
   optional.find("warmupFlag", calendar_.is_warm_up);
   optional.find("numTimeStepsInHour", calendar_.steps_per_hour);
   optional.find("todayWeatherBeamSolarRadiationAtTime", calendar_.beam);
+  optional.find("sunIsUp", sun_in_weather_);
 }
 
 void EnergyPlusFunctions::fatal(State& state, std::string const& message) const {
@@ -109,6 +110,11 @@ std::vector<double> EnergyPlusFunctions::beam_of_day(State& state) const {
     }
   }
   return beam;
+}
+
+std::optional<bool> EnergyPlusFunctions::sun_in_weather(State& state) const {
+  if (sun_in_weather_ == nullptr) return std::nullopt;
+  return sun_in_weather_(&state) != 0;
 }
 
 }  // namespace gpu_shading::energyplus

@@ -55,6 +55,10 @@ class EnergyPlusFunctions {
   // The beam of that day (RunDay::beam).
   std::vector<double> beam_of_day(State& state) const;
 
+  // Whether the sun is up in the weather of the timestep that EnergyPlus is at; nothing if the
+  // build lacks the function for it.
+  std::optional<bool> sun_in_weather(State& state) const;
+
  private:
   // Direction cosines of the sun: east, north, up.
   struct Cosines {
@@ -90,6 +94,7 @@ class EnergyPlusFunctions {
     }
   };
   Calendar calendar_;
+  int (*sun_in_weather_)(State*) = nullptr;
 };
 
 }  // namespace gpu_shading::energyplus

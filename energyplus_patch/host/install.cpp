@@ -15,6 +15,7 @@
 #include "gpu_shading/renderer.h"
 #include "gpu_shading_energyplus.h"
 #include "host/daylight_entries.h"
+#include "host/daylight_memory_entries.h"
 #include "host/daylight_reflection_entries.h"
 #include "host/glfw_entries.h"
 #include "host/input_entries.h"
@@ -103,6 +104,9 @@ void patch(Loaded const& loaded, Installation& installed) {
     auto const more = daylight_reflection_entries();
     entries.insert(entries.end(), more.begin(), more.end());
   }
+  auto const memory = daylight_memory_entries();
+  bool const daylight_memory = daylight_reflections && can_patch(symbols, memory);
+  if (daylight_memory) entries.insert(entries.end(), memory.begin(), memory.end());
   EnergyPlusFunctions const functions(symbols);
   ScheduleFunctions const schedules(symbols);
   auto const version = read_version(loaded.path.parent_path());
@@ -110,6 +114,7 @@ void patch(Loaded const& loaded, Installation& installed) {
   installed.surface_ids = surface_ids;
   installed.reflection_classes = reflection_classes;
   installed.daylight_reflections = daylight_reflections;
+  installed.daylight_memory = daylight_memory;
   installed.library = loaded.path;
   installed.version = version;
   installed.daylight_rays = daylight_rays;

@@ -33,6 +33,7 @@ struct Installation {
     ElementFunction* element;
   };
   std::optional<DaylightParts> daylight_reflections;
+  bool daylight_memory = false;   // the functions of DaylightMemory are redirected
   Choices choices;                // command line over environment
   std::optional<AskedTask> task;  // that EnergyPlus is run for
 };

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "host/daylight_memory_entries.h"
 #include "host/run.h"
 #include "host/unwanted_messages.h"
 
@@ -20,6 +21,7 @@ void set_time(Moment moment) {
 // Shading of the beam at a timestep and, with varying schedules, of every patch of the sky.
 void solar_beam(State& state, int hour, int timestep) {
   set_time({hour, timestep});
+  if (auto* const memory = daylight_memory()) memory->note_shadows(hour);
   original_solar_beam(state, hour, timestep);
 }
 

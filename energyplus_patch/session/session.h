@@ -9,6 +9,7 @@
 
 #include "gpu_shading/scene.h"
 #include "model/model_reader.h"
+#include "session/daylight_memory.h"
 #include "session/hidden_luminance.h"
 #include "session/hidden_obstructions.h"
 #include "session/hidden_reflections.h"
@@ -77,6 +78,12 @@ class Session {
   // EnergyPlus computes daylighting for another period.
   void begin_daylighting();
 
+  // What need not be computed again for daylighting.
+  DaylightMemory& daylight_memory() { return daylight_memory_; }
+  // Whether what the surfaces let pass of a ray of daylighting, EnergyPlus's too, depends on a
+  // schedule.
+  bool daylight_varies() const { return scene_.optics().has_schedules(); }
+
   // What the same surfaces do to reflected solar radiation; nullptr if there are none.
   HiddenReflections* reflections();
 
@@ -101,8 +108,9 @@ class Session {
   Moment moment_;
   static constexpr std::size_t hours = 24;
   std::array<std::optional<glm::dvec3>, hours> first_suns_;
-  std::optional<SunAnswers> answers_;               // once started
-  std::optional<RunRecord> record_;                 // for the report
+  std::optional<SunAnswers> answers_;  // once started
+  std::optional<RunRecord> record_;    // for the report
+  DaylightMemory daylight_memory_;
   std::optional<HiddenObstructions> obstructions_;  // once asked for
   std::optional<HiddenReflections> reflections_;    // once asked for
   std::optional<HiddenLuminance> luminance_;        // once asked for

@@ -38,6 +38,9 @@ class ShadeOptics {
   std::vector<double> factors_at(Moment moment) const;
   std::vector<double> deployments_at(Moment moment) const;
 
+  // Whether a surface has a Transmittance or Deployment Schedule, be it a constant one.
+  bool has_schedules() const { return !by_name_.empty() || !deployment_names_.empty(); }
+
   Schedules const& schedules() const { return schedules_; }
 
   // Indexed by the numbers that apply() assigns.

@@ -158,6 +158,26 @@ def test_models_of_others_give_stock_results(row, official, patched, tmp_path):
     assert_equal_to_stock(*runs)
 
 
+@pytest.mark.parametrize("make", [daylit_rooms.several_windows_and_a_map, daylit_rooms.interior_window,
+                                  daylit_rooms.shelf, daylit_rooms.tubular_device])
+def test_what_is_kept_from_timestep_to_timestep_gives_stock_results(make, louvres, run):
+    """With shadows renewed at every timestep, rays, skies and what is dark are not computed again."""
+    text, count = re.subn(r"Periodic,(.*\n\s*)20;", r"Timestep,\g<1>20;", make(louvres(20)))
+    assert count == 1
+    text = text.replace("Timestep,4;", "Timestep,2;")
+    stock, lean = (run(text, name, *options) for name, options in (
+        ("stock", ()), ("lean", ("--gpu-shading", "--gpu-shading-lean=on"))))
+    assert_equal_to_stock(stock, lean)
+    values = [np.array([*lux_of(each).values()]) for each in (stock, lean)]
+    assert len(np.unique(values[0])) > 4
+    # Stock clips polygons, so that its sun through the windows differs from ours.
+    assert values[1] == pytest.approx(values[0], rel=3e-3, abs=0.1)
+    if "IlluminanceMap" in text:
+        rows = [re.findall(r"[\d.]+", each.text("eplusmap.csv")) for each in (stock, lean)]
+        assert len(rows[0]) > 36 * 8
+        assert np.array(rows[1], float) == pytest.approx(np.array(rows[0], float), rel=1e-2, abs=1.0)
+
+
 def test_constant_transmittance_dims_all_daylight(room, run):
     bare = run(room, "bare", "--gpu-shading")
     sheet = shade("Sheet", WALL) + "GPUShading:TransparentShade,Tint,Sheet,Constant,0.35;\n"
