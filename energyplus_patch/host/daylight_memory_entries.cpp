@@ -7,6 +7,7 @@ namespace gpu_shading::energyplus {
 namespace {
 
 double (*original_sky_luminance)(State const&, int, double, double) = nullptr;
+double (*original_tube)(State&, int, double, int) = nullptr;
 void (*original_control_points)(State&, int) = nullptr;
 void (*original_map_points)(State&, int) = nullptr;
 
@@ -20,6 +21,12 @@ double sky_luminance(State const& state, int sky, double azimuth, double altitud
   auto const compute = [&] { return original_sky_luminance(state, sky, azimuth, altitude); };
   auto* const memory = integrating();
   return memory == nullptr ? compute() : memory->luminance(sky, azimuth, altitude, compute);
+}
+
+// What a tubular device lets pass. EnergyPlus adds it up for all points.
+double tube(State& state, int device, double cosine, int radiation) {
+  if (auto* const memory = integrating()) memory->note_sums();
+  return original_tube(state, device, cosine, radiation);
 }
 
 void compute_points(State& state, DaylightMemory::Points points, void (*original)(State&, int)) {
@@ -63,9 +70,10 @@ SkyIntegral::~SkyIntegral() { integrating() = before_; }
 void begin_daylight_memory(State& state) {
   auto* const memory = daylight_memory();
   if (memory == nullptr) return;
-  // Reflections look at the rays one after another.
   guarded([&] {
-    memory->begin(!this_run().session->daylight_varies() && daylight_reflections(state) == nullptr);
+    // DaylightReflections looks at the rays one after another.
+    bool const alone = daylight_reflections(state) == nullptr;
+    memory->begin({.rays = alone && !this_run().session->daylight_varies(), .reflected = alone});
   });
 }
 
@@ -73,6 +81,8 @@ std::vector<EntryPatch> daylight_memory_entries() {
   return {
       watch("_ZN10EnergyPlus6Dayltg18DayltgSkyLuminanceERKNS_14EnergyPlusDataENS0_7SkyTypeEdd",
             &sky_luminance, &original_sky_luminance),
+      watch("_ZN10EnergyPlus6Dayltg8TransTDDERNS_14EnergyPlusDataEidNS0_7RadTypeE", &tube,
+            &original_tube),
       watch("_ZN10EnergyPlus6Dayltg25CalcDayltgCoeffsRefPointsERNS_14EnergyPlusDataEi",
             &control_points, &original_control_points),
       watch("_ZN10EnergyPlus6Dayltg25CalcDayltgCoeffsMapPointsERNS_14EnergyPlusDataEi", &map_points,

@@ -84,6 +84,10 @@ double sky_on_ground(State& state, Vector const& point, int altitudes, int azimu
 }
 
 void inter_reflected(State& state, int sun_position, int hour, int enclosure, int window) {
+  // EnergyPlus counts positions of the sun for each window.
+  auto* const memory = daylight_memory();
+  DaylightMemory::Reflected const reflected{hour, sun_position == 1, enclosure, window};
+  if (memory != nullptr && !memory->begin_reflected(reflected)) return;
   SkyIntegral const kept(hour, window);
   bool const done = answer(state, [&](DaylightReflections& active) {
     active.inter_reflected(state, sun_position, hour, enclosure, window);

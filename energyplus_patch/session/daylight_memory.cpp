@@ -6,15 +6,18 @@ void DaylightMemory::note_shadows(int hour) {
   last_hour_ = hour;
 }
 
-void DaylightMemory::begin(bool rays_hold) {
+void DaylightMemory::begin(Holds holds) {
   hour_.reset();
   bool const is_hour = last_hour_ >= 1 && last_hour_ <= static_cast<int>(hours);
   if (shadows_ == 1 && is_hour) hour_ = last_hour_;
   shadows_ = 0;
   sun_ = false;
   rays_ = nullptr;
-  rays_hold_ = rays_hold;
-  if (!rays_hold) rays_of_.clear();
+  holds_ = holds;
+  if (!holds.rays) rays_of_.clear();
+  reflected_ = {};
+  reflected_now_ = nullptr;
+  obstructions_ = {};
   luminances_of_.clear();
 }
 
@@ -39,11 +42,30 @@ bool DaylightMemory::begin_points(Points points, bool sun_in_weather) {
       zeros.of_hour.reset();
     }
   }
-  if (rays_hold_) {
+  if (holds_.rays) {
     rays_ = &rays_of_.try_emplace(points, room_for_rays_).first->second;
     rays_->restart();
   }
   return true;
+}
+
+bool DaylightMemory::begin_reflected(Reflected const& reflected) {
+  reflected_now_ = nullptr;
+  bool const is_hour = reflected.hour >= 1 && reflected.hour <= static_cast<int>(hours);
+  if (!holds_.reflected || !is_hour) return true;
+  auto& kept = reflected_.at(static_cast<std::size_t>(reflected.hour));
+  auto const obstructions = reflected.first ? reflected : obstructions_;
+  bool const known = kept && kept->reflected == reflected && kept->obstructions == obstructions &&
+                     obstructions_ == obstructions;
+  if (known) return false;
+  obstructions_ = obstructions;
+  kept = KeptReflected{reflected, obstructions};
+  reflected_now_ = &kept;
+  return true;
+}
+
+void DaylightMemory::note_sums() {
+  if (reflected_now_ != nullptr) reflected_now_->reset();
 }
 
 DaylightMemory::Rays::Question DaylightMemory::question(Ray kind, int window,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <bitset>
 #include <cstddef>
 #include <cstdint>
@@ -24,8 +25,12 @@ class DaylightMemory {
   // What EnergyPlus says, in its order. Shadows of the beam are computed at a timestep of an hour,
   // 1 .. 24;
   void note_shadows(int hour);
-  // then factors, of all points; whether an answer to a ray holds as long as the run;
-  void begin(bool rays_hold);
+  // then factors, of all points;
+  struct Holds {
+    bool rays = false;       // an answer to a ray, as long as the run
+    bool reflected = false;  // reflected light, until factors are computed again
+  };
+  void begin(Holds holds);
   // the sun is up in an hour of those;
   void note_sun() { sun_ = true; }
   // then those of points, whether the sun is up in EnergyPlus's weather. False if they are known to
@@ -39,6 +44,21 @@ class DaylightMemory {
   enum class Ray { through_window, in_room };
   static Rays::Question question(Ray kind, int window, glm::dvec3 const& from,
                                  glm::dvec3 const& to);
+
+  // The light that enters by a window and that the surfaces of an enclosure reflect, at an hour.
+  struct Reflected {
+    int hour = 0;
+    bool first = false;  // it also notes what obstructs the sky of the window
+    int enclosure = 0;
+    int window = 0;
+
+    bool operator==(Reflected const&) const = default;
+  };
+  // EnergyPlus computes it for each point anew, and keeps it by hour for the window that it was
+  // computed for last, and the obstructions for one window. False if it is as EnergyPlus keeps it.
+  bool begin_reflected(Reflected const& reflected);
+  // It also adds to sums, so that it must not be left out.
+  void note_sums();
 
   // While EnergyPlus integrates over the sky that a window sees, always in the same directions, the
   // luminance in each of them is kept until factors are computed again.
@@ -86,7 +106,14 @@ class DaylightMemory {
   std::map<Points, Zeros> zeros_;
   std::size_t room_for_rays_ = 1'000'000;        // 64 MB
   std::size_t room_for_luminances_ = 1'000'000;  // 32 MB
-  bool rays_hold_ = false;
+  Holds holds_;
+  struct KeptReflected {
+    Reflected reflected;
+    Reflected obstructions;  // where they are from
+  };
+  std::array<std::optional<KeptReflected>, hours + 1> reflected_;
+  std::optional<KeptReflected>* reflected_now_ = nullptr;
+  Reflected obstructions_;
   std::map<Points, Rays> rays_of_;
   Rays* rays_ = nullptr;
   std::map<std::pair<int, int>, Luminances> luminances_of_;  // by hour and window
