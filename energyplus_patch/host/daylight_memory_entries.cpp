@@ -1,31 +1,60 @@
 #include "host/daylight_memory_entries.h"
 
+#include <atomic>
+
+#include "binary/preserving_thunk.h"
 #include "host/daylight_reflection_entries.h"
 #include "host/run.h"
+
+// EnergyPlus asks for many luminances, most of which are not kept. Those go straight on to its own
+// function.
+extern "C" {
+__attribute__((visibility("hidden"), used)) std::atomic<int> gpu_shading_sky_integrals{0};
+__attribute__((visibility("hidden"), used)) void* gpu_shading_kept_luminance = nullptr;
+__attribute__((visibility("hidden"),
+               used)) double (*gpu_shading_own_luminance)(gpu_shading::energyplus::State const&,
+                                                          int, double, double) = nullptr;
+__attribute__((visibility("hidden"))) double gpu_shading_sky_luminance(
+    gpu_shading::energyplus::State const&, int, double, double);
+}
+asm(R"(
+  .pushsection .text
+  .balign 16
+  .hidden gpu_shading_sky_luminance
+  .globl gpu_shading_sky_luminance
+gpu_shading_sky_luminance:
+  .cfi_startproc
+  cmpl $0, gpu_shading_sky_integrals(%rip)
+  jne 1f
+  jmp *gpu_shading_own_luminance(%rip)
+1:
+  jmp *gpu_shading_kept_luminance(%rip)
+  .cfi_endproc
+  .popsection
+)");
 
 namespace gpu_shading::energyplus {
 namespace {
 
-double (*original_sky_luminance)(State const&, int, double, double) = nullptr;
 double (*original_tube)(State&, int, double, int) = nullptr;
 void (*original_control_points)(State&, int) = nullptr;
 void (*original_map_points)(State&, int) = nullptr;
 
-// While EnergyPlus integrates over the sky that a window sees; nullptr otherwise.
+// While EnergyPlus integrates over a sky that is kept; nullptr otherwise.
 DaylightMemory*& integrating() {
   thread_local DaylightMemory* instance = nullptr;
   return instance;
 }
 
 double sky_luminance(State const& state, int sky, double azimuth, double altitude) {
-  auto const compute = [&] { return original_sky_luminance(state, sky, azimuth, altitude); };
+  auto const compute = [&] { return gpu_shading_own_luminance(state, sky, azimuth, altitude); };
   auto* const memory = integrating();
   return memory == nullptr ? compute() : memory->luminance(sky, azimuth, altitude, compute);
 }
 
 // What a tubular device lets pass. EnergyPlus adds it up for all points.
 double tube(State& state, int device, double cosine, int radiation) {
-  if (auto* const memory = integrating()) memory->note_sums();
+  if (auto* const memory = daylight_memory()) memory->note_sums();
   return original_tube(state, device, cosine, radiation);
 }
 
@@ -61,11 +90,19 @@ DaylightMemory* daylight_memory() {
 SkyIntegral::SkyIntegral(int hour, int window) : before_(integrating()) {
   auto* const memory = daylight_memory();
   if (memory == nullptr) return;
-  guarded([&] { sky_.emplace(*memory, hour, window); });
+  guarded([&] {
+    if (memory->sky_recurs(hour, window)) sky_.emplace(*memory, hour, window);
+  });
+  if (!sky_) return;
   integrating() = memory;
+  ++gpu_shading_sky_integrals;
 }
 
-SkyIntegral::~SkyIntegral() { integrating() = before_; }
+SkyIntegral::~SkyIntegral() {
+  if (!sky_) return;
+  --gpu_shading_sky_integrals;
+  integrating() = before_;
+}
 
 void begin_daylight_memory(State& state) {
   auto* const memory = daylight_memory();
@@ -78,9 +115,15 @@ void begin_daylight_memory(State& state) {
 }
 
 std::vector<EntryPatch> daylight_memory_entries() {
-  return {
+  static void* const kept =
+      preserve_registers(reinterpret_cast<void*>(&sky_luminance), Result::real);
+  gpu_shading_kept_luminance = kept;
+  auto luminance =
       watch("_ZN10EnergyPlus6Dayltg18DayltgSkyLuminanceERKNS_14EnergyPlusDataENS0_7SkyTypeEdd",
-            &sky_luminance, &original_sky_luminance),
+            &gpu_shading_sky_luminance, &gpu_shading_own_luminance);
+  luminance.result.reset();  // it changes no register
+  return {
+      luminance,
       watch("_ZN10EnergyPlus6Dayltg8TransTDDERNS_14EnergyPlusDataEidNS0_7RadTypeE", &tube,
             &original_tube),
       watch("_ZN10EnergyPlus6Dayltg25CalcDayltgCoeffsRefPointsERNS_14EnergyPlusDataEi",

@@ -18,6 +18,7 @@ void DaylightMemory::begin(Holds holds) {
   reflected_ = {};
   reflected_now_ = nullptr;
   obstructions_ = {};
+  skies_.clear();
   luminances_of_.clear();
 }
 
@@ -76,6 +77,13 @@ DaylightMemory::Rays::Question DaylightMemory::question(Ray kind, int window,
       (static_cast<std::uint64_t>(kind) << bits_of_window) + static_cast<std::uint32_t>(window);
   return {what,          bits_of(from.x), bits_of(from.y), bits_of(from.z),
           bits_of(to.x), bits_of(to.y),   bits_of(to.z)};
+}
+
+bool DaylightMemory::sky_recurs(int hour, int window) {
+  if (recurring_skies_.contains(window)) return true;
+  if (skies_.insert({hour, window}).second) return false;
+  recurring_skies_.insert(window);
+  return true;
 }
 
 DaylightMemory::SkyOfWindow::SkyOfWindow(DaylightMemory& memory, int hour, int window)

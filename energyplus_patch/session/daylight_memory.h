@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "session/recurring_answers.h"
@@ -61,7 +62,9 @@ class DaylightMemory {
   void note_sums();
 
   // While EnergyPlus integrates over the sky that a window sees, always in the same directions, the
-  // luminance in each of them is kept until factors are computed again.
+  // luminance in each of them is kept until factors are computed again. Whether that is of use: it
+  // has integrated more than once over the sky of that window at an hour.
+  bool sky_recurs(int hour, int window);
   class SkyOfWindow {
    public:
     SkyOfWindow(DaylightMemory& memory, int hour, int window);
@@ -116,6 +119,8 @@ class DaylightMemory {
   Reflected obstructions_;
   std::map<Points, Rays> rays_of_;
   Rays* rays_ = nullptr;
+  std::set<std::pair<int, int>> skies_;  // hours and windows that were asked about
+  std::set<int> recurring_skies_;        // windows
   std::map<std::pair<int, int>, Luminances> luminances_of_;  // by hour and window
   Luminances* luminances_ = nullptr;
   bool untested_ = false;

@@ -115,6 +115,19 @@ TEST(DaylightMemory, ComputesTheSkyOfAWindowOnce) {
   EXPECT_EQ(sky.calls, 31);
 }
 
+TEST(DaylightMemory, KeepsTheSkyOfWindowsThatRecurs) {
+  DaylightMemory memory;
+  EXPECT_FALSE(memory.sky_recurs(12, 1));
+  EXPECT_FALSE(memory.sky_recurs(12, 2));
+  EXPECT_FALSE(memory.sky_recurs(13, 1));
+  memory.begin({});
+  EXPECT_FALSE(memory.sky_recurs(12, 1));
+  EXPECT_TRUE(memory.sky_recurs(12, 1));
+  memory.begin({});
+  EXPECT_TRUE(memory.sky_recurs(13, 1));
+  EXPECT_FALSE(memory.sky_recurs(13, 2));
+}
+
 TEST(DaylightMemory, NoticesAnotherSun) {
   DaylightMemory memory;
   auto const luminance = [&](double value) {
