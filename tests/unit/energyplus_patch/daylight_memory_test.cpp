@@ -90,6 +90,7 @@ struct Sky {
   std::vector<double> integrate(DaylightMemory& memory, int window) {
     DaylightMemory::SkyOfWindow const sky(memory, 12, window);
     std::vector<double> luminances;
+    luminances.reserve(10);
     for (int i = 0; i < 10; ++i) {
       luminances.push_back(memory.luminance(i % 4, 0.1 * i, 0.2 * i, [&] {
         ++calls;
