@@ -132,6 +132,10 @@ pid_t start(Start const& program) {
 
 }  // namespace
 
+std::vector<std::string> arguments_of(int argc, char const* const* argv) {
+  return {argv + 1, argv + argc};
+}
+
 std::filesystem::path own_folder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();
 }
@@ -139,6 +143,11 @@ std::filesystem::path own_folder() {
 TemporaryFolder::TemporaryFolder()
     : folder_(std::filesystem::temp_directory_path(), prefix), path_(folder_.path() / "files") {
   std::filesystem::create_directory(path_);
+}
+
+std::string get_variable(char const* name) {
+  char const* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
 }
 
 void set_variable(char const* name, std::string const& value) { setenv(name, value.c_str(), 1); }

@@ -10,6 +10,9 @@
 
 namespace gpu_shading::energyplus {
 
+// The arguments in UTF-8, without the program's name; of main().
+std::vector<std::string> arguments_of(int argc, char const* const* argv);
+
 // The folder of the running program: a patched EnergyPlus, for the launcher and the gpu_shading
 // program.
 std::filesystem::path own_folder();
@@ -29,7 +32,9 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// Sets an environment variable of this process.
+// An environment variable of this process, in UTF-8; empty where it is not set.
+std::string get_variable(char const* name);
+// Sets one.
 void set_variable(char const* name, std::string const& value);
 
 // Throws Error if nothing can be written to a temporary folder: programs that do not say why they

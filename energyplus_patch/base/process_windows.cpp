@@ -1,12 +1,15 @@
 #include <fmt/format.h>
+#include <shellapi.h>
 #include <windows.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <memory>
 #include <system_error>
 
 #include "base/files.h"
 #include "base/process.h"
+#include "base/wide_text.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -17,16 +20,6 @@ using Handle = std::unique_ptr<void, decltype(&CloseHandle)>;
 [[noreturn]] void fail(std::string const& program) {
   std::error_code const why(static_cast<int>(GetLastError()), std::system_category());
   throw Error(fmt::format("{}: cannot be run ({})", program, why.message()));
-}
-
-// Text of ours is UTF-8, which std::filesystem::path does not take it for.
-std::wstring to_wide(std::string const& text) {
-  auto const convert = [&](wchar_t* to, int size) {
-    return MultiByteToWideChar(CP_UTF8, 0, text.data(), static_cast<int>(text.size()), to, size);
-  };
-  std::wstring wide(static_cast<std::size_t>(convert(nullptr, 0)), L'\0');
-  convert(wide.data(), static_cast<int>(wide.size()));
-  return wide;
 }
 
 // As Windows's programs read words from a command line.
@@ -62,6 +55,16 @@ std::wstring environment_with(std::vector<std::string> const& further) {
 
 }  // namespace
 
+// What main() is given is in the system's code page.
+std::vector<std::string> arguments_of(int /*argc*/, char const* const* /*argv*/) {
+  int count = 0;
+  std::unique_ptr<wchar_t*, decltype(&LocalFree)> const words(
+      CommandLineToArgvW(GetCommandLineW(), &count), &LocalFree);
+  std::vector<std::string> arguments;
+  for (int i = 1; i < count; ++i) arguments.push_back(to_utf8(words.get()[i]));
+  return arguments;
+}
+
 std::filesystem::path own_folder() {
   constexpr DWORD most = 32768;
   std::wstring path(most, L'\0');
@@ -74,7 +77,14 @@ TemporaryFolder::TemporaryFolder()
   std::filesystem::create_directory(path_);
 }
 
-void set_variable(char const* name, std::string const& value) { _putenv_s(name, value.c_str()); }
+std::string get_variable(char const* name) {
+  wchar_t const* const value = _wgetenv(to_wide(name).c_str());
+  return value == nullptr ? "" : to_utf8(value);
+}
+
+void set_variable(char const* name, std::string const& value) {
+  _wputenv_s(to_wide(name).c_str(), to_wide(value).c_str());
+}
 
 void require_room(std::filesystem::path const& folder) {
   constexpr std::size_t bytes = 4096;

@@ -2,7 +2,6 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,18 +26,6 @@ constexpr char const* energyplus_library = "energyplusapi.dll";
 constexpr char const* official_program = "energyplus-official.exe";
 constexpr int not_wanted = -1;
 
-// A path made of UTF-8, of which std::filesystem::path has taken every byte for a character.
-void read_utf8(std::optional<std::filesystem::path>& path) {
-  if (!path) return;
-  std::u8string bytes;
-  for (wchar_t const c : path->native()) {
-    constexpr wchar_t bytes_end = 0x100;
-    if (c >= bytes_end) return;
-    bytes += static_cast<char8_t>(c);
-  }
-  path = std::filesystem::path(bytes);
-}
-
 int run(std::vector<std::string> arguments) {
   auto choices = take_flags(arguments);
   auto const environment = read_environment();
@@ -46,11 +33,7 @@ int run(std::vector<std::string> arguments) {
   choices.fill_from(environment);
   apply_to_process(choices);
   auto const library = own_folder() / energyplus_library;
-  auto line = read_command_line(arguments);
-  for (auto* const path : {&line.model, &line.weather, &choices.file, &choices.report,
-                           &choices.cache, &choices.stages}) {
-    read_utf8(*path);
-  }
+  auto const line = read_command_line(arguments);
   if (line.help) std::fputs(std::string(flags_help()).c_str(), stdout);
   if (line.preprocessed) {
     throw Error("-m: an EPMacro model cannot be rendered on Windows; create its IDF first");

@@ -390,8 +390,8 @@ Choices read_environment() {
   Choices choices;
   for (auto const& choice : all_choices()) {
     if (choice.variable == nullptr) continue;
-    char const* value = std::getenv(choice.variable);
-    if (value != nullptr && *value != '\0') set(choice, choices, choice.variable, value);
+    auto const value = get_variable(choice.variable);
+    if (!value.empty()) set(choice, choices, choice.variable, value);
   }
   expect_one_fineness(choices, "GPU_SHADING_RESOLUTION", "GPU_SHADING_ERROR");
   return choices;

@@ -417,8 +417,7 @@ void refuse_mistyped_subcommand(CLI::App const& app, std::vector<std::string> co
   throw Error(fmt::format("{}: {}{}", printable(flag), kind, did_you_mean(flag, flags)));
 }
 
-int run(int argc, char** argv) {
-  std::vector<std::string> arguments(argv + 1, argv + argc);
+int run(std::vector<std::string> arguments) {
   auto choices = take_flags(arguments);
   choices.fill_from(read_environment());
   apply_to_process(choices);
@@ -458,7 +457,8 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   gpu_shading::energyplus::catch_lack_of_memory();
   try {
-    int const status = gpu_shading::energyplus::run(argc, argv);
+    int const status =
+        gpu_shading::energyplus::run(gpu_shading::energyplus::arguments_of(argc, argv));
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
       throw gpu_shading::Error("standard output: cannot be written");
     }
