@@ -11,7 +11,7 @@ namespace gpu_shading::energyplus {
 int flush_file(std::filesystem::path const& file);
 int flush_folder(std::filesystem::path const& folder);
 
-// Renames a file; it replaces another in one step.
+// Renames a file, which replaces another in one step, or a folder, which may replace an empty one.
 int replace_file(std::filesystem::path const& file, std::filesystem::path const& replaced);
 
 }  // namespace gpu_shading::energyplus

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 #include "base/files.h"
@@ -19,14 +18,6 @@ namespace gpu_shading::energyplus {
 namespace {
 
 using Path = std::filesystem::path;
-
-std::optional<std::string> anchored(std::string const& value, Path const& folder) {
-  if (value.find("..") == std::string::npos || Path(value).is_absolute()) return std::nullopt;
-  std::error_code ignored;
-  auto const path = folder / value;
-  if (!std::filesystem::exists(path, ignored)) return std::nullopt;
-  return std::filesystem::weakly_canonical(path).string();
-}
 
 class IdfEdited : public EditedObject {
  public:
@@ -69,11 +60,9 @@ class IdfEditor : public ModelEditor {
     objects_.push_back(std::move(object));
   }
 
-  void anchor_paths(Path const& folder) override {
+  void edit_texts(std::function<void(std::string&)> const& change) override {
     for (auto& object : objects_) {
-      for (auto& field : object.fields) {
-        if (auto const absolute = anchored(field, folder)) field = *absolute;
-      }
+      for (auto& field : object.fields) change(field);
     }
   }
 
@@ -138,7 +127,9 @@ class EpjsonEditor : public ModelEditor {
     instances[name] = std::move(object);
   }
 
-  void anchor_paths(Path const& folder) override { anchor(model_, folder); }
+  void edit_texts(std::function<void(std::string&)> const& change) override {
+    edit_texts_in(model_, change);
+  }
 
   std::string text() const override { return model_.dump(1); }
 
@@ -151,11 +142,12 @@ class EpjsonEditor : public ModelEditor {
   }
 
   // NOLINTNEXTLINE(misc-no-recursion): as deep as the model
-  static void anchor(nlohmann::json& value, Path const& folder) {
+  static void edit_texts_in(nlohmann::json& value,
+                            std::function<void(std::string&)> const& change) {
     if (value.is_string()) {
-      if (auto const absolute = anchored(value.get<std::string>(), folder)) value = *absolute;
+      change(value.get_ref<std::string&>());
     } else if (value.is_structured()) {
-      for (auto& item : value) anchor(item, folder);
+      for (auto& item : value) edit_texts_in(item, change);
     }
   }
 

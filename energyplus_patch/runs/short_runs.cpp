@@ -10,11 +10,11 @@
 
 #include "base/files.h"
 #include "base/process.h"
-#include "base/staged_files.h"
 #include "base/text.h"
 #include "gpu_shading/error.h"
 #include "idf/input_object.h"
 #include "idf/model_editor.h"
+#include "runs/named_files.h"
 #include "runs/stop_reasons.h"
 
 namespace gpu_shading::energyplus {
@@ -247,14 +247,7 @@ ScheduleDays run_for_schedules(EnergyPlusCall const& call,
 Path place_model(ModelEditor& model, Path const& original, Path const& folder) {
   std::filesystem::create_directories(folder);
   auto const source = std::filesystem::weakly_canonical(original);
-  model.anchor_paths(source.parent_path());
-  for (auto const& entry : std::filesystem::directory_iterator(source.parent_path())) {
-    auto const link = folder / entry.path().filename();
-    if (entry.path() == source || std::filesystem::equivalent(entry.path(), folder)) continue;
-    if (entry.path().filename().string().starts_with(StagedFiles::prefix)) continue;
-    std::error_code exists;
-    std::filesystem::create_symlink(entry.path(), link, exists);
-  }
+  bring_named_files(model, source, folder);
   auto path = folder / source.filename();
   write_whole_file(path, [&](std::ostream& file) { file << model.text(); });
   return path;

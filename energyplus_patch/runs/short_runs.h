@@ -47,8 +47,8 @@ RunTimes run_for_beam(EnergyPlusCall const& call, std::vector<std::string> const
 ScheduleDays run_for_schedules(EnergyPlusCall const& call,
                                std::vector<std::string> const& schedules);
 
-// Writes a model into a folder under its own name, with links to the files beside the original, so
-// that relative file names work.
+// Writes a model into a folder under its own name, where relative file names work: see
+// bring_named_files().
 std::filesystem::path place_model(ModelEditor& model, std::filesystem::path const& original,
                                   std::filesystem::path const& folder);
 

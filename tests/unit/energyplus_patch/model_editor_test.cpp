@@ -7,6 +7,7 @@
 
 #include "base/process.h"
 #include "idf/idf_text.h"
+#include "runs/named_files.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -47,12 +48,27 @@ TEST(ModelEditor, Epjson) {
                                       "Zone": {"Hall": {"direction_of_relative_north": 10}}})"));
 }
 
-TEST(ModelEditor, AnchorsPathsThatLeaveTheFolder) {
+TEST(ModelEditor, EditsAllTexts) {
+  auto const extend = [](std::string& text) { text += '+'; };
+  auto const idf = edit_idf("Schedule:File,S,,data.csv;");
+  idf->edit_texts(extend);
+  EXPECT_THAT(parse_idf(idf->text())[0].fields, ElementsAre("S+", "+", "data.csv+"));
+  auto const epjson = edit_epjson(
+      nlohmann::json::parse(R"({"Building": {"House": {"north_axis": 30, "terrain": "City"}}})"));
+  epjson->edit_texts(extend);
+  EXPECT_EQ(
+      nlohmann::json::parse(epjson->text()),
+      nlohmann::json::parse(R"({"Building": {"House": {"north_axis": 30, "terrain": "City+"}}})"));
+}
+
+TEST(NamedFiles, ThatLeaveTheFolderAreNamedByTheirWholePath) {
   TemporaryFolder const folder;
   std::ofstream(folder.path() / "data.csv") << "1\n";
   auto const model = edit_idf("Schedule:File,S,,../data.csv,1;Schedule:File,T,,../none.csv,1;");
-  std::filesystem::create_directory(folder.path() / "models");
-  model->anchor_paths(folder.path() / "models");
+  for (auto const* const name : {"models", "placed"}) {
+    std::filesystem::create_directory(folder.path() / name);
+  }
+  bring_named_files(*model, folder.path() / "models" / "model.idf", folder.path() / "placed");
   auto const objects = parse_idf(model->text());
   EXPECT_EQ(objects[0].fields[2], std::filesystem::canonical(folder.path() / "data.csv"));
   EXPECT_EQ(objects[1].fields[2], "../none.csv");
