@@ -1,10 +1,7 @@
 #include <fmt/format.h>
 
 #include "assets/elevation_file.h"
-#include "assets/image_file.h"
-#include "assets/labelled_image.h"
 #include "assets/mesh_file.h"
-#include "assets/picture_sheet.h"
 #include "assets/texture_file.h"
 #include "base/files.h"
 #include "gpu_shading/error.h"
@@ -20,32 +17,15 @@ namespace {
       fmt::format("{}: images, meshes and GeoTIFF cannot be read on Windows", path.string()));
 }
 
-[[noreturn]] void refuse_picture(std::string const& name) {
-  throw Error(fmt::format("{}: pictures cannot be written on Windows", name));
-}
-
 }  // namespace
 
 decoding::Elevations read_elevations(std::filesystem::path const& path) { refuse(path); }
-
-std::string encode_image(std::string const& name, Image const& /*image*/) { refuse_picture(name); }
-
-std::string encode_labelled(std::string const& name, Image const& /*image*/,
-                            std::vector<Label> const& /*labels*/) {
-  refuse_picture(name);
-}
 
 bool states_its_axes(std::filesystem::path const& path, Assets /*assets*/) { refuse(path); }
 
 std::vector<Mesh> read_meshes(std::filesystem::path const& path, Assets /*assets*/) {
   refuse(path);
 }
-
-std::string encode_sheet(std::string const& name, PictureSheet const& /*sheet*/) {
-  refuse_picture(name);
-}
-
-bool is_animation(std::filesystem::path const& /*path*/) { return false; }
 
 TextureInfo probe_texture(std::filesystem::path const& path, Assets /*assets*/) { refuse(path); }
 

@@ -35,7 +35,7 @@ std::string encode_sheet(std::string const& name, PictureSheet const& sheet) {
     captions.push_back(item.caption.c_str());
   }
   auto const scale = scale_colours();
-  constexpr int columns = 4;
+  constexpr int columns = SheetLayout::most_columns;
   constexpr float frames_per_second = 8.0F;
   gpu_shading_sheet const all{static_cast<int>(sheet.items.size()),
                               pictures.data(),

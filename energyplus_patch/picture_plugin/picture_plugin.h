@@ -6,11 +6,13 @@
 
 #include <cstddef>
 
+#include "picture_plugin/sheet_layout.h"
+
 // It takes about 0.25 s to load.
 inline constexpr char const* gpu_shading_picture_library = "libgpu_shading_pictures.so";
 
 // Number of colours of a scale from 0 to 1.
-inline constexpr int gpu_shading_scale_colours = 256;
+inline constexpr int gpu_shading_scale_colours = gpu_shading::SheetLayout::scale_colours;
 
 extern "C" {
 

@@ -12,6 +12,7 @@
 
 #include "base/c_interface.h"
 #include "picture_plugin/picture_plugin.h"
+#include "picture_plugin/sheet_layout.h"
 
 namespace {
 
@@ -22,37 +23,17 @@ using OIIO::ImageBufAlgo::TextAlignY;
 constexpr std::array<float, 3> white{1.0F, 1.0F, 1.0F};
 constexpr std::array<float, 3> black{0.0F, 0.0F, 0.0F};
 
-// Lengths in a picture in proportion to its size, so that all sizes look alike.
-struct Layout {
-  explicit Layout(std::vector<ImageBuf> const& pictures, bool scale) {
-    for (auto const& picture : pictures) {
-      width = std::max(width, picture.spec().width);
-      height = std::max(height, picture.spec().height);
-    }
-    constexpr int least = 11;
-    constexpr int lines = 28;
-    text = std::max(least, std::max(width, height) / lines);
-    margin = text / 2;
-    caption = 2 * text;
-    cell_width = width + 2 * margin;
-    cell_height = height + caption + margin;
-    scale_width = scale ? 7 * text : 0;
-    // Where a bar and its numbers have room.
-    scale_height = scale ? caption + 2 * text + margin + least_bar : 0;
+using Layout = gpu_shading::SheetLayout;
+
+Layout layout_of(std::vector<ImageBuf> const& pictures, bool scale) {
+  int width = 0;
+  int height = 0;
+  for (auto const& picture : pictures) {
+    width = std::max(width, picture.spec().width);
+    height = std::max(height, picture.spec().height);
   }
-
-  static constexpr int least_bar = gpu_shading_scale_colours / 8;
-
-  int width = 1;  // of the largest picture
-  int height = 1;
-  int text;
-  int margin;
-  int caption;  // height of the line above a picture
-  int cell_width;
-  int cell_height;
-  int scale_width;
-  int scale_height;
-};
+  return {width, height, scale};
+}
 
 void check(bool done, ImageBuf const& image) {
   if (!done) fail(image.geterror());
@@ -106,15 +87,13 @@ void write(ImageBuf& on, int x, int y, std::string const& text, int size, TextAl
   warn_of_missing_font();
 }
 
-// A bar from 0 at the bottom to 1, with its numbers, in the last `scale_width` columns.
-void add_scale(ImageBuf& on, Layout const& layout, unsigned char const* colours) {
+void add_scale(ImageBuf& on, Layout const& layout, int columns, int rows,
+               unsigned char const* colours) {
   constexpr int shades = gpu_shading_scale_colours;
-  int const left = on.spec().width - layout.scale_width + layout.text;
+  int const left = layout.bar_left(columns);
   int const wide = layout.text;
-  int const top = layout.caption + layout.text;
-  int const below = std::max(layout.cell_height, layout.scale_height);
-  int const tall = std::max(Layout::least_bar,
-                            std::min(on.spec().height, below) - top - layout.margin - layout.text);
+  int const top = layout.bar_top();
+  int const tall = layout.bar_height(rows);
   for (int y = 0; y < tall; ++y) {
     auto const shade = static_cast<std::size_t>((tall - 1 - y) * (shades - 1) / (tall - 1));
     std::array<float, 3> colour{};
@@ -201,20 +180,19 @@ extern "C" EXPORTED int gpu_shading_write_sheet(char const* path, char const* na
       pictures.emplace_back(sheet->pictures[i]);
       check(pictures.back().read(0, 0, true, OIIO::TypeDesc::UINT8), pictures.back());
     }
-    Layout const layout(pictures, sheet->scale != nullptr);
+    auto const layout = layout_of(pictures, sheet->scale != nullptr);
     std::vector<ImageBuf> frames;
     int const columns = sheet->animated != 0 ? 1 : std::min(sheet->count, sheet->columns);
     int const each = sheet->animated != 0 ? 1 : sheet->count;
     for (int first = 0; first < sheet->count; first += each) {
       int const rows = (each + columns - 1) / columns;
-      auto frame = blank(columns * layout.cell_width + layout.scale_width,
-                         std::max(rows * layout.cell_height, layout.scale_height));
+      auto frame = blank(layout.sheet_width(columns), layout.sheet_height(rows));
       for (int i = 0; i < each; ++i) {
         int const number = first + i;
         add_picture(frame, pictures[static_cast<std::size_t>(number)], sheet->captions[number],
                     i % columns * layout.cell_width, i / columns * layout.cell_height, layout);
       }
-      if (sheet->scale != nullptr) add_scale(frame, layout, sheet->scale);
+      if (sheet->scale != nullptr) add_scale(frame, layout, columns, rows, sheet->scale);
       frames.push_back(std::move(frame));
     }
     write_frames(path, name, frames, sheet->frames_per_second);
