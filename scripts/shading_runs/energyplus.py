@@ -1,6 +1,5 @@
 """Runs EnergyPlus and reads how the run ended."""
 
-import ctypes
 import importlib.util
 import json
 import os
@@ -16,12 +15,15 @@ from pathlib import Path
 
 from shading_runs.version import add_version
 
-_LIBC = ctypes.CDLL(None)
-
 REPOSITORY = Path(__file__).resolve().parents[2]
 
 
 PREFIX_MARKER = ".gpu_shading_prefix.json"  # of patch_energyplus
+
+
+def program_name(name):
+    """The file of a program, as this system names it."""
+    return f"{name}.exe" if os.name == "nt" else name
 
 
 def in_checkout():
@@ -72,7 +74,8 @@ def processor():
         found = re.search(r"^model name\s*:\s*(.*)$", Path("/proc/cpuinfo").read_text(), re.MULTILINE)
     except OSError:
         found = None
-    return f"{found.group(1) if found else platform.processor()}, {len(os.sched_getaffinity(0))} cores"
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    return f"{found.group(1) if found else platform.processor()}, {cores} cores"
 
 
 def use_own_python(*needed):
@@ -205,10 +208,24 @@ class Run:
         return f"exit status {self.status}"
 
 
-def _end_with_parent():
-    """Called in the child process: the kernel kills it when its parent ends, however that ends."""
-    set_parent_death_signal = 1
-    _LIBC.prctl(set_parent_death_signal, signal.SIGKILL)
+if os.name == "nt":
+    _end_with_parent = None
+
+    def _kill(process):
+        process.kill()
+else:
+    import ctypes
+
+    _LIBC = ctypes.CDLL(None)
+
+    def _end_with_parent():
+        """Called in the child process: the kernel kills it when its parent ends, however that ends."""
+        set_parent_death_signal = 1
+        _LIBC.prctl(set_parent_death_signal, signal.SIGKILL)
+
+    def _kill(process):
+        """With what it started."""
+        os.killpg(process.pid, signal.SIGKILL)
 
 
 def run(program, model, weather, folder, options=(), environment=None, timeout=None, before=(), name_path=str):
@@ -234,10 +251,10 @@ def run(program, model, weather, folder, options=(), environment=None, timeout=N
             output, errors = process.communicate(timeout=timeout)
         except subprocess.TimeoutExpired:
             timed_out = True
-            os.killpg(process.pid, signal.SIGKILL)
+            _kill(process)
             output, errors = process.communicate()
         except BaseException:
-            os.killpg(process.pid, signal.SIGKILL)
+            _kill(process)
             raise
     return Run(process.returncode, output, errors, folder, time.monotonic() - began, timed_out)
 

@@ -8,6 +8,7 @@ import copy
 import json
 import os
 import re
+import shutil
 from pathlib import Path
 
 # Fields that the scripts change: IDF position (0 is the first after the class name), epJSON name.
@@ -109,6 +110,9 @@ class Idf:
                     edits.append((start, end, os.path.abspath(folder / value)))
         self._replace(edits)
 
+    def contents(self):
+        return self.text
+
     def write(self, path):
         Path(path).write_text(self.text, encoding="utf-8", errors="surrogateescape")
 
@@ -176,8 +180,24 @@ class EpJson:
                     if isinstance(value, str) and ".." in value and (folder / value).exists():
                         fields[name] = os.path.abspath(folder / value)
 
+    def contents(self):
+        return json.dumps(self.data, indent=1, ensure_ascii=False)
+
     def write(self, path):
         Path(path).write_text(json.dumps(self.data, indent=1), encoding="utf-8")
+
+
+def _copy_named(source, folder, omitted, text):
+    """The same on Windows, where links need privileges: copies of the entries whose names the text has."""
+    folder.mkdir(parents=True)
+    for entry in source.iterdir():
+        contains_omitted = any(path == entry or entry in path.parents for path in omitted)
+        if contains_omitted or entry.name.lower() not in text.lower():
+            continue
+        if entry.is_dir():
+            shutil.copytree(entry, folder / entry.name, copy_function=shutil.copyfile)
+        else:
+            shutil.copyfile(entry, folder / entry.name)
 
 
 def _link_contents(source, folder, omitted):
@@ -200,8 +220,13 @@ def place_copy(model, original, folder, output=()):
     """
     original, folder = Path(original).resolve(), Path(folder)
     omitted = {original, *(Path(path).resolve() for path in (folder, *output))}
-    _link_contents(original.parent, folder, omitted)
     model = model.copy()
     model.anchor_paths(original.parent)
+    if os.name == "nt":
+        side_file = original.with_suffix(".gpu-shading.idf")
+        beside = side_file.read_text(encoding="utf-8", errors="replace") if side_file.is_file() else ""
+        _copy_named(original.parent, folder, omitted, f"{model.contents()}\n{side_file.name}\n{beside}")
+    else:
+        _link_contents(original.parent, folder, omitted)
     model.write(folder / original.name)
     return folder / original.name

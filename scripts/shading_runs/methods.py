@@ -59,17 +59,17 @@ class Method:
 
 
 def clipping(key, model):
-    patched = energyplus.patched_prefix() / "energyplus"
+    patched = energyplus.patched_prefix() / energyplus.program_name("energyplus")
     if patched.is_file():
         return Method(key, "clip", "PolygonClipping", patched, "PolygonClipping", ["--gpu-shading=off"], model=model)
-    official = energyplus.official_prefix() / "energyplus"
+    official = energyplus.official_prefix() / energyplus.program_name("energyplus")
     if not official.is_file():
         raise ValueError(f"{official} is not there: {energyplus.how_to_get_patched()}")
     return Method(key, "clip", "PolygonClipping", official, "PolygonClipping", model=model)
 
 
 def gpu(key, model):
-    patched = energyplus.patched_prefix() / "energyplus"
+    patched = energyplus.patched_prefix() / energyplus.program_name("energyplus")
     made = Method(key, "gpu", "Renderer", patched, options=["--gpu-shading"], model=model, is_ours=True)
     if not patched.is_file():
         made.missing = f"{patched} is not there: {energyplus.how_to_get_patched()}"
@@ -78,8 +78,8 @@ def gpu(key, model):
 
 def pixel_counting(key, model):
     before = energyplus.x_server_command()
-    made = Method(key, "pixel", "PixelCounting", energyplus.official_prefix() / "energyplus", "PixelCounting",
-                  before=before or (), model=model)
+    official = energyplus.official_prefix() / energyplus.program_name("energyplus")
+    made = Method(key, "pixel", "PixelCounting", official, "PixelCounting", before=before or (), model=model)
     if not before:
         made.missing = "xvfb-run or xauth is not installed"
     return made

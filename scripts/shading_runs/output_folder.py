@@ -16,8 +16,6 @@ Only Python's standard library is used, because this file is installed with patc
 """
 
 import contextlib
-import ctypes
-import fcntl
 import hashlib
 import json
 import os
@@ -28,6 +26,10 @@ from pathlib import Path
 
 MARKER = ".gpu_shading_output.json"
 VERSION = 1  # of the marker's format
+IS_WINDOWS = os.name == "nt"
+if not IS_WINDOWS:
+    import ctypes
+    import fcntl
 FOLDER, LINK = "folder", "link "  # in the list; a file is listed by its hash
 
 
@@ -35,10 +37,18 @@ class NotOurs(ValueError):
     """The script would have to delete or overwrite something that it cannot prove it created; one line."""
 
 
+def _open_itself(path, *further):
+    """A descriptor for reading, never through a link; `further`: flags that not all systems have."""
+    flags = os.O_RDONLY
+    for name in ("O_NOFOLLOW", "O_BINARY", *further):
+        flags |= getattr(os, name, 0)
+    return os.open(path, flags)
+
+
 def _read_marker(folder):
     """The marker of a folder, {} if there is no valid one."""
     try:
-        descriptor = os.open(folder / MARKER, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+        descriptor = _open_itself(folder / MARKER, "O_NONBLOCK")
         with open(descriptor, encoding="ascii") as file:
             marker = json.load(file)
     except (OSError, ValueError):
@@ -61,7 +71,7 @@ def _entry(path):
         return FOLDER
     if not stat.S_ISREG(mode):
         raise NotOurs(f"{path} is neither a file nor a folder nor a link: move it, or choose another folder")
-    descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
+    descriptor = _open_itself(path)
     with open(descriptor, "rb") as file:
         digest = hashlib.sha256()
         while block := file.read(1 << 20):
@@ -81,7 +91,9 @@ def _paths(folder, parent=""):
 
 
 def _sync(path):
-    descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
+    if IS_WINDOWS:  # it flushes neither folders nor what is open for reading
+        return
+    descriptor = _open_itself(path)
     try:
         os.fsync(descriptor)
     finally:
@@ -148,6 +160,16 @@ def check(target, maker):
     return marker["entries"]
 
 
+def _exchange_at_once(new, target):
+    """Whether the system could."""
+    if IS_WINDOWS:
+        return False
+    at_fdcwd, rename_exchange = -100, 2
+    libc = ctypes.CDLL(None, use_errno=True)
+    arguments = (at_fdcwd, os.fsencode(new), at_fdcwd, os.fsencode(target), rename_exchange)
+    return hasattr(libc, "renameat2") and libc.renameat2(*arguments) == 0
+
+
 def _exchange(new, target):
     """Renames new to target and, if target exists, target to new."""
     try:
@@ -156,10 +178,7 @@ def _exchange(new, target):
     except OSError:
         if not target.is_dir():
             raise
-    at_fdcwd, rename_exchange = -100, 2
-    libc = ctypes.CDLL(None, use_errno=True)
-    arguments = (at_fdcwd, os.fsencode(new), at_fdcwd, os.fsencode(target), rename_exchange)
-    if hasattr(libc, "renameat2") and libc.renameat2(*arguments) == 0:
+    if _exchange_at_once(new, target):
         return
     # The file system cannot exchange folders: two steps. If the script is killed between them, _clean repairs it.
     old = new.with_name(new.name + ".old")
@@ -169,8 +188,13 @@ def _exchange(new, target):
 
 
 def _lock(folder):
-    """A descriptor that locks a folder until it is closed or the process ends; None if another process has it."""
-    descriptor = os.open(folder, os.O_RDONLY | os.O_NOFOLLOW | os.O_DIRECTORY)
+    """A descriptor that locks a folder until it is closed or the process ends; None if another process has it.
+
+    Windows does not rename a folder in which a file is open: there, nothing is locked.
+    """
+    if IS_WINDOWS:
+        return os.open(os.devnull, os.O_RDONLY)
+    descriptor = _open_itself(folder, "O_DIRECTORY")
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:
@@ -185,7 +209,7 @@ def _prefix(target, maker):
 
 def _clean(target, maker):
     """Deletes what killed scripts left beside target; restores an old output that one had moved away."""
-    if not target.parent.is_dir():
+    if IS_WINDOWS or not target.parent.is_dir():  # without locks, they may be of a script that still runs
         return
     prefix = _prefix(target, maker)
     for folder in sorted(target.parent.iterdir()):
