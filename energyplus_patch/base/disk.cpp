@@ -18,6 +18,10 @@ int open_file(std::filesystem::path const& path, int flags) {
 
 }  // namespace
 
+int find_access(std::filesystem::path const& folder) {
+  return access(folder.c_str(), R_OK | W_OK | X_OK) == 0 ? 0 : errno;
+}
+
 int flush_file(std::filesystem::path const& file) {
   FileDescriptor const opened(open_file(file, O_RDONLY | O_NOFOLLOW));
   if (opened.is_open() && (fsync(opened.get()) == 0 || errno == EINVAL)) return 0;

@@ -1,3 +1,4 @@
+#include <io.h>
 #include <windows.h>
 
 #include <cerrno>
@@ -6,6 +7,11 @@
 #include "base/disk.h"
 
 namespace gpu_shading::energyplus {
+
+int find_access(std::filesystem::path const& folder) {
+  constexpr int read_and_write = 6;
+  return _waccess(folder.c_str(), read_and_write) == 0 ? 0 : errno;
+}
 
 int flush_file(std::filesystem::path const& file) {
   if (std::filesystem::is_directory(file)) return flush_folder(file);

@@ -1,12 +1,11 @@
 #include "cache/cache_folder.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <vector>
 
+#include "base/disk.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
@@ -51,8 +50,8 @@ std::string cache_file_name(std::string_view digits) {
 void prepare_cache_folder(std::filesystem::path const& folder) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
-  if (access(folder.string().c_str(), R_OK | W_OK | X_OK) != 0) {
-    failure = std::error_code(errno, std::generic_category());
+  if (int const error = find_access(folder); error != 0) {
+    failure = std::error_code(error, std::generic_category());
   } else if (!std::filesystem::is_directory(folder)) {
     failure = std::make_error_code(std::errc::not_a_directory);
   } else {
