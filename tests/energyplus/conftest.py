@@ -7,9 +7,8 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(REPOSITORY / "scripts"), str(Path(__file__).resolve().parent)]
 
 import pytest  # noqa: E402
+import windows  # noqa: E402
 from shading_runs import energyplus  # noqa: E402
-
-WEATHER = "USA_CO_Golden-NREL.724666_TMY3.epw"
 
 
 @pytest.fixture(scope="session")
@@ -32,7 +31,7 @@ def patched():
 
 @pytest.fixture(scope="session")
 def weather():
-    return energyplus.find_weather(WEATHER)
+    return energyplus.find_weather(windows.WEATHER)
 
 
 @pytest.fixture(scope="session")
@@ -53,3 +52,27 @@ def louvres():
 def box(louvres):
     """A model that is quick to run: one louvre."""
     return louvres(1)
+
+
+@pytest.fixture(scope="session")
+def wine(tmp_path_factory):
+    """A Windows to run programs in."""
+    if why := windows.why_not():
+        pytest.skip(why)
+    made = windows.Wine(tmp_path_factory.mktemp("wine"))
+    yield made
+    made.close()
+
+
+@pytest.fixture(scope="session")
+def windows_official(wine, tmp_path_factory):
+    """EnergyPlus for Windows, as it was released."""
+    if not (windows.official_folder() / "energyplus.exe").is_file():
+        pytest.skip("EnergyPlus for Windows is missing: run scripts/setup --windows")
+    return windows.copy_energyplus(tmp_path_factory.mktemp("stock") / "EnergyPlus")
+
+
+@pytest.fixture(scope="session")
+def windows_patched(wine, windows_official, tmp_path_factory):
+    """The program of a folder that patch_energyplus.cmd made of it."""
+    return windows.patch_energyplus(wine, windows_official.parent, tmp_path_factory.mktemp("patched") / "Energy Plüs")

@@ -10,7 +10,7 @@ install(FILES scripts/packaging/windows/patch_energyplus.cmd DESTINATION . COMPO
 install(FILES gpu_shading/docs/windows.md DESTINATION . RENAME README.md COMPONENT windows)
 # Of the libraries that are compiled in.
 install(FILES LICENSE DESTINATION licences RENAME gpu_shading COMPONENT windows)
-foreach(package libboost-dev libeigen3-dev libfmt-dev libgeographiclib-dev libglm-dev libjs-three libtbb-dev
+foreach(package libboost-dev libcli11-dev libeigen3-dev libfmt-dev libgeographiclib-dev libglm-dev libjs-three libtbb-dev
                 libxxhash-dev nlohmann-json3-dev
                 mingw-w64-x86-64-dev)
   string(REGEX REPLACE "^lib|-x86-64-dev$|-dev$" "" name ${package})
