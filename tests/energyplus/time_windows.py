@@ -34,11 +34,11 @@ def time_once(wine, program, model, options, limit):
     with tempfile.TemporaryDirectory() as folder:
         run = energyplus.run(program, model, energyplus.find_weather(windows.WEATHER), Path(folder) / "out", options,
                              wine.environment, limit, wine.before, windows.name_path)
-    if run.timed_out:
-        return None
-    if not run.completed:
-        raise SystemExit(run.why())
-    return run.seconds
+        if run.timed_out:
+            return None
+        if not run.completed:
+            raise SystemExit(run.why())
+        return run.seconds
 
 
 def shown(seconds, limit):
