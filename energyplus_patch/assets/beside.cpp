@@ -3,6 +3,8 @@
 #include <dlfcn.h>
 #include <link.h>
 
+#include <system_error>
+
 #include "base/process.h"
 
 namespace gpu_shading::energyplus {
@@ -16,6 +18,13 @@ std::filesystem::path beside_this_code(char const* name) {
   // anywhere.
   if (map == nullptr || map->l_name == nullptr || *map->l_name == '\0') return own_folder() / name;
   return std::filesystem::path(map->l_name).parent_path() / name;
+}
+
+std::string formats_package(std::filesystem::path const& file) {
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored)) return {};
+  return " (install the Debian package energyplus-gpu-shading-formats and run patch_energyplus "
+         "again)";
 }
 
 }  // namespace gpu_shading::energyplus

@@ -7,4 +7,7 @@ namespace gpu_shading::energyplus {
 // The path of a file of ours beside the module or program that this code is part of.
 std::filesystem::path beside_this_code(char const* name);
 
+// What installs a reader or writer of files that is not there, in parentheses; "" if it is there.
+std::string formats_package(std::filesystem::path const& file);
+
 }  // namespace gpu_shading::energyplus

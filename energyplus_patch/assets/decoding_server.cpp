@@ -85,8 +85,8 @@ class Server {
     int const failure = spawning.start(process_, {program.string()});
     if (failure != 0) {
       process_ = -1;
-      throw Error(fmt::format("cannot be decoded without {}: {}", program.string(),
-                              std::strerror(failure)));
+      throw Error(fmt::format("cannot be decoded without {}: {}{}", program.string(),
+                              std::strerror(failure), formats_package(program)));
     }
   }
   Server(Server const&) = delete;
