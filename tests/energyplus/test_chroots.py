@@ -1,7 +1,8 @@
 """The packages in bare Debians, by the very commands of the page on installing: from nothing to sunlit fractions.
 
 Needs root, debootstrap, a network, and packages that scripts/build_wheel and scripts/build_deb have made; what is
-missing is said. Each prints how long it took and what it put on the disk.
+missing is said. Each prints how long it took and what it put on the disk. GPU_SHADING_CHROOTS names a folder in which
+bare Debians are kept, so that debootstrap runs only once.
 """
 
 import os
@@ -72,19 +73,22 @@ def bases(tmp_path_factory):
     """Makes a bare Debian once each."""
     if os.geteuid() != 0 or not shutil.which("debootstrap"):
         pytest.skip("needs root and debootstrap")
-    made = {}
+    made, kept = {}, os.environ.get("GPU_SHADING_CHROOTS")
 
     def base(suite):
+        if kept and (Path(kept) / suite / "etc").is_dir():
+            return Path(kept) / suite
         if suite not in made:
-            root = tmp_path_factory.mktemp(suite) / "root"
+            root = Path(kept) / suite if kept else tmp_path_factory.mktemp(suite) / "root"
             done = subprocess.run(["debootstrap", "--variant=minbase", suite, root], capture_output=True, text=True)
             if done.returncode != 0:
+                shutil.rmtree(root, ignore_errors=True)
                 pytest.skip(f"debootstrap {suite}: {done.stdout[-300:]}")
             made[suite] = root
         return made[suite]
 
     yield base
-    for root in made.values():
+    for root in made.values() if not kept else ():
         shutil.rmtree(root, ignore_errors=True)
 
 
