@@ -7,6 +7,7 @@ import shutil
 import signal
 import stat
 import subprocess
+import sys
 from importlib.machinery import SourceFileLoader
 
 import pytest
@@ -298,6 +299,18 @@ def test_runs_where_it_is_installed(prefix, build, tmp_path):
     (share / "VERSION").write_text("1.2.3\n")
     done = subprocess.run([share / "patch_energyplus", prefix, tmp_path / "patched"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("command, words", [
+    (("patch_energyplus", "--forse", "a", "b"), "--forse: no such flag; did you mean --force?"),
+    (("patch_energyplus", "a", "b", "c"), "unrecognized arguments: c"),
+    (("compare_shading", "-w", "w.epw", "--timeuot=3", "a.idf"), "--timeuot: no such flag; did you mean --timeout?"),
+])
+def test_a_mistyped_flag_of_a_script_is_named(command, words):
+    script = energyplus.REPOSITORY / "scripts" / command[0]
+    done = subprocess.run([sys.executable, script, *command[1:]], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert done.stderr.splitlines()[-1] == f"{command[0]}: error: {words}"
 
 
 def test_the_official_wheel_is_accepted(official, build, tmp_path):
