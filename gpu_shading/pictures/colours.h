@@ -14,8 +14,6 @@ namespace gpu_shading {
 using Colour = glm::dvec3;
 
 inline constexpr double brightest = 255.0;
-inline constexpr Colour black(0.0);
-inline constexpr Colour white(brightest);
 inline constexpr Colour yellow(brightest, brightest, 0.0);
 inline constexpr Colour blue(0.0, 0.0, brightest);
 inline constexpr Colour sky(226.0, 234.0, 243.0);  // neither white nor a grey

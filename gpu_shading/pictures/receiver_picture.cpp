@@ -7,6 +7,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
+#include "gpu_shading/fraction_colour.h"
 #include "pictures/colours.h"
 #include "pictures/picture_frame.h"
 #include "scene/casters.h"
@@ -75,13 +76,11 @@ Image draw_receiver(PictureRaster& raster, Scene const& scene, ShadedReceiver co
   std::vector<float> const luminance = raster.luminance(grid, shaded);
   bool const faces_sun = glm::dot(frame.normal, shaded.towards_sun) > edge_on;
   bool const opaque = shaded.shades.empty();
-  Colour const dark = opaque ? blue : black;
-  Colour const bright = opaque ? yellow : white;
-  Colour const lit = faces_sun ? bright : dark;
   // The receiver over all of it: what hides it from the sun is its shadow.
   for (std::size_t i = 0; i < colours.size(); ++i) {
     if (receiver[i] == 0) continue;
-    colours[i] = glm::mix(dark, lit, static_cast<double>(luminance[i]));
+    double const share = faces_sun ? static_cast<double>(luminance[i]) : 0.0;
+    colours[i] = opaque ? glm::mix(blue, yellow, share) : fraction_colour(share);
   }
   return make_image(grid.width, grid.height, [&](int column, int row) {
     return colours[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width) +
