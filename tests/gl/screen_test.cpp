@@ -10,6 +10,7 @@
 #include <string>
 
 #include "each_backend.h"
+#include "gpu_shading/fraction_colour.h"
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
 #include "support/millimetre.h"
@@ -510,16 +511,17 @@ TEST_P(Screened, ShowsItsHolesInThePicture) {
   Renderer renderer = renderer_of(scene);
   // The sun in the zenith has north up; around the receiver is a border of 0.15 m.
   Image const image = renderer.sun_view(sun_at(0, 90), 0, 650);
-  auto const grey = [&](double x, double y) {
+  auto const is = [&](double x, double y, double fraction) {
     auto const column = static_cast<std::size_t>((x + 0.15) / 1.3 * image.width);
     auto const row = static_cast<std::size_t>((1.15 - y) / 1.3 * image.height);
-    return static_cast<int>(
-        image.pixels.at(3 * (row * static_cast<std::size_t>(image.width) + column)));
+    auto const at = 3 * (row * static_cast<std::size_t>(image.width) + column);
+    glm::dvec3 const drawn(image.pixels.at(at), image.pixels.at(at + 1), image.pixels.at(at + 2));
+    return drawn == fraction_colour(fraction);
   };
   for (double const x : {0.25, 0.75}) {
-    for (double const y : {0.25, 0.75}) EXPECT_EQ(grey(x, y), 255) << x << " " << y;
+    for (double const y : {0.25, 0.75}) EXPECT_TRUE(is(x, y, 1.0)) << x << " " << y;
   }
-  for (double const place : {0.05, 0.5, 0.95}) EXPECT_EQ(grey(place, 0.5), 0) << place;
+  for (double const place : {0.05, 0.5, 0.95}) EXPECT_TRUE(is(place, 0.5, 0.0)) << place;
 }
 
 }  // namespace
