@@ -180,8 +180,9 @@ def runs_of(stage):
 
 
 def test_container_commands(bare, patched, model, tmp_path):
+    installed = package("deb", DEBIAN)
     place = bare("bookworm")
-    place.bring(package("deb", DEBIAN), place="/packages")
+    place.bring(installed, place="/packages")
     place.bring(*model.iterdir())
     for stage in ("cpu", "nvidia"):
         assert runs_of(stage)
