@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -48,11 +49,16 @@ class RecurringAnswers {
     return nullptr;
   }
 
-  // Keeps the answer to the question that was not found, if it came after all that are known.
-  void keep(Question const& question, double answer) {
+  // Keeps the answer to the question that was not found, if it came after all that are known and
+  // there is memory for it: this is called from within EnergyPlus.
+  void keep(Question const& question, double answer) noexcept {
     if (next_ != kept_.size() || room_ == 0) return;
+    try {
+      kept_.push_back({question, answer});
+    } catch (std::bad_alloc const&) {
+      return;
+    }
     --room_;
-    kept_.push_back({question, answer});
     next_ = kept_.size();
   }
 
