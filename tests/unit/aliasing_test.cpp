@@ -115,17 +115,27 @@ TEST(Aliasing, OfLouvresAndFinsWithPixelsIsBelowTheTargetAccuracy) {
   EXPECT_LT(statistics.ninety_ninth, 5e-4);
 }
 
-TEST(Aliasing, OfPerforatedSheetsWithPixelsIsBelowTheTargetAccuracy) {
-  std::vector<SunDirection> const suns = spread_suns(20);
-  std::mt19937 generator(1);
+// Behind sheets_of(i), for i up to `count`, by renderer_of(scene).
+template <typename SheetsOf, typename RendererOf>
+Statistics of_sheets(int count, int directions, SheetsOf sheets_of, RendererOf renderer_of) {
+  std::vector<SunDirection> const suns = spread_suns(directions);
   Statistics statistics;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < count; ++i) {
     double seconds = 0.0;
-    RegularSheets const sheets(1.0, 0.7, {random_sheet(generator)});
-    Renderer renderer = pixels_at_target(sheets.scene());
+    RegularSheets const sheets = sheets_of(i);
+    Renderer renderer = renderer_of(sheets.scene());
     statistics.add_scene(errors_behind(sheets, renderer, suns, seconds));
   }
   statistics.finish();
+  return statistics;
+}
+
+TEST(Aliasing, OfPerforatedSheetsWithPixelsIsBelowTheTargetAccuracy) {
+  std::mt19937 generator(1);
+  auto const sheets_of = [&](int /*i*/) {
+    return RegularSheets(1.0, 0.7, {random_sheet(generator)});
+  };
+  auto const statistics = of_sheets(40, 20, sheets_of, pixels_at_target);
   EXPECT_LT(statistics.most, 1.5e-3);
   EXPECT_LT(statistics.worst_mean, 6e-4);
   EXPECT_LT(statistics.ninety_ninth, 1e-3);
@@ -165,18 +175,13 @@ TEST(Aliasing, OfTrianglesIsBelowTheTargetAccuracy) {
 }
 
 TEST(Aliasing, OfPerforatedSheetsIsBelowTheTargetAccuracy) {
-  std::vector<SunDirection> const suns = spread_suns(20);
   std::mt19937 generator(1);
   constexpr std::array sizes{0.5, 1.0, 3.0, 6.0};
-  Statistics statistics;
-  for (int i = 0; i < 60; ++i) {
+  auto const sheets_of = [&](int /*i*/) {
     double const size = sizes.at(generator() % sizes.size());
-    double seconds = 0.0;
-    RegularSheets const sheets(size, 0.7 * size, {random_sheet(generator)});
-    Renderer renderer = renderer_at_target(sheets.scene());
-    statistics.add_scene(errors_behind(sheets, renderer, suns, seconds));
-  }
-  statistics.finish();
+    return RegularSheets(size, 0.7 * size, {random_sheet(generator)});
+  };
+  auto const statistics = of_sheets(60, 20, sheets_of, renderer_at_target);
   EXPECT_LT(statistics.most, 3e-3);
   EXPECT_LT(statistics.worst_mean, 5e-4);
   EXPECT_LT(statistics.worst_share, 0.15);
@@ -185,16 +190,9 @@ TEST(Aliasing, OfPerforatedSheetsIsBelowTheTargetAccuracy) {
 
 // What passes two sheets depends on how their holes meet, even if they are smaller than pixels.
 TEST(Aliasing, OfTwoPerforatedSheetsIsBelowTheTargetAccuracy) {
-  std::vector<SunDirection> const suns = spread_suns(10);
   std::mt19937 generator(7);
-  Statistics statistics;
-  for (int i = 0; i < 12; ++i) {
-    double seconds = 0.0;
-    RegularSheets const sheets(0.3, 0.21, random_pair(generator, i));
-    Renderer renderer = renderer_at_target(sheets.scene());
-    statistics.add_scene(errors_behind(sheets, renderer, suns, seconds));
-  }
-  statistics.finish();
+  auto const sheets_of = [&](int i) { return RegularSheets(0.3, 0.21, random_pair(generator, i)); };
+  auto const statistics = of_sheets(12, 10, sheets_of, renderer_at_target);
   EXPECT_LT(statistics.most, 2e-3);
   EXPECT_LT(statistics.worst_mean, 5e-4);
 }
