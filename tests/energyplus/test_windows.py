@@ -4,8 +4,8 @@ against the patched EnergyPlus of Linux."""
 import re
 import shutil
 import subprocess
-import sys
 
+import example_models
 import pytest
 import screened_room
 import windows
@@ -77,12 +77,6 @@ def place(path, folder, frequency="Hourly", method=None):
     return input_file.place_copy(model, path, folder)
 
 
-def canopy():
-    """A model with an extension object: 500 panes of glass."""
-    folder = energyplus.REPOSITORY / "idf_examples" / "canopy"
-    return subprocess.run([sys.executable, folder / "generate.py"], capture_output=True, text=True, check=True).stdout
-
-
 @pytest.fixture
 def write_model(tmp_path, louvres, courtyard):
     """Writes a model of ours, by its name, or a copy of somebody else's."""
@@ -92,7 +86,7 @@ def write_model(tmp_path, louvres, courtyard):
         if name == "courtyard":
             path.write_text(courtyard.read_text())
         elif name == "canopy":
-            path.write_text(canopy())
+            path.write_text(example_models.canopy())
         elif name == "screened room":
             path.write_text(screened_room.model(screen="small holes"))
         elif name.endswith(" louvres"):
