@@ -11,8 +11,11 @@ def _become(program, *arguments):
 
 
 def run_energyplus():
-    """EnergyPlus, with --gpu-shading."""
-    _become(prefix() / "energyplus", *sys.argv[1:])
+    """EnergyPlus, with --gpu-shading. Asked for the version, it says that of both."""
+    arguments = sys.argv[1:]
+    if {"-v", "--version"} & set(arguments) and not any(word.startswith("--gpu-shading") for word in arguments):
+        arguments.append("--gpu-shading")
+    _become(prefix() / "energyplus", *arguments)
 
 
 def run_gpu_shading():
