@@ -8,6 +8,7 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cctype>
+#include <cmath>
 #include <stdexcept>
 #include <string_view>
 
@@ -40,6 +41,45 @@ void keep_restricted_formats(Assimp::Importer& importer) {
   }
 }
 
+float largest_coordinate(aiScene const& scene) {
+  float largest = 0.0F;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    auto const& mesh = *scene.mMeshes[i];
+    for (unsigned vertex = 0; vertex < mesh.mNumVertices; ++vertex) {
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        auto const size = std::abs(mesh.mVertices[vertex][axis]);
+        if (std::isfinite(size)) largest = std::max(largest, size);
+      }
+    }
+  }
+  return largest;
+}
+
+// By a power of two: exact.
+void scale(aiScene const& scene, int exponent) {
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    auto& mesh = *scene.mMeshes[i];
+    for (unsigned vertex = 0; vertex < mesh.mNumVertices; ++vertex) {
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        auto& coordinate = mesh.mVertices[vertex][axis];
+        coordinate = std::ldexp(coordinate, exponent);
+      }
+    }
+  }
+}
+
+// Assimp 5.4 leaves out polygons that have triangles of less than about 1e-6 in area, such as the
+// caps of thin tubes, so that they are made larger before and smaller after.
+aiScene const* triangulate(Assimp::Importer& importer) {
+  constexpr int large = 40;
+  auto const largest = largest_coordinate(*importer.GetScene());
+  auto const exponent = largest > 0.0F ? large - std::ilogb(largest) : 0;
+  scale(*importer.GetScene(), exponent);
+  auto const* scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
+  if (scene != nullptr) scale(*scene, -exponent);
+  return scene;
+}
+
 }  // namespace
 
 std::vector<MeshPart> read_mesh_parts(MeshFile const& file) {
@@ -58,7 +98,7 @@ std::vector<MeshPart> read_mesh_parts(MeshFile const& file) {
   if (!files->refusal().empty()) fail(files->refusal());
   if (scene == nullptr) fail(importer.GetErrorString());
   check_corners(*scene);
-  scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
+  scene = triangulate(importer);
   if (scene == nullptr) fail(importer.GetErrorString());
   if (scene->mRootNode == nullptr || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0) {
     fail("it has no complete scene");

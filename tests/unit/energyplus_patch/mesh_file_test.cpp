@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <glm/geometric.hpp>
 
 #include "base/process.h"
 #include "decoding/sandbox.h"
@@ -172,20 +173,47 @@ TEST_F(MeshFile, LengthsOfGlb) {
   EXPECT_THAT(refusal("short.glb", "glTF"), HasSubstr("shorter than a GLB's header"));
 }
 
+// The vertices and the face of a regular polygon around the origin.
+std::string regular_polygon(int corners, double radius = 1.0) {
+  std::string vertices;
+  std::string face = "f";
+  for (int i = 0; i < corners; ++i) {
+    double const angle = 6.283185307 * i / corners;
+    vertices += fmt::format("v {} {} 0\n", radius * std::cos(angle), radius * std::sin(angle));
+    face += fmt::format(" {}", i + 1);
+  }
+  return vertices + face + "\n";
+}
+
+double mesh_area(Mesh const& mesh) {
+  double area = 0.0;
+  for (auto const& [a, b, c] : mesh.triangles) {
+    auto const& first = mesh.positions[a];
+    area += 0.5 * glm::length(glm::cross(mesh.positions[b] - first, mesh.positions[c] - first));
+  }
+  return area;
+}
+
 TEST_F(MeshFile, CornersOfAFace) {
-  auto const polygon = [](int corners) {
-    std::string vertices;
-    std::string face = "f";
-    for (int i = 0; i < corners; ++i) {
-      double const angle = 6.283185307 * i / corners;
-      vertices += fmt::format("v {} {} 0\n", std::cos(angle), std::sin(angle));
-      face += fmt::format(" {}", i + 1);
-    }
-    return vertices + face + "\n";
-  };
-  EXPECT_EQ(refusal("round.obj", polygon(1000)), "accepted");
-  EXPECT_THAT(refusal("rounder.obj", polygon(30'000)),
+  EXPECT_EQ(refusal("round.obj", regular_polygon(1000)), "accepted");
+  EXPECT_THAT(refusal("rounder.obj", regular_polygon(30'000)),
               HasSubstr("a face has 30000 corners, expected at most 1000"));
+}
+
+TEST_F(MeshFile, SmallFacesAreWhole) {
+  for (int const corners : {5, 12, 1000}) {
+    for (double const radius : {0.0005, 0.02, 1.0, 5000.0}) {
+      // A triangle far away, too.
+      auto const text =
+          regular_polygon(corners, radius) + "v 9000 0 0\nv 9001 0 0\nv 9000 1 0\nf -3 -2 -1\n";
+      auto const meshes = read_meshes(write("small.obj", text));
+      ASSERT_EQ(meshes.size(), 1U);
+      auto const expected = 0.5 * corners * std::sin(6.283185307 / corners) * radius * radius;
+      EXPECT_EQ(meshes[0].triangles.size(), corners - 2U + 1U);
+      EXPECT_NEAR(mesh_area(meshes[0]) - 0.5, expected, 1e-5 * expected + 1e-9)
+          << corners << " corners, radius " << radius;
+    }
+  }
 }
 
 TEST_F(MeshFile, FilesThatItNamesAreInItsFolder) {
