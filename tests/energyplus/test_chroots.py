@@ -1,8 +1,8 @@
 """The packages in bare Debians, by the very commands of the page on installing: from nothing to sunlit fractions.
 
-Needs root, debootstrap, a network, and packages that scripts/build_wheel and scripts/build_deb have made; what is
-missing is said. Each prints how long it took and what it put on the disk. GPU_SHADING_CHROOTS names a folder in which
-bare Debians are kept, so that debootstrap runs only once.
+Needs root, debootstrap, a network, and packages that scripts/build_wheel and scripts/build_deb have made, the latter on
+each release; what is missing is said. Each prints how long it took and what it put on the disk. GPU_SHADING_CHROOTS
+names a folder in which bare Debians are kept, so that debootstrap runs only once.
 """
 
 import os
@@ -117,7 +117,7 @@ def model(louvres, weather, tmp_path):
 def package(folder, pattern):
     found = sorted((OUT / folder).glob(pattern))
     if not found:
-        pytest.skip(f"{OUT / folder} has no {pattern}: run scripts/build_{'wheel' if folder == 'wheel' else 'deb'}")
+        pytest.skip(f"{OUT / folder} has no {pattern}: run scripts/build_{folder.partition('/')[0]}")
     return found[-1]
 
 
@@ -159,10 +159,11 @@ def test_wheel(suite, bare, patched, model, tmp_path):
     assert_answers_of_the_build(place.root / PLACE[1:] / "out", patched, model, tmp_path)
 
 
-def test_debian_package(bare, patched, model, tmp_path):
-    packages = [package("deb", DEBIAN), package("deb", "energyplus-gpu-shading-formats_*.deb")]
-    place = bare("bookworm")
-    place.bring(packages[0], *model.iterdir())
+@pytest.mark.parametrize("suite", ["bookworm", "trixie"])
+def test_debian_package(suite, bare, patched, model, tmp_path):
+    installed = package(f"deb/{suite}", DEBIAN)
+    place = bare(suite)
+    place.bring(installed, *model.iterdir())
     follow(place, "Debian package")
     assert_answers_of_the_build(place.root / PLACE[1:] / "out", patched, model, tmp_path)
     # Nothing is installed that another package would have to bring.
@@ -180,7 +181,7 @@ def runs_of(stage):
 
 
 def test_container_commands(bare, patched, model, tmp_path):
-    installed = package("deb", DEBIAN)
+    installed = package("deb/bookworm", DEBIAN)
     place = bare("bookworm")
     place.bring(installed, place="/packages")
     place.bring(*model.iterdir())
