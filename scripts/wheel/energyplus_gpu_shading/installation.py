@@ -52,7 +52,8 @@ def prefix():
     """The patched EnergyPlus, made by the first call."""
     folder = _folder()
     source = official()
-    wanted = f"{source} {_content()}\n"
+    python_api = (source.parent.parent / "pyenergyplus").is_dir()
+    wanted = f"{source} {_content()}{' with pyenergyplus' if python_api else ''}\n"
     folder.parent.mkdir(parents=True, exist_ok=True)
     with open(folder.parent / f".{folder.name}.lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
