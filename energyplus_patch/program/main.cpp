@@ -417,6 +417,12 @@ void refuse_mistyped_subcommand(CLI::App const& app, std::vector<std::string> co
   throw Error(fmt::format("{}: {}{}", printable(flag), kind, did_you_mean(flag, flags)));
 }
 
+void add_version(CLI::App& app) {
+  auto const text = "gpu_shading " GPU_SHADING_VERSION;
+  app.set_version_flag("--version", text);
+  for (auto* const command : app.get_subcommands({})) command->set_version_flag("--version", text);
+}
+
 int run(std::vector<std::string> arguments) {
   auto choices = take_flags(arguments);
   choices.fill_from(read_environment());
@@ -426,7 +432,6 @@ int run(std::vector<std::string> arguments) {
       "fractions "
       "for EnergyPlus with GPU shading",
       "gpu_shading"};
-  app.set_version_flag("--version", "gpu_shading " GPU_SHADING_VERSION);
   app.require_subcommand(1);
   bool right = true;
   add_devices(app, right);
@@ -436,6 +441,7 @@ int run(std::vector<std::string> arguments) {
   add_screen(app, choices);
   add_sample(app, choices);
   add_export(app, choices);
+  add_version(app);
   refuse_mistyped_subcommand(app, arguments);
   // CLI11 expects them in reverse order.
   std::reverse(arguments.begin(), arguments.end());
@@ -443,6 +449,10 @@ int run(std::vector<std::string> arguments) {
     app.parse(std::move(arguments));
   } catch (CLI::ExtrasError const&) {
     refuse_extras(app);
+  } catch (CLI::RequiredError const& error) {
+    // What is missing may be there, but mistyped.
+    if (!app.remaining(true).empty()) refuse_extras(app);
+    throw Error(error.what());
   } catch (CLI::ParseError const& error) {
     // --help and --version are such errors too.
     if (error.get_exit_code() == EXIT_SUCCESS) return app.exit(error);

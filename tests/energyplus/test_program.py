@@ -194,6 +194,7 @@ def test_little_memory_is_enough_or_said(patched, box, weather, tmp_path, mebiby
 
 @pytest.mark.parametrize("words, near", [(["veiw", "model.idf"], "view"), (["devices", "--tets"], "--test"),
                                          (["check", "model.idf", "--vertexes"], "--vertices"),
+                                         (["view", "--reciever", "x"], "--receiver"),
                                          (["devices", "--gpu-shading-devcie=0"], "--gpu-shading-device")])
 def test_a_mistyped_word_is_answered_with_the_near_one(program, words, near):
     done = program(*words)
@@ -216,7 +217,8 @@ def test_errors_of_arguments_are_one_line(program, words, message):
 
 def test_every_program_tells_its_version(program, patched):
     version = re.search(r"project\(gpu_shading VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
-    assert program("--version").stdout == f"gpu_shading {version}\n"
+    for command in ([], ["check"], ["devices"], ["sample"]):
+        assert program(*command, "--version").stdout == f"gpu_shading {version}\n"
     with_official = subprocess.run([patched, "--gpu-shading", "--version"], capture_output=True, text=True).stdout
     assert f"gpu_shading {version}\n" in with_official and "EnergyPlus, Version 25.2.0" in with_official
     official = subprocess.run([patched, "--version"], capture_output=True, text=True).stdout
