@@ -48,8 +48,8 @@ CheckedBackend::CheckedBackend(std::unique_ptr<ViewBackend> device,
 
 DeviceInfo const& CheckedBackend::device() const { return device_ ? info_ : reference_->device(); }
 
-bool CheckedBackend::samples_pixels(ReceiverView const& view) const {
-  return (device_ ? device_ : reference_)->samples_pixels(view);
+bool CheckedBackend::samples_pixels() const {
+  return (device_ ? device_ : reference_)->samples_pixels();
 }
 
 void CheckedBackend::add(std::vector<ReceiverView> views) {

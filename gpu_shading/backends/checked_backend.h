@@ -30,7 +30,7 @@ class CheckedBackend : public ViewBackend {
                  BackendInput const& input, Warn warn);
 
   DeviceInfo const& device() const override;
-  bool samples_pixels(ReceiverView const& view) const override;
+  bool samples_pixels() const override;
 
   void add(std::vector<ReceiverView> views) override;
   std::vector<ViewSums> finish() override;

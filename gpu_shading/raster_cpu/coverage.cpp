@@ -12,7 +12,7 @@
 #include <numeric>
 #include <utility>
 
-#include "raster_cpu/screen_grid.h"
+#include "raster_cpu/sample_grid.h"
 #include "raster_cpu/shade_counts.h"
 #include "threads/parallel.h"
 
@@ -36,16 +36,6 @@ bool any_transmits(std::span<Shade const> shades) {
   return std::any_of(shades.begin(), shades.end(),
                      [](Shade const& shade) { return shade.transmittance > 0.0F; });
 }
-
-// With so many columns to each row.
-TileGrid golden_grid(int rows, int columns_a_row) {
-  constexpr double golden = 1.0 / std::numbers::phi;
-  double const slope = columns_a_row * golden;
-  return {columns_a_row * rows, rows, std::ceil(slope) - slope - (1.0 - golden)};
-}
-
-// Where shades are counted, which takes longer than covering: the rows of the fine grid.
-TileGrid counting_grid(Tile const& tile) { return golden_grid(fine_grid(tile).rows, 4); }
 
 // Whether shades are of few transmittances, which ShadeCounts takes, and nothing else is in view.
 bool can_be_counted(CastersInView const& casters) {
@@ -98,12 +88,23 @@ void in_rows(int rows, int threads, Use use) {
   });
 }
 
-TileGrid grid_of(Tile const& tile, View const& view, CastersInView const& casters,
-                 Samples samples) {
-  if (samples == Samples::pixels) return pixels_of(tile);
-  if (casters.opaque()) return fine_grid(tile);
-  if (casters.screens.numbers.empty()) return pixels_of(tile);
-  return screen_grid(tile, view, casters.screens);
+// Where a view is sampled, and whether it is ShadeCounts that counts shades there.
+struct Sampled {
+  TileGrid grid;
+  bool counting = false;
+};
+
+Sampled sampled(Tile const& tile, View const& view, CastersInView const& casters, Samples samples) {
+  if (samples == Samples::pixels) return {pixels_of(tile)};
+  if (!casters.screens.numbers.empty()) {
+    return {grid_for_screens(tile, view, casters.screens, casters.repeats)};
+  }
+  auto const on = [&](TileGrid const& grid) {
+    return grid_for_blades(grid, view, casters.repeats);
+  };
+  if (casters.opaque()) return {on(fine_grid(tile))};
+  if (can_be_counted(casters)) return {on(counting_grid(tile)), true};
+  return {on(pixels_of(tile))};
 }
 
 // From samples to pixels of the tile, if `own` samples are the receiver's.
@@ -116,12 +117,6 @@ void scale(LuminanceSums& sums, Tile const& tile, std::uint64_t own) {
 }
 
 }  // namespace
-
-TileGrid fine_grid(Tile const& tile) {
-  constexpr int large = 128;  // smaller tiles have too few edges to alias with 9 columns to a row
-  int const rows = std::max((tile.side + 1) / 2, std::min(tile.side, 96 + tile.side * 3 / 8));
-  return golden_grid(rows, tile.side < large ? 9 : 17);
-}
 
 struct Coverage::InteriorPiece {
   std::size_t surface;  // its index in the question
@@ -159,8 +154,7 @@ void Coverage::each_area(SurfaceId caster, View const& pixels, int side, Use use
 
 LuminanceSums Coverage::sums(Tile const& tile, View const& view, CastersInView const& casters,
                              Samples samples, int threads) const {
-  bool const counting = samples == Samples::fine && can_be_counted(casters);
-  TileGrid const grid = counting ? counting_grid(tile) : grid_of(tile, view, casters, samples);
+  auto const [grid, counting] = sampled(tile, view, casters, samples);
   View const pixels = in_pixels(view, grid);
   std::atomic<std::uint64_t> own = 0;
   LuminanceSums sums;
@@ -347,7 +341,7 @@ std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& v
                                                  View const& behind,
                                                  std::span<SurfaceId const> interiors) const {
   static thread_local PixelMask lit;
-  TileGrid const grid = grid_of(tile, view, casters, samples);
+  TileGrid const grid = sampled(tile, view, casters, samples).grid;
   View const pixels = in_pixels(view, grid);
   lit.start(grid.columns(), 0, grid.rows);
   light(lit, tile, grid);

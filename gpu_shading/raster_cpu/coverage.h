@@ -10,6 +10,7 @@
 #include "raster_cpu/passed_schedules.h"
 #include "raster_cpu/screen_shading.h"
 #include "raster_cpu/surface_pieces.h"
+#include "scene/repeat.h"
 #include "scene/triangulation.h"
 #include "view/pixel_mask.h"
 #include "view/tile.h"
@@ -24,6 +25,7 @@ struct CastersInView {
   std::span<SurfaceId const> surfaces;  // but those that are screens and nothing else
   std::span<Shade const> shades;        // of each surface; none where all are opaque
   ScreensInView screens;
+  SampledRepeats repeats = {};  // of surfaces at equal distances
 
   bool opaque() const { return shades.empty() && screens.numbers.empty(); }
 };
@@ -31,16 +33,6 @@ struct CastersInView {
 // Where a tile is sampled: where it is most accurate, or at the centres of its pixels, as OpenGL
 // does.
 enum class Samples { fine, pixels };
-
-// The fine grid has as many rows as a small tile has pixels, down to half as many on a large one,
-// and 9 or 17 times as many columns as rows: a row's span costs the same however fine its columns
-// are, and its ends are then nearly exact.
-//
-// Many equal louvres or fins at equal distances alias with a lattice of samples if a vector of its
-// reciprocal lattice lies along their normal. Both normals are at the golden slope to the rows
-// (TileMap). With k columns to a row, a vector (k m, n) misses that slope by the distance of
-// k m / phi from a whole number, which the shear makes that of m / phi, the largest for all m.
-TileGrid fine_grid(Tile const& tile);
 
 // Rasterises views on the CPU: as a rasteriser of triangles does, but with a bit for each pixel and
 // by convex pieces, and in double precision up to the edges. In place of OpenGL without a GPU it

@@ -41,11 +41,6 @@ CpuBackend::CpuBackend(BackendInput const& input)
       transmission_(input.transmission),
       statistics_(input.statistics) {}
 
-bool CpuBackend::samples_pixels(ReceiverView const& view) const {
-  return view.transmits && transmission_.any_schedule(view.casters) &&
-         !transmission_.any_screen(view.casters);
-}
-
 CpuBackend::ViewScreens CpuBackend::note_screens(ReceiverView const& view,
                                                  std::vector<ScreensAtDirection>& directions) {
   ViewScreens noted;
@@ -105,6 +100,7 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
     casters.surfaces = plain;
     casters.shades = shades;
   }
+  if (!view.at_pixels) casters.repeats = repeats_among(scene_, casters.surfaces);
   Samples const samples = view.at_pixels ? Samples::pixels : Samples::fine;
   ViewSums sums;
   sums.receiver_pixels = tile.counted_pixels;

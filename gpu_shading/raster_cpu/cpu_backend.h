@@ -17,7 +17,7 @@ class CpuBackend : public ViewBackend {
   explicit CpuBackend(BackendInput const& input);
 
   DeviceInfo const& device() const override { return device_; }
-  bool samples_pixels(ReceiverView const& view) const override;
+  bool samples_pixels() const override { return false; }
 
   // Throws Error where a view has too many combinations of schedules.
   void add(std::vector<ReceiverView> views) override;

@@ -46,6 +46,7 @@ void QuestionBatch::look() {
   std::vector<ReceiverView> views;
   for (std::size_t i = 0; i < asked_.size(); ++i) take(asked_[i], std::move(in_view[i]), views);
   asked_.clear();
+  if (parts_.backend.samples_pixels()) stretch_tiles(views);
   parts_.backend.add(std::move(views));
 }
 
@@ -68,17 +69,24 @@ void QuestionBatch::take(Asked const& asked, InView in_view, std::vector<Receive
                     asked.cosine,      std::move(in_view.casters),
                     transmits,         question.through,
                     question.interiors};
-  Tile& tile = tile_for(view, side);
+  Tile& tile = parts_.receivers.tile(view.receiver, side);
   view.tile = &tile;
-  viewed_.push_back({asked, &tile, view.casters.size(), transmits});
+  viewed_.push_back({asked, side, &tile, view.casters.size(), transmits});
   views.push_back(std::move(view));
 }
 
-Tile& QuestionBatch::tile_for(ReceiverView const& view, int side) {
-  Tile& tile = parts_.receivers.tile(view.receiver, side);
-  if (!parts_.backend.samples_pixels(view)) return tile;
-  double const stretch = stretch_without_aliasing(view, tile, parts_.scene, parts_.transmission);
-  return parts_.receivers.tile(view.receiver, side, stretch);
+void QuestionBatch::stretch_tiles(std::vector<ReceiverView>& views) {
+  std::vector<double> stretches(views.size());
+  for_each_index(views.size(), [&](std::size_t i) {
+    stretches[i] = stretch_without_aliasing(views[i], parts_.scene, parts_.transmission);
+  });
+  std::size_t const first = viewed_.size() - views.size();
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (stretches[i] == 1.0) continue;
+    Viewed& viewed = viewed_[first + i];
+    viewed.tile = &parts_.receivers.tile(views[i].receiver, viewed.side, stretches[i]);
+    views[i].tile = viewed.tile;
+  }
 }
 
 void QuestionBatch::finish() {

@@ -42,6 +42,7 @@ class QuestionBatch {
   // A question whose view is being rasterised.
   struct Viewed {
     Asked asked;
+    int side;  // pixels asked for
     Tile* tile;
     std::size_t casters;
     bool transmits;
@@ -52,7 +53,8 @@ class QuestionBatch {
   void look();
   // Answers immediately if nothing is in view, otherwise adds the view.
   void take(Asked const& asked, InView in_view, std::vector<ReceiverView>& views);
-  Tile& tile_for(ReceiverView const& view, int side);
+  // Gives the last views tiles whose pixels do not alias with what repeats there.
+  void stretch_tiles(std::vector<ReceiverView>& views);
   void answer(Viewed const& viewed, ViewSums const& sums);
   Sunlit sunlit(LuminanceSums const& sums, Viewed const& viewed, std::uint64_t pixels) const;
 

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <vector>
 
 #include "gpu_shading/perforated_screen.h"
@@ -24,33 +23,19 @@ struct SheetInView {
 
 // What repeats in a view.
 struct Repeating {
-  std::vector<Repeat> blades;
-  double share = 0.0;  // of the casters, for each of the blades
+  SampledRepeats blades;
   std::vector<SheetInView> sheets;
 
-  bool none() const { return blades.empty() && sheets.empty(); }
+  bool none() const { return blades.found.empty() && sheets.empty(); }
 };
 
-// A few casters tell: blades that alias are many.
-void find_blades(ReceiverView const& view, Scene const& scene, Repeating& found) {
-  constexpr std::size_t most = 32;
-  constexpr std::size_t fewest = 8;
-  if (view.casters.size() < fewest) return;
-  std::size_t const count = std::min(most, view.casters.size());
-  found.share = 1.0 / static_cast<double>(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    SurfaceId const id = view.casters[i * view.casters.size() / count];
-    if (std::optional<Repeat> const repeat = repeat_of(scene, id)) found.blades.push_back(*repeat);
-  }
-}
-
-void find_sheets(ReceiverView const& view, Tile const& tile, Transmission const& transmission,
-                 Repeating& found) {
+void find_sheets(ReceiverView const& view, Transmission const& transmission, Repeating& found) {
+  Tile const& tile = *view.tile;
   View const in_front = view_in_front(*view.frame, tile.map, view.towards_sun);
-  double const pixel_area = tile.map.pixel_area(tile.side) * view.cosine;
   for (int const number : transmission.screens_among(view.casters)) {
     Screens::Entry const& entry = transmission.screens()[number];
-    bool const effect = may_see_effect(*entry.screen, entry.normal, view.towards_sun, pixel_area);
+    bool const effect =
+        may_see_effect(*entry.screen, entry.normal, view.towards_sun, view.pixel_area());
     SheetInBeam sheet = sheet_in_beam(entry, view.towards_sun, 1.0, effect);
     double const pixel = 2.0 / tile.side * pixel_in_sheet(entry, in_front);
     bool const drawn = sheet.layers != solid_sheet && pixel < static_cast<double>(sheet.blend_to);
@@ -62,20 +47,20 @@ double squared_error(ReceiverView const& view, TileMap const& map, Repeating con
                      int side, double enough) {
   View const in_front = view_in_front(*view.frame, map, view.towards_sun);
   Aliasing aliasing(in_front, OutlineSpectrum(map, *view.frame));
-  for (Repeat const& repeat : repeating.blades) aliasing.add(repeat, repeating.share);
+  aliasing.add(repeating.blades);
   for (SheetInView const& one : repeating.sheets) aliasing.add(*one.screen, one.sheet);
   return aliasing.squared_error({side, side, 0.0}, enough);
 }
 
 }  // namespace
 
-double stretch_without_aliasing(ReceiverView const& view, Tile const& tile, Scene const& scene,
+double stretch_without_aliasing(ReceiverView const& view, Scene const& scene,
                                 Transmission const& transmission) {
+  Tile const& tile = *view.tile;
   constexpr int trials = 12;
   constexpr double farthest = 0.1;
-  Repeating repeating;
-  find_blades(view, scene, repeating);
-  if (view.transmits) find_sheets(view, tile, transmission, repeating);
+  Repeating repeating{repeats_among(scene, view.casters), {}};
+  if (view.transmits) find_sheets(view, transmission, repeating);
   if (repeating.none()) return 1.0;
   double const enough = 0.015 / tile.side;
   // Where nothing is in step with the pixels, another lattice is no better.

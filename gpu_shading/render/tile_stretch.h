@@ -1,7 +1,6 @@
 #pragma once
 
 #include "gpu_shading/scene.h"
-#include "view/tile.h"
 #include "view/transmission.h"
 #include "view/view_backend.h"
 
@@ -9,8 +8,8 @@ namespace gpu_shading {
 
 // The stretch of a receiver's tile (see fit_tile) at which the centres of its pixels alias least
 // with the holes of perforated screens and with blades at equal distances in a view; 1 where
-// nothing repeats. `tile` is the one that is not stretched.
-double stretch_without_aliasing(ReceiverView const& view, Tile const& tile, Scene const& scene,
+// nothing repeats. The view's tile is the one that is not stretched.
+double stretch_without_aliasing(ReceiverView const& view, Scene const& scene,
                                 Transmission const& transmission);
 
 }  // namespace gpu_shading

@@ -44,4 +44,19 @@ std::optional<Repeat> repeat_of(Scene const& scene, SurfaceId id) {
   return std::nullopt;
 }
 
+SampledRepeats repeats_among(Scene const& scene, std::span<SurfaceId const> casters) {
+  // A few casters tell: blades that alias are many.
+  constexpr std::size_t most = 32;
+  constexpr std::size_t fewest = 8;
+  SampledRepeats repeats;
+  if (casters.size() < fewest) return repeats;
+  std::size_t const count = std::min(most, casters.size());
+  repeats.share = 1.0 / static_cast<double>(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    auto const repeat = repeat_of(scene, casters[i * casters.size() / count]);
+    if (repeat) repeats.found.push_back(*repeat);
+  }
+  return repeats;
+}
+
 }  // namespace gpu_shading

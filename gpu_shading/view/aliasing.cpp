@@ -22,12 +22,14 @@ void Aliasing::add(Screens::Entry const& screen, SheetInBeam const& sheet) {
   }
 }
 
-void Aliasing::add(Repeat const& repeat, double share) {
-  auto const blades = BladeSpectrum::make(repeat, share, view_, outline_);
-  if (!blades) return;
-  bool const known = std::any_of(blades_.begin(), blades_.end(),
-                                 [&](BladeSpectrum& other) { return other.merge(*blades); });
-  if (!known) blades_.push_back(*blades);
+void Aliasing::add(SampledRepeats const& repeats) {
+  for (Repeat const& repeat : repeats.found) {
+    auto const blades = BladeSpectrum::make(repeat, repeats.share, view_, outline_);
+    if (!blades) continue;
+    bool const known = std::any_of(blades_.begin(), blades_.end(),
+                                   [&](BladeSpectrum& other) { return other.merge(*blades); });
+    if (!known) blades_.push_back(*blades);
+  }
 }
 
 void Aliasing::overlap() {
@@ -51,7 +53,7 @@ double Aliasing::squared_error_of_each(TileGrid const& grid, double enough) cons
   double sum = 0.0;
   for (int row = 0; row <= order && sum < enough; ++row) {
     for (int column = row == 0 ? 1 : -order; column <= order; ++column) {
-      glm::dvec2 const vector(column * grid.width, row * grid.rows);
+      glm::dvec2 const vector = grid.reciprocal(column, row);
       for (auto const& [first, holes, count] : screens_) {
         double const error = holes.error_at(vector);
         sum += count * error * error;
@@ -70,7 +72,7 @@ double Aliasing::squared_error_of_pairs(TileGrid const& grid, HoleSpectrum const
     for (int row = -order; row <= order && sum < enough; ++row) {
       for (int column = -order; column <= order; ++column) {
         if (column == 0 && row == 0) continue;
-        glm::dvec2 const vector(column * grid.width, row * grid.rows);
+        glm::dvec2 const vector = grid.reciprocal(column, row);
         double const error = frequency.amplitude * second.error_at(vector - frequency.at);
         sum += 0.5 * error * error;  // of two that are opposite, each counts
       }

@@ -23,8 +23,7 @@ class Aliasing {
 
   // A screen whose holes are drawn.
   void add(Screens::Entry const& screen, SheetInBeam const& sheet);
-  // Some of the receiver's casters, this share of those that were looked at.
-  void add(Repeat const& repeat, double share);
+  void add(SampledRepeats const& repeats);
   // Rays pass more than one of the screens.
   void overlap();
 

@@ -1,10 +1,13 @@
 #include "view/blade_spectrum.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <numeric>
 
 #include "view/convex_area.h"
 #include "view/nearest_whole.h"
@@ -42,32 +45,54 @@ bool BladeSpectrum::merge(BladeSpectrum const& other) {
 }
 
 double BladeSpectrum::squared_error(TileGrid const& grid, double enough) const {
-  // Vectors at a distance matter to the strongest multiples alone. High multiples matter: the
-  // weaker they are, the closer some vector comes, until there are more multiples than pixels.
-  constexpr int strongest = 3;
-  constexpr int around = 2;
+  // High multiples matter: the weaker they are, the closer some vector comes, until there are more
+  // multiples than pixels.
   constexpr int most = 512;
   double const pixels = static_cast<double>(grid.width) * grid.rows;
   int const last = static_cast<int>(
       std::clamp(4.0 * pixels / glm::length(first_), double{strongest}, double{most}));
+  double const amplitude = share_ / std::numbers::pi;
+  double const wanted = enough / (amplitude * amplitude);
   double sum = 0.0;
-  for (int multiple = 1; multiple <= last && sum < enough; ++multiple) {
-    glm::dvec2 const at = static_cast<double>(multiple) * first_;
-    auto const column = nearest_whole(at.x / grid.width);
-    auto const row = nearest_whole(at.y / grid.rows);
-    int const reach = multiple <= strongest ? around : 0;
-    double const amplitude = share_ / (std::numbers::pi * multiple);
-    for (std::int64_t y = row - reach; y <= row + reach; ++y) {
-      for (std::int64_t x = column - reach; x <= column + reach; ++x) {
-        if (x == 0 && y == 0) continue;
-        glm::dvec2 const vector(static_cast<double>(x * grid.width),
-                                static_cast<double>(y * grid.rows));
-        double const error = amplitude * outline_.amplitude(at - vector);
-        sum += error * error;
-      }
+  for (int multiple = 1; multiple <= strongest; ++multiple) sum += near_strong(grid, multiple);
+  for (int from = strongest + 1; from <= last && sum < wanted; from += at_once) {
+    sum += near_weak(grid, from);
+  }
+  return amplitude * amplitude * sum;
+}
+
+double BladeSpectrum::near_strong(TileGrid const& grid, int multiple) const {
+  constexpr int around = 2;
+  glm::dvec2 const at = static_cast<double>(multiple) * first_;
+  auto const column = nearest_whole(at.x / grid.width);
+  double sum = 0.0;
+  for (std::int64_t x = column - around; x <= column + around; ++x) {
+    auto const row = nearest_whole(at.y / grid.rows - static_cast<double>(x) * grid.shear);
+    for (std::int64_t y = row - around; y <= row + around; ++y) {
+      if (x == 0 && y == 0) continue;
+      glm::dvec2 const vector = grid.reciprocal(static_cast<double>(x), static_cast<double>(y));
+      double const error = outline_.amplitude(at - vector) / multiple;
+      sum += error * error;
     }
   }
   return sum;
+}
+
+// Written for the compiler to take several at a time.
+double BladeSpectrum::near_weak(TileGrid const& grid, int from) const {
+  // Added and taken away, it leaves the nearest whole number.
+  constexpr double rounding = 0x1.8p52;
+  glm::dvec2 const cell(1.0 / grid.width, 1.0 / grid.rows);
+  std::array<double, at_once> squared{};
+  for (int i = 0; i < at_once; ++i) {
+    auto const multiple = static_cast<double>(from + i);
+    glm::dvec2 const at = multiple * first_;
+    double const column = (at.x * cell.x + rounding) - rounding;
+    double const row = (at.y * cell.y - column * grid.shear + rounding) - rounding;
+    double const error = outline_.amplitude(at - grid.reciprocal(column, row)) / multiple;
+    squared[static_cast<std::size_t>(i)] = column == 0.0 && row == 0.0 ? 0.0 : error * error;
+  }
+  return std::accumulate(squared.begin(), squared.end(), 0.0);
 }
 
 }  // namespace gpu_shading

@@ -29,6 +29,14 @@ class BladeSpectrum {
   BladeSpectrum(glm::dvec2 const& first, double share, OutlineSpectrum const& outline)
       : outline_(outline), first_(first), share_(share) {}
 
+  static constexpr int strongest = 3;
+  static constexpr int at_once = 32;
+
+  // Squares of what some multiples of the frequency add to the error, for blades of all of the
+  // receiver and without pi. Grid vectors at a distance matter to the strongest multiples alone.
+  double near_strong(TileGrid const& grid, int multiple) const;
+  double near_weak(TileGrid const& grid, int from) const;  // of `at_once` of them
+
   OutlineSpectrum outline_;
   glm::dvec2 first_;
   double share_;

@@ -76,9 +76,9 @@ class ViewBackend {
 
   virtual DeviceInfo const& device() const = 0;
 
-  // Whether it samples a view at the centres of its tile's pixels, so that the tile should not
-  // alias with what repeats in the view. The view has no tile yet.
-  virtual bool samples_pixels(ReceiverView const& /*view*/) const { return true; }
+  // Whether it samples views at the centres of their tiles' pixels, so that tiles should not alias
+  // with what repeats in a view.
+  virtual bool samples_pixels() const { return true; }
 
   // Takes a batch of views, which may be started at once or later. Throws DeviceError if the device
   // fails, and Error if a view cannot be answered; then call forget() to discard what was taken.

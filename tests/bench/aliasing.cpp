@@ -86,15 +86,22 @@ struct How {
 // Number of scenes if one in `every` is taken.
 int share_of(int scenes, int every) { return std::max(1, scenes / every); }
 
-void print_blades(char const* name, bool upright, double transmittance, How const& how, int every,
-                  int least, int most) {
+struct Blades {
+  char const* name;
+  bool upright;
+  double transmittance;
+};
+
+// One in `every` of some numbers of blades before receivers of these sizes.
+void print_blades(std::string const& numbers, Blades const& blades, How const& how, int every,
+                  std::vector<int> const& counts, std::vector<double> const& sizes) {
   Statistics statistics(how.error);
   std::vector<SunDirection> const suns = spread_suns(12);
   int scene = 0;
-  for (double const size : {0.5, 1.0, 3.0, 6.0, 12.0, 30.0}) {
-    for (int const count : blade_counts(least, most, 1.05, true)) {
+  for (double const size : sizes) {
+    for (int const count : counts) {
       if (scene++ % every != 0) continue;
-      RegularShades const shades{count, upright, size, transmittance};
+      RegularShades const shades{count, blades.upright, size, blades.transmittance};
       Renderer renderer = how.renderer(shades.scene());
       double const whole = shades.width() * shades.height();
       std::vector<double> errors;
@@ -107,7 +114,14 @@ void print_blades(char const* name, bool upright, double transmittance, How cons
       statistics.add_scene(errors, processor_seconds() - start);
     }
   }
-  statistics.print(std::string(name) + " " + std::to_string(least) + " to " + std::to_string(most));
+  statistics.print(std::string(blades.name) + " " + numbers);
+}
+
+// Every number up to 600, where one may alias and the next may not, and some above.
+std::vector<int> dense_counts() {
+  std::vector<int> counts;
+  for (int count = 20; count <= 5000; count += count < 600 ? 1 : 23) counts.push_back(count);
+  return counts;
 }
 
 void print_soups(How const& how, int scenes) {
@@ -170,11 +184,15 @@ void print_table(std::vector<double> const& targets, bool at_pixels, int every) 
     print_soups(how, share_of(20, every));
     print_screens(how, share_of(200, every));
     print_pairs(how, share_of(40, every));
-    for (auto const& [least, most] :
-         {std::pair(20, 500), std::pair(501, 2000), std::pair(2001, 5000)}) {
-      print_blades("louvres", false, 0.0, how, every, least, most);
-      print_blades("fins", true, 0.0, how, every, least, most);
-      print_blades("glass louvres", false, 0.4, how, every, least, most);
+    for (Blades const& blades : {Blades{"louvres", false, 0.0}, Blades{"fins", true, 0.0},
+                                 Blades{"glass louvres", false, 0.4}}) {
+      for (auto const& [least, most] :
+           {std::pair(20, 500), std::pair(501, 2000), std::pair(2001, 5000)}) {
+        std::string const numbers = std::to_string(least) + " to " + std::to_string(most);
+        print_blades(numbers, blades, how, every, blade_counts(least, most, 1.05, true),
+                     {0.5, 1.0, 3.0, 6.0, 12.0, 30.0});
+      }
+      print_blades("of any number", blades, how, every, dense_counts(), {3.0});
     }
   }
 }

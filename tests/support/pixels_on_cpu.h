@@ -14,7 +14,7 @@ namespace gpu_shading {
 class PixelsOnCpu : public CpuBackend {
  public:
   using CpuBackend::CpuBackend;
-  bool samples_pixels(ReceiverView const& /*view*/) const override { return true; }
+  bool samples_pixels() const override { return true; }
   void add(std::vector<ReceiverView> views) override {
     for (ReceiverView& view : views) view.at_pixels = true;
     CpuBackend::add(std::move(views));

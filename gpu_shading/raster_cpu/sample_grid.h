@@ -1,0 +1,37 @@
+#pragma once
+
+#include "raster_cpu/screen_shading.h"
+#include "scene/repeat.h"
+#include "view/tile.h"
+#include "view/view.h"
+
+namespace gpu_shading {
+
+// The CPU samples a tile on a grid of its own, on which what is in front of the receiver aliases
+// little. A row's span costs the same however fine its columns are, and its ends are nearly exact
+// with many of them: what matters is the number of rows.
+//
+// Many equal louvres or fins at equal distances alias with a lattice of samples if a vector of its
+// reciprocal lattice lies along their normal. Both normals are at the golden slope to the rows
+// (TileMap). With k columns to a row, a vector (k m, n) misses that slope by the distance of
+// k m / phi from a whole number, which the shear makes that of m / phi, the largest for all m.
+TileGrid golden_grid(int rows, int columns_a_row);
+
+// For opaque casters: as many rows as a small tile has pixels, down to half as many on a large one,
+// and 9 or 17 times as many columns.
+TileGrid fine_grid(Tile const& tile);
+
+// For shades that are counted over each sample, which takes longer than covering: the rows of the
+// fine grid, and 4 times as many columns.
+TileGrid counting_grid(Tile const& tile);
+
+// `grid`, or one with some more or fewer rows, on which blades alias less. `view` is that of the
+// casters in front, on the tile.
+TileGrid grid_for_blades(TileGrid const& grid, View const& view, SampledRepeats const& blades);
+
+// Samples of a tile behind perforated screens: nearly as many as it has pixels, on a grid with
+// which the screens' holes and blades do not alias, of some grids with more columns and fewer rows.
+TileGrid grid_for_screens(Tile const& tile, View const& view, ScreensInView const& screens,
+                          SampledRepeats const& blades);
+
+}  // namespace gpu_shading
