@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace gpu_shading {
 
@@ -49,13 +51,18 @@ double Aliasing::squared_error(TileGrid const& grid, double enough) const {
 
 double Aliasing::squared_error_of_each(TileGrid const& grid, double enough) const {
   if (screens_.empty()) return 0.0;
-  constexpr int order = 12;  // straight sides have high frequencies too
+  // Holes have high frequencies too, which are weak: beyond `low`, those that nearly meet matter.
+  constexpr int order = 24;
+  constexpr int low = 12;
+  constexpr double any = std::numeric_limits<double>::infinity();
+  constexpr double nearly = 2.0;
   double sum = 0.0;
   for (int row = 0; row <= order && sum < enough; ++row) {
     for (int column = row == 0 ? 1 : -order; column <= order; ++column) {
       glm::dvec2 const vector = grid.reciprocal(column, row);
+      double const within = std::max(row, std::abs(column)) > low ? nearly : any;
       for (auto const& [first, holes, count] : screens_) {
-        double const error = holes.error_at(vector);
+        double const error = holes.error_at(vector, within);
         sum += count * error * error;
       }
     }
@@ -67,13 +74,14 @@ double Aliasing::squared_error_of_each(TileGrid const& grid, double enough) cons
 double Aliasing::squared_error_of_pairs(TileGrid const& grid, HoleSpectrum const& second,
                                         double enough) const {
   constexpr int order = 3;
+  constexpr double any = std::numeric_limits<double>::infinity();
   double sum = 0.0;
   for (HoleSpectrum::Frequency const& frequency : first_) {
     for (int row = -order; row <= order && sum < enough; ++row) {
       for (int column = -order; column <= order; ++column) {
         if (column == 0 && row == 0) continue;
         glm::dvec2 const vector = grid.reciprocal(column, row);
-        double const error = frequency.amplitude * second.error_at(vector - frequency.at);
+        double const error = frequency.amplitude * second.error_at(vector - frequency.at, any);
         sum += 0.5 * error * error;  // of two that are opposite, each counts
       }
     }

@@ -34,7 +34,7 @@ HoleSpectrum::HoleSpectrum(Screens::Entry const& screen, SheetInBeam const& shee
   describe(*screen.screen, sheet);
 }
 
-double HoleSpectrum::error_at(glm::dvec2 const& vector) const {
+double HoleSpectrum::error_at(glm::dvec2 const& vector, double within) const {
   glm::dvec2 const at = to_index_ * vector;
   glm::dvec2 const frequency = at / tile_;
   if (glm::dot(frequency, frequency) > highest_) return 0.0;
@@ -50,7 +50,9 @@ double HoleSpectrum::error_at(glm::dvec2 const& vector) const {
   }
   glm::dvec2 const nearest(static_cast<double>(column), static_cast<double>(row));
   if (nearest == glm::dvec2(0.0)) return 0.0;
-  return amplitude(nearest / tile_) * outline_.amplitude(basis_ * (at - nearest));
+  glm::dvec2 const off = basis_ * (at - nearest);
+  if (glm::dot(off, off) > within * within) return 0.0;
+  return amplitude(nearest / tile_) * outline_.amplitude(off);
 }
 
 std::vector<HoleSpectrum::Frequency> HoleSpectrum::lowest() const {

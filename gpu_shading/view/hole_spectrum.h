@@ -17,8 +17,9 @@ class HoleSpectrum {
   HoleSpectrum(Screens::Entry const& screen, SheetInBeam const& sheet, View const& view,
                OutlineSpectrum const& outline);
 
-  // Upper limit of the error of the mean that a vector of a grid's reciprocal lattice causes.
-  double error_at(glm::dvec2 const& vector) const;
+  // Upper limit of the error of the mean that a vector of a grid's reciprocal lattice causes, by
+  // the holes' nearest frequency if that is no more than `within` from it.
+  double error_at(glm::dvec2 const& vector, double within) const;
 
   struct Frequency {
     glm::dvec2 at;
