@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "backends/checked_backend.h"
+#include "backends/sheet_pairs_on_cpu.h"
 #include "gl_module/gl_module.h"
 #include "gpu_shading/error.h"
 #include "raster_cpu/cpu_backend.h"
@@ -51,7 +52,10 @@ std::unique_ptr<ViewBackend> open_checked_backend(BackendInput const& input,
       open_by_opengl(device, warn, [&](GlModule const& gl) { return gl.open(input, device); });
   auto cpu = std::make_unique<CpuBackend>(input);
   if (!opened) return cpu;
-  return std::make_unique<CheckedBackend>(std::move(opened), std::move(cpu), input, warn);
+  auto checked = std::make_unique<CheckedBackend>(std::move(opened), std::move(cpu), input, warn);
+  if (input.transmission.screens().entries().size() < 2) return checked;
+  return std::make_unique<SheetPairsOnCpu>(std::move(checked), std::make_unique<CpuBackend>(input),
+                                           input.transmission);
 }
 
 std::unique_ptr<PictureRaster> open_picture_raster(PictureScene const& scene,

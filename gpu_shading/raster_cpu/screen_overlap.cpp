@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vector_relational.hpp>
 #include <utility>
 #include <vector>
 
@@ -43,13 +45,28 @@ Ring common(Ring ring, Ring const& by) {
 struct PartOnTile {
   int screen;
   Ring on_tile;
+  glm::dvec2 least;
+  glm::dvec2 most;
+
+  PartOnTile(int number, Ring ring) : screen(number), on_tile(std::move(ring)) {
+    least = most = on_tile.front();
+    for (glm::dvec2 const& corner : on_tile) {
+      least = glm::min(least, corner);
+      most = glm::max(most, corner);
+    }
+  }
+
+  bool is_near(PartOnTile const& other) const {
+    return glm::all(glm::lessThan(least, other.most)) && glm::all(glm::lessThan(other.least, most));
+  }
 };
 
-std::vector<PartOnTile> parts_on_tile(ScreensInView const& screens, View const& view) {
+std::vector<PartOnTile> parts_on_tile(Screens const& screens, std::span<int const> numbers,
+                                      View const& view) {
   Ring const tile{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   std::vector<PartOnTile> parts;
-  for (int const number : screens.numbers) {
-    for (Screens::Quadrilateral const& part : (*screens.screens)[number].parts) {
+  for (int const number : numbers) {
+    for (Screens::Quadrilateral const& part : screens[number].parts) {
       Ring ring;
       for (glm::dvec3 const& corner : part.corners) {
         glm::dvec3 const p = corner - view.origin;
@@ -57,7 +74,7 @@ std::vector<PartOnTile> parts_on_tile(ScreensInView const& screens, View const& 
       }
       if (twice_area(ring) < 0.0) std::reverse(ring.begin(), ring.end());
       ring = common(std::move(ring), tile);
-      if (ring.size() > 2) parts.push_back({number, std::move(ring)});
+      if (ring.size() > 2) parts.emplace_back(number, std::move(ring));
     }
   }
   return parts;
@@ -65,13 +82,13 @@ std::vector<PartOnTile> parts_on_tile(ScreensInView const& screens, View const& 
 
 }  // namespace
 
-bool any_overlap(ScreensInView const& screens, View const& view) {
+bool any_overlap(Screens const& screens, std::span<int const> numbers, View const& view) {
   // Of the tile, of area 4: neighbours that touch do not overlap.
   constexpr double least = 1e-6;
-  std::vector<PartOnTile> const parts = parts_on_tile(screens, view);
+  std::vector<PartOnTile> const parts = parts_on_tile(screens, numbers, view);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (std::size_t k = i + 1; k < parts.size(); ++k) {
-      if (parts[i].screen == parts[k].screen) continue;
+      if (parts[i].screen == parts[k].screen || !parts[i].is_near(parts[k])) continue;
       if (twice_area(common(parts[i].on_tile, parts[k].on_tile)) > least) return true;
     }
   }

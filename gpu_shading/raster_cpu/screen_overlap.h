@@ -1,11 +1,13 @@
 #pragma once
 
-#include "raster_cpu/screen_shading.h"
+#include <span>
+
+#include "scene/screens.h"
 #include "view/view.h"
 
 namespace gpu_shading {
 
-// Whether some ray to a tile passes two of the screens. `view`: of the casters in front.
-bool any_overlap(ScreensInView const& screens, View const& view);
+// Whether some ray to a tile passes two of these screens. `view`: of the casters in front.
+bool any_overlap(Screens const& screens, std::span<int const> numbers, View const& view);
 
 }  // namespace gpu_shading

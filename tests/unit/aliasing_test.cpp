@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <random>
 #include <utility>
 #include <vector>
@@ -101,18 +102,26 @@ Statistics of_blades(std::vector<int> const& counts, RendererOf renderer_of) {
 
 TEST(Aliasing, OfLouvresAndFinsIsBelowTheTargetAccuracy) {
   auto const statistics = of_blades(blade_counts(20, 2000, 1.2, true), renderer_at_target);
-  // Before a hundred louvres or so, of which the grid's rows meet one each.
-  EXPECT_LT(statistics.most, 3e-3);
-  EXPECT_LT(statistics.worst_mean, 1e-3);
-  EXPECT_LT(statistics.ninety_ninth, 7e-4);
+  EXPECT_LT(statistics.most, 3e-4);
+  EXPECT_LT(statistics.worst_mean, 1.1e-4);
+  EXPECT_LT(statistics.ninety_ninth, 1.4e-4);
+}
+
+// One number of blades may alias where its neighbours do not.
+TEST(Aliasing, OfNoNumberOfLouvresIsBeyondTheTargetAccuracy) {
+  std::vector<int> counts(150);
+  std::iota(counts.begin(), counts.end(), 50);
+  auto const statistics = of_blades(counts, renderer_at_target);
+  EXPECT_LT(statistics.most, 3e-4);
+  EXPECT_LT(statistics.worst_mean, 1.1e-4);
 }
 
 // On tiles that were not stretched, 3 % of these views would be beyond the target, by up to 5e-3.
 TEST(Aliasing, OfLouvresAndFinsWithPixelsIsBelowTheTargetAccuracy) {
   auto const statistics = of_blades(blade_counts(400, 2000, 1.1, true), pixels_at_target);
-  EXPECT_LT(statistics.most, 7e-4);
-  EXPECT_LT(statistics.worst_mean, 2.5e-4);
-  EXPECT_LT(statistics.ninety_ninth, 5e-4);
+  EXPECT_LT(statistics.most, 6e-4);
+  EXPECT_LT(statistics.worst_mean, 2.4e-4);
+  EXPECT_LT(statistics.ninety_ninth, 4e-4);
 }
 
 // Behind sheets_of(i), for i up to `count`, by renderer_of(scene).
@@ -151,9 +160,9 @@ TEST(Aliasing, OfGlassLouvresAndFinsIsBelowTheTargetAccuracy) {
     }
   }
   statistics.finish();
-  EXPECT_LT(statistics.most, 1e-3);
-  EXPECT_LT(statistics.worst_mean, 4e-4);
-  EXPECT_LT(statistics.ninety_ninth, 6e-4);
+  EXPECT_LT(statistics.most, 4e-4);
+  EXPECT_LT(statistics.worst_mean, 1.3e-4);
+  EXPECT_LT(statistics.ninety_ninth, 2.8e-4);
 }
 
 TEST(Aliasing, OfTrianglesIsBelowTheTargetAccuracy) {
@@ -182,10 +191,10 @@ TEST(Aliasing, OfPerforatedSheetsIsBelowTheTargetAccuracy) {
     return RegularSheets(size, 0.7 * size, {random_sheet(generator)});
   };
   auto const statistics = of_sheets(60, 20, sheets_of, renderer_at_target);
-  EXPECT_LT(statistics.most, 3e-3);
-  EXPECT_LT(statistics.worst_mean, 5e-4);
-  EXPECT_LT(statistics.worst_share, 0.15);
-  EXPECT_LT(statistics.ninety_ninth, 7e-4);
+  EXPECT_LT(statistics.most, 1.4e-3);
+  EXPECT_LT(statistics.worst_mean, 2.8e-4);
+  EXPECT_LT(statistics.worst_share, 0.05);
+  EXPECT_LT(statistics.ninety_ninth, 5e-4);
 }
 
 // What passes two sheets depends on how their holes meet, even if they are smaller than pixels.
