@@ -30,7 +30,8 @@ bool SheetPairsOnCpu::passes_two(ReceiverView const& view) const {
 void SheetPairsOnCpu::add(std::vector<ReceiverView> views) {
   std::size_t const first = on_cpu_.size();
   on_cpu_.resize(first + views.size());
-  for_each_index(views.size(), [&](std::size_t i) { on_cpu_[first + i] = passes_two(views[i]); });
+  for_each_index(views.size(),
+                 [&](std::size_t i) { on_cpu_[first + i] = passes_two(views[i]) ? 1 : 0; });
   std::vector<ReceiverView> for_cpu;
   std::vector<ReceiverView> for_device;
   for (std::size_t i = 0; i < views.size(); ++i) {

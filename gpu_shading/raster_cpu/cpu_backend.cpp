@@ -91,7 +91,7 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
   View const in_front = view_in_front(*view.frame, tile.map, view.towards_sun);
   CastersInView casters{view.casters, {}, screens};
   casters.screens.overlap = !view.at_pixels && screens.numbers.size() > 1 &&
-      any_overlap(*screens.screens, screens.numbers, in_front);
+                            any_overlap(*screens.screens, screens.numbers, in_front);
   casters.screens.every_hole =
       casters.screens.overlap || (!view.at_pixels && tile.side > largest_by_effect);
   if (view.transmits) {

@@ -60,7 +60,8 @@ double Aliasing::squared_error_of_each(TileGrid const& grid, double enough) cons
   for (int row = 0; row <= order && sum < enough; ++row) {
     for (int column = row == 0 ? 1 : -order; column <= order; ++column) {
       glm::dvec2 const vector = grid.reciprocal(column, row);
-      double const within = std::max(row, std::abs(column)) > low ? nearly : any;
+      double within = any;
+      if (std::max(row, std::abs(column)) > low) within = nearly;
       for (auto const& [first, holes, count] : screens_) {
         double const error = holes.error_at(vector, within);
         sum += count * error * error;
