@@ -45,6 +45,14 @@ def contents(folder):
 
 
 @pytest.mark.parametrize("script", SCRIPTS)
+def test_a_missing_model_is_named_in_words(script, call, tmp_path):
+    _, errors, status = call(script, tmp_path / "A.idf", "-o", tmp_path / "out")
+    assert status == 1
+    assert f"{script}: {tmp_path / 'A.idf'}: No such file or directory\n" in errors
+    assert "Errno" not in errors
+
+
+@pytest.mark.parametrize("script", SCRIPTS)
 @pytest.mark.parametrize("where", ["in a folder of a run's name", "beside it"])
 def test_a_users_folder_is_refused(script, where, call, tmp_path):
     """It used to be deleted where it had the name of a run."""
