@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::json;
 using Path = std::filesystem::path;
 
-constexpr int format = 2;
+constexpr int format = 3;
 
 // A plain number if nothing is scheduled, which is nearly always.
 Json to_json(Sunlit const& answer) {

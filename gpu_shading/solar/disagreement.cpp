@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "threads/parallel.h"
+
 namespace gpu_shading {
 namespace {
 
@@ -19,9 +21,9 @@ double duration_at(double declination) {
 
 }  // namespace
 
-Disagreement::Disagreement(SunlitTable const& table, Misses const& misses, double latitude)
+Disagreement::Disagreement(SunlitTable const& table, SunlitSplines const& splines, double latitude)
     : table_(table),
-      misses_(misses),
+      misses_(splines.misses(table)),
       expected_errors_(table.receivers(), 0.0),
       facing_(table.receivers(), 0.0) {
   constexpr std::size_t looked_at = 2500;
@@ -29,6 +31,10 @@ Disagreement::Disagreement(SunlitTable const& table, Misses const& misses, doubl
   for (auto const direction : spread_on_arcs(latitude, looked_at)) {
     candidates_.push_back(candidate_at(direction, latitude));
   }
+  doubts_.resize(candidates_.size());
+  for_each_index(candidates_.size(), [&](std::size_t i) {
+    doubts_[i] = splines.doubts(to_direction(candidates_[i].direction, latitude));
+  });
   for (std::size_t receiver = 0; receiver < table.receivers(); ++receiver) estimate(receiver);
 }
 
@@ -80,6 +86,8 @@ void Disagreement::estimate(std::size_t receiver) {
 std::vector<HourDirection> Disagreement::further_directions(std::size_t count,
                                                             double wanted) const {
   if (candidates_.empty()) return {};
+  // Splines of all kinds round off a jump alike; then samples miss one another.
+  constexpr double share_of_misses = 0.3;
   auto candidates = candidates_;
   std::vector<double> worth(candidates.size(), 0.0);
   for (std::size_t receiver = 0; receiver < table_.receivers(); ++receiver) {
@@ -88,7 +96,8 @@ std::vector<HourDirection> Disagreement::further_directions(std::size_t count,
     double const weight = error * error / facing_[receiver];
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (!table_.faces(receiver, candidates[i].towards_sun)) continue;
-      worth[i] += weight * misses_near(candidates[i], receiver);
+      worth[i] += weight * (static_cast<double>(doubts_[i][receiver]) +
+                            share_of_misses * misses_near(candidates[i], receiver));
     }
   }
   // If nothing disagrees, choose where samples are farthest apart.

@@ -6,18 +6,16 @@
 #include <vector>
 
 #include "solar/sun_arcs.h"
+#include "solar/sunlit_splines.h"
 #include "solar/sunlit_table.h"
 
 namespace gpu_shading {
 
-// By receiver and sampled direction: the error of predicting a receiver's fraction from its other
-// samples; 0 if the sun does not face it.
-using Misses = std::vector<std::vector<double>>;
-
-// Where the samples of a table do not predict one another, at 2,500 directions over the year.
+// Where splines through the samples of a table are expected to be wrong, at 2,500 directions over
+// the year: where samples do not predict one another, and where different splines differ.
 class Disagreement {
  public:
-  Disagreement(SunlitTable const& table, Misses const& misses, double latitude);
+  Disagreement(SunlitTable const& table, SunlitSplines const& splines, double latitude);
 
   // Estimated error of each receiver's fraction, mean over the times of a year when the sun faces
   // it. A sample is predicted from farther away than what lies between samples; the estimate is
@@ -25,10 +23,11 @@ class Disagreement {
   std::vector<double> const& expected_errors() const { return expected_errors_; }
 
   // Returns `count` further directions, one after another where the product of these is largest:
-  // the misses of nearby samples, summed over the receivers that the sun faces there; the square of
-  // the distance to the nearest direction; and how long the sun is at that declination. A receiver
-  // weighs more the larger its expected error is, and the more rarely the sun faces it. Receivers
-  // whose expected error is below `wanted` are left out.
+  // the doubts of splines there and a share of the misses of nearby samples, summed over the
+  // receivers that the sun faces there; the square of the distance to the nearest direction; and
+  // how long the sun is at that declination. A receiver weighs more the larger its expected error
+  // is, and the more rarely the sun faces it. Receivers whose expected error is below `wanted` are
+  // left out.
   std::vector<HourDirection> further_directions(std::size_t count, double wanted) const;
 
  private:
@@ -47,10 +46,11 @@ class Disagreement {
   void estimate(std::size_t receiver);
 
   SunlitTable const& table_;
-  Misses const& misses_;
+  Misses misses_;
   std::vector<Candidate> candidates_;
-  std::vector<double> expected_errors_;  // by receiver
-  std::vector<double> facing_;           // by receiver: share of the year's sun that it faces
+  std::vector<std::vector<float>> doubts_;  // by candidate and receiver
+  std::vector<double> expected_errors_;     // by receiver
+  std::vector<double> facing_;              // by receiver: share of the year's sun that it faces
 };
 
 }  // namespace gpu_shading

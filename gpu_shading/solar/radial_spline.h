@@ -6,18 +6,40 @@
 
 namespace gpu_shading {
 
-// Interpolation of scattered values in space by radial functions -r^1.75 and a constant: the
-// function of least energy through the values, in a norm between those of a membrane and of
-// thin-plate splines (Duchon 1977; Wendland, Scattered Data Approximation, 2005, theorem 8.16). It
-// overshoots less at kinks than thin-plate splines and stays closer to the values beyond the nodes.
-// It is linear in the values, so one fit serves many functions.
+// The function of least energy through scattered values in space (Duchon 1977; Wendland, Scattered
+// Data Approximation, 2005, theorem 8.16).
+enum class RadialKernel {
+  // -r^1.75 and a constant: a norm between those of a membrane and of thin-plate splines. It
+  // overshoots less at kinks than smoother ones, and stays closer to the values beyond the nodes.
+  rough,
+  // r^3 and a linear function: a smoother norm, for what has no kinks. It is `rough` where the
+  // nodes do not determine a linear function.
+  smooth,
+};
+
+// Functions fitted by RadialSpline.
+class RadialFunctions {
+ public:
+  RadialFunctions(RadialKernel kernel, std::vector<glm::dvec3> nodes, Eigen::MatrixXd coefficients);
+
+  // The value of each function.
+  Eigen::VectorXd at(glm::dvec3 const& place) const;
+
+ private:
+  RadialKernel kernel_;
+  std::vector<glm::dvec3> nodes_;
+  Eigen::MatrixXd coefficients_;  // by node, then by term of the constant or linear function
+};
+
+// Interpolation of scattered values by radial functions. It is linear in the values, so one system
+// serves many functions.
 class RadialSpline {
  public:
-  // At least one node, without duplicates.
-  explicit RadialSpline(std::vector<glm::dvec3> nodes);
+  // At least one node, without duplicates. If all have z = 0, they are in a plane.
+  RadialSpline(RadialKernel kernel, std::vector<glm::dvec3> nodes);
 
-  // Values: one row per node, one column per function. The result is for at().
-  Eigen::MatrixXd fit(Eigen::MatrixXd const& values) const;
+  // Values: one row per node, one column per function.
+  RadialFunctions fit(Eigen::MatrixXd const& values) const;
 
   // The same functions where a fraction of 1 means 1 or more, and 0 means 0 or less: values beyond
   // 0 .. 1 with which the spline has less energy, up to the least. While no shadow reaches a
@@ -29,13 +51,12 @@ class RadialSpline {
   // arguments.
   Eigen::MatrixXd leave_one_out(Eigen::MatrixXd const& values) const;
 
-  // The value of each function of a fit.
-  Eigen::VectorXd at(glm::dvec3 const& place, Eigen::MatrixXd const& fitted) const;
-
  private:
+  RadialKernel kernel_;
   std::vector<glm::dvec3> nodes_;
+  Eigen::Index terms_;  // of the constant or linear function
   Eigen::PartialPivLU<Eigen::MatrixXd> system_;
-  Eigen::MatrixXd inverse_;  // without the constant: weights of the radial functions by value
+  Eigen::MatrixXd inverse_;  // without these terms: weights of the radial functions by value
 };
 
 }  // namespace gpu_shading

@@ -1,16 +1,21 @@
 #include "solar/sunlit_splines.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
 
+#include "solar/fraction_levels.h"
 #include "solar/shadow_fall.h"
+#include "threads/parallel.h"
 
 namespace gpu_shading {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 // Equal for normals that differ only in their last digits.
 std::tuple<long, long, long> rounded(glm::dvec3 const& normal) {
@@ -23,93 +28,212 @@ glm::dvec3 place_of(glm::dvec3 const& towards_sun, std::optional<glm::dvec3> con
   return normal ? glm::dvec3(shadow_fall(*normal, towards_sun), 0.0) : towards_sun;
 }
 
+VectorXd limited(VectorXd const& values) { return values.cwiseMax(0.0).cwiseMin(1.0); }
+
 // The prediction of each sample from all the others, minus the sample. Like answers, both are
 // limited to 0 .. 1.
-Eigen::MatrixXd missed_by(RadialSpline const& splines, Eigen::MatrixXd const& values) {
+MatrixXd missed_by(RadialSpline const& splines, MatrixXd const& values) {
   Eigen::ArrayXXd const told = values.array() - splines.leave_one_out(values).array();
   return (told.max(0.0).min(1.0) - values.array().max(0.0).min(1.0)).abs();
 }
 
-Eigen::MatrixXd columns_of(Eigen::MatrixXd const& matrix, std::vector<Index> const& chosen) {
-  return matrix(Eigen::all, chosen);
+// One kind of spline through the layers of receivers that face the same way.
+struct Kind {
+  std::optional<glm::dvec3> normal;
+  RadialSpline splines;
+  MatrixXd released;  // values by sample and layer
+  MatrixXd missed;
+
+  Kind(RadialKernel kernel, std::optional<glm::dvec3> over, std::vector<glm::dvec3> const& suns,
+       MatrixXd const& values)
+      : normal(over), splines(kernel, places_of(suns, over)) {
+    released = splines.release_limits(values);
+    missed = missed_by(splines, released);
+  }
+
+  static std::vector<glm::dvec3> places_of(std::vector<glm::dvec3> const& suns,
+                                           std::optional<glm::dvec3> const& normal) {
+    std::vector<glm::dvec3> places;
+    places.reserve(suns.size());
+    for (auto const& sun : suns) places.push_back(place_of(sun, normal));
+    return places;
+  }
+};
+
+MatrixXd columns_of(std::vector<VectorXd> const& vectors) {
+  MatrixXd matrix(vectors.front().size(), static_cast<Index>(vectors.size()));
+  for (Index j = 0; j < matrix.cols(); ++j) matrix.col(j) = vectors[static_cast<std::size_t>(j)];
+  return matrix;
+}
+
+// The first where several predict as well.
+std::vector<Index> best_kinds(std::vector<Kind> const& kinds) {
+  std::vector<Index> best(static_cast<std::size_t>(kinds.front().missed.cols()), 0);
+  for (std::size_t layer = 0; layer < best.size(); ++layer) {
+    auto const missed = [&](Index kind) {
+      return kinds[static_cast<std::size_t>(kind)].missed.col(static_cast<Index>(layer)).sum();
+    };
+    for (Index kind = 1; kind < static_cast<Index>(kinds.size()); ++kind) {
+      if (missed(kind) < missed(best[layer])) best[layer] = kind;
+    }
+  }
+  return best;
+}
+
+// By kind and layer: how well it predicts relative to the best, squared; 0 for the best itself.
+MatrixXd weights_of(std::vector<Kind> const& kinds, std::vector<Index> const& best) {
+  constexpr double nothing = 1e-9;
+  auto const layers = static_cast<Index>(best.size());
+  MatrixXd weights(static_cast<Index>(kinds.size()), layers);
+  for (Index kind = 0; kind < weights.rows(); ++kind) {
+    weights.row(kind) = kinds[static_cast<std::size_t>(kind)].missed.colwise().sum();
+  }
+  for (Index layer = 0; layer < layers; ++layer) {
+    auto const chosen = best[static_cast<std::size_t>(layer)];
+    double const least = weights(chosen, layer) + nothing;
+    weights.col(layer) = (least / (weights.col(layer).array() + nothing)).square();
+    weights(chosen, layer) = 0.0;
+    weights.col(layer) /= weights.col(layer).sum();
+  }
+  return weights;
 }
 
 }  // namespace
 
-SunlitSplines::SunlitSplines(SunlitTable const& table) : columns_(table.columns().size()) {
+SunlitSplines::SunlitSplines(SunlitTable const& table, Purpose purpose)
+    : purpose_(purpose),
+      receivers_count_(table.receivers()),
+      receivers_(table.columns().size()),
+      least_(table.columns().size(), 0.0) {
   std::map<std::pair<std::tuple<long, long, long>, std::vector<bool>>, std::vector<std::size_t>>
       alike;
-  for (std::size_t i = 0; i < columns_; ++i) {
+  for (std::size_t i = 0; i < receivers_.size(); ++i) {
     auto const receiver = table.columns()[i].receiver;
-    alike[{rounded(table.normal(receiver)), table.lit(receiver)}].push_back(i);
+    receivers_[i] = receiver;
+    auto const& lit = table.lit(receiver);
+    if (std::find(lit.begin(), lit.end(), true) == lit.end()) continue;
+    alike[{rounded(table.normal(receiver)), lit}].push_back(i);
   }
-  for (auto const& [look, columns] : alike) add_better(table, columns);
+  std::vector<std::vector<std::size_t>> columns;
+  columns.reserve(alike.size());
+  for (auto& [look, theirs] : alike) columns.push_back(std::move(theirs));
+  groups_.resize(columns.size());
+  for_each_index(columns.size(),
+                 [&](std::size_t i) { groups_[i] = make_group(table, columns[i]); });
+  for (auto const& group : groups_) {
+    for (auto const& layer : group.layers) {
+      if (layer.lowest) least_[layer.column] = layer.from;
+    }
+  }
 }
 
-void SunlitSplines::add_better(SunlitTable const& table, std::vector<std::size_t> const& columns) {
+SunlitSplines::Group SunlitSplines::make_group(SunlitTable const& table,
+                                               std::vector<std::size_t> const& columns) const {
   auto const receiver = table.columns()[columns.front()].receiver;
   auto const& lit = table.lit(receiver);
-  std::vector<std::size_t> samples;
+  Group group;
+  std::vector<glm::dvec3> suns;
   for (std::size_t i = 0; i < lit.size(); ++i) {
-    if (lit[i]) samples.push_back(i);
+    if (!lit[i]) continue;
+    group.samples.push_back(i);
+    suns.push_back(table.towards_sun()[i]);
   }
-  if (samples.empty()) return;
-  Eigen::MatrixXd values(static_cast<Index>(samples.size()), static_cast<Index>(columns.size()));
-  for (Index j = 0; j < values.cols(); ++j) {
-    auto const& fractions = table.columns()[columns[static_cast<std::size_t>(j)]].fractions;
-    for (Index i = 0; i < values.rows(); ++i) {
-      values(i, j) = fractions[samples[static_cast<std::size_t>(i)]];
+  std::vector<VectorXd> values;
+  for (auto const column : columns) {
+    VectorXd fractions(static_cast<Index>(suns.size()));
+    for (Index i = 0; i < fractions.size(); ++i) {
+      fractions(i) = table.columns()[column].fractions[group.samples[static_cast<std::size_t>(i)]];
+    }
+    auto const levels =
+        fraction_levels({fractions.data(), static_cast<std::size_t>(fractions.size())});
+    for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
+      double const height = levels[i + 1] - levels[i];
+      group.layers.push_back({column, levels[i], height, i == 0});
+      values.push_back(limited((fractions.array() - levels[i]).matrix() / height));
     }
   }
-  auto const splines_over = [&](std::optional<glm::dvec3> const& normal) {
-    std::vector<glm::dvec3> nodes;
-    nodes.reserve(samples.size());
-    for (auto const sample : samples) {
-      nodes.push_back(place_of(table.towards_sun()[sample], normal));
+  fit(group, table.normal(receiver), suns, columns_of(values));
+  return group;
+}
+
+void SunlitSplines::fit(Group& group, glm::dvec3 const& normal, std::vector<glm::dvec3> const& suns,
+                        MatrixXd const& values) const {
+  std::vector<Kind> kinds;
+  for (auto const kernel : {RadialKernel::rough, RadialKernel::smooth}) {
+    kinds.emplace_back(kernel, normal, suns, values);
+    kinds.emplace_back(kernel, std::nullopt, suns, values);
+  }
+  auto const best = best_kinds(kinds);
+  group.weights = weights_of(kinds, best);
+  group.missed.resize(values.rows(), values.cols());
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    auto const& kind = kinds[k];
+    if (purpose_ == Purpose::refinement) {
+      group.all.push_back({kind.normal, kind.splines.fit(kind.released)});
     }
-    return RadialSpline(std::move(nodes));
-  };
-  std::array<std::optional<glm::dvec3>, 2> const normals{table.normal(receiver), std::nullopt};
-  std::array<RadialSpline, 2> splines{splines_over(normals[0]), splines_over(normals[1])};
-  std::array<Eigen::MatrixXd, 2> const released{splines[0].release_limits(values),
-                                                splines[1].release_limits(values)};
-  std::array<Eigen::MatrixXd, 2> const missed{missed_by(splines[0], released[0]),
-                                              missed_by(splines[1], released[1])};
-  std::array<std::vector<Index>, 2> chosen;
-  for (Index j = 0; j < values.cols(); ++j) {
-    bool const by_shadows = missed[0].col(j).sum() <= missed[1].col(j).sum();
-    chosen[by_shadows ? 0 : 1].push_back(j);
+    std::vector<Index> chosen;
+    for (Index layer = 0; layer < values.cols(); ++layer) {
+      if (best[static_cast<std::size_t>(layer)] != static_cast<Index>(k)) continue;
+      chosen.push_back(layer);
+      group.missed.col(layer) = kind.missed.col(layer);
+    }
+    if (chosen.empty()) continue;
+    MatrixXd const released = kind.released(Eigen::all, chosen);
+    group.answering.push_back({{kind.normal, kind.splines.fit(released)}, std::move(chosen)});
   }
-  for (std::size_t k = 0; k < chosen.size(); ++k) {
-    if (chosen[k].empty()) continue;
-    std::vector<std::size_t> theirs;
-    theirs.reserve(chosen[k].size());
-    for (auto const j : chosen[k]) theirs.push_back(columns[static_cast<std::size_t>(j)]);
-    auto fitted = splines[k].fit(columns_of(released[k], chosen[k]));
-    groups_.push_back({normals[k], samples, std::move(theirs), std::move(fitted),
-                       columns_of(missed[k], chosen[k]), std::move(splines[k])});
+}
+
+VectorXd SunlitSplines::answers_of(Group const& group, glm::dvec3 const& sun) {
+  VectorXd answers(static_cast<Index>(group.layers.size()));
+  for (auto const& [splines, layers] : group.answering) {
+    answers(layers) = splines.functions.at(place_of(sun, splines.normal));
   }
+  return limited(answers);
 }
 
 std::vector<double> SunlitSplines::at(SunDirection direction) const {
   auto const sun = to_vector(direction);
-  std::vector<double> fractions(columns_, 0.0);
+  std::vector<double> fractions = least_;
   for (auto const& group : groups_) {
-    Eigen::VectorXd const values = group.splines.at(place_of(sun, group.normal), group.fitted);
-    for (std::size_t i = 0; i < group.columns.size(); ++i) {
-      fractions[group.columns[i]] = values(static_cast<Index>(i));
+    VectorXd const answers = answers_of(group, sun);
+    for (std::size_t i = 0; i < group.layers.size(); ++i) {
+      auto const& layer = group.layers[i];
+      fractions[layer.column] += layer.height * answers(static_cast<Index>(i));
     }
   }
   return fractions;
 }
 
+std::vector<float> SunlitSplines::doubts(SunDirection direction) const {
+  auto const sun = to_vector(direction);
+  std::vector<float> doubts(receivers_count_, 0.0F);
+  for (auto const& group : groups_) {
+    VectorXd const answers = answers_of(group, sun);
+    VectorXd differences = VectorXd::Zero(answers.size());
+    for (std::size_t k = 0; k < group.all.size(); ++k) {
+      auto const& [normal, functions] = group.all[k];
+      VectorXd const others = limited(functions.at(place_of(sun, normal)));
+      differences.array() += group.weights.row(static_cast<Index>(k)).transpose().array() *
+                             (others - answers).array().abs();
+    }
+    for (std::size_t i = 0; i < group.layers.size(); ++i) {
+      auto const& layer = group.layers[i];
+      doubts[receivers_[layer.column]] +=
+          static_cast<float>(layer.height * differences(static_cast<Index>(i)));
+    }
+  }
+  return doubts;
+}
+
 Misses SunlitSplines::misses(SunlitTable const& table) const {
   Misses misses(table.receivers(), std::vector<double>(table.directions().size(), 0.0));
   for (auto const& group : groups_) {
-    for (std::size_t j = 0; j < group.columns.size(); ++j) {
-      auto& of_receiver = misses[table.columns()[group.columns[j]].receiver];
+    for (std::size_t j = 0; j < group.layers.size(); ++j) {
+      auto const& layer = group.layers[j];
+      auto& of_receiver = misses[receivers_[layer.column]];
       for (std::size_t i = 0; i < group.samples.size(); ++i) {
-        of_receiver[group.samples[i]] += group.missed(static_cast<Index>(i), static_cast<Index>(j));
+        of_receiver[group.samples[i]] +=
+            layer.height * group.missed(static_cast<Index>(i), static_cast<Index>(j));
       }
     }
   }

@@ -74,16 +74,17 @@ class SampleRounds {
 // schedule and any weather.
 //
 // The interpolated quantity is the sunlit fraction, without the cosine of incidence, of each
-// receiver and of each combination of scheduled shades. Radial splines (Duchon 1977) are fitted
-// through the directions at which the sun faces the receiver, so that there are no seams at
-// sunrise, at midnight in polar day, or where the sun turns away. They are functions of where
-// shadows fall on the receiver's plane or of the direction, whichever predicts the samples better
-// from one another (leave-one-out). Six tenths of the usual directions lie on arcs of equal
-// declination, offset from one another; the others are added in four rounds
-// where the other samples predict a sample worst, above all for the receivers whose error is
-// estimated to be largest. While the estimate of any receiver is too large, up to three more rounds
-// add directions where those receivers need them. Fractions are limited to 0 .. 1, and so are their
-// sums.
+// receiver and of each combination of scheduled shades. Where samples share a value, such as that
+// behind a shade of constant transmittance, it is cut there into layers, each with kinks at its
+// limits. Radial splines (Duchon 1977) are fitted through the directions at which the sun faces the
+// receiver, so that there are no seams at sunrise, at midnight in polar day, or where the sun turns
+// away: rough or smooth ones, functions of where shadows fall on the receiver's plane or of the
+// direction, whichever predicts the samples best from one another (leave-one-out). Six tenths of
+// the usual directions lie on arcs of equal declination, offset from one another; the others are
+// added in four rounds where these splines differ and where the other samples predict a sample
+// worst, above all for the receivers whose error is estimated to be largest. While the estimate of
+// any receiver is too large, up to three more rounds add directions where those receivers need
+// them. Fractions are limited to 0 .. 1, and so are their sums.
 //
 // The paper's grid instead uses cubic B-splines along the azimuth and then across the days.
 class SampledSunlit {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -36,17 +37,52 @@ MatrixXd values_at(std::vector<glm::dvec3> const& nodes) {
   return values;
 }
 
+constexpr std::array<RadialKernel, 2> kernels{RadialKernel::rough, RadialKernel::smooth};
+
 TEST(RadialSpline, GoesThroughItsNodesAndKeepsConstants) {
-  for (std::size_t const count : {1U, 2U, 40U}) {
-    auto const nodes = places(count);
-    auto const values = values_at(nodes);
-    RadialSpline const spline(nodes);
-    auto const fitted = spline.fit(values);
-    for (Index i = 0; i < values.rows(); ++i) {
-      Eigen::VectorXd const got = spline.at(nodes[static_cast<std::size_t>(i)], fitted);
-      EXPECT_NEAR(got(0), values(i, 0), 1e-10);
+  for (auto const kernel : kernels) {
+    for (std::size_t const count : {1U, 2U, 40U}) {
+      auto const nodes = places(count);
+      auto const values = values_at(nodes);
+      auto const fitted = RadialSpline(kernel, nodes).fit(values);
+      for (Index i = 0; i < values.rows(); ++i) {
+        EXPECT_NEAR(fitted.at(nodes[static_cast<std::size_t>(i)])(0), values(i, 0), 1e-10);
+      }
+      EXPECT_NEAR(fitted.at({9.0, -5.0, 1.0})(1), 0.7, 1e-9);
     }
-    EXPECT_NEAR(spline.at({9.0, -5.0, 1.0}, fitted)(1), 0.7, 1e-9);
+  }
+}
+
+double linear(glm::dvec3 const& at) { return 0.2 + 0.3 * at.x - 0.1 * at.y + 0.4 * at.z; }
+
+MatrixXd linear_at(std::vector<glm::dvec3> const& nodes) {
+  MatrixXd values(static_cast<Index>(nodes.size()), 1);
+  for (Index i = 0; i < values.rows(); ++i) {
+    values(i, 0) = linear(nodes[static_cast<std::size_t>(i)]);
+  }
+  return values;
+}
+
+TEST(RadialSpline, ContinuesLinearFunctionsIfSmooth) {
+  auto nodes = places(40);
+  glm::dvec3 const beyond{9.0, -5.0, 1.0};
+  EXPECT_NEAR(RadialSpline(RadialKernel::smooth, nodes).fit(linear_at(nodes)).at(beyond)(0),
+              linear(beyond), 1e-9);
+  for (auto& node : nodes) node.z = 0.0;
+  glm::dvec3 const beside{9.0, -5.0, 0.0};
+  EXPECT_NEAR(RadialSpline(RadialKernel::smooth, nodes).fit(linear_at(nodes)).at(beside)(0),
+              linear(beside), 1e-9);
+}
+
+TEST(RadialSpline, IsRoughWhereNodesDetermineNoLinearFunction) {
+  // As many nodes as it takes, but on one circle, as the sun's directions of one day are.
+  std::vector<glm::dvec3> nodes;
+  for (int i = 0; i < 20; ++i) nodes.emplace_back(0.5, std::sin(0.1 * i), std::cos(0.1 * i));
+  auto const values = linear_at(nodes);
+  auto const smooth = RadialSpline(RadialKernel::smooth, nodes).fit(values);
+  auto const rough = RadialSpline(RadialKernel::rough, nodes).fit(values);
+  for (glm::dvec3 const& place : {glm::dvec3(0.5, 1.0, 2.0), glm::dvec3(-1.0, 0.0, 0.5)}) {
+    EXPECT_EQ(smooth.at(place)(0), rough.at(place)(0));
   }
 }
 
@@ -64,7 +100,7 @@ TEST(RadialSpline, KeepsKinksWhereFractionsReachTheirLimits) {
     auto const& node = nodes[static_cast<std::size_t>(i)];
     values(i, 0) = fraction(node.x, node.y);
   }
-  RadialSpline const spline(nodes);
+  RadialSpline const spline(RadialKernel::rough, nodes);
   MatrixXd const released = spline.release_limits(values);
   auto const mean_error = [&](MatrixXd const& through) {
     auto const fitted = spline.fit(through);
@@ -72,7 +108,7 @@ TEST(RadialSpline, KeepsKinksWhereFractionsReachTheirLimits) {
     int count = 0;
     for (double x = -1.9; x < 1.9; x += 0.07) {
       for (double y = -1.9; y < 1.9; y += 0.07) {
-        double const got = std::clamp(spline.at({x, y, 0.0}, fitted)(0), 0.0, 1.0);
+        double const got = std::clamp(fitted.at({x, y, 0.0})(0), 0.0, 1.0);
         sum += std::abs(got - fraction(x, y));
         ++count;
       }
@@ -89,17 +125,18 @@ TEST(RadialSpline, KeepsKinksWhereFractionsReachTheirLimits) {
 }
 
 TEST(RadialSpline, SaysWhatItWouldMissWithoutANode) {
-  for (std::size_t const count : {2U, 40U}) {
-    auto const nodes = places(count);
-    auto const values = values_at(nodes);
-    MatrixXd const misses = RadialSpline(nodes).leave_one_out(values);
-    for (std::size_t i = 0; i < count; ++i) {
-      auto others = nodes;
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-      RadialSpline const without(others);
-      double const got = without.at(nodes[i], without.fit(values_at(others)))(0);
-      auto const row = static_cast<Index>(i);
-      EXPECT_NEAR(misses(row, 0), values(row, 0) - got, 1e-9);
+  for (auto const kernel : kernels) {
+    for (std::size_t const count : {2U, 40U}) {
+      auto const nodes = places(count);
+      auto const values = values_at(nodes);
+      MatrixXd const misses = RadialSpline(kernel, nodes).leave_one_out(values);
+      for (std::size_t i = 0; i < count; ++i) {
+        auto others = nodes;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+        double const got = RadialSpline(kernel, others).fit(values_at(others)).at(nodes[i])(0);
+        auto const row = static_cast<Index>(i);
+        EXPECT_NEAR(misses(row, 0), values(row, 0) - got, 1e-9);
+      }
     }
   }
 }

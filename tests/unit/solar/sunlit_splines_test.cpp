@@ -7,8 +7,11 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 #include "gpu_shading/sun_position.h"
+#include "solar/fraction_levels.h"
 #include "solar/sun_arcs.h"
 
 namespace gpu_shading {
@@ -16,6 +19,7 @@ namespace {
 
 constexpr double latitude = 42.0 * std::numbers::pi / 180.0;
 
+using Purpose = SunlitSplines::Purpose;
 using Fraction = std::function<double(glm::dvec3 const& towards_sun)>;
 
 SunlitTable table_of(glm::dvec3 const& normal, Fraction const& fraction) {
@@ -34,7 +38,7 @@ SunlitTable table_of(glm::dvec3 const& normal, Fraction const& fraction) {
 // Between the samples.
 double mean_error(glm::dvec3 const& normal, Fraction const& fraction) {
   auto const table = table_of(normal, fraction);
-  SunlitSplines const splines(table);
+  SunlitSplines const splines(table, Purpose::refinement);
   double sum = 0.0;
   int count = 0;
   for (auto const hour : spread_on_arcs(latitude, 3000)) {
@@ -47,11 +51,15 @@ double mean_error(glm::dvec3 const& normal, Fraction const& fraction) {
   return sum / count;
 }
 
+double mean(std::vector<double> const& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
 TEST(SunlitSplines, MissAsAnswersDoWhichStayWithinNothingAndWhole) {
   // Lit in the morning alone: beside noon splines swing beyond 0 and 1, answers do not.
   auto const table =
       table_of({0, 0, 1}, [](glm::dvec3 const& sun) { return sun.x > 0.0 ? 1.0 : 0.0; });
-  auto const missed = SunlitSplines(table).misses(table).front();
+  auto const missed = SunlitSplines(table, Purpose::refinement).misses(table).front();
   EXPECT_GT(std::count(missed.begin(), missed.end(), 0.0), 60);
   EXPECT_GT(*std::max_element(missed.begin(), missed.end()), 0.3);
   EXPECT_LE(*std::max_element(missed.begin(), missed.end()), 1.0);
@@ -65,6 +73,59 @@ TEST(SunlitSplines, TellEachFractionByWhatItFollows) {
   // By direction, near grazing sun too. Over shadows 0.0025.
   auto const wave = [](glm::dvec3 const& sun) { return 0.5 + 0.4 * std::sin(3.0 * sun.x); };
   EXPECT_LT(mean_error(south, wave), 8e-4);
+}
+
+TEST(SunlitSplines, KeepKinksAtTheTransmittanceOfAShade) {
+  // Two shades pass a window in turn, before one another in between: each transmits a tenth.
+  auto const shaded = [](double from, double to, double at) {
+    return std::clamp(std::min(at - from, to - at) / 0.3, 0.0, 1.0);
+  };
+  auto const fraction = [&](double transmittance) {
+    return [=](glm::dvec3 const& sun) {
+      double const open = 1.0 - transmittance;
+      return (1.0 - open * shaded(-1.0, 0.4, sun.x)) * (1.0 - open * shaded(-0.4, 0.8, sun.x));
+    };
+  };
+  glm::dvec3 const up{0, 0, 1};
+  double const error = mean_error(up, fraction(0.1));
+  // As much beam is stopped as by opaque shades, as accurately.
+  EXPECT_LT(error, 1.1 * mean_error(up, fraction(0.0)));
+  EXPECT_LT(error, 6e-3);
+}
+
+TEST(SunlitSplines, DoubtWhereTheyAreWrong) {
+  glm::dvec3 const up{0, 0, 1};
+  auto const edge = [](glm::dvec3 const& sun) { return std::clamp(0.5 + 3.0 * sun.x, 0.0, 1.0); };
+  auto const table = table_of(up, edge);
+  SunlitSplines const splines(table, Purpose::refinement);
+  std::vector<double> where_wrong;
+  std::vector<double> where_right;
+  for (auto const hour : spread_on_arcs(latitude, 3000)) {
+    auto const direction = to_direction(hour, latitude);
+    double const wrong = std::abs(splines.at(direction).front() - edge(to_vector(direction)));
+    (wrong > 0.01 ? where_wrong : where_right).push_back(splines.doubts(direction).front());
+  }
+  ASSERT_GT(where_wrong.size(), 50U);
+  EXPECT_GT(mean(where_wrong), 5.0 * mean(where_right));
+  EXPECT_GT(mean(where_wrong), 0.003);
+}
+
+TEST(FractionLevels, AreThoseThatManySamplesShare) {
+  std::vector<double> fractions{0.25, 0.41, 0.73, 0.9};
+  EXPECT_EQ(fraction_levels(fractions), (std::vector<double>{0.0, 1.0}));
+  fractions.insert(fractions.end(), 5, 0.5);
+  EXPECT_EQ(fraction_levels(fractions), (std::vector<double>{0.0, 0.5, 1.0}));
+  fractions.insert(fractions.end(), 6, 0.0625);
+  EXPECT_EQ(fraction_levels(fractions), (std::vector<double>{0.0625, 0.5, 1.0}));
+  fractions.insert(fractions.end(), 5, 0.999);
+  EXPECT_EQ(fraction_levels(fractions), (std::vector<double>{0.0625, 0.5, 1.0}));
+  fractions.push_back(0.0);
+  EXPECT_EQ(fraction_levels(fractions), (std::vector<double>{0.0, 0.0625, 0.5, 1.0}));
+  // Those of most samples.
+  for (int i = 1; i < 9; ++i) fractions.insert(fractions.end(), i < 4 ? 5 : 6, 0.1 * i + 0.05);
+  EXPECT_EQ(fraction_levels(fractions).size(), 7U);
+  EXPECT_EQ(fraction_levels(std::vector<double>(8, 1.0)), (std::vector<double>{0.0, 1.0}));
+  EXPECT_EQ(fraction_levels(std::vector<double>(8, 0.25)), (std::vector<double>{0.25, 1.0}));
 }
 
 }  // namespace
