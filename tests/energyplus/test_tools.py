@@ -53,6 +53,15 @@ building = eppy_funcs.get_building(model, data_dict=prefix + "/Energy+.idd")
 building.idfobjects["BUILDING"][0].Terrain = "City"
 eplus_funcs.run_building(building, out_dir=folder, epw=weather, ep_path=prefix, err_dir=None)
 """
+# Runs a copy of the model, under another name.
+HONEYBEE = """
+import sys
+from honeybee_energy.config import folders
+from honeybee_energy.run import run_idf
+prefix, model, weather = sys.argv[1:]
+folders.energyplus_path = prefix
+run_idf(model, weather, silent=True)
+"""
 # frads knows EnergyPlus's objects alone, and runs EnergyPlus to read an IDF.
 FRADS = """
 import os, sys
@@ -148,6 +157,19 @@ def test_besos_runs_are_shaded(room, patched, weather, tmp_path):
     out = tmp_path / "out"
     done = python(BESOS, patched.parent, room, weather, out, folder=tmp_path, GPU_SHADING="1", HOME=str(tmp_path))
     hosted = energyplus.Run(done.returncode, done.stdout, done.stderr, out, 0.0)
+    direct = energyplus.run(patched, room, weather, tmp_path / "direct", ["--gpu-shading"])
+    assert transmitted(hosted) == pytest.approx(transmitted(direct), rel=1e-3)
+
+
+def test_honeybee_runs_are_shaded(room, patched, weather, tmp_path):
+    need("honeybee_energy")
+    room.write_text(room.read_text().replace("RunPeriod,Year,1,1,,12,31,", "RunPeriod,Day,10,21,,10,21,"))
+    folder = tmp_path / "honeybee"
+    folder.mkdir()
+    shutil.copy(room, folder)
+    done = python(HONEYBEE, patched.parent, folder / room.name, weather, folder=tmp_path, GPU_SHADING="1",
+                  HOME=str(tmp_path))
+    hosted = energyplus.Run(done.returncode, done.stdout, done.stderr, folder, 0.0)
     direct = energyplus.run(patched, room, weather, tmp_path / "direct", ["--gpu-shading"])
     assert transmitted(hosted) == pytest.approx(transmitted(direct), rel=1e-3)
 
