@@ -23,12 +23,12 @@ def setup(tmp_path):
     for name in ("bash", "dirname", "grep", "sed", "sha256sum", "cut", "cat", "ls", "mkdir", "touch", "find"):
         (tools / name).symlink_to(shutil.which(name))
 
-    def call(**stand_ins):
+    def call(*options, **stand_ins):
         for name, text in stand_ins.items():
             path = tools / name.replace("_", "-")
             path.write_text(f"#!{shutil.which('bash')}\n{text}\n")
             path.chmod(path.stat().st_mode | stat.S_IXUSR)
-        done = subprocess.run([tools / "bash", folder / "scripts" / "setup"], env={"PATH": str(tools)},
+        done = subprocess.run([tools / "bash", folder / "scripts" / "setup", *options], env={"PATH": str(tools)},
                               capture_output=True, text=True)
         assert sorted(os.listdir(folder)) == ["scripts"]
         return done
@@ -46,6 +46,19 @@ def test_without_root_and_sudo_it_lists_what_to_install(setup):
     line = refused(setup(id="echo 1000", dpkg_query="echo installed cmake", apt_get="exit 7"))
     assert "as root: apt-get install" in line
     assert "ninja-build" in line and "libtbb-dev" in line and " cmake " not in line
+    assert "libgtest-dev" in line
+
+
+def test_without_tests_it_lists_less(setup):
+    line = refused(setup("--without-tests", id="echo 1000", dpkg_query="exit 1", apt_get="exit 7"))
+    assert "libgtest-dev" not in line
+
+
+def test_without_root_and_sudo_it_asks_for_nothing_that_is_optional(setup):
+    """All is installed but libjs-three; a wrong machine then ends the script before it changes anything."""
+    but_one = 'for name in "${@:3}"; do test "$name" = libjs-three || echo "installed $name"; done'
+    assert "aarch64" in refused(setup(id="echo 1000", dpkg_query=but_one, apt_get="echo called; exit 7",
+                                      uname="echo aarch64"))
 
 
 def test_another_system_is_told_what_is_needed(setup):
