@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
 #include <glm/geometric.hpp>
@@ -209,7 +210,7 @@ TEST_F(MeshFile, SmallFacesAreWhole) {
       auto const meshes = read_meshes(write("small.obj", text));
       ASSERT_EQ(meshes.size(), 1U);
       auto const expected = 0.5 * corners * std::sin(6.283185307 / corners) * radius * radius;
-      EXPECT_EQ(meshes[0].triangles.size(), corners - 2U + 1U);
+      EXPECT_EQ(meshes[0].triangles.size(), static_cast<std::size_t>(corners - 2 + 1));
       EXPECT_NEAR(mesh_area(meshes[0]) - 0.5, expected, 1e-5 * expected + 1e-9)
           << corners << " corners, radius " << radius;
     }
