@@ -76,8 +76,12 @@ TEST(RadialSpline, ContinuesLinearFunctionsIfSmooth) {
 
 TEST(RadialSpline, IsRoughWhereNodesDetermineNoLinearFunction) {
   // As many nodes as it takes, but on one circle, as the sun's directions of one day are.
-  std::vector<glm::dvec3> nodes;
-  for (int i = 0; i < 20; ++i) nodes.emplace_back(0.5, std::sin(0.1 * i), std::cos(0.1 * i));
+  std::vector<glm::dvec3> nodes(20);
+  double angle = 0.0;
+  for (auto& node : nodes) {
+    node = {0.5, std::sin(angle), std::cos(angle)};
+    angle += 0.1;
+  }
   auto const values = linear_at(nodes);
   auto const smooth = RadialSpline(RadialKernel::smooth, nodes).fit(values);
   auto const rough = RadialSpline(RadialKernel::rough, nodes).fit(values);
