@@ -14,8 +14,8 @@ namespace gpu_shading {
 std::unique_ptr<ViewBackend> open_backend(BackendInput const& input, DeviceChoice const& device);
 
 // The same, with an OpenGL device whose answers are checked (CheckedBackend), and which leaves to
-// the CPU what it cannot draw (SheetPairsOnCpu). `warn` is also told
-// why a GPU that is there cannot be used.
+// the CPU what it cannot draw (SheetPairsOnCpu). `warn` is also told why a GPU that is there cannot
+// be used.
 std::unique_ptr<ViewBackend> open_checked_backend(BackendInput const& input,
                                                   DeviceChoice const& device, Warn const& warn);
 

@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <mutex>
-#include <numbers>
 #include <numeric>
 #include <utility>
 

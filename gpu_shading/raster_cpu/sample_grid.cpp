@@ -54,13 +54,17 @@ TileGrid least_aliasing(Aliasing const& aliasing, int rows, GridOf grid_of) {
   return best;
 }
 
-}  // namespace
-
+// Many equal louvres or fins at equal distances alias with a lattice of samples if a vector of its
+// reciprocal lattice lies along their normal. Both normals are at the golden slope to the rows
+// (TileMap). With k columns to a row, a vector (k m, n) misses that slope by the distance of
+// k m / phi from a whole number, which the shear makes that of m / phi, the largest for all m.
 TileGrid golden_grid(int rows, int columns_a_row) {
   constexpr double golden = 1.0 / std::numbers::phi;
   double const slope = columns_a_row * golden;
   return {columns_a_row * rows, rows, std::ceil(slope) - slope - (1.0 - golden)};
 }
+
+}  // namespace
 
 TileGrid fine_grid(Tile const& tile) {
   constexpr int large = 128;  // smaller tiles have too few edges to alias with 9 columns to a row

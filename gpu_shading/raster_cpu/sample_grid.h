@@ -10,12 +10,6 @@ namespace gpu_shading {
 // The CPU samples a tile on a grid of its own, on which what is in front of the receiver aliases
 // little. A row's span costs the same however fine its columns are, and its ends are nearly exact
 // with many of them: what matters is the number of rows.
-//
-// Many equal louvres or fins at equal distances alias with a lattice of samples if a vector of its
-// reciprocal lattice lies along their normal. Both normals are at the golden slope to the rows
-// (TileMap). With k columns to a row, a vector (k m, n) misses that slope by the distance of
-// k m / phi from a whole number, which the shear makes that of m / phi, the largest for all m.
-TileGrid golden_grid(int rows, int columns_a_row);
 
 // For opaque casters: as many rows as a small tile has pixels, down to half as many on a large one,
 // and 9 or 17 times as many columns.

@@ -1,7 +1,6 @@
 #include "solar/sunlit_splines.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
