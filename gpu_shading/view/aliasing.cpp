@@ -2,25 +2,26 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <glm/geometric.hpp>
-#include <limits>
+#include <glm/matrix.hpp>
 
 namespace gpu_shading {
 
-bool Aliasing::AlikeScreens::include(Screens::Entry const& screen) const {
-  constexpr double alike = 1e-9;
-  return screen.screen == first->screen && glm::length(screen.u - first->u) < alike &&
-         glm::length(screen.v - first->v) < alike;
+void Aliasing::add(Screens::Entry const& screen, SheetInBeam const& sheet) {
+  auto const found = std::find_if(screens_.begin(), screens_.end(), [&](AlikeScreens const& each) {
+    return alike(*each.first, screen);
+  });
+  if (found != screens_.end()) {
+    ++found->count;
+  } else {
+    HoleSpectrum const holes(screen, sheet, view_, outline_);
+    screens_.push_back({&screen, holes, holes.sides_in_line(), 1});
+  }
 }
 
-void Aliasing::add(Screens::Entry const& screen, SheetInBeam const& sheet) {
-  auto const alike = std::find_if(screens_.begin(), screens_.end(),
-                                  [&](AlikeScreens const& each) { return each.include(screen); });
-  if (alike != screens_.end()) {
-    ++alike->count;
-  } else {
-    screens_.push_back({&screen, HoleSpectrum(screen, sheet, view_, outline_), 1});
+void Aliasing::add_rows(Screens::Entry const& screen, SheetInBeam const& sheet) {
+  for (BladeSpectrum const& side : HoleSpectrum(screen, sheet, view_, outline_).sides_in_line()) {
+    blades_.push_back(side);
   }
 }
 
@@ -32,6 +33,20 @@ void Aliasing::add(SampledRepeats const& repeats) {
                                    [&](BladeSpectrum& other) { return other.merge(*blades); });
     if (!known) blades_.push_back(*blades);
   }
+}
+
+Aliasing Aliasing::on_tile(TileMap const& from, TileMap const& to,
+                           OutlineSpectrum const& outline) const {
+  glm::dmat2 const change = glm::transpose(from.matrix * glm::inverse(to.matrix));
+  Aliasing other = *this;
+  other.outline_ = outline;
+  for (BladeSpectrum& blades : other.blades_) blades.change(change, outline);
+  for (AlikeScreens& each : other.screens_) {
+    each.holes.change(change, outline);
+    for (BladeSpectrum& side : each.sides) side.change(change, outline);
+  }
+  for (HoleSpectrum::Frequency& frequency : other.first_) frequency.at = change * frequency.at;
+  return other;
 }
 
 void Aliasing::overlap() {
@@ -51,21 +66,19 @@ double Aliasing::squared_error(TileGrid const& grid, double enough) const {
 
 double Aliasing::squared_error_of_each(TileGrid const& grid, double enough) const {
   if (screens_.empty()) return 0.0;
-  // Holes have high frequencies too, which are weak: beyond `low`, those that nearly meet matter.
-  constexpr int order = 24;
-  constexpr int low = 12;
-  constexpr double any = std::numeric_limits<double>::infinity();
-  constexpr double nearly = 2.0;
+  double const negligible = 0.03 * small_enough(grid.rows);
   double sum = 0.0;
-  for (int row = 0; row <= order && sum < enough; ++row) {
-    for (int column = row == 0 ? 1 : -order; column <= order; ++column) {
-      glm::dvec2 const vector = grid.reciprocal(column, row);
-      double within = any;
-      if (std::max(row, std::abs(column)) > low) within = nearly;
-      for (auto const& [first, holes, count] : screens_) {
-        double const error = holes.error_at(vector, within);
-        sum += count * error * error;
-      }
+  for (int row = 0; row < HoleSpectrum::rows && sum < enough; ++row) {
+    for (AlikeScreens const& each : screens_) {
+      sum += each.count * each.holes.squared_error(grid, row, negligible);
+    }
+  }
+  // High multiples, which are many, matter to large grids alone.
+  constexpr double large = 600.0 * 600.0;
+  if (static_cast<double>(grid.width) * grid.rows < large) return sum;
+  for (AlikeScreens const& each : screens_) {
+    for (BladeSpectrum const& side : each.sides) {
+      sum += each.count * side.squared_error(grid, enough);
     }
   }
   return sum;
@@ -75,14 +88,13 @@ double Aliasing::squared_error_of_each(TileGrid const& grid, double enough) cons
 double Aliasing::squared_error_of_pairs(TileGrid const& grid, HoleSpectrum const& second,
                                         double enough) const {
   constexpr int order = 3;
-  constexpr double any = std::numeric_limits<double>::infinity();
   double sum = 0.0;
   for (HoleSpectrum::Frequency const& frequency : first_) {
     for (int row = -order; row <= order && sum < enough; ++row) {
       for (int column = -order; column <= order; ++column) {
         if (column == 0 && row == 0) continue;
         glm::dvec2 const vector = grid.reciprocal(column, row);
-        double const error = frequency.amplitude * second.error_at(vector - frequency.at, any);
+        double const error = frequency.amplitude * second.error_at(vector - frequency.at);
         sum += 0.5 * error * error;  // of two that are opposite, each counts
       }
     }

@@ -23,22 +23,28 @@ class Aliasing {
 
   // A screen whose holes are drawn.
   void add(Screens::Entry const& screen, SheetInBeam const& sheet);
+  // A screen of which rows of holes are drawn.
+  void add_rows(Screens::Entry const& screen, SheetInBeam const& sheet);
   void add(SampledRepeats const& repeats);
   // Rays pass more than one of the screens.
   void overlap();
+
+  // The same on another tile of the receiver. `from`, `to`: the maps of both tiles.
+  Aliasing on_tile(TileMap const& from, TileMap const& to, OutlineSpectrum const& outline) const;
+
+  // An error with which no better grid of so many rows is looked for.
+  static double small_enough(int rows) { return 0.015 / rows; }
 
   bool none() const { return screens_.empty() && blades_.empty(); }
   // Upper limit of the squared error of a grid, or anything above `enough`.
   double squared_error(TileGrid const& grid, double enough) const;
 
  private:
-  // Screens with the same holes and directions of holes, as the panels of a facade have them.
   struct AlikeScreens {
     Screens::Entry const* first;
     HoleSpectrum holes;
+    std::vector<BladeSpectrum> sides;
     int count;
-
-    bool include(Screens::Entry const& screen) const;
   };
 
   double squared_error_of_each(TileGrid const& grid, double enough) const;

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <numeric>
 
 #include "view/convex_area.h"
+#include "view/instructions.h"
 #include "view/nearest_whole.h"
 
 namespace gpu_shading {
@@ -18,6 +18,55 @@ namespace {
 glm::dvec2 in_tiles(View const& view, glm::dvec3 const& vector) {
   return 0.5 *
          glm::dvec2(glm::dot(glm::dvec3(view.x), vector), glm::dot(glm::dvec3(view.y), vector));
+}
+
+// What follows is written for the compiler to take several at a time.
+
+// The square of what a vector of the grid's reciprocal lattice adds to the error of a multiple of
+// the frequency, for blades of all of the receiver and without pi.
+[[gnu::always_inline]] inline double squared_at(OutlineSpectrum const& outline,
+                                                glm::dvec2 const& at, double multiple,
+                                                TileGrid const& grid, double column, double row) {
+  double const error = outline.amplitude(at - grid.reciprocal(column, row)) / multiple;
+  return column == 0.0 && row == 0.0 ? 0.0 : error * error;
+}
+
+// Of the vectors around a strong multiple.
+constexpr int around = 2;
+[[gnu::always_inline]] inline double near_strong(OutlineSpectrum const& outline,
+                                                 glm::dvec2 const& first, TileGrid const& grid,
+                                                 int multiple) {
+  constexpr int width = 2 * around + 1;
+  glm::dvec2 const at = static_cast<double>(multiple) * first;
+  double const middle = nearest_whole(at.x / grid.width);
+  double const rows = at.y / grid.rows;
+  std::array<double, width * width> squared{};
+  for (int up = -around; up <= around; ++up) {
+    for (int across = -around; across <= around; ++across) {
+      double const column = middle + across;
+      double const row = nearest_whole(rows - column * grid.shear) + up;
+      auto const place = static_cast<std::size_t>((up + around) * width + across + around);
+      squared[place] = squared_at(outline, at, multiple, grid, column, row);
+    }
+  }
+  return std::accumulate(squared.begin(), squared.end(), 0.0);
+}
+
+// Of the vectors next to some weak multiples, from one on.
+constexpr int at_once = 32;
+[[gnu::always_inline]] inline double near_weak(OutlineSpectrum const& outline,
+                                               glm::dvec2 const& first, TileGrid const& grid,
+                                               int from) {
+  glm::dvec2 const cell(1.0 / grid.width, 1.0 / grid.rows);
+  std::array<double, at_once> squared{};
+  for (int i = 0; i < at_once; ++i) {
+    auto const multiple = static_cast<double>(from + i);
+    glm::dvec2 const at = multiple * first;
+    double const column = nearest_whole(at.x * cell.x);
+    double const row = nearest_whole(at.y * cell.y - column * grid.shear);
+    squared[static_cast<std::size_t>(i)] = squared_at(outline, at, multiple, grid, column, row);
+  }
+  return std::accumulate(squared.begin(), squared.end(), 0.0);
 }
 
 }  // namespace
@@ -45,6 +94,8 @@ bool BladeSpectrum::merge(BladeSpectrum const& other) {
 }
 
 double BladeSpectrum::squared_error(TileGrid const& grid, double enough) const {
+  // Grid vectors at a distance matter to the strongest multiples alone.
+  constexpr int strongest = 3;
   // High multiples matter: the weaker they are, the closer some vector comes, until there are more
   // multiples than pixels.
   constexpr int most = 512;
@@ -54,45 +105,13 @@ double BladeSpectrum::squared_error(TileGrid const& grid, double enough) const {
   double const amplitude = share_ / std::numbers::pi;
   double const wanted = enough / (amplitude * amplitude);
   double sum = 0.0;
-  for (int multiple = 1; multiple <= strongest; ++multiple) sum += near_strong(grid, multiple);
+  for (int multiple = 1; multiple <= strongest; ++multiple) {
+    sum += run<near_strong>(outline_, first_, grid, multiple);
+  }
   for (int from = strongest + 1; from <= last && sum < wanted; from += at_once) {
-    sum += near_weak(grid, from);
+    sum += run<near_weak>(outline_, first_, grid, from);
   }
   return amplitude * amplitude * sum;
-}
-
-double BladeSpectrum::near_strong(TileGrid const& grid, int multiple) const {
-  constexpr int around = 2;
-  glm::dvec2 const at = static_cast<double>(multiple) * first_;
-  auto const column = nearest_whole(at.x / grid.width);
-  double sum = 0.0;
-  for (std::int64_t x = column - around; x <= column + around; ++x) {
-    auto const row = nearest_whole(at.y / grid.rows - static_cast<double>(x) * grid.shear);
-    for (std::int64_t y = row - around; y <= row + around; ++y) {
-      if (x == 0 && y == 0) continue;
-      glm::dvec2 const vector = grid.reciprocal(static_cast<double>(x), static_cast<double>(y));
-      double const error = outline_.amplitude(at - vector) / multiple;
-      sum += error * error;
-    }
-  }
-  return sum;
-}
-
-// Written for the compiler to take several at a time.
-double BladeSpectrum::near_weak(TileGrid const& grid, int from) const {
-  // Added and taken away, it leaves the nearest whole number.
-  constexpr double rounding = 0x1.8p52;
-  glm::dvec2 const cell(1.0 / grid.width, 1.0 / grid.rows);
-  std::array<double, at_once> squared{};
-  for (int i = 0; i < at_once; ++i) {
-    auto const multiple = static_cast<double>(from + i);
-    glm::dvec2 const at = multiple * first_;
-    double const column = (at.x * cell.x + rounding) - rounding;
-    double const row = (at.y * cell.y - column * grid.shear + rounding) - rounding;
-    double const error = outline_.amplitude(at - grid.reciprocal(column, row)) / multiple;
-    squared[static_cast<std::size_t>(i)] = column == 0.0 && row == 0.0 ? 0.0 : error * error;
-  }
-  return std::accumulate(squared.begin(), squared.end(), 0.0);
 }
 
 }  // namespace gpu_shading

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 #include <optional>
 
@@ -14,29 +15,27 @@ namespace gpu_shading {
 // cycles per tile: multiples of one.
 class BladeSpectrum {
  public:
-  // `share`: of the receiver, behind these blades. Empty for blades in line, end to end,
-  // or too close to tell.
+  // `first`: the lowest frequency. `share`: of the receiver, behind these blades.
+  BladeSpectrum(glm::dvec2 const& first, double share, OutlineSpectrum const& outline)
+      : outline_(outline), first_(first), share_(share) {}
+
+  // Empty for blades in line, end to end, or too close to tell.
   static std::optional<BladeSpectrum> make(Repeat const& repeat, double share, View const& view,
                                            OutlineSpectrum const& outline);
 
   // Whether the other one's are in step with these over all of the tile; then takes its share.
   bool merge(BladeSpectrum const& other);
 
+  // The same on a tile of another shape, with its outline. `change`: of frequencies.
+  void change(glm::dmat2 const& change, OutlineSpectrum const& outline) {
+    first_ = change * first_;
+    outline_ = outline;
+  }
+
   // Upper limit of the squared error of the mean over a grid, or anything above `enough`.
   double squared_error(TileGrid const& grid, double enough) const;
 
  private:
-  BladeSpectrum(glm::dvec2 const& first, double share, OutlineSpectrum const& outline)
-      : outline_(outline), first_(first), share_(share) {}
-
-  static constexpr int strongest = 3;
-  static constexpr int at_once = 32;
-
-  // Squares of what some multiples of the frequency add to the error, for blades of all of the
-  // receiver and without pi. Grid vectors at a distance matter to the strongest multiples alone.
-  double near_strong(TileGrid const& grid, int multiple) const;
-  double near_weak(TileGrid const& grid, int from) const;  // of `at_once` of them
-
   OutlineSpectrum outline_;
   glm::dvec2 first_;
   double share_;

@@ -1,10 +1,12 @@
 #include "view/hole_spectrum.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <numbers>
 
 #include "gpu_shading/perforated_screen.h"
@@ -18,41 +20,81 @@ using std::numbers::pi;
 
 }  // namespace
 
+bool alike(Screens::Entry const& a, Screens::Entry const& b) {
+  constexpr double near = 1e-9;
+  return a.screen == b.screen && glm::length(a.u - b.u) < near && glm::length(a.v - b.v) < near;
+}
+
 HoleSpectrum::HoleSpectrum(Screens::Entry const& screen, SheetInBeam const& sheet, View const& view,
                            OutlineSpectrum const& outline)
-    : outline_(outline),
-      staggered_(sheet.staggered && sheet.shape != SheetShape::image),
-      open_(screen.screen->open_fraction()),
-      tile_(sheet.tile) {
+    : outline_(outline), open_(screen.screen->open_fraction()) {
   glm::dvec3 const x(view.x);
   glm::dvec3 const y(view.y);
   glm::dmat2 const to_place =
       2.0 * glm::inverse(glm::dmat2(glm::dot(x, screen.u), glm::dot(y, screen.u),
                                     glm::dot(x, screen.v), glm::dot(y, screen.v)));
-  basis_ = glm::transpose(to_place) * glm::dmat2(1.0 / tile_.x, 0.0, 0.0, 1.0 / tile_.y);
+  glm::dvec2 const tile(sheet.tile);
+  lowest_ = glm::dmat2(1.0 / tile.x, 0.0, 0.0, 1.0 / tile.y);
+  bool const staggered = sheet.staggered && sheet.shape != SheetShape::image;
+  if (staggered) lowest_ = lowest_ * glm::dmat2(1.0, 1.0, 1.0, -1.0);
+  basis_ = glm::transpose(to_place) * lowest_;
   to_index_ = glm::inverse(basis_);
+  per_area_ = std::abs(glm::determinant(lowest_));
   describe(*screen.screen, sheet);
 }
 
-double HoleSpectrum::error_at(glm::dvec2 const& vector, double within) const {
-  glm::dvec2 const at = to_index_ * vector;
-  glm::dvec2 const frequency = at / tile_;
-  if (glm::dot(frequency, frequency) > highest_) return 0.0;
-  std::int64_t column = nearest_whole(at.x);
-  std::int64_t row = nearest_whole(at.y);
-  if (staggered_ && ((column + row) & 1) != 0) {
-    glm::dvec2 const rest(at.x - static_cast<double>(column), at.y - static_cast<double>(row));
-    if (std::abs(rest.x) > std::abs(rest.y)) {
-      column += rest.x > 0.0 ? 1 : -1;
-    } else {
-      row += rest.y > 0.0 ? 1 : -1;
-    }
+void HoleSpectrum::change(glm::dmat2 const& change, OutlineSpectrum const& outline) {
+  basis_ = change * basis_;
+  to_index_ = glm::inverse(basis_);
+  outline_ = outline;
+}
+
+double HoleSpectrum::squared_error(TileGrid const& grid, int row, double negligible) const {
+  constexpr int order = rows - 1;
+  // Beyond this, only a frequency that a vector nearly meets matters.
+  constexpr int low = 12;
+  constexpr double nearly = 2.0;
+  constexpr std::size_t vectors = 2 * order + 1;
+  std::array<double, vectors> x;
+  std::array<double, vectors> y;
+  std::array<double, vectors> squared_distance;
+  std::array<double, vectors> decay;
+  glm::dvec2 const first = to_index_ * grid.reciprocal(-order, row);
+  glm::dvec2 const step = to_index_ * grid.reciprocal(1.0, 0.0);
+  // Written for the compiler to take several at a time.
+  for (std::size_t i = 0; i < vectors; ++i) {
+    auto const column = static_cast<double>(static_cast<int>(i));
+    glm::dvec2 const index = first + column * step;
+    glm::dvec2 const whole(nearest_whole(index.x), nearest_whole(index.y));
+    glm::dvec2 const off = basis_ * (index - whole);
+    x[i] = whole.x;
+    y[i] = whole.y;
+    squared_distance[i] = glm::dot(off, off);
+    decay[i] = outline_.decay(off);
   }
-  glm::dvec2 const nearest(static_cast<double>(column), static_cast<double>(row));
-  if (nearest == glm::dvec2(0.0)) return 0.0;
-  glm::dvec2 const off = basis_ * (at - nearest);
-  if (glm::dot(off, off) > within * within) return 0.0;
-  return amplitude(nearest / tile_) * outline_.amplitude(off);
+  double const least = negligible / most_;
+  // Sides keep high frequencies from fading; a grid of more rows, for a smaller error, meets more.
+  double const highest = grid.rows / size_;
+  double sum = 0.0;
+  for (std::size_t i = row == 0 ? order + 1 : 0; i < vectors; ++i) {
+    glm::dvec2 const frequency = lowest_ * glm::dvec2(x[i], y[i]);
+    double const squared = glm::dot(frequency, frequency);
+    if (squared > highest * highest || squared == 0.0) continue;
+    if (least * least * squared * decay[i] * decay[i] >= 1.0) continue;
+    bool const is_low = row <= low && std::abs(static_cast<int>(i) - order) <= low;
+    if (!is_low && squared_distance[i] > nearly * nearly) continue;
+    double const error = amplitude(frequency) / decay[i];
+    sum += error * error;
+  }
+  return sum;
+}
+
+double HoleSpectrum::error_at(glm::dvec2 const& vector) const {
+  glm::dvec2 const index = to_index_ * vector;
+  glm::dvec2 const whole(nearest_whole(index.x), nearest_whole(index.y));
+  glm::dvec2 const frequency = lowest_ * whole;
+  if (frequency == glm::dvec2(0.0)) return 0.0;
+  return amplitude(frequency) * outline_.amplitude(basis_ * (index - whole));
 }
 
 std::vector<HoleSpectrum::Frequency> HoleSpectrum::lowest() const {
@@ -61,10 +103,9 @@ std::vector<HoleSpectrum::Frequency> HoleSpectrum::lowest() const {
   std::vector<Frequency> found;
   for (int row = -most; row <= most; ++row) {
     for (int column = -most; column <= most; ++column) {
-      bool const odd = staggered_ && (column + row) % 2 != 0;
-      if (odd || (column == 0 && row == 0)) continue;
+      if (column == 0 && row == 0) continue;
       glm::dvec2 const index(column, row);
-      found.push_back({basis_ * index, amplitude(index / tile_)});
+      found.push_back({basis_ * index, amplitude(lowest_ * index)});
     }
   }
   auto const louder = [](Frequency const& a, Frequency const& b) {
@@ -75,10 +116,47 @@ std::vector<HoleSpectrum::Frequency> HoleSpectrum::lowest() const {
   return found;
 }
 
+double HoleSpectrum::squared_error_of_effect() const {
+  double sum = 0.0;
+  for (Frequency const& frequency : lowest()) {
+    double const error = frequency.amplitude * outline_.amplitude(frequency.at);
+    sum += error * error;
+  }
+  return sum;
+}
+
+std::vector<BladeSpectrum> HoleSpectrum::sides_in_line() const {
+  std::vector<BladeSpectrum> found;
+  for (glm::dvec2 const& side : sides_) {
+    glm::dvec2 const index = lowest_across(side);
+    if (index == glm::dvec2(0.0)) continue;
+    double const share = per_area_ * glm::length(side) / glm::length(lowest_ * index);
+    found.emplace_back(basis_ * index, share, outline_);
+  }
+  return found;
+}
+
+glm::dvec2 HoleSpectrum::lowest_across(glm::dvec2 const& side) const {
+  constexpr int most = 4;
+  constexpr double along = 1e-6;
+  glm::dvec2 found(0.0);
+  double least = std::numeric_limits<double>::infinity();
+  for (int row = 0; row <= most; ++row) {
+    for (int column = row == 0 ? 1 : -most; column <= most; ++column) {
+      glm::dvec2 const index(column, row);
+      glm::dvec2 const frequency = lowest_ * index;
+      double const length = glm::length(frequency);
+      if (std::abs(glm::dot(side, frequency)) > along * glm::length(side) * length) continue;
+      if (length >= least) continue;
+      least = length;
+      found = index;
+    }
+  }
+  return found;
+}
+
 void HoleSpectrum::describe(PerforatedScreen const& screen, SheetInBeam const& sheet) {
   double const half = sheet.half_hole;
-  double const area = tile_.x * tile_.y;
-  per_area_ = (staggered_ ? 2.0 : 1.0) / area;
   double size = 2.0 * half;
   switch (sheet.shape) {
     case SheetShape::square_holes:
@@ -101,8 +179,11 @@ void HoleSpectrum::describe(PerforatedScreen const& screen, SheetInBeam const& s
       per_area_ = open_ / (pi / 4.0 * size * size);
       break;
   }
-  constexpr double highest_in_holes = 60.0;
-  highest_ = highest_in_holes * highest_in_holes / (size * size);
+  size_ = size;
+  // No frequency is below one cycle of the longer side.
+  most_ = arcs_ * std::sqrt(static_cast<double>(std::max(sheet.tile.x, sheet.tile.y)));
+  for (glm::dvec2 const& side : sides_) most_ += glm::length(side) / pi;
+  most_ *= per_area_;
 }
 
 // Upper limit of the transform of all holes: of their straight sides, and of their arcs.

@@ -5,11 +5,17 @@
 #include <vector>
 
 #include "scene/screens.h"
+#include "view/blade_spectrum.h"
 #include "view/outline_spectrum.h"
 #include "view/sheet_in_beam.h"
+#include "view/tile.h"
 #include "view/view.h"
 
 namespace gpu_shading {
+
+// Whether two screens have the same holes and directions of holes, and so the same spectrum, as the
+// panels of a facade do.
+bool alike(Screens::Entry const& a, Screens::Entry const& b);
 
 // The frequencies of a screen's holes as a view has them, in cycles per tile.
 class HoleSpectrum {
@@ -17,9 +23,17 @@ class HoleSpectrum {
   HoleSpectrum(Screens::Entry const& screen, SheetInBeam const& sheet, View const& view,
                OutlineSpectrum const& outline);
 
-  // Upper limit of the error of the mean that a vector of a grid's reciprocal lattice causes, by
-  // the holes' nearest frequency if that is no more than `within` from it.
-  double error_at(glm::dvec2 const& vector, double within) const;
+  // The same on a tile of another shape, with its outline. `change`: of frequencies.
+  void change(glm::dmat2 const& change, OutlineSpectrum const& outline);
+
+  // Upper limit of the squared error of the mean that a row of vectors of a grid's reciprocal
+  // lattice causes, each by the holes' nearest frequency. Errors of single vectors up to
+  // `negligible` may be left out.
+  double squared_error(TileGrid const& grid, int row, double negligible) const;
+  static constexpr int rows = 25;  // from 0; beyond, errors are small
+
+  // The error that one vector causes, not squared.
+  double error_at(glm::dvec2 const& vector) const;
 
   struct Frequency {
     glm::dvec2 at;
@@ -28,20 +42,31 @@ class HoleSpectrum {
   // The lowest of all holes, without those of small amplitude.
   std::vector<Frequency> lowest() const;
 
+  // Upper limit of the squared error of the holes' effective transmittance, which takes no account
+  // of where the receiver's edges cut holes.
+  double squared_error_of_effect() const;
+
+  // Sides of holes that are in line with one another: edges at equal distances, as blades have
+  // them.
+  std::vector<BladeSpectrum> sides_in_line() const;
+
  private:
   void describe(PerforatedScreen const& screen, SheetInBeam const& sheet);
+  // Of a frequency per m, in the sheet.
   double amplitude(glm::dvec2 const& frequency) const;
+  // Index of the lowest frequency across a side; 0 if it is high.
+  glm::dvec2 lowest_across(glm::dvec2 const& side) const;
 
   OutlineSpectrum outline_;
-  bool staggered_;
   double open_;
-  glm::dvec2 tile_;
-  glm::dmat2 basis_{1.0};  // of the frequencies of holes
+  glm::dmat2 lowest_{1.0};  // from the index of a frequency to the frequency, per m, in the sheet
+  glm::dmat2 basis_{1.0};   // and in the view
   glm::dmat2 to_index_{1.0};
   double per_area_ = 0.0;          // holes per m2
   double arcs_ = 0.0;              // of a hole
   std::vector<glm::dvec2> sides_;  // one of each two that are parallel
-  double highest_ = 0.0;           // frequency that matters, per m, squared
+  double size_ = 0.0;              // of a hole
+  double most_ = 0.0;              // limit of any amplitude times its frequency, per m
 };
 
 }  // namespace gpu_shading

@@ -33,8 +33,16 @@ class OutlineSpectrum {
     double const v = std::abs(glm::dot(v_, frequency));
     return 1.0 / (std::max(1.0, u) * std::max(1.0, v));
   }
+  // Its inverse, by no branch and no division.
+  double decay(glm::dvec2 const& frequency) const {
+    double const u = std::abs(glm::dot(u_, frequency));
+    double const v = std::abs(glm::dot(v_, frequency));
+    return at_least_1(u) * at_least_1(v);
+  }
 
  private:
+  static double at_least_1(double value) { return 0.5 * (value + 1.0 + std::abs(value - 1.0)); }
+
   glm::dvec2 u_;  // sides of the rectangle, in tiles, times pi
   glm::dvec2 v_;
 };
