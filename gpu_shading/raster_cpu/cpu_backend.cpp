@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
+#include "raster_cpu/sample_grid.h"
 #include "raster_cpu/screen_overlap.h"
 #include "threads/parallel.h"
 #include "view/instructions.h"
@@ -18,8 +19,7 @@ namespace {
 constexpr std::size_t worth_sharing = 200;
 
 // Pixels per side of a tile up to which holes smaller than pixels are replaced by their effective
-// transmittance, which takes no account of where the receiver's edges cut them: with holes of a
-// millimetre over some metres, that is an error of 3e-5.
+// transmittance, which takes no account of where the receiver's edges cut them, unless by rows.
 constexpr int largest_by_effect = 4096;
 
 }  // namespace
@@ -94,6 +94,8 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
                             any_overlap(*screens.screens, screens.numbers, in_front);
   casters.screens.every_hole =
       casters.screens.overlap || (!view.at_pixels && tile.side > largest_by_effect);
+  casters.screens.by_rows = !view.at_pixels && !casters.screens.every_hole &&
+                            edges_cut_rows(tile, in_front, casters.screens);
   if (view.transmits) {
     plain = transmission_.plain_among(view.casters);
     shades.reserve(plain.size());

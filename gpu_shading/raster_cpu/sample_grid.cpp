@@ -7,6 +7,7 @@
 
 #include "gpu_shading/perforated_screen.h"
 #include "view/aliasing.h"
+#include "view/hole_spectrum.h"
 
 namespace gpu_shading {
 namespace {
@@ -21,9 +22,12 @@ Aliasing aliasing_of(View const& view, ScreensInView const& screens, SampledRepe
     SheetInBeam const& sheet = screens.sheets[static_cast<std::size_t>(number)];
     double const pixel = 2.0 / side * drawn_pixel(screens, screen, view);
     bool const known = sheet.shape != SheetShape::image || std::isfinite(screen.screen->hole());
-    if (!known || sheet.layers == solid_sheet || pixel >= static_cast<double>(sheet.blend_to))
-      continue;
-    aliasing.add(screen, sheet);
+    if (!known || sheet.layers == solid_sheet) continue;
+    if (pixel < static_cast<double>(sheet.blend_to)) {
+      aliasing.add(screen, sheet);
+    } else if (screens.by_rows) {
+      aliasing.add_rows(screen, sheet);
+    }
   }
   if (screens.overlap) aliasing.overlap();
   return aliasing;
@@ -41,7 +45,7 @@ bool quick(ScreensInView const& screens) {
 template <typename GridOf>
 TileGrid least_aliasing(Aliasing const& aliasing, int rows, GridOf grid_of) {
   constexpr int trials = 12;
-  double const enough = 0.015 / rows;
+  double const enough = Aliasing::small_enough(rows);
   TileGrid best = grid_of(0);
   double least = std::numeric_limits<double>::infinity();
   for (int trial = 0; trial < trials && least > enough * enough; ++trial) {
@@ -86,6 +90,23 @@ TileGrid grid_for_blades(TileGrid const& grid, View const& view, SampledRepeats 
     other.rows = static_cast<int>(std::lround(grid.rows * stretch));
     other.width = grid.width / grid.rows * other.rows;
     return other;
+  });
+}
+
+bool edges_cut_rows(Tile const& tile, View const& view, ScreensInView const& screens) {
+  // About half of the error for which a tile has so many pixels (TileSize).
+  double const most = 2.0 * std::pow(tile.side, -1.5);
+  Screens::Entry const* last = nullptr;
+  return std::any_of(screens.numbers.begin(), screens.numbers.end(), [&](int number) {
+    Screens::Entry const& screen = (*screens.screens)[number];
+    SheetInBeam const& sheet = screens.sheets[static_cast<std::size_t>(number)];
+    double const pixel = 2.0 / tile.side * drawn_pixel(screens, screen, view);
+    bool const by_effect = pixel > static_cast<double>(sheet.blend_from);
+    if (!by_effect || sheet.layers == solid_sheet || sheet.shape == SheetShape::image) return false;
+    if (last != nullptr && alike(*last, screen)) return false;
+    last = &screen;
+    HoleSpectrum const holes(screen, sheet, view, OutlineSpectrum());
+    return holes.squared_error_of_effect() > most * most;
   });
 }
 

@@ -23,6 +23,10 @@ TileGrid counting_grid(Tile const& tile);
 // casters in front, on the tile.
 TileGrid grid_for_blades(TileGrid const& grid, View const& view, SampledRepeats const& blades);
 
+// Whether the effective transmittance of screens is too coarse for a tile, because the receiver's
+// edges cut rows of holes. `view` is that of the casters in front.
+bool edges_cut_rows(Tile const& tile, View const& view, ScreensInView const& screens);
+
 // Samples of a tile behind perforated screens: nearly as many as it has pixels, on a grid with
 // which the screens' holes and blades do not alias, of some grids with more columns and fewer rows.
 TileGrid grid_for_screens(Tile const& tile, View const& view, ScreensInView const& screens,

@@ -64,14 +64,14 @@ struct Faces {
 class Part {
  public:
   Part(Screens::Entry const& screen, Screens::Quadrilateral const& part, Faces const& faces,
-       SheetInBeam const& sheet, View const& pixels, double pixel)
+       SheetInBeam const& sheet, View const& pixels, double pixel, bool by_rows)
       : outline_(part.places, sheet.way),
         in_place_(sheet.in_place),
         to_place_(glm::inverse(glm::dmat2(
             glm::dot(glm::dvec3(pixels.x), screen.u), glm::dot(glm::dvec3(pixels.y), screen.u),
             glm::dot(glm::dvec3(pixels.x), screen.v), glm::dot(glm::dvec3(pixels.y), screen.v)))),
         first_(part.places[0] - to_place_ * faces.inside[0]),
-        rays_(*screen.screen, sheet, pixel),
+        rays_(*screen.screen, sheet, pixel, by_rows),
         all_or_nothing_(in_place_ == 1.0F && rays_.all_or_nothing()) {}
 
   // For pixels of one row.
@@ -184,7 +184,7 @@ class Part {
 };
 
 void shade(LuminanceTile& shaded, PixelMask& lit, View const& pixels, Screens::Entry const& screen,
-           SheetInBeam const& sheet, double pixel) {
+           SheetInBeam const& sheet, double pixel, bool by_rows) {
   for (Screens::Quadrilateral const& quadrilateral : screen.parts) {
     Faces const faces(quadrilateral, sheet, pixels);
     if (sheet.layers == solid_sheet) {
@@ -199,7 +199,7 @@ void shade(LuminanceTile& shaded, PixelMask& lit, View const& pixels, Screens::E
       faces.each_strip(shaded.columns(), dim);
       continue;
     }
-    Part const part(screen, quadrilateral, faces, sheet, pixels, pixel);
+    Part const part(screen, quadrilateral, faces, sheet, pixels, pixel, by_rows);
     auto const look = [&](ConvexArea const& area) {
       shaded.each_span(area, [&](int row, int first, int length) {
         part.shade(row, first, length, lit, shaded);
@@ -228,7 +228,7 @@ void shade_by_screens(LuminanceTile& shaded, PixelMask& lit, View const& pixels,
   for (int const number : in_view.numbers) {
     Screens::Entry const& screen = (*in_view.screens)[number];
     shade(shaded, lit, pixels, screen, in_view.sheets[static_cast<std::size_t>(number)],
-          drawn_pixel(in_view, screen, pixels));
+          drawn_pixel(in_view, screen, pixels), in_view.by_rows);
   }
 }
 

@@ -19,6 +19,8 @@ struct ScreensInView {
   bool overlap = false;
   // Holes are drawn for any size of pixels, unless a screen is to be drawn by its effect.
   bool every_hole = false;
+  // What is drawn by its effect is drawn by rows of holes (RowProfile).
+  bool by_rows = false;
 };
 
 // The size of pixels in a screen's plane, m, or 0 where holes are drawn for any size.

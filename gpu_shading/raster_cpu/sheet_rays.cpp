@@ -34,7 +34,8 @@ std::vector<double> depths_of(int layers) {
 
 }  // namespace
 
-SheetRays::SheetRays(PerforatedScreen const& screen, SheetInBeam const& sheet, double pixel)
+SheetRays::SheetRays(PerforatedScreen const& screen, SheetInBeam const& sheet, double pixel,
+                     bool by_rows)
     : sheet_(sheet),
       ray_(sheet.way),
       tile_(sheet.tile),
@@ -42,37 +43,51 @@ SheetRays::SheetRays(PerforatedScreen const& screen, SheetInBeam const& sheet, d
       depths_(depths_of(sheet.layers)) {
   if (screen.pattern()) {
     pattern_.emplace(sheet);
+    if (by_rows && blend_ > 0.0F) rows_.emplace(sheet);
   } else {
     image_.emplace(*screen.tile(), sheet, depths_);
   }
 }
 
 std::optional<float> SheetRays::everywhere() const {
-  if (blend_ == 1.0F && sheet_.regions.empty()) return sheet_.effective[3];
+  if (blend_ == 1.0F && sheet_.regions.empty() && !rows_) return sheet_.effective[3];
   return std::nullopt;
 }
 
 void SheetRays::whole_ways(glm::dvec2 const& first, glm::dvec2 const& step, std::uint64_t wanted,
                            Ways& passed) const {
-  if (!pattern_ || blend_ == 1.0F) {
+  if (!pattern_) {
     for (std::size_t i = 0; i < passed.size(); ++i, wanted >>= 1U) {
       if ((wanted & 1U) == 0) continue;
       passed[i] = part_of_way(first + static_cast<double>(i) * step, 0.0, 1.0);
     }
     return;
   }
-  if (sheet_.layers == exact_sheet) {
-    pattern_->find_passing(first, step, ray_, passed);
-  } else {
-    passed.fill(1.0F);
-    Ways in_layer;
-    for (double const depth : depths_) {
-      pattern_->find_passing(first + depth * ray_, step, glm::dvec2(0.0), in_layer);
-      for (std::size_t i = 0; i < passed.size(); ++i) passed[i] *= in_layer[i];
-    }
-  }
+  if (blend_ == 1.0F) return find_by_effect(first, step, passed);
+  find_through_holes(first, step, passed);
   if (blend_ == 0.0F) return;
-  for (float& way : passed) way = mix(way, sheet_.effective[3], blend_);
+  Ways by_effect;
+  find_by_effect(first, step, by_effect);
+  for (std::size_t i = 0; i < passed.size(); ++i) {
+    passed[i] = mix(passed[i], by_effect[i], blend_);
+  }
+}
+
+void SheetRays::find_through_holes(glm::dvec2 const& first, glm::dvec2 const& step,
+                                   Ways& passed) const {
+  if (sheet_.layers == exact_sheet) return pattern_->find_passing(first, step, ray_, passed);
+  passed.fill(1.0F);
+  Ways in_layer;
+  for (double const depth : depths_) {
+    pattern_->find_passing(first + depth * ray_, step, glm::dvec2(0.0), in_layer);
+    for (std::size_t i = 0; i < passed.size(); ++i) passed[i] *= in_layer[i];
+  }
+}
+
+void SheetRays::find_by_effect(glm::dvec2 const& first, glm::dvec2 const& step,
+                               Ways& passed) const {
+  if (rows_) return rows_->find(first, step, passed);
+  passed.fill(sheet_.effective[3]);
 }
 
 float SheetRays::part_of_way(glm::dvec2 const& place, double begin, double end) const {
@@ -109,6 +124,7 @@ float SheetRays::through_holes(glm::dvec2 const& place, double begin, double end
 }
 
 float SheetRays::through_effective(glm::dvec2 const& place, double begin, double end) const {
+  if (rows_ && is_whole(begin, end)) return rows_->at(place);
   auto const way = static_cast<float>(end - begin);
   if (sheet_.regions.empty()) return along(sheet_.effective, way);
   int const across = sheet_.regions_across;

@@ -8,6 +8,7 @@
 #include "gpu_shading/perforated_screen.h"
 #include "raster_cpu/image_rays.h"
 #include "raster_cpu/pattern_rays.h"
+#include "raster_cpu/row_profile.h"
 #include "view/sheet_in_beam.h"
 
 namespace gpu_shading {
@@ -16,9 +17,9 @@ namespace gpu_shading {
 // screen.frag, which explains the terms.
 class SheetRays {
  public:
-  // `sheet` must not be solid. `pixel`: the size of pixels in the sheet's plane, m. All must
-  // outlive it.
-  SheetRays(PerforatedScreen const& screen, SheetInBeam const& sheet, double pixel);
+  // `sheet` must not be solid. `pixel`: the size of pixels in the sheet's plane, m. `by_rows`: by
+  // the effective transmittance of rows of holes, where there is a pattern. All must outlive it.
+  SheetRays(PerforatedScreen const& screen, SheetInBeam const& sheet, double pixel, bool by_rows);
 
   // The transmittance of the whole path, if it is the same everywhere.
   std::optional<float> everywhere() const;
@@ -48,6 +49,9 @@ class SheetRays {
   float solid_at(glm::dvec2 const& place) const;
   float through_layers(glm::dvec2 const& place, double begin, double end) const;
   float through_holes(glm::dvec2 const& place, double begin, double end) const;
+  // Of whole paths through a pattern, as `whole_ways`.
+  void find_through_holes(glm::dvec2 const& first, glm::dvec2 const& step, Ways& passed) const;
+  void find_by_effect(glm::dvec2 const& first, glm::dvec2 const& step, Ways& passed) const;
   float through_effective(glm::dvec2 const& place, double begin, double end) const;
 
   SheetInBeam const& sheet_;
@@ -56,6 +60,7 @@ class SheetRays {
   float blend_;                 // weight of the effective transmittance, 0 .. 1; the rest is holes
   std::vector<double> depths_;  // of layers
   std::optional<PatternRays> pattern_;
+  std::optional<RowProfile> rows_;  // if wanted
   std::optional<ImageRays> image_;  // where there is no pattern
 };
 

@@ -120,7 +120,7 @@ std::optional<RayScreens::Met> RayScreens::meet(int number, RayPath const& ray,
     SheetInBeam const sheet = sheet_in_beam(entry, ray.direction, 1.0, false);
     bool const solid = sheet.layers == solid_sheet;
     std::optional<SheetRays> holes;
-    if (!solid) holes.emplace(screen, sheet, 0.0);
+    if (!solid) holes.emplace(screen, sheet, 0.0, false);
     passage.each([&](double distance, glm::dvec2 const& place, SheetOutline::PathPart const& part) {
       nearest = std::min(nearest, distance);
       passed *= solid ? 0.0 : static_cast<double>(holes->part_of_way(place, part.begin, part.end));
