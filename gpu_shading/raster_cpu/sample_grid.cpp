@@ -25,7 +25,7 @@ Aliasing aliasing_of(View const& view, ScreensInView const& screens, SampledRepe
     if (!known || sheet.layers == solid_sheet) continue;
     if (pixel < static_cast<double>(sheet.blend_to)) {
       aliasing.add(screen, sheet);
-    } else if (screens.by_rows) {
+    } else if (screens.by_rows && sheet.blend_from > 0.0F) {
       aliasing.add_rows(screen, sheet);
     }
   }
@@ -101,8 +101,8 @@ bool edges_cut_rows(Tile const& tile, View const& view, ScreensInView const& scr
     Screens::Entry const& screen = (*screens.screens)[number];
     SheetInBeam const& sheet = screens.sheets[static_cast<std::size_t>(number)];
     double const pixel = 2.0 / tile.side * drawn_pixel(screens, screen, view);
-    bool const by_effect = pixel > static_cast<double>(sheet.blend_from);
-    if (!by_effect || sheet.layers == solid_sheet || sheet.shape == SheetShape::image) return false;
+    bool const too_large = sheet.blend_from > 0.0F && pixel > static_cast<double>(sheet.blend_from);
+    if (!too_large || sheet.layers == solid_sheet || sheet.shape == SheetShape::image) return false;
     if (last != nullptr && alike(*last, screen)) return false;
     last = &screen;
     HoleSpectrum const holes(screen, sheet, view, OutlineSpectrum());

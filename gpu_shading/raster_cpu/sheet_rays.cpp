@@ -43,7 +43,7 @@ SheetRays::SheetRays(PerforatedScreen const& screen, SheetInBeam const& sheet, d
       depths_(depths_of(sheet.layers)) {
   if (screen.pattern()) {
     pattern_.emplace(sheet);
-    if (by_rows && blend_ > 0.0F) rows_.emplace(sheet);
+    if (by_rows && blend_ > 0.0F && sheet.blend_from > 0.0F) rows_.emplace(sheet);
   } else {
     image_.emplace(*screen.tile(), sheet, depths_);
   }

@@ -17,8 +17,9 @@ namespace gpu_shading {
 // screen.frag, which explains the terms.
 class SheetRays {
  public:
-  // `sheet` must not be solid. `pixel`: the size of pixels in the sheet's plane, m. `by_rows`: by
-  // the effective transmittance of rows of holes, where there is a pattern. All must outlive it.
+  // `sheet` must not be solid. `pixel`: the size of pixels in the sheet's plane, m. `by_rows`:
+  // where pixels are too large for holes, by rows of them, if there is a pattern and its effective
+  // transmittance was not asked for. All must outlive it.
   SheetRays(PerforatedScreen const& screen, SheetInBeam const& sheet, double pixel, bool by_rows);
 
   // The transmittance of the whole path, if it is the same everywhere.

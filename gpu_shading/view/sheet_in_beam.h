@@ -34,7 +34,7 @@ struct SheetInBeam {
   float in_place = 0.0F;  // deployed fraction of the screen, 0 .. 1
   glm::vec2 tile{0.0F};   // width and height
   // Sizes of pixels in the sheet: up to the first, holes are resolved; from the second on, only
-  // their effective transmittance is used.
+  // their effective transmittance is used. Below 0 where that is what was asked for.
   float blend_from = 0.0F;
   float blend_to = 0.0F;
   SheetShape shape = SheetShape::image;

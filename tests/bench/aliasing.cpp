@@ -1,16 +1,18 @@
 // Errors behind shades that may alias with the grid of samples: louvres and fins against their
 // exact sunlit fraction, perforated sheets and triangles at random against exact polygon clipping.
 //
-//     aliasing [--pixels] [ERROR [EVERY]]
+//     aliasing [--pixels] [--screens SEED] [ERROR [EVERY]]
 //
-// --pixels: at the centres of pixels, where OpenGL samples. One target error instead of four; one
-// scene in so many.
+// --pixels: at the centres of pixels, where OpenGL samples. --screens: only single perforated
+// sheets, other ones for another seed (1 otherwise). One target error instead of four; one scene in
+// so many.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -145,10 +147,10 @@ void print_soups(How const& how, int scenes) {
   statistics.print("triangles");
 }
 
-void print_screens(How const& how, int scenes) {
+void print_screens(How const& how, int scenes, unsigned seed) {
   Statistics statistics(how.error);
   std::vector<SunDirection> const suns = spread_suns(30);
-  std::mt19937 generator(1);
+  std::mt19937 generator(seed);
   constexpr std::array sizes{0.5, 1.0, 3.0, 6.0};
   for (int i = 0; i < scenes; ++i) {
     double const size = sizes.at(generator() % sizes.size());
@@ -175,14 +177,20 @@ void print_pairs(How const& how, int scenes) {
   statistics.print("pairs of screens");
 }
 
-void print_table(std::vector<double> const& targets, bool at_pixels, int every) {
+// `screens_of`: only screens, of this seed.
+void print_table(std::vector<double> const& targets, bool at_pixels, int every,
+                 std::optional<unsigned> screens_of) {
   std::printf("CPU%s\n", at_pixels ? ", centres of pixels" : "");
   std::printf("%-7s %-26s %7s %9s %9s %9s %9s %7s %9s %6s %9s\n", "target", "shades", "views",
               "mean", "99th", "max", "scene", "share", "% beyond", "x 3", "ms");
   for (double const error : targets) {
     How const how{error, at_pixels};
+    if (screens_of) {
+      print_screens(how, share_of(200, every), *screens_of);
+      continue;
+    }
     print_soups(how, share_of(20, every));
-    print_screens(how, share_of(200, every));
+    print_screens(how, share_of(200, every), 1);
     print_pairs(how, share_of(40, every));
     for (Blades const& blades : {Blades{"louvres", false, 0.0}, Blades{"fins", true, 0.0},
                                  Blades{"glass louvres", false, 0.4}}) {
@@ -204,9 +212,14 @@ int main(int count, char** arguments) {
   std::vector<std::string> given(arguments + 1, arguments + count);
   bool const at_pixels = !given.empty() && given[0] == "--pixels";
   if (at_pixels) given.erase(given.begin());
+  std::optional<unsigned> screens_of;
+  if (given.size() > 1 && given[0] == "--screens") {
+    screens_of = static_cast<unsigned>(std::atoi(given[1].c_str()));
+    given.erase(given.begin(), given.begin() + 2);
+  }
   std::vector<double> targets{3e-3, 1e-3, 1e-4, 1e-5};
   if (!given.empty()) targets = {std::atof(given[0].c_str())};
   int const every = given.size() > 1 ? std::max(1, std::atoi(given[1].c_str())) : 1;
   return gpu_shading::print_or_say_why(
-      "aliasing", [&] { gpu_shading::print_table(targets, at_pixels, every); });
+      "aliasing", [&] { gpu_shading::print_table(targets, at_pixels, every, screens_of); });
 }

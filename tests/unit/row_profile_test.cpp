@@ -106,6 +106,10 @@ TEST(RowProfile, TakesThePlaceOfTheEffectiveTransmittance) {
   sheet.blend_to = 0.002F;
   RowProfile const profile(sheet);
   EXPECT_EQ(*SheetRays(screen, sheet, 3 * mm, false).everywhere(), sheet.effective[3]);
+  SheetInBeam asked_for = sheet;
+  asked_for.blend_from = -2.0F;
+  asked_for.blend_to = -1.0F;
+  EXPECT_EQ(*SheetRays(screen, asked_for, 3 * mm, true).everywhere(), sheet.effective[3]);
   for (double const pixel : {1.5 * mm, 3 * mm}) {
     float const weight = pixel > 2 * mm ? 1.0F : 0.5F;
     SheetRays const rays(screen, sheet, pixel, true);
