@@ -14,8 +14,7 @@ void Aliasing::add(Screens::Entry const& screen, SheetInBeam const& sheet) {
   if (found != screens_.end()) {
     ++found->count;
   } else {
-    HoleSpectrum const holes(screen, sheet, view_, outline_);
-    screens_.push_back({&screen, holes, holes.sides_in_line(), 1});
+    screens_.push_back({&screen, HoleSpectrum(screen, sheet, view_, outline_), 1});
   }
 }
 
@@ -41,10 +40,7 @@ Aliasing Aliasing::on_tile(TileMap const& from, TileMap const& to,
   Aliasing other = *this;
   other.outline_ = outline;
   for (BladeSpectrum& blades : other.blades_) blades.change(change, outline);
-  for (AlikeScreens& each : other.screens_) {
-    each.holes.change(change, outline);
-    for (BladeSpectrum& side : each.sides) side.change(change, outline);
-  }
+  for (AlikeScreens& each : other.screens_) each.holes.change(change, outline);
   for (HoleSpectrum::Frequency& frequency : other.first_) frequency.at = change * frequency.at;
   return other;
 }
@@ -68,18 +64,13 @@ double Aliasing::squared_error_of_each(TileGrid const& grid, double enough) cons
   if (screens_.empty()) return 0.0;
   double const negligible = 0.03 * small_enough(grid.rows);
   double sum = 0.0;
-  for (int row = 0; row < HoleSpectrum::rows && sum < enough; ++row) {
+  for (int row = 0; row < HoleSpectrum::rows(grid) && sum < enough; ++row) {
     for (AlikeScreens const& each : screens_) {
       sum += each.count * each.holes.squared_error(grid, row, negligible);
     }
   }
-  // High multiples, which are many, matter to large grids alone.
-  constexpr double large = 600.0 * 600.0;
-  if (static_cast<double>(grid.width) * grid.rows < large) return sum;
   for (AlikeScreens const& each : screens_) {
-    for (BladeSpectrum const& side : each.sides) {
-      sum += each.count * side.squared_error(grid, enough);
-    }
+    sum += each.count * each.holes.squared_error_across_sides(grid, negligible);
   }
   return sum;
 }

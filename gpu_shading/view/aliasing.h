@@ -43,7 +43,6 @@ class Aliasing {
   struct AlikeScreens {
     Screens::Entry const* first;
     HoleSpectrum holes;
-    std::vector<BladeSpectrum> sides;
     int count;
   };
 

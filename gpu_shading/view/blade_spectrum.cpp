@@ -20,8 +20,6 @@ glm::dvec2 in_tiles(View const& view, glm::dvec3 const& vector) {
          glm::dvec2(glm::dot(glm::dvec3(view.x), vector), glm::dot(glm::dvec3(view.y), vector));
 }
 
-// What follows is written for the compiler to take several at a time.
-
 // The square of what a vector of the grid's reciprocal lattice adds to the error of a multiple of
 // the frequency, for blades of all of the receiver and without pi.
 [[gnu::always_inline]] inline double squared_at(OutlineSpectrum const& outline,
@@ -32,27 +30,25 @@ glm::dvec2 in_tiles(View const& view, glm::dvec3 const& vector) {
 }
 
 // Of the vectors around a strong multiple.
-constexpr int around = 2;
-[[gnu::always_inline]] inline double near_strong(OutlineSpectrum const& outline,
-                                                 glm::dvec2 const& first, TileGrid const& grid,
-                                                 int multiple) {
-  constexpr int width = 2 * around + 1;
+double near_strong(OutlineSpectrum const& outline, glm::dvec2 const& first, TileGrid const& grid,
+                   int multiple) {
+  constexpr int around = 2;
   glm::dvec2 const at = static_cast<double>(multiple) * first;
   double const middle = nearest_whole(at.x / grid.width);
   double const rows = at.y / grid.rows;
-  std::array<double, width * width> squared{};
+  double sum = 0.0;
   for (int up = -around; up <= around; ++up) {
     for (int across = -around; across <= around; ++across) {
       double const column = middle + across;
       double const row = nearest_whole(rows - column * grid.shear) + up;
-      auto const place = static_cast<std::size_t>((up + around) * width + across + around);
-      squared[place] = squared_at(outline, at, multiple, grid, column, row);
+      sum += squared_at(outline, at, multiple, grid, column, row);
     }
   }
-  return std::accumulate(squared.begin(), squared.end(), 0.0);
+  return sum;
 }
 
-// Of the vectors next to some weak multiples, from one on.
+// Of the vectors next to some weak multiples, from one on. Written for the compiler to take several
+// at a time.
 constexpr int at_once = 32;
 [[gnu::always_inline]] inline double near_weak(OutlineSpectrum const& outline,
                                                glm::dvec2 const& first, TileGrid const& grid,
@@ -106,7 +102,7 @@ double BladeSpectrum::squared_error(TileGrid const& grid, double enough) const {
   double const wanted = enough / (amplitude * amplitude);
   double sum = 0.0;
   for (int multiple = 1; multiple <= strongest; ++multiple) {
-    sum += run<near_strong>(outline_, first_, grid, multiple);
+    sum += near_strong(outline_, first_, grid, multiple);
   }
   for (int from = strongest + 1; from <= last && sum < wanted; from += at_once) {
     sum += run<near_weak>(outline_, first_, grid, from);

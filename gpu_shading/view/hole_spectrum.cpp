@@ -50,15 +50,16 @@ void HoleSpectrum::change(glm::dmat2 const& change, OutlineSpectrum const& outli
 }
 
 double HoleSpectrum::squared_error(TileGrid const& grid, int row, double negligible) const {
-  constexpr int order = rows - 1;
-  // Beyond this, only a frequency that a vector nearly meets matters.
-  constexpr int low = 12;
+  int const order = rows(grid) - 1;
+  // Beyond this, on small grids, only a frequency that a vector nearly meets matters.
+  int const low = is_large(grid) ? order : 12;
   constexpr double nearly = 2.0;
-  constexpr std::size_t vectors = 2 * order + 1;
-  std::array<double, vectors> x;
-  std::array<double, vectors> y;
-  std::array<double, vectors> squared_distance;
-  std::array<double, vectors> decay;
+  constexpr std::size_t most = 2 * most_rows - 1;
+  auto const vectors = static_cast<std::size_t>(2 * order + 1);
+  std::array<double, most> x;
+  std::array<double, most> y;
+  std::array<double, most> squared_distance;
+  std::array<double, most> decay;
   glm::dvec2 const first = to_index_ * grid.reciprocal(-order, row);
   glm::dvec2 const step = to_index_ * grid.reciprocal(1.0, 0.0);
   // Written for the compiler to take several at a time.
@@ -76,7 +77,7 @@ double HoleSpectrum::squared_error(TileGrid const& grid, int row, double negligi
   // Sides keep high frequencies from fading; a grid of more rows, for a smaller error, meets more.
   double const highest = grid.rows / size_;
   double sum = 0.0;
-  for (std::size_t i = row == 0 ? order + 1 : 0; i < vectors; ++i) {
+  for (std::size_t i = row == 0 ? static_cast<std::size_t>(order) + 1 : 0; i < vectors; ++i) {
     glm::dvec2 const frequency = lowest_ * glm::dvec2(x[i], y[i]);
     double const squared = glm::dot(frequency, frequency);
     if (squared > highest * highest || squared == 0.0) continue;
@@ -87,6 +88,39 @@ double HoleSpectrum::squared_error(TileGrid const& grid, int row, double negligi
     sum += error * error;
   }
   return sum;
+}
+
+double HoleSpectrum::squared_error_across_sides(TileGrid const& grid, double negligible) const {
+  if (!is_large(grid)) return 0.0;
+  int const last = grid.rows / 3;
+  double sum = 0.0;
+  for (glm::dvec2 const& side : sides_) {
+    glm::dvec2 across = glm::inverse(lowest_) * glm::dvec2(-side.y, side.x);
+    bool const flat = std::abs(across.x) > std::abs(across.y);
+    across /= flat ? across.x : across.y;
+    glm::dvec2 const aside = flat ? glm::dvec2(0.0, 1.0) : glm::dvec2(1.0, 0.0);
+    for (int i = 1; i <= last; ++i) {
+      glm::dvec2 const nearest(nearest_whole(i * across.x), nearest_whole(i * across.y));
+      for (double const step : {-1.0, 0.0, 1.0}) {
+        sum += squared_error_of(nearest + step * aside, grid, negligible);
+      }
+    }
+  }
+  return sum;
+}
+
+double HoleSpectrum::squared_error_of(glm::dvec2 const& index, TileGrid const& grid,
+                                      double negligible) const {
+  glm::dvec2 const at = basis_ * index;
+  double const column = nearest_whole(at.x / grid.width);
+  double const row = nearest_whole(at.y / grid.rows - column * grid.shear);
+  if (std::max(std::abs(column), std::abs(row)) < rows(grid)) return 0.0;
+  glm::dvec2 const frequency = lowest_ * index;
+  double const decay = outline_.decay(at - grid.reciprocal(column, row));
+  double const least = negligible * decay / most_;
+  if (least * least * glm::dot(frequency, frequency) >= 1.0) return 0.0;
+  double const error = amplitude(frequency) / decay;
+  return error * error;
 }
 
 double HoleSpectrum::error_at(glm::dvec2 const& vector) const {

@@ -30,7 +30,17 @@ class HoleSpectrum {
   // lattice causes, each by the holes' nearest frequency. Errors of single vectors up to
   // `negligible` may be left out.
   double squared_error(TileGrid const& grid, int row, double negligible) const;
-  static constexpr int rows = 25;  // from 0; beyond, errors are small
+  // The number of rows from 0 that matter; beyond, errors are small.
+  static int rows(TileGrid const& grid) { return is_large(grid) ? most_rows : 25; }
+  // Whether a grid has so many places that errors of high frequencies matter, which are small.
+  static bool is_large(TileGrid const& grid) {
+    constexpr double large = 1000.0 * 1000.0;
+    return static_cast<double>(grid.width) * grid.rows > large;
+  }
+
+  // The same of the rest of the grid's vectors, by frequencies next to the lines across straight
+  // sides, which fade slowly. 0 for a grid that is not large.
+  double squared_error_across_sides(TileGrid const& grid, double negligible) const;
 
   // The error that one vector causes, not squared.
   double error_at(glm::dvec2 const& vector) const;
@@ -51,7 +61,12 @@ class HoleSpectrum {
   std::vector<BladeSpectrum> sides_in_line() const;
 
  private:
+  static constexpr int most_rows = 49;
+
   void describe(PerforatedScreen const& screen, SheetInBeam const& sheet);
+  // Of the frequency with an index, by the nearest vector of a grid, if that is in none of its
+  // rows.
+  double squared_error_of(glm::dvec2 const& index, TileGrid const& grid, double negligible) const;
   // Of a frequency per m, in the sheet.
   double amplitude(glm::dvec2 const& frequency) const;
   // Index of the lowest frequency across a side; 0 if it is high.
