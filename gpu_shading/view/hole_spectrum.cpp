@@ -55,7 +55,7 @@ double HoleSpectrum::squared_error(TileGrid const& grid, int row, double negligi
   int const low = is_large(grid) ? order : 12;
   constexpr double nearly = 2.0;
   constexpr std::size_t most = 2 * most_rows - 1;
-  auto const vectors = static_cast<std::size_t>(2 * order + 1);
+  std::size_t const vectors = 2 * static_cast<std::size_t>(order) + 1;
   std::array<double, most> x;
   std::array<double, most> y;
   std::array<double, most> squared_distance;
