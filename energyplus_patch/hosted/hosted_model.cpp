@@ -23,7 +23,7 @@
 #include "runs/installation.h"
 #include "runs/short_runs.h"
 #include "scheduled/rendered_fractions.h"
-#include "site/weather_site.h"
+#include "site/weather_header.h"
 
 namespace gpu_shading::energyplus {
 namespace {

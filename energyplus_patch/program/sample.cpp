@@ -18,7 +18,7 @@
 #include "runs/short_runs.h"
 #include "samples/sample_tables.h"
 #include "scheduled/rendered_fractions.h"
-#include "site/weather_site.h"
+#include "site/weather_header.h"
 
 namespace gpu_shading::energyplus {
 namespace {

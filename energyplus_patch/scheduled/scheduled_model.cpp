@@ -16,7 +16,7 @@
 #include "runs/drawn_surfaces.h"
 #include "runs/installation.h"
 #include "scheduled/rendered_fractions.h"
-#include "site/weather_site.h"
+#include "site/weather_header.h"
 
 namespace gpu_shading::energyplus {
 namespace {

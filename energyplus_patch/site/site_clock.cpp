@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
-#include "base/files.h"
 #include "base/naming.h"
 #include "base/text.h"
 #include "gpu_shading/error.h"
@@ -16,6 +14,7 @@
 #include "idf/fields.h"
 #include "site/calendar_date.h"
 #include "site/location_fields.h"
+#include "site/weather_header.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -42,25 +41,6 @@ chrono::year year_of(InputObject const& period) {
     if (!year.is_leap() && chrono::weekday(chrono::sys_days(start)) == *weekday) return year;
   }
   return usual;
-}
-
-using Days = std::pair<std::string, std::string>;
-
-// The fifth line of an EPW: HOLIDAYS/DAYLIGHT SAVINGS, leap years, first day, last day; 0 for none.
-std::optional<Days> saving_in(std::filesystem::path const& weather) {
-  require_file(weather);
-  std::ifstream file(weather);
-  if (!file) throw Error(fmt::format("{}: cannot be read", weather.string()));
-  constexpr int header_lines = 8;
-  std::string line;
-  for (int number = 0; number < header_lines && std::getline(file, line); ++number) {
-    if (!upper(line).starts_with("HOLIDAYS/DAYLIGHT SAVING")) continue;
-    auto fields = comma_separated(line);
-    fields.resize(4);
-    if (fields[2].find_first_not_of('0') == std::string::npos) return {};
-    return Days{fields[2], fields[3]};
-  }
-  return {};
 }
 
 }  // namespace
@@ -97,7 +77,7 @@ SiteClock::SiteClock(std::vector<InputObject> const& objects,
     naming(own->where(), [&] { saves_daylight({}); });
   } else if (weather && (period == nullptr ||
                          !same_name((*period)["use_weather_file_daylight_saving_period"], "No"))) {
-    saving_ = saving_in(*weather);
+    saving_ = read_daylight_saving(*weather);
   }
 }
 
