@@ -43,10 +43,13 @@ void read_shadow_calculation(InputObject const& object, ShadingInput& input) {
   // Tools write a resolution beside PolygonClipping, without meaning it.
   auto const& text = object["pixel_counting_resolution"];
   if (!text.empty() && same_name(input.shading_method, "PixelCounting")) {
+    constexpr int most = 65536;
     auto const value = parse_number(text);
-    if (!value) {
-      throw Error(fmt::format(
-          "ShadowCalculation: Pixel Counting Resolution is \"{}\", not a number", text));
+    if (!value || *value < 1.0 || *value > most) {
+      throw Error(
+          fmt::format("ShadowCalculation: Pixel Counting Resolution is {}, expected a number from "
+                      "1 to {}",
+                      in_quotes(text), most));
     }
     input.pixel_counting_resolution = static_cast<int>(*value);
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -31,6 +32,15 @@ Json to_json(Sunlit const& answer) {
   return {answer.projected_area, std::move(parts)};
 }
 
+// Conversion by the library is undefined for a fraction or an exponent that no int holds.
+int whole_number(Json const& json) {
+  bool const fits = json.is_number_unsigned()
+                        ? std::in_range<int>(json.get<std::uint64_t>())
+                        : json.is_number_integer() && std::in_range<int>(json.get<std::int64_t>());
+  if (!fits) throw Error("holds numbers that are not possible");
+  return json.get<int>();
+}
+
 Sunlit answer_from(Json const& json) {
   Sunlit answer;
   if (json.is_number()) {
@@ -39,8 +49,11 @@ Sunlit answer_from(Json const& json) {
   }
   answer.projected_area = json.at(0).get<double>();
   for (auto const& part : json.at(1)) {
-    answer.scheduled.push_back(
-        {part.at(0).get<std::vector<std::pair<int, int>>>(), part.at(1).get<double>()});
+    auto& scheduled = answer.scheduled.emplace_back();
+    for (auto const& power : part.at(0)) {
+      scheduled.powers.emplace_back(whole_number(power.at(0)), whole_number(power.at(1)));
+    }
+    scheduled.projected_area = part.at(1).get<double>();
   }
   return answer;
 }
@@ -125,8 +138,8 @@ SamplePart part_from(Json const& json) {
   if (json.at("format") != format) throw Error("has another version");
   part.scene = {json.at("asked"), json.at("scene"), json.at("fineness"), {}, json.at("schedules")};
   part.device = json.at("device");
-  part.round = json.at("round");
-  part.shard = {json.at("shard"), json.at("shards")};
+  part.round = whole_number(json.at("round"));
+  part.shard = {whole_number(json.at("shard")), whole_number(json.at("shards"))};
   for (auto const& receiver : json.at("receivers")) {
     part.scene.receivers.push_back(
         {receiver.at(0), {receiver.at(1), receiver.at(2), receiver.at(3)}});

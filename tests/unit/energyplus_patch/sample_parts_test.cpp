@@ -9,6 +9,7 @@
 
 #include "base/files.h"
 #include "base/process.h"
+#include "cache/digest.h"
 #include "gpu_shading/error.h"
 #include "samples/sample_set.h"
 #include "samples/sample_tables.h"
@@ -135,6 +136,33 @@ TEST(SampleParts, ImpossibleAnswersAreNotBelieved) {
   refused([](SamplePart& part) { part.answers[0][1].scheduled[0].projected_area = 4.0; });
   refused([](SamplePart& part) { part.answers[0][1].scheduled[0].powers[0].first = 2; });
   refused([](SamplePart& part) { part.answers[0][1].scheduled[0].powers[0].second = -1; });
+}
+
+// With the right checksum, as from a program that writes numbers in another way.
+TEST(SampleParts, CountsAreWholeNumbers) {
+  TemporaryFolder const folder;
+  SampleParts const parts(folder.path(), 1);
+  parts.write({{"coarse", "0f", "error 0.001", {}, {}}, "device", 1, {1, 1}, {}, {}});
+  auto const file = parts.file(1, 1);
+  std::string const head = "{\"xxh128\":\"";
+  auto const first = head.size() + to_text(Hash{}).size() + std::string("\",").size();
+  auto const contents = read_text_file(file).substr(first);
+  std::string const round = "\"round\":1";
+  auto const at = contents.find(round);
+  ASSERT_NE(at, std::string::npos);
+  auto const find_with = [&](std::string const& number) {
+    auto changed = contents;
+    changed.replace(at, round.size(), "\"round\":" + number);
+    Digest digest;
+    digest.add(std::string_view(changed).substr(0, changed.size() - 1));
+    std::ofstream(file) << head << to_text(digest.result()) << "\"," << changed;
+    return parts.find(1, 1);
+  };
+  EXPECT_TRUE(find_with("1"));
+  for (auto const* const number : {"1e300", "1.5", "4294967297", "-4294967295", "true"}) {
+    EXPECT_THAT([&] { find_with(number); }, ThrowsMessage<Error>(HasSubstr("not possible")))
+        << number;
+  }
 }
 
 TEST(SampleParts, ARoundWaitsForAllShardsOfTheOneBefore) {

@@ -1,9 +1,11 @@
 #include "input/shading_input.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "gpu_shading/error.h"
 #include "idf/model_file.h"
+#include "support/refusal.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -108,7 +110,13 @@ TEST(ShadingInput, ShadowCalculation) {
   EXPECT_FALSE(input.disable_between_groups);
   EXPECT_EQ(input.shading_zone_groups, (std::vector<std::string>{"LOWER", "UPPER"}));
   EXPECT_EQ(input.zone_lists.at("LOWER"), (std::set<std::string>{"Z1", "Z2"}));
-  EXPECT_THROW(read("ShadowCalculation,PixelCounting,,,,,many;"), Error);
+  for (auto const* const wrong : {"many", "0", "-1", "65537", "1e300"}) {
+    EXPECT_THAT(refusal_of([&] {
+                  read(std::string("ShadowCalculation,PixelCounting,,,,,") + wrong + ";");
+                }),
+                testing::HasSubstr(std::string("Pixel Counting Resolution is \"") + wrong +
+                                   "\", expected a number from 1 to 65536"));
+  }
   EXPECT_FALSE(read("ShadowCalculation,PolygonClipping,,,,,1024;").pixel_counting_resolution);
   EXPECT_FALSE(read("ShadowCalculation,,,,,,1024;").pixel_counting_resolution);
 }
