@@ -14,10 +14,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent), str(HERE.parent / "screened_room")]
+sys.path[:0] = [str(HERE.parent), str(HERE.parent / "screened_room"), str(HERE.parents[1] / "scripts")]
 
 import random_holes  # noqa: E402
 from common import casters, idf, rooms  # noqa: E402
+from shading_runs import output_folder  # noqa: E402
+from shading_runs.errors import in_words  # noqa: E402
 
 LENGTH, ROOM_DEPTH, CORRIDOR, STOREY = 64.0, 9.5, 3.0, 4.0
 DEPTH = 2 * ROOM_DEPTH + CORRIDOR
@@ -192,7 +194,7 @@ def screen_object(screen):
 
 def write_image(path, size=FULL):
     """The sheet of one strip."""
-    Path(path).write_bytes(random_holes.png(random_holes.opacity(*strip_size(size), TEXEL)))
+    output_folder.write_file(path, random_holes.png(random_holes.opacity(*strip_size(size), TEXEL)))
 
 
 def height(x, y):
@@ -257,7 +259,10 @@ def main():
     arguments = parser.parse_args()
     size = SMALL if arguments.small else FULL
     if arguments.image:
-        write_image(arguments.image, size)
+        try:
+            write_image(arguments.image, size)
+        except (OSError, output_folder.NotOurs) as error:
+            sys.exit(f"academic_building: {in_words(error)}")
     sys.stdout.writelines(model(arguments.screen, size))
 
 

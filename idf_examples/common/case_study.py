@@ -12,6 +12,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 
 from shading_runs import energyplus, output_folder, results  # noqa: E402
+from shading_runs.errors import in_words  # noqa: E402
 
 OF_RUN = ["heating kWh", "cooling kWh", "seconds", "rendering", "receivers", "casters"]
 
@@ -161,5 +162,5 @@ def main(study):
     try:
         with output_folder.replacing(arguments.output, f"{study.name}_study") as output:
             print_all(study, arguments, output.path)
-    except output_folder.NotOurs as error:
-        sys.exit(f"{study.name}: {error}")
+    except (OSError, output_folder.NotOurs) as error:
+        sys.exit(f"{study.name}: {in_words(error)}")

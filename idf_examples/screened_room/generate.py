@@ -12,7 +12,11 @@ import math
 import sys
 from pathlib import Path
 
-import random_holes
+sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "scripts")]
+
+import random_holes  # noqa: E402
+from shading_runs import output_folder  # noqa: E402
+from shading_runs.errors import in_words  # noqa: E402
 
 # Drawn with the window facing south, in metres, and then turned.
 ROOM = (6.0, 6.0, 3.0)
@@ -148,7 +152,7 @@ def model(facing="south", screen="small holes"):
 
 def write_image(path):
     x1, z1, x2, z2 = SCREEN
-    Path(path).write_bytes(random_holes.png(random_holes.opacity(x2 - x1, z2 - z1, TEXEL)))
+    output_folder.write_file(path, random_holes.png(random_holes.opacity(x2 - x1, z2 - z1, TEXEL)))
 
 
 def main():
@@ -158,7 +162,10 @@ def main():
     parser.add_argument("--image", metavar="FILE", help=f"write the gradient's image too; the model reads {IMAGE}")
     arguments = parser.parse_args()
     if arguments.image:
-        write_image(arguments.image)
+        try:
+            write_image(arguments.image)
+        except (OSError, output_folder.NotOurs) as error:
+            sys.exit(f"screened_room: {in_words(error)}")
     sys.stdout.writelines(model(arguments.facing, arguments.screen))
 
 

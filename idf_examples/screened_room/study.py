@@ -13,6 +13,7 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "scripts")]
 
 import generate  # noqa: E402
 from shading_runs import energyplus, output_folder, results  # noqa: E402
+from shading_runs.errors import in_words  # noqa: E402
 
 WEATHER = "USA_CO_Golden-NREL.724666_TMY3.epw"
 # As in the table; the others are compared with the first two.
@@ -86,8 +87,8 @@ def main():
     try:
         with output_folder.replacing(parser.parse_args().output, "screened_room_study") as output:
             compare(output.path)
-    except output_folder.NotOurs as error:
-        sys.exit(f"screened_room: {error}")
+    except (OSError, output_folder.NotOurs) as error:
+        sys.exit(f"screened_room: {in_words(error)}")
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 
 from shading_runs import output_folder  # noqa: E402
+from shading_runs.errors import in_words  # noqa: E402
 
 LATITUDE, LONGITUDE = 39.74, -105.18
 EASTING, NORTHING = 484577.134, 4398915.899  # the same point in UTM zone 13, by GeoConvert -u
@@ -215,8 +216,8 @@ def main():
     try:
         with output_folder.replacing(arguments.output, "site_context") as output:
             path = write(output.path, parts, arguments.triangles)
-    except output_folder.NotOurs as error:
-        sys.exit(f"site_context: {error}")
+    except (OSError, output_folder.NotOurs) as error:
+        sys.exit(f"site_context: {in_words(error)}")
     print(output.said(path))
 
 

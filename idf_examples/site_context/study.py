@@ -17,6 +17,7 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "scripts")]
 
 import generate  # noqa: E402
 from shading_runs import energyplus, output_folder, results  # noqa: E402
+from shading_runs.errors import in_words  # noqa: E402
 
 WEATHER = "USA_CO_Golden-NREL.724666_TMY3.epw"
 VARIANTS = {
@@ -71,8 +72,8 @@ def main():
     try:
         with output_folder.replacing(arguments.output, "site_context_study") as output:
             (load if arguments.load else year)(output.path)
-    except output_folder.NotOurs as error:
-        sys.exit(f"site_context: {error}")
+    except (OSError, output_folder.NotOurs) as error:
+        sys.exit(f"site_context: {in_words(error)}")
 
 
 if __name__ == "__main__":

@@ -338,5 +338,8 @@ def write_file(path, contents):
             file.flush()
             os.fsync(file.fileno())
         beside.replace(path)
+    except OSError as error:
+        error.filename = path  # not the temporary file
+        raise
     finally:
         beside.unlink(missing_ok=True)

@@ -9,6 +9,7 @@ import subprocess
 
 import pytest
 from shading_runs import output_folder
+from shading_runs.errors import in_words
 from shading_runs.output_folder import MARKER, NotOurs, replacing, write_file
 
 MAKER = "a_script"
@@ -278,8 +279,9 @@ def test_a_full_disk_leaves_the_former_output(small_disk):
         assert [name for name in names(small_disk) if name.startswith(".")] == []
     picture = small_disk / "picture.png"
     write_file(picture, b"1" * 50_000)
-    with pytest.raises(OSError, match="No space left"):
+    with pytest.raises(OSError, match="No space left") as raised:
         write_file(picture, b"2" * 300_000)
+    assert in_words(raised.value) == f"{picture}: No space left on device"
     assert picture.read_bytes() == b"1" * 50_000
     assert [name for name in names(small_disk) if name.startswith(".")] == []
 
@@ -314,6 +316,12 @@ def test_a_file_is_not_written_through_a_link(tmp_path):
     with pytest.raises(NotOurs, match="is a link"):
         write_file(tmp_path / "out.svg", "new")
     assert (tmp_path / "mine").read_text() == "mine"
+
+
+def test_an_error_names_the_file_that_was_wanted(tmp_path):
+    with pytest.raises(FileNotFoundError) as raised:
+        write_file(tmp_path / "none" / "out.svg", "new")
+    assert in_words(raised.value) == f"{tmp_path / 'none' / 'out.svg'}: No such file or directory"
 
 
 def test_the_kernel_exchanges_folders_here():
