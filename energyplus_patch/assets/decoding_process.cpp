@@ -22,8 +22,6 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 [[noreturn]] void fail_to_decode(char const* what) {
   throw Error(fmt::format("{}: {}", what, std::strerror(errno)));
 }
@@ -52,7 +50,7 @@ std::string in_one_line(std::string text) {
 DecodingProcess::DecodingProcess(char const* program, std::string const& operation,
                                  std::filesystem::path const& file, Assets assets,
                                  DecodingLimits const& limits)
-    : limits_(limits), deadline_(Clock::now() + limits.wait) {
+    : limits_(limits), deadline_(limits.wait) {
   FileDescriptor const input(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   open_input(input, limits.file_size);
   std::array<int, 2> ends{-1, -1};
@@ -64,7 +62,7 @@ DecodingProcess::DecodingProcess(char const* program, std::string const& operati
       {std::to_string(getpid()), std::to_string(limits.seconds), std::to_string(limits.memory),
        operation, assets == Assets::any ? "any" : "restricted",
        std::filesystem::absolute(file).string()},
-      input.get(), output.get());
+      input.get(), output.get(), deadline_);
 }
 
 DecodingProcess::~DecodingProcess() {
@@ -121,10 +119,9 @@ void DecodingProcess::read(void* bytes, std::size_t count) {
 
 std::size_t DecodingProcess::read_some(char* bytes, std::size_t count) {
   while (true) {
-    auto const left = std::chrono::ceil<std::chrono::milliseconds>(deadline_ - Clock::now());
     pollfd watched{answer_->get(), POLLIN, 0};
-    int const ready = poll(&watched, 1, static_cast<int>(std::max<std::int64_t>(0, left.count())));
-    if (ready == 0) throw Error(fmt::format("it takes more than {} s", limits_.wait.count()));
+    int const ready = poll(&watched, 1, deadline_.milliseconds_left());
+    if (ready == 0) deadline_.fail();
     if (ready < 0) {
       if (errno == EINTR) continue;
       fail_to_decode("no answer of its decoding");
@@ -145,9 +142,7 @@ int DecodingProcess::wait() {
       status = 0;
       break;
     }
-    if (Clock::now() > deadline_) {
-      throw Error(fmt::format("it takes more than {} s", limits_.wait.count()));
-    }
+    if (deadline_.is_over()) deadline_.fail();
     std::this_thread::sleep_for(std::chrono::microseconds(200));
   }
   process_ = -1;

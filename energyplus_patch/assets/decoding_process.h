@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "assets/asset_folder.h"
+#include "assets/decoding_server.h"
 #include "base/file_descriptor.h"
 
 namespace gpu_shading::energyplus {
@@ -80,7 +81,7 @@ class DecodingProcess {
   [[noreturn]] void throw_reason(int status) const;
 
   DecodingLimits limits_;
-  std::chrono::steady_clock::time_point deadline_;
+  DecodingDeadline deadline_;
   std::optional<FileDescriptor> answer_;
   pid_t process_ = -1;
   bool begun_ = false;

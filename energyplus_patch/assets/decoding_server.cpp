@@ -1,5 +1,6 @@
 #include "assets/decoding_server.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
@@ -67,20 +68,28 @@ class Spawning {
   posix_spawnattr_t attributes_{};
 };
 
+// A descriptor that is none of the standard ones, which it may have got where a host has closed
+// them.
+int beyond_standard(int descriptor) {
+  FileDescriptor const given(descriptor);
+  return given.is_open() ? fcntl(given.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1) : -1;
+}
+
 // A decoding program that waits for requests. Its children are this thread's, and end with it: one
 // thread's server is of no use to another.
 class Server {
  public:
   explicit Server(std::filesystem::path const& program)
-      : errors_(memfd_create("errors", MFD_CLOEXEC)) {
+      : errors_(beyond_standard(memfd_create("errors", MFD_CLOEXEC))) {
     std::array<int, 2> ends{-1, -1};
     if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
       throw_errno("no socket for its decoding");
     }
     link_.emplace(ends[0]);
-    FileDescriptor const other(ends[1]);
+    FileDescriptor const other(beyond_standard(ends[1]));
     Spawning spawning;
     spawning.give(other.get(), STDIN_FILENO);
+    spawning.give(errors_.get(), STDOUT_FILENO);
     spawning.give(errors_.get(), STDERR_FILENO);
     int const failure = spawning.start(process_, {program.string()});
     if (failure != 0) {
@@ -92,20 +101,28 @@ class Server {
   Server(Server const&) = delete;
   Server& operator=(Server const&) = delete;
   ~Server() {
-    if (is_ours()) wait();
+    if (is_ours()) end();
   }
 
   // Whether this process started it, and is not a fork of the one that did.
   bool is_ours() const { return owner_ == getpid() && process_ > 0; }
 
-  // The number of the new process; nothing if the server has ended.
-  std::optional<pid_t> start(std::vector<std::string> const& words, int input, int output) {
+  // The number of the new process; nothing if the server has ended. Throws Error, and ends the
+  // server, if it does not reply in time.
+  std::optional<pid_t> start(std::vector<std::string> const& words, int input, int output,
+                             DecodingDeadline const& deadline) {
     if (!ask(words, input, output)) return std::nullopt;
-    std::int32_t reply = 0;
-    ssize_t got = 0;
+    pollfd watched{link_->get(), POLLIN, 0};
+    int ready = 0;
     do {
-      got = recv(link_->get(), &reply, sizeof reply, 0);
-    } while (got < 0 && errno == EINTR);
+      ready = poll(&watched, 1, deadline.milliseconds_left());
+    } while (ready < 0 && errno == EINTR);
+    if (ready == 0) {
+      end();
+      deadline.fail();
+    }
+    std::int32_t reply = 0;
+    auto const got = recv(link_->get(), &reply, sizeof reply, MSG_DONTWAIT);
     if (got != sizeof reply) return std::nullopt;
     if (reply <= 0) throw Error("no process for its decoding");
     return reply;
@@ -114,7 +131,7 @@ class Server {
   // Why it ended.
   std::string reason() {
     std::array<char, decoding::longest_message> text{};
-    int const status = wait();
+    int const status = end();
     // What the system says if a library is missing.
     auto const length = pread(errors_.get(), text.data(), text.size(), 0);
     std::string said(text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, length)));
@@ -150,10 +167,11 @@ class Server {
     return sent == static_cast<ssize_t>(bytes.size());
   }
 
-  int wait() {
+  int end() {
     int status = 0;
-    // Which ends it if it still serves, also where a fork of this process has the link too.
-    shutdown(link_->get(), SHUT_RDWR);
+    // It lives if it still has its end of the link. It has nothing to finish, and may be stopped.
+    pollfd watched{link_->get(), 0, 0};
+    if (process_ > 0 && poll(&watched, 1, 0) == 0) kill(process_, SIGKILL);
     while (process_ > 0 && waitpid(process_, &status, 0) < 0 && errno == EINTR) {
     }
     process_ = -1;
@@ -168,20 +186,35 @@ class Server {
 
 }  // namespace
 
+DecodingDeadline::DecodingDeadline(std::chrono::seconds wait)
+    : wait_(wait), end_(std::chrono::steady_clock::now() + wait) {}
+
+bool DecodingDeadline::is_over() const { return std::chrono::steady_clock::now() > end_; }
+
+int DecodingDeadline::milliseconds_left() const {
+  auto const left =
+      std::chrono::ceil<std::chrono::milliseconds>(end_ - std::chrono::steady_clock::now());
+  return static_cast<int>(std::max<std::int64_t>(0, left.count()));
+}
+
+void DecodingDeadline::fail() const {
+  throw Error(fmt::format("it takes more than {} s", wait_.count()));
+}
+
 pid_t start_decoding(char const* program, std::vector<std::string> const& words, int input,
-                     int output) {
+                     int output, DecodingDeadline const& deadline) {
   thread_local std::map<std::string, Server> servers;
   auto const path = beside_this_code(program);
   auto known = servers.find(path);
   if (known != servers.end()) {
     if (known->second.is_ours()) {
-      if (auto const process = known->second.start(words, input, output)) return *process;
+      if (auto const process = known->second.start(words, input, output, deadline)) return *process;
     }
     // It waited too long and ended, or is another process's.
     servers.erase(known);
   }
   auto& server = servers.try_emplace(path, path).first->second;
-  if (auto const process = server.start(words, input, output)) return *process;
+  if (auto const process = server.start(words, input, output, deadline)) return *process;
   auto const why = server.reason();
   servers.erase(path);
   throw Error(why);

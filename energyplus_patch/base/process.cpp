@@ -136,6 +136,14 @@ std::vector<std::string> arguments_of(int argc, char const* const* argv) {
   return {argv + 1, argv + argc};
 }
 
+void occupy_standard_descriptors() {
+  for (int const descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(descriptor, F_GETFD) >= 0) continue;
+    // It gets the lowest number that is free.
+    open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
 std::filesystem::path own_folder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();
 }

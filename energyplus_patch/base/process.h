@@ -13,6 +13,10 @@ namespace gpu_shading::energyplus {
 // The arguments in UTF-8, without the program's name; of main().
 std::vector<std::string> arguments_of(int argc, char const* const* argv);
 
+// Opens those of the descriptors 0, 1 and 2 that are closed, so that no file that is opened later
+// gets the number, and with it what is meant for a terminal. Reading and writing them still fails.
+void occupy_standard_descriptors();
+
 // The folder of the running program: a patched EnergyPlus, for the launcher and the gpu_shading
 // program.
 std::filesystem::path own_folder();

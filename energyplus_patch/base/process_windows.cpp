@@ -65,6 +65,8 @@ std::vector<std::string> arguments_of(int /*argc*/, char const* const* /*argv*/)
   return arguments;
 }
 
+void occupy_standard_descriptors() {}  // their numbers are given to no other file here
+
 std::filesystem::path own_folder() {
   constexpr DWORD most = 32768;
   std::wstring path(most, L'\0');

@@ -202,6 +202,7 @@ int launch(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   gpu_shading::energyplus::catch_lack_of_memory();
+  gpu_shading::energyplus::occupy_standard_descriptors();
   try {
     return gpu_shading::energyplus::launch(argc, argv);
   } catch (std::exception const& error) {

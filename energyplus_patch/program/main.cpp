@@ -466,6 +466,7 @@ int run(std::vector<std::string> arguments) {
 
 int main(int argc, char** argv) {
   gpu_shading::energyplus::catch_lack_of_memory();
+  gpu_shading::energyplus::occupy_standard_descriptors();
   try {
     int const status =
         gpu_shading::energyplus::run(gpu_shading::energyplus::arguments_of(argc, argv));

@@ -9,7 +9,9 @@ import time
 from pathlib import Path
 
 import pytest
+from PIL import Image
 from shading_runs import energyplus
+from test_screens import write_grey_image
 
 ROOT = energyplus.REPOSITORY
 
@@ -227,3 +229,31 @@ def test_every_program_tells_its_version(program, patched):
     for script in ("patch_energyplus", "compare_shading", "compare_sampling", "sample_models"):
         told = subprocess.run([ROOT / "scripts" / script, "--version"], capture_output=True, text=True).stdout
         assert told == f"{script} {version}\n"
+
+
+@pytest.mark.parametrize("closed", [(0,), (1,), (2,), (0, 1), (1, 2), (0, 1, 2)], ids=str)
+def test_closed_standard_descriptors(closed, patched, box, weather, tmp_path):
+    """Files of a model are decoded, and no file that is written gets what was to be printed."""
+    write_grey_image(tmp_path / "tile.png", [[255, 0, 90], [0, 255, 0]])
+    model = tmp_path / "model.idf"
+    model.write_text(box + "GPUShading:PerforatedScreen,Image,Louvre*,Texture,tile.png,,,,,,0.001;\n")
+    redirections = " ".join(f"{number}>&-" for number in closed)
+
+    def call(*command):
+        return subprocess.run(["sh", "-c", f'exec "$@" {redirections}', "sh", *map(str, command)], cwd=tmp_path,
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True)
+
+    run = call(patched, "--gpu-shading", "-D", "-w", weather, "-d", "out", model)
+    assert run.returncode == 0, run.stderr
+    end = (tmp_path / "out" / "eplusout.end").read_text()
+    assert end.startswith("EnergyPlus Completed Successfully") and end.count("\n") <= 1
+    check = call(patched.parent / "gpu_shading", "check", model)
+    if 1 in closed:  # which is an error, but of printing alone
+        assert check.returncode == 1
+        assert check.stderr in ("", "gpu_shading: error: standard output: cannot be written\n")
+    else:
+        assert check.returncode == 0 and "Image" in check.stdout, check.stderr
+    view = call(patched.parent / "gpu_shading", "view", model, "--sun", "200,35", "--size", "64", "-o", "view.png")
+    assert view.returncode == (1 if 1 in closed else 0), view.stderr
+    with Image.open(tmp_path / "view.png") as image:
+        image.load()

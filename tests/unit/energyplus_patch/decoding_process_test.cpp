@@ -239,6 +239,52 @@ TEST_F(DecodingProcesses, AreStartedByOneProgramForEachThread) {
   EXPECT_EQ(ask("be good"), answer);
 }
 
+// The one child of this process that waits for requests.
+pid_t server_after(std::vector<pid_t> const& before) {
+  for (auto const child : children_of(getpid())) {
+    if (std::ranges::count(before, child) == 0) return child;
+  }
+  return -1;
+}
+
+TEST_F(DecodingProcesses, DoNotWaitForAStoppedProgram) {
+  std::vector<unsigned> const answer{7, 8};
+  DecodingLimits limits;
+  limits.wait = std::chrono::seconds(1);
+  std::thread([&] {
+    auto const before = children_of(getpid());
+    EXPECT_EQ(ask("be good"), answer);
+    auto const stopped = server_after(before);
+    ASSERT_EQ(kill(stopped, SIGSTOP), 0);
+    EXPECT_EQ(refusal("be good", limits), "it takes more than 1 s");
+    EXPECT_NE(kill(stopped, 0), 0);
+    EXPECT_EQ(ask("be good"), answer);
+    ASSERT_EQ(kill(server_after(before), SIGSTOP), 0);
+    // The end of this thread ends it.
+  }).join();
+}
+
+// Each of the standard descriptors, and all, closed in a fork of this process.
+TEST_F(DecodingProcesses, NeedNoStandardDescriptors) {
+  std::vector<unsigned> const answer{7, 8};
+  for (unsigned closed = 1; closed < 8; ++closed) {
+    auto const child = fork();
+    if (child == 0) {
+      for (int i = 0; i < 3; ++i) {
+        if ((closed >> static_cast<unsigned>(i) & 1U) != 0) close(i);
+      }
+      _exit(refusal_of([&] {
+              if (ask("be good") != answer || ask("read input").front() != 1) throw Error("wrong");
+            }) == "accepted"
+                ? 0
+                : 1);
+    }
+    int status = -1;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0) << closed;
+  }
+}
+
 TEST_F(DecodingProcesses, FindFilesWhereTheProgramIsNow) {
   auto const before = std::filesystem::current_path();
   ask("be good");
