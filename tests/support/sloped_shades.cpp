@@ -94,12 +94,6 @@ Scene SlopedShades::scene() const {
   return scene;
 }
 
-char const* SlopedShades::name(Receiver receiver) {
-  constexpr std::array names{"3 x 1.5 m", "1.4 x 2 m", "2 x 2 m",
-                             "triangle",  "octagon",   "3 x 2 m with a hole"};
-  return names.at(static_cast<std::size_t>(receiver));
-}
-
 char const* SlopedShades::name(Shade shade) {
   constexpr std::array names{"edge", "gable", "30 slats"};
   return names.at(static_cast<std::size_t>(shade));

@@ -28,7 +28,6 @@ struct SlopedShades {
   // Receiver 0, then the shades; a schedule is number 0.
   Scene scene() const;
 
-  static char const* name(Receiver receiver);
   static char const* name(Shade shade);
   static char const* name(Beam beam);
 };
