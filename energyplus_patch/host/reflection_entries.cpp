@@ -47,7 +47,7 @@ void init(State& state) {
     auto const& model = this_run().model;
     auto const name = message.substr(message.find('=') + 1);
     return message.starts_with("Calculation of reflected solar onto surface=") && model &&
-           model->lean.is_placeholder_or_copy(std::string(name.substr(0, name.find(" may be"))));
+           model->lean.is_placeholder(std::string(name.substr(0, name.find(" may be"))));
   });
   original_init(state);
 }

@@ -180,11 +180,6 @@ LeanInput plan(std::vector<InputObject> const& objects, ShadingInput const& inpu
 }  // namespace
 
 bool LeanInput::is_placeholder(std::string const& surface) const {
-  return std::any_of(placeholders.begin(), placeholders.end(),
-                     [&](Placeholder const& each) { return each.name == surface; });
-}
-
-bool LeanInput::is_placeholder_or_copy(std::string const& surface) const {
   return std::any_of(placeholders.begin(), placeholders.end(), [&](Placeholder const& each) {
     return each.name == surface || mirrored_name(each.name) == surface;
   });

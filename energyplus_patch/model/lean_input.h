@@ -22,9 +22,8 @@ struct LeanInput {
   std::string remark;  // message for the user: what is left out, or why nothing is; "": no message
 
   bool active() const { return !left_out.empty(); }
+  // Whether a surface is a placeholder or the mirrored copy of one.
   bool is_placeholder(std::string const& surface) const;
-  // The same, or the mirrored copy of one.
-  bool is_placeholder_or_copy(std::string const& surface) const;
 };
 
 // With Lean::automatic, all surfaces are left out from this number on. Each costs EnergyPlus about

@@ -42,15 +42,13 @@ std::optional<TileAxes> tile_of(Model const& model, Surface const& surface) {
   return tile_axes(surface.polygon, screen->second.maker->placement(surface.polygon));
 }
 
-// All surfaces except placeholders, surroundings and mirrored copies that nothing names.
+// All surfaces except surroundings and mirrored copies that nothing names.
 std::vector<SurfaceId> listed(Scene const& scene, Model const& model) {
   std::vector<SurfaceId> ids;
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     auto const& name = scene[id].name;
     bool const copy = is_mirrored(name) && !model.shading.wants(name);
-    if (!copy && !model.lean.is_placeholder(name) && !model.surroundings.types.contains(name)) {
-      ids.push_back(id);
-    }
+    if (!copy && !model.surroundings.types.contains(name)) ids.push_back(id);
   }
   return ids;
 }

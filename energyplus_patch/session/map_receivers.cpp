@@ -27,10 +27,7 @@ struct MappedReceiver {
 bool may_be_mapped(SceneAssembly const& scene, SurfaceId id) {
   auto const& surface = scene.surfaces()[id];
   if (area(surface.polygon) <= 0.0) return false;
-  if (id < scene.size()) {
-    if (scene.receives()[id]) return true;
-    if (scene.is_placeholder(id)) return false;
-  }
+  if (id < scene.size() && scene.receives()[id]) return true;
   return scene.model().shading.shading_surfaces.contains(surface.name);
 }
 

@@ -41,7 +41,6 @@ void check_coordinates(Surface const& surface) {
 }  // namespace
 
 SurfaceId SceneAssembly::add(Surface surface) {
-  if (model_.lean.is_placeholder(surface.name)) surface.casting = Casting::never;
   if (surface.casting != Casting::never) surface.casting = model_.shading.casting(surface.name);
   double ratio = 1.0;
   auto const written = model_.simplified.outlines.find(surface.name);
@@ -57,24 +56,17 @@ SurfaceId SceneAssembly::add(Surface surface) {
 }
 
 SurfaceId SceneAssembly::add_mirrored(SurfaceId original) {
-  auto const& surface = surfaces_[original];
-  Surface copy;
-  copy.name = mirrored_name(surface.name);
-  copy.polygon = surface.polygon;
-  copy.casting = Casting::never;
-  std::reverse(copy.polygon.outline.begin(), copy.polygon.outline.end());
   area_ratios_.push_back(area_ratios_[original]);
-  return surfaces_.add(std::move(copy));
+  return surfaces_.add(mirrored(surfaces_[original]));
 }
 
 void SceneAssembly::complete(Schedules schedules) {
   for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
     auto const& name = surfaces_[id].name;
-    bool const placeholder = model_.lean.is_placeholder(name);
-    bool const wanted = model_.shading.receives(name) && !window_of_reveal(name) && !placeholder;
+    bool const wanted = model_.shading.receives(name) && !window_of_reveal(name);
     receives_.push_back(wanted);
     bool const shading = model_.shading.shading_surfaces.contains(name) || is_mirrored(name);
-    unshaded_.push_back(!wanted && (placeholder || shading));
+    unshaded_.push_back(!wanted && shading);
   }
   complete_ = true;
   for (auto& caster : model_.lean.casters) {
@@ -96,21 +88,6 @@ std::vector<SurfaceId> SceneAssembly::shading_surfaces() const {
     if (model_.shading.shading_surfaces.contains(surfaces_[id].name)) ids.push_back(id);
   }
   return ids;
-}
-
-std::vector<SurfaceId> SceneAssembly::own_shading_surfaces() const {
-  std::vector<SurfaceId> ids;
-  for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
-    auto const& name = surfaces_[id].name;
-    if (model_.shading.shading_surfaces.contains(name) || model_.lean.is_placeholder(name)) {
-      ids.push_back(id);
-    }
-  }
-  return ids;
-}
-
-bool SceneAssembly::is_placeholder(SurfaceId id) const {
-  return model_.lean.is_placeholder_or_copy(surfaces_[id].name);
 }
 
 std::vector<glm::dvec3> SceneAssembly::areas() const {
@@ -139,7 +116,7 @@ std::vector<SurfaceId> SceneAssembly::shown() const {
     auto const type = types.find(name);
     bool const context = type != types.end() && type->second == extension::site_context::type;
     bool const copy = is_mirrored(name) && !model_.shading.wants(name);
-    if (!context && !copy && !model_.lean.is_placeholder(name)) ids.push_back(id);
+    if (!context && !copy) ids.push_back(id);
   }
   return ids;
 }
@@ -186,6 +163,15 @@ std::vector<SurfaceId> SceneAssembly::hidden(Scene const& scene) const {
 
 Hash SceneAssembly::hash(Scene const& scene, DeviceInfo const& device) const {
   return hash_scene(scene, {renderer_options(model_.options), device, build_id()});
+}
+
+Surface mirrored(Surface const& original) {
+  Surface copy;
+  copy.name = mirrored_name(original.name);
+  copy.polygon = original.polygon;
+  copy.casting = Casting::never;
+  std::reverse(copy.polygon.outline.begin(), copy.polygon.outline.end());
+  return copy;
 }
 
 RendererOptions renderer_options(Options const& options) {

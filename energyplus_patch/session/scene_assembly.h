@@ -11,8 +11,9 @@
 
 namespace gpu_shading::energyplus {
 
-// The surfaces of one run and what they let through: those that EnergyPlus adds, then casters that
-// EnergyPlus does not see (lean input, surroundings). Functions throw Error.
+// The surfaces of one run and what they let through: those of the model that EnergyPlus adds, then
+// casters that EnergyPlus does not see (lean input, surroundings). Placeholders stay out of it.
+// Functions throw Error.
 class SceneAssembly {
  public:
   explicit SceneAssembly(Model model) : model_(std::move(model)) {}
@@ -40,11 +41,6 @@ class SceneAssembly {
 
   // Ids of the model's shading surfaces, in order.
   std::vector<SurfaceId> shading_surfaces() const;
-  // The same with placeholders, without mirrored copies: EnergyPlus's own shading surfaces.
-  std::vector<SurfaceId> own_shading_surfaces() const;
-
-  // Whether a surface of EnergyPlus's is a placeholder or the mirrored copy of one.
-  bool is_placeholder(SurfaceId id) const;
 
   // EnergyPlus's area of a surface over the area that is rendered: it deletes vertices that are
   // close to each other (SimplifiedSurfaces).
@@ -54,7 +50,7 @@ class SceneAssembly {
   // unit normal x net area (m2);
   std::vector<glm::dvec3> areas() const;
   // whether its sunlit fraction is wanted: that of a shading surface rarely is, that of a window's
-  // reveal and of a placeholder never;
+  // reveal never;
   std::vector<bool> const& receives() const { return receives_; }
   // whether it counts as unshaded, because its sunlit fraction is not wanted but EnergyPlus may ask
   // for it.
@@ -63,8 +59,8 @@ class SceneAssembly {
   // The surfaces with an area whose sunlit fractions are wanted.
   std::vector<SurfaceId> receivers() const;
 
-  // What shows a person the model: all but placeholders, terrain, neighbouring buildings and
-  // mirrored copies that nothing names.
+  // What shows a person the model: all but terrain, neighbouring buildings and mirrored copies that
+  // nothing names.
   std::vector<SurfaceId> shown() const;
 
   // The scene to render, with the optics as they are now: the surfaces by their ids, then a copy
@@ -89,6 +85,9 @@ class SceneAssembly {
   std::vector<bool> unshaded_;
   ShadeOptics optics_;
 };
+
+// The copy of a shading surface that faces the other way.
+Surface mirrored(Surface const& original);
 
 // How a model is rendered.
 RendererOptions renderer_options(Options const& options);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <numeric>
 #include <utility>
 
@@ -41,6 +42,47 @@ std::string list(Stages const& stages) {
 }
 
 }  // namespace
+
+SurfaceId Session::add(Surface surface) {
+  if (scene_.model().lean.is_placeholder(surface.name)) {
+    added_.emplace_back(std::move(surface));
+  } else {
+    added_.emplace_back(scene_.add(std::move(surface)));
+  }
+  return static_cast<SurfaceId>(added_.size() - 1);
+}
+
+SurfaceId Session::add_mirrored(SurfaceId original) {
+  if (auto const* const placeholder = std::get_if<Surface>(&added_.at(original))) {
+    added_.emplace_back(mirrored(*placeholder));
+  } else {
+    added_.emplace_back(scene_.add_mirrored(in_scene(original)));
+  }
+  return static_cast<SurfaceId>(added_.size() - 1);
+}
+
+Surface const& Session::surface(SurfaceId id) const {
+  auto const* const placeholder = std::get_if<Surface>(&added_[id]);
+  return placeholder != nullptr ? *placeholder : scene_.surfaces()[in_scene(id)];
+}
+
+std::vector<SurfaceId> Session::shading_surfaces() const {
+  std::vector<SurfaceId> ids;
+  for (SurfaceId id = 0; id < size(); ++id) {
+    auto const& name = surface(id).name;
+    if (is_placeholder(id) ? !is_mirrored(name) : input().shading_surfaces.contains(name)) {
+      ids.push_back(id);
+    }
+  }
+  return ids;
+}
+
+SurfaceId Session::in_scene(SurfaceId id) const {
+  if (id >= size()) throw Error(fmt::format("EnergyPlus asks for surface {} of {}", id, size()));
+  auto const* const found = std::get_if<SurfaceId>(&added_[id]);
+  if (found == nullptr) throw Error("EnergyPlus asks for what a placeholder receives indoors");
+  return *found;
+}
 
 void Session::start(Messages messages, Schedules schedules, std::function<double()> latitude) {
   messages_ = std::move(messages);
@@ -113,20 +155,26 @@ std::optional<glm::dvec3> Session::first_sun(int hour) const {
 
 float Session::projected_sunlit_area(SurfaceId receiver) {
   auto& answers = this->answers();
-  if (receiver >= size()) {
-    throw Error(fmt::format("EnergyPlus asks for surface {} of {}", receiver, size()));
+  if (receiver < size() && is_placeholder(receiver)) {
+    auto const& polygon = surface(receiver).polygon;
+    double const facing = glm::dot(normal(polygon), answers.towards_sun());
+    return static_cast<float>(area(polygon) * std::max(facing, 0.0));
   }
-  double const rendered = scene_.unshaded()[receiver]
-                              ? answers.unshaded_area(receiver)
-                              : answers.area(receiver, scene_.optics().factors());
-  if (record_) record_->note(receiver, rendered);
-  return static_cast<float>(rendered * scene_.area_ratio(receiver));
+  auto const id = in_scene(receiver);
+  double const rendered = scene_.unshaded()[id] ? answers.unshaded_area(id)
+                                                : answers.area(id, scene_.optics().factors());
+  if (record_) record_->note(id, rendered);
+  return static_cast<float>(rendered * scene_.area_ratio(id));
 }
 
 std::vector<float> Session::interior_areas(SurfaceId window,
                                            std::vector<SurfaceId> const& interiors) {
+  auto& answers = this->answers();
+  std::vector<SurfaceId> ids(interiors.size());
+  std::transform(interiors.begin(), interiors.end(), ids.begin(),
+                 [&](SurfaceId interior) { return in_scene(interior); });
   auto areas =
-      answers().interior_areas(InteriorKey({window, interiors}), scene_.optics().factors());
+      answers.interior_areas(InteriorKey({in_scene(window), ids}), scene_.optics().factors());
   keep_largest(areas, max_back_surfaces);
   return areas;
 }

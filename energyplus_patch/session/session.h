@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "gpu_shading/scene.h"
@@ -23,7 +24,8 @@
 namespace gpu_shading::energyplus {
 
 // The shading calculation of one EnergyPlus run, from the surfaces that it adds to the areas that
-// it asks for. Every function throws gpu_shading::Error.
+// it asks for. Ids are EnergyPlus's, which count from 0 in the order of adding; placeholders have
+// one too, but no surface in the scene. Every function throws gpu_shading::Error.
 class Session {
  public:
   // EnergyPlus's WindowComplexManager has room for this many lit back surfaces per window.
@@ -31,22 +33,22 @@ class Session {
 
   explicit Session(Model model) : scene_(std::move(model)) {}
 
-  SurfaceId add(Surface surface) { return scene_.add(std::move(surface)); }
-  std::size_t size() const { return scene_.size(); }
+  SurfaceId add(Surface surface);
+  std::size_t size() const { return added_.size(); }
 
-  Surface const& surface(SurfaceId id) const { return scene_.surfaces()[id]; }
+  Surface const& surface(SurfaceId id) const;
 
   // Adds the mirrored copy of a shading surface.
-  SurfaceId add_mirrored(SurfaceId original) { return scene_.add_mirrored(original); }
+  SurfaceId add_mirrored(SurfaceId original);
 
   // Whether a surface stands in EnergyPlus's input only for others, or is the copy of one that
   // does.
-  bool is_placeholder(SurfaceId id) const { return scene_.is_placeholder(id); }
+  bool is_placeholder(SurfaceId id) const { return std::holds_alternative<Surface>(added_[id]); }
 
   ShadingInput const& input() const { return scene_.model().shading; }
 
-  // Ids of EnergyPlus's shading surfaces, without mirrored copies, in order.
-  std::vector<SurfaceId> shading_surfaces() const { return scene_.own_shading_surfaces(); }
+  // Ids of EnergyPlus's shading surfaces, placeholders too, without mirrored copies, in order.
+  std::vector<SurfaceId> shading_surfaces() const;
 
   // Called when all surfaces are added: reads their optics and opens the device. `latitude`: the
   // site's, in radians; only called if sun positions are sampled.
@@ -98,12 +100,15 @@ class Session {
   void finish();
 
  private:
+  SurfaceId in_scene(SurfaceId id) const;
   SunAnswers& answers();
   void write_reports();
   void renew_reflections();
   std::optional<glm::dvec3>* first_sun_now();
 
   SceneAssembly scene_;
+  // By EnergyPlus's id: the id in the scene, or a placeholder.
+  std::vector<std::variant<SurfaceId, Surface>> added_;
   Messages messages_;
   Moment moment_;
   static constexpr std::size_t hours = 24;

@@ -37,6 +37,9 @@ class SunAnswers {
   void deploy(std::vector<double> const& shares) { rendered_->deploy(shares); }
   void set_sun(SunDirection sun);
 
+  // Where it is, as EnergyPlus passed it.
+  glm::dvec3 const& towards_sun() const { return towards_sun_; }
+
   // Projected sunlit area of a receiver, with factors[schedule].
   double area(SurfaceId receiver, std::span<double const> factors);
   // Projected area of a surface that counts as unshaded.

@@ -172,6 +172,28 @@ TEST(Session, SimplifiedSurfacesCastAndReceiveAsTheyAreWritten) {
   EXPECT_EQ(session.projected_sunlit_area(copy), 0.0F);
 }
 
+TEST(Session, PlaceholdersHaveIdsButShadeNothing) {
+  auto model = model_of("Building,Box,0,City,0.04,0.4,FullExteriorWithReflections;");
+  model.lean.placeholders = make_placeholders({}, {});
+  Session session(std::move(model));
+  auto const plate = rectangle({0, 0, 1}, {2, 0, 0}, {0, 2, 0});
+  auto const pole = session.add(surface_of("GPU SHADING PLACEHOLDER 1", plate));
+  auto const copy = session.add_mirrored(pole);
+  auto const floor = session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
+  EXPECT_EQ(session.shading_surfaces(), std::vector{pole});
+  EXPECT_TRUE(session.is_placeholder(pole) && session.is_placeholder(copy));
+  EXPECT_EQ(session.surface(copy).name, "Mir-GPU SHADING PLACEHOLDER 1");
+  Said said;
+  session.start(said.messages(), {});
+  session.set_sun(zenith);
+  EXPECT_NEAR(session.projected_sunlit_area(floor), 4.0, 1e-6);
+  // Unshaded, on the side of the sun.
+  EXPECT_NEAR(session.projected_sunlit_area(pole), 4.0, 1e-6);
+  EXPECT_EQ(session.projected_sunlit_area(copy), 0.0F);
+  EXPECT_THROW(session.interior_areas(pole, {floor}), Error);
+  EXPECT_THROW(session.interior_areas(floor, {copy}), Error);
+}
+
 TEST(Session, MirroredCopiesThatNobodyAsksAfterAreUnshaded) {
   Session session(model_of("Shading:Site:Detailed,Low;Shading:Site:Detailed,High;"));
   auto const low = session.add(surface_of("LOW", rectangle({0, 0, 0}, {0, 2, 0}, {2, 0, 0})));
