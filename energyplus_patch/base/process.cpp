@@ -87,6 +87,7 @@ struct Start {
   char* const* words;
   char* const* variables;
   char const* output;
+  char const* folder;
   sigset_t const& signals;
 };
 
@@ -102,6 +103,7 @@ void become(Start const& program, pid_t parent) {
   if (output < 0 || dup2(output, STDOUT_FILENO) < 0 || dup2(output, STDERR_FILENO) < 0) return;
   if (output > STDERR_FILENO) close(output);
   if (sigprocmask(SIG_SETMASK, &program.signals, nullptr) != 0) return;
+  if (*program.folder != '\0' && chdir(program.folder) != 0) return;
   execve(program.words[0], program.words, program.variables);
 }
 
@@ -166,7 +168,8 @@ void require_room(std::filesystem::path const& folder) {
 }
 
 int run_process(std::vector<std::string> const& command,
-                std::vector<std::string> const& environment, std::filesystem::path const& output) {
+                std::vector<std::string> const& environment, std::filesystem::path const& output,
+                std::filesystem::path const& folder) {
   auto words = command;
   auto variables = environment;
   for (char** variable = environ; *variable != nullptr; ++variable)
@@ -175,7 +178,8 @@ int run_process(std::vector<std::string> const& command,
   auto const envp = pointers(variables);
 
   HeldSignals const signals;
-  pid_t const child = start({argv.data(), envp.data(), output.c_str(), signals.before()});
+  pid_t const child =
+      start({argv.data(), envp.data(), output.c_str(), folder.c_str(), signals.before()});
   int const interrupted = pass_signals_on(child, signals.held());
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {

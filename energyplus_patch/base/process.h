@@ -59,11 +59,13 @@ class Interrupted : public Error {
 };
 
 // Runs a program to its end, its output into a file; `environment` ("NAME=value") is added to ours.
-// Returns its exit status, 128 + the signal where one ended it. Throws Error when it cannot be
-// started. If this process is killed, so is the program. A signal that asks us to end (SIGINT,
-// SIGTERM, SIGHUP) goes to the program, and is thrown as Interrupted once it has ended.
+// `folder`: where it starts; empty: here. Returns its exit status, 128 + the signal where one ended
+// it. Throws Error when it cannot be started. If this process is killed, so is the program. A
+// signal that asks us to end (SIGINT, SIGTERM, SIGHUP) goes to the program, and is thrown as
+// Interrupted once it has ended.
 int run_process(std::vector<std::string> const& command,
-                std::vector<std::string> const& environment, std::filesystem::path const& output);
+                std::vector<std::string> const& environment, std::filesystem::path const& output,
+                std::filesystem::path const& folder = {});
 
 // What run_process() returned, in words: "exit status 1", "ended by signal 9 (Killed)".
 std::string describe_status(int status);

@@ -94,7 +94,8 @@ void require_room(std::filesystem::path const& folder) {
 }
 
 int run_process(std::vector<std::string> const& command,
-                std::vector<std::string> const& environment, std::filesystem::path const& output) {
+                std::vector<std::string> const& environment, std::filesystem::path const& output,
+                std::filesystem::path const& folder) {
   std::wstring line;
   for (auto const& word : command) line += quoted(to_wide(word)) + L' ';
   auto block = environment_with(environment);
@@ -116,8 +117,8 @@ int run_process(std::vector<std::string> const& command,
   startup.hStdError = log.get();
   PROCESS_INFORMATION started{};
   constexpr DWORD flags = CREATE_UNICODE_ENVIRONMENT | CREATE_SUSPENDED;
-  if (CreateProcessW(nullptr, line.data(), nullptr, nullptr, TRUE, flags, block.data(), nullptr,
-                     &startup, &started) == 0) {
+  if (CreateProcessW(nullptr, line.data(), nullptr, nullptr, TRUE, flags, block.data(),
+                     folder.empty() ? nullptr : folder.c_str(), &startup, &started) == 0) {
     fail(command.front());
   }
   Handle const process(started.hProcess, &CloseHandle);

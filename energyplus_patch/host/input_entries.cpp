@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <system_error>
 
 #include "base/console.h"
 #include "base/error_line.h"
@@ -99,8 +100,12 @@ Rewrite take_model(std::vector<InputObject> objects, Path const& path,
   return rewrite_for(*run.model);
 }
 
-// EnergyPlus passes the state here, before the input is read.
+// EnergyPlus passes the state here, before the input is read and after its preprocessors.
 void process_input(void* self, State& state) {
+  if (auto const& start = installation().choices.start) {
+    std::error_code ignored;
+    std::filesystem::current_path(*start, ignored);
+  }
   this_run() = {};
   this_run().state = &state;
   original_process_input(self, state);

@@ -21,6 +21,7 @@
 #include "cache/cache_folder.h"
 #include "gpu_shading/error.h"
 #include "idf/model_file.h"
+#include "launcher/expansion_folder.h"
 #include "model/model_reader.h"
 #include "options/command_line.h"
 #include "options/report_folder.h"
@@ -193,6 +194,12 @@ int launch(int argc, char** argv) {
     // still apply.
     choices.folder = std::filesystem::absolute(*line.model).parent_path();
     choices.file = find_side_file(*line.model, choices);
+  }
+  std::optional<ExpansionFolder> expansion;
+  if (line.expand && line.model) {
+    expansion.emplace(arguments, line);
+    choices.start = expansion->start();
+    if (choices.file) choices.file = *choices.start / *choices.file;
   }
   return run_shaded(argv[0], std::move(arguments), choices);
 }

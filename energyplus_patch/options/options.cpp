@@ -135,8 +135,8 @@ auto value_of(Field<Value> const& field, std::string const& text) {
   return parse(field, text, field.title);
 }
 
-std::array<Choice, 16> const& all_choices() {
-  static std::array<Choice, 16> const choices{{
+std::array<Choice, 17> const& all_choices() {
+  static std::array<Choice, 17> const choices{{
       {"--gpu-shading", "GPU_SHADING", nullptr,
        [](Choices& c, std::string const& v) { c.mode = parse_mode(v); }, "auto"},
       {"--gpu-shading-resolution", "GPU_SHADING_RESOLUTION", &settings::resolution,
@@ -159,6 +159,8 @@ std::array<Choice, 16> const& all_choices() {
        [](Choices& c, std::string const& v) { c.cache = parse_cache(v); }},
       {"--gpu-shading-model-folder", nullptr, nullptr,
        [](Choices& c, std::string const& v) { c.folder = std::filesystem::absolute(v); }},
+      {"--gpu-shading-start-folder", nullptr, nullptr,
+       [](Choices& c, std::string const& v) { c.start = std::filesystem::absolute(v); }},
       {"--gpu-shading-lean", "GPU_SHADING_LEAN", nullptr,
        [](Choices& c, std::string const& v) { c.lean = parse_lean(v); }},
       {"--gpu-shading-method", "GPU_SHADING_METHOD", nullptr,
@@ -289,6 +291,7 @@ void Choices::fill_from(Choices const& lower) {
   fill(report, lower.report);
   fill(cache, lower.cache);
   fill(folder, lower.folder);
+  fill(start, lower.start);
   fill(lean, lower.lean);
   fill(method, lower.method);
   fill(assets, lower.assets);
@@ -366,6 +369,7 @@ std::vector<std::string> to_flags(Choices const& choices) {
     add("--gpu-shading-cache", choices.cache->empty() ? "off" : choices.cache->string());
   }
   if (choices.folder) add("--gpu-shading-model-folder", choices.folder->string());
+  if (choices.start) add("--gpu-shading-start-folder", choices.start->string());
   if (choices.lean) add("--gpu-shading-lean", name_of(*choices.lean));
   if (choices.method) add("--gpu-shading-method", name_of(*choices.method));
   if (choices.assets) add("--gpu-shading-assets", name_of(*choices.assets));

@@ -58,6 +58,8 @@ struct Choices {
   // The folder where relative file names in the model start, set by the launcher; empty: the
   // model's folder.
   std::optional<std::filesystem::path> folder = std::nullopt;
+  // Where the user started EnergyPlus, if the launcher starts it in another folder.
+  std::optional<std::filesystem::path> start = std::nullopt;
   std::optional<Lean> lean;
   // Not in GPUShading:Settings: a model does not widen what is read for it.
   std::optional<Assets> assets = std::nullopt;

@@ -139,14 +139,17 @@ std::ifstream run(EnergyPlusCall const& call, ModelEditor& model, bool expand,
   std::filesystem::create_directory(out);
   auto const path = place_model(model, call.model, folder.path() / "in");
   std::vector<std::string> command{call.program.string(), "-d", out.string()};
-  if (call.weather) command.insert(command.end(), {"-w", call.weather->string()});
+  if (call.weather)
+    command.insert(command.end(), {"-w", std::filesystem::absolute(*call.weather).string()});
   if (expand) command.emplace_back("-x");
   if (call.annual) command.emplace_back("-a");
   if (call.design_days) command.emplace_back("-D");
   command.push_back(path.string());
   auto const log = folder.path() / "log.txt";
   // An empty variable counts as unset, so EnergyPlus runs unmodified.
-  int const status = run_process(command, {"GPU_SHADING="}, log);
+  // ExpandObjects deletes an expanded.idf of the user where it starts.
+  auto const start = expand ? folder.path() : Path();
+  int const status = run_process(command, {"GPU_SHADING="}, log, start);
   // EnergyPlus itself does not notice a full disk.
   require_room(folder.path());
   std::ifstream file(out / output);

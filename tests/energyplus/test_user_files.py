@@ -25,8 +25,9 @@ def model(tmp_path):
 def program(patched):
     def call(*arguments, **options):
         options = {"capture_output": True, "text": True, "stdin": subprocess.DEVNULL} | options
-        return subprocess.run([patched.parent / "gpu_shading", *arguments], **options)
+        return subprocess.run([call.path, *arguments], **options)
 
+    call.path = patched.parent / "gpu_shading"
     return call
 
 
@@ -64,6 +65,72 @@ def one_error(done):
     lines = done.stderr.splitlines()
     assert len(lines) == 1 and lines[0].startswith("gpu_shading: error: "), done.stderr
     return lines[0]
+
+
+# Files that ExpandObjects overwrites or deletes in the current folder.
+OWN_FILES = ("expanded.idf", "in.idf", "Energy+.idd", "expandedidf.err")
+
+
+@pytest.fixture
+def templates(model):
+    """A model that has to be expanded, beside files of the user under the names of that."""
+    model.write_text(model.read_text() + "HVACTemplate:Thermostat,Unused,,20,,26;\n")
+    for name in OWN_FILES:
+        (model.parent / name).write_text(f"the user's own {name}\n")
+    return model
+
+
+def test_check_of_templates_writes_nothing_beside_the_model(program, templates):
+    before = contents(templates.parent)
+    calls = [subprocess.Popen([program.path, "check", templates.name], cwd=templates.parent, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE) for _ in range(3)]
+    answers = [(*call.communicate(), call.returncode) for call in calls]
+    assert [status for _, _, status in answers] == [0, 0, 0], answers
+    assert "WINDOW" in answers[0][0] and len({printed for printed, _, _ in answers}) == 1
+    assert contents(templates.parent) == before
+
+
+def test_templates_in_a_folder_that_cannot_be_written(program, templates, tmp_path_factory):
+    if os.geteuid() == 0:
+        command = ["unshare", "--mount", "sh", "-c",
+                   'mount --bind "$0" "$0" && mount -o remount,bind,ro "$0" && cd "$0" && exec "$@"', templates.parent]
+        tried = subprocess.run([*command, "true"], capture_output=True, text=True)
+        if tried.returncode != 0:
+            pytest.skip(f"no folder can be mounted read-only: {tried.stderr.strip()}")
+    else:
+        templates.parent.chmod(0o500)
+        command = ["env", "-C", templates.parent]
+    for name in OWN_FILES:
+        (templates.parent / name).unlink(missing_ok=True)
+    temporary = tmp_path_factory.mktemp("temporary")
+    done = subprocess.run([*command, program.path, "check", templates.name], capture_output=True, text=True,
+                          env={**os.environ, "TMPDIR": str(temporary)})
+    templates.parent.chmod(0o700)
+    assert done.returncode == 0, done.stderr
+    assert "WINDOW" in done.stdout
+
+
+@pytest.mark.parametrize("options", [["-d", "out"], ["--output-directory=out"]])
+def test_run_of_templates_leaves_the_users_files(options, patched, templates, weather):
+    before = contents(templates.parent)
+    done = subprocess.run([patched, "--gpu-shading", "-x", "-D", "-w", weather, *options, templates.name],
+                          cwd=templates.parent, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    out = templates.parent / "out"
+    assert "HVACTemplate" in (out / "eplusout.expidf").read_text()
+    assert "Successfully" in (out / "eplusout.end").read_text()
+    after = {name: data for name, data in contents(templates.parent).items() if name.parts[0] != "out"}
+    assert after == before
+
+
+def test_export_of_templates_leaves_the_users_files(program, templates, weather):
+    templates.write_text(templates.read_text() + "RunPeriod,June day,6,21,,6,21;\n")
+    before = contents(templates.parent)
+    done = program("export", templates.name, "-x", "-w", weather, "--imported", "sunlit.csv", cwd=templates.parent)
+    assert done.returncode == 0, done.stderr
+    after = contents(templates.parent)
+    del after[(templates.parent / "sunlit.csv").relative_to(templates.parent)]
+    assert after == before
 
 
 VIEWS = {
