@@ -47,7 +47,7 @@ std::vector<SurfaceId> listed(Scene const& scene, Model const& model) {
   std::vector<SurfaceId> ids;
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     auto const& name = scene[id].name;
-    bool const copy = is_mirrored(name) && !model.shading.wants(name);
+    bool const copy = is_mirrored(name) && !model.shading.names(name);
     if (!copy && !model.surroundings.types.contains(name)) ids.push_back(id);
   }
   return ids;
