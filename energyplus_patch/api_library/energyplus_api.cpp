@@ -26,15 +26,21 @@ using Path = std::filesystem::path;
 constexpr char const* official_library = "libenergyplusapi-official.so";
 constexpr char const* patch_library = "libgpu_shading_energyplus.so";
 
-// Where this library was loaded from, links followed: the folder that patch_energyplus made.
-Path own_folder() {
+// Where this library is loaded from, links followed: the folder that patch_energyplus made. Empty
+// if it is not known.
+Path find_own_folder() noexcept try {
   Dl_info info{};
   link_map* map = nullptr;
-  dladdr1(reinterpret_cast<void const*>(&own_folder), &info, reinterpret_cast<void**>(&map),
+  dladdr1(reinterpret_cast<void const*>(&find_own_folder), &info, reinterpret_cast<void**>(&map),
           RTLD_DL_LINKMAP);
-  if (map == nullptr || map->l_name == nullptr) fail("the folder of libenergyplusapi is not known");
+  if (map == nullptr || map->l_name == nullptr) return {};
   return std::filesystem::canonical(map->l_name).parent_path();
+} catch (...) {
+  return {};
 }
+
+// As this library is loaded: a host may name it relative to the folder that is current then.
+Path const own_folder = find_own_folder();
 
 template <typename Function>
 Function* find(void* library, char const* name) {
@@ -89,12 +95,12 @@ class Runs {
  private:
   // With the options of the environment as it is now.
   void install() {
-    auto const folder = own_folder();
-    Module const module(folder / patch_library);
+    if (own_folder.empty()) fail("the folder of libenergyplusapi is not known");
+    Module const module(own_folder / patch_library);
     constexpr int cannot_patch = 2;
-    int const status = module.install((folder / official_library).c_str());
+    int const status = module.install((own_folder / official_library).c_str());
     if (status == cannot_patch) {
-      fail(std::string(module.message()) + "; run " + (folder / "energyplus").string() +
+      fail(std::string(module.message()) + "; run " + (own_folder / "energyplus").string() +
            ", which passes sunlit fractions as schedules");
     }
     if (status != 0) fail(module.message());

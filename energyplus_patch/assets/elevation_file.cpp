@@ -20,7 +20,6 @@ decoding::Elevations read_elevations(std::filesystem::path const& path) {
     *value = decoding.next_double();
     if (!std::isfinite(*value)) throw Error("the position of its cells is not finite");
   }
-  header.no_data = decoding.next_double();
   auto const cells = std::int64_t{header.columns} * header.rows;
   auto const expected = cells > decoding::most_elevations ? 0 : static_cast<std::uint64_t>(cells);
   decoding.next<std::uint64_t>(expected, expected);

@@ -7,9 +7,9 @@
 
 namespace gpu_shading::energyplus {
 
-// Reads a GeoTIFF: its header, and its elevations in metres with rows as in the file, none if there
-// are more than most_elevations. Throws Error with the reason in one line, to which the caller adds
-// the file's name.
+// Reads a GeoTIFF: its header, and its elevations in metres with rows as in the file, NaN where it
+// has no data; none if there are more than most_elevations. Throws Error with the reason in one
+// line, to which the caller adds the file's name.
 decoding::Elevations read_elevations(std::filesystem::path const& path);
 
 }  // namespace gpu_shading::energyplus

@@ -1,7 +1,6 @@
 #include "decoding/decoder.h"
 
 #include <fcntl.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -14,13 +13,6 @@ namespace gpu_shading::decoding {
 namespace {
 
 constexpr std::size_t word_count = 6;
-
-// The program that started this one may have left files open for its children.
-void close_others() {
-#ifdef SYS_close_range
-  syscall(SYS_close_range, STDERR_FILENO + 1, ~0U, 0);
-#endif
-}
 
 // What libraries say on their own does not reach the user; the reason is in the answer.
 void silence_errors() {
@@ -48,7 +40,7 @@ int decode_file(std::vector<std::string> const& words, bool reads_neighbours,
                 std::function<void(Request const&, Answer&)> const& decode) {
   if (words.size() != word_count) return EXIT_FAILURE;
   end_with(std::atoi(words[0].c_str()));
-  close_others();
+  closefrom(STDERR_FILENO + 1);  // the program that started this one may have left files open
   silence_errors();
   Limits const limits{std::strtoull(words[1].c_str(), nullptr, 10),
                       std::strtoull(words[2].c_str(), nullptr, 10)};

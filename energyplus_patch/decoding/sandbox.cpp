@@ -1,11 +1,9 @@
 #include "decoding/sandbox.h"
 
 #include <fcntl.h>
-#include <linux/audit.h>
-#include <linux/filter.h>
 #include <linux/landlock.h>
-#include <linux/seccomp.h>
 #include <sched.h>
+#include <seccomp.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -14,12 +12,19 @@
 
 #include <array>
 #include <cerrno>
-#include <cstddef>
+#include <memory>
+#include <new>
+#include <string>
 #include <system_error>
 #include <vector>
 
 namespace gpu_shading::decoding {
 namespace {
+
+[[noreturn]] void refuse(char const* call, int error) {
+  throw std::system_error(error, std::generic_category(),
+                          std::string("the decoding process cannot give up its rights: ") + call);
+}
 
 void limit(int resource, std::uint64_t soft, std::uint64_t hard) {
   rlimit before{};
@@ -27,7 +32,7 @@ void limit(int resource, std::uint64_t soft, std::uint64_t hard) {
   rlimit const now{std::min<rlim_t>(soft, before.rlim_max),
                    std::min<rlim_t>(hard, before.rlim_max)};
   if (setrlimit(static_cast<__rlimit_resource>(resource), &now) != 0) {
-    throw std::system_error(errno, std::generic_category(), "setrlimit");
+    refuse("setrlimit", errno);
   }
 }
 
@@ -45,6 +50,7 @@ class Descriptor {
   int value_;
 };
 
+// What cannot be permitted stays forbidden.
 void permit_reading(int ruleset, int what) {
   landlock_path_beneath_attr const rule{LANDLOCK_ACCESS_FS_READ_FILE, what};
   syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
@@ -53,7 +59,7 @@ void permit_reading(int ruleset, int what) {
 void forbid_files(int input, std::optional<Readable> const& readable) {
   auto const version =
       syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
-  if (version < 1) return;
+  if (version < 1) return;  // a kernel without landlock
   constexpr int with_refer = 2;
   constexpr int with_truncate = 3;
   constexpr std::uint64_t refer = std::uint64_t{1} << 13U;
@@ -67,7 +73,7 @@ void forbid_files(int input, std::optional<Readable> const& readable) {
   if (!readable) handled.handled_access_fs &= ~reading;
   Descriptor const ruleset(
       static_cast<int>(syscall(SYS_landlock_create_ruleset, &handled, sizeof handled, 0)));
-  if (ruleset.get() < 0) return;
+  if (ruleset.get() < 0) refuse("landlock_create_ruleset", errno);
   if (readable) {
     permit_reading(ruleset.get(), input);
     if (!readable->folder.empty()) {
@@ -75,132 +81,122 @@ void forbid_files(int input, std::optional<Readable> const& readable) {
       permit_reading(ruleset.get(), folder.get());
     }
   }
-  syscall(SYS_landlock_restrict_self, ruleset.get(), 0);
+  if (syscall(SYS_landlock_restrict_self, ruleset.get(), 0) != 0) {
+    refuse("landlock_restrict_self", errno);
+  }
 }
 
-#ifdef __x86_64__
+void require(int result, char const* call) {
+  if (result >= 0) return;
+  if (result == -ENOMEM) throw std::bad_alloc();
+  refuse(call, -result);
+}
 
-// A filter of system calls. What it does not name fails with ENOSYS, which libraries take for an
-// older kernel.
+// What is not named fails with ENOSYS, which libraries take for an older kernel.
 class Filter {
  public:
-  Filter() {
-    load(offsetof(seccomp_data, arch));
-    program_.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, AUDIT_ARCH_X86_64, 1, 0));
-    give(SECCOMP_RET_KILL_PROCESS);
-    load(offsetof(seccomp_data, nr));
+  Filter() : context_(seccomp_init(SCMP_ACT_ERRNO(ENOSYS)), seccomp_release) {
+    if (!context_) throw std::bad_alloc();
+    require(seccomp_attr_set(context_.get(), SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS),
+            "seccomp_attr_set");
   }
 
-  void permit(long call) {
-    program_.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, static_cast<unsigned>(call), 0, 1));
-    give(SECCOMP_RET_ALLOW);
+  void permit(int call) { add(call, {}); }
+
+  // If (argument & mask) == wanted.
+  void permit_if(int call, unsigned argument, std::uint64_t mask, std::uint64_t wanted) {
+    add(call, {scmp_arg_cmp{argument, SCMP_CMP_MASKED_EQ, mask, wanted}});
   }
 
-  // If (argument & mask) == wanted; otherwise it fails with EACCES.
-  void permit_if(long call, std::size_t argument, unsigned mask, unsigned wanted) {
-    constexpr unsigned char rest = 5;
-    program_.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, static_cast<unsigned>(call), 0, rest));
-    load(offsetof(seccomp_data, args) + argument * sizeof(std::uint64_t));
-    program_.push_back(BPF_STMT(BPF_ALU | BPF_AND | BPF_K, mask));
-    program_.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, wanted, 0, 1));
-    give(SECCOMP_RET_ALLOW);
-    give(SECCOMP_RET_ERRNO | EACCES);
-  }
-
-  void install() {
-    give(SECCOMP_RET_ERRNO | ENOSYS);
-    sock_fprog const all{static_cast<unsigned short>(program_.size()), program_.data()};
-    prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &all);
-  }
+  void install() { require(seccomp_load(context_.get()), "seccomp_load"); }
 
  private:
-  void load(std::size_t offset) {
-    program_.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<unsigned>(offset)));
+  void add(int call, std::vector<scmp_arg_cmp> const& conditions) {
+    auto const count = static_cast<unsigned>(conditions.size());
+    require(seccomp_rule_add_array(context_.get(), SCMP_ACT_ALLOW, call, count, conditions.data()),
+            "seccomp_rule_add");
   }
-  void give(unsigned result) { program_.push_back(BPF_STMT(BPF_RET | BPF_K, result)); }
 
-  std::vector<sock_filter> program_;
+  std::unique_ptr<void, decltype(&seccomp_release)> context_;
 };
 
 void forbid_calls() {
   // Reading, memory, threads, time and the end.
-  constexpr std::array permitted{SYS_read,
-                                 SYS_pread64,
-                                 SYS_readv,
-                                 SYS_preadv,
-                                 SYS_lseek,
-                                 SYS_write,
-                                 SYS_writev,
-                                 SYS_close,
-                                 SYS_fstat,
-                                 SYS_stat,
-                                 SYS_lstat,
-                                 SYS_newfstatat,
-                                 SYS_statx,
-                                 SYS_access,
-                                 SYS_faccessat,
-                                 SYS_faccessat2,
-                                 SYS_readlink,
-                                 SYS_readlinkat,
-                                 SYS_getcwd,
-                                 SYS_getdents64,
-                                 SYS_fcntl,
-                                 SYS_fadvise64,
-                                 SYS_poll,
-                                 SYS_mmap,
-                                 SYS_munmap,
-                                 SYS_mprotect,
-                                 SYS_mremap,
-                                 SYS_brk,
-                                 SYS_madvise,
-                                 SYS_futex,
-                                 SYS_set_robust_list,
-                                 SYS_rseq,
-                                 SYS_sched_yield,
-                                 SYS_sched_getaffinity,
-                                 SYS_getcpu,
-                                 SYS_gettid,
-                                 SYS_getpid,
-                                 SYS_getppid,
-                                 SYS_getuid,
-                                 SYS_geteuid,
-                                 SYS_getgid,
-                                 SYS_getegid,
-                                 SYS_getrusage,
-                                 SYS_getrlimit,
-                                 SYS_sysinfo,
-                                 SYS_uname,
-                                 SYS_getrandom,
-                                 SYS_clock_gettime,
-                                 SYS_clock_getres,
-                                 SYS_clock_nanosleep,
-                                 SYS_nanosleep,
-                                 SYS_gettimeofday,
-                                 SYS_time,
-                                 SYS_rt_sigaction,
-                                 SYS_rt_sigprocmask,
-                                 SYS_rt_sigreturn,
-                                 SYS_sigaltstack,
-                                 SYS_restart_syscall,
-                                 SYS_exit,
-                                 SYS_exit_group};
+  constexpr std::array permitted{SCMP_SYS(read),
+                                 SCMP_SYS(pread64),
+                                 SCMP_SYS(readv),
+                                 SCMP_SYS(preadv),
+                                 SCMP_SYS(lseek),
+                                 SCMP_SYS(write),
+                                 SCMP_SYS(writev),
+                                 SCMP_SYS(close),
+                                 SCMP_SYS(fstat),
+                                 SCMP_SYS(stat),
+                                 SCMP_SYS(lstat),
+                                 SCMP_SYS(newfstatat),
+                                 SCMP_SYS(statx),
+                                 SCMP_SYS(access),
+                                 SCMP_SYS(faccessat),
+                                 SCMP_SYS(faccessat2),
+                                 SCMP_SYS(readlink),
+                                 SCMP_SYS(readlinkat),
+                                 SCMP_SYS(getcwd),
+                                 SCMP_SYS(getdents64),
+                                 SCMP_SYS(fadvise64),
+                                 SCMP_SYS(poll),
+                                 SCMP_SYS(mmap),
+                                 SCMP_SYS(munmap),
+                                 SCMP_SYS(mprotect),
+                                 SCMP_SYS(mremap),
+                                 SCMP_SYS(brk),
+                                 SCMP_SYS(madvise),
+                                 SCMP_SYS(futex),
+                                 SCMP_SYS(set_robust_list),
+                                 SCMP_SYS(rseq),
+                                 SCMP_SYS(sched_yield),
+                                 SCMP_SYS(sched_getaffinity),
+                                 SCMP_SYS(getcpu),
+                                 SCMP_SYS(gettid),
+                                 SCMP_SYS(getpid),
+                                 SCMP_SYS(getppid),
+                                 SCMP_SYS(getuid),
+                                 SCMP_SYS(geteuid),
+                                 SCMP_SYS(getgid),
+                                 SCMP_SYS(getegid),
+                                 SCMP_SYS(getrusage),
+                                 SCMP_SYS(getrlimit),
+                                 SCMP_SYS(sysinfo),
+                                 SCMP_SYS(uname),
+                                 SCMP_SYS(getrandom),
+                                 SCMP_SYS(clock_gettime),
+                                 SCMP_SYS(clock_getres),
+                                 SCMP_SYS(clock_nanosleep),
+                                 SCMP_SYS(nanosleep),
+                                 SCMP_SYS(gettimeofday),
+                                 SCMP_SYS(time),
+                                 SCMP_SYS(rt_sigaction),
+                                 SCMP_SYS(rt_sigprocmask),
+                                 SCMP_SYS(rt_sigreturn),
+                                 SCMP_SYS(sigaltstack),
+                                 SCMP_SYS(restart_syscall),
+                                 SCMP_SYS(exit),
+                                 SCMP_SYS(exit_group)};
   Filter filter;
   for (auto const call : permitted) filter.permit(call);
   constexpr unsigned changing = O_ACCMODE | O_CREAT | O_TRUNC | O_APPEND;
-  constexpr std::size_t second = 1;
-  constexpr std::size_t third = 2;
-  filter.permit_if(SYS_open, second, changing, O_RDONLY);
-  filter.permit_if(SYS_openat, third, changing, O_RDONLY);
-  filter.permit_if(SYS_clone, 0, CLONE_THREAD, CLONE_THREAD);
-  filter.permit_if(SYS_tgkill, 0, ~0U, static_cast<unsigned>(getpid()));
+  constexpr unsigned first = 0;
+  constexpr unsigned second = 1;
+  constexpr unsigned third = 2;
+  filter.permit_if(SCMP_SYS(open), second, changing, O_RDONLY);
+  filter.permit_if(SCMP_SYS(openat), third, changing, O_RDONLY);
+  filter.permit_if(SCMP_SYS(clone), first, CLONE_THREAD, CLONE_THREAD);
+  filter.permit_if(SCMP_SYS(tgkill), first, ~0U, static_cast<unsigned>(getpid()));
+  // Others let the kernel signal another process, or change a file description that others have.
+  for (auto const command : {F_GETFD, F_SETFD, F_GETFL}) {
+    filter.permit_if(SCMP_SYS(fcntl), second, ~0U, static_cast<unsigned>(command));
+  }
   filter.install();
 }
-
-#else
-
-void forbid_calls() {}
-
-#endif
 
 }  // namespace
 
@@ -215,7 +211,7 @@ void confine(Limits const& limits, int input, std::optional<Readable> const& rea
   limit(RLIMIT_FSIZE, 0, 0);
   limit(RLIMIT_CPU, limits.seconds, limits.seconds + 1);
   if constexpr (limits_memory) limit(RLIMIT_AS, limits.memory, limits.memory);
-  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) refuse("PR_SET_NO_NEW_PRIVS", errno);
   forbid_files(input, readable);
   forbid_calls();
 }

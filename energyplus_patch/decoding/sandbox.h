@@ -29,9 +29,8 @@ void end_with(int parent);
 
 // Takes from this process, for good, what decoding a file does not need: time and memory above the
 // limits, core dumps, writing to files, other processes, the network, and reading any file but
-// `input`, a descriptor, and those in `readable`. Without `readable` all files can be read. Where a
-// kernel lacks landlock or seccomp, what they would forbid stays possible. Throws
-// std::system_error if a limit cannot be set.
+// `input`, a descriptor, and those in `readable`. Without `readable`, and where the kernel has no
+// landlock, all files can be read. Throws std::system_error if any of it fails.
 struct Readable {
   std::filesystem::path folder;  // empty: none
 };

@@ -1,24 +1,27 @@
 #include "image_decoder/elevations.h"
 
-#include <OpenImageIO/imageio.h>
 #include <geotiff.h>
 #include <geotiffio.h>
 #include <geovalues.h>
 #include <tiffio.h>
+#include <xtiffio.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <limits>
 #include <memory>
-#include <stdexcept>
 #include <string>
-#include <vector>
+#include <string_view>
+#include <utility>
 
 #include "decoding/fail.h"
+#include "image_decoder/gdal_metadata.h"
 #include "image_decoder/tiff_file.h"
+#include "image_decoder/tiff_samples.h"
 
 namespace gpu_shading::decoding {
 namespace {
@@ -64,57 +67,33 @@ class Header {
     return at;
   }
 
-  // Decodes every strip or tile: readers of pictures take what is missing for zeros.
-  void check_data() const {
-    bool const tiled = TIFFIsTiled(file_.get()) != 0;
-    char const* const piece = tiled ? "tile" : "strip";
-    auto const pieces = tiled ? TIFFNumberOfTiles(file_.get()) : TIFFNumberOfStrips(file_.get());
-    auto const size = tiled ? TIFFTileSize64(file_.get()) : TIFFStripSize64(file_.get());
-    constexpr std::uint64_t most_bytes = std::uint64_t{64} << 20U;
-    if (size == 0 || size > most_bytes) {
-      fail(std::string("its ") + piece + "s are of " + std::to_string(size) +
-           " bytes, expected at most 64 MiB");
-    }
-    std::vector<unsigned char> bytes(size);
-    for (std::uint32_t i = 0; i < pieces; ++i) {
-      auto const expected = tiled ? size : bytes_of_strip(i);
-      auto const got =
-          TIFFGetStrileByteCount(file_.get(), i) == 0 ? 0
-          : tiled ? TIFFReadEncodedTile(file_.get(), i, bytes.data(), static_cast<tmsize_t>(size))
-                  : TIFFReadEncodedStrip(file_.get(), i, bytes.data(), static_cast<tmsize_t>(size));
-      if (got >= 0 && static_cast<std::uint64_t>(got) == expected) continue;
-      fail(std::string("is damaged: ") + piece + " " + std::to_string(i + 1) + " of " +
-           std::to_string(pieces) + (got == 0 ? " is empty" : " cannot be decoded") +
-           (file_.error().empty() ? "" : ": " + file_.error()));
-    }
-  }
-
-  // GDAL's tag as text; NaN if it is missing.
-  double no_data() const {
-    constexpr ttag_t tag = 42113;
-    double value = std::numeric_limits<double>::quiet_NaN();
+  // Empty if it is missing.
+  std::string text(ttag_t tag) const {
     auto const* const field = TIFFFindField(file_.get(), tag, TIFF_ANY);
-    if (field == nullptr) return value;
+    if (field == nullptr) return {};
     char const* text = nullptr;
     std::uint32_t count = 0;
-    int const found = TIFFFieldPassCount(field) != 0 ? TIFFGetField(file_.get(), tag, &count, &text)
-                                                     : TIFFGetField(file_.get(), tag, &text);
-    if (found != 0 && text != nullptr) std::sscanf(text, "%lf", &value);
-    return value;
+    bool const counted = TIFFFieldPassCount(field) != 0;
+    int const found = counted ? TIFFGetField(file_.get(), tag, &count, &text)
+                              : TIFFGetField(file_.get(), tag, &text);
+    if (found == 0 || text == nullptr) return {};
+    return counted ? std::string(text, strnlen(text, count)) : std::string(text);
   }
+
+  // An elevation is the stored number, not a multiple of it: ScaleZ is 0 where it is not stated.
+  void check_vertical_scale() const {
+    std::uint16_t count = 0;
+    double const* scale = nullptr;
+    if (TIFFGetField(file_.get(), TIFFTAG_GEOPIXELSCALE, &count, &scale) == 0 || count < 3) return;
+    if (scale[2] == 0.0 || scale[2] == 1.0) return;
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.9g", scale[2]);
+    fail(std::string("its ModelPixelScale has ScaleZ ") + text.data() + ", expected 0 or 1");
+  }
+
+  TiffFile const& file() const { return file_; }
 
  private:
-  // The last one of an image may have fewer rows.
-  std::uint64_t bytes_of_strip(std::uint32_t strip) const {
-    std::uint32_t rows = 0;
-    TIFFGetFieldDefaulted(file_.get(), TIFFTAG_ROWSPERSTRIP, &rows);
-    auto const height = static_cast<std::uint32_t>(size(TIFFTAG_IMAGELENGTH));
-    rows = std::clamp(rows, 1U, std::max(height, 1U));
-    auto const strips = (height + rows - 1) / rows;
-    auto const first = strip % std::max(strips, 1U) * rows;
-    return TIFFVStripSize64(file_.get(), std::min(rows, height - first));
-  }
-
   TiffFile file_;
   std::unique_ptr<GTIF, FreeKeys> keys_;
 };
@@ -125,12 +104,6 @@ int epsg_of(Header const& header) {
                        ? header.key(GeographicTypeGeoKey)
                        : header.key(ProjectedCSTypeGeoKey);
   return code == KvUserDefined ? 0 : code;
-}
-
-// Integers are read as fractions of the largest value of their type.
-double largest_of(OIIO::TypeDesc const& type) {
-  unsigned const bits = 8 * static_cast<unsigned>(type.size()) - (type.is_signed() ? 1 : 0);
-  return std::ldexp(1.0, static_cast<int>(bits)) - 1.0;
 }
 
 ElevationHeader read_header(Header const& file) {
@@ -148,10 +121,31 @@ ElevationHeader read_header(Header const& file) {
   header.step_x = right.x - first.x;
   header.step_y = below.y - first.y;
   header.epsg = epsg_of(file);
-  header.no_data = file.no_data();
   int const unit = file.key(VerticalUnitsGeoKey);
   if (unit != 0 && unit != Linear_Meter) fail("its elevations are not in metres");
+  file.check_vertical_scale();
   return header;
+}
+
+void check_unit(std::string const& unit) {
+  std::string lower = unit;
+  for (char& letter : lower) {
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  }
+  constexpr std::array<std::string_view, 6> metres{"", "m", "metre", "metres", "meter", "meters"};
+  if (std::find(metres.begin(), metres.end(), lower) != metres.end()) return;
+  constexpr std::size_t most_shown = 40;
+  fail("its elevations are in \"" + unit.substr(0, most_shown) + "\", expected metres");
+}
+
+// GDAL_NODATA, in the precision of the numbers that are compared with it; NaN if it is missing.
+double no_data_of(Header const& file, bool single_precision) {
+  auto const text = file.text(42113);
+  if (text.empty()) return std::numeric_limits<double>::quiet_NaN();
+  double const value = parse_gdal_number("GDAL_NODATA", text);
+  if (!single_precision || !std::isfinite(value)) return value;
+  constexpr double most = std::numeric_limits<float>::max();
+  return static_cast<double>(static_cast<float>(std::clamp(value, -most, most)));
 }
 
 }  // namespace
@@ -159,32 +153,18 @@ ElevationHeader read_header(Header const& file) {
 Elevations read_elevations(char const* path) {
   Elevations result;
   auto const& header = result.header;
-  {
-    Header const file(path);
-    result.header = read_header(file);
-    if (std::int64_t{header.columns} * header.rows > most_elevations) return result;
-    file.check_data();
+  Header const file(path);
+  result.header = read_header(file);
+  if (std::int64_t{header.columns} * header.rows > most_elevations) return result;
+  auto const metadata = parse_gdal_metadata(file.text(42112));
+  check_unit(metadata.unit);
+  auto samples = read_samples(file.file());
+  double const no_data = no_data_of(file, samples.single_precision);
+  for (double& value : samples.values) {
+    value = value == no_data ? std::numeric_limits<double>::quiet_NaN()
+                             : metadata.scale * value + metadata.offset;
   }
-  auto const input = OIIO::ImageInput::create("tiff");
-  OIIO::ImageSpec spec;
-  if (!input) fail(OIIO::geterror());
-  if (!input->open(path, spec)) fail(input->geterror());
-  if (spec.width != header.columns || spec.height != header.rows) {
-    fail("it changed while it was being read");
-  }
-  if (spec.nchannels != 1) {
-    fail("it has " + std::to_string(spec.nchannels) + " channels, expected one with elevations");
-  }
-  auto& elevations = result.elevations;
-  elevations.resize(static_cast<std::size_t>(header.columns) *
-                    static_cast<std::size_t>(header.rows));
-  if (!input->read_image(0, 0, 0, 1, OIIO::TypeDesc::DOUBLE, elevations.data())) {
-    fail(input->geterror());
-  }
-  if (!spec.format.is_floating_point()) {
-    double const largest = largest_of(spec.format);
-    for (double& elevation : elevations) elevation = std::round(elevation * largest);
-  }
+  result.elevations = std::move(samples.values);
   return result;
 }
 

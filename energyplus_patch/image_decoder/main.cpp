@@ -3,9 +3,9 @@
 //   image                 width, height, channels, alpha (32 bits each), the number of texels that
 //                         follow, 0 if there are too many (64 bits), then 16 bits for each of them
 //   small image           the same, for few_texels at most
-//   elevations            columns, rows, EPSG code (32 bits), x, y, steps of x and y, no data (64
-//                         bits each), the number of cells that follow, 0 if there are too many (64
-//                         bits), then a double for each of them
+//   elevations            columns, rows, EPSG code (32 bits), x, y, steps of x and y (64 bits
+//                         each), the number of cells that follow, 0 if there are too many (64
+//                         bits), then a double for each of them, NaN where there is no data
 
 #include <OpenImageIO/imageio.h>
 #include <unistd.h>
@@ -28,7 +28,7 @@ void put(Answer& answer, ImageHeader const& header) {
 
 void put(Answer& answer, ElevationHeader const& header) {
   for (auto const value : {header.columns, header.rows, header.epsg}) answer.put(value);
-  for (auto const value : {header.x, header.y, header.step_x, header.step_y, header.no_data}) {
+  for (auto const value : {header.x, header.y, header.step_x, header.step_y}) {
     answer.put(value);
   }
 }

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -64,11 +63,6 @@ TerrainGrid read_geotiff(std::filesystem::path const& path,
   }
   for (int number = 0; from_east && number < grid.rows; ++number) {
     std::reverse(row(number), row(number) + columns);
-  }
-  for (double& elevation : grid.elevations) {
-    if (elevation == info.no_data || !std::isfinite(elevation)) {
-      elevation = std::numeric_limits<double>::quiet_NaN();
-    }
   }
   return grid;
 }

@@ -160,6 +160,23 @@ TerrainGrid read_grid(std::string_view text, MapCoordinates const& coordinates) 
   return grid;
 }
 
+// Cells that round to the same place, or go round the earth, would collapse without a word.
+void check_cells(TerrainGrid const& grid) {
+  bool const degrees = grid.coordinates.geographic();
+  char const* const unit = degrees ? "degrees" : "m";
+  double const least = degrees ? 1e-8 : 1e-3;  // a millimetre
+  // Negated so that NaN is refused.
+  if (!(grid.step_x >= least && grid.step_y >= least)) {
+    throw Error(fmt::format("its cells are {} x {} {}, expected at least {} each way", grid.step_x,
+                            grid.step_y, unit, least));
+  }
+  constexpr double turn = 360.0;
+  double const across = grid.step_x * (grid.columns - 1);
+  if (degrees && across > turn) {
+    throw Error(fmt::format("its rows are {} degrees long, expected at most 360", across));
+  }
+}
+
 // What no place on earth has is a damaged file, another unit, or NODATA that is not declared.
 void check_range(TerrainGrid const& grid) {
   constexpr double least = -500.0;
@@ -194,10 +211,11 @@ TerrainGrid read_terrain(std::filesystem::path const& path,
   return naming(path.string(), [&] {
     auto grid = tiff ? read_geotiff(path, coordinates)
                      : read_grid(text, coordinates.value_or(MapCoordinates()));
-    if (std::none_of(grid.elevations.begin(), grid.elevations.end(),
-                     [](double value) { return std::isfinite(value); })) {
+    if (std::all_of(grid.elevations.begin(), grid.elevations.end(),
+                    [](double value) { return std::isnan(value); })) {
       throw Error("has no elevations: all cells are NODATA");
     }
+    check_cells(grid);
     check_range(grid);
     return grid;
   });

@@ -18,18 +18,23 @@ namespace {
 
 constexpr char const* library = "libgpu_shading_gl.so";
 
-std::filesystem::path folder_of_this_code() {
+// Empty if it is not known.
+std::filesystem::path folder_of_this_code() noexcept try {
   Dl_info info{};
   link_map* map = nullptr;
   dladdr1(reinterpret_cast<void const*>(&gl_module), &info, reinterpret_cast<void**>(&map),
           RTLD_DL_LINKMAP);
   // A program itself has no name there.
   if (map != nullptr && map->l_name != nullptr && *map->l_name != '\0') {
-    return std::filesystem::path(map->l_name).parent_path();
+    return std::filesystem::absolute(map->l_name).parent_path();
   }
-  std::error_code error;
-  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+} catch (...) {
+  return {};
 }
+
+// As this code is loaded: a library may be named relative to the folder that is current then.
+std::filesystem::path const code_folder = folder_of_this_code();
 
 // Drivers, which compile shaders with LLVM, do not survive where memory ends.
 void require_address_space() {
@@ -50,8 +55,8 @@ void require_address_space() {
 GlModule const& load() {
   require_address_space();
   std::error_code error;
-  auto const beside = folder_of_this_code() / library;
-  bool const is_beside = std::filesystem::exists(beside, error);
+  auto const beside = code_folder / library;
+  bool const is_beside = !code_folder.empty() && std::filesystem::exists(beside, error);
   void* const handle = dlopen(is_beside ? beside.c_str() : library, RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) throw DeviceError(fmt::format("no OpenGL: {}", dlerror()));
   using Entry = GlModule const*();

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "gpu_shading/error.h"
-#include "optics/check_positive.h"
+#include "optics/check_length.h"
 
 namespace gpu_shading {
 namespace {
@@ -21,9 +21,9 @@ using std::numbers::sqrt2;
 using std::numbers::sqrt3;
 
 void check_sizes(Perforation const& given) {
-  check_positive("hole size", given.size);
-  check_positive("pitch", given.pitch);
-  if (given.row_pitch != 0.0) check_positive("row pitch", given.row_pitch);
+  check_length("hole size", given.size);
+  check_length("pitch", given.pitch);
+  if (given.row_pitch != 0.0) check_length("row pitch", given.row_pitch);
   bool const slotted = given.hole == Hole::Slotted;
   if (slotted && !(given.length > given.size)) {
     throw Error(fmt::format("hole length is {:.9g} m, expected more than the hole size, {:.9g} m",

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "gpu_shading/error.h"
-#include "optics/check_positive.h"
+#include "optics/check_length.h"
 #include "optics/solid_runs.h"
 
 namespace gpu_shading {
@@ -103,8 +103,8 @@ std::vector<std::uint8_t> solid_points(HolePattern const& pattern, int columns, 
 OpacityTile::OpacityTile(double width, double height, int columns, int rows,
                          std::vector<std::uint16_t> opacity, std::optional<double> threshold)
     : width_(width), height_(height), columns_(columns), rows_(rows), threshold_(threshold) {
-  check_positive("tile width", width);
-  check_positive("tile height", height);
+  check_length("tile width", width);
+  check_length("tile height", height);
   check_threshold(threshold);
   check_texels(opacity.size(), columns, rows);
   opacity_ = std::make_shared<std::vector<std::uint16_t> const>(std::move(opacity));

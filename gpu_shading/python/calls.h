@@ -18,10 +18,11 @@ namespace gpu_shading::python {
 
 enum Status : int {
   ok = 0,
-  invalid = 1,    // an Error: a value that is refused
-  device = 2,     // a DeviceError
-  memory = 3,     // no memory is left
-  unforeseen = 4  // any other exception
+  invalid = 1,     // an Error: a value that is refused
+  device = 2,      // a DeviceError
+  memory = 3,      // no memory is left
+  unforeseen = 4,  // any other exception
+  closed = 5       // the call came after gpu_shading_close()
 };
 
 struct TransmittanceObject;
@@ -75,8 +76,11 @@ struct RayRecord {
   std::size_t deployment_count;
 };
 
-// Of the last function on this thread that failed.
+// From the last function on this thread that failed, or that says that it leaves text here.
 GPU_SHADING_CALL char const* gpu_shading_message();
+// Waits until no function runs on any thread; from now on they return `closed`. A process that ends
+// meanwhile would destroy what they use. A single call of gpu_shading_rays_... stops early.
+GPU_SHADING_CALL void gpu_shading_close();
 GPU_SHADING_CALL char const* gpu_shading_version();
 GPU_SHADING_CALL int gpu_shading_limit_threads(int count);
 
@@ -126,9 +130,10 @@ GPU_SHADING_CALL void gpu_shading_scene_release(SceneObject* scene);
 // Device: as parse_device_choice() reads it. Resolution 0: by the error. The scene is copied.
 GPU_SHADING_CALL int gpu_shading_renderer_new(SceneObject const* scene, char const* device,
                                               int resolution, double error, RendererObject** made);
-GPU_SHADING_CALL char const* gpu_shading_renderer_device(RendererObject const* renderer);
-// Warnings since the last call, one a line; valid until the next call of any function on it.
-GPU_SHADING_CALL char const* gpu_shading_renderer_warnings(RendererObject* renderer);
+// Leaves the device's description in gpu_shading_message().
+GPU_SHADING_CALL int gpu_shading_renderer_device(RendererObject const* renderer);
+// Leaves the warnings since the last call in gpu_shading_message(), one a line.
+GPU_SHADING_CALL int gpu_shading_renderer_warnings(RendererObject* renderer);
 GPU_SHADING_CALL int gpu_shading_renderer_set_deployments(RendererObject* renderer,
                                                           double const* shares, std::size_t count);
 // Suns: azimuth and altitude of each; results: projected areas (m2), directions x receivers.

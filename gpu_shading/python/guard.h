@@ -14,6 +14,17 @@ namespace gpu_shading::python {
 // What gpu_shading_message() returns on this thread.
 std::string& message();
 
+// While one exists, gpu_shading_close() waits.
+class Running {
+ public:
+  Running();
+  ~Running();
+  Running(Running const&) = delete;
+  Running& operator=(Running const&) = delete;
+};
+
+bool is_closed();
+
 // Runs an action that may throw; no exception leaves this function.
 template <typename Action>
 int guarded(Action const& action) noexcept {
@@ -25,9 +36,12 @@ int guarded(Action const& action) noexcept {
     }
     return status;
   };
+  Running const running;
+  if (is_closed()) return closed;
   try {
     action();
-    return ok;
+    // What stopped early has no results.
+    return is_closed() ? closed : ok;
   } catch (DeviceError const& error) {
     return failed(device, error.what());
   } catch (Error const& error) {
@@ -39,6 +53,12 @@ int guarded(Action const& action) noexcept {
   } catch (...) {
     return failed(unforeseen, "unknown error");
   }
+}
+
+template <typename Object>
+void release(Object* object) noexcept {
+  Running const running;
+  delete object;
 }
 
 // An enumerator from its number, 0 .. `last`.

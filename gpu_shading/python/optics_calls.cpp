@@ -77,7 +77,7 @@ int gpu_shading_transmittance_at(TransmittanceObject const* object, double const
   return guarded([&] { std::transform(angles, angles + count, results, *object->model); });
 }
 
-void gpu_shading_transmittance_release(TransmittanceObject* object) { delete object; }
+void gpu_shading_transmittance_release(TransmittanceObject* object) { release(object); }
 
 int gpu_shading_screen_pattern(int hole, int arrangement, double const* lengths,
                                SheetRecord const* sheet, ScreenObject** made) {
@@ -128,6 +128,6 @@ int gpu_shading_screen_tau(ScreenObject const* object, double const* thetas, dou
   });
 }
 
-void gpu_shading_screen_release(ScreenObject* object) { delete object; }
+void gpu_shading_screen_release(ScreenObject* object) { release(object); }
 
 }  // namespace gpu_shading::python

@@ -45,7 +45,7 @@ std::vector<Ray> rays_of(RayRecord const& record, std::size_t first, std::size_t
 // Calls `answer` with the rays of each block and the index of its first.
 template <typename Answer>
 void for_each_block(RayRecord const& record, Answer const& answer) {
-  for (std::size_t first = 0; first < record.rays; first += block) {
+  for (std::size_t first = 0; first < record.rays && !is_closed(); first += block) {
     answer(rays_of(record, first, std::min(record.rays, first + block)), first);
   }
 }
@@ -95,6 +95,6 @@ int gpu_shading_rays_nearest(RaysObject const* object, RayRecord const* rays, in
   });
 }
 
-void gpu_shading_rays_release(RaysObject* object) { delete object; }
+void gpu_shading_rays_release(RaysObject* object) { release(object); }
 
 }  // namespace gpu_shading::python

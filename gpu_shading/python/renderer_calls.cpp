@@ -22,7 +22,6 @@ struct RendererObject {
 
   std::mutex mutex;
   std::string warnings;
-  std::string given_warnings;
   Renderer renderer;
   std::string device;
 };
@@ -59,14 +58,15 @@ int gpu_shading_renderer_new(SceneObject const* scene, char const* device, int r
   });
 }
 
-char const* gpu_shading_renderer_device(RendererObject const* renderer) {
-  return renderer->device.c_str();
+int gpu_shading_renderer_device(RendererObject const* renderer) {
+  return guarded([&] { message() = renderer->device; });
 }
 
-char const* gpu_shading_renderer_warnings(RendererObject* renderer) {
-  std::scoped_lock const lock(renderer->mutex);
-  renderer->given_warnings = std::exchange(renderer->warnings, {});
-  return renderer->given_warnings.c_str();
+int gpu_shading_renderer_warnings(RendererObject* renderer) {
+  return guarded([&] {
+    std::scoped_lock const lock(renderer->mutex);
+    message() = std::exchange(renderer->warnings, {});
+  });
 }
 
 int gpu_shading_renderer_set_deployments(RendererObject* renderer, double const* shares,
@@ -107,6 +107,6 @@ int gpu_shading_renderer_interior(RendererObject* renderer, double const* suns,
   });
 }
 
-void gpu_shading_renderer_release(RendererObject* renderer) { delete renderer; }
+void gpu_shading_renderer_release(RendererObject* renderer) { release(renderer); }
 
 }  // namespace gpu_shading::python

@@ -87,6 +87,6 @@ int gpu_shading_scene_areas(SceneObject const* scene, double* results) {
   });
 }
 
-void gpu_shading_scene_release(SceneObject* scene) { delete scene; }
+void gpu_shading_scene_release(SceneObject* scene) { release(scene); }
 
 }  // namespace gpu_shading::python

@@ -99,7 +99,7 @@ Sampled sampled(Tile const& tile, View const& view, CastersInView const& casters
     return {grid_for_screens(tile, view, casters.screens, casters.repeats)};
   }
   auto const on = [&](TileGrid const& grid) {
-    return grid_for_blades(grid, view, casters.repeats);
+    return grid_for_blades(grid, tile, view, casters.repeats);
   };
   if (casters.opaque()) return {on(fine_grid(tile))};
   if (can_be_counted(casters)) return {on(counting_grid(tile)), true};

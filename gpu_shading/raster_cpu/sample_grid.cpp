@@ -13,14 +13,14 @@ namespace gpu_shading {
 namespace {
 
 // Of screens whose holes are drawn on a tile with so many pixels a side.
-Aliasing aliasing_of(View const& view, ScreensInView const& screens, SampledRepeats const& blades,
-                     int side) {
-  Aliasing aliasing(view, OutlineSpectrum());
+Aliasing aliasing_of(Tile const& tile, View const& view, ScreensInView const& screens,
+                     SampledRepeats const& blades) {
+  Aliasing aliasing(view, OutlineSpectrum(tile.lay.slope()));
   aliasing.add(blades);
   for (int const number : screens.numbers) {
     Screens::Entry const& screen = (*screens.screens)[number];
     SheetInBeam const& sheet = screens.sheets[static_cast<std::size_t>(number)];
-    double const pixel = 2.0 / side * drawn_pixel(screens, screen, view);
+    double const pixel = 2.0 / tile.side * drawn_pixel(screens, screen, view);
     bool const known = sheet.shape != SheetShape::image || std::isfinite(screen.screen->hole());
     if (!known || sheet.layers == solid_sheet) continue;
     if (pixel < static_cast<double>(sheet.blend_to)) {
@@ -59,13 +59,14 @@ TileGrid least_aliasing(Aliasing const& aliasing, int rows, GridOf grid_of) {
 }
 
 // Many equal louvres or fins at equal distances alias with a lattice of samples if a vector of its
-// reciprocal lattice lies along their normal. Both normals are at the golden slope to the rows
-// (TileMap). With k columns to a row, a vector (k m, n) misses that slope by the distance of
-// k m / phi from a whole number, which the shear makes that of m / phi, the largest for all m.
-TileGrid golden_grid(int rows, int columns_a_row) {
-  constexpr double golden = 1.0 / std::numbers::phi;
-  double const slope = columns_a_row * golden;
-  return {columns_a_row * rows, rows, std::ceil(slope) - slope - (1.0 - golden)};
+// reciprocal lattice lies along their normal. That of louvres has the slope -1 / s in a tile that
+// is turned by the slope s. With k columns to a row, a vector (m, n) misses it by the distance of
+// m (k / s + shear) from a whole number, which the shear makes that of m / phi, the largest for all
+// m.
+TileGrid golden_grid(int rows, int columns_a_row, double slope) {
+  double const missed = -columns_a_row / slope;
+  auto const part = [](double value) { return value - std::floor(value); };
+  return {columns_a_row * rows, rows, std::min(part(missed + golden), part(missed - golden))};
 }
 
 }  // namespace
@@ -73,14 +74,17 @@ TileGrid golden_grid(int rows, int columns_a_row) {
 TileGrid fine_grid(Tile const& tile) {
   constexpr int large = 128;  // smaller tiles have too few edges to alias with 9 columns to a row
   int const rows = std::max((tile.side + 1) / 2, std::min(tile.side, 96 + tile.side * 3 / 8));
-  return golden_grid(rows, tile.side < large ? 9 : 17);
+  return golden_grid(rows, tile.side < large ? 9 : 17, tile.lay.slope());
 }
 
-TileGrid counting_grid(Tile const& tile) { return golden_grid(fine_grid(tile).rows, 4); }
+TileGrid counting_grid(Tile const& tile) {
+  return golden_grid(fine_grid(tile).rows, 4, tile.lay.slope());
+}
 
-TileGrid grid_for_blades(TileGrid const& grid, View const& view, SampledRepeats const& blades) {
+TileGrid grid_for_blades(TileGrid const& grid, Tile const& tile, View const& view,
+                         SampledRepeats const& blades) {
   constexpr double farthest = 0.1;
-  Aliasing aliasing(view, OutlineSpectrum());
+  Aliasing aliasing(view, OutlineSpectrum(tile.lay.slope()));
   aliasing.add(blades);
   if (aliasing.none()) return grid;
   return least_aliasing(aliasing, grid.rows, [&](int trial) {
@@ -105,7 +109,7 @@ bool edges_cut_rows(Tile const& tile, View const& view, ScreensInView const& scr
     if (!too_large || sheet.layers == solid_sheet || sheet.shape == SheetShape::image) return false;
     if (last != nullptr && alike(*last, screen)) return false;
     last = &screen;
-    HoleSpectrum const holes(screen, sheet, view, OutlineSpectrum());
+    HoleSpectrum const holes(screen, sheet, view, OutlineSpectrum(tile.lay.slope()));
     return holes.squared_error_of_effect() > most * most;
   });
 }
@@ -116,7 +120,7 @@ TileGrid grid_for_screens(Tile const& tile, View const& view, ScreensInView cons
   // then beyond it. More stretch and trials find grids that alias less by the estimate alone.
   constexpr double stretch = 0.2;
   constexpr double finer = 1.2;
-  Aliasing const aliasing = aliasing_of(view, screens, blades, tile.side);
+  Aliasing const aliasing = aliasing_of(tile, view, screens, blades);
   if (aliasing.none()) return pixels_of(tile);
   double const side = quick(screens) ? finer * tile.side : tile.side;
   return least_aliasing(aliasing, tile.side, [&](int trial) {

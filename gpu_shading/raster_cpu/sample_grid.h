@@ -21,7 +21,8 @@ TileGrid counting_grid(Tile const& tile);
 
 // `grid`, or one with some more or fewer rows, on which blades alias less. `view` is that of the
 // casters in front, on the tile.
-TileGrid grid_for_blades(TileGrid const& grid, View const& view, SampledRepeats const& blades);
+TileGrid grid_for_blades(TileGrid const& grid, Tile const& tile, View const& view,
+                         SampledRepeats const& blades);
 
 // Whether the effective transmittance of screens is too coarse for a tile, because the receiver's
 // edges cut rows of holes. `view` is that of the casters in front.

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "exact/exact_view.h"
+#include "render/sample_cost.h"
 #include "render/tile_stretch.h"
 #include "threads/parallel.h"
 #include "view/stopwatch.h"
@@ -33,45 +35,62 @@ void QuestionBatch::ask(Question const& question) {
 }
 
 void QuestionBatch::look() {
-  std::vector<InView> in_view(asked_.size());
+  std::vector<Found> found(asked_.size());
   {
     Stopwatch const watch(parts_.statistics.cull_seconds);
-    for_each_index(asked_.size(), [&](std::size_t i) {
-      Asked const& asked = asked_[i];
-      in_view[i] =
-          parts_.casters.in_view(parts_.scene, asked.question.receiver, *asked.receiver->frame,
-                                 asked.question.towards_sun, parts_.receivers.size().enough());
-    });
+    for_each_index(asked_.size(), [&](std::size_t i) { found[i] = find(asked_[i]); });
   }
   std::vector<ReceiverView> views;
-  for (std::size_t i = 0; i < asked_.size(); ++i) take(asked_[i], std::move(in_view[i]), views);
+  for (std::size_t i = 0; i < asked_.size(); ++i) take(asked_[i], std::move(found[i]), views);
   asked_.clear();
   if (parts_.backend.samples_pixels()) stretch_tiles(views);
   parts_.backend.add(std::move(views));
 }
 
-void QuestionBatch::take(Asked const& asked, InView in_view, std::vector<ReceiverView>& views) {
+QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   Question const& question = asked.question;
   Receiver const& seen = *asked.receiver;
-  if (!question.through && in_view.casters.empty()) {
+  Found found;
+  found.in_view = parts_.casters.in_view(parts_.scene, question.receiver, *seen.frame,
+                                         question.towards_sun, parts_.receivers.size().enough());
+  InView& in_view = found.in_view;
+  found.clear = !question.through && in_view.casters.empty();
+  if (found.clear) return found;
+  found.transmits = parts_.transmission.any_transmits(in_view.casters);
+  bool const screened = parts_.transmission.any_screen(in_view.casters);
+  std::size_t const interiors = question.interiors.size();
+  // Where one interior surface ends and the next begins, there is an edge too.
+  in_view.detail.across += static_cast<double>(std::min<std::size_t>(interiors, 6));
+  found.side = parts_.receivers.side_for(seen, in_view, screened);
+  if (parts_.samples_only || screened || in_view.warped) return found;
+  found.exact = exact_sums(parts_.scene, parts_.transmission,
+                           {question.receiver, *seen.frame, question.towards_sun, in_view.casters,
+                            question.through, question.interiors},
+                           sample_cost(in_view, found.side, found.transmits, interiors));
+  return found;
+}
+
+void QuestionBatch::take(Asked const& asked, Found found, std::vector<ReceiverView>& views) {
+  Question const& question = asked.question;
+  Receiver const& seen = *asked.receiver;
+  InView& in_view = found.in_view;
+  if (found.clear) {
     Sunlit& clear = question.answers.front();
     clear.projected_area = seen.area * asked.cosine;
     ++parts_.statistics.receivers_clear;
     return;
   }
-  // Where one interior surface ends and the next begins, there is an edge too.
-  in_view.detail.across += static_cast<double>(std::min<std::size_t>(question.interiors.size(), 6));
-  int const side =
-      parts_.receivers.side_for(seen, in_view, parts_.transmission.any_screen(in_view.casters));
-  bool const transmits = parts_.transmission.any_transmits(in_view.casters);
-  ReceiverView view{question.receiver, &*seen.frame,
-                    nullptr,           question.towards_sun,
-                    asked.cosine,      std::move(in_view.casters),
-                    transmits,         question.through,
-                    question.interiors};
-  Tile& tile = parts_.receivers.tile(view.receiver, side);
+  if (found.exact) {
+    answer(asked, *found.exact, 1.0);
+    if (!question.through) count(in_view.casters.size(), found.transmits);
+    return;
+  }
+  ReceiverView view{question.receiver,    &*seen.frame,     nullptr,
+                    question.towards_sun, asked.cosine,     std::move(in_view.casters),
+                    found.transmits,      question.through, question.interiors};
+  Tile& tile = parts_.receivers.tile(view.receiver, found.side, {best_turn(in_view.detail)});
   view.tile = &tile;
-  viewed_.push_back({asked, side, &tile, view.casters.size(), transmits});
+  viewed_.push_back({asked, found.side, &tile, view.casters.size(), found.transmits});
   views.push_back(std::move(view));
 }
 
@@ -84,7 +103,8 @@ void QuestionBatch::stretch_tiles(std::vector<ReceiverView>& views) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (stretches[i] == 1.0) continue;
     Viewed& viewed = viewed_[first + i];
-    viewed.tile = &parts_.receivers.tile(views[i].receiver, viewed.side, stretches[i]);
+    TileLay const lay{viewed.tile->lay.turn, stretches[i]};
+    viewed.tile = &parts_.receivers.tile(views[i].receiver, viewed.side, lay);
     views[i].tile = viewed.tile;
   }
 }
@@ -94,11 +114,13 @@ void QuestionBatch::finish() {
   std::vector<ViewSums> const sums = parts_.backend.finish();
   std::vector<Question> again;
   for (std::size_t i = 0; i < viewed_.size(); ++i) {
+    Viewed const& viewed = viewed_[i];
     if (sums[i].receiver_pixels > 0) {
-      answer(viewed_[i], sums[i]);
+      answer(viewed.asked, sums[i].parts, static_cast<double>(sums[i].receiver_pixels));
+      if (!viewed.asked.question.through) count(viewed.casters, viewed.transmits);
     } else {
-      Question const& question = viewed_[i].asked.question;
-      parts_.receivers.bound(question.receiver, *viewed_[i].tile);
+      Question const& question = viewed.asked.question;
+      parts_.receivers.bound(question.receiver, *viewed.tile);
       again.push_back(question);
     }
   }
@@ -107,30 +129,29 @@ void QuestionBatch::finish() {
   if (!again.empty()) finish();
 }
 
-void QuestionBatch::answer(Viewed const& viewed, ViewSums const& sums) {
-  Question const& question = viewed.asked.question;
-  for (std::size_t i = 0; i < sums.parts.size(); ++i) {
-    question.answers[i] = sunlit(sums.parts[i], viewed, sums.receiver_pixels);
+void QuestionBatch::answer(Asked const& asked, std::span<LuminanceSums const> parts, double whole) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    asked.question.answers[i] = sunlit(parts[i], asked, whole);
   }
-  if (question.through) return;
-  ++parts_.statistics.receivers_drawn;
-  parts_.statistics.casters_drawn += viewed.casters;
-  if (viewed.transmits) ++parts_.statistics.luminance_views;
 }
 
-Sunlit QuestionBatch::sunlit(LuminanceSums const& sums, Viewed const& viewed,
-                             std::uint64_t pixels) const {
-  Asked const& asked = viewed.asked;
+void QuestionBatch::count(std::size_t casters, bool transmits) {
+  ++parts_.statistics.receivers_drawn;
+  parts_.statistics.casters_drawn += casters;
+  if (transmits) ++parts_.statistics.luminance_views;
+}
+
+Sunlit QuestionBatch::sunlit(LuminanceSums const& sums, Asked const& asked, double whole) const {
   auto const& schedules = parts_.transmission.shades().schedules();
-  double const a_pixel = asked.receiver->area * asked.cosine / static_cast<double>(pixels);
+  double const per_sum = asked.receiver->area * asked.cosine / whole;
   Sunlit answer;
-  answer.projected_area = sums.unscheduled * a_pixel;
+  answer.projected_area = sums.unscheduled * per_sum;
   for (LuminanceSums::Scheduled const& part : sums.scheduled) {
     std::vector<std::pair<int, int>> powers = part.powers;
     for (auto& [schedule, power] : powers) {
       schedule = schedules[static_cast<std::size_t>(schedule)];
     }
-    answer.scheduled.push_back({std::move(powers), part.sum * a_pixel});
+    answer.scheduled.push_back({std::move(powers), part.sum * per_sum});
   }
   return answer;
 }

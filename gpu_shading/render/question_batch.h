@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "gpu_shading/renderer.h"
@@ -23,6 +25,7 @@ class QuestionBatch {
     Receivers& receivers;
     ViewBackend& backend;
     RendererStatistics& statistics;
+    bool samples_only;  // no view is answered without samples
   };
 
   // Only one at a time; unfinished work of an earlier batch is discarded.
@@ -48,15 +51,27 @@ class QuestionBatch {
     bool transmits;
   };
 
+  // What was found out about a question.
+  struct Found {
+    InView in_view;
+    bool clear = false;  // nothing shades the receiver
+    bool transmits = false;
+    int side = 0;                                     // pixels per side of a tile
+    std::optional<std::vector<LuminanceSums>> exact;  // where it costs less than samples
+  };
+
   // Finds the casters in view for all questions since the last call, and has their views
   // rasterised.
   void look();
-  // Answers immediately if nothing is in view, otherwise adds the view.
-  void take(Asked const& asked, InView in_view, std::vector<ReceiverView>& views);
+  Found find(Asked const& asked) const;
+  // Answers immediately if nothing is in view or the answer is known, otherwise adds the view.
+  void take(Asked const& asked, Found found, std::vector<ReceiverView>& views);
   // Gives the last views tiles whose pixels do not alias with what repeats there.
   void stretch_tiles(std::vector<ReceiverView>& views);
-  void answer(Viewed const& viewed, ViewSums const& sums);
-  Sunlit sunlit(LuminanceSums const& sums, Viewed const& viewed, std::uint64_t pixels) const;
+  // `whole`: the sum over all of a receiver that is sunlit.
+  void answer(Asked const& asked, std::span<LuminanceSums const> parts, double whole);
+  Sunlit sunlit(LuminanceSums const& sums, Asked const& asked, double whole) const;
+  void count(std::size_t casters, bool transmits);
 
   Parts parts_;
   std::vector<Asked> asked_;

@@ -24,16 +24,17 @@ Receiver& Receivers::find(SurfaceId id) {
 int Receivers::side_for(Receiver const& receiver, InView const& in_view, bool screened) const {
   // The receiver has its share of the rectangle's edges and pixels.
   double const share = receiver.area / (receiver.frame->width * receiver.frame->height);
-  int const side = size_.side((1.0 / share) * in_view.detail);
+  Detail const& detail = in_view.detail;
+  int const side = size_.side(detail.along / share, detail.across / share);
   return screened ? size_.side_with_screens(side) : side;
 }
 
-Tile& Receivers::tile(SurfaceId id, int side, double stretch) {
+Tile& Receivers::tile(SurfaceId id, int side, TileLay const& lay) {
   Receiver& receiver = find(id);
-  std::pair const kind(side, stretch);
+  std::pair const kind(side, lay);
   auto const known = receiver.tiles.find(kind);
   if (known != receiver.tiles.end()) return known->second;
-  Tile tile = make_tile(surface(id).polygon, *receiver.frame, side, most_, stretch);
+  Tile tile = make_tile(surface(id).polygon, *receiver.frame, side, most_, lay);
   return receiver.tiles.emplace(kind, std::move(tile)).first->second;
 }
 

@@ -18,8 +18,8 @@ namespace gpu_shading {
 struct Receiver {
   std::optional<PlaneFrame> frame;  // empty if it has no area
   double area = 0.0;                // exact, m2
-  // Tiles created so far, by requested resolution and stretch.
-  std::map<std::pair<int, double>, Tile> tiles;
+  // Tiles created so far, by requested resolution and lay.
+  std::map<std::pair<int, TileLay>, Tile> tiles;
 };
 
 // The surfaces of a scene, which must outlive it, as receivers. Their tiles are created when first
@@ -38,7 +38,7 @@ class Receivers {
   // Pixels per side for the casters in view. The receiver must have an area.
   int side_for(Receiver const& receiver, InView const& in_view, bool screened) const;
   // The address is valid for the lifetime of this object.
-  Tile& tile(SurfaceId id, int side, double stretch = 1.0);
+  Tile& tile(SurfaceId id, int side, TileLay const& lay);
   // The tile of the bounding rectangle, for a receiver that turned out to have no pixels.
   void bound(SurfaceId id, Tile& tile);
 

@@ -86,7 +86,8 @@ class Renderer::Implementation {
  private:
   QuestionBatch new_batch() {
     check_process();
-    return QuestionBatch({scene_, casters_, transmission_, *receivers_, *backend_, statistics_});
+    return QuestionBatch({scene_, casters_, transmission_, *receivers_, *backend_, statistics_,
+                          options_.samples_only || options_.resolution.has_value()});
   }
 
   // A context of OpenGL's does not survive a fork; the CPU's back end does.

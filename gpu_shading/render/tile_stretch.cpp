@@ -48,9 +48,9 @@ double stretch_without_aliasing(ReceiverView const& view, Scene const& scene,
   for (int i = 0; i < trials && least > enough * enough; ++i) {
     double const place = std::fmod(i / std::numbers::phi + 0.5, 1.0);
     double const stretch = 1.0 + farthest * (2.0 * place - 1.0);  // 1 at first
-    TileMap const map =
-        i == 0 ? tile.map
-               : fit_tile(*view.frame, scene[view.receiver].polygon.outline, tile.side, stretch);
+    TileMap const map = i == 0 ? tile.map
+                               : fit_tile(*view.frame, scene[view.receiver].polygon.outline,
+                                          tile.side, {tile.lay.turn, stretch});
     double const squared = aliasing.on_tile(tile.map, map, OutlineSpectrum(map, *view.frame))
                                .squared_error(grid, least);
     if (squared >= least) continue;

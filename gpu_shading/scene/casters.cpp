@@ -14,11 +14,13 @@
 namespace gpu_shading {
 namespace {
 
-bool is_planar(Ring const& ring, glm::dvec3 const& unit_normal) {
-  constexpr double flat = 1e-6;
-  return std::all_of(ring.begin(), ring.end(), [&](glm::dvec3 const& vertex) {
-    return std::abs(glm::dot(vertex - ring[0], unit_normal)) <= flat;
-  });
+// The largest distance of a vertex from the plane through the first.
+double warp(Ring const& ring, glm::dvec3 const& unit_normal) {
+  double most = 0.0;
+  for (glm::dvec3 const& vertex : ring) {
+    most = std::max(most, std::abs(glm::dot(vertex - ring[0], unit_normal)));
+  }
+  return most;
 }
 
 double height_above(PlaneFrame const& frame, glm::dvec3 const& point) {
@@ -110,17 +112,15 @@ class Casters::Shadow {
     include(a + (b - a) * (depth_a / (depth_a - depth_b)));
   }
 
-  // The parts of a ring's edges inside the receiver's rectangle; with `within`, all of them.
-  Detail edges(std::span<glm::dvec3 const> ring, bool within) const {
-    Detail detail;
-    if (ring.empty()) return detail;
+  // Adds the parts of a ring's edges inside the receiver's rectangle; with `within`, all of them.
+  void add_edges(std::span<glm::dvec3 const> ring, bool within, Detail& detail) const {
+    if (ring.empty()) return;
     glm::dvec2 from = in_rectangle(ring.back());
     for (glm::dvec3 const& vertex : ring) {
       glm::dvec2 const to = in_rectangle(vertex);
-      detail += detail_of((within ? 1.0 : part_within(from, to - from)) * glm::abs(to - from));
+      add_edge((within ? 1.0 : part_within(from, to - from)) * (to - from), detail);
       from = to;
     }
-    return detail;
   }
 
   // How much of a box may cast a shadow on the rectangle; intersecting where rounding decides.
@@ -174,11 +174,18 @@ class Casters::Shadow {
     return std::max(leaves - enters, 0.0);
   }
 
-  static Detail detail_of(glm::dvec2 const& length) {
+  static void add_edge(glm::dvec2 const& edge, Detail& detail) {
     // Within a pixel of a row from end to end of the finest tile that is chosen by detail.
     constexpr double parallel = 1e-3;
-    bool const along = std::min(length.x, length.y) < parallel * std::max(length.x, length.y);
-    return along ? Detail{glm::length(length), 0.0} : Detail{0.0, glm::length(length)};
+    glm::dvec2 const size = glm::abs(edge);
+    double const length = glm::length(edge);
+    if (std::min(size.x, size.y) < parallel * std::max(size.x, size.y)) {
+      detail.along += length;
+      return;
+    }
+    detail.across += length;
+    auto const& shares = in_step(edge);
+    for (std::size_t turn = 0; turn < turns; ++turn) detail.in_step[turn] += shares[turn] * length;
   }
 
   // A margin for rounding, here and in the GPU's single precision.
@@ -220,7 +227,9 @@ void Casters::add(SurfaceId id, Surface const& surface) {
   caster.first = points_.size();
   caster.count = static_cast<std::uint32_t>(ring.size());
   caster.normal = glm::normalize(newell(ring));
-  caster.planar = is_planar(ring, caster.normal);
+  double const off = warp(ring, caster.normal);
+  caster.planar = off <= 1e-6;
+  caster.warped = off > 1e-3;  // more than models' coordinates are rounded by
   caster.faces = sheet_faces(surface);
   caster.only_turned_away = surface.casting == Casting::turned_away;
   points_.insert(points_.end(), ring.begin(), ring.end());
@@ -240,9 +249,10 @@ InView Casters::in_view(Scene const& scene, SurfaceId receiver, PlaneFrame const
     if (caster.only_turned_away && glm::dot(caster.normal, towards_sun) > in_the_sun) return;
     if (!inside && !is_in_view(caster, frame, shadow)) return;
     found.casters.push_back(caster.id);
+    found.warped = found.warped || caster.warped;
     if (found.detail.total() >= enough) return;
-    found.detail += shadow.edges(points(caster), inside);
-    for (Ring const& hole : holes(caster)) found.detail += shadow.edges(hole, inside);
+    shadow.add_edges(points(caster), inside, found.detail);
+    for (Ring const& hole : holes(caster)) shadow.add_edges(hole, inside, found.detail);
   };
   tree_.search([&](glm::dvec3 const& centre,
                    glm::dvec3 const& reach) { return shadow.classify(centre, reach); },

@@ -34,6 +34,7 @@ inline constexpr double edge_on = 1e-6;
 struct InView {
   std::vector<SurfaceId> casters;  // in the order of their ids
   Detail detail;                   // of their shadows
+  bool warped = false;             // one is not flat: its triangles cast what its outline does not
 };
 
 // The scene's surfaces as casters, for culling in double precision, at a cost that depends on the
@@ -60,6 +61,7 @@ class Casters {
     glm::dvec3 normal{0.0};
     SheetFaces faces;  // of a screen
     bool planar = true;
+    bool warped = false;
     bool only_turned_away = false;
   };
   class Shadow;

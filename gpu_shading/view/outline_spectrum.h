@@ -15,12 +15,11 @@ namespace gpu_shading {
 // are in cycles per tile.
 class OutlineSpectrum {
  public:
-  // On a tile that is not stretched.
-  OutlineSpectrum() {
-    double const angle = std::atan(1.0 / std::numbers::phi);
-    double const c = std::cos(angle);
-    double const s = std::sin(angle);
-    double const side = std::numbers::pi / (c + s);
+  // On a tile that is not stretched, by the slope of its turn.
+  explicit OutlineSpectrum(double slope) {
+    double const c = 1.0 / std::sqrt(1.0 + slope * slope);
+    double const s = slope * c;
+    double const side = std::numbers::pi / (c + std::abs(s));
     u_ = side * glm::dvec2(c, s);
     v_ = side * glm::dvec2(-s, c);
   }

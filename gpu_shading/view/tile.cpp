@@ -55,21 +55,22 @@ Polygon bounding_rectangle(PlaneFrame const& frame) {
 }  // namespace
 
 Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, int most,
-               double stretch) {
+               TileLay const& lay) {
   double const net = area(polygon);
   double const wanted = std::max(fewest_pixels, resolution * (resolution / 64.0));
   int const limit = std::max(resolution, std::min(largest_side, most));
   Tile tile;
   tile.side = resolution;
+  tile.lay = lay;
   for (;;) {
-    tile.map = fit_tile(frame, polygon.outline, tile.side, stretch);
+    tile.map = fit_tile(frame, polygon.outline, tile.side, lay);
     tile.pixel_area = tile.map.pixel_area(tile.side);
     if (net >= wanted * tile.pixel_area || tile.side > limit / 2) break;
     tile.side *= 2;
   }
   if (net < fewest_pixels * tile.pixel_area) return bounding_tile(polygon, frame, tile.side);
   // A stretched tile is one of several of a receiver, and few views have the same.
-  int const places = stretch == 1.0 ? 16 : 2;
+  int const places = lay.stretch == 1.0 ? 16 : 2;
   place_lattice(tile, triangulate(polygon), frame, net, places);
   return tile.counted_pixels > 0 ? tile : bounding_tile(polygon, frame, tile.side);
 }

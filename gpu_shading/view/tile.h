@@ -16,6 +16,7 @@ namespace gpu_shading {
 // A receiver's layout in pixels.
 struct Tile {
   int side = 0;  // pixels
+  TileLay lay;
   TileMap map;
   std::vector<glm::vec2> triangles;  // in clip coordinates
   double pixel_area = 0.0;           // area of a pixel in the receiver's plane, m2
@@ -26,9 +27,9 @@ struct Tile {
 // rectangle, such as the ring of wall around a large window, has fewer than resolution^2 / 64
 // pixels or fewer than 16, up to the larger of `resolution` and the smaller of 4096 and `most`.
 // Among several offsets of the pixel grid, the one is used at which the receiver's own pixels come
-// closest to its area. `stretch`: as fit_tile() has it.
+// closest to its area.
 Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, int most,
-               double stretch = 1.0);
+               TileLay const& lay = {});
 
 // For receivers that are still too thin: the whole bounding rectangle, which always has a pixel in
 // its centre.

@@ -18,11 +18,10 @@ int limit(double at_a_thousandth, double error, int most) {
   return std::min(most, round_up(at_a_thousandth * std::pow(1e-3 / error, 2.0 / 3.0) - 1e-6));
 }
 
-double expected_error(Detail const& detail, double side) {
-  double const across = detail.across > 0.0 ? std::max(detail.across, 1.0) : 0.0;
-  double const chance = across / side;
-  double const along = 6.0 * std::sqrt(std::min(detail.along, 25.0)) + 0.03 * detail.along;
-  return std::sqrt(chance + along * along / (side * side)) / side;
+double expected_error(double along, double across, double side) {
+  double const chance = (across > 0.0 ? std::max(across, 1.0) : 0.0) / side;
+  double const even = 6.0 * std::sqrt(std::min(along, 25.0)) + 0.03 * along;
+  return std::sqrt(chance + even * even / (side * side)) / side;
 }
 
 }  // namespace
@@ -40,17 +39,17 @@ TileSize TileSize::for_error(double error, int most) {
   size.least_ = limit(64.0, error, std::min(most, largest));
   size.most_ = limit(512.0, error, std::min(most, largest));
   size.screened_ = (limit(512.0, error, most) + 1) / 2;
-  for (size.enough_ = 1.0; expected_error({0.0, size.enough_}, size.most_) < error ||
-                           expected_error({size.enough_, 0.0}, size.most_) < error;) {
+  for (size.enough_ = 1.0; expected_error(0.0, size.enough_, size.most_) < error ||
+                           expected_error(size.enough_, 0.0, size.most_) < error;) {
     size.enough_ *= 2.0;
   }
   return size;
 }
 
-int TileSize::side(Detail const& detail) const {
+int TileSize::side(double along, double across) const {
   if (fixed_) return *fixed_;
   int side = least_;
-  while (side < most_ && expected_error(detail, side) > error_) side = round_up(side + 1);
+  while (side < most_ && expected_error(along, across, side) > error_) side = round_up(side + 1);
   return std::min(side, most_);
 }
 

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-
-#include "scene/detail.h"
-
 namespace gpu_shading {
 
 // The number of pixels per side of a receiver's tile.
@@ -29,7 +26,8 @@ class TileSize {
   // many as `most`.
   static TileSize for_error(double error, int most);
 
-  int side(Detail const& detail) const;
+  // For edges as Detail counts them.
+  int side(double along, double across) const;
 
   // With perforated sheets in view, whose holes have edges of their own: at least half of the
   // maximum, were it not limited to 4096.

@@ -6,17 +6,15 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
-#include <numbers>
 
 #include "scene/casters.h"
 
 namespace gpu_shading {
 namespace {
 
-glm::dmat2 golden_turn() {
-  double const angle = std::atan(1.0 / std::numbers::phi);
-  double const c = std::cos(angle);
-  double const s = std::sin(angle);
+glm::dmat2 turn_by(double slope) {
+  double const c = 1.0 / std::sqrt(1.0 + slope * slope);
+  double const s = slope * c;
   return {c, s, -s, c};
 }
 
@@ -66,19 +64,20 @@ double TileMap::pixel_area(int resolution) const {
   return side * side / std::abs(glm::determinant(matrix));
 }
 
-TileMap fit_tile(PlaneFrame const& frame, Ring const& outline, int resolution, double stretch) {
+TileMap fit_tile(PlaneFrame const& frame, Ring const& outline, int resolution, TileLay const& lay) {
   double const margin = std::min(1.0, resolution / 8.0);
   double const filled = 2.0 * (1.0 - 2.0 * margin / resolution);
   glm::dmat2 const to_square(1.0 / frame.width, 0.0, 0.0, 1.0 / frame.height);
-  glm::dmat2 const turned = golden_turn() * to_square;
+  glm::dmat2 const turn = turn_by(lay.slope());
+  glm::dmat2 const turned = turn * to_square;
   glm::dvec2 const size = outline_bounds(frame, outline, turned).size();
   glm::dmat2 const scale(filled / size.x, 0.0, 0.0, filled / size.y);
   TileMap map;
-  if (stretch == 1.0) {
+  if (lay.stretch == 1.0) {
     map.matrix = scale * turned;
   } else {
     glm::dmat2 const stretched =
-        scale * golden_turn() * glm::dmat2(stretch, 0.0, 0.0, 1.0 / stretch) * to_square;
+        scale * turn * glm::dmat2(lay.stretch, 0.0, 0.0, 1.0 / lay.stretch) * to_square;
     glm::dvec2 const across = outline_bounds(frame, outline, stretched).size();
     map.matrix = std::min(1.0, filled / std::max(across.x, across.y)) * stretched;
   }

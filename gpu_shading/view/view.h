@@ -1,5 +1,7 @@
 #pragma once
 
+#include <compare>
+#include <cstddef>
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
@@ -8,15 +10,14 @@
 
 #include "gpu_shading/scene.h"
 #include "scene/plane_frame.h"
+#include "scene/turns.h"
 
 namespace gpu_shading {
 
 // The map from a receiver to its tile: clip coordinates (-1 .. 1) = matrix x (u, v) + offset, where
 // u and v are in its frame, in metres. The bounding rectangle is first scaled to a square, so that
-// long thin receivers get pixels both ways. The square is rotated against the pixel grid by an
-// angle of golden slope, which fractions approximate worst, so that edges along u and v (nearly all
-// edges in buildings) meet the centres of pixels evenly. The receiver then fills the tile except
-// for a margin of one pixel.
+// long thin receivers get pixels both ways. The square is turned against the pixel grid (TileLay).
+// The receiver then fills the tile except for a margin of one pixel.
 struct TileMap {
   glm::dmat2 matrix{1.0};
   glm::dvec2 offset{0.0};
@@ -26,11 +27,19 @@ struct TileMap {
   double pixel_area(int resolution) const;
 };
 
-// `stretch`: by which the square is longer along u and shorter along v, for another lattice of
-// samples, which aliases with other periods; the golden slope serves any. A tile that is stretched
-// has a wider margin, two ways.
+// How a tile's pixels lie on its receiver.
+struct TileLay {
+  std::size_t turn = 0;  // by which slope of turn_slopes
+  // By which the square is longer along u and shorter along v, for another lattice of samples,
+  // which aliases with other periods. A tile that is stretched has a wider margin, two ways.
+  double stretch = 1.0;
+
+  double slope() const { return turn_slopes[turn]; }
+  auto operator<=>(TileLay const&) const = default;
+};
+
 TileMap fit_tile(PlaneFrame const& frame, Ring const& outline, int resolution,
-                 double stretch = 1.0);
+                 TileLay const& lay = {});
 
 // An affine view of the scene: each row is a vector to multiply with a point's coordinates relative
 // to `origin`, and a constant. z is 0 (nearest) to 1; `cut` keeps points where it is 0 or more.

@@ -79,6 +79,7 @@ struct How {
   Renderer renderer(Scene scene) const {
     RendererOptions options;
     options.error = error;
+    options.samples_only = true;
     options.device = on_cpu;
     return at_pixels ? counting_pixels(std::move(scene), options)
                      : Renderer(std::move(scene), options);

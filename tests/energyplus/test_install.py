@@ -6,11 +6,10 @@ import subprocess
 import sys
 
 import pytest
+from elf_files import SYSTEM, loaded_files, needed, search_path
 from shading_runs import energyplus
 
 ROOT = energyplus.REPOSITORY
-# Of every Linux, or of GCC and the C library.
-SYSTEM = {"libc.so.6", "libm.so.6", "libgcc_s.so.1", "libstdc++.so.6", "ld-linux-x86-64.so.2"}
 
 
 @pytest.fixture(scope="module")
@@ -40,6 +39,12 @@ def test_it_is_complete(installed):
     assert not list(installed.rglob("__pycache__"))
     assert list(installed.glob("lib*/**/gpu_shading-config.cmake"))
     assert (installed / "include" / "gpu_shading_energyplus.h").is_file()
+
+
+def test_its_files_look_beside_themselves(installed):
+    files = loaded_files(installed)
+    assert len(files) > 9
+    assert [path for path in files if search_path(path) not in ([], ["$ORIGIN"])] == []
 
 
 def test_pages_lead_to_one_another(installed):
@@ -82,11 +87,6 @@ def test_the_python_package_finds_its_library(installed):
                           text=True)
     assert done.stdout == "[1.]\n", done.stderr
     assert not list(packages.rglob("*.so"))
-
-
-def needed(path):
-    listed = subprocess.run(["readelf", "-d", path], capture_output=True, text=True, check=True).stdout
-    return set(re.findall(r"\(NEEDED\).*\[(.*)\]", listed))
 
 
 def test_the_licence_page_names_every_library(installed):

@@ -9,6 +9,7 @@ import zipfile
 
 import numpy as np
 import pytest
+from elf_files import loaded_files, search_path
 from PIL import Image
 from shading_runs import energyplus
 from test_map import PYRAMID
@@ -160,6 +161,14 @@ def test_no_library_of_the_build_is_needed(environment):
             if name.startswith(("libtbb", "libfmt", "libZydis", "libelf", "libGeographicLib", "libxxhash", "libassimp",
                                 "libdraco", "libOpenImageIO", "libwebp", "libLerc")):
                 assert place.startswith(str(package)), line
+
+
+def test_its_files_look_beside_themselves(wheel, tmp_path):
+    with zipfile.ZipFile(wheel) as file:
+        file.extractall(tmp_path)
+    files = loaded_files(tmp_path)
+    assert len(files) > 15
+    assert [path for path in files if search_path(path) not in ([], ["$ORIGIN"])] == []
 
 
 def test_compare_shading_finds_both_programs(environment, box, weather, tmp_path):

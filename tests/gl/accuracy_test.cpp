@@ -157,6 +157,7 @@ TEST(Accuracy, NinetyNineOfAHundredAreWithinTheErrorAskedFor) {
     auto const add_scene = [&](Scene const& scene, std::vector<SunDirection> const& suns) {
       RendererOptions options;
       options.error = error;
+      options.samples_only = true;
       Renderer renderer(scene, options);
       for (SunDirection const sun : suns) {
         double const whole = exact::projected_area(scene, sun, 0);
@@ -196,6 +197,7 @@ TEST(Accuracy, DrawnBehindManyFinsIsWithinTheTarget) {
     RegularShades const shades{count, true};
     RendererOptions options;
     options.device = by_opengl;
+    options.samples_only = true;
     Renderer renderer(shades.scene(), options);
     for (SunDirection const sun : spread_suns(2)) {
       double const cosine = -std::cos(sun.azimuth) * std::cos(sun.altitude);

@@ -82,7 +82,7 @@ TEST_P(CheckedDevice, DiffersByMuchLessThanTheTolerance) {
   for (int const resolution : {64, 192, 512}) {
     Receivers& receivers = all_receivers.emplace_back(scene, TileSize::fixed(resolution),
                                                       both.device().max_resolution);
-    QuestionBatch batch({scene, casters, transmission, receivers, both, statistics});
+    QuestionBatch batch({scene, casters, transmission, receivers, both, statistics, true});
     std::vector<Sunlit> answer(1);
     std::vector<Sunlit> inside(20);
     auto const ask = [&](SurfaceId receiver, SunDirection sun,

@@ -1,5 +1,7 @@
 """What is refused: each in one line that names the argument, and nothing crashes."""
 
+import pickle
+
 import numpy as np
 import pytest
 from shapes import overhang, window
@@ -11,7 +13,40 @@ def scene():
     return gpu_shading.Scene(receivers=[window()], casters=[overhang()])
 
 
+def masked(values, *place):
+    """An array whose value at a place is hidden by a mask."""
+    mask = np.zeros(np.shape(values), dtype=bool)
+    mask[place] = True
+    return np.ma.array(values, mask=mask)
+
+
+def rule(roles=((0, 0, 0, 0), (1, 0, 0, 0)), zone_shades=((1,),)):
+    return gpu_shading.Rule(np.array(roles), np.array(zone_shades))
+
+
+def mesh(size=0.005, pitch=0.01, **more):
+    return gpu_shading.Screen.pattern("round", size, pitch, **more)
+
+
+def unpickled(thing, *changes):
+    """From a pickle in which texts were replaced: numbers of the same length."""
+    data = pickle.dumps(thing, protocol=0)
+    for old, new in changes:
+        assert data.count(old) == 1, (old, data)
+        data = data.replace(old, new)
+    return pickle.loads(data)
+
+
+def unchecked_rule():
+    """As unpickling makes it: without calling its constructor."""
+    made = object.__new__(gpu_shading.Rule)
+    made.__dict__.update(roles=np.zeros((2, 4), dtype=np.uint32), zone_shades=np.zeros((1000, 1), dtype=np.uint8))
+    return made
+
+
+TABLE = gpu_shading.Transmittance.table([0, 90], [0.75, 0.0])
 SUN = [[180.0, 45.0]]
+RAY = ([[0, 0, 0]], [[0, 0, 1]])
 WRONG = {
     "nan in vertices": (lambda: gpu_shading.Scene([window() * np.nan]), "receiver 0: nan"),
     "infinite vertices": (lambda: gpu_shading.Scene(casters=[np.full((4, 3), np.inf)]), "caster 0: "),
@@ -58,11 +93,62 @@ WRONG = {
     "holes that touch": (lambda: gpu_shading.Screen.pattern("round", 0.01, 0.01), "hole size"),
     "no such hole": (lambda: gpu_shading.Screen.pattern("oval", 0.01, 0.02), "hole: 'oval'"),
     "thickness": (lambda: gpu_shading.Screen.pattern("round", 0.01, 0.02, thickness=-1.0), "thickness"),
-    "opacity": (lambda: gpu_shading.Screen.image([[2.0]], 1, 1), "opacity: 2 to 2, expected 0 to 1"),
+    "opacity": (lambda: gpu_shading.Screen.image([[2.0]], 1, 1), r"opacity: 2 at \[0, 0\], expected 0 to 1"),
     "empty opacity": (lambda: gpu_shading.Screen.image(np.zeros((0, 4)), 1, 1), "opacity: an array of shape"),
     "size of a tile": (lambda: gpu_shading.Screen.image([[1.0]], -1, 1), "width"),
     "layers": (lambda: gpu_shading.Screen.image([[1.0]], 1, 1, layers=65), "layers: 65, expected 1 to 64"),
     "angles": (lambda: gpu_shading.Screen.pattern("round", 0.01, 0.02).tau([1, 2], [1, 2, 3]), "do not fit"),
+    "masked vertices": (lambda: gpu_shading.Scene([masked(window(), 2, 1)]),
+                        r"receiver 0: masked at \[2, 1\], expected"),
+    "a masked number in a list": (lambda: scene().sunlit([[180.0, np.ma.masked]]), r"directions: masked at \[0, 1\]"),
+    "a masked row in a list": (lambda: scene().sunlit([masked([180.0, 45.0], 0)]), r"directions: masked at \[0, 0\]"),
+    "masked receivers": (lambda: scene().sunlit(SUN, receivers=masked([0], 0)), r"receivers: masked at \[0\]"),
+    "masked opacity": (lambda: gpu_shading.Screen.image(masked(np.eye(4), 1, 1), 1, 1), r"opacity: masked at \[1, 1\]"),
+    "masked texels": (lambda: gpu_shading.Screen.from_texels(masked(np.eye(4, dtype=np.uint16), 3, 0), 1, 1),
+                      r"texels: masked at \[3, 0\]"),
+    "masked transmittance": (lambda: scene().add(window(), transmittance=np.ma.masked), "transmittance: masked"),
+    "texels in a list": (lambda: gpu_shading.Screen.from_texels([[1, 0]], 1, 1), "texels: int64, expected uint16"),
+    "negative lengths": (lambda: scene().rays().nearest(*RAY, [-1]), r"lengths: -1 at \[0\], expected 0 to inf m"),
+    "angle of a shade": (lambda: TABLE.tau([0, 95]), r"angles: 95 at \[1\], expected 0 to 90 degrees"),
+    "negative angle": (lambda: TABLE.tau(-1.0), "angles: -1, expected 0 to 90 degrees"),
+    "angle of a screen": (lambda: mesh().tau(95), "theta: 95, expected 0 to 90 degrees"),
+    "vast pitch": (lambda: mesh(pitch=1e300), r"pitch is 1e\+300 m, expected 1e-06 to 100000"),
+    "minute pitch": (lambda: mesh(1e-301, 1e-300), "hole size is 1e-301 m, expected 1e-06 to 100000"),
+    "vast row pitch": (lambda: mesh(row_pitch=1e300), r"row pitch is 1e\+300 m, expected"),
+    "vast tile": (lambda: gpu_shading.Screen.image([[1.0]], 1, 1e300), r"tile height is 1e\+300 m, expected"),
+    "vast origin": (lambda: scene().add(window(), screen_origin=(0, 1e300)),
+                    r"screen_origin: 1e\+300 at \[1\], expected"),
+    "vast rotation": (lambda: scene().add(window(), screen_rotation=1e300), r"screen_rotation: 1e\+300, expected"),
+    "a schedule without a name": (lambda: scene().add(window(), schedule=5), "schedule: 5, expected a name"),
+    "half a pixel": (lambda: scene().renderer(resolution=64.5), "resolution: 64.5, expected a whole number"),
+    "layers in parts": (lambda: gpu_shading.Screen.image([[1.0]], 1, 1, layers=1.5), "layers: 1.5, expected a whole"),
+    "no threads": (lambda: gpu_shading.limit_threads(0), "count: 0, expected 1 to"),
+    "zones in a row": (lambda: scene().set_rule(rule(zone_shades=np.ones((1000, 1)) > 0)),
+                       r"zone_shades: an array of shape \(1000, 1\), expected \(zones, zones\)"),
+    "zones without rows": (lambda: rule(zone_shades=[1]), r"zone_shades: int64 of shape \(1,\), expected"),
+    "zones that are numbers": (lambda: rule(zone_shades=[[0.5]]), "zone_shades: float64"),
+    "zones of more than one": (lambda: rule(zone_shades=[[2]]), "zone_shades: 2 to 2, expected 0 to 1"),
+    "a zone that is not there": (lambda: rule([[0, 1, 0, 0]]), "roles: zone 1, expected less than 1"),
+    "roles of three": (lambda: rule([[0, 0, 0]]), r"roles: an array of shape \(1, 3\), expected \(surfaces, 4\)"),
+    "shades": (lambda: rule([[0, 0, 4, 0]]), "roles: shades 4, expected less than 4"),
+    "negative roles": (lambda: rule([[0, -1, 0, 0]]), "roles: -1 to 0, expected 0 to 4294967295"),
+    "roles of one surface": (lambda: scene().set_rule(rule([[0, 0, 0, 0]])), "roles of 1 surfaces, expected 2"),
+    "a rule that is none": (lambda: scene().set_rule((1, 2)), "rule: tuple, expected a Rule"),
+    "a rule that was not checked": (lambda: scene().set_rule(unchecked_rule()), "zone_shades: an array of shape"),
+    "another version of a shade": (lambda: unpickled(TABLE, (b"(I1\nV", b"(I2\nV")), "pickle: version 2, expected 1"),
+    "another version of a scene": (lambda: unpickled(scene(), (b"(I1\n(", b"(I2\n(")), "pickle: version 2, expected 1"),
+    "forged count of a shade": (lambda: unpickled(gpu_shading.Transmittance.polynomial([0.5, 0.25, 0.125]), (
+        b"I3\n", b"I99999999999999\n")), "coefficients: 24 bytes, expected 799999999999992 for"),
+    "forged negative count": (lambda: unpickled(gpu_shading.Transmittance.polynomial([0.5, 0.25, 0.125]), (
+        b"I3\n", b"I-3\n")), "coefficients: no array, expected"),
+    "forged tile": (lambda: unpickled(gpu_shading.Screen.image(np.eye(5), 1, 1), (
+        b"I5\nI5\n", b"I99999\nI99999\n")), "texels: 50 bytes, expected 19999600002 for"),
+    "forged make": (lambda: unpickled(TABLE, (b"Vtable", b"Vmro")), "pickle: Transmittance: 'mro', expected one of"),
+    "forged vertices": (lambda: unpickled(gpu_shading.Scene([window()]), (b"I4\nI3\n", b"I6\nI3\n")),
+                        "vertices: 96 bytes, expected 144"),
+    "forged casting": (lambda: unpickled(gpu_shading.Scene([window()]), (b"Vnever", b"Vmaybe")), "casts: 'maybe'"),
+    "a pickle without surfaces": (lambda: unpickled(gpu_shading.Scene([window()]), (b"Vsurfaces", b"Vsorfaces")),
+                                  "pickle: scene: KeyError: 'surfaces', expected"),
     "a model that is not there": (lambda: gpu_shading.check("no.idf"), "model: no.idf: no such file"),
     "samples that are not there": (lambda: gpu_shading.read_samples("nowhere"), "has no samples.json"),
 }
@@ -95,3 +181,14 @@ def test_arrays_that_are_changed_later_change_nothing():
     made = gpu_shading.Scene(receivers=[vertices])
     vertices *= 0
     assert made.areas.tolist() == [2.0]
+
+
+def test_masks_that_hide_nothing_are_accepted():
+    vertices = np.ma.array(window(), mask=False)
+    assert gpu_shading.Scene([vertices]).sunlit(SUN).tolist() == [[1.0]]
+
+
+def test_a_surface_cannot_be_changed_to_what_would_be_refused():
+    made = scene()
+    with pytest.raises(ValueError, match="read-only"):
+        made.surfaces[0].vertices[0, 0] = np.nan

@@ -1,5 +1,6 @@
 """Sunlit fractions of scenes from arrays, against closed forms and exact polygon booleans."""
 
+import copy
 import pickle
 import threading
 import time
@@ -128,7 +129,21 @@ def test_a_scene_can_be_pickled(below):
     scene = gpu_shading.Scene(receivers=[window()])
     scene.add(overhang(), transmittance=gpu_shading.Transmittance.table([0, 45, 90], [0.8, 0.6, 0.0]))
     scene.add(overhang(0.2), screen=gpu_shading.Screen.image(np.eye(16), 0.1, 0.1))
-    assert np.array_equal(pickle.loads(pickle.dumps(scene)).sunlit(SUNS), scene.sunlit(SUNS))
+    scene.add(overhang(0.1, 3.0), screen=gpu_shading.Screen.pattern("hexagonal", 0.005, 0.01, thickness=0.001),
+              casts="turned away", screen_origin=(0.1, 0.2), screen_rotation=30.0, deployment="sail")
+    scene.add(overhang(0.3, 4.0), holes=[overhang(0.1, 4.0, 1.0)], schedule="leaves",
+              transmittance=gpu_shading.Transmittance.glazing([[0.8, 0.1, 0.1]]))
+    roles = np.zeros((len(scene.surfaces), 4), dtype=int)
+    roles[:, 0] = np.arange(len(roles))
+    roles[1, 2:] = 3, 4  # shades the fifth surface only
+    scene.set_rule(gpu_shading.Rule(roles, np.ones((1, 1), dtype=int)))
+    question = {"factors": {"leaves": 0.5}, "deployments": {"sail": 0.75}}
+    expected = scene.sunlit(SUNS, **question)
+    copies = [pickle.loads(pickle.dumps(scene, protocol)) for protocol in (2, 5)]
+    for again in (*copies, copy.deepcopy(scene)):
+        assert np.array_equal(again.sunlit(SUNS, **question), expected)
+    scene.set_rule(gpu_shading.Rule(np.where(np.arange(4) == 2, 0, roles), np.ones((1, 1), dtype=int)))
+    assert not np.array_equal(scene.sunlit(SUNS, **question), expected)
 
 
 def test_an_added_surface_counts_at_once():

@@ -63,6 +63,7 @@ Renderer renderer_at(double error, Scene scene) {
   RendererOptions options;
   options.error = error;
   options.device = on_cpu;
+  options.samples_only = true;
   return Renderer(std::move(scene), options);
 }
 
@@ -72,6 +73,7 @@ Renderer renderer_at_target(Scene scene) { return renderer_at(target, std::move(
 Renderer pixels_at_target(Scene scene) {
   RendererOptions options;
   options.error = target;
+  options.samples_only = true;
   return counting_pixels(std::move(scene), options);
 }
 

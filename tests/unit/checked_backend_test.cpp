@@ -83,7 +83,7 @@ class Rig {
                           std::vector<SurfaceId> const& interiors) {
     std::size_t const parts = std::max<std::size_t>(interiors.size(), 1);
     std::vector<Sunlit> answers(suns.size() * parts);
-    QuestionBatch batch({scene_, casters_, transmission_, receivers_, backend, statistics_});
+    QuestionBatch batch({scene_, casters_, transmission_, receivers_, backend, statistics_, true});
     for (std::size_t i = 0; i < suns.size(); ++i) {
       batch.ask({0, to_vector(suns[i]), !interiors.empty(), interiors,
                  std::span(answers).subspan(i * parts, parts)});

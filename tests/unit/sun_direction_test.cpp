@@ -6,10 +6,10 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "support/degree.h"
+
 namespace gpu_shading {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 TEST(SunDirection, NorthEastSouthWestAtTheHorizon) {
   EXPECT_LT(glm::distance(to_vector({0.0, 0.0}), glm::dvec3(0, 1, 0)), 1e-15);

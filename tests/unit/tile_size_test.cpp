@@ -12,19 +12,19 @@ namespace {
 
 TEST(TileSize, FollowsTheErrorAndTheDetailBetweenItsLimits) {
   TileSize const size = TileSize::for_error(1e-3, 16384);
-  EXPECT_EQ(size.side({0.0, 0.0}), 64);
-  EXPECT_EQ(size.side({0.0, 1.0}), 128);   // (1 / 1e-3)^(2/3) = 100
-  EXPECT_EQ(size.side({0.0, 16.0}), 256);  // 252
-  EXPECT_EQ(size.side({9.0, 0.0}), 192);   // sqrt(18.3 / 1e-3) = 135
-  EXPECT_EQ(size.side({1e6, 1e6}), 512);
+  EXPECT_EQ(size.side(0.0, 0.0), 64);
+  EXPECT_EQ(size.side(0.0, 1.0), 128);   // (1 / 1e-3)^(2/3) = 100
+  EXPECT_EQ(size.side(0.0, 16.0), 256);  // 252
+  EXPECT_EQ(size.side(9.0, 0.0), 192);   // sqrt(18.3 / 1e-3) = 135
+  EXPECT_EQ(size.side(1e6, 1e6), 512);
   for (int step = 0; step < 53; ++step) {
     double const edges = 0.1 * std::pow(1.3, step);
-    EXPECT_GE(size.side({0.0, 1.3 * edges}), size.side({0.0, edges}));
-    EXPECT_GE(size.side({1.3 * edges, 0.0}), size.side({edges, 0.0}));
-    EXPECT_LE(TileSize::for_error(3e-3, 16384).side({0.0, edges}), size.side({0.0, edges}));
+    EXPECT_GE(size.side(0.0, 1.3 * edges), size.side(0.0, edges));
+    EXPECT_GE(size.side(1.3 * edges, 0.0), size.side(edges, 0.0));
+    EXPECT_LE(TileSize::for_error(3e-3, 16384).side(0.0, edges), size.side(0.0, edges));
   }
-  EXPECT_EQ(size.side({size.enough(), 0.0}), 512);
-  EXPECT_EQ(size.side({0.0, size.enough()}), 512);
+  EXPECT_EQ(size.side(size.enough(), 0.0), 512);
+  EXPECT_EQ(size.side(0.0, size.enough()), 512);
 }
 
 TEST(TileSize, LimitsFollowTheErrorUpToWhatTheDeviceCan) {
@@ -32,11 +32,11 @@ TEST(TileSize, LimitsFollowTheErrorUpToWhatTheDeviceCan) {
   EXPECT_EQ(TileSize::for_error(1e-2, 16384).most(), 128);  // 110
   EXPECT_EQ(TileSize::for_error(1e-4, 16384).most(), 3072);
   EXPECT_EQ(TileSize::for_error(1e-5, 16384).most(), 4096);
-  EXPECT_EQ(TileSize::for_error(1e-5, 2048).side({1e9, 1e9}), 2048);
+  EXPECT_EQ(TileSize::for_error(1e-5, 2048).side(1e9, 1e9), 2048);
 }
 
 TEST(TileSize, FixedIsFixed) {
-  EXPECT_EQ(TileSize::fixed(300).side({5.0, 7.0}), 300);
+  EXPECT_EQ(TileSize::fixed(300).side(5.0, 7.0), 300);
   EXPECT_EQ(TileSize::fixed(300).side_with_screens(300), 300);
   EXPECT_EQ(TileSize::for_error(1e-3, 16384).side_with_screens(64), 256);
 }

@@ -7,7 +7,7 @@
 // from (0, 0).
 //
 // Constructors throw Error for invalid values; the message begins with the field, as in "pitch is 0
-// m, expected more than 0".
+// m, expected 1e-06 to 100000".
 
 namespace gpu_shading {
 

@@ -30,10 +30,13 @@ struct InteriorQuestion {
 // Method: pixel counting after Jones, Greenberg & Pratt (2012). The receiver's plane is the image
 // plane: casters are clipped at it and projected onto it along the sun's rays. This is the parallel
 // projection of the sun's view followed by an affine map, so sunlit fractions are the same, and a
-// receiver has the same pixels for every sun direction. The pixel grid is rotated against the
-// receiver's longest edge by an angle of golden slope, so that edges parallel to it do not line up
-// with rows of pixels. A receiver too thin for 16 pixels on its finest tile gets the sunlit
-// fraction of its bounding rectangle.
+// receiver has the same pixels for every sun direction. The pixel grid is turned against the
+// receiver's longest edge by the golden slope, or another where much in view lies along it, so that
+// edges do not line up with rows of pixels. A receiver too thin for 16 pixels on its finest tile
+// gets the sunlit fraction of its bounding rectangle.
+//
+// Views with few edges are answered without pixels, exact to rounding, where that takes less time:
+// the trapezoids between all outlines, projected in the same way, are summed.
 //
 // Where a caster in view transmits, each pixel has a 32-bit luminance: 1 where the receiver is,
 // multiplied by what every caster lets through (the second method of Jones & Greenberg), 0 for

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,26 @@ FARTHEST = 1e7  # m; beyond it, single precision has no metre left
 MOST_VERTICES = 100_000  # of one surface
 
 
+def _masked_place(values: object) -> list[int] | None:
+    """The index of the first value that a mask hides. numpy.asarray would uncover it."""
+    if isinstance(values, np.ma.MaskedArray):
+        for place in np.argwhere(np.ma.getmaskarray(values)):
+            return [int(index) for index in place]
+    elif isinstance(values, (list, tuple)):
+        for index, value in enumerate(values):
+            inner = _masked_place(value)
+            if inner is not None:
+                return [index, *inner]
+    return None
+
+
+def unmasked(values: ArrayLike, what: str) -> NDArray[Any]:
+    place = _masked_place(values)
+    if place is not None:
+        raise InvalidInput(f"{what}: masked at {place}, expected numbers")
+    return np.asarray(values)
+
+
 def pointer(array: NDArray[Any]) -> int:
     return int(array.ctypes.data)
 
@@ -21,11 +42,13 @@ def pointer(array: NDArray[Any]) -> int:
 def numbers(values: ArrayLike, what: str, *, infinite: bool = False) -> Floats:
     """A dense array of finite numbers, or also of infinite ones."""
     try:
-        found = np.asarray(values)
+        found = unmasked(values, what)
         # Text, and objects such as None, would be converted too.
         if found.dtype.kind not in "biuf":
             raise ValueError
         array = np.ascontiguousarray(found, dtype=np.float64).reshape(found.shape)
+    except InvalidInput:
+        raise
     except (TypeError, ValueError):
         raise InvalidInput(f"{what}: expected an array of numbers") from None
     bad = np.isnan(array) if infinite else ~np.isfinite(array)
@@ -39,9 +62,27 @@ def number(value: float, what: str, least: float = -np.inf, most: float = np.inf
     array = numbers(value, what)
     if array.ndim != 0:
         raise InvalidInput(f"{what}: expected one number, got an array of shape {array.shape}")
-    if not least <= array <= most:
-        raise InvalidInput(f"{what}: {array:g}, expected {least:g} to {most:g}")
-    return float(array)
+    return float(within(array, what, least, most))
+
+
+def whole(value: int, what: str, least: int, most: int) -> int:
+    try:
+        found = operator.index(value)
+    except TypeError:
+        raise InvalidInput(f"{what}: {value!r}, expected a whole number") from None
+    if not least <= found <= most:
+        raise InvalidInput(f"{what}: {found}, expected {least} to {most}")
+    return found
+
+
+def within(array: Floats, what: str, least: float, most: float, unit: str = "") -> Floats:
+    """The array, if all its numbers are in a range."""
+    wrong = (array < least) | (array > most)
+    if wrong.any():
+        place = tuple(int(index) for index in np.argwhere(wrong)[0])
+        at = f" at {list(place)}" if place else ""
+        raise InvalidInput(f"{what}: {array[place]:g}{at}, expected {least:g} to {most:g}{unit}")
+    return array
 
 
 def points(values: ArrayLike, what: str) -> Floats:
@@ -89,9 +130,14 @@ def unit_vectors(angles: Floats) -> Floats:
 
 def indices(values: ArrayLike, most: int, what: str) -> NDArray[np.uint32]:
     """Indices of surfaces, 0 .. most - 1."""
-    found = np.asarray(values)
+    try:
+        found = unmasked(values, what)
+    except InvalidInput:
+        raise
+    except ValueError:
+        raise InvalidInput(f"{what}: lists of different lengths, expected a list of indices of surfaces") from None
     if found.ndim != 1 or (found.size and found.dtype.kind not in "iu"):
-        raise InvalidInput(f"{what}: expected a list of indices of surfaces")
+        raise InvalidInput(f"{what}: {found.dtype} of shape {found.shape}, expected a list of indices of surfaces")
     if found.size and (found.min() < 0 or found.max() >= most):
         raise InvalidInput(f"{what}: {found.min()} to {found.max()}, expected 0 to {most - 1}")
     return np.ascontiguousarray(found, dtype=np.uint32)

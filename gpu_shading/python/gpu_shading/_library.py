@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import atexit
 import ctypes
+import os
+import threading
 import weakref
 from collections.abc import Callable
 from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int, c_size_t, c_uint32, c_void_p
 from typing import Any
 
 from gpu_shading import _places
+from gpu_shading._arrays import whole
 from gpu_shading.errors import DeviceError, Error, InvalidInput
 
-_INVALID, _DEVICE, _MEMORY = 1, 2, 3
+_INVALID, _DEVICE, _MEMORY, _CLOSED = 1, 2, 3, 5
 
 
 class SurfaceRecord(Structure):
@@ -53,6 +57,8 @@ _CALLS: dict[str, list[Any]] = {
     "scene_set_rule": [c_void_p, c_void_p, c_size_t, c_void_p, c_size_t],
     "scene_areas": [c_void_p, c_void_p],
     "renderer_new": [c_void_p, c_char_p, c_int, c_double, _MADE],
+    "renderer_device": [c_void_p],
+    "renderer_warnings": [c_void_p],
     "renderer_set_deployments": [c_void_p, c_void_p, c_size_t],
     "renderer_sunlit": [c_void_p, c_void_p, c_size_t, c_void_p, c_size_t, POINTER(FactorTable), c_void_p],
     "renderer_interior": [c_void_p, c_void_p, c_size_t, c_uint32, c_void_p, c_size_t, POINTER(FactorTable), c_void_p],
@@ -60,30 +66,46 @@ _CALLS: dict[str, list[Any]] = {
     "rays_transmittance": [c_void_p, POINTER(RayRecord), c_void_p],
     "rays_nearest": [c_void_p, POINTER(RayRecord), c_int, c_void_p, c_void_p],
 }
-_TEXTS: dict[str, list[Any]] = {
-    "message": [], "version": [], "renderer_device": [c_void_p], "renderer_warnings": [c_void_p],
-}
+_TEXTS = ("message", "version")
 _RELEASES = ("transmittance", "screen", "scene", "renderer", "rays")
 
 
 def _load() -> ctypes.CDLL:
     loaded = ctypes.CDLL(str(_places.library()))
-    for name, arguments in (_CALLS | _TEXTS).items():
+    for name, arguments in _CALLS.items():
         function = getattr(loaded, f"gpu_shading_{name}")
-        function.argtypes = arguments
-        function.restype = c_char_p if name in _TEXTS else c_int
+        function.argtypes, function.restype = arguments, c_int
+    for name in _TEXTS:
+        function = getattr(loaded, f"gpu_shading_{name}")
+        function.argtypes, function.restype = [], c_char_p
     for name in _RELEASES:
         function = getattr(loaded, f"gpu_shading_{name}_release")
         function.argtypes, function.restype = [c_void_p], None
+    loaded.gpu_shading_close.argtypes, loaded.gpu_shading_close.restype = [], None
     return loaded
 
 
 _LOADED = _load()
 
 
-def text(name: str, *arguments: Any) -> str:
-    """What a function that returns text says."""
-    found: bytes = getattr(_LOADED, f"gpu_shading_{name}")(*arguments)
+_PROCESS = os.getpid()
+
+
+def _close() -> None:
+    """Lets daemon threads that compute finish, before what they use is destroyed."""
+    # A forked process has none of its parent's threads.
+    if os.getpid() == _PROCESS:
+        _LOADED.gpu_shading_close()
+
+
+# Before weakref's own function, which releases all objects: it is registered with the first finalizer, and the last
+# that is registered runs first.
+weakref.finalize(_close, lambda: None).atexit = False
+atexit.register(_close)
+
+
+def _text(name: str) -> str:
+    found: bytes = getattr(_LOADED, f"gpu_shading_{name}")()
     return found.decode(errors="replace")
 
 
@@ -94,8 +116,16 @@ def call(name: str, *arguments: Any) -> None:
         return
     if status == _MEMORY:
         raise MemoryError
+    if status == _CLOSED and threading.current_thread() is not threading.main_thread():
+        raise SystemExit  # ends a daemon thread, and is not reported
     kind: type[Error] = {_INVALID: InvalidInput, _DEVICE: DeviceError}.get(status, Error)
-    raise kind(text("message"))
+    raise kind("Python is exiting" if status == _CLOSED else _text("message"))
+
+
+def text(name: str, *arguments: Any) -> str:
+    """What a function leaves as text."""
+    call(name, *arguments)
+    return _text("message")
 
 
 class Handle:
@@ -115,9 +145,7 @@ class Handle:
 
 def limit_threads(count: int) -> None:
     """From now on at most `count` threads compute at a time in this process, the calling one among them."""
-    if count < 1:
-        raise InvalidInput(f"threads: {count}, expected 1 or more")
-    call("limit_threads", min(count, 1 << 20))
+    call("limit_threads", min(whole(count, "count", 1, 1 << 31), 1 << 20))
 
 
-__version__ = text("version")
+__version__ = _text("version")

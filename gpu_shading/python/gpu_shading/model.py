@@ -1,19 +1,18 @@
-"""Models of EnergyPlus: what takes part in their shading calculation, and the scene that is rendered for them."""
+"""Models of EnergyPlus: what takes part in their shading calculation, and what is rendered for them."""
 
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gpu_shading import _programs
 from gpu_shading.errors import RunError
 from gpu_shading.optics import Screen, Transmittance
-
-if TYPE_CHECKING:
-    from gpu_shading.scene import Scene
 
 _FORMATS = ("gpu_shading check 1", "gpu_shading scene 1")
 
@@ -25,34 +24,41 @@ def check(model: _programs.Name, weather: _programs.Name | None = None) -> dict[
     return _document(model, weather, [], _FORMATS[0])
 
 
-def read_scene(model: _programs.Name, weather: _programs.Name | None = None) -> Scene:
-    """Scene.from_energyplus."""
-    from gpu_shading.scene import Rule, Scene
+@dataclass(frozen=True)
+class Contents:
+    """What a scene is made from."""
 
+    error: float
+    resolution: int | None
+    schedules: list[str]
+    deployments: list[str]
+    surfaces: list[dict[str, Any]]
+    """Arguments of Scene.add for each."""
+    rule: tuple[NDArray[Any], NDArray[Any]] | None
+    """Roles, and which zone shades which."""
+
+
+def read(model: _programs.Name, weather: _programs.Name | None = None) -> Contents:
+    """The scene that is rendered for a model."""
     document = _document(model, weather, ["--vertices"], _FORMATS[1])
     shades = [Transmittance.table(np.linspace(0.0, 90.0, len(values)), values) for values in document["transmittances"]]
     screens = [_screen(found) for found in document["screens"]]
     schedules, deployments = document["schedules"], document["deployments"]
-    scene = Scene(error=document["error"], resolution=document["resolution"])
-    # In their order, which is that of factors, whichever surface comes first.
-    scene.schedules[:], scene.deployments[:] = schedules, deployments
 
     def item(among: list[Any], index: int | None) -> Any:
         return None if index is None or index < 0 else among[index]
 
-    for surface in document["surfaces"]:
-        scene.add(
-            surface["outline"], holes=surface["holes"], name=surface["name"], receives=surface["receives"],
-            casts=surface["casts"], transmittance=item(shades, surface["transmittance"]),
-            screen=item(screens, surface["screen"]), screen_origin=tuple(surface["origin"]),
-            screen_rotation=surface["rotation"], schedule=item(schedules, surface["schedule"]),
-            deployment=item(deployments, surface["deployment"]))
-    rule = document["rule"]
-    if rule["roles"]:
-        zones = rule["zones"]
-        scene.set_rule(Rule(np.array(rule["roles"], dtype=np.uint32),
-                            np.array(rule["zone_shades"], dtype=np.uint8).reshape(zones, zones)))
-    return scene
+    surfaces = [
+        {"vertices": surface["outline"], "holes": surface["holes"], "name": surface["name"],
+         "receives": surface["receives"], "casts": surface["casts"],
+         "transmittance": item(shades, surface["transmittance"]), "screen": item(screens, surface["screen"]),
+         "screen_origin": tuple(surface["origin"]), "screen_rotation": surface["rotation"],
+         "schedule": item(schedules, surface["schedule"]), "deployment": item(deployments, surface["deployment"])}
+        for surface in document["surfaces"]]
+    rule, zones = document["rule"], document["rule"]["zones"]
+    return Contents(document["error"], document["resolution"], schedules, deployments, surfaces,
+                    (np.array(rule["roles"]), np.array(rule["zone_shades"]).reshape(zones, zones))
+                    if rule["roles"] else None)
 
 
 def _document(model: _programs.Name, weather: _programs.Name | None, flags: list[str], format_: str) -> dict[str, Any]:

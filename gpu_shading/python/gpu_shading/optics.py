@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from ctypes import byref
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gpu_shading import _library
-from gpu_shading._arrays import Floats, number, numbers, pointer
+from gpu_shading import _library, _pickles
+from gpu_shading._arrays import Floats, number, numbers, pointer, unmasked, whole, within
 from gpu_shading.errors import InvalidInput
 
 Hole = Literal["round", "square", "slotted", "hexagonal"]
@@ -38,27 +38,27 @@ class Transmittance:
     Made by one of the class's functions. `tau(angles)` evaluates it; angles are in degrees from the normal, 0 to 90.
     """
 
-    def __init__(self, make: str, *arguments: Any) -> None:
-        arguments = tuple(value.copy() if isinstance(value, np.ndarray) else value for value in arguments)
-        self._made_by = make, arguments
-        prepared = [pointer(value) if isinstance(value, np.ndarray) else value for value in arguments]
-        self.handle = _library.Handle("transmittance", f"transmittance_{make}", *prepared)
+    def __init__(self, recipe: tuple[str, dict[str, Any]], *arguments: Any) -> None:
+        self._recipe = recipe
+        self.handle = _library.Handle("transmittance", f"transmittance_{recipe[0]}", *arguments)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        make, arguments = self._made_by
-        return (Transmittance, (make, *arguments))
+        return _reduced("Transmittance", self._recipe)
 
     @classmethod
     def constant(cls, value: float) -> Transmittance:
         """The same at every angle, 0 to 1."""
-        return cls("constant", number(value, "transmittance"))
+        value = number(value, "transmittance")
+        return cls(("constant", {"value": value}), value)
 
     @classmethod
     def polynomial(cls, coefficients: ArrayLike, *, of: Literal["cosine", "degrees"] = "cosine") -> Transmittance:
         """c[0] + c[1] x + ... + c[8] x^8 at most, where x is the cosine of the angle of incidence, or the angle in
         degrees. It must stay within 0 and 1."""
         values = _row(coefficients, "coefficients")
-        return cls("polynomial", values, len(values), int(choice(of, ("cosine", "degrees"), "of") == 0))
+        in_cosine = choice(of, ("cosine", "degrees"), "of") == 0
+        return cls(("polynomial", {"coefficients": values.copy(), "of": of}), pointer(values), len(values),
+                   int(in_cosine))
 
     @classmethod
     def table(cls, angles: ArrayLike, values: ArrayLike) -> Transmittance:
@@ -66,7 +66,7 @@ class Transmittance:
         x, y = _row(angles, "angles"), _row(values, "values")
         if len(x) != len(y):
             raise InvalidInput(f"values: {len(y)}, expected as many as angles, {len(x)}")
-        return cls("table", x, y, len(x))
+        return cls(("table", {"angles": x.copy(), "values": y.copy()}), pointer(x), pointer(y), len(x))
 
     @classmethod
     def glazing(cls, panes: ArrayLike) -> Transmittance:
@@ -75,16 +75,17 @@ class Transmittance:
         rows = numbers(panes, "panes")
         if rows.ndim != 2 or rows.shape[1] != 3 or not len(rows):
             raise InvalidInput(f"panes: an array of shape {rows.shape}, expected (panes, 3)")
-        return cls("glazing", rows, len(rows))
+        return cls(("glazing", {"panes": rows.copy()}), pointer(rows), len(rows))
 
     @classmethod
     def simple_glazing(cls, u_factor: float, shgc: float) -> Transmittance:
         """A window by its U-factor, W/(m2 K) above 0 and at most 7, and solar heat gain coefficient, 0 to 1."""
-        return cls("simple_glazing", number(u_factor, "u_factor"), number(shgc, "shgc"))
+        u_factor, shgc = number(u_factor, "u_factor"), number(shgc, "shgc")
+        return cls(("simple_glazing", {"u_factor": u_factor, "shgc": shgc}), u_factor, shgc)
 
     def tau(self, angles: ArrayLike) -> Floats:
         """Transmittance at angles of incidence in degrees, in the shape of `angles`."""
-        wanted = np.asarray(np.radians(numbers(angles, "angles")))
+        wanted = np.asarray(np.radians(within(numbers(angles, "angles"), "angles", 0.0, 90.0, " degrees")))
         results = np.empty(wanted.shape)
         _library.call("transmittance_at", self.handle, pointer(wanted), wanted.size, pointer(results))
         return results
@@ -98,16 +99,12 @@ class Screen:
     effective transmittance, or as their size in pixels asks for.
     """
 
-    def __init__(self, make: str, *arguments: Any) -> None:
-        arguments = tuple(value.copy() if isinstance(value, np.ndarray) else value for value in arguments)
-        self._made_by = make, arguments
-        *front, sheet = arguments
-        prepared = [pointer(value) if isinstance(value, np.ndarray) else value for value in front]
-        self.handle = _library.Handle("screen", f"screen_{make}", *prepared, byref(_library.SheetRecord(*sheet)))
+    def __init__(self, recipe: tuple[str, dict[str, Any]], make: str, *arguments: Any) -> None:
+        self._recipe = recipe
+        self.handle = _library.Handle("screen", make, *arguments)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        make, arguments = self._made_by
-        return (Screen, (make, *arguments))
+        return _reduced("Screen", self._recipe)
 
     @classmethod
     def pattern(cls, hole: Hole, size: float, pitch: float, *, arrangement: Arrangement = "staggered 60",
@@ -118,10 +115,14 @@ class Screen:
         `size`: diameter, side, width of a slot, or width across a hexagon's flats. `pitch`: between the centres of
         nearest neighbours, or along a row if `row_pitch`, the distance between rows, is given. `length`: of a slot.
         """
-        lengths = np.array([number(value, what) for value, what in (
-            (size, "size"), (length, "length"), (pitch, "pitch"), (row_pitch, "row_pitch"))])
-        return cls("pattern", choice(hole, _HOLES, "hole"), choice(arrangement, _ARRANGEMENTS, "arrangement"), lengths,
-                   _sheet(thickness, plane, None, detail))
+        lengths = {what: number(value, what) for value, what in (
+            (size, "size"), (length, "length"), (pitch, "pitch"), (row_pitch, "row_pitch"))}
+        sheet = _sheet(thickness, plane, None, detail)
+        recipe = {"hole": hole, "arrangement": arrangement, **lengths, "thickness": sheet.thickness, "plane": plane,
+                  "detail": detail}
+        return cls(("pattern", recipe), "screen_pattern", choice(hole, _HOLES, "hole"),
+                   choice(arrangement, _ARRANGEMENTS, "arrangement"), pointer(np.array(list(lengths.values()))),
+                   byref(sheet))
 
     @classmethod
     def image(cls, opacity: ArrayLike, width: float, height: float, *, threshold: float | None = 0.5,
@@ -133,11 +134,8 @@ class Screen:
         fractional. At most 16384 texels each way.
         """
         texels = numbers(opacity, "opacity")
-        if texels.ndim != 2 or not 0 < max(texels.shape) <= _MOST_TEXELS_A_SIDE or not texels.size:
-            raise InvalidInput(f"opacity: an array of shape {texels.shape}, expected (rows, columns), at most "
-                               f"{_MOST_TEXELS_A_SIDE} each way")
-        if texels.min() < 0.0 or texels.max() > 1.0:
-            raise InvalidInput(f"opacity: {texels.min():g} to {texels.max():g}, expected 0 to 1")
+        _require_texels(texels, "opacity")
+        within(texels, "opacity", 0.0, 1.0)
         # Halves are rounded down, so that 0.5 is not above a threshold of 0.5.
         return cls.from_texels(np.ceil(texels * _SOLID - 0.5).astype(np.uint16), width, height, threshold=threshold,
                                thickness=thickness, plane=plane, layers=layers, detail=detail)
@@ -147,12 +145,18 @@ class Screen:
                     thickness: float = 0.0, plane: Plane = "centre", layers: int | None = None,
                     detail: Detail = "automatic") -> Screen:
         """The same from opacities of 0 to 65535."""
-        if texels.dtype != np.uint16 or texels.ndim != 2:
-            raise InvalidInput(f"texels: {texels.dtype} of shape {texels.shape}, expected uint16 in rows and columns")
-        rows, columns = texels.shape
-        limit = float("nan") if threshold is None else number(threshold, "threshold", 0.0, 1.0)
-        return cls("tile", number(width, "width"), number(height, "height"), columns, rows,
-                   np.ascontiguousarray(texels), limit, _sheet(thickness, plane, layers, detail))
+        tile = np.array(unmasked(texels, "texels"), order="C")
+        if tile.dtype != np.uint16:
+            raise InvalidInput(f"texels: {tile.dtype}, expected uint16")
+        _require_texels(tile, "texels")
+        width, height = number(width, "width"), number(height, "height")
+        limit = None if threshold is None else number(threshold, "threshold", 0.0, 1.0)
+        sheet = _sheet(thickness, plane, layers, detail)
+        recipe = {"texels": tile, "width": width, "height": height, "threshold": limit, "thickness": sheet.thickness,
+                  "plane": plane, "layers": sheet.layers or None, "detail": detail}
+        rows, columns = tile.shape
+        return cls(("from_texels", recipe), "screen_tile", width, height, columns, rows, pointer(tile),
+                   float("nan") if limit is None else limit, byref(sheet))
 
     def tau(self, theta: ArrayLike, phi: ArrayLike = 0.0) -> Floats:
         """Fraction of the beam that passes, away from the sheet's edges: exact for patterns, from a table for images.
@@ -161,7 +165,9 @@ class Screen:
         (along a row of holes) towards v. The arrays are broadcast against each other.
         """
         try:
-            angles = np.broadcast_arrays(np.radians(numbers(theta, "theta")), np.radians(numbers(phi, "phi")))
+            angles = np.broadcast_arrays(
+                np.radians(within(numbers(theta, "theta"), "theta", 0.0, 90.0, " degrees")),
+                np.radians(numbers(phi, "phi")))
         except ValueError as error:
             if isinstance(error, InvalidInput):
                 raise
@@ -199,8 +205,34 @@ def _row(values: ArrayLike, what: str) -> Floats:
     return array
 
 
-def _sheet(thickness: float, plane: str, layers: int | None, detail: str) -> tuple[float, int, int, int]:
-    if layers is not None and not 1 <= layers <= 64:
-        raise InvalidInput(f"layers: {layers}, expected 1 to 64")
-    return (number(thickness, "thickness"), choice(plane, _PLANES, "plane"), int(layers or 0),
-            choice(detail, _DETAILS, "detail"))
+def _require_texels(texels: NDArray[Any], what: str) -> None:
+    if texels.ndim != 2 or not texels.size or max(texels.shape) > _MOST_TEXELS_A_SIDE:
+        raise InvalidInput(f"{what}: an array of shape {texels.shape}, expected (rows, columns), 1 to "
+                           f"{_MOST_TEXELS_A_SIDE} each way")
+
+
+def _sheet(thickness: float, plane: str, layers: int | None, detail: str) -> _library.SheetRecord:
+    return _library.SheetRecord(number(thickness, "thickness"), choice(plane, _PLANES, "plane"),
+                                0 if layers is None else whole(layers, "layers", 1, 64),
+                                choice(detail, _DETAILS, "detail"))
+
+
+def _reduced(kind: str, recipe: tuple[str, dict[str, Any]]) -> tuple[Any, ...]:
+    """For pickles: the function of a class that makes an object, and its arguments."""
+    make, arguments = recipe
+    return _restored, (_pickles.VERSION, kind, make, {
+        name: _pickles.packed(value) if isinstance(value, np.ndarray) else value for name, value in arguments.items()})
+
+
+def _restored(version: int, kind: str, make: str, arguments: Mapping[str, Any]) -> Any:
+    _pickles.require_version(version)
+    makers = {"Transmittance": ("constant", "polynomial", "table", "glazing", "simple_glazing"),
+              "Screen": ("pattern", "from_texels")}
+    choice(kind, tuple(makers), "pickle: kind")
+    choice(make, makers[kind], f"pickle: {kind}")
+    if not isinstance(arguments, Mapping):
+        raise InvalidInput(f"pickle: {kind}: {type(arguments).__name__}, expected arguments by name")
+    # Arrays are the only tuples.
+    values = {name: _pickles.unpacked(value, name) if isinstance(value, tuple) else value
+              for name, value in arguments.items()}
+    return getattr({"Transmittance": Transmittance, "Screen": Screen}[kind], make)(**values)

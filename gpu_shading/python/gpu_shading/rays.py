@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gpu_shading import _library
-from gpu_shading._arrays import Floats, indices, numbers, pointer, points
+from gpu_shading._arrays import Floats, indices, numbers, pointer, points, within
 from gpu_shading.errors import InvalidInput
 
 Faces = Literal["as casting", "both"]
@@ -83,6 +83,7 @@ class Rays:
         ends = np.full(len(start), np.inf) if lengths is None else numbers(lengths, "lengths", infinite=True)
         if ends.shape != (len(start),):
             raise InvalidInput(f"lengths: an array of shape {ends.shape}, expected ({len(start)},)")
+        within(ends, "lengths", 0.0, np.inf, " m")
         asked = -1 if receiver is None else int(indices([receiver], self._surfaces, "receiver")[0])
         left_out = np.sort(indices(list(excluded), self._surfaces, "excluded"))
         values, shares = self._factor_table(factors, None)[0], self._shares(deployments)

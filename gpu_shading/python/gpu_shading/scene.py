@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import threading
+import time
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from ctypes import byref
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from gpu_shading import _library
+from gpu_shading import _library, _pickles
 from gpu_shading._arrays import (
+    FARTHEST,
     Floats,
     indices,
     number,
@@ -23,8 +26,12 @@ from gpu_shading._arrays import (
     ring,
     suns,
     unit_vectors,
+    unmasked,
+    whole,
+    within,
 )
 from gpu_shading.errors import InvalidInput
+from gpu_shading.model import Contents, read
 from gpu_shading.optics import Screen, Transmittance, choice
 from gpu_shading.rays import Faces, Rays, RayScreens, make_rays
 
@@ -34,7 +41,11 @@ Values = Mapping[str, float] | ArrayLike
 _CASTS = ("always", "turned away", "never")
 _LEAST_COSINE = 1e-5  # EnergyPlus's: with less, the sun is behind a surface
 _MOST_DIRECTIONS = 1024  # in one call of the library, between which Python may stop
+_FIRST_DIRECTIONS = 64
+_LONG_CALL = 0.25  # s
 _MOST_ANSWERS = 1 << 20
+_MOST_PIXELS = 1 << 20  # along a side
+_MOST_TURN = 3600.0  # degrees
 
 
 @dataclass(frozen=True)
@@ -58,8 +69,24 @@ class Surface:
 class Rule:
     """Which caster counts for which receiver, as a model asks (gpu_shading/shading_rule.h)."""
 
-    roles: np.ndarray[Any, np.dtype[np.uint32]]
-    zone_shades: np.ndarray[Any, np.dtype[np.uint8]]
+    roles: NDArray[np.uint32]
+    """Of each surface in a row: wall, zone, 0 to 3 for which surfaces it shades, and the only one if that is 3."""
+    zone_shades: NDArray[np.uint8]
+    """Square, by the receiver's zone and then the caster's: 1 where it shades."""
+
+    def __post_init__(self) -> None:
+        roles = _whole_numbers(self.roles, "rule: roles", (1 << 32) - 1).astype(np.uint32)
+        if roles.shape[1] != 4:
+            raise InvalidInput(f"rule: roles: an array of shape {roles.shape}, expected (surfaces, 4)")
+        zone_shades = _whole_numbers(self.zone_shades, "rule: zone_shades", 1).astype(np.uint8)
+        if zone_shades.shape[0] != zone_shades.shape[1]:
+            raise InvalidInput(f"rule: zone_shades: an array of shape {zone_shades.shape}, expected (zones, zones)")
+        for column, name, least_beyond in ((1, "zone", len(zone_shades)), (2, "shades", 4)):
+            if len(roles) and roles[:, column].max() >= least_beyond:
+                raise InvalidInput(f"rule: roles: {name} {roles[:, column].max()}, expected less than {least_beyond}")
+        for field, array in (("roles", roles), ("zone_shades", zone_shades)):
+            array.setflags(write=False)
+            object.__setattr__(self, field, array)
 
 
 class Scene:
@@ -79,8 +106,8 @@ class Scene:
     def __init__(self, receivers: Iterable[ArrayLike] | Mapping[str, ArrayLike] = (),
                  casters: Iterable[ArrayLike] | Mapping[str, ArrayLike] = (), *, error: float = 1e-3,
                  resolution: int | None = None) -> None:
-        self.error = error
-        self.resolution = resolution
+        self.error = number(error, "error")
+        self.resolution = None if resolution is None else whole(resolution, "resolution", 1, _MOST_PIXELS)
         self.schedules: list[str] = []
         """Names of transmittance schedules; their values are the `factors` of a question."""
         self.deployments: list[str] = []
@@ -99,9 +126,18 @@ class Scene:
         """The scene that `energyplus --gpu-shading` renders for an IDF or epJSON file: EnergyPlus's surfaces, what our
         extension objects add, their optics, and the model's own rules of which surface shades which. EnergyPlus runs
         up to its shading calculation. `weather`: an EPW file, without which one that comes with EnergyPlus is used."""
-        from gpu_shading.model import read_scene
+        return cls._made(read(model, weather))
 
-        return read_scene(model, weather)
+    @classmethod
+    def _made(cls, contents: Contents) -> Scene:
+        made = cls(error=contents.error, resolution=contents.resolution)
+        # In their order, which is that of factors, whichever surface comes first.
+        made.schedules[:], made.deployments[:] = contents.schedules, contents.deployments
+        for surface in contents.surfaces:
+            made.add(**surface)
+        if contents.rule is not None:
+            made.set_rule(Rule(*contents.rule))
+        return made
 
     def add(self, vertices: ArrayLike, *, name: str | None = None, holes: Iterable[ArrayLike] = (),
             receives: bool = False, casts: Casts = "always", transmittance: float | Transmittance | None = None,
@@ -122,15 +158,19 @@ class Scene:
             transmittance = Transmittance.constant(number(transmittance, f"{what}: transmittance", 0.0, 1.0))
         if screen is not None and not isinstance(screen, Screen):
             raise InvalidInput(f"{what}: screen: expected a Screen")
-        origin = tuple(float(value) for value in numbers(screen_origin, f"{what}: screen_origin").ravel())
-        if len(origin) != 2:
-            raise InvalidInput(f"{what}: screen_origin: expected two numbers")
+        origin = numbers(screen_origin, f"{what}: screen_origin")
+        if origin.shape != (2,):
+            raise InvalidInput(f"{what}: screen_origin: an array of shape {origin.shape}, expected two numbers")
+        within(origin, f"{what}: screen_origin", -FARTHEST, FARTHEST, " m")
+        for value, kind in ((schedule, "schedule"), (deployment, "deployment")):
+            if value is not None and not isinstance(value, str):
+                raise InvalidInput(f"{what}: {kind}: {value!r}, expected a name")
         surface = Surface(
-            name=str(place if name is None else name), vertices=ring(vertices, what).copy(),
-            holes=tuple(ring(hole, f"{what}: hole").copy() for hole in holes), receives=bool(receives), casts=casts,
-            transmittance=transmittance, screen=screen, screen_origin=(origin[0], origin[1]),
-            screen_rotation=number(screen_rotation, f"{what}: screen_rotation"), schedule=schedule,
-            deployment=deployment)
+            name=str(place if name is None else name), vertices=_kept(ring(vertices, what)),
+            holes=tuple(_kept(ring(hole, f"{what}: hole")) for hole in holes), receives=bool(receives), casts=casts,
+            transmittance=transmittance, screen=screen, screen_origin=(float(origin[0]), float(origin[1])),
+            screen_rotation=number(screen_rotation, f"{what}: screen_rotation", -_MOST_TURN, _MOST_TURN),
+            schedule=schedule, deployment=deployment)
         for known, wanted in ((self.schedules, schedule), (self.deployments, deployment)):
             if wanted is not None and wanted not in known:
                 known.append(wanted)
@@ -219,9 +259,13 @@ class Scene:
     def set_rule(self, rule: Rule) -> None:
         """Which surface shades which; there must be a role for each. Surfaces that are added later are like the shading
         surfaces of a model."""
-        if rule.roles.shape != (len(self._surfaces), 4):
-            raise InvalidInput(f"rule: roles of shape {rule.roles.shape}, expected ({len(self._surfaces)}, 4)")
-        self._rule = rule
+        if not isinstance(rule, Rule):
+            raise InvalidInput(f"rule: {type(rule).__name__}, expected a Rule")
+        # Unpickling fills the fields of a Rule without checking them.
+        checked = Rule(rule.roles, rule.zone_shades)
+        if len(checked.roles) != len(self._surfaces):
+            raise InvalidInput(f"rule: roles of {len(checked.roles)} surfaces, expected {len(self._surfaces)}")
+        self._rule = checked
         self._forget()
 
     def _add_native(self, scene: _library.Handle, surface: Surface) -> None:
@@ -247,8 +291,16 @@ class Scene:
         self._native = None
         self._renderers = {}
 
-    def __getstate__(self) -> dict[str, Any]:
-        return self.__dict__ | {"_native": None, "_renderers": {}}
+    def __reduce__(self) -> tuple[Any, ...]:
+        surfaces = [{field.name: getattr(surface, field.name) for field in fields(surface)} | {
+            "vertices": _pickles.packed(surface.vertices),
+            "holes": [_pickles.packed(hole) for hole in surface.holes]} for surface in self._surfaces]
+        rule = None
+        if self._rule is not None:
+            rule = _pickles.packed(self._rule.roles), _pickles.packed(self._rule.zone_shades)
+        return _restored, (_pickles.VERSION, {
+            "error": self.error, "resolution": self.resolution, "schedules": self.schedules,
+            "deployments": self.deployments, "surfaces": surfaces, "rule": rule})
 
     def __repr__(self) -> str:
         return f"<Scene: {len(self._surfaces)} surfaces, {len(self.receivers)} receivers>"
@@ -259,10 +311,9 @@ class Renderer:
     question at a time, on all cores or on the GPU, and meanwhile other threads of Python run."""
 
     def __init__(self, scene: Scene, device: str, error: float, resolution: int | None) -> None:
-        if resolution is not None and not 1 <= resolution <= 1 << 20:
-            raise InvalidInput(f"resolution: {resolution}, expected 1 or more pixels")
+        pixels = 0 if resolution is None else whole(resolution, "resolution", 1, _MOST_PIXELS)
         self._handle = _library.Handle("renderer", "renderer_new", scene.native(), device.encode(errors="replace"),
-                                       int(resolution or 0), number(error, "error"))
+                                       pixels, number(error, "error"))
         self._lock = threading.Lock()  # of the deployments and the question that they are for
         self._surfaces = len(scene.surfaces)
         self._vectors = scene._area_vectors()
@@ -323,17 +374,65 @@ class Renderer:
         table = self._factor_table(factors, len(angles))
         shares = self._shares(deployments)
         results = np.empty((len(angles), len(wanted)))
-        step = max(1, min(_MOST_DIRECTIONS, _MOST_ANSWERS // max(1, len(wanted))))
+        most = max(1, min(_MOST_DIRECTIONS, _MOST_ANSWERS // max(1, len(wanted))))
+        first, step = 0, min(most, _FIRST_DIRECTIONS)
         with self._lock:
             _library.call("renderer_set_deployments", self._handle, pointer(shares), len(shares))
-            for first in range(0, len(angles) if len(wanted) else 0, step):
+            while first < len(angles) and len(wanted):
+                began = time.monotonic()
                 part, rows = angles[first:first + step], table if len(table) == 1 else table[first:first + step]
                 _library.call(question, self._handle, pointer(part), len(part), *window, pointer(wanted), len(wanted),
                               byref(_library.FactorTable(pointer(rows), *rows.shape)), pointer(results[first:]))
+                first += step
+                step = min(most, 2 * step) if time.monotonic() - began < _LONG_CALL else max(1, step // 2)
             lines = _library.text("renderer_warnings", self._handle).splitlines()
         for line in lines:
             warnings.warn(line, RuntimeWarning, stacklevel=4)
         return results
+
+
+def _restored(version: int, state: Mapping[str, Any]) -> Scene:
+    """What a pickle of a scene holds."""
+    _pickles.require_version(version)
+    try:
+        surfaces = [dict(surface) | {
+            "vertices": _pickles.unpacked(surface["vertices"], "vertices"),
+            "holes": [_pickles.unpacked(hole, "hole") for hole in surface["holes"]]} for surface in state["surfaces"]]
+        rule = state["rule"]
+        if rule is not None:
+            roles, zone_shades = rule
+            rule = _pickles.unpacked(roles, "roles"), _pickles.unpacked(zone_shades, "zone_shades")
+        names = [list(state["schedules"]), list(state["deployments"])]
+        contents = Contents(state["error"], state["resolution"], names[0], names[1], surfaces, rule)
+    except InvalidInput:
+        raise
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        raise InvalidInput(f"pickle: scene: {type(error).__name__}: {error}, expected what Scene writes") from None
+    if not all(isinstance(name, str) for name in itertools.chain(*names)):
+        raise InvalidInput("pickle: scene: schedules and deployments: expected names")
+    return Scene._made(contents)
+
+
+def _kept(array: Floats) -> Floats:
+    """A copy that cannot be changed, so that what was checked stays so."""
+    kept = array.copy()
+    kept.setflags(write=False)
+    return kept
+
+
+def _whole_numbers(values: ArrayLike, what: str, most: int) -> NDArray[Any]:
+    """A copy in C's order, in rows, of numbers from 0 to `most`."""
+    try:
+        found = np.array(unmasked(values, what), order="C")
+    except InvalidInput:
+        raise
+    except ValueError:
+        raise InvalidInput(f"{what}: rows of different lengths, expected an array of whole numbers") from None
+    if found.dtype.kind not in "biu" or found.ndim != 2:
+        raise InvalidInput(f"{what}: {found.dtype} of shape {found.shape}, expected whole numbers in rows")
+    if found.size and (found.min() < 0 or found.max() > most):
+        raise InvalidInput(f"{what}: {found.min()} to {found.max()}, expected 0 to {most}")
+    return found
 
 
 def _completed(roles: np.ndarray[Any, np.dtype[np.uint32]], surfaces: int) -> np.ndarray[Any, np.dtype[np.uint32]]:

@@ -3,11 +3,15 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <seccomp.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -89,12 +93,62 @@ TEST_F(DecodingProcesses, CanDoNothingElse) {
   EXPECT_EQ(ask("read input"), (std::vector<unsigned>{1, 8}));
   for (auto const* operation :
        {"write a file", "change the input", "remove a file", "open a socket", "start a process",
-        "run a program", "signal its parent"}) {
+        "run a program", "signal its parent", "choose who gets signals", "choose a signal",
+        "ask for signals", "ask for a lease"}) {
     EXPECT_EQ(ask(operation), no) << operation;
   }
   EXPECT_EQ(ask("read another file"), no);
   EXPECT_TRUE(std::filesystem::exists(file_));
   EXPECT_FALSE(std::filesystem::exists(file_.string() + ".written"));
+}
+
+// What `action` says in a fork of this process, from which the kernel refuses calls; of prctl()
+// only the one that sets a filter.
+template <typename Action>
+std::string said_without(std::vector<int> const& calls, int error, Action const& action) {
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) return "no pipe";
+  auto const child = fork();
+  if (child == 0) {
+    auto* const filter = seccomp_init(SCMP_ACT_ALLOW);
+    for (auto const call : calls) {
+      auto const refused = SCMP_ACT_ERRNO(static_cast<std::uint32_t>(error));
+      scmp_arg_cmp const sets_filter{0, SCMP_CMP_EQ, PR_SET_SECCOMP, 0};
+      seccomp_rule_add_array(filter, refused, call, call == SCMP_SYS(prctl) ? 1 : 0, &sets_filter);
+    }
+    auto const text = seccomp_load(filter) == 0 ? action() : "no filter";
+    _exit(write(ends[1], text.data(), text.size()) < 0 ? 1 : 0);
+  }
+  close(ends[1]);
+  std::array<char, 1000> text{};
+  auto const length = read(ends[0], text.data(), text.size());
+  close(ends[0]);
+  waitpid(child, nullptr, 0);
+  return {text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, length))};
+}
+
+TEST_F(DecodingProcesses, ThatCannotGiveUpTheirRightsDecodeNothing) {
+  auto const decode = [&] { return refusal("be good"); };
+  auto const start = std::string("the decoding process cannot give up its rights: ");
+  EXPECT_EQ(said_without({SCMP_SYS(landlock_restrict_self)}, EPERM, decode),
+            start + "landlock_restrict_self: Operation not permitted");
+  EXPECT_THAT(said_without({SCMP_SYS(seccomp), SCMP_SYS(prctl)}, EINVAL, decode),
+              HasSubstr(start + "seccomp"));
+  EXPECT_EQ(said_without({SCMP_SYS(setrlimit), SCMP_SYS(prlimit64)}, EPERM, decode),
+            start + "setrlimit: Operation not permitted");
+}
+
+TEST_F(DecodingProcesses, ReadAnyFileButChangeNoneWhereTheKernelHasNoLandlock) {
+  auto const first = [&](std::string const& operation) {
+    return said_without({SCMP_SYS(landlock_create_ruleset)}, ENOSYS,
+                        [&] { return std::to_string(ask(operation).front()); });
+  };
+  EXPECT_EQ(first("be good"), "7");
+  EXPECT_EQ(first("read another file"), "1");
+  for (auto const* operation : {"write a file", "change the input", "remove a file",
+                                "open a socket", "signal its parent", "ask for signals"}) {
+    EXPECT_EQ(first(operation), "0") << operation;
+  }
 }
 
 TEST_F(DecodingProcesses, ReadRegularFilesOfLimitedSize) {

@@ -31,8 +31,7 @@ TEST(Extensions, WhatAFieldHoldsIsDescribed) {
             "Texture, Round, Square, Slotted or Hexagonal");
   EXPECT_EQ(expectation(extension::perforated_screen::layers), "Auto or an integer from 1 to 64");
   EXPECT_EQ(expectation(extension::perforated_screen::thickness), "a number from 0 to below 1 m");
-  EXPECT_EQ(expectation(extension::perforated_screen::hole_size),
-            "a number above 0 and at most 1000 m");
+  EXPECT_EQ(expectation(extension::perforated_screen::hole_size), "a number from 1e-06 to 1000 m");
   EXPECT_EQ(expectation(extension::perforated_screen::surface_name), "text");
   EXPECT_EQ(expectation(extension::transparent_shade::value), "a number or text");
   FieldInfo const low{
@@ -77,8 +76,8 @@ TEST(Extensions, DictionaryAndLibraryHaveTheSameLimits) {
 TEST(Extensions, ErrorsNameObjectFieldValueAndWhatWasExpected) {
   std::string const screen = "GPUShading:PerforatedScreen,S,Panel,Round,,,";
   EXPECT_EQ(refusal(screen + "-1;"),
-            "GPUShading:PerforatedScreen S: Hole Size is \"-1\", expected a number above 0 and at "
-            "most 1000 m");
+            "GPUShading:PerforatedScreen S: Hole Size is \"-1\", expected a number from "
+            "1e-06 to 1000 m");
   EXPECT_EQ(refusal("GPUShading:PerforatedScreen,S,Panel,Oval;"),
             "GPUShading:PerforatedScreen S: Hole Shape is \"Oval\", expected Texture, Round, "
             "Square, Slotted or Hexagonal");

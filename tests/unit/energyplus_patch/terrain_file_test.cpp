@@ -87,5 +87,24 @@ TEST(TerrainFile, SaysWhatIsWrong) {
   EXPECT_THROW(read_terrain("/nowhere/hill.asc", {}), Error);
 }
 
+// They vanished: all their nodes were at the same place.
+TEST(TerrainFile, CellsWithoutSizeAreRefused) {
+  auto const of_cells = [](std::string const& size, std::string const& coordinates) {
+    TemporaryFolder const folder;
+    auto const path = folder.path() / "hill.asc";
+    std::ofstream(path) << "ncols 3\nnrows 2\nxllcorner 10\nyllcorner 20\ncellsize " << size
+                        << "\n4 5 6\n1 2 3\n";
+    return refusal_of([&] { read_terrain(path, MapCoordinates::parse(coordinates)); });
+  };
+  EXPECT_THAT(of_cells("1e-308", "UTM 13N"),
+              HasSubstr("hill.asc: its cells are 1e-308 x 1e-308 m, expected at least 0.001"));
+  EXPECT_THAT(of_cells("1e-9", "WGS84"),
+              HasSubstr("its cells are 1e-09 x 1e-09 degrees, expected at least 1e-08"));
+  EXPECT_THAT(of_cells("360", "WGS84"),
+              HasSubstr("its rows are 720 degrees long, expected at most 360"));
+  EXPECT_EQ(of_cells("1e-3", "UTM 13N"), "accepted");
+  EXPECT_EQ(of_cells("1e-8", "WGS84"), "accepted");
+}
+
 }  // namespace
 }  // namespace gpu_shading::energyplus

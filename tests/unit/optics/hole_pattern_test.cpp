@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -218,11 +219,12 @@ std::string complaint(Perforation const& perforation) {
 
 TEST(HolePattern, NamesTheFieldThatIsWrong) {
   double const nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(complaint({.size = 0.0, .pitch = 0.008}), "hole size is 0 m, expected more than 0");
-  EXPECT_EQ(complaint({.size = nan, .pitch = 0.008}), "hole size is nan m, expected more than 0");
-  EXPECT_EQ(complaint({.size = 0.005, .pitch = 0.0}), "pitch is 0 m, expected more than 0");
+  EXPECT_EQ(complaint({.size = 0.0, .pitch = 0.008}), "hole size is 0 m, expected 1e-06 to 100000");
+  EXPECT_EQ(complaint({.size = nan, .pitch = 0.008}),
+            "hole size is nan m, expected 1e-06 to 100000");
+  EXPECT_EQ(complaint({.size = 0.005, .pitch = 0.0}), "pitch is 0 m, expected 1e-06 to 100000");
   EXPECT_EQ(complaint({.size = 0.005, .pitch = 0.008, .row_pitch = -1.0}),
-            "row pitch is -1 m, expected more than 0");
+            "row pitch is -1 m, expected 1e-06 to 100000");
   EXPECT_EQ(complaint({.size = 0.008, .pitch = 0.005}),
             "hole size is 0.008 m, expected less than the pitch, 0.005 m");
   EXPECT_EQ(complaint({.size = 0.005, .length = 0.02, .pitch = 0.03}),
@@ -231,6 +233,17 @@ TEST(HolePattern, NamesTheFieldThatIsWrong) {
             "hole length is 0.005 m, expected more than the hole size, 0.005 m");
   EXPECT_EQ(complaint({.hole = Hole::Slotted, .size = 0.005, .length = 0.04, .pitch = 0.03}),
             "hole length is 0.04 m, expected less than the pitch, 0.03 m");
+}
+
+TEST(HolePattern, RefusesLengthsWhoseSquaresOverflowOrVanish) {
+  for (double const scale : {1e-300, 1e-7, 1e6, 1e300}) {
+    EXPECT_EQ(complaint({.size = 0.5, .pitch = scale}),
+              fmt::format("pitch is {:g} m, expected 1e-06 to 100000", scale));
+    EXPECT_EQ(complaint({.size = 0.005, .pitch = 0.008, .row_pitch = scale}),
+              fmt::format("row pitch is {:g} m, expected 1e-06 to 100000", scale));
+  }
+  HolePattern const widest({.arrangement = Arrangement::Straight, .size = 1e-6, .pitch = 1e5});
+  EXPECT_NEAR(widest.open_fraction(), std::numbers::pi / 4 * 1e-22, 1e-30);
 }
 
 TEST(HolePattern, RefusesHolesThatOverlap) {

@@ -293,9 +293,9 @@ TEST(OpacityTile, KeepsSixteenBits) {
 
 TEST(OpacityTile, NamesWhatIsWrong) {
   EXPECT_EQ(refusal_of([] { OpacityTile(0.0, 0.01, 1, 1, std::vector{0.0F}); }),
-            "tile width is 0 m, expected more than 0");
+            "tile width is 0 m, expected 1e-06 to 100000");
   EXPECT_EQ(refusal_of([] { OpacityTile(0.01, -1.0, 1, 1, std::vector{0.0F}); }),
-            "tile height is -1 m, expected more than 0");
+            "tile height is -1 m, expected 1e-06 to 100000");
   EXPECT_EQ(refusal_of([] { OpacityTile(0.01, 0.01, 2, 2, std::vector{0.0F}); }),
             "texture has 1 texels, expected 2 x 2");
   EXPECT_EQ(refusal_of([] { OpacityTile(0.01, 0.01, 20000, 300, std::vector<std::uint16_t>()); }),

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstddef>
+
+namespace gpu_shading {
+
+struct InView;
+
+// Time that the samples of a view take on one core, in steps of an EdgeSweep: an estimate within a
+// factor of two (tests/bench/exact_cost). `side`: pixels per side of its tile.
+double sample_cost(InView const& in_view, int side, bool transmits, std::size_t interiors);
+
+}  // namespace gpu_shading
