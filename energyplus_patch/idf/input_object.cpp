@@ -29,7 +29,7 @@ std::vector<ObjectType> const& known_types() {
       {"RunPeriodControl:DaylightSavingTime", {"start_date", "end_date"}},
       {"GlobalGeometryRules",
        {"starting_vertex_position", "vertex_entry_direction", "coordinate_system"}},
-      {"GeometryTransform", {}},
+      {"GeometryTransform", {"plane_of_transform", "current_aspect_ratio", "new_aspect_ratio"}},
       {"Compliance:Building", {"building_rotation_for_appendix_g"}},
       {"Zone", {"name", "direction_of_relative_north", "x_origin", "y_origin", "z_origin"}},
       {"ShadowCalculation",
