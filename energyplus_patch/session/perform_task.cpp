@@ -30,8 +30,9 @@ std::string perform(ListingTask const& task, SceneAssembly& scene, Messages cons
 }
 
 std::string perform(ViewsTask const& task, SceneAssembly& scene, Messages const& messages) {
-  auto const& options = scene.model().options;
-  Renderer renderer(scene.scene(), watched_options(options, messages));
+  RendererOptions options = watched_options(scene.model().options, messages);
+  options.samples_only = true;  // by which the device that draws is checked
+  Renderer renderer(scene.scene(), options);
   scene.optics().update({});
   renderer.set_deployments(scene.optics().deployments());
   std::vector<bool> receives(scene.surfaces().size(), false);

@@ -27,7 +27,8 @@ def shade(on_wrong_gpu, weather, box, tmp_path):
 
     def call(*options):
         return energyplus.run(on_wrong_gpu / "energyplus", tmp_path / "box.idf", weather,
-                              tmp_path / f"run{len(options)}", [*options, "-D"])
+                              tmp_path / f"run{len(options)}",
+                              [*options, "--gpu-shading-resolution=128", "-D"])  # which asks for samples
 
     return call
 
