@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <regex>
 #include <vector>
 
@@ -117,11 +118,30 @@ struct Named {
   }
 };
 
+// Whether the values of an output variable depend on the sunlit fraction of its surface.
+bool depends_on_shading(std::string_view variable) {
+  // EnergyPlus reports these of shading surfaces too.
+  constexpr std::array<std::string_view, 4> starts{
+      "Surface Outside Face Sunlit ", "Surface Outside Face Incident ", "Surface Anisotropic Sky ",
+      "Debug Surface Solar Shading Model "};
+  return std::any_of(starts.begin(), starts.end(), [&](std::string_view start) {
+    return same_name(variable.substr(0, start.size()), start);
+  });
+}
+
+// Tables have rows for all surfaces.
+void read_table(InputObject const& object, ShadingInput& input) {
+  input.all_surfaces_shown =
+      input.all_surfaces_shown ||
+      std::any_of(object.list.begin(), object.list.end(), depends_on_shading);
+}
+
 // EnergyPlus treats the key of an output as a regular expression if it looks like one.
 void read_output(InputObject const& object, ShadingInput& input, Named& named) {
   auto const& key = object["key_value"];
   if (key.empty() || key == "*") {
-    input.all_surfaces_shown = input.all_surfaces_shown || is_surface_output(object);
+    input.all_surfaces_shown =
+        input.all_surfaces_shown || depends_on_shading(object["variable_name"]);
   } else if (key.find_first_of("^$.|?*+()[]{}\\") == std::string::npos) {
     named.names.insert(upper(key));
   } else if (is_surface_output(object)) {
@@ -204,8 +224,10 @@ ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
       named.names.insert(upper(object["surface_name"]));
     } else if (object.type == "DaylightingDevice:Shelf") {
       named.names.insert(upper(object["outside_shelf_name"]));
-    } else if (object.type == "Output:Variable") {
+    } else if (object.type == "Output:Variable" || object.type == "Output:Table:TimeBins") {
       read_output(object, input, named);
+    } else if (object.type == "Output:Table:Monthly" || object.type == "Output:Table:Annual") {
+      read_table(object, input);
     } else if (object.type == "EnergyManagementSystem:Actuator") {
       input.actuated.insert(upper(object["actuated_component_unique_name"]));
     } else if (object.type == "EnergyManagementSystem:Sensor") {

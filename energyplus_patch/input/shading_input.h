@@ -54,7 +54,8 @@ struct ShadingInput {
   bool all_shading_wanted = false;
   std::string unreadable_key;  // the output and why, or ""
 
-  // An output shows the sunlit fractions of all surfaces, mirrored copies among them.
+  // An output shows sunlit fractions, or what depends on them, of all surfaces, mirrored copies
+  // among them: with the key *, or in a table.
   bool all_surfaces_shown = false;
 
   // As in PolygonClipping: shading surfaces and reveals always cast; walls and roofs exposed to the
@@ -70,9 +71,10 @@ struct ShadingInput {
     return all_shading_wanted || wanted_shading.contains(shading_surface);
   }
 
-  // The same, or whether EnergyPlus itself does: for solar reflections, of each that it knows.
+  // The same, or whether EnergyPlus itself needs those of all that it knows: for solar reflections,
+  // or for an output of all surfaces.
   bool wants(std::string const& shading_surface) const {
-    return reflections || names(shading_surface);
+    return reflections || all_surfaces_shown || names(shading_surface);
   }
 
   // The base surface of a window or door; any other surface is its own.

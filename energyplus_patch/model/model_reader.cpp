@@ -12,6 +12,7 @@
 #include "model/daylighting.h"
 #include "model/ray_warnings.h"
 #include "model/simplified_surfaces.h"
+#include "model/transform_warning.h"
 #include "site/site_clock.h"
 #include "site/texture_axes.h"
 
@@ -139,6 +140,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   plan_rays(objects, reader, model);
   if (model.options.mode != Mode::off) {
     check_location(objects);
+    model.transform_warning = warn_of_transform(objects);
     model.simplified = find_simplified_surfaces(objects, model.shading, model.lean.left_out);
     if (!model.surroundings.empty()) ensure_placeholders(model.lean, model.shading);
     if (model.shading.detailed_sky && any_moves(model.screens)) {

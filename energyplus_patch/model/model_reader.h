@@ -30,6 +30,7 @@ struct Model {
   bool daylighting_answered = false;      // rays of daylighting ask this module
   bool reflections_answered = false;      // rays of solar reflections do
   std::vector<std::string> ray_warnings;  // see warn_of_rays
+  std::string transform_warning;          // see warn_of_transform; or ""
   std::vector<std::string> remarks;
 };
 

@@ -47,7 +47,7 @@ std::vector<SurfaceId> listed(Scene const& scene, Model const& model) {
   std::vector<SurfaceId> ids;
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     auto const& name = scene[id].name;
-    bool const copy = is_mirrored(name) && !model.shading.wants(name);
+    bool const copy = is_mirrored(name) && !model.shading.names(name);
     if (!copy && !model.surroundings.types.contains(name)) ids.push_back(id);
   }
   return ids;
@@ -123,7 +123,9 @@ Json to_json(ListedSurface const& row) {
 std::vector<std::string> remarks_of(Model const& model) {
   std::vector<std::string> remarks;
   if (!model.lean.remark.empty()) remarks.push_back(model.lean.remark);
-  if (!model.simplified.warning.empty()) remarks.push_back(model.simplified.warning);
+  for (auto const* warning : {&model.simplified.warning, &model.transform_warning}) {
+    if (!warning->empty()) remarks.push_back(*warning);
+  }
   remarks.insert(remarks.end(), model.surroundings.remarks.begin(),
                  model.surroundings.remarks.end());
   return remarks;

@@ -22,21 +22,23 @@ struct MappedReceiver {
   MapGrid grid;
 };
 
-// Whether a pattern may choose a surface: those that EnergyPlus shades, and all shading surfaces of
+// The surfaces that a pattern may choose: those that EnergyPlus shades, and all shading surfaces of
 // the model.
-bool may_be_mapped(SceneAssembly const& scene, SurfaceId id) {
-  auto const& surface = scene.surfaces()[id];
-  if (area(surface.polygon) <= 0.0) return false;
-  if (id < scene.size() && scene.receives()[id]) return true;
-  return scene.model().shading.shading_surfaces.contains(surface.name);
+std::vector<SurfaceId> may_be_mapped(SceneAssembly const& scene) {
+  auto ids = scene.shown_receivers();
+  for (auto const id : scene.shading_surfaces()) {
+    if (area(scene.surfaces()[id].polygon) > 0.0) ids.push_back(id);
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
 }
 
 std::vector<SurfaceId> choose_receivers(SceneAssembly const& scene, std::string const& pattern) {
-  if (pattern.empty()) return scene.receivers();
+  if (pattern.empty()) return scene.shown_receivers();
   std::vector<SurfaceId> chosen;
   std::vector<std::string> names;
-  for (SurfaceId id = 0; id < scene.surfaces().size(); ++id) {
-    if (!may_be_mapped(scene, id)) continue;
+  for (auto const id : may_be_mapped(scene)) {
     auto const& name = scene.surfaces()[id].name;
     names.push_back(name);
     if (matches(pattern, name)) chosen.push_back(id);

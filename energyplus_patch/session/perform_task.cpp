@@ -35,18 +35,19 @@ std::string perform(ViewsTask const& task, SceneAssembly& scene, Messages const&
   Renderer renderer(scene.scene(), options);
   scene.optics().update({});
   renderer.set_deployments(scene.optics().deployments());
-  auto receives = scene.receives();
-  receives.resize(scene.surfaces().size(), false);  // what EnergyPlus does not see only casts
+  std::vector<bool> receives(scene.surfaces().size(), false);
+  for (auto const id : scene.shown_receivers()) receives[id] = true;
   draw_views(task.views, task.folder,
              {renderer, scene.shown(), std::move(receives), scene.optics().factors(), task.size});
   return {};
 }
 
 // For tasks that render: the answers of a device that was checked.
-RenderedAnswers open_for_task(SceneAssembly& scene, Messages const& messages) {
+RenderedAnswers open_for_task(SceneAssembly& scene, std::vector<SurfaceId> const& receivers,
+                              Messages const& messages) {
   auto const& options = scene.model().options;
   if (options.cache) prepare_cache_folder(*options.cache);
-  auto answers = open_answers(scene, scene.receivers(), options.device, messages);
+  auto answers = open_answers(scene, receivers, options.device, messages);
   check_device(answers.renderer().device(), options, messages);
   describe_scene(scene, messages);
   scene.optics().update({});
@@ -84,7 +85,8 @@ SampledScene sampled_scene(SamplesTask const& task, SceneAssembly const& scene,
 std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages const& messages) {
   auto const& options = scene.model().options;
   refuse_moving_screens(scene.optics());
-  auto answers = open_for_task(scene, messages);
+  // All that a run asks for, because the samples depend on it.
+  auto answers = open_for_task(scene, scene.receivers(), messages);
   auto const& device = answers.renderer().device();
   auto const sampled = sampled_scene(task, scene, answers);
   auto line = take_samples(task, options.update.sampling.value(), sampled, describe(device),
@@ -96,7 +98,7 @@ std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages cons
 }
 
 std::string perform(DirectionsTask const& task, SceneAssembly& scene, Messages const& messages) {
-  auto answers = open_for_task(scene, messages);
+  auto answers = open_for_task(scene, scene.shown_receivers(), messages);
   auto const areas = scene.areas();
   auto const& factors = scene.optics().factors();
   std::vector<ReceiverFractions> receivers;

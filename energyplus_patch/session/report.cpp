@@ -128,9 +128,9 @@ void write_stages(std::filesystem::path const& file, Stages const& stages) {
 
 std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer,
                          std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
-                         Answers const& answers, std::vector<double> const& factors,
-                         Deployments const& deployments, Stages const& stages,
-                         std::function<void(StagedFiles&)> const& more) {
+                         std::vector<SurfaceId> const& shown, Answers const& answers,
+                         std::vector<double> const& factors, Deployments const& deployments,
+                         Stages const& stages, std::function<void(StagedFiles&)> const& more) {
   std::vector<Row> pictures;
   auto const write_sunlit = [&](std::ostream& csv) {
     csv << "receiver,sun azimuth [deg],sun altitude [deg],projected sunlit area [m2],sunlit "
@@ -146,6 +146,7 @@ std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer
                            glm::degrees(row.sun.altitude), row.projected_area, row.fraction,
                            list(deployments.states[row.state]));
       }
+      if (std::find(shown.begin(), shown.end(), receiver) == shown.end()) continue;
       auto const chosen = choose(rows);
       pictures.insert(pictures.end(), chosen.begin(), chosen.end());
     }

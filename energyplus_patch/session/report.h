@@ -36,15 +36,15 @@ struct Deployments {
 //                    this report; others in the folder are of earlier ones
 //   stages.csv       stage, wall-clock seconds
 // and what `more` adds.
-// `receivers`: by their numbers; those that were asked for, by surface, are reported. Returns how
-// many pictures were left out, being more than max_report_pictures. Throws Error when the folder
-// cannot be written; all files in it are those of before then.
+// `receivers`: by their numbers; those that were asked for, by surface, are reported, and those of
+// `shown` drawn. Returns how many pictures were left out, being more than max_report_pictures.
+// Throws Error when the folder cannot be written; all files in it are those of before then.
 inline constexpr std::size_t max_report_pictures = 300;
 std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer,
                          std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
-                         Answers const& answers, std::vector<double> const& factors,
-                         Deployments const& deployments, Stages const& stages,
-                         std::function<void(StagedFiles&)> const& more);
+                         std::vector<SurfaceId> const& shown, Answers const& answers,
+                         std::vector<double> const& factors, Deployments const& deployments,
+                         Stages const& stages, std::function<void(StagedFiles&)> const& more);
 
 // The table alone. Columns: stage, seconds. Throws Error when the file cannot be written.
 void write_stages(std::filesystem::path const& file, Stages const& stages);

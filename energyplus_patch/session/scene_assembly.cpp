@@ -108,6 +108,16 @@ std::vector<SurfaceId> SceneAssembly::receivers() const {
   return ids;
 }
 
+std::vector<SurfaceId> SceneAssembly::shown_receivers() const {
+  auto const& shading = model_.shading;
+  auto ids = receivers();
+  std::erase_if(ids, [&](SurfaceId id) {
+    auto const& name = surfaces_[id].name;
+    return (shading.shading_surfaces.contains(name) || is_mirrored(name)) && !shading.names(name);
+  });
+  return ids;
+}
+
 std::vector<SurfaceId> SceneAssembly::shown() const {
   auto const& types = model_.surroundings.types;
   std::vector<SurfaceId> ids;
@@ -115,7 +125,7 @@ std::vector<SurfaceId> SceneAssembly::shown() const {
     auto const& name = surfaces_[id].name;
     auto const type = types.find(name);
     bool const context = type != types.end() && type->second == extension::site_context::type;
-    bool const copy = is_mirrored(name) && !model_.shading.wants(name);
+    bool const copy = is_mirrored(name) && !model_.shading.names(name);
     if (!context && !copy) ids.push_back(id);
   }
   return ids;

@@ -59,6 +59,10 @@ class SceneAssembly {
   // The surfaces with an area whose sunlit fractions are wanted.
   std::vector<SurfaceId> receivers() const;
 
+  // The same for people: without shading surfaces that nothing names, whose sunlit fractions only
+  // EnergyPlus wants, for reflections and for outputs of all surfaces.
+  std::vector<SurfaceId> shown_receivers() const;
+
   // What shows a person the model: all but terrain, neighbouring buildings and mirrored copies that
   // nothing names.
   std::vector<SurfaceId> shown() const;

@@ -164,7 +164,7 @@ std::string scene_document(SceneAssembly& assembly) {
   assembly.optics().update({});
   auto const scene = assembly.scene();
   std::vector<bool> receives(scene.size(), false);
-  for (auto const id : assembly.receivers()) receives[id] = true;
+  for (auto const id : assembly.shown_receivers()) receives[id] = true;
   SurfaceTexts surfaces;
   for (SurfaceId id = 0; id < scene.size(); ++id) surfaces.add(scene[id], receives[id]);
   auto const& options = assembly.model().options;

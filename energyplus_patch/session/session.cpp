@@ -91,7 +91,7 @@ void Session::start(Messages messages, Schedules schedules, std::function<double
   if (options.report) {
     prepare_report(*options.report);
     prepare_page(*options.report);
-    record_.emplace(scene_.areas(), scene_.receivers());
+    record_.emplace(scene_.areas(), scene_.shown_receivers());
   }
   if (options.cache) prepare_cache_folder(*options.cache);
   answers_.emplace(SunAnswers::Site{scene_.areas(), options.update.sampling, std::move(latitude)});
@@ -232,8 +232,9 @@ void Session::write_reports() {
   auto const& optics = scene_.optics();
   record_->end();
   auto const left_out = write_report(
-      *options.report, rendered.renderer(), known.receivers, answers_->asked(), known.answers,
-      optics.factors(), {optics.deployment_names(), known.states}, stages, [&](StagedFiles& files) {
+      *options.report, rendered.renderer(), known.receivers, answers_->asked(),
+      scene_.shown_receivers(), known.answers, optics.factors(),
+      {optics.deployment_names(), known.states}, stages, [&](StagedFiles& files) {
         write_run(files, *options.report, scene_, rendered.renderer().device(), *record_);
       });
   if (left_out > 0) {

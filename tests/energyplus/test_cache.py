@@ -131,8 +131,11 @@ def test_what_is_a_matter_of_shading_renders_again(shade, box, cache, change):
     else:
         text = box.replace("FullInteriorAndExterior", "MinimalShadowing")
     changed = shade(text, *options)
-    assert counts(changed) == (directions, 0)
-    assert outputs(changed) == outputs(shade(text, *options, folder=None))
+    without = shade(text, *options, folder=None)
+    # With MinimalShadowing, EnergyPlus asks for no shading surface, and so for fewer directions.
+    asked = directions if change != "rule" else int(re.search(r"(\d+) directions", without.rendering)[1])
+    assert counts(changed) == (asked, 0)
+    assert outputs(changed) == outputs(without)
     assert len(stored(cache)) == 2
 
 

@@ -41,8 +41,27 @@ def test_named_backs_have_their_own_fraction(run_both, key, lean):
     assert any(0.05 < value < 0.95 for value in clipped["Mir-FIN 2"])
 
 
-def test_backs_that_no_output_names_are_unshaded(run_both):
+def test_outputs_of_all_surfaces_have_those_of_shading_surfaces_too(run_both):
     clipped, ours = run_both(f"Output:Variable,*,{SUNLIT},Timestep;\n")
-    for name in ("FIN 2", "Mir-FIN 2"):
-        lit = [b for a, b in zip(clipped[name], ours[name], strict=True) if a > 0.0]
-        assert lit and min(lit) > 0.999, name
+    assert {"FIN 2", "Mir-FIN 2", "SOUTH"} < clipped.keys() == ours.keys()
+    for name in clipped:
+        assert max(abs(a - b) for a, b in zip(clipped[name], ours[name], strict=True)) < 2e-3, name
+    assert any(0.05 < value < 0.95 for value in clipped["Mir-FIN 2"])
+
+
+SKY = "Surface Outside Face Incident Sky Diffuse Solar Radiation Rate per Area"
+
+
+@pytest.mark.parametrize("distribution", ["FullInteriorAndExterior", "FullInteriorAndExteriorWithReflections"])
+def test_so_has_the_sky_that_they_see(patched, weather, box, tmp_path, distribution):
+    text = re.sub(r"Output:Variable,[^;]*;[^\n]*\n", "", box).replace("FullInteriorAndExterior,", f"{distribution},")
+    path = tmp_path / "model.idf"
+    path.write_text(text + FINS + f"Output:Variable,*,{SKY},Hourly;\nOutput:SQLite,Simple;\n")
+    sums = []
+    for name, flags in (("clipped", []), ("ours", ["--gpu-shading"])):
+        run = energyplus.run(patched, path, weather, tmp_path / name, [*flags, "-D"])
+        assert run.completed, run.why()
+        sums.append({key: sum(values) for key, values in values_of(run, SKY).items()})
+    assert sums[0].keys() == sums[1].keys() and {"FIN 2", "Mir-FIN 2"} < sums[0].keys()
+    for name, clipped in sums[0].items():
+        assert sums[1][name] == pytest.approx(clipped, rel=2e-3, abs=1.0), name

@@ -28,8 +28,7 @@ TEST(ShadingInput, ShadingSurfacesGetTheNamesThatEnergyPlusGivesThem) {
 TEST(ShadingInput, ShadingFractionsAreWantedOnlyWhereTheyAreUsed) {
   std::string const surfaces =
       "Shading:Building:Detailed,A;Shading:Building:Detailed,B;Shading:Building:Detailed,C;";
-  auto const plain = read(surfaces + "Output:Variable,*,Surface Outside Face Sunlit Fraction;");
-  EXPECT_FALSE(plain.wants("A"));
+  EXPECT_FALSE(read(surfaces).wants("A"));
   auto const named = read(surfaces +
                           "Output:Variable,a,Surface Outside Face Sunlit Fraction;"
                           "Generator:Photovoltaic,PV,b;"
@@ -63,10 +62,34 @@ TEST(ShadingInput, OutputsNameSurfacesByPatternsAndMirroredCopiesToo) {
                    .mirrored_shown());
   auto const all = read(surfaces + "Output:Variable,*,Surface Outside Face Sunlit Fraction;");
   EXPECT_TRUE(all.mirrored_shown());
-  EXPECT_FALSE(all.wants("Mir-ROOF"));
+  EXPECT_TRUE(all.wants("ROOF") && all.wants("Mir-ROOF"));
+  EXPECT_FALSE(all.names("ROOF"));  // not by its own name
   // What cannot be interpreted may name any surface.
   auto const broken = read(surfaces + "Output:Variable,Fin[,Surface Outside Face Sunlit Fraction;");
   EXPECT_TRUE(broken.wants("ROOF"));
+}
+
+TEST(ShadingInput, OutputsOfAllSurfacesWantShadingSurfacesWhereTheyDependOnShading) {
+  std::string const roof = "Shading:Building:Detailed,Roof;";
+  for (auto const* output : {
+           "Output:Variable,,surface outside face sunlit area,Hourly;",
+           "Output:Variable,*,Surface Outside Face Incident Sky Diffuse Solar Radiation Rate per "
+           "Area;",
+           "Output:Variable,*,Surface Anisotropic Sky Multiplier;",
+           "Output:Table:TimeBins,*,Surface Outside Face Sunlit Fraction,0,0.2,5;",
+           "Output:Table:Monthly,Suns,2,Zone Mean Air Temperature,SumOrAverage,"
+           "Surface Outside Face Sunlit Fraction,SumOrAverage;",
+           "Output:Table:Annual,Suns,,,Surface Outside Face Sunlit Fraction,SumOrAverage,2;",
+       }) {
+    EXPECT_TRUE(read(roof + output).wants("Mir-ROOF")) << output;
+  }
+  for (auto const* output : {
+           "Output:Variable,*,Surface Inside Face Temperature;",
+           "Output:Variable,South,Surface Outside Face Sunlit Fraction;",
+           "Output:Table:Monthly,Warmth,2,Surface Inside Face Temperature,SumOrAverage;",
+       }) {
+    EXPECT_FALSE(read(roof + output).wants("ROOF")) << output;
+  }
 }
 
 TEST(ShadingInput, ReflectanceBelongsToItsSurfaceWhereverItStands) {
