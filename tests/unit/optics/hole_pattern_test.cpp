@@ -238,9 +238,9 @@ TEST(HolePattern, NamesTheFieldThatIsWrong) {
 TEST(HolePattern, RefusesLengthsWhoseSquaresOverflowOrVanish) {
   for (double const scale : {1e-300, 1e-7, 1e6, 1e300}) {
     EXPECT_EQ(complaint({.size = 0.5, .pitch = scale}),
-              fmt::format("pitch is {:g} m, expected 1e-06 to 100000", scale));
+              fmt::format("pitch is {:.9g} m, expected 1e-06 to 100000", scale));
     EXPECT_EQ(complaint({.size = 0.005, .pitch = 0.008, .row_pitch = scale}),
-              fmt::format("row pitch is {:g} m, expected 1e-06 to 100000", scale));
+              fmt::format("row pitch is {:.9g} m, expected 1e-06 to 100000", scale));
   }
   HolePattern const widest({.arrangement = Arrangement::Straight, .size = 1e-6, .pitch = 1e5});
   EXPECT_NEAR(widest.open_fraction(), std::numbers::pi / 4 * 1e-22, 1e-30);
