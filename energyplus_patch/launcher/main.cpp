@@ -86,6 +86,20 @@ void check_model(Path const& path, Choices& choices) {
   }
 }
 
+// EnergyPlus writes the objects that it reads, from which ours have been taken out.
+void check_conversion(Path const& path) {
+  if (!std::filesystem::exists(path) || (!is_idf(path) && !is_epjson(path))) return;
+  for (InputObject const& object : read_objects(path)) {
+    if (!same_name(std::string_view(object.type).substr(0, extension_prefix.size()),
+                   extension_prefix)) {
+      continue;
+    }
+    throw Error(
+        fmt::format("{}: {} would be lost in the conversion: expected it in {}.gpu-shading.idf",
+                    path.string(), object.type, path.stem().string()));
+  }
+}
+
 // As C has a list of words.
 class Words {
  public:
@@ -189,6 +203,7 @@ int launch(int argc, char** argv) {
   if (line.version) fmt::print("gpu_shading {}\n", GPU_SHADING_VERSION);
   if (line.help) std::fputs(std::string(flags_help()).c_str(), stdout);
   if (line.model) {
+    if (line.convert) check_conversion(*line.model);
     check_model(*line.model, choices);
     // A preprocessor (-x) passes another file to EnergyPlus, but files beside the user's model
     // still apply.

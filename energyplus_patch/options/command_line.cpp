@@ -30,6 +30,8 @@ CommandLine read_command_line(std::vector<std::string> const& arguments) {
       line.preprocessed = true;
     } else if (argument == "-x" || argument == "--expandobjects") {
       line.expand = true;
+    } else if (argument == "-c" || argument == "--convert" || argument == "--convert-only") {
+      line.convert = true;
     } else if (argument == "-a" || argument == "--annual") {
       line.annual = true;
     } else if (argument == "-D" || argument == "--design-day") {

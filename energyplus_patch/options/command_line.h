@@ -18,6 +18,7 @@ struct CommandLine {
   bool annual = false;                           // -a
   bool design_days = false;                      // -D
   bool preprocessed = false;                     // -m
+  bool convert = false;                          // -c and --convert-only
   bool help = false;
   bool version = false;
 };

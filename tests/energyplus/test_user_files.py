@@ -303,3 +303,19 @@ def test_export_is_there_as_a_whole(patched, program, model, weather, tmp_path):
     assert done.stdout.strip() == str(folder / "model.idf")
     assert (folder / "model.idf").is_file() and not (folder / "exported").exists()
     assert not list(folder.glob(STAGE + "*")) and not list(folder.parent.glob(STAGE + "*"))
+
+
+@pytest.mark.parametrize("option", ["--convert-only", "--convert", "-c"])
+def test_conversion_loses_no_object(option, patched, box, tmp_path):
+    model = tmp_path / "model.idf"
+    model.write_text(box + "GPUShading:Settings,,timestep;\n")
+    call = [patched, "--gpu-shading", option, "-d", "out", model.name]
+    refused = subprocess.run(call, cwd=tmp_path, capture_output=True, text=True)
+    assert refused.returncode == 1
+    assert refused.stderr == ("gpu_shading: error: model.idf: GPUShading:Settings would be lost in the conversion: "
+                              "expected it in model.gpu-shading.idf\n")
+    (tmp_path / "model.gpu-shading.idf").write_text("GPUShading:Settings,,timestep;\n")
+    model.write_text(box)
+    converted = subprocess.run([*call, "-D"], cwd=tmp_path, capture_output=True, text=True)
+    assert converted.returncode == 0, converted.stderr
+    assert list(tmp_path.rglob("model.epJSON")) or list(tmp_path.rglob("*.epJSON"))
