@@ -179,6 +179,7 @@ class Casters::Shadow {
     constexpr double parallel = 1e-3;
     glm::dvec2 const size = glm::abs(edge);
     double const length = glm::length(edge);
+    if (length == 0.0) return;  // outside
     if (std::min(size.x, size.y) < parallel * std::max(size.x, size.y)) {
       detail.along += length;
       return;
