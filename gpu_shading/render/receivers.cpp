@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "gpu_shading/error.h"
 
@@ -71,7 +72,7 @@ int Receivers::side_for(Receiver const& receiver, Detail const& detail, bool scr
 
 Tile& Receivers::tile(SurfaceId id, int side, TileLay const& lay) {
   Receiver& receiver = find(id);
-  std::pair const kind(side, lay);
+  std::tuple const kind(side, lay.turn, lay.stretch);
   auto const known = receiver.tiles.find(kind);
   if (known != receiver.tiles.end()) return known->second;
   Tile tile = make_tile(surface(id).polygon, *receiver.frame, side, most_, lay);

@@ -5,8 +5,8 @@
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "gpu_shading/scene.h"
@@ -24,8 +24,8 @@ struct Receiver {
   // How often it was asked about, and the casters by sector once that has been often.
   std::size_t times = 0;
   std::unordered_map<int, std::optional<std::vector<std::uint32_t>>> in_sectors;
-  // Tiles created so far, by requested resolution and lay.
-  std::map<std::pair<int, TileLay>, Tile> tiles;
+  // Tiles created so far, by requested resolution, turn and stretch.
+  std::map<std::tuple<int, std::size_t, double>, Tile> tiles;
 };
 
 // The surfaces of a scene as receivers; scene and casters must outlive it. Their tiles are created
