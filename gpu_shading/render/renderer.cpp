@@ -87,7 +87,7 @@ class Renderer::Implementation {
   QuestionBatch new_batch() {
     check_process();
     return QuestionBatch({scene_, casters_, transmission_, *receivers_, *backend_, statistics_,
-                          options_.samples_only || options_.resolution.has_value()});
+                          options_.samples_only});
   }
 
   // A context of OpenGL's does not survive a fork; the CPU's back end does.
