@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/console.h"
+#include "base/ending_signals.h"
 #include "base/error_line.h"
 #include "base/process.h"
 #include "base/text.h"
@@ -229,6 +230,7 @@ int main(int argc, char** argv) {
   using namespace gpu_shading::energyplus;
   auto const start = std::chrono::steady_clock::now();
   catch_lack_of_memory();
+  clean_up_at_signals();
   occupy_standard_descriptors();
   std::filesystem::path folder;
   std::vector<std::string> arguments;
