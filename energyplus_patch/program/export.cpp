@@ -40,7 +40,7 @@ void export_scheduled(EnergyPlusCall call, Choices const& choices,
     std::filesystem::remove(link);
   }
   files.commit();
-  fmt::print("{}\n", (folder / model.path.filename()).string());
+  print_text(fmt::format("{}\n", (folder / model.path.filename()).string()));
 }
 
 void export_imported(EnergyPlusCall call, Choices const& choices,
