@@ -221,7 +221,13 @@ void add_maps(RunPage& page, std::filesystem::path const& report) {
     try {
       add_maps_of(page, folder);
     } catch (std::exception const& error) {
-      page.notes.push_back(fmt::format("Maps are left out: {}", one_line(error.what())));
+      auto why = one_line(error.what());
+      auto const where = report.string() + '/';
+      // The page may go elsewhere, and say nothing of this computer.
+      for (auto at = why.find(where); at != std::string::npos; at = why.find(where)) {
+        why.erase(at, where.size());
+      }
+      page.notes.push_back(fmt::format("Maps are left out: {}", why));
     }
     if (!page.maps.empty()) return;
   }
