@@ -157,20 +157,27 @@ class Builder {
   std::size_t left_out_meshes_ = 0;
 };
 
-// Decodes each file once, and keeps its meshes while further objects name it.
+// Decodes each file once, and keeps its meshes while further objects name it. Small files that are
+// named next are decoded meanwhile.
 class MeshFiles {
  public:
   MeshFiles(std::vector<InputObject> const& objects, AssetFolder const& folder) : folder_(folder) {
     for (auto const& object : objects) {
-      if (object.type == field::type) ++files_[object[field::file_name.key]].named;
+      if (object.type != field::type) continue;
+      auto const& name = object[field::file_name.key];
+      if (++files_[name].named == 1) order_.push_back(name);
     }
   }
 
   std::shared_ptr<std::vector<Mesh> const> take(std::string const& file) {
-    auto& [named, kept] = files_[file];
-    auto meshes = kept ? kept
-                       : std::make_shared<std::vector<Mesh> const>(
-                             read_meshes(folder_.path / file, folder_.assets));
+    begin_next();
+    auto& [named, reading, kept] = files_[file];
+    auto meshes = kept;
+    if (!meshes) {
+      ++taken_;
+      if (!reading) reading = begin_reading_meshes(folder_.path / file, folder_.assets);
+      meshes = std::make_shared<std::vector<Mesh> const>(std::exchange(reading, nullptr)());
+    }
     --named;
     kept = named > 0 ? meshes : nullptr;
     return meshes;
@@ -179,11 +186,29 @@ class MeshFiles {
  private:
   struct File {
     int named = 0;  // by objects that have not taken it yet
+    MeshReading reading;
     std::shared_ptr<std::vector<Mesh> const> kept;
   };
 
+  void begin_next() {
+    constexpr std::size_t most = 4;
+    constexpr std::uintmax_t small = std::uintmax_t{1} << 20U;
+    for (; next_ < order_.size() && next_ < taken_ + most; ++next_) {
+      auto const path = folder_.path / order_[next_];
+      std::error_code failure;
+      if (std::filesystem::file_size(path, failure) > small || failure) continue;
+      try {
+        files_[order_[next_]].reading = begin_reading_meshes(path, folder_.assets);
+      } catch (Error const&) {  // NOLINT(bugprone-empty-catch): it comes again when it is read
+      }
+    }
+  }
+
   AssetFolder const& folder_;
   std::unordered_map<std::string, File> files_;
+  std::vector<std::string> order_;  // of their first objects
+  std::size_t next_ = 0;            // of these to begin
+  std::size_t taken_ = 0;
 };
 
 void read_geometry(InputObject const& object, MeshFiles& files, AssetFolder const& folder,
