@@ -75,6 +75,21 @@ def test_errors_of_files_are_one_line_in_our_words(call, model, tmp_path, argume
     assert done.stderr == f"gpu_shading: error: {message.format(folder=tmp_path)}\n"
 
 
+@pytest.mark.parametrize("fields, message", [
+    ("Geometry,Tree,loop.obj,m,Z", "GPUShading:Geometry Tree: File Name: loop.obj"),
+    ("PerforatedScreen,Veil,Louvre*,Texture,loop.png,,,,,,0.001",
+     "GPUShading:PerforatedScreen Veil: Texture File Name: loop.png"),
+    ("SiteContext,Town,loop.geojson,,,,,9", "GPUShading:SiteContext Town: Buildings File Name: loop.geojson"),
+])
+def test_a_loop_of_links_is_named_with_its_object(call, box, model, tmp_path, fields, message):
+    for ending in ("obj", "png", "geojson"):
+        (tmp_path / f"loop.{ending}").symlink_to(f"loop.{ending}")
+    model.write_text(box + f"GPUShading:{fields};\n")
+    done = call("check", "model.idf")
+    assert done.returncode == 1 and "filesystem" not in done.stderr
+    assert done.stderr == f"gpu_shading: error: model.idf: {message}: Too many levels of symbolic links\n"
+
+
 @pytest.mark.parametrize("text, kind", [("[1]", "array"), ("7", "number"), ('"Zone"', "string"), ("null", "null")])
 def test_json_that_is_no_model(call, patched, tmp_path, text, kind):
     (tmp_path / "list.epJSON").write_text(text)
@@ -232,24 +247,25 @@ def test_a_comparison_s_report_names_no_folder_of_this_computer(patched, model, 
         assert str(tmp_path) not in text and "--gpu-shading-file=side.idf" in text
 
 
-def test_an_unshaded_receiver_has_a_mean_of_one(official, patched, report, model, weather, tmp_path):
-    """On the page of a run, in the comparison's tables and in its report, though hours are faced in part."""
+def test_mean_sunlit_fractions_are_the_same_everywhere(official, patched, report, model, weather, tmp_path):
+    """On the page of a run, in the comparison's tables and in its report: 1 without shade, though hours are faced in
+    part."""
     report(model, tmp_path / "page", "-D")
-    page = {row["receiver"]: float(row["mean sunlit fraction"])
-            for row in rows_of(tmp_path / "page", "run_receivers.csv")}
+    page = {row["receiver"]: row["mean sunlit fraction"] for row in rows_of(tmp_path / "page", "run_receivers.csv")}
     done = subprocess.run([energyplus.REPOSITORY / "scripts" / "compare_shading", model, "-w", weather, "-o",
                            tmp_path / "compared", "--", "-D"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     table = {row["receiver"]: row for row in rows_of(tmp_path / "compared", "receivers.csv")}
     for name in ("EAST", "WEST", "ROOF"):
-        assert page[name] == 1.0 and float(table[name]["clip sunlit"]) == 1.0, name
-        # The means of EnergyPlus's own hourly values are below.
+        assert float(page[name]) == float(table[name]["clip sunlit"]) == 1.0, name
+    # The mean of EnergyPlus's own hourly values is below.
     values = [float(row["clip sunlit fraction"]) for row in rows_of(tmp_path / "compared", "hourly.csv")
               if row["receiver"] == "EAST"]
     assert sum(values) / len(values) < 0.99
     assert float(table["SOUTH WINDOW"]["clip sunlit"]) < 0.99
+    assert float(page["SOUTH WINDOW"]) == pytest.approx(float(table["SOUTH WINDOW"]["clip sunlit"]), abs=1e-4)
     # All receivers are in each of the tables, and the one that the sun does not face has no mean.
     rows = Tables((tmp_path / "compared" / "report.html").read_text(encoding="utf-8")).tables["table-receivers"][1:]
     assert [row[0] for row in rows] == list(table)
     north = next(row for row in rows if row[0] == "NORTH")
-    assert table["NORTH"]["clip sunlit"] == "" and north[3:5] == ["0", "–"]
+    assert page["NORTH"] == table["NORTH"]["clip sunlit"] == "" and north[3:5] == ["0", "–"]
