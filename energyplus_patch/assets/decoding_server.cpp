@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,6 +18,7 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include "assets/beside.h"
 #include "base/file_descriptor.h"
@@ -54,19 +56,63 @@ class Spawning {
   void give(int descriptor, int as) { posix_spawn_file_actions_adddup2(&actions_, descriptor, as); }
 
   // Returns an errno value.
-  int start(pid_t& process, std::vector<std::string> words) {
-    std::vector<char*> pointers;
-    pointers.reserve(words.size() + 1);
-    for (auto& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    return posix_spawn(&process, pointers.front(), &actions_, &attributes_, pointers.data(),
-                       environ);
+  int start(pid_t& process, std::vector<std::string> words, std::vector<std::string> variables) {
+    auto const arguments = pointers(words);
+    auto const environment = pointers(variables);
+    return posix_spawn(&process, arguments.front(), &actions_, &attributes_, arguments.data(),
+                       environment.data());
   }
 
  private:
+  static std::vector<char*> pointers(std::vector<std::string>& words) {
+    std::vector<char*> all;
+    all.reserve(words.size() + 1);
+    for (auto& word : words) all.push_back(word.data());
+    all.push_back(nullptr);
+    return all;
+  }
+
   posix_spawn_file_actions_t actions_{};
   posix_spawnattr_t attributes_{};
 };
+
+// This process's variables. Assimp fills a buffer of 16 MiB for each file, which in small pages
+// takes longer than most files. Users of other allocators lose nothing.
+std::vector<std::string> with_huge_pages() {
+  constexpr std::string_view name = "GLIBC_TUNABLES=";
+  std::string tunables(name);
+  std::vector<std::string> variables;
+  for (char** variable = environ; variable != nullptr && *variable != nullptr; ++variable) {
+    std::string_view const text(*variable);
+    if (text.starts_with(name)) {
+      tunables = std::string(text) + ':';
+    } else {
+      variables.emplace_back(text);
+    }
+  }
+  variables.push_back(tunables + "glibc.malloc.hugetlb=1");
+  return variables;
+}
+
+// What the system says of a program that could not be loaded or crashed, in a line.
+std::string summary_of(std::string_view said) {
+  constexpr std::string_view cause = "what():";
+  auto const found = said.find(cause);
+  if (found != std::string_view::npos) said.remove_prefix(found + cause.size());
+  said = said.substr(0, said.find('\n'));
+  said.remove_prefix(std::min(said.size(), said.find_first_not_of(' ')));
+  return said.empty() ? std::string() : fmt::format(": {}", said);
+}
+
+// For a program that has not started: its libraries need addresses.
+std::string limit_of_memory() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return {};
+  constexpr unsigned mebibyte = 20;
+  constexpr int needed = 600;  // of small images
+  return fmt::format("; ulimit -v allows {} MiB of addresses, and decoding needs {}",
+                     limit.rlim_cur >> mebibyte, needed);
+}
 
 // A descriptor that is none of the standard ones, which it may have got where a host has closed
 // them.
@@ -91,7 +137,7 @@ class Server {
     spawning.give(other.get(), STDIN_FILENO);
     spawning.give(errors_.get(), STDOUT_FILENO);
     spawning.give(errors_.get(), STDERR_FILENO);
-    int const failure = spawning.start(process_, {program.string()});
+    int const failure = spawning.start(process_, {program.string()}, with_huge_pages());
     if (failure != 0) {
       process_ = -1;
       throw Error(fmt::format("cannot be decoded without {}: {}{}", program.string(),
@@ -134,12 +180,12 @@ class Server {
     int const status = end();
     // What the system says if a library is missing.
     auto const length = pread(errors_.get(), text.data(), text.size(), 0);
-    std::string said(text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, length)));
-    said.resize(std::min(said.size(), said.find('\n')));
+    std::string_view const said(text.data(),
+                                static_cast<std::size_t>(std::max<ssize_t>(0, length)));
     return fmt::format("the program that decodes it {} {}{}{}",
                        WIFSIGNALED(status) ? "was ended by signal" : "ended with status",
                        WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status),
-                       said.empty() ? "" : ": ", said);
+                       summary_of(said), limit_of_memory());
   }
 
  private:

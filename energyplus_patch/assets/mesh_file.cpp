@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 
 #include "assets/decoding_process.h"
 #include "base/files.h"
@@ -52,6 +53,18 @@ Mesh next_part(DecodingProcess& decoding, std::size_t& vertices_left, std::size_
   return mesh;
 }
 
+std::vector<Mesh> all_parts(DecodingProcess& decoding) {
+  auto vertices_left = decoding::most_vertices;
+  auto triangles_left = decoding::most_triangles;
+  auto const parts = decoding.next<std::uint64_t>(0, decoding::most_parts);
+  std::vector<Mesh> read;
+  for (std::uint64_t i = 0; i < parts; ++i) {
+    read.push_back(next_part(decoding, vertices_left, triangles_left));
+  }
+  decoding.finish();
+  return read;
+}
+
 }  // namespace
 
 bool states_its_axes(std::filesystem::path const& path, Assets assets) {
@@ -66,22 +79,21 @@ bool states_its_axes(std::filesystem::path const& path, Assets assets) {
                   path.string()));
 }
 
-std::vector<Mesh> read_meshes(std::filesystem::path const& path, Assets assets) {
+MeshReading begin_reading_meshes(std::filesystem::path const& path, Assets assets) {
   require_file(path);
-  auto meshes = naming(fmt::format("{}: cannot be read", path.string()), [&] {
-    DecodingProcess decoding("gpu_shading_mesh_decoder", "meshes", path, assets);
-    auto vertices_left = decoding::most_vertices;
-    auto triangles_left = decoding::most_triangles;
-    auto const parts = decoding.next<std::uint64_t>(0, decoding::most_parts);
-    std::vector<Mesh> read;
-    for (std::uint64_t i = 0; i < parts; ++i) {
-      read.push_back(next_part(decoding, vertices_left, triangles_left));
-    }
-    decoding.finish();
-    return read;
+  auto const failure = fmt::format("{}: cannot be read", path.string());
+  auto const decoding = naming(failure, [&] {
+    return std::make_shared<DecodingProcess>("gpu_shading_mesh_decoder", "meshes", path, assets);
   });
-  if (meshes.empty()) throw Error(fmt::format("{}: has no triangles", path.string()));
-  return meshes;
+  return [path, failure, decoding] {
+    auto meshes = naming(failure, [&] { return all_parts(*decoding); });
+    if (meshes.empty()) throw Error(fmt::format("{}: has no triangles", path.string()));
+    return meshes;
+  };
+}
+
+std::vector<Mesh> read_meshes(std::filesystem::path const& path, Assets assets) {
+  return begin_reading_meshes(path, assets)();
 }
 
 }  // namespace gpu_shading::energyplus

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
@@ -24,6 +25,11 @@ struct Mesh {
 // with y up; OBJ does not. By the ending of the file's name; throws Error if it is none of these
 // and `assets` does not permit others, which are taken to state nothing.
 bool states_its_axes(std::filesystem::path const& path, Assets assets = Assets::restricted);
+
+// Begins to decode a file, in another process, and returns what reads its meshes: once. Both throw
+// what read_meshes() throws.
+using MeshReading = std::function<std::vector<Mesh>()>;
+MeshReading begin_reading_meshes(std::filesystem::path const& path, Assets assets);
 
 // Reads OBJ, COLLADA (.dae) or glTF (.gltf, .glb), or whatever `assets` permits. Coordinates have
 // single precision. Throws Error: "FILE: why", one line.

@@ -23,6 +23,10 @@ decoding::Elevations read_elevations(std::filesystem::path const& path) { refuse
 
 bool states_its_axes(std::filesystem::path const& path, Assets /*assets*/) { refuse(path); }
 
+MeshReading begin_reading_meshes(std::filesystem::path const& path, Assets /*assets*/) {
+  refuse(path);
+}
+
 std::vector<Mesh> read_meshes(std::filesystem::path const& path, Assets /*assets*/) {
   refuse(path);
 }

@@ -26,7 +26,9 @@ int guarded(char* message, std::size_t message_size, Action const& action) {
     why = error.what();
   } catch (...) {  // NOLINT(bugprone-empty-catch): the reason is set
   }
-  std::replace(why.begin(), why.end(), '\n', ' ');
+  constexpr unsigned char del = 0x7F;
+  std::replace_if(
+      why.begin(), why.end(), [](unsigned char c) { return c < ' ' || c == del; }, ' ');
   if (message_size == 0) return 1;
   message[why.copy(message, message_size - 1)] = '\0';
   return 1;

@@ -24,4 +24,9 @@ void print_line(std::string const& line) {
   if (matters || !is_quiet()) std::fprintf(stderr, "gpu_shading: %s\n", one_line(line).c_str());
 }
 
+void print_text(std::string_view text) {
+  auto const safe = without_controls(text);
+  std::fwrite(safe.data(), 1, safe.size(), stdout);
+}
+
 }  // namespace gpu_shading::energyplus

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace gpu_shading::energyplus {
 
@@ -10,5 +11,9 @@ bool is_quiet();
 
 // One line on standard error, "gpu_shading: ...". Warnings and errors begin with that word.
 void print_line(std::string const& line);
+
+// Text for standard output, of any number of lines. Names in models and files can hold escape
+// sequences of terminals: control characters other than line breaks are escaped.
+void print_text(std::string_view text);
 
 }  // namespace gpu_shading::energyplus

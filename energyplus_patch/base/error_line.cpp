@@ -1,10 +1,12 @@
 #include "base/error_line.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include "base/ending_signals.h"
@@ -34,8 +36,12 @@ void end() {
 void catch_lack_of_memory() { usual_end = std::set_terminate(end); }
 
 std::string error_line(std::exception const& error) {
-  if (dynamic_cast<std::bad_alloc const*>(&error) == nullptr) return one_line(error.what());
-  return describe_lack_of_memory();
+  if (dynamic_cast<std::bad_alloc const*>(&error) != nullptr) return describe_lack_of_memory();
+  auto const* const failed = dynamic_cast<std::filesystem::filesystem_error const*>(&error);
+  if (failed == nullptr) return one_line(error.what());
+  auto const why = failed->code().message();
+  if (failed->path1().empty()) return one_line(why);
+  return one_line(fmt::format("{}: {}", failed->path1().string(), why));
 }
 
 }  // namespace gpu_shading::energyplus

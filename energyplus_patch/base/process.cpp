@@ -19,6 +19,7 @@
 #include "base/ending_signals.h"
 #include "base/file_descriptor.h"
 #include "base/files.h"
+#include "base/text.h"
 
 namespace gpu_shading::energyplus {
 
@@ -134,6 +135,21 @@ pid_t start(Start const& program) {
   fail_to_run(program.words[0], error);
 }
 
+std::filesystem::path find_temporary_files() {
+  try {
+    return std::filesystem::temp_directory_path();
+  } catch (std::filesystem::filesystem_error const& error) {
+    // As they are looked up.
+    for (char const* const name : {"TMPDIR", "TMP", "TEMP", "TEMPDIR"}) {
+      auto const folder = get_variable(name);
+      if (folder.empty()) continue;
+      throw Error(fmt::format("{} is {}, expected a folder for temporary files ({})", name,
+                              in_quotes(folder), error.code().message()));
+    }
+    throw;
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> arguments_of(int argc, char const* const* argv) {
@@ -153,7 +169,7 @@ std::filesystem::path own_folder() {
 }
 
 TemporaryFolder::TemporaryFolder()
-    : folder_(std::filesystem::temp_directory_path(), prefix), path_(folder_.path() / "files") {
+    : folder_(find_temporary_files(), prefix), path_(folder_.path() / "files") {
   std::filesystem::create_directory(path_);
 }
 

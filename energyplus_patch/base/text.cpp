@@ -124,6 +124,19 @@ std::string one_line(std::string_view message) {
   return line.substr(0, from) + " ... " + line.substr(to);
 }
 
+std::string without_controls(std::string_view text) {
+  std::string escaped;
+  escaped.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\n') {
+      escaped += '\n';
+    } else {
+      add_escaped(text, i, escaped);
+    }
+  }
+  return escaped;
+}
+
 std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", printable(text)); }
 
 std::string csv_quoted(std::string_view text) {

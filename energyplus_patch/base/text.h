@@ -31,6 +31,9 @@ std::string in_quotes(std::string_view text);  // the same, in double quotes
 // escaped, the middle of a very long one left out.
 std::string one_line(std::string_view message);
 
+// Control characters but line breaks escaped.
+std::string without_controls(std::string_view text);
+
 // The text as a CSV field in quotes. A spreadsheet would take text that begins with = + - @ for a
 // formula: an apostrophe goes before it, unless it is a number.
 std::string csv_quoted(std::string_view text);

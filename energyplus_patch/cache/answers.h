@@ -39,7 +39,8 @@ class Answers {
     std::unordered_map<ReceiverNumber, std::vector<ScheduledPart>> scheduled;
     std::unordered_map<std::uint64_t, std::vector<Sunlit>> interior;  // by window and list
     bool recalled = false;  // some of it is from earlier runs (AnswerCache)
-    bool asked = false;     // by EnergyPlus; else it was rendered ahead or as a sample
+    bool asked = false;     // by EnergyPlus
+    bool sampled = false;   // as a sample; a direction that is neither was rendered ahead
 
     bool knows(ReceiverNumber receiver) const {
       return receiver < projected_area.size() &&

@@ -1,11 +1,15 @@
 #include "decoding/decoder.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include "decoding/server.h"
 
@@ -31,9 +35,24 @@ std::string named(std::string text, std::filesystem::path const& name) {
   return text;
 }
 
+// The process may have been given less, by ulimit -v.
+Limits within_given(Limits limits) {
+  rlimit given{};
+  if (getrlimit(RLIMIT_AS, &given) == 0) {
+    limits.memory = std::min<std::uint64_t>(limits.memory, given.rlim_cur);
+  }
+  return limits;
+}
+
 std::string out_of_memory(Limits const& limits) {
   constexpr unsigned mebibyte = 20;
   return "it takes more than " + std::to_string(limits.memory >> mebibyte) + " MiB of memory";
+}
+
+// Where there is no memory for the stack of a thread.
+bool is_lack_of_memory(std::system_error const& error) {
+  return error.code() == std::errc::resource_unavailable_try_again ||
+         error.code() == std::errc::not_enough_memory;
 }
 
 int decode_file(std::vector<std::string> const& words, bool reads_neighbours,
@@ -42,8 +61,8 @@ int decode_file(std::vector<std::string> const& words, bool reads_neighbours,
   end_with(std::atoi(words[0].c_str()));
   closefrom(STDERR_FILENO + 1);  // the program that started this one may have left files open
   silence_errors();
-  Limits const limits{std::strtoull(words[1].c_str(), nullptr, 10),
-                      std::strtoull(words[2].c_str(), nullptr, 10)};
+  auto const limits = within_given(
+      {std::strtoull(words[1].c_str(), nullptr, 10), std::strtoull(words[2].c_str(), nullptr, 10)});
   Request const request{words[3], words[5], words[4] == "any"};
   Answer answer(STDOUT_FILENO);
   std::string why;
@@ -57,6 +76,8 @@ int decode_file(std::vector<std::string> const& words, bool reads_neighbours,
     return EXIT_SUCCESS;
   } catch (std::bad_alloc const&) {
     why = out_of_memory(limits);
+  } catch (std::system_error const& error) {
+    why = is_lack_of_memory(error) ? out_of_memory(limits) : error.what();
   } catch (std::exception const& error) {
     why = error.what();
     // Libraries that catch it pass only its name on.

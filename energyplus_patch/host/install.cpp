@@ -208,7 +208,7 @@ int install_with(char const* library, int count, char const* const* options, By 
     message.clear();
     return 0;
   } catch (CannotPatch const& error) {
-    message = error.what();
+    message = error_line(error);
     return 2;
   } catch (std::exception const& error) {
     message = gpu_shading::energyplus::error_line(error);
@@ -256,7 +256,7 @@ extern "C" EXPORTED int gpu_shading_run_opengl(char const* energyplus_library, i
     gpu_shading::energyplus::try_device(choices);
     return gpu_shading::energyplus::run_opengl(energyplus_library, choices, {argv, argv + argc});
   } catch (gpu_shading::energyplus::CannotPatch const& error) {
-    message = error.what();
+    message = gpu_shading::energyplus::error_line(error);
     return cannot_patch;
   } catch (std::exception const& error) {
     message = gpu_shading::energyplus::error_line(error);

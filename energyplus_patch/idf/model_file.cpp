@@ -130,6 +130,9 @@ std::vector<InputObject> read_idf(std::vector<IdfObject> const& parsed) {
 }
 
 std::vector<InputObject> read_epjson(nlohmann::json const& model) {
+  if (!model.is_object()) {
+    throw Error(fmt::format("expected a JSON object, got: {}", model.type_name()));
+  }
   std::vector<InputObject> objects;
   for (auto const& [type_name, instances] : model.items()) {
     if (is_extension(type_name)) {

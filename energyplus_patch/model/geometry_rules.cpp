@@ -12,6 +12,7 @@
 
 #include "base/text.h"
 #include "gpu_shading/error.h"
+#include "site/farthest_coordinate.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -10,10 +10,6 @@
 
 namespace gpu_shading::energyplus {
 
-// No coordinate is farther from the origin, m: single precision, in which EnergyPlus hands them
-// over, is a metre there.
-inline constexpr double farthest_coordinate = 1e7;
-
 // How EnergyPlus transforms a model's vertices: GlobalGeometryRules, Building and Zone. Angles in
 // degrees clockwise from north, lengths in metres. Derived by comparison with the vertices that
 // EnergyPlus passes (tests/energyplus/test_lean.py).

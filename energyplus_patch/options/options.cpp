@@ -114,9 +114,16 @@ DeviceChoice device_of(std::variant<int, settings::Device> const& device) {
   return {Kind::automatic, 0};
 }
 
+std::filesystem::path parse_path(std::string const& text, std::string_view expected) {
+  if (text.empty()) throw Error(fmt::format("is \"\", expected {}", expected));
+  return std::filesystem::absolute(text);
+}
+
+std::filesystem::path parse_folder(std::string const& text) { return parse_path(text, "a folder"); }
+std::filesystem::path parse_file(std::string const& text) { return parse_path(text, "a file"); }
+
 std::filesystem::path parse_cache(std::string const& text) {
-  if (text.empty()) throw Error("is \"\", expected a folder or off");
-  return same_name(text, "off") ? std::filesystem::path() : std::filesystem::absolute(text);
+  return same_name(text, "off") ? std::filesystem::path() : parse_path(text, "a folder or off");
 }
 
 // One option under all its names.
@@ -152,15 +159,15 @@ std::array<Choice, 17> const& all_choices() {
          c.device = device_of(value_of(settings::device, v));
        }},
       {"--gpu-shading-file", "GPU_SHADING_FILE", nullptr,
-       [](Choices& c, std::string const& v) { c.file = std::filesystem::absolute(v); }},
+       [](Choices& c, std::string const& v) { c.file = parse_file(v); }},
       {"--gpu-shading-report", "GPU_SHADING_REPORT", nullptr,
-       [](Choices& c, std::string const& v) { c.report = std::filesystem::absolute(v); }},
+       [](Choices& c, std::string const& v) { c.report = parse_folder(v); }},
       {"--gpu-shading-cache", "GPU_SHADING_CACHE", nullptr,
        [](Choices& c, std::string const& v) { c.cache = parse_cache(v); }},
       {"--gpu-shading-model-folder", nullptr, nullptr,
-       [](Choices& c, std::string const& v) { c.folder = std::filesystem::absolute(v); }},
+       [](Choices& c, std::string const& v) { c.folder = parse_folder(v); }},
       {"--gpu-shading-start-folder", nullptr, nullptr,
-       [](Choices& c, std::string const& v) { c.start = std::filesystem::absolute(v); }},
+       [](Choices& c, std::string const& v) { c.start = parse_folder(v); }},
       {"--gpu-shading-lean", "GPU_SHADING_LEAN", nullptr,
        [](Choices& c, std::string const& v) { c.lean = parse_lean(v); }},
       {"--gpu-shading-method", "GPU_SHADING_METHOD", nullptr,
@@ -172,9 +179,9 @@ std::array<Choice, 17> const& all_choices() {
       {"--gpu-shading-quiet", "GPU_SHADING_QUIET", nullptr,
        [](Choices& c, std::string const& v) { c.quiet = parse_quiet(v); }, "on"},
       {"--gpu-shading-stages", "GPU_SHADING_STAGES", nullptr,
-       [](Choices& c, std::string const& v) { c.stages = std::filesystem::absolute(v); }},
+       [](Choices& c, std::string const& v) { c.stages = parse_file(v); }},
       {"--gpu-shading-task", nullptr, nullptr,
-       [](Choices& c, std::string const& v) { c.task = std::filesystem::absolute(v); }},
+       [](Choices& c, std::string const& v) { c.task = parse_file(v); }},
   }};
   return choices;
 }

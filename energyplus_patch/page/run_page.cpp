@@ -152,9 +152,12 @@ Json to_json(PageReceiver const& receiver) {
   constexpr double thousandths = 1e3;
   constexpr double tenths = 10.0;
   constexpr double ten_thousandths = 1e4;
-  return {rounded(receiver.area, thousandths), rounded(receiver.azimuth, tenths),
-          rounded(receiver.tilt, tenths),      rounded(receiver.mean, ten_thousandths),
-          rounded(receiver.beam, tenths),      rounded(receiver.beam * receiver.area, tenths)};
+  return {rounded(receiver.area, thousandths),
+          rounded(receiver.azimuth, tenths),
+          rounded(receiver.tilt, tenths),
+          receiver.mean ? Json(rounded(*receiver.mean, ten_thousandths)) : Json(),
+          rounded(receiver.beam, tenths),
+          rounded(receiver.beam * receiver.area, tenths)};
 }
 
 Json to_json(PageDay const& day) {

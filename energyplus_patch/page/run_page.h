@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,8 +40,10 @@ struct PageReceiver {
   double area = 0.0;     // m2
   double azimuth = 0.0;  // of the normal, degrees clockwise from true north; 0 if horizontal
   double tilt = 0.0;     // degrees from the zenith
-  double mean = 0.0;     // sunlit fraction, over the page's hours at which the sun faces it
-  double beam = 0.0;     // of the run, kWh/m2
+  // Of the sunlit fraction on the page's days, over the hours during all of which the sun faces it;
+  // empty if there are none.
+  std::optional<double> mean = std::nullopt;
+  double beam = 0.0;  // of the run, kWh/m2
 };
 
 struct PageHour {

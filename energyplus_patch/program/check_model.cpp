@@ -1,13 +1,9 @@
 #include "program/check_model.h"
 
-#include <fmt/format.h>
-
-#include <cstdio>
+#include "base/console.h"
 
 namespace gpu_shading::energyplus {
 
-void check(ModelRun const& run, ListingTask const& task) {
-  fmt::print("{}", run_task(run, task).text);
-}
+void check(ModelRun const& run, ListingTask const& task) { print_text(run_task(run, task).text); }
 
 }  // namespace gpu_shading::energyplus

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/console.h"
 #include "gpu_shading/device.h"
 #include "gpu_shading/device_test.h"
 
@@ -15,7 +16,7 @@ namespace {
 std::vector<DeviceInfo> find_devices() {
   std::vector<std::string> failures;
   auto devices = gpu_shading::list_devices(&failures);
-  for (auto const& failure : failures) fmt::print(stderr, "gpu_shading: {}\n", failure);
+  for (auto const& failure : failures) print_line(failure);
   return devices;
 }
 
@@ -32,8 +33,8 @@ void print_table(std::vector<DeviceTest> const& tests) {
     titles += fmt::format("{:>20}", test.device.index < 0 ? name : "device " + name);
     units += fmt::format("{:>10}{:>10}", "error", "ms");
   }
-  fmt::print("Largest error of a sunlit fraction, and milliseconds per view:\n\n{}\n{}\n", titles,
-             units);
+  print_text(fmt::format(
+      "Largest error of a sunlit fraction, and milliseconds per view:\n\n{}\n{}\n", titles, units));
   for (std::size_t row = 0; row < tests.back().kinds.size(); ++row) {
     std::string line = fmt::format("{:24}", tests.back().kinds[row].name);
     for (auto const& test : tests) {
@@ -41,7 +42,7 @@ void print_table(std::vector<DeviceTest> const& tests) {
                                                     test.kinds[row].milliseconds)
                                       : fmt::format("{:>20}", "-");
     }
-    fmt::print("{}\n", line);
+    print_text(fmt::format("{}\n", line));
   }
 }
 
@@ -69,11 +70,12 @@ std::string verdict(DeviceTest const& test, DeviceTest const& cpu) {
 
 void list_devices() {
   for (auto const& device : find_devices()) {
-    fmt::print("{}  {}  [{}; {}]  {}, tiles up to {} x {}\n", device.index, device.renderer,
-               device.vendor, device.version, device.software ? "software" : "GPU",
-               device.max_resolution, device.max_resolution);
+    print_text(fmt::format("{}  {}  [{}; {}]  {}, tiles up to {} x {}\n", device.index,
+                           device.renderer, device.vendor, device.version,
+                           device.software ? "software" : "GPU", device.max_resolution,
+                           device.max_resolution));
   }
-  fmt::print("cpu  {}\n", describe(cpu_device()));
+  print_text(fmt::format("cpu  {}\n", describe(cpu_device())));
 }
 
 bool test_devices() {
@@ -82,10 +84,10 @@ bool test_devices() {
   tests.push_back(test_device(cpu_device()));
   print_table(tests);
   bool right = true;
-  fmt::print("\n");
+  print_text("\n");
   for (auto const& test : tests) {
-    fmt::print("{}  {}: {}\n", name_of(test.device), describe(test.device),
-               verdict(test, tests.back()));
+    print_text(fmt::format("{}  {}: {}\n", name_of(test.device), describe(test.device),
+                           verdict(test, tests.back())));
     right = right && test.right();
   }
   return right;

@@ -217,7 +217,7 @@ void draw_maps(ModelRun const& run, MapOrder const& order) {
   write_pictures(maps, dates, order.common_scale, folder);
   folder.write("maps.csv", [&](std::ostream& out) { write_summaries(summaries, out); });
   folder.commit(about);
-  fmt::print("{}\n", (order.folder / "maps.csv").string());
+  print_text(fmt::format("{}\n", (order.folder / "maps.csv").string()));
 }
 
 }  // namespace gpu_shading::energyplus

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "assets/picture_sheet.h"
+#include "base/console.h"
 #include "base/process.h"
 #include "base/staged_files.h"
 #include "gpu_shading/error.h"
@@ -21,7 +22,7 @@ Path draw_in(Path const& temporary, ModelRun const& run, std::vector<SunView> co
   std::filesystem::create_directory(drawn);
   auto const reply = run_task(run, ViewsTask{views, drawn, size});
   for (auto const& warning : reply.warnings) {
-    fmt::print(stderr, "gpu_shading: warning: {}\n", warning);
+    print_line("warning: " + warning);
   }
   return drawn;
 }

@@ -134,7 +134,7 @@ void put_together(Source const& source, SampleParts const& parts, Path const& fo
   auto const year = run_year(source, set);
   auto const write = [&](std::string_view name, auto const& content) {
     write_whole_file(folder / name, content);
-    fmt::print("{}\n", (folder / name).string());
+    print_text(fmt::format("{}\n", (folder / name).string()));
   };
   write("samples.csv", [&](std::ostream& out) { write_samples(set, out); });
   write("year.csv", [&](std::ostream& out) { write_year(set, year, out); });

@@ -151,13 +151,14 @@ constexpr std::array azimuths{0, 45, 90, 135};
 void print_table(PerforatedScreen const& screen) {
   constexpr int step = 10;
   constexpr int last = 80;
-  fmt::print("{:>7}{:>10}{:>10}{:>10}{:>10}\n", "theta", "u (0)", "45", "v (90)", "135");
+  print_text(
+      fmt::format("{:>7}{:>10}{:>10}{:>10}{:>10}\n", "theta", "u (0)", "45", "v (90)", "135"));
   for (int theta = 0; theta <= last; theta += step) {
-    fmt::print("{:>7}", theta);
+    print_text(fmt::format("{:>7}", theta));
     for (auto const phi : azimuths) {
-      fmt::print("{:>10.4f}", transmittance(screen, theta, phi));
+      print_text(fmt::format("{:>10.4f}", transmittance(screen, theta, phi)));
     }
-    fmt::print("\n");
+    print_text("\n");
   }
 }
 
@@ -174,27 +175,28 @@ std::string list(std::vector<std::string> const& surfaces) {
 
 void print(DescribedScreen const& described) {
   auto const& screen = *described.screen;
-  fmt::print("{}\n", one_line(described.named.maker->where()));
-  fmt::print("  sheet          {}\n", one_line(described.description));
-  fmt::print("  surfaces       {}\n", list(described.named.surfaces));
-  fmt::print("  open fraction  {:.4f}\n", screen.open_fraction());
+  print_text(fmt::format("{}\n", one_line(described.named.maker->where())));
+  print_text(fmt::format("  sheet          {}\n", one_line(described.description)));
+  print_text(fmt::format("  surfaces       {}\n", list(described.named.surfaces)));
+  print_text(fmt::format("  open fraction  {:.4f}\n", screen.open_fraction()));
   double const cut_off = glm::degrees(screen.transmittance().cut_off());
   constexpr double right_angle = 90.0;
   if (screen.sheet().thickness > 0.0 && cut_off < right_angle) {
-    fmt::print("  cut-off        {:.1f} degrees from the normal: no beam passes beyond\n", cut_off);
+    print_text(fmt::format(
+        "  cut-off        {:.1f} degrees from the normal: no beam passes beyond\n", cut_off));
   }
   if (described.rotation != 0.0) {
-    fmt::print(
+    print_text(fmt::format(
         "  rotation       u and v are rotated by {:g} degrees counterclockwise as seen from "
         "outside\n",
-        described.rotation);
+        described.rotation));
   }
-  fmt::print("\n");
+  print_text("\n");
   print_table(screen);
 }
 
 void print_legend() {
-  fmt::print(
+  print_text(
       "\nFraction of the beam that passes, tau, by angle of incidence from the normal, theta, and\n"
       "azimuth about the normal, phi, in degrees. u (phi = 0) runs to the right along the lower\n"
       "edge of the surface as seen from outside, and v (phi = 90) runs up; there, theta is the\n"
@@ -261,8 +263,8 @@ void write_files(std::vector<DescribedScreen> const& screens, StagedFiles& files
     }
   }
   files.commit();
-  fmt::print("\n");
-  for (auto const& name : written) fmt::print("{}\n", (folder / name).string());
+  print_text("\n");
+  for (auto const& name : written) print_text(fmt::format("{}\n", (folder / name).string()));
 }
 
 // As EnergyPlus has it for solar reflections: of the model's ShadingProperty:Reflectance, or its
@@ -300,7 +302,7 @@ void write_bsdf_file(DescribedScreen const& described, ShadingInput const& shadi
     write_bsdf(*described.screen, described.rotation, reflectance, printable(object),
                one_line(described.description), xml);
   });
-  fmt::print("{}\n", file.string());
+  print_text(fmt::format("{}\n", file.string()));
 }
 
 }  // namespace
@@ -317,7 +319,7 @@ void describe_screens(ScreenTask const& task, Choices const& choices) {
   std::optional<StagedFiles> files;
   if (task.folder) files.emplace(*task.folder);
   for (auto const& screen : screens) {
-    if (&screen != &screens.front()) fmt::print("\n");
+    if (&screen != &screens.front()) print_text("\n");
     print(screen);
   }
   print_legend();

@@ -114,7 +114,7 @@ void sample_sky(ModelRun const& run, std::filesystem::path const& folder) {
   files.write("sky_view.csv", [&](std::ostream& out) { write_views(receivers, out); });
   files.commit();
   for (auto const* const name : {"sky.csv", "sky_view.csv"}) {
-    fmt::print("{}\n", (folder / name).string());
+    print_text(fmt::format("{}\n", (folder / name).string()));
   }
 }
 

@@ -162,8 +162,8 @@ std::string to_json_text(Listing const& listing) {
   for (std::string line; std::getline(rule, line);) json["rule"].push_back(line);
   json["surfaces"] = Json::array();
   for (auto const& row : listing.surfaces) json["surfaces"].push_back(to_json(row));
-  // Names in IDF files may be in Latin-1.
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  // Names in IDF files may be in Latin-1; in ASCII, control characters of any kind are escaped.
+  return json.dump(1, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
 std::string list_vertices(Scene const& scene, Model const& model) {

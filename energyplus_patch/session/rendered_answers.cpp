@@ -117,6 +117,7 @@ std::vector<std::vector<Sunlit>> RenderedAnswers::at(std::span<SunDirection cons
     bool const lacks_any = std::any_of(numbers.begin(), numbers.end(),
                                        [&](auto number) { return !direction.knows(number); });
     if (lacks_any) recall(direction);
+    direction.sampled = true;
     directions.push_back(&direction);
   }
   directions_ += render(directions, numbers);

@@ -16,6 +16,7 @@
 #include "base/text.h"
 #include "gpu_shading/error.h"
 #include "options/report_folder.h"
+#include "session/foreseen_directions.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -38,6 +39,8 @@ std::vector<Row> collect(Renderer const& renderer, SurfaceId receiver, ReceiverN
   std::vector<Row> rows;
   answers.for_each([&](Answers::Direction const& direction) {
     double const cosine = glm::dot(facing, to_vector(direction.sun));
+    // What was rendered ahead depends on what the cache knew.
+    if (!direction.asked && !direction.sampled) return;
     if (!direction.knows(number) || cosine <= 0.0 || full <= 0.0) return;
     double const answer = direction.area(number, factors);
     rows.push_back({receiver, direction.sun, direction.state, answer,
@@ -53,7 +56,7 @@ std::vector<Row> collect(Renderer const& renderer, SurfaceId receiver, ReceiverN
 std::vector<Row> choose(std::vector<Row> const& rows) {
   std::vector<Row> shaded;
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(shaded),
-               [](Row const& row) { return row.fraction < 1.0; });
+               [](Row const& row) { return row.fraction < 1.0 && !is_sky_patch(row.sun); });
   if (shaded.empty()) return {};
   auto const least = [&](auto const& measure) {
     return *std::min_element(shaded.begin(), shaded.end(),

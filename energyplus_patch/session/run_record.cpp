@@ -102,10 +102,40 @@ void RunRecord::add_beam() {
   }
 }
 
+bool RunRecord::is_faced(std::size_t receiver, std::size_t step) const {
+  auto const& [sun, fractions] = steps_[step];
+  return sun && sun->altitude > 0.0 && fractions[receiver] >= 0.0F;
+}
+
+RunRecord::WholeHours RunRecord::whole_hours(std::size_t receiver) const {
+  // The mean cosine of an hour during which the sun goes behind a plane and comes back is less than
+  // 1 - cos(15 degrees).
+  constexpr double returning = 0.034074173710931713;
+  auto const per_hour = static_cast<std::size_t>(day_->steps_per_hour);
+  auto const& area = areas_[receivers_[receiver]];
+  WholeHours whole;
+  for (std::size_t hour = 1; hour + 1 < hours_of_day; ++hour) {
+    auto const first = hour * per_hour;
+    if (!is_faced(receiver, first - 1) || !is_faced(receiver, first + per_hour)) continue;
+    double cosines = 0.0;
+    float fractions = 0.0F;
+    std::size_t faced = 0;
+    for (auto step = first; step < first + per_hour && is_faced(receiver, step); ++step, ++faced) {
+      cosines += glm::dot(area, to_vector(*steps_[step].sun));
+      fractions += steps_[step].fractions[receiver];
+    }
+    auto const steps = static_cast<double>(per_hour);
+    if (faced < per_hour || cosines < returning * steps * glm::length(area)) continue;
+    whole.sum += fractions / static_cast<float>(per_hour);
+    ++whole.count;
+  }
+  return whole;
+}
+
 // In place of the same day of a warm-up.
 void RunRecord::keep_day() {
   has_new_steps_ = false;
-  Day day{day_->month, day_->day, {}};
+  Day day{day_->month, day_->day, {}, {}};
   auto const per_hour = static_cast<std::size_t>(day_->steps_per_hour);
   for (std::size_t hour = 0; hour < hours_of_day; ++hour) {
     auto const& step = steps_[(hour + 1) * per_hour - 1];
@@ -113,6 +143,7 @@ void RunRecord::keep_day() {
       day.hours.push_back({static_cast<int>(hour + 1), *step.sun, step.fractions});
     }
   }
+  for (std::size_t i = 0; i < receivers_.size(); ++i) day.whole.push_back(whole_hours(i));
   auto& period = this->period();
   auto const found = std::find_if(period.days.begin(), period.days.end(), [&](Day const& other) {
     return other.month == day.month && other.day == day.day;

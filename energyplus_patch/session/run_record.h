@@ -34,10 +34,18 @@ class RunRecord {
     SunDirection sun;
     std::vector<float> fractions;  // by receiver; negative where the sun is behind it
   };
+  // The hours during all of which the sun faces a receiver, and before and after them, as
+  // scripts/compare_shading takes them (results.py): the others' hourly fractions count timesteps
+  // with the sun behind the receiver as 0.
+  struct WholeHours {
+    float sum = 0.0F;  // of their mean sunlit fractions
+    int count = 0;
+  };
   struct Day {
     int month = 0;
     int day = 0;
-    std::vector<Hour> hours;  // with the sun up, at their last timestep
+    std::vector<Hour> hours;        // with the sun up, at their last timestep
+    std::vector<WholeHours> whole;  // by receiver
   };
 
   // `areas`: unit normal x net area (m2), by surface.
@@ -82,6 +90,8 @@ class RunRecord {
   void end_day();
   void add_beam();
   void keep_day();
+  bool is_faced(std::size_t receiver, std::size_t step) const;
+  WholeHours whole_hours(std::size_t receiver) const;
 
   std::vector<glm::dvec3> areas_;
   std::vector<SurfaceId> receivers_;

@@ -115,22 +115,21 @@ std::uint8_t percent_of(float fraction) {
 }
 
 void add_hours(RunPage& page, std::vector<RunRecord::Day const*> const& days) {
-  std::vector<std::pair<double, std::size_t>> sums(page.receivers.size(), {0.0, 0});
+  std::vector<std::pair<double, int>> sums(page.receivers.size(), {0.0, 0});
   for (auto const* day : days) {
+    for (std::size_t i = 0; i < day->whole.size(); ++i) {
+      sums[i].first += double{day->whole[i].sum};
+      sums[i].second += day->whole[i].count;
+    }
     auto& added = page.days.emplace_back(PageDay{day->month, day->day, {}});
     for (auto const& [hour, sun, fractions] : day->hours) {
       added.hours.push_back({hour, sun});
-      for (std::size_t i = 0; i < fractions.size(); ++i) {
-        page.percents.push_back(percent_of(fractions[i]));
-        if (fractions[i] < 0.0F) continue;
-        sums[i].first += double{fractions[i]};
-        ++sums[i].second;
-      }
+      for (float const fraction : fractions) page.percents.push_back(percent_of(fraction));
     }
   }
   for (std::size_t i = 0; i < sums.size(); ++i) {
     auto const [sum, count] = sums[i];
-    if (count > 0) page.receivers[i].mean = sum / static_cast<double>(count);
+    if (count > 0) page.receivers[i].mean = sum / count;
   }
 }
 
@@ -221,7 +220,13 @@ void add_maps(RunPage& page, std::filesystem::path const& report) {
     try {
       add_maps_of(page, folder);
     } catch (std::exception const& error) {
-      page.notes.push_back(fmt::format("Maps are left out: {}", one_line(error.what())));
+      auto why = one_line(error.what());
+      auto const where = report.string() + '/';
+      // The page may go elsewhere, and say nothing of this computer.
+      for (auto at = why.find(where); at != std::string::npos; at = why.find(where)) {
+        why.erase(at, where.size());
+      }
+      page.notes.push_back(fmt::format("Maps are left out: {}", why));
     }
     if (!page.maps.empty()) return;
   }
@@ -240,9 +245,9 @@ void write_receivers(RunPage const& page, std::ostream& csv) {
          "beam [kWh]\n";
   for (std::size_t i = 0; i < page.receivers.size(); ++i) {
     auto const& [area, azimuth, tilt, mean, beam] = page.receivers[i];
-    csv << fmt::format("{},{:.3f},{:.1f},{:.1f},{:.4f},{:.1f},{:.1f}\n",
-                       csv_field(page.surfaces[i].name), area, azimuth, tilt, mean, beam,
-                       beam * area);
+    csv << fmt::format("{},{:.3f},{:.1f},{:.1f},{},{:.1f},{:.1f}\n",
+                       csv_field(page.surfaces[i].name), area, azimuth, tilt,
+                       mean ? fmt::format("{:.4f}", *mean) : "", beam, beam * area);
   }
 }
 

@@ -12,7 +12,8 @@ namespace gpu_shading::energyplus {
 // The page of a run, and the tables with its numbers:
 //   index.html         the model in 3D with its sunlit fractions by day and hour
 //   run_receivers.csv  receiver, area (m2), azimuth and tilt of the normal (degrees), mean sunlit
-//                      fraction of the hours in the other table at which the sun faces it, beam
+//                      fraction of the page's days, over the hours during all of which the sun
+//                      faces it, blank if there are none, beam
 //                      solar energy of the run (kWh/m2 and kWh)
 //   run_hours.csv      month and day, hour at whose end the sun is there, its azimuth and altitude
 //                      (degrees), and the sunlit fraction of each receiver, 0 if it faces away

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "base/text.h"
@@ -11,27 +10,22 @@
 #include "cache/scene_hash.h"
 #include "extensions/extension_fields.h"
 #include "gpu_shading/error.h"
-#include "model/geometry_rules.h"
 #include "session/model_rule.h"
+#include "site/farthest_coordinate.h"
 
 namespace gpu_shading::energyplus {
 
 namespace {
 
-// EnergyPlus hands over what it has read, and files of geometry hold anything.
-void check_coordinates(Surface const& surface) {
+// EnergyPlus hands over what it has read.
+void check_coordinates(Surface const& surface, std::string const& model) {
   auto const check = [&](Ring const& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       auto const& point = ring[i];
-      // Also where one is not a number.
-      if (std::abs(point.x) <= farthest_coordinate && std::abs(point.y) <= farthest_coordinate &&
-          std::abs(point.z) <= farthest_coordinate) {
-        continue;
-      }
+      if (is_within_reach(point)) continue;
       throw Error(fmt::format(
-          "surface {}: vertex {} is ({}, {}, {}) m, expected {} m at most from "
-          "the origin",
-          printable(surface.name), i + 1, point.x, point.y, point.z, farthest_coordinate));
+          "{}: surface {}: vertex {} is ({}, {}, {}) m, expected {} m at most from the origin",
+          model, printable(surface.name), i + 1, point.x, point.y, point.z, farthest_coordinate));
     }
   };
   check(surface.polygon.outline);
@@ -50,7 +44,7 @@ SurfaceId SceneAssembly::add(Surface surface) {
     double const rendered = area(surface.polygon);
     if (rendered > 0.0) ratio = passed / rendered;
   }
-  check_coordinates(surface);
+  check_coordinates(surface, model_.file);
   area_ratios_.push_back(ratio);
   return surfaces_.add(std::move(surface));
 }
@@ -70,13 +64,13 @@ void SceneAssembly::complete(Schedules schedules) {
   }
   complete_ = true;
   for (auto& caster : model_.lean.casters) {
-    check_coordinates(caster);
+    check_coordinates(caster, model_.file);
     surfaces_.add(std::move(caster));
   }
   model_.lean.casters.clear();
   model_.surroundings.first = static_cast<SurfaceId>(surfaces_.size());
   for (auto& caster : model_.surroundings.casters) {
-    check_coordinates(caster.surface);
+    check_coordinates(caster.surface, model_.file);
     surfaces_.add(std::move(caster.surface));
   }
   optics_ = ShadeOptics(model_, std::move(schedules));

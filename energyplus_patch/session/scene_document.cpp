@@ -24,8 +24,8 @@ constexpr int steps_a_degree = 2;
 constexpr std::size_t most_texels = std::size_t{4096} * 4096;
 
 std::string text_of(Document const& json) {
-  // Names in IDF files may be in Latin-1.
-  return json.dump(-1, ' ', false, Document::error_handler_t::replace);
+  // Names in IDF files may be in Latin-1; in ASCII, control characters of any kind are escaped.
+  return json.dump(-1, ' ', true, Document::error_handler_t::replace);
 }
 
 Document to_json(Transmittance const& model) {

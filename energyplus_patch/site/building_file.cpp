@@ -46,6 +46,9 @@ std::string name_of(Json const& feature) {
   return {};
 }
 
+// Higher than any mountain, m, is a damaged file, or another unit.
+constexpr double most = 10'000.0;
+
 // The value of a property, as a number or as text: "12", "12.5 m".
 std::optional<double> measure(Json const& properties, std::string const& name,
                               std::string_view expected) {
@@ -57,8 +60,6 @@ std::optional<double> measure(Json const& properties, std::string const& name,
   if (value.is_string() && number.ends_with('m')) number.pop_back();
   while (number.ends_with(' ')) number.pop_back();
   auto const parsed = parse_number(number);
-  // Higher than any mountain is a damaged file, or another unit.
-  constexpr double most = 10'000.0;
   if (!parsed || !(std::abs(*parsed) <= most)) {
     throw Error(fmt::format("{} is {}, expected {} of at most {:.0f}", name, in_quotes(text),
                             expected, most));
@@ -73,6 +74,10 @@ double height_of(Json const& properties, HeightRule const& rule) {
     auto const levels = measure(properties, rule.levels, "a number of levels");
     if (levels) height = *levels * rule.storey;
     source = rule.levels;
+    if (height && *height > most) {
+      throw Error(fmt::format("{} is {} of {} m each, expected a height of at most {:.0f} m",
+                              source, *levels, rule.storey, most));
+    }
   }
   if (!height && !rule.otherwise) {
     throw Error(fmt::format("has neither {} nor {}, and Default Height is blank", rule.height,

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <memory>
+#include <unordered_map>
 #include <utility>
 
 #include "assets/mesh_file.h"
@@ -15,6 +17,7 @@
 #include "gpu_shading/local_axes.h"
 #include "idf/fields.h"
 #include "site/extent.h"
+#include "site/farthest_coordinate.h"
 #include "site/left_out.h"
 #include "site/texture_axes.h"
 
@@ -103,7 +106,14 @@ class Builder {
     ++meshes_;
     std::vector<glm::dvec3> points;
     points.reserve(mesh.positions.size());
-    for (auto const& position : mesh.positions) points.push_back(place(position));
+    for (auto const& position : mesh.positions) {
+      points.push_back(place(position));
+      auto const& point = points.back();
+      if (is_within_reach(point)) continue;
+      throw Error(fmt::format(
+          "vertex {} of {} is ({}, {}, {}) m, expected {} m at most from the origin", points.size(),
+          printable(part), point.x, point.y, point.z, farthest_coordinate));
+    }
     surroundings_.casters.reserve(surroundings_.casters.size() + mesh.triangles.size());
     for (auto const& [a, b, c] : mesh.triangles) {
       OutsideCaster caster;
@@ -147,16 +157,71 @@ class Builder {
   std::size_t left_out_meshes_ = 0;
 };
 
-void read_geometry(InputObject const& object, AssetFolder const& folder,
+// Decodes each file once, and keeps its meshes while further objects name it. Small files that are
+// named next are decoded meanwhile.
+class MeshFiles {
+ public:
+  MeshFiles(std::vector<InputObject> const& objects, AssetFolder const& folder) : folder_(folder) {
+    for (auto const& object : objects) {
+      if (object.type != field::type) continue;
+      auto const& name = object[field::file_name.key];
+      if (++files_[name].named == 1) order_.push_back(name);
+    }
+  }
+
+  std::shared_ptr<std::vector<Mesh> const> take(std::string const& file) {
+    begin_next();
+    auto& [named, reading, kept] = files_[file];
+    auto meshes = kept;
+    if (!meshes) {
+      ++taken_;
+      if (!reading) reading = begin_reading_meshes(folder_.path / file, folder_.assets);
+      meshes = std::make_shared<std::vector<Mesh> const>(std::exchange(reading, nullptr)());
+    }
+    --named;
+    kept = named > 0 ? meshes : nullptr;
+    return meshes;
+  }
+
+ private:
+  struct File {
+    int named = 0;  // by objects that have not taken it yet
+    MeshReading reading;
+    std::shared_ptr<std::vector<Mesh> const> kept;
+  };
+
+  void begin_next() {
+    constexpr std::size_t most = 4;
+    constexpr std::uintmax_t small = std::uintmax_t{1} << 20U;
+    for (; next_ < order_.size() && next_ < taken_ + most; ++next_) {
+      auto const path = folder_.path / order_[next_];
+      std::error_code failure;
+      if (std::filesystem::file_size(path, failure) > small || failure) continue;
+      try {
+        files_[order_[next_]].reading = begin_reading_meshes(path, folder_.assets);
+      } catch (Error const&) {  // NOLINT(bugprone-empty-catch): it comes again when it is read
+      }
+    }
+  }
+
+  AssetFolder const& folder_;
+  std::unordered_map<std::string, File> files_;
+  std::vector<std::string> order_;  // of their first objects
+  std::size_t next_ = 0;            // of these to begin
+  std::size_t taken_ = 0;
+};
+
+void read_geometry(InputObject const& object, MeshFiles& files, AssetFolder const& folder,
                    std::optional<SiteOrigin> const& origin, Surroundings& surroundings) {
   auto const file = read(object, field::file_name);
   bool const stated =
       naming(field::file_name.title, [&] { return states_its_axes(file, folder.assets); });
   auto const placement = read_placement(object, stated, origin);
-  auto const meshes = naming(field::file_name.title,
-                             [&] { return read_meshes(folder.path / file, folder.assets); });
+  auto const meshes = naming(field::file_name.title, [&] { return files.take(file); });
   Builder builder(object, surroundings);
-  for (auto const& mesh : meshes) builder.add(mesh, placement);
+  naming(fmt::format("{}: {}", field::file_name.title, file), [&] {
+    for (auto const& mesh : *meshes) builder.add(mesh, placement);
+  });
   surroundings.remarks.push_back(builder.describe(file));
 }
 
@@ -170,9 +235,10 @@ bool needs_origin(std::vector<InputObject> const& objects) {
 
 void read_geometries(std::vector<InputObject> const& objects, AssetFolder const& folder,
                      std::optional<SiteOrigin> const& origin, Surroundings& surroundings) {
+  MeshFiles files(objects, folder);
   for (auto const& object : objects) {
     if (object.type != field::type) continue;
-    naming(object.where(), [&] { read_geometry(object, folder, origin, surroundings); });
+    naming(object.where(), [&] { read_geometry(object, files, folder, origin, surroundings); });
   }
 }
 

@@ -17,7 +17,7 @@ RADIUS = 9  # of a number's disc
 
 @dataclass
 class Surface:
-    """A polygon with holes; number: of a receiver, from 1, with its mean sunlit fraction.
+    """A polygon with holes; number: of a receiver, from 1, with its mean sunlit fraction or None.
 
     One-sided: a face of a body, seen from outside alone.
     """
@@ -25,7 +25,7 @@ class Surface:
     rings: list
     number: int = 0
     name: str = ""
-    sunlit: float = 0.0
+    sunlit: float | None = None
     is_one_sided: bool = False
 
 
@@ -156,7 +156,7 @@ def _draw(view, surfaces, compass):
               if not surface.is_one_sided or _dot(_newell(surface.rings[0]), view.towards) > 0]
     for surface in sorted(facing, key=view.depth, reverse=True):
         rings = [[view.place(point) for point in ring] for ring in surface.rings]
-        fill = mpl.colors.to_hex(mpl.colormaps["cividis"](surface.sunlit)) if surface.number else "#d5d0c6"
+        fill = mpl.colors.to_hex(mpl.colormaps["cividis"](surface.sunlit)) if surface.sunlit is not None else "#d5d0c6"
         parts.insert(1, f'<path d="{_path(view, surface)}" fill="{fill}" fill-rule="evenodd">'
                         f"<title>{escape(surface.name)}</title></path>")
         if surface.number and (place := _label(rings, nearer)):

@@ -21,6 +21,24 @@ def digest(path):
     return hashlib.sha256(Path(path).read_bytes()).hexdigest()
 
 
+def folders(runs, weather, output):
+    """Folders of this computer that messages and options may name, the innermost first."""
+    files = [output / "report.html", output.resolve() / "report.html", weather, Path.cwd() / "model"]
+    for run in runs:
+        files += [run.model, run.program, run.run.folder / "eplusout.err", run.placed]
+        files += [word.partition("=")[2] or word for word in run.options]
+    found = {str(each.parent) for file in files if file for each in (Path(file), Path(file).resolve())
+             if each.is_absolute()}
+    return sorted(found - {"/"}, key=len, reverse=True)
+
+
+def without_folders(text, names):
+    """The text with the files in these folders named without them: the page may be sent elsewhere."""
+    for name in names:
+        text = text.replace(f"{name}/", "")
+    return text
+
+
 def described(path):
     return f"{Path(path).name}, SHA-256 {digest(path)}" if path else "none"
 
@@ -45,7 +63,7 @@ def rows(runs, weather, further):
         ("Shading method", lambda run: "rendered" if run.is_ours else run.run.method or "unknown"),
         ("Rendered by", lambda run: run.run.device or "–"),
         ("Fineness", lambda run: run.run.fineness or "–"),
-        ("Receivers", lambda run: rendered(run, r"(\d+) receivers")),
+        ("Receivers rendered", lambda run: rendered(run, r"(\d+) receivers")),
         ("Casters", lambda run: rendered(run, r"(\d+) casters")),
         ("Sun directions", lambda run: rendered(run, r"(\d+) directions")),
         ("Shading module", module),

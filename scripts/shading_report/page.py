@@ -1,5 +1,6 @@
 """Fills the page with numbers, charts and pictures."""
 
+import html
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -41,8 +42,8 @@ class Line:
 
     anchor: str
     receiver: results.Receiver
-    hours: int
-    sunlit: list  # mean of each run
+    hours: int  # in which the sun faces the receiver
+    sunlit: list  # mean of each run over the hours during all of which it does; None: there are none
     differences: list  # of each except the first: results.Difference
     solar: list  # kWh of each run, None if it is not a window
 
@@ -78,11 +79,8 @@ def _lines(runs, shown):
     lines = []
     for name, receiver in reference.receivers.items():
         found = [names.get(name) for names in by_name]
-        if not any(found):
-            continue
-        places = next(each for each in found if each).times
-        sunlit = [np.asarray(run.results.values[results.SUNLIT][name])[places].mean()
-                  if name in run.results.values[results.SUNLIT] else None for run in runs]
+        places = next((each.times for each in found if each), ())
+        sunlit = [run.results.mean_sunlit(name) for run in runs]
         solar = [run.results.total(results.SOLAR, name) if name in run.results.values[results.SOLAR] else None
                  for run in runs]
         lines.append(Line(shown.get(name, ""), receiver, len(places), sunlit, found, solar))
@@ -161,7 +159,8 @@ def _months(runs, by_month):
 
 
 def _numbered(lines, shown):
-    """The receivers to number, with those that differ most first: [line]."""
+    """The receivers to number, those that the sun faces, with those that differ most first: [line]."""
+    lines = [line for line in lines if line.hours]
     first = [line for line in lines if line.anchor]
     first.sort(key=lambda line: list(shown.values()).index(line.anchor))
     return (first + [line for line in lines if not line.anchor])[:building.MOST_NUMBERS]
@@ -182,7 +181,7 @@ def _gather(output, everything, weather, most, further):
     lines = _lines(runs, shown)
     numbered = _numbered(lines, shown)
     buildings, without_building = building.draw(
-        runs, weather, {line.receiver.name: (number, line.sunlit[0] or 0.0)
+        runs, weather, {line.receiver.name: (number, line.sunlit[0])
                         for number, line in enumerate(numbered, start=1)})
     by_environment, by_month = facts.energies(runs, calendar)
     timed = [(run.label, origin.stages(run)) for run in runs]
@@ -202,6 +201,7 @@ def _gather(output, everything, weather, most, further):
         peaks=facts.peaks(runs, calendar),
         daylight=facts.daylight(runs, calendar),
         lines=lines,
+        faced=sum(line.hours > 0 for line in lines),
         numbered=numbered,
         buildings=buildings,
         without_building=without_building,
@@ -231,7 +231,8 @@ def write(output, everything, weather, most, further):
         script=(HERE / "page.js").read_text(encoding="utf-8"),
         **page,
     )
-    tables.write(output / "report.csv", page)
+    names = origin.folders([run for run in everything if run.run], weather, output)
+    tables.write(output / "report.csv", page, lambda cell: origin.without_folders(cell, names))
     path = output / "report.html"
-    path.write_text(text, encoding="utf-8")
+    path.write_text(origin.without_folders(text, [html.escape(name) for name in names]), encoding="utf-8")
     return path

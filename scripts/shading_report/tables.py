@@ -92,8 +92,10 @@ def _rows(page):
             yield "origin", title, "", run.label, value
 
 
-def write(path, page):
+def write(path, page, shown):
+    """shown: what is written of a text."""
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(HEADER)
-        writer.writerows(["" if cell is None else cell for cell in row] for row in _rows(page))
+        for row in _rows(page):
+            writer.writerow(["" if cell is None else shown(cell) if isinstance(cell, str) else cell for cell in row])

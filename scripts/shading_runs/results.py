@@ -27,6 +27,10 @@ J_PER_KWH = 3.6e6
 # hourly mean mixes timesteps in front of and behind the plane.
 FACING = 1e-3
 
+# The mean cosine of an hour during which the sun goes behind a plane and comes back is below that: at its lowest it is
+# behind, and within an hour, 15 degrees, of there the cosine rises by at most this.
+RETURNING = 1.0 - cos(radians(15.0))
+
 # A wall is not compared if its windows leave less than this fraction of it: the sunlit fraction of a few square
 # millimetres is noise with every method, and has no effect.
 SLIVER = 1e-3
@@ -156,6 +160,24 @@ class Results:
         """Indices of the times when the sun faces the receiver."""
         cosines = self.values[COSINE].get(receiver, ())
         return [i for i, cosine in enumerate(cosines) if cosine > FACING and not self.is_warmup[i]]
+
+    def faced_throughout(self, receiver):
+        """Indices of the hours during all of which the sun faces the receiver.
+
+        EnergyPlus's hourly sunlit fraction counts timesteps with the sun behind the plane as 0: that of an unshaded
+        receiver is 1 in these hours alone. The sun faces it before and after each of them, so that the first and the
+        last hour of a day that it faces the receiver are left out.
+        """
+        facing = set(self.sun_up(receiver))
+        cosines = self.values[COSINE].get(receiver, ())
+        return [i for i in sorted(facing) if {i - 1, i + 1} <= facing and cosines[i] >= RETURNING
+                and self.times[i - 1][0] == self.times[i][0] == self.times[i + 1][0]]
+
+    def mean_sunlit(self, receiver):
+        """The mean of the sunlit fraction over the hours during all of which the sun faces the receiver, or None."""
+        fractions = self.values[SUNLIT].get(receiver, ())
+        hours = self.faced_throughout(receiver) if len(fractions) else []
+        return sum(fractions[i] for i in hours) / len(hours) if hours else None
 
     def sun_at(self, place):
         """(azimuth, altitude) in degrees of the hour's mean direction while the sun is up, or None."""

@@ -1,5 +1,7 @@
 """What a comparison found, in sentences with few numbers."""
 
+from decimal import ROUND_CEILING, Context
+
 from shading_runs import input_file, methods, results
 
 DEFAULT_ERROR = 1e-3  # of --gpu-shading-error
@@ -45,6 +47,16 @@ def share_beyond(other, limit):
     return sum(abs(value) > limit for value in values) / max(1, len(values))
 
 
+def rounded_up(value):
+    """To one digit, and never below the value that the digits of its double tell: 0.0002 for 1.5e-4."""
+    return float(Context(prec=1, rounding=ROUND_CEILING).create_decimal(repr(value)))
+
+
+def _percent(value):
+    """Two digits, and all of those before the decimal point: 0.0061, 12, 120."""
+    return f"{value:,.0f}" if value >= 10.0 else f"{value:.2g}"
+
+
 def _sunlit(other, limit):
     values = [abs(value) for found in other.found for value in found.values]
     if not values:
@@ -53,7 +65,7 @@ def _sunlit(other, limit):
         return "Sunlit fractions are the same."
     within = results.percentile(values, 0.99)
     if within <= limit:
-        return f"Sunlit fractions agree: 99 % of the hours are within {max(within, 1e-9):.1g}."
+        return f"Sunlit fractions agree: 99 % of the hours are within {rounded_up(max(within, 1e-9)):g}."
     share, mean = 100 * share_beyond(other, limit), sum(values) / len(values)
     return f"Sunlit fractions differ: {share:.0f} % of the hours by more than {limit:g}, and by {mean:.2g} in the mean."
 
@@ -70,7 +82,7 @@ def _energy(reference, other):
             changed.append(f"{after:,.3g} kWh of {name}, instead of none")
         else:
             change = 100 * (after / before - 1)
-            changed.append(f"{abs(change):.2g} % {'more' if change > 0 else 'less'} {name}")
+            changed.append(f"{_percent(abs(change))} % {'more' if change > 0 else 'less'} {name}")
     if not changed:
         return "Energies are the same." if same else ""
     rest = f"; the same {', '.join(same)}" if same else ""

@@ -131,6 +131,18 @@ def test_options_are_those_of_the_program(patched, tmp_path):
         assert variable == re.match(r"[\w-]+", flag)[0].strip("-").upper().replace("-", "_")
 
 
+def test_the_numbers_of_lean_input_are_those_of_the_code():
+    header = (ROOT / "energyplus_patch" / "model" / "lean_input.h").read_text(encoding="utf-8")
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    running = (ROOT / "gpu_shading" / "docs" / "running.md").read_text(encoding="utf-8")
+    row = re.search(r"^\| `--gpu-shading-lean .*", readme, re.M)[0]
+    for name, said in (("fewest_left_out", "if there are {} or more"),
+                       ("fewest_with_reflections", "{} or more with solar reflections")):
+        number = re.search(rf"{name} = (\d+);", header)[1]
+        assert said.format(number) in row
+        assert re.search(rf"A model with fewer than .*\b{number}\b.*", running)
+
+
 def test_the_reference_has_the_dictionary_s_objects_and_fields():
     done = subprocess.run([ROOT / "scripts" / "extension_objects", "document", "--check"], capture_output=True,
                           text=True)

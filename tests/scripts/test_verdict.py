@@ -39,6 +39,24 @@ def test_agreement_and_the_same_energy(run):
         "Compared with Clipping: 0.006 % more cooling; the same transmitted solar radiation, lighting."]
 
 
+@pytest.mark.parametrize(("difference", "said"), [
+    (1.46e-4, "0.0002"), (1.0000001e-4, "0.0002"), (1e-4, "0.0001"), (9.1e-4, "0.001"), (3e-6, "3e-06"),
+])
+def test_no_hour_is_said_to_differ_by_less_than_it_does(run, difference, said):
+    ours = run("Renderer", [difference] * 100)
+    assert verdict.sentences([run("A"), ours], ours)[0] == (
+        f"Sunlit fractions agree: 99 % of the hours are within {said}.")
+    assert float(said) >= difference
+
+
+@pytest.mark.parametrize(("after", "said"), [
+    (110.0, "120"), (1050.0, "2,000"), (49.7, "0.6"), (55.7, "11"), (50.006, "0.012"), (54.98, "10")])
+def test_no_percentage_has_an_exponent(run, after, said):
+    ours = run("Renderer", [0.0], COOLING=after)
+    kind = "more" if after > 50.0 else "less"
+    assert verdict.sentences([run("A"), ours], ours)[-1].startswith(f"Compared with A: {said} % {kind} cooling")
+
+
 def test_identical_runs(run):
     ours = run("B", [0.0, 0.0])
     assert verdict.sentences([run("A"), ours], ours) == ["Sunlit fractions are the same.", "Energies are the same."]

@@ -38,7 +38,9 @@ function percentOf(receiver, day, hour) {
 
 function percentText(percent) { return percent === content.turnedAway ? "turned away from the sun" : `${percent} %`; }
 
+// null: there is none.
 function numberText(value, digits) {
+  if (value === null) return "\u2013";
   return value.toLocaleString("en", {minimumFractionDigits: digits, maximumFractionDigits: digits});
 }
 

@@ -40,10 +40,10 @@ TEST_F(SiteContext, WarnsOfMillimetres) {
         .warnings;
   };
   EXPECT_TRUE(town("3.5", "12").empty());
-  EXPECT_THAT(town("3500", "12000"),
+  EXPECT_THAT(town("3500", "9000"),
               ElementsAre(HasSubstr("SiteContext Town: Storey Height is 3500 m, more than 20 m: "
                                     "lengths are in metres, is it in millimetres?"),
-                          HasSubstr("Default Height is 12000 m, more than 1000 m")));
+                          HasSubstr("Default Height is 9000 m, more than 1000 m")));
 }
 
 TEST_F(SiteContext, BuildingsStandOnTheTerrain) {
