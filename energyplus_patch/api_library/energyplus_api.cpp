@@ -58,11 +58,14 @@ struct Module {
     install = find<int(char const*)>(library, "gpu_shading_install_from_environment");
     message = find<char const*()>(library, "gpu_shading_message");
     unwritten = find<char const*()>(library, "gpu_shading_unwritten");
+    report_refusal = find<void(char const*, char const*, int, char const* const*)>(
+        library, "gpu_shading_report_refusal");
   }
 
   int (*install)(char const*);
   char const* (*message)();
   char const* (*unwritten)();
+  void (*report_refusal)(char const*, char const*, int, char const* const*);
 };
 
 bool asked() {
@@ -117,9 +120,23 @@ Runs& runs() {
   return instance;
 }
 
-// Calls the official library's function of that name, which returns an exit status.
-template <typename Function, typename... Arguments>
-int run(char const* name, Arguments&&... arguments) {
+// Says why a run is refused: on standard error, and in EnergyPlus's files if our module can be
+// loaded. `words`: EnergyPlus's arguments, after the program's name.
+void refuse(char const* why, std::vector<char const*> const& words) {
+  std::fprintf(stderr, "gpu_shading: error: %s\n", why);
+  if (words.empty()) return;
+  std::array<char, 1> ignored{};
+  guarded(ignored.data(), ignored.size(), [&] {
+    Module const module(own_folder / patch_library);
+    module.report_refusal((own_folder / official_library).c_str(), why,
+                          static_cast<int>(words.size()) - 1, words.data() + 1);
+  });
+}
+
+// Calls the official library's function of that name, which returns an exit status. `words()`:
+// the program's name and EnergyPlus's arguments.
+template <typename Function, typename Words, typename... Arguments>
+int run(char const* name, Words const& words, Arguments&&... arguments) {
   Function* original = nullptr;
   Module const* module = nullptr;
   std::array<char, 4096> message{};
@@ -128,7 +145,7 @@ int run(char const* name, Arguments&&... arguments) {
     module = runs().begin();
   });
   if (refused != 0) {
-    std::fprintf(stderr, "gpu_shading: error: %s\n", message.data());
+    refuse(message.data(), words());
     return EXIT_FAILURE;
   }
   if (module == nullptr) return original(std::forward<Arguments>(arguments)...);
@@ -143,13 +160,19 @@ int run(char const* name, Arguments&&... arguments) {
 
 // EnergyPlus/api/runtime.h
 extern "C" EXPORTED int energyplus(void* state, int argc, char const** argv) {
-  return run<int(void*, int, char const**)>("energyplus", state, argc, argv);
+  auto const words = [&] { return std::vector<char const*>(argv, argv + argc); };
+  return run<int(void*, int, char const**)>("energyplus", words, state, argc, argv);
 }
 
 // EnergyPlus/api/EnergyPlusPgm.hh, which EnergyPlus's own program calls.
 EXPORTED int EnergyPlusPgm(std::vector<std::string> const& arguments, std::string const& path) {
+  auto const words = [&] {
+    std::vector<char const*> result;
+    for (auto const& argument : arguments) result.push_back(argument.c_str());
+    return result;
+  };
   return run<int(std::vector<std::string> const&, std::string const&)>(
       "_Z13EnergyPlusPgmRKSt6vectorINSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEESaIS5_"
       "EERKS5_",
-      arguments, path);
+      words, arguments, path);
 }

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <new>
 
+#include "base/ending_signals.h"
 #include "base/memory_use.h"
 #include "base/text.h"
 
@@ -23,6 +24,7 @@ void end() {
     if (thrown) std::rethrow_exception(thrown);
   } catch (std::bad_alloc const& error) {
     std::fprintf(stderr, "gpu_shading: error: %s\n", error_line(error).c_str());
+    clean_up_now();
     _exit(EXIT_FAILURE);
   } catch (...) {  // NOLINT(bugprone-empty-catch): the usual end says what it was
   }

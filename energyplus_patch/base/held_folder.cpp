@@ -8,12 +8,12 @@
 
 #include <array>
 #include <cerrno>
-#include <new>
 #include <random>
 #include <string>
 #include <system_error>
 
 #include "base/file_descriptor.h"
+#include "base/folder_deletion.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
@@ -68,8 +68,7 @@ void clean(Path const& parent, std::string_view prefix) {
       // Not locked yet, or never: empty then.
       rmdir(path.c_str());
     } else if (has_mark(file) && lock(file) && has_name(file)) {
-      std::error_code gone;
-      std::filesystem::remove_all(path, gone);
+      delete_folder(path.c_str());
     }
   }
 }
@@ -89,6 +88,7 @@ bool HeldFolder::make(Path const& parent, std::string_view prefix) {
     if (errno == EEXIST) return false;
     fail_to_hold(parent, errno);
   }
+  at_signals_.emplace(path_);
   auto const file =
       std::make_shared<FileDescriptor>(open_lock(path_ / lock_name, O_RDWR | O_CREAT | O_EXCL));
   if (!file->is_open()) {
@@ -111,11 +111,8 @@ bool HeldFolder::make(Path const& parent, std::string_view prefix) {
 }
 
 HeldFolder::~HeldFolder() {
-  try {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  } catch (std::bad_alloc const&) {  // NOLINT(bugprone-empty-catch): the next object deletes it
-  }
+  held_.reset();  // its descriptor may be the last one
+  delete_folder(path_.c_str());
 }
 
 }  // namespace gpu_shading::energyplus

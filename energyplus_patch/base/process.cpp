@@ -16,6 +16,7 @@
 #include <cstring>
 #include <optional>
 
+#include "base/ending_signals.h"
 #include "base/file_descriptor.h"
 #include "base/files.h"
 #include "base/text.h"
@@ -104,6 +105,7 @@ void become(Start const& program, pid_t parent) {
   if (output < 0 || dup2(output, STDOUT_FILENO) < 0 || dup2(output, STDERR_FILENO) < 0) return;
   if (output > STDERR_FILENO) close(output);
   if (sigprocmask(SIG_SETMASK, &program.signals, nullptr) != 0) return;
+  if (takes_file_limit_as_error() && signal(SIGXFSZ, SIG_DFL) == SIG_ERR) return;
   if (*program.folder != '\0' && chdir(program.folder) != 0) return;
   execve(program.words[0], program.words, program.variables);
 }
@@ -196,6 +198,7 @@ int run_process(std::vector<std::string> const& command,
   HeldSignals const signals;
   pid_t const child =
       start({argv.data(), envp.data(), output.c_str(), folder.c_str(), signals.before()});
+  ProcessAtSignals const ends_with_us(child);
   int const interrupted = pass_signals_on(child, signals.held());
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {

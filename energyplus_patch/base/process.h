@@ -21,8 +21,7 @@ void occupy_standard_descriptors();
 // program.
 std::filesystem::path own_folder();
 
-// A folder for one command, in the system's folder for temporary files. It goes with the object, or
-// with the next one where this process is killed.
+// A folder for one command, in the system's folder for temporary files: a HeldFolder.
 class TemporaryFolder {
  public:
   static constexpr std::string_view prefix = "gpu_shading-";  // of its name

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <array>
+#include <filesystem>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -30,6 +32,7 @@
 #include "options/command_line.h"
 #include "options/options.h"
 #include "runs/installation.h"
+#include "runs/refused_run.h"
 #include "scheduled/hosted_run.h"
 #include "scheduled/scheduled_run.h"
 #include "session/remarks.h"
@@ -259,6 +262,16 @@ extern "C" EXPORTED int gpu_shading_run_opengl(char const* energyplus_library, i
     message = gpu_shading::energyplus::error_line(error);
     return gpu_shading::energyplus::not_run;
   }
+}
+
+extern "C" EXPORTED void gpu_shading_report_refusal(char const* energyplus_library, char const* why,
+                                                    int argc, char const* const* argv) {
+  using namespace gpu_shading::energyplus;
+  std::array<char, 1> ignored{};
+  guarded(ignored.data(), ignored.size(), [&] {
+    report_refusal({argv, argv + argc}, std::filesystem::path(energyplus_library).parent_path(),
+                   why, {});
+  });
 }
 
 extern "C" EXPORTED char const* gpu_shading_unwritten(void) {

@@ -1,8 +1,11 @@
 #include "hosted/opengl_run.h"
 
+#include <cstdlib>
+#include <exception>
 #include <utility>
 
 #include "base/console.h"
+#include "base/error_line.h"
 #include "base/process.h"
 #include "cache/cache_folder.h"
 #include "hosted/opengl_answers.h"
@@ -38,7 +41,13 @@ int run_by_opengl(std::filesystem::path const& library, std::filesystem::path co
     answer_with(std::move(hosted.input));
   }
   int const status = run_hosted(library, arguments, hosted.messages);
-  finish_answers();
+  try {
+    finish_answers();
+  } catch (std::exception const& error) {
+    // EnergyPlus has written its results: this is no run that was refused.
+    print_line("error: " + error_line(error));
+    return EXIT_FAILURE;
+  }
   return status;
 }
 

@@ -48,6 +48,13 @@ int gpu_shading_run_opengl(char const* energyplus_library, int count, char const
 int gpu_shading_run_scheduled(char const* energyplus_library, int count, char const* const* options,
                               int argc, char const* const* argv);
 
+/* For a host that refuses a run before EnergyPlus starts, for example since gpu_shading_install has
+ * failed: writes eplusout.err and eplusout.end with the reason `why`, as an EnergyPlus does that
+ * stops on its input, where `argv`, EnergyPlus's own arguments without the program, ask for them.
+ * `energyplus_library` is beside its Energy+.idd. */
+void gpu_shading_report_refusal(char const* energyplus_library, char const* why, int argc,
+                                char const* const* argv);
+
 #ifdef __cplusplus
 }
 #endif

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "base/console.h"
+#include "base/ending_signals.h"
 #include "base/error_line.h"
 #include "base/process.h"
 #include "base/text.h"
@@ -26,6 +28,7 @@
 #include "options/command_line.h"
 #include "options/report_folder.h"
 #include "runs/installation.h"
+#include "runs/refused_run.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -191,8 +194,8 @@ int run_shaded(char const* program, std::vector<std::string> arguments, Choices 
   return status == EXIT_SUCCESS && *module.unwritten() != '\0' ? EXIT_FAILURE : status;
 }
 
-int launch(int argc, char** argv) {
-  std::vector<std::string> arguments(argv + 1, argv + argc);
+// `arguments`: of the program; our flags are taken out.
+int launch(std::vector<std::string>& arguments, char** argv) {
   auto choices = take_flags(arguments);
   auto const environment = read_environment();
   if (!choices.any() && !environment.mode) run_official(argv);
@@ -211,25 +214,34 @@ int launch(int argc, char** argv) {
     choices.file = find_side_file(*line.model, choices);
   }
   std::optional<ExpansionFolder> expansion;
+  auto energyplus_arguments = arguments;
   if (line.expand && line.model) {
-    expansion.emplace(arguments, line);
+    expansion.emplace(energyplus_arguments, line);
     choices.start = expansion->start();
     if (choices.file) choices.file = *choices.start / *choices.file;
   }
-  return run_shaded(argv[0], std::move(arguments), choices);
+  return run_shaded(argv[0], std::move(energyplus_arguments), choices);
 }
 
 }  // namespace
 }  // namespace gpu_shading::energyplus
 
 int main(int argc, char** argv) {
-  gpu_shading::energyplus::catch_lack_of_memory();
-  gpu_shading::energyplus::occupy_standard_descriptors();
+  using namespace gpu_shading::energyplus;
+  auto const start = std::chrono::steady_clock::now();
+  catch_lack_of_memory();
+  clean_up_at_signals();
+  occupy_standard_descriptors();
+  std::filesystem::path folder;
+  std::vector<std::string> arguments;
   try {
-    return gpu_shading::energyplus::launch(argc, argv);
+    folder = own_folder();
+    arguments = arguments_of(argc, argv);
+    return launch(arguments, argv);
   } catch (std::exception const& error) {
-    std::fprintf(stderr, "gpu_shading: error: %s\n",
-                 gpu_shading::energyplus::error_line(error).c_str());
+    auto const why = error_line(error);
+    std::fprintf(stderr, "gpu_shading: error: %s\n", why.c_str());
+    report_refusal(arguments, folder, why, std::chrono::steady_clock::now() - start);
     return EXIT_FAILURE;
   }
 }

@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -14,6 +15,7 @@
 #include "idf/model_file.h"
 #include "options/command_line.h"
 #include "options/options.h"
+#include "runs/refused_run.h"
 #include "scheduled/hosted_run.h"
 #include "scheduled/scheduled_run.h"
 
@@ -26,7 +28,8 @@ constexpr char const* energyplus_library = "energyplusapi.dll";
 constexpr char const* official_program = "energyplus-official.exe";
 constexpr int not_wanted = -1;
 
-int run(std::vector<std::string> arguments) {
+// `arguments`: our flags are taken out.
+int run(std::vector<std::string>& arguments) {
   auto choices = take_flags(arguments);
   auto const environment = read_environment();
   if (!choices.any() && !environment.mode) return not_wanted;
@@ -45,7 +48,7 @@ int run(std::vector<std::string> arguments) {
   choices.file = find_side_file(*line.model, choices);
   auto const method = choices.method.value_or(Method::automatic);
   if (method == Method::scheduled) return run_scheduled(library, choices, arguments);
-  return run_by_opengl(library, own_folder() / official_program, line, std::move(arguments),
+  return run_by_opengl(library, own_folder() / official_program, line, arguments,
                        read_hosted(*line.model, choices));
 }
 
@@ -56,11 +59,18 @@ int run(std::vector<std::string> arguments) {
 // where no rendering is wanted: then EnergyPlus's own program is to be run.
 extern "C" __declspec(dllexport) int gpu_shading_energyplus(int count,
                                                             char const* const* arguments) {
+  using namespace gpu_shading::energyplus;
+  auto const start = std::chrono::steady_clock::now();
+  std::filesystem::path folder;
+  std::vector<std::string> words;
   try {
-    return gpu_shading::energyplus::run({arguments, arguments + count});
+    folder = own_folder();
+    words.assign(arguments, arguments + count);
+    return run(words);
   } catch (std::exception const& error) {
-    std::fprintf(stderr, "gpu_shading: error: %s\n",
-                 gpu_shading::energyplus::error_line(error).c_str());
+    auto const why = error_line(error);
+    std::fprintf(stderr, "gpu_shading: error: %s\n", why.c_str());
+    report_refusal(words, folder, why, std::chrono::steady_clock::now() - start);
     return EXIT_FAILURE;
   }
 }

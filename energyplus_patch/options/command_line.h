@@ -19,6 +19,11 @@ struct CommandLine {
   bool design_days = false;                      // -D
   bool preprocessed = false;                     // -m
   bool convert = false;                          // -c and --convert-only
+  bool runs = true;                              // false for --help, --version and auxiliary
+  // The names of EnergyPlus's files: see its --help.
+  std::filesystem::path output_folder = ".";  // -d
+  std::string output_prefix = "eplus";        // -p
+  std::string output_suffix = "L";            // -s
   bool help = false;
   bool version = false;
 };

@@ -35,10 +35,6 @@ void export_scheduled(EnergyPlusCall call, Choices const& choices,
   auto const staged = files.add(target.filename().string());
   std::filesystem::create_directory(staged);
   auto const model = prepare_scheduled(call, choices, staged, print_line);
-  // The folder itself is one of those beside the model, if it lies there.
-  if (auto const link = staged / target.filename(); std::filesystem::is_symlink(link)) {
-    std::filesystem::remove(link);
-  }
   files.commit();
   print_text(fmt::format("{}\n", (folder / model.path.filename()).string()));
 }

@@ -11,8 +11,8 @@ namespace gpu_shading::energyplus {
 // throw Error.
 
 // Writes the model with scheduled sunlit fractions, their file, and links to the files beside the
-// original into a folder, for any program that runs EnergyPlus. Standard error lists what remains
-// to EnergyPlus.
+// original that it needs into a folder, for any program that runs EnergyPlus. Standard error lists
+// what remains to EnergyPlus.
 void export_scheduled(EnergyPlusCall call, Choices const& choices,
                       std::filesystem::path const& folder);
 

@@ -17,6 +17,7 @@
 
 #include "assets/picture_sheet.h"
 #include "base/console.h"
+#include "base/ending_signals.h"
 #include "base/error_line.h"
 #include "base/nearest_word.h"
 #include "base/process.h"
@@ -467,6 +468,8 @@ int run(std::vector<std::string> arguments) {
 
 int main(int argc, char** argv) {
   gpu_shading::energyplus::catch_lack_of_memory();
+  gpu_shading::energyplus::take_file_limit_as_error();
+  gpu_shading::energyplus::clean_up_at_signals();
   gpu_shading::energyplus::occupy_standard_descriptors();
   try {
     int const status =

@@ -27,21 +27,32 @@ std::optional<std::string> version_of_library(std::filesystem::path const& folde
   return std::nullopt;
 }
 
+// What the next line of a data dictionary says after `mark`.
+std::optional<std::string> next_fact(std::istream& idd, std::string_view mark) {
+  std::string line;
+  std::getline(idd, line);
+  if (!line.starts_with(mark)) return std::nullopt;
+  return line.substr(mark.size(), line.find_last_not_of(" \r") + 1 - mark.size());
+}
+
 }  // namespace
 
 std::string read_version(std::filesystem::path const& folder) {
-  constexpr std::string_view mark = "!IDD_Version ";
   auto const idd = folder / "Energy+.idd";
   if (!std::filesystem::exists(idd)) {
     if (auto const version = version_of_library(folder)) return *version;
   }
   std::ifstream file(idd);
-  std::string line;
-  std::getline(file, line);
-  if (!line.starts_with(mark)) {
-    throw Error(fmt::format("{}: is not an EnergyPlus input data dictionary", idd.string()));
-  }
-  return line.substr(mark.size(), line.find_last_not_of(" \r") + 1 - mark.size());
+  if (auto const version = next_fact(file, "!IDD_Version ")) return *version;
+  throw Error(fmt::format("{}: is not an EnergyPlus input data dictionary", idd.string()));
+}
+
+std::string read_full_version(std::filesystem::path const& folder) {
+  auto const version = read_version(folder);
+  std::ifstream idd(folder / "Energy+.idd");
+  next_fact(idd, "!IDD_Version ");
+  auto const build = next_fact(idd, "!IDD_BUILD ");
+  return build ? version + '-' + *build : version;
 }
 
 std::filesystem::path find_energyplus_library(std::filesystem::path const& folder) {

@@ -9,6 +9,10 @@ namespace gpu_shading::energyplus {
 // or, without that, from its library's name. Throws Error.
 std::string read_version(std::filesystem::path const& folder);
 
+// As EnergyPlus states it: with the build of its Energy+.idd, e.g. "25.2.0-cf7368216c". Throws
+// Error.
+std::string read_full_version(std::filesystem::path const& folder);
+
 // EnergyPlus's library for a patched folder, through its link to the official one. Throws Error.
 std::filesystem::path find_energyplus_library(std::filesystem::path const& folder);
 

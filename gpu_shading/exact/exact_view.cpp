@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "exact/edge_sweep.h"
@@ -99,7 +100,24 @@ class Light {
  public:
   static constexpr std::size_t most_combinations = 64;
 
-  Light(std::size_t casters, std::size_t parts) : sums_(parts) { shades_.reserve(casters); }
+  // Begins anew.
+  void start(std::size_t parts) {
+    shades_.clear();
+    depths_.clear();
+    opaque_ = 0;
+    receiving_ = false;
+    passed_.clear();
+    reached_.clear();
+    combinations_.clear();
+    sums_.resize(parts);
+    for (Part& part : sums_) {
+      part.plain = 0.0;
+      part.scheduled.clear();
+    }
+    area_ = 0.0;
+    doubtful_ = 0.0;
+    too_many_ = false;
+  }
 
   // Polygons are numbered: the receiver, the casters, and the interior surfaces.
   void add(Shade const& shade) { shades_.push_back(shade); }
@@ -241,6 +259,51 @@ class Light {
   bool too_many_ = false;
 };
 
+// Adds the rings of a question's surfaces to a sweep.
+class Outlines {
+ public:
+  void start(Projection const& projection) {
+    constexpr double half = 0.5 + 1e-6;  // with room for rounding
+    sweep_.start(glm::dvec2(-half), glm::dvec2(half));
+    projection_ = &projection;
+    count_ = 0;
+  }
+
+  void add_receiver(Polygon const& receiver, PlaneFrame const& frame) {
+    each_ring(receiver, [&](Ring const& ring) { projection_->lay_out(ring, frame, places_); });
+  }
+  // `side`: as Projection has it.
+  void add(Polygon const& shape, double side) {
+    each_ring(shape, [&](Ring const& ring) { projection_->project(ring, side, places_); });
+  }
+  void add_nothing() { ++count_; }
+
+  EdgeSweep& sweep() { return sweep_; }
+
+ private:
+  template <typename Place>
+  void each_ring(Polygon const& polygon, Place const& place) {
+    place(polygon.outline);
+    sweep_.add(places_, count_);
+    for (Ring const& hole : polygon.holes) {
+      place(hole);
+      sweep_.add(places_, count_);
+    }
+    ++count_;
+  }
+
+  EdgeSweep sweep_;
+  Projection const* projection_ = nullptr;
+  std::uint32_t count_ = 0;  // of polygons
+  std::vector<glm::dvec2> places_;
+};
+
+// Kept from one question to the next, so that memory is asked for but once.
+struct Workspace {
+  Outlines outlines;
+  Light light;
+};
+
 }  // namespace
 
 std::optional<std::vector<LuminanceSums>> exact_sums(Scene const& scene,
@@ -248,33 +311,17 @@ std::optional<std::vector<LuminanceSums>> exact_sums(Scene const& scene,
                                                      ExactQuestion const& question,
                                                      double most_steps) {
   if (static_cast<double>(question.casters.size()) > most_steps) return std::nullopt;
-  static thread_local EdgeSweep sweep;
-  static thread_local std::vector<glm::dvec2> ring;
+  // Behind a pointer, or the address is looked up again wherever it is used.
+  static thread_local auto const workspace = std::make_unique<Workspace>();
+  auto& [outlines, light] = *workspace;
   Projection const projection(question.frame, question.towards_sun);
-  Light light(question.casters.size(), question.through ? question.interiors.size() : 1);
-  constexpr double half = 0.5 + 1e-6;  // with room for rounding
-  sweep.start(glm::dvec2(-half), glm::dvec2(half));
-  std::uint32_t polygon = 0;
-  Polygon const& receiver = scene[question.receiver].polygon;
-  projection.lay_out(receiver.outline, question.frame, ring);
-  sweep.add(ring, polygon);
-  for (Ring const& hole : receiver.holes) {
-    projection.lay_out(hole, question.frame, ring);
-    sweep.add(ring, polygon);
-  }
-  auto const add = [&](Polygon const& shape, double side) {
-    ++polygon;
-    projection.project(shape.outline, side, ring);
-    sweep.add(ring, polygon);
-    for (Ring const& hole : shape.holes) {
-      projection.project(hole, side, ring);
-      sweep.add(ring, polygon);
-    }
-  };
+  outlines.start(projection);
+  light.start(question.through ? question.interiors.size() : 1);
+  outlines.add_receiver(scene[question.receiver].polygon, question.frame);
   for (SurfaceId const id : question.casters) {
     light.add(transmission.shade(id, question.towards_sun));
-    add(scene[id].polygon, 1.0);
-    if (sweep.expected_steps() > most_steps) return std::nullopt;
+    outlines.add(scene[id].polygon, 1.0);
+    if (outlines.sweep().expected_steps() > most_steps) return std::nullopt;
   }
   if (question.through) {
     for (SurfaceId const id : question.interiors) {
@@ -282,13 +329,13 @@ std::optional<std::vector<LuminanceSums>> exact_sums(Scene const& scene,
       auto const depth = depth_of(shape.outline, question.frame, question.towards_sun);
       light.add(depth.value_or(Depth{}));
       if (depth) {
-        add(shape, -1.0);
+        outlines.add(shape, -1.0);
       } else {
-        ++polygon;
+        outlines.add_nothing();
       }
     }
   }
-  return sweep.sweep(most_steps, light) ? light.result() : std::nullopt;
+  return outlines.sweep().sweep(most_steps, light) ? light.result() : std::nullopt;
 }
 
 }  // namespace gpu_shading

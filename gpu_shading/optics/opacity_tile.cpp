@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -171,14 +172,21 @@ double OpacityTile::open_fraction() const {
 }
 
 void OpacityTile::find_web() {
-  SolidRuns const runs(*opacity_, columns_, rows_, least_solid(threshold_.value_or(0.5)));
-  constexpr double astray = 0.03;
+  std::vector<SolidRuns::Level> levels;
+  int const count = threshold_ ? 1 : 8;
+  for (int level = 0; level < count; ++level) {
+    double const threshold = threshold_.value_or((level + 0.5) / count);
+    levels.push_back({threshold * static_cast<double>(solid_value), least_solid(threshold)});
+  }
+  SolidRuns const runs(*opacity_, columns_, rows_, levels);
+  constexpr double stepped_over = 2e-3;
   double const diagonal = std::hypot(texel_width(), texel_height());
-  double const narrowest = std::min({runs.shortest_along_rows(astray) * texel_width(),
-                                     runs.shortest_along_columns(astray) * texel_height(),
-                                     runs.shortest_along_diagonals(astray) * diagonal});
-  constexpr double cos_eighth = 0.92387953251128674;  // cos(pi / 8)
-  web_ = std::max(cos_eighth * narrowest, 2.0 * std::max(texel_width(), texel_height()));
+  double const narrowest = std::min({runs.step_along_rows(stepped_over) * texel_width(),
+                                     runs.step_along_columns(stepped_over) * texel_height(),
+                                     runs.step_along_diagonals(stepped_over) * diagonal});
+  // Between two directions, at most this angle from the nearer one.
+  double const slope = std::atan2(texel_height(), texel_width());
+  web_ = narrowest * std::cos(0.5 * std::max(slope, 0.5 * std::numbers::pi - slope));
 }
 
 double OpacityTile::hole() const {

@@ -10,8 +10,7 @@ namespace gpu_shading {
 // through a hole, where the sheet is solid. `web` is above 0 and may be infinite; shifts are 0 or
 // more. Round, square and hexagonal holes of 64 texels drawn in this way are within 2e-3 of the
 // closed form for theta from 0 to 85 degrees, and within 9e-4 on average. With OpacityTile::web(),
-// which ignores the narrowest 3 %, images with stray texels take as many layers as clean ones and
-// are as accurate; if one web is far narrower than the others, rays step over it.
+// images with stray texels take as many layers as clean ones and are as accurate.
 inline int layers_for(double shift, double web, double longest_chord, int most = 64) {
   if (shift >= longest_chord) return 0;
   return static_cast<int>(std::min(1.0 + std::ceil(shift / web), static_cast<double>(most)));

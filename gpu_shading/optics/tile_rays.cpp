@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace gpu_shading {
@@ -60,12 +61,62 @@ class TileRays::Walk {
   }
 
   double length_in_block(std::size_t level) const {
-    auto const size = static_cast<unsigned>(rays_.levels_[level].size_log2);
-    return std::min(length_in_block(x_, direction_.per_x, rays_.columns_, size),
-                    length_in_block(y_, direction_.per_y, rays_.rows_, size));
+    return length_in_square(static_cast<unsigned>(rays_.levels_[level].size_log2));
+  }
+
+  // The path through the area between four centres of texels, where the interpolated value is
+  // first + slope * shift + curvature * shift^2.
+  struct Cell {
+    double length;
+    double first;
+    double slope;
+    double curvature;
+
+    // Where the value first exceeds a limit; above `length` if nowhere.
+    double exceeds(double limit) const {
+      if (first > limit) return 0.0;
+      // The smaller of the roots that are not negative, without cancellation.
+      double const c = first - limit;
+      double const inside = slope * slope - 4.0 * curvature * c;
+      if (inside < 0.0) return beyond;
+      double const q = -0.5 * (slope + std::copysign(std::sqrt(inside), slope));
+      double found = beyond;
+      for (double const root :
+           {q != 0.0 ? c / q : beyond, curvature != 0.0 ? q / curvature : beyond}) {
+        if (root >= 0.0 && root < found && slope + 2.0 * curvature * root > 0.0) found = root;
+      }
+      return found;
+    }
+    double highest_at() const {
+      double const top = curvature < 0.0 ? std::clamp(-0.5 * slope / curvature, 0.0, length) : 0.0;
+      return at(top) >= at(length) ? top : length;
+    }
+    double at(double shift) const { return first + shift * (slope + shift * curvature); }
+
+    static constexpr double beyond = std::numeric_limits<double>::infinity();
+  };
+  std::array<double, 4> corners() const {
+    return rays_.corners(static_cast<int>(x_), static_cast<int>(y_));
+  }
+  double length_in_cell() const { return length_in_square(0); }
+  Cell cell(std::array<double, 4> const& corners) const {
+    auto const [a, b, c, d] = corners;
+    double const x = x_ - std::floor(x_);
+    double const y = y_ - std::floor(y_);
+    double const dx = direction_.along_x;
+    double const dy = direction_.along_y;
+    double const twist = a - b - c + d;
+    return {.length = length_in_cell(),
+            .first = a + (b - a) * x + (c - a) * y + twist * x * y,
+            .slope = (b - a) * dx + (c - a) * dy + twist * (x * dy + y * dx),
+            .curvature = twist * dx * dy};
   }
 
  private:
+  double length_in_square(unsigned size) const {
+    return std::min(length_in_block(x_, direction_.per_x, rays_.columns_, size),
+                    length_in_block(y_, direction_.per_y, rays_.rows_, size));
+  }
   static double length_in_block(double place, double per_texel, int count, unsigned size_log2) {
     int const block = static_cast<int>(place) >> size_log2;
     int const end =
@@ -128,22 +179,29 @@ void TileRays::add_level_above(Level const& level) {
   levels_.push_back(std::move(above));
 }
 
+std::array<double, 4> TileRays::corners(int column, int row) const {
+  int const next_column = column + 1 == columns_ ? 0 : column + 1;
+  int const next_row = row + 1 == rows_ ? 0 : row + 1;
+  auto const texel = [&](int at_column, int at_row) {
+    return static_cast<double>(
+        texels_[static_cast<std::size_t>(at_row) * static_cast<std::size_t>(columns_) +
+                static_cast<std::size_t>(at_column)]);
+  };
+  return {texel(column, row), texel(next_column, row), texel(column, next_row),
+          texel(next_column, next_row)};
+}
+
 float TileRays::sample(double x, double y) const {
   int const column = static_cast<int>(x);
   int const row = static_cast<int>(y);
   auto const part_x = static_cast<float>(x - column);
   auto const part_y = static_cast<float>(y - row);
-  int const next_column = column + 1 == columns_ ? 0 : column + 1;
-  int const next_row = row + 1 == rows_ ? 0 : row + 1;
-  auto const texel = [&](int at_column, int at_row) {
-    return static_cast<float>(
-        texels_[static_cast<std::size_t>(at_row) * static_cast<std::size_t>(columns_) +
-                static_cast<std::size_t>(at_column)]);
+  auto const [a, b, c, d] = corners(column, row);
+  auto const mixed = [](double from, double to, float part) {
+    return static_cast<float>(from) + part * static_cast<float>(to - from);
   };
-  float const first = texel(column, row);
-  float const second = texel(column, next_row);
-  float const below = first + part_x * (texel(next_column, row) - first);
-  float const above = second + part_x * (texel(next_column, next_row) - second);
+  float const below = mixed(a, b, part_x);
+  float const above = mixed(c, d, part_x);
   return below + part_y * (above - below);
 }
 
@@ -167,10 +225,8 @@ std::size_t TileRays::follow(double u, double v, Direction const& direction, dou
             wrapped(v / tile_.texel_height() - 0.5, rows_), direction);
   double const texel = std::min(tile_.texel_width(), tile_.texel_height());
   double const beyond_edge = 1e-4 * texel;
-  // The value to exceed, and the previous sample, one texel before, if there is one.
+  // The value to exceed.
   float passed = thresholded_ ? most_open_ : sample(walk.x(), walk.y());
-  float before = passed;
-  bool has_before = false;
   // Smaller rises of fractional opacity are ignored.
   float const negligible = thresholded_ ? 0.0F : (1.0F - solid) * highest;
   auto const nothing_in = [&](std::uint16_t largest) {
@@ -185,29 +241,31 @@ std::size_t TileRays::follow(double u, double v, Direction const& direction, dou
       if (level + 1 == levels_.size()) break;
       walk.advance(walk.length_in_block(level) + beyond_edge);
       ++level;
-      has_before = false;
       continue;
     }
     if (level > 0) {
       --level;
       continue;
     }
-    float const value = sample(walk.x(), walk.y());
-    if (value > passed) {
-      // Where between two samples it rose above the value to exceed.
-      double const back =
-          has_before ? texel * static_cast<double>((value - passed) / (value - before)) : 0.0;
+    auto const corners = walk.corners();
+    if (nothing_in(static_cast<std::uint16_t>(*std::ranges::max_element(corners)))) {
+      walk.advance(walk.length_in_cell() + beyond_edge);
+      continue;
+    }
+    auto const cell = walk.cell(corners);
+    double const rise = cell.exceeds(static_cast<double>(passed));
+    if (rise <= cell.length) {
       if (thresholded_) {
-        rises.push_back({walk.shift() - back, 1.0F});
+        rises.push_back({walk.shift() + rise, 1.0F});
         break;
       }
-      rises.push_back({walk.shift() - back / 2.0, value / highest});
-      passed = value;
+      double const top = cell.highest_at();
+      auto const value = static_cast<float>(cell.at(top));
+      rises.push_back({walk.shift() + 0.5 * (rise + top), value / highest});
+      passed = std::max(passed, value);
       if (value >= solid * highest) break;
     }
-    before = value;
-    has_before = true;
-    walk.advance(texel);
+    walk.advance(cell.length + beyond_edge);
   }
   return steps;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -36,9 +37,9 @@ class TileRays {
   float opacity(double u, double v) const;
 
   // Finds where opacity exceeds all earlier values on the path from a point that is not solid,
-  // until it is solid or the shift reaches `farthest`. Steps are one texel near solid texels (half
-  // the narrowest web or less) and whole blocks of texels elsewhere. Returns the number of steps,
-  // to account for the time; overwrites `rises`.
+  // until it is solid or the shift reaches `farthest`. Exact for a thresholded tile. Steps are the
+  // areas between four centres of texels near solid texels, and blocks of them elsewhere. Returns
+  // the number of steps, to account for the time; overwrites `rises`.
   std::size_t follow(double u, double v, Direction const& direction, double farthest,
                      std::vector<Rise>& rises) const;
 
@@ -53,6 +54,8 @@ class TileRays {
   };
   void add_blocks();
   void add_level_above(Level const& level);
+  // The texels at and after a column and row.
+  std::array<double, 4> corners(int column, int row) const;
   float sample(double x, double y) const;  // as a value of texels
 
   OpacityTile const& tile_;

@@ -28,7 +28,8 @@ void QuestionBatch::ask(Question const& question) {
   if (!seen.frame || question.answers.empty()) return;
   double const cosine = glm::dot(seen.frame->normal, question.towards_sun);
   if (cosine <= edge_on) return;
-  asked_.push_back({question, &seen, cosine});
+  auto const* const in_sector = parts_.receivers.in_sector(question.receiver, question.towards_sun);
+  asked_.push_back({question, &seen, cosine, in_sector});
   if (asked_.size() < most_asked) return;
   look();
   if (viewed_.size() >= most_viewed) finish();
@@ -51,22 +52,34 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   Question const& question = asked.question;
   Receiver const& seen = *asked.receiver;
   Found found;
-  found.in_view = parts_.casters.in_view(parts_.scene, question.receiver, *seen.frame,
-                                         question.towards_sun, parts_.receivers.size().enough());
+  Casters const& casters = parts_.casters;
+  found.in_view =
+      asked.in_sector != nullptr
+          ? casters.in_view_of(*asked.in_sector, *seen.frame, question.towards_sun)
+          : casters.in_view(parts_.scene, question.receiver, *seen.frame, question.towards_sun);
   InView& in_view = found.in_view;
   found.clear = !question.through && in_view.casters.empty();
   if (found.clear) return found;
   found.transmits = parts_.transmission.any_transmits(in_view.casters);
   bool const screened = parts_.transmission.any_screen(in_view.casters);
+  bool const may_be_exact = !parts_.samples_only && !screened && !in_view.warped;
+  auto const exact = [&](double most_steps) {
+    return exact_sums(parts_.scene, parts_.transmission,
+                      {question.receiver, *seen.frame, question.towards_sun, in_view.casters,
+                       question.through, question.interiors},
+                      most_steps);
+  };
+  if (may_be_exact) found.exact = exact(few_steps);
+  if (found.exact) return found;
+  Detail detail = casters.detail(in_view.casters, *seen.frame, question.towards_sun,
+                                 parts_.receivers.size().enough());
   std::size_t const interiors = question.interiors.size();
   // Where one interior surface ends and the next begins, there is an edge too.
-  in_view.detail.across += static_cast<double>(std::min<std::size_t>(interiors, 6));
-  found.side = parts_.receivers.side_for(seen, in_view, screened);
-  if (parts_.samples_only || screened || in_view.warped) return found;
-  found.exact = exact_sums(parts_.scene, parts_.transmission,
-                           {question.receiver, *seen.frame, question.towards_sun, in_view.casters,
-                            question.through, question.interiors},
-                           sample_cost(in_view, found.side, found.transmits, interiors));
+  detail.across += static_cast<double>(std::min<std::size_t>(interiors, 6));
+  found.side = parts_.receivers.side_for(seen, detail, screened);
+  found.turn = best_turn(detail);
+  double const most_steps = sample_cost(detail, found.side, found.transmits, interiors);
+  if (may_be_exact && most_steps > few_steps) found.exact = exact(most_steps);
   return found;
 }
 
@@ -88,7 +101,7 @@ void QuestionBatch::take(Asked const& asked, Found found, std::vector<ReceiverVi
   ReceiverView view{question.receiver,    &*seen.frame,     nullptr,
                     question.towards_sun, asked.cosine,     std::move(in_view.casters),
                     found.transmits,      question.through, question.interiors};
-  Tile& tile = parts_.receivers.tile(view.receiver, found.side, {best_turn(in_view.detail)});
+  Tile& tile = parts_.receivers.tile(view.receiver, found.side, {found.turn});
   view.tile = &tile;
   viewed_.push_back({asked, found.side, &tile, view.casters.size(), found.transmits});
   views.push_back(std::move(view));

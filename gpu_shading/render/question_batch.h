@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -40,7 +41,8 @@ class QuestionBatch {
   struct Asked {
     Question question;
     Receiver const* receiver;
-    double cosine;  // of the angle of incidence
+    double cosine;                                // of the angle of incidence
+    std::vector<std::uint32_t> const* in_sector;  // casters, if they are known
   };
   // A question whose view is being rasterised.
   struct Viewed {
@@ -56,8 +58,10 @@ class QuestionBatch {
     InView in_view;
     bool clear = false;  // nothing shades the receiver
     bool transmits = false;
-    int side = 0;                                     // pixels per side of a tile
     std::optional<std::vector<LuminanceSums>> exact;  // where it costs less than samples
+    // Of the tile, else.
+    int side = 0;  // pixels
+    std::size_t turn = 0;
   };
 
   // Finds the casters in view for all questions since the last call, and has their views

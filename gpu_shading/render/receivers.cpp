@@ -2,9 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
 #include "gpu_shading/error.h"
 
 namespace gpu_shading {
+namespace {
+
+// Sectors along each axis: even parts of t / (1 + |t|), t being a tangent.
+constexpr int sectors = 16;
+
+int sector_of(double tangent) {
+  double const share = tangent / (1.0 + std::abs(tangent));
+  return std::clamp(static_cast<int>(0.5 * (share + 1.0) * sectors), 0, sectors - 1);
+}
+
+// The tangent at which a sector begins.
+double start_of(int sector) {
+  double const share = 2.0 * sector / sectors - 1.0;
+  return share / (1.0 - std::abs(share));
+}
+
+}  // namespace
 
 Surface const& Receivers::surface(SurfaceId id) const {
   if (id < scene_.size()) return scene_[id];
@@ -21,17 +43,36 @@ Receiver& Receivers::find(SurfaceId id) {
   return receivers_.emplace(id, std::move(receiver)).first->second;
 }
 
-int Receivers::side_for(Receiver const& receiver, InView const& in_view, bool screened) const {
+std::vector<std::uint32_t> const* Receivers::in_sector(SurfaceId id,
+                                                       glm::dvec3 const& towards_sun) {
+  // A run with shadows of every twentieth day asks about fewer: it would not pay.
+  constexpr std::size_t few = 500;
+  Receiver& receiver = find(id);
+  if (++receiver.times <= few) return nullptr;
+  PlaneFrame const& frame = *receiver.frame;
+  double const cosine = glm::dot(frame.normal, towards_sun);
+  int const u = sector_of(glm::dot(frame.u, towards_sun) / cosine);
+  int const v = sector_of(glm::dot(frame.v, towards_sun) / cosine);
+  // The outer ones have no end.
+  if (std::min(u, v) == 0 || std::max(u, v) == sectors - 1) return nullptr;
+  auto const [known, added] = receiver.in_sectors.try_emplace(u * sectors + v);
+  if (added) {
+    SunSector const sector{{start_of(u), start_of(v)}, {start_of(u + 1), start_of(v + 1)}};
+    known->second = casters_.in_sector(scene_, id, frame, sector);
+  }
+  return known->second ? &*known->second : nullptr;
+}
+
+int Receivers::side_for(Receiver const& receiver, Detail const& detail, bool screened) const {
   // The receiver has its share of the rectangle's edges and pixels.
   double const share = receiver.area / (receiver.frame->width * receiver.frame->height);
-  Detail const& detail = in_view.detail;
   int const side = size_.side(detail.along / share, detail.across / share);
   return screened ? size_.side_with_screens(side) : side;
 }
 
 Tile& Receivers::tile(SurfaceId id, int side, TileLay const& lay) {
   Receiver& receiver = find(id);
-  std::pair const kind(side, lay);
+  std::tuple const kind(side, lay.turn, lay.stretch);
   auto const known = receiver.tiles.find(kind);
   if (known != receiver.tiles.end()) return known->second;
   Tile tile = make_tile(surface(id).polygon, *receiver.frame, side, most_, lay);

@@ -87,7 +87,7 @@ class Renderer::Implementation {
   QuestionBatch new_batch() {
     check_process();
     return QuestionBatch({scene_, casters_, transmission_, *receivers_, *backend_, statistics_,
-                          options_.samples_only || options_.resolution.has_value()});
+                          options_.samples_only});
   }
 
   // A context of OpenGL's does not survive a fork; the CPU's back end does.
@@ -122,7 +122,7 @@ Renderer::Implementation::Implementation(Scene scene, RendererOptions options,
   Stopwatch const watch(statistics_.seconds);
   std::vector<Mesh> const meshes = triangulate_all(scene_);
   backend_ = open({scene_, meshes, transmission_, statistics_});
-  receivers_.emplace(scene_, tile_size(options_, device()), device().max_resolution);
+  receivers_.emplace(scene_, casters_, tile_size(options_, device()), device().max_resolution);
 }
 
 std::vector<std::vector<Sunlit>> Renderer::Implementation::projected_sunlit_areas(
@@ -191,7 +191,7 @@ Image Renderer::Implementation::sun_view(SunDirection sun, SurfaceId id, int siz
   bool const faces_sun = glm::dot(seen.frame->normal, towards_sun) > edge_on;
   ShadedReceiver shaded{id, towards_sun, {}, {}};
   if (faces_sun) {
-    shaded.casters = casters_.in_view(scene_, id, *seen.frame, towards_sun, 0.0).casters;
+    shaded.casters = casters_.in_view(scene_, id, *seen.frame, towards_sun).casters;
   }
   if (transmission_.any_transmits(shaded.casters)) shaded.shades = shades_at(shaded, factors);
   if (!picture_raster_) {

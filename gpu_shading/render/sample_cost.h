@@ -4,10 +4,13 @@
 
 namespace gpu_shading {
 
-struct InView;
+struct Detail;
+
+// Steps of an EdgeSweep that always take less time than samples.
+inline constexpr double few_steps = 300.0;
 
 // Time that the samples of a view take on one core, in steps of an EdgeSweep: an estimate within a
 // factor of two (tests/bench/exact_cost). `side`: pixels per side of its tile.
-double sample_cost(InView const& in_view, int side, bool transmits, std::size_t interiors);
+double sample_cost(Detail const& detail, int side, bool transmits, std::size_t interiors);
 
 }  // namespace gpu_shading

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,17 +12,9 @@
 #include "scene/detail.h"
 #include "scene/plane_frame.h"
 #include "scene/screens.h"
+#include "scene/shadow.h"
 
 namespace gpu_shading {
-
-// A surface lies in a receiver's plane or behind it, and does not shade the receiver, unless one of
-// its vertices is this far in front of the plane, in metres: neighbours meant to be coplanar differ
-// by the rounding of a model's coordinates.
-inline constexpr double coplanar = 1e-4;
-
-// Casters are clipped this far in front of the plane, in metres: the noise of single precision
-// within a building. It lets through a strip of clearance x tan(incidence).
-inline constexpr double clearance = 1e-6;
 
 // The smallest cosine of incidence at which a surface faces the sun, as in EnergyPlus (its
 // SunIsUpValue).
@@ -33,7 +26,6 @@ inline constexpr double edge_on = 1e-6;
 // The casters that may shade a receiver at one sun direction.
 struct InView {
   std::vector<SurfaceId> casters;  // in the order of their ids
-  Detail detail;                   // of their shadows
   bool warped = false;             // one is not flat: its triangles cast what its outline does not
 };
 
@@ -45,10 +37,22 @@ class Casters {
 
   // The casters that may shade the receiver: some part of them is clearly in front of its plane,
   // that part projected along the sun's rays onto the plane overlaps its bounding rectangle, and
-  // the rule allows it. `towards_sun` must be in front of the plane. Detail is counted up to
-  // `enough`.
+  // the rule allows it. `towards_sun` must be in front of the plane.
   InView in_view(Scene const& scene, SurfaceId receiver, PlaneFrame const& frame,
-                 glm::dvec3 const& towards_sun, double enough) const;
+                 glm::dvec3 const& towards_sun) const;
+
+  // Places in the tree of casters among which are all that are in view from some sun direction of a
+  // sector, in the order of their ids; empty if a search costs less than to look at so many.
+  std::optional<std::vector<std::uint32_t>> in_sector(Scene const& scene, SurfaceId receiver,
+                                                      PlaneFrame const& frame,
+                                                      SunSector const& sector) const;
+  // in_view() of these alone.
+  InView in_view_of(std::span<std::uint32_t const> places, PlaneFrame const& frame,
+                    glm::dvec3 const& towards_sun) const;
+
+  // Detail of the shadows of casters in view, up to `enough`.
+  Detail detail(std::span<SurfaceId const> in_view, PlaneFrame const& frame,
+                glm::dvec3 const& towards_sun, double enough) const;
 
  private:
   struct Caster {
@@ -64,8 +68,6 @@ class Casters {
     bool warped = false;
     bool only_turned_away = false;
   };
-  class Shadow;
-
   void add(SurfaceId id, Surface const& surface);
   std::span<glm::dvec3 const> points(Caster const& caster) const {
     return {points_.data() + caster.first, caster.count};
@@ -74,6 +76,9 @@ class Casters {
     return {holes_.data() + caster.first_hole, caster.holes};
   }
 
+  // Adds a caster if it is in view; with `inside`, it is.
+  void add_if_in_view(Caster const& caster, bool inside, PlaneFrame const& frame,
+                      glm::dvec3 const& towards_sun, Shadow& shadow, InView& found) const;
   bool is_in_view(Caster const& caster, PlaneFrame const& frame, Shadow& shadow) const;
 
   // All in the tree's order, in which a search goes through them.
@@ -81,6 +86,7 @@ class Casters {
   std::vector<Caster> casters_;
   std::vector<glm::dvec3> points_;
   std::vector<Ring> holes_;
+  std::vector<std::uint32_t> places_;  // of casters, by id
 };
 
 }  // namespace gpu_shading

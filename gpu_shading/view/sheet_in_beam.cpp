@@ -36,17 +36,21 @@ SheetShape shape_of(Hole hole) {
   return SheetShape::round_holes;
 }
 
-int layers_of(PerforatedScreen const& screen, double shift) {
+bool is_solid(PerforatedScreen const& screen, glm::dvec2 const& shift) {
+  std::vector<float> const regions =
+      screen.transmittance().at_shift(glm::length(shift), std::atan2(shift.y, shift.x));
+  return std::all_of(regions.begin(), regions.end(), [](float passed) { return passed <= 0.0F; });
+}
+
+int layers_of(PerforatedScreen const& screen, glm::dvec2 const& shift) {
   if (screen.sheet().layers) return *screen.sheet().layers;
   if (screen.pattern()) return exact_sheet;
   constexpr int most = 64;
+  double const length = glm::length(shift);
   // This many are not enough, and nothing passes except at the sheet's sides.
-  if (shift > (most - 1) * screen.web() && shift >= screen.transmittance().longest_chord()) {
-    return solid_sheet;
-  }
-  // Beyond the longest chord, layers only matter at the sides, where the path in the sheet is
-  // short.
-  return layers_for(shift, screen.web(), std::numeric_limits<double>::infinity(), most);
+  if (length > (most - 1) * screen.web() && is_solid(screen, shift)) return solid_sheet;
+  // Where nothing passes, layers only matter at the sides, where the path in the sheet is short.
+  return layers_for(length, screen.web(), std::numeric_limits<double>::infinity(), most);
 }
 
 // Larger than any pixel.
@@ -160,7 +164,7 @@ SheetInBeam sheet_in_beam(Screens::Entry const& entry, glm::dvec3 const& towards
   glm::vec2 const blend = has_effect ? blend_of(screen) : glm::vec2(never, 2.0F * never);
   sheet.blend_from = blend.x;
   sheet.blend_to = blend.y;
-  sheet.layers = aside ? solid_sheet : layers_of(screen, glm::length(shift));
+  sheet.layers = aside ? solid_sheet : layers_of(screen, shift);
   if (!has_effect) return sheet;
   std::vector<glm::vec4> thirds = effective(screen, shift);
   sheet.effective = thirds.front();

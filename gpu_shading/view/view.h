@@ -1,6 +1,5 @@
 #pragma once
 
-#include <compare>
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
@@ -35,7 +34,6 @@ struct TileLay {
   double stretch = 1.0;
 
   double slope() const { return turn_slopes[turn]; }
-  auto operator<=>(TileLay const&) const = default;
 };
 
 TileMap fit_tile(PlaneFrame const& frame, Ring const& outline, int resolution,

@@ -17,7 +17,8 @@ namespace gpu_shading {
 namespace {
 
 void print_row(std::vector<SunDirection> const& suns, std::size_t every, int resolution) {
-  PixelCount renderer(transparent_case(), {.device = {}, .resolution = resolution});
+  PixelCount renderer(transparent_case(),
+                      {.device = {}, .resolution = resolution, .samples_only = true});
   double signed_mean = 0.0;
   double counted_mean = 0.0;
   double mean = 0.0;

@@ -55,6 +55,19 @@ def box(louvres):
 
 
 @pytest.fixture(scope="session")
+def sampled_box(louvres):
+    """The same with a shade that is not flat, behind which there are samples at any resolution."""
+    return louvres(1) + """
+Shading:Building:Detailed,
+  Sail,,4,
+  1.5,-0.5,2.8,
+  1.5,-0.9,2.7,
+  4.5,-0.9,2.4,
+  4.5,-0.5,2.8;
+"""
+
+
+@pytest.fixture(scope="session")
 def wine(tmp_path_factory):
     """A Windows to run programs in."""
     if why := windows.why_not():

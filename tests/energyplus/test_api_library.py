@@ -206,7 +206,8 @@ def test_unsetting_the_variable_between_runs_is_refused(linked_host, patched, we
                       ["GPU_SHADING=", tmp_path / "second", room, weather])
     assert run.status == 3
     assert "set it to off" in run.errors
-    assert not (tmp_path / "second" / "eplusout.err").exists()
+    assert "set it to off" in (tmp_path / "second" / "eplusout.err").read_text()
+    assert not (tmp_path / "second" / "eplusout.eio").exists()
 
 
 def test_a_library_that_cannot_be_patched_says_so(linked_host, weather, box, tmp_path):
@@ -236,3 +237,12 @@ def test_a_moved_installation_is_said(with_python, weather, box, tmp_path):
         assert run.errors.count("\n") == 1 and "create this folder again with patch_energyplus" in run.errors
     check = subprocess.run([dest / "gpu_shading", "check", model], capture_output=True, text=True)
     assert check.returncode == 1 and "create this folder again with patch_energyplus" in check.stderr
+
+
+def test_host_that_is_refused_finds_the_reason_in_the_files(linked_host, patched, room, weather, tmp_path):
+    done = linked_host(patched.parent, room, weather, tmp_path / "out",
+                       {"GPU_SHADING": "1", "GPU_SHADING_ERROR": "many"})
+    assert done.status != 0 and "GPU_SHADING_ERROR" in done.errors
+    err = (tmp_path / "out" / "eplusout.err").read_text()
+    assert "   ** Severe  ** gpu_shading: GPU_SHADING_ERROR" in err
+    assert "EnergyPlus Terminated--Fatal Error Detected." in (tmp_path / "out" / "eplusout.end").read_text()

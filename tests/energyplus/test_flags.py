@@ -14,8 +14,13 @@ SETTINGS = "GPUShading:Settings,\n  {resolution};  !- Resolution\n"
 
 
 @pytest.fixture
+def box(sampled_box):
+    return sampled_box
+
+
+@pytest.fixture
 def model(box, tmp_path):
-    """One louvre, one design day, with the outputs that tell one resolution from another."""
+    """One louvre and a sail, one design day, with the outputs that tell one resolution from another."""
     return write_model(box, tmp_path / "box.idf")
 
 
@@ -201,8 +206,14 @@ def test_order_of_precedence(shade, box, tmp_path):
     assert sunlit(shade(write_model(model.text, tmp_path / "clipped.idf"))) == sunlit(shade(plain))
     assert sunlit(shade(full, "--gpu-shading-error=0.05")) == sunlit(shade(plain, "--gpu-shading-error=0.05"))
     assert sunlit(shade(plain)) == sunlit(shade(plain, "--gpu-shading-error=0.001"))
-    # Of few edges, the answer is exact whatever the error.
-    assert sunlit(shade(plain)) == sunlit(shade(plain, "--gpu-shading-error=0.05"))
+    assert sunlit(shade(plain)) != sunlit(shade(plain, "--gpu-shading-error=0.05"))
+
+
+def test_few_edges_are_exact_whatever_the_fineness(shade, louvres, tmp_path):
+    plain = write_model(louvres(1), tmp_path / "plain.idf")
+    exact = sunlit(shade(plain))
+    for option in ("--gpu-shading-error=0.05", "--gpu-shading-resolution=16"):
+        assert sunlit(shade(plain, option)) == exact
 
 
 def test_interrupt_ends_the_run(patched, courtyard, weather, tmp_path):

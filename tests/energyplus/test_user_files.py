@@ -305,6 +305,27 @@ def test_export_is_there_as_a_whole(patched, program, model, weather, tmp_path):
     assert not list(folder.glob(STAGE + "*")) and not list(folder.parent.glob(STAGE + "*"))
 
 
+def test_export_links_only_what_the_model_needs(official, program, model, weather):
+    folder = model.parent
+    text = model.read_text().replace("SimulationControl,No,No,No,Yes,No;", "SimulationControl,No,No,No,No,Yes;")
+    model.write_text(text + "RunPeriod,June day,6,21,,6,21;\nOutput:Variable,*,Schedule Value,Hourly;\n"
+                     "Schedule:File,Occupancy,,data\\occupancy.csv,1,0;\n")
+    (folder / "data").mkdir()
+    (folder / "data" / "occupancy.csv").write_text("0.25\n" * 8760)
+    (folder / "model.rvi").write_text("eplusout.eso\nchosen.csv\n0\n")
+    for old in ("eplusout.eso", "eplusout.sql", "model.err", "notes.txt", "data/other.csv", "earlier/eplusout.end"):
+        (folder / old).parent.mkdir(exist_ok=True)
+        (folder / old).write_text("earlier")
+    done = program("export", model, "-w", weather, "--scheduled", folder / "exported")
+    assert done.returncode == 0, done.stderr
+    exported = folder / "exported"
+    names = {str(path.relative_to(exported)) for path in exported.rglob("*") if not path.is_dir()}
+    assert names == {"model.idf", "gpu_shading_sunlit.csv", "data/occupancy.csv", "model.rvi"}
+    run = energyplus.run(official, exported / "model.idf", weather, folder / "out", [])
+    assert run.completed, run.why()
+    assert ",0.25\n" in (folder / "out" / "eplusout.eso").read_text()
+
+
 @pytest.mark.parametrize("option", ["--convert-only", "--convert", "-c"])
 def test_conversion_loses_no_object(option, patched, box, tmp_path):
     model = tmp_path / "model.idf"

@@ -232,8 +232,9 @@ def test_an_error_in_an_extension_object_stops_before_the_run(wine, windows_patc
     model = tmp_path / "model.idf"
     model.write_text(box + "GPUShading:TransparentShade,Glass,Louvre 1,Constant,,,2;\n")
     done = wine.run_energyplus(windows_patched, model, weather, tmp_path / "out", ["-D", "--gpu-shading"])
-    assert done.status == 1 and not (done.folder / "eplusout.err").exists()
-    assert "model.idf: GPUShading:TransparentShade Glass: Value 1 is blank" in done.errors
+    assert done.status == 1 and not (done.folder / "eplusout.eio").exists()
+    for text in (done.errors, (done.folder / "eplusout.err").read_text()):
+        assert "model.idf: GPUShading:TransparentShade Glass: Value 1 is blank" in text
 
 
 def test_what_it_lacks_is_one_warning_each(wine, windows_patched, weather, box, tmp_path):

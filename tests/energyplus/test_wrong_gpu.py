@@ -20,15 +20,15 @@ def on_wrong_gpu(patched, tmp_path_factory):
 
 
 @pytest.fixture
-def shade(on_wrong_gpu, weather, box, tmp_path):
-    model = input_file.Idf(box)
+def shade(on_wrong_gpu, weather, sampled_box, tmp_path):
+    model = input_file.Idf(sampled_box)
     results.instrument(model)
     model.write(tmp_path / "box.idf")
 
     def call(*options):
         return energyplus.run(on_wrong_gpu / "energyplus", tmp_path / "box.idf", weather,
                               tmp_path / f"run{len(options)}",
-                              [*options, "--gpu-shading-resolution=128", "-D"])  # which asks for samples
+                              [*options, "--gpu-shading-resolution=128", "-D"])
 
     return call
 

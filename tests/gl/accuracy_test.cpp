@@ -47,6 +47,7 @@ Forms errors_at(int resolution, DeviceChoice how) {
     RandomScene const random = random_scene(seed);
     RendererOptions options;
     options.resolution = resolution;
+    options.samples_only = true;
     options.device = how;
     SurfaceId const receiver = 0;
     auto const [answered, counted] = PixelCount(random.scene, options).areas(random.sun, receiver);

@@ -80,7 +80,7 @@ TEST_P(CheckedDevice, DiffersByMuchLessThanTheTolerance) {
   // Back ends know tiles by their addresses.
   std::deque<Receivers> all_receivers;
   for (int const resolution : {64, 192, 512}) {
-    Receivers& receivers = all_receivers.emplace_back(scene, TileSize::fixed(resolution),
+    Receivers& receivers = all_receivers.emplace_back(scene, casters, TileSize::fixed(resolution),
                                                       both.device().max_resolution);
     QuestionBatch batch({scene, casters, transmission, receivers, both, statistics, true});
     std::vector<Sunlit> answer(1);

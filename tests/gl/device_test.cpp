@@ -95,6 +95,7 @@ TEST(Resolution, OutOfRangeIsNamedWithTheRange) {
   for (int const resolution : {0, -1, most + 1}) {
     RendererOptions options;
     options.resolution = resolution;
+    options.samples_only = true;
     std::string const message = message_of(options);
     EXPECT_NE(message.find(std::to_string(resolution)), std::string::npos) << message;
     EXPECT_NE(message.find(std::to_string(most)), std::string::npos) << message;

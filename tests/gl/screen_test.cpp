@@ -47,6 +47,7 @@ HolePattern square_holes(double size, double pitch) {
 Renderer drawing_pixels(Scene scene, int resolution) {
   RendererOptions options;
   options.resolution = resolution;
+  options.samples_only = true;
   return RendererWithBackend::make(std::move(scene), options, [](BackendInput const& input) {
     return open_backend(input, by_opengl);
   });

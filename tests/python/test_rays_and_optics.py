@@ -60,6 +60,76 @@ def test_an_image_passes_what_its_slats_leave():
     assert screen.tau(30.0, 90.0) == pytest.approx(0.5 - shift / 0.08, abs=5e-3)
 
 
+@pytest.mark.parametrize("columns, pitch", [(8, 0.024), (3, 0.03)])
+def test_a_wire_of_one_texel_stops_the_run_the_table_and_the_rays_alike(columns, pitch):
+    """Level wires one texel wide in a thick sheet. Such images once passed 0.3 and 0.5 where nothing passes."""
+    thickness, height = 0.01, 40 * pitch
+    opacity = np.zeros((8, columns))
+    opacity[:, 1] = 1.0
+    screen = gpu_shading.Screen.image(opacity, pitch, pitch, thickness=thickness)
+    scene = gpu_shading.Scene(receivers=[window(2.0, height)])
+    scene.add(window(90, 90, -40, -1.0) - [40, 0, 0], screen=screen)  # u runs up
+    origins = np.column_stack([np.ones(50), np.zeros(50), np.linspace(1.1, 1.0 + height, 50)])
+    rays = scene.rays()
+    suns = [(180, 20), (160, 10), (215, 40), (150, 60), (240, 45), (180, 70), (200, 75)]
+    exact = []
+    for azimuth, altitude in suns:
+        x, y, z = sun = towards(azimuth, altitude)
+        exact.append(max(0.0, 1.0 - 1.0 / columns - thickness * abs(z / y) / pitch))
+        theta, phi = np.degrees(np.arccos(-y)), np.degrees(np.arctan2(x, z))
+        assert screen.tau(theta, phi) == pytest.approx(exact[-1], abs=5e-3)
+        assert rays.transmittance(origins, np.tile(sun, (50, 1))) == pytest.approx(exact[-1], abs=5e-3)
+    assert scene.sunlit(suns)[:, 0] == pytest.approx(exact, abs=2e-3)
+    assert exact[-1] == 0.0 and scene.sunlit(suns[-1])[0] == 0.0
+
+
+def leaves(side):
+    """Leaves of several directions, cut out of a sheet but for ribs one texel wide along their middles."""
+    v, u = np.mgrid[:side, :side] + 0.5
+    opacity = np.ones((side, side))
+    for n in range(8):
+        du, dv = ((place - start * side + side / 2) % side - side / 2
+                  for place, start in ((u, 0.7549 * n % 1), (v, 0.5698 * n % 1)))
+        along, aside = du * np.cos(2.4 * n) + dv * np.sin(2.4 * n), dv * np.cos(2.4 * n) - du * np.sin(2.4 * n)
+        half_length = side * (0.12 + 0.02 * (n % 4))
+        opacity[(np.abs(aside) > 0.5) & (np.abs(aside) < 0.4 * half_length * (1 - (along / half_length) ** 2))] = 0
+    return opacity
+
+
+def through(opacity, shift, threshold=0.5, layers=200, points=3):
+    """What passes an image interpolated at very many depths, over a shift in texels along u and v."""
+    rows, columns = opacity.shape
+    v, u = (np.mgrid[: rows * points, : columns * points] + 0.37) / points
+    is_open = np.ones_like(u, dtype=bool)
+    for depth in np.linspace(0, 1, layers):
+        x, y = u + depth * shift[0], v + depth * shift[1]
+        column, row = np.floor(x).astype(int), np.floor(y).astype(int)
+        x, y = x - column, y - row
+        below, above = (opacity[r % rows, column % columns] * (1 - x) + opacity[r % rows, (column + 1) % columns] * x
+                        for r in (row, row + 1))
+        is_open &= below * (1 - y) + above * y <= threshold
+    return is_open.mean()
+
+
+def test_leaves_pass_what_very_many_layers_pass_in_a_run_and_in_the_table():
+    """Layers Auto once passed 1e-2 too much beside a table that knew better."""
+    side, texel, thickness = 96, 0.001, 0.003
+    opacity = leaves(side)
+    screen = gpu_shading.Screen.image(opacity, side * texel, side * texel, thickness=thickness)
+    scene = gpu_shading.Scene(receivers=[window(10 * side * texel, 10 * side * texel)])
+    scene.add(window(90, 90, -40, -1.0) - [40, 0, 0], screen=screen)  # u runs up, v to the west
+    suns = [(180, 35), (170, 50), (200, 60), (225, 40), (135, 55), (180, 75)]
+    expected, table = [], []
+    for azimuth, altitude in suns:
+        x, y, z = towards(azimuth, altitude)
+        shift = thickness / texel * np.array([z, -x]) / -y
+        theta, phi = np.degrees(np.arccos(-y)), np.degrees(np.arctan2(-x, z))
+        expected.append(through(opacity, shift))
+        table.append(screen.tau(theta, phi))
+    assert scene.sunlit(suns)[:, 0] == pytest.approx(expected, abs=4e-3)
+    assert table == pytest.approx(expected, abs=4e-3)
+
+
 @pytest.mark.parametrize("make, expected", [
     (lambda: gpu_shading.Transmittance.constant(0.3), lambda angle: 0.3 + 0 * angle),
     (lambda: gpu_shading.Transmittance.polynomial([0.9, -0.01], of="degrees"), lambda angle: 0.9 - 0.01 * angle),

@@ -11,6 +11,7 @@ namespace gpu_shading {
 Renderer gl_renderer(Scene scene, std::optional<int> resolution, GlSettings const& settings) {
   RendererOptions options;
   options.resolution = resolution;
+  options.samples_only = true;
   return RendererWithBackend::make(std::move(scene), options, [&](BackendInput const& input) {
     return std::make_unique<GlBackend>(egl::open(by_opengl).value(), input, settings);
   });

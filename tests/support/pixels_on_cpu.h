@@ -30,6 +30,7 @@ inline Renderer counting_pixels(Scene scene, RendererOptions const& options) {
 inline Renderer counting_pixels(Scene scene, int resolution) {
   RendererOptions options;
   options.resolution = resolution;
+  options.samples_only = true;
   return counting_pixels(std::move(scene), options);
 }
 

@@ -38,6 +38,7 @@ inline constexpr DeviceChoice on_cpu{DeviceChoice::Kind::cpu, 0};
 inline Renderer renderer_of(Scene scene, int resolution = 512, DeviceChoice device = {}) {
   RendererOptions options;
   options.resolution = resolution;
+  options.samples_only = true;
   options.device = device;
   return Renderer(std::move(scene), options);
 }

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <memory>
+#include <random>
 
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/sun_direction.h"
@@ -25,9 +28,7 @@ Polygon horizontal(double x, double y, double z, double width, double depth) {
 }
 
 std::vector<SurfaceId> in_view_of_first(Scene const& scene, SunDirection sun) {
-  return Casters(scene)
-      .in_view(scene, 0, *plane_frame(scene[0].polygon), to_vector(sun), 1e9)
-      .casters;
+  return Casters(scene).in_view(scene, 0, *plane_frame(scene[0].polygon), to_vector(sun)).casters;
 }
 
 constexpr SunDirection from_the_south{3.14159, 0.785};
@@ -186,6 +187,34 @@ TEST(CastersInView, ComeInTheOrderOfTheirIds) {
     ASSERT_EQ(found.size(), static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i], i + 1);
   }
+}
+
+// Whatever the direction within it, and nearly nothing else where it is small.
+TEST(CastersInView, AreAmongThoseOfASector) {
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> tangent(-4.0, 4.0);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  std::size_t in_view = 0;
+  std::size_t in_sector = 0;
+  for (std::uint32_t seed = 0; seed < 300; ++seed) {
+    Scene const scene = seed % 2 == 0 ? random_scene(seed).scene : triangle_soup(60, seed);
+    PlaneFrame const frame = plane_frame(scene[0].polygon).value();
+    Casters const casters(scene);
+    glm::dvec2 const low(tangent(engine), tangent(engine));
+    glm::dvec2 const size = glm::dvec2(0.2) + glm::abs(low) * 0.2;
+    auto const places = casters.in_sector(scene, 0, frame, {low, low + size});
+    if (!places) continue;
+    for (int i = 0; i < 20; ++i) {
+      glm::dvec2 const at = low + size * glm::dvec2(share(engine), share(engine));
+      glm::dvec3 const towards_sun = glm::normalize(frame.normal + at.x * frame.u + at.y * frame.v);
+      auto const searched = casters.in_view(scene, 0, frame, towards_sun).casters;
+      EXPECT_EQ(casters.in_view_of(*places, frame, towards_sun).casters, searched) << seed;
+      in_view += searched.size();
+      in_sector += places->size();
+    }
+  }
+  EXPECT_GT(in_view, 5000U);
+  EXPECT_LT(in_sector, 3 * in_view);
 }
 
 }  // namespace

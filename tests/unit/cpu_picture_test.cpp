@@ -167,7 +167,7 @@ TEST(CpuPictureRaster, LuminanceIsTheSunlitFraction) {
     ShadedReceiver receiver{0, to_vector(random.sun), {}, {}};
     PlaneFrame const frame = *plane_frame(random.scene[0].polygon);
     receiver.casters =
-        Casters(random.scene).in_view(random.scene, 0, frame, receiver.towards_sun, 0.0).casters;
+        Casters(random.scene).in_view(random.scene, 0, frame, receiver.towards_sun).casters;
     // Its bounding square, somewhat turned.
     double const size = 0.8 * (frame.width + frame.height);
     PictureGrid grid;

@@ -35,7 +35,7 @@ class ExactQuestions {
       SunDirection sun, SurfaceId receiver, double most_steps = unlimited,
       std::vector<SurfaceId> const& interiors = {}) {
     PlaneFrame const frame = plane_frame(scene_[receiver].polygon).value();
-    InView const in_view = casters_.in_view(scene_, receiver, frame, to_vector(sun), unlimited);
+    InView const in_view = casters_.in_view(scene_, receiver, frame, to_vector(sun));
     return exact_sums(
         scene_, transmission_,
         {receiver, frame, to_vector(sun), in_view.casters, !interiors.empty(), interiors},

@@ -54,10 +54,9 @@ class DetailOfShadows : public testing::Test {
     scene.add({"window", {{{0, 0, 0}, {4, 0, 0}, {4, 0, 2}, {0, 0, 2}}, {}}});
     scene.add({"caster", caster});
     // From the south, 45 degrees up: what stands 1 m out throws its shadow 1 m down.
-    return Casters(scene)
-        .in_view(scene, 0, *plane_frame(scene[0].polygon), {0.0, -std::sqrt(0.5), std::sqrt(0.5)},
-                 1e9)
-        .detail;
+    std::vector<SurfaceId> const in_view{1};
+    return Casters(scene).detail(in_view, *plane_frame(scene[0].polygon),
+                                 {0.0, -std::sqrt(0.5), std::sqrt(0.5)}, 1e9);
   }
 };
 

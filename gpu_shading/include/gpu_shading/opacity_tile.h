@@ -54,12 +54,15 @@ class OpacityTile {
   // Mean open fraction of the texels, after applying the threshold if there is one.
   double open_fraction() const;
 
-  // Width of the narrowest web between holes or parts of one, from runs of solid texels (above the
-  // threshold, or above 0.5 without one) between open texels along rows, columns and diagonals. In
-  // each of these directions, 3 % of the runs may be shorter, because stray texels (up to one in
-  // 10000) and frayed edges (noise of 0.05 in opacity) are not webs; narrow webs in an equally
-  // small part of the tile are ignored too. The result is the shortest direction times cos(22.5
-  // degrees), for webs in between, at least two texels, and infinite if there is no web.
+  // The longest step in the plane that steps over almost no web between holes: of all rays, at
+  // most 2e-3 in each direction, counted where they can step over one at all. Stray texels (up to
+  // one in 10000), frayed edges (noise of 0.05 in opacity) and narrow webs in an equally small part
+  // of the tile do not shorten it; where all webs are equally wide, it steps over none. Webs are
+  // measured along rows, columns and diagonals of texels, to where the interpolated opacity falls
+  // to the threshold, or to each of eight thresholds for fractional opacity. The result is the
+  // shortest step of these directions times the cosine of the largest angle from one of them, 22.5
+  // degrees for square texels. Infinite if there is no web. Lengths below an eighth of a texel
+  // count as that.
   double web() const { return web_; }
 
   // The size of a typical hole: the mean length of runs of open texels along rows and columns.

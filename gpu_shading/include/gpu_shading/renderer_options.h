@@ -22,8 +22,7 @@ struct RendererOptions {
   // Target accuracy, least_error .. most_error: 99 % of sunlit fractions are within this absolute
   // error. The size of a tile follows from it and from the length of the shadow edges in view.
   double error = 1e-3;
-  // Otherwise views with few edges are answered exactly, without samples, where that costs less. A
-  // resolution asks for samples too.
+  // Otherwise views with few edges are answered exactly, without samples, where that costs less.
   bool samples_only = false;
   // Called with one line when the CPU takes over from an OpenGL device: the first views of each
   // kind are compared with the CPU's, and one was wrong; or the device lacks what the scene needs.

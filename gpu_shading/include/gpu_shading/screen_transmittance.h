@@ -29,16 +29,16 @@ namespace gpu_shading {
 // From a pattern: the closed form at 512 steps. The table is within 1e-3 of it, and within 1e-5 for
 // round holes; squares end at different shifts in neighbouring directions phi.
 //
-// From a tile: rays from open points, spread evenly over each region, are followed to where they
-// meet a solid point, in steps of one texel near solid points (half a web or less, so that none is
-// stepped over). Each region has 4096 rays in each direction, or fewer if that would take more than
-// a few seconds, but at least 32; if there are several regions, every fourth direction is traced
-// and the others are interpolated linearly. With holes of 40 texels, a thousand rays or more give
-// each region within 5e-3 of the closed form. 400 rays, which 1024 regions get, are within 1e-2
-// where a region holds few holes and within 4e-2 at worst where it holds 64. The mean is within
-// 2e-3, and 5e-4 on average. Rasters of coarser holes themselves differ more from the closed form,
-// by 8e-3 at 10 texels. One region takes a tenth of a second, 512 x 512 texels a third of a second,
-// and larger rasters 3 to 5 s of one core, shared among all cores. Regions take at most 48 MiB.
+// From a tile: rays from open points, spread evenly over each region, are followed exactly to where
+// they meet a solid point. Each region has 4096 rays in each direction, or fewer if that would take
+// more than a few seconds, but at least 32; if there are several regions, every fourth direction is
+// traced and the others are interpolated linearly. With holes of 40 texels, a thousand rays or more
+// give each region within 5e-3 of the closed form. 400 rays, which 1024 regions get, are within
+// 1e-2 where a region holds few holes and within 4e-2 at worst where it holds 64. The mean is
+// within 2e-3, and 5e-4 on average. Rasters of coarser holes themselves differ more from the closed
+// form, by 8e-3 at 10 texels. One region takes a tenth of a second, 512 x 512 texels a third of a
+// second, and larger rasters 3 to 5 s of one core, shared among all cores. Regions take at most 48
+// MiB.
 //
 // Rays are followed for 64 thicknesses (89.1 degrees) and at most for eight widths and heights of
 // the tile. A path that does not end there (slats, or an equally long hole) passes as much beyond;

@@ -189,7 +189,10 @@ class Screen:
 
     @property
     def web(self) -> float:
-        """The width of the narrowest web between holes, m."""
+        """The width of the narrowest web between holes, m.
+
+        For an image, the longest step in its plane that steps over almost no web.
+        """
         return float(self._sizes()[2])
 
     def _sizes(self) -> Floats:

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "base/files.h"
 #include "base/process.h"
 #include "idf/idf_text.h"
 #include "runs/named_files.h"
@@ -12,7 +13,10 @@
 namespace gpu_shading::energyplus {
 namespace {
 
+namespace fs = std::filesystem;
+
 using ::testing::ElementsAre;
+using ::testing::UnorderedElementsAre;
 
 constexpr FieldPosition axis{1, "north_axis"};
 constexpr FieldPosition terrain{2, "terrain"};
@@ -72,6 +76,64 @@ TEST(NamedFiles, ThatLeaveTheFolderAreNamedByTheirWholePath) {
   auto const objects = parse_idf(model->text());
   EXPECT_EQ(objects[0].fields[2], std::filesystem::canonical(folder.path() / "data.csv"));
   EXPECT_EQ(objects[1].fields[2], "../none.csv");
+}
+
+// The links in a folder and in folders within it.
+std::vector<std::string> links_in(fs::path const& folder) {
+  std::vector<std::string> names;
+  for (auto const& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_symlink()) names.push_back(entry.path().lexically_relative(folder));
+  }
+  return names;
+}
+
+class FilesBesideAModel : public testing::Test {
+ protected:
+  FilesBesideAModel() {
+    for (auto const* const name :
+         {"occupancy.csv", "data/light.csv", "data/other.csv", "eplusout.sql", "eplusout.eso",
+          "out/eplusout.err", "notes.txt", "Zone", "plugin.py", "package/__init__.py",
+          "modules/more.py", "search/fonts.txt", "Window5DataFile.dat", "model.rvi", "old.rvi"}) {
+      fs::create_directories((models / name).parent_path());
+      std::ofstream(models / name) << name;
+    }
+    fs::create_directory(models / "placed");
+  }
+
+  std::vector<std::string> linked_for(ModelEditor& model) const {
+    bring_named_files(model, models / "model.idf", models / "placed");
+    return links_in(models / "placed");
+  }
+
+  TemporaryFolder folder;
+  fs::path models = folder.path() / "models";
+};
+
+TEST_F(FilesBesideAModel, AreLinkedIfItNamesThem) {
+  auto const idf = edit_idf(
+      "Schedule:File,S,,occupancy.csv,1;Schedule:File,T,,data\\light.csv,1;Zone,out;"
+      "Schedule:File,U,,./data/light.csv,1;Schedule:File,V,,none.csv,1;");
+  EXPECT_THAT(linked_for(*idf),
+              UnorderedElementsAre("occupancy.csv", "data/light.csv", "model.rvi"));
+  EXPECT_EQ(read_text_file(models / "placed" / "data" / "light.csv"), "data/light.csv");
+}
+
+TEST_F(FilesBesideAModel, AreLinkedForAnEpjson) {
+  auto const epjson = edit_epjson(nlohmann::json::parse(
+      R"({"Schedule:File": {"S": {"file_name": "occupancy.csv"}}, "Zone": {"out": {}}})"));
+  EXPECT_THAT(linked_for(*epjson), UnorderedElementsAre("occupancy.csv", "model.rvi"));
+}
+
+TEST_F(FilesBesideAModel, AreLinkedIfEnergyPlusKnowsTheirNames) {
+  auto const idf = edit_idf("Construction:WindowDataFile,Glass;");
+  EXPECT_THAT(linked_for(*idf), UnorderedElementsAre("Window5DataFile.dat", "model.rvi"));
+}
+
+TEST_F(FilesBesideAModel, AreLinkedIfAPluginMayImportThem) {
+  auto const idf = edit_idf(
+      "PythonPlugin:Instance,P,Yes,plugin,Class;PythonPlugin:SearchPaths,Paths,Yes,Yes,No,search;");
+  EXPECT_THAT(linked_for(*idf),
+              UnorderedElementsAre("plugin.py", "package", "modules", "search", "model.rvi"));
 }
 
 }  // namespace

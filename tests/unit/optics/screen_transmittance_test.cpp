@@ -24,6 +24,8 @@ namespace {
 
 using std::numbers::pi;
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
 // Hole, pitch and thickness in millimetres: thin, middling and thick sheets.
 struct Sheet {
   double size;
@@ -232,10 +234,123 @@ TEST(OpacityTile, FindsTheWebAndTheOpenFractionOfAPattern) {
   }
 }
 
-TEST(OpacityTile, HasAWebOfTwoTexelsAtLeast) {
-  std::vector<float> opacity(128, 0.0F);
-  opacity[5] = 1.0F;
-  EXPECT_DOUBLE_EQ(OpacityTile(0.016, 0.008, 16, 8, opacity).web(), 0.002);
+// Wires along v, of opacity `wire` in one of `columns` texels 3 mm wide: interpolated linearly to
+// 0 on both sides, they are above a half over 2 - 1 / wire texels.
+struct Wires {
+  int columns;
+  float wire;
+
+  double pitch() const { return columns * 3 * mm; }
+  double width() const { return (2.0 - 1.0 / static_cast<double>(wire)) * 3 * mm; }
+  OpacityTile tile() const {
+    std::vector<float> opacity(static_cast<std::size_t>(columns) * 64, 0.0F);
+    for (std::size_t row = 0; row < 64; ++row)
+      opacity[row * static_cast<std::size_t>(columns)] = wire;
+    return {pitch(), 64 * 3 * mm, columns, 64, opacity};
+  }
+  double transmittance(double theta, double phi, double thickness) const {
+    double const across = thickness * std::tan(theta) * std::abs(std::cos(phi));
+    return std::max(0.0, 1.0 - (width() + across) / pitch());
+  }
+};
+
+class OneTexelWide : public testing::TestWithParam<Wires> {};
+
+TEST_P(OneTexelWide, WiresAreTheClosedFormInLayersAndInATable) {
+  double const thickness = 10 * mm;
+  OpacityTile const tile = GetParam().tile();
+  EXPECT_LE(tile.web(), GetParam().width());
+  ScreenTransmittance const table(tile, thickness);
+  for (double const theta : {0.0, 20.0, 45.0, 60.0, 70.0, 80.0}) {
+    for (double const phi : {0.0, 30.0, 66.0, 90.0, 123.0}) {
+      double const expected = GetParam().transmittance(theta * degree, phi * degree, thickness);
+      double const shift = thickness * std::tan(theta * degree);
+      int const layers = layers_for(shift, tile.web(), table.longest_chord());
+      // Rays are a 256th of a texel apart.
+      EXPECT_NEAR(layered_transmittance(tile, layers, shift, phi * degree), expected,
+                  1.0 / (32 * GetParam().columns))
+          << theta << ", " << phi;
+      EXPECT_NEAR(table(theta * degree, phi * degree), expected, 5e-3) << theta << ", " << phi;
+      if (expected == 0.0) {
+        EXPECT_EQ(layered_transmittance(tile, layers, shift, phi * degree), 0.0);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Wires, OneTexelWide,
+                         testing::Values(Wires{8, 1.0F}, Wires{3, 1.0F}, Wires{8, 0.6F},
+                                         Wires{40, 0.75F}));
+
+// Where nothing is thresholded, what passes wires of four texels is the mean over all thresholds.
+TEST(OpacityTile, OfFractionalOpacityHasLayersForItsWires) {
+  constexpr int columns = 20;
+  std::vector<float> opacity(std::size_t{columns} * 8, 0.0F);
+  for (std::size_t at = 0; at < opacity.size(); ++at) opacity[at] = at % columns < 4 ? 1.0F : 0.0F;
+  OpacityTile const tile(columns * mm, 8 * mm, columns, 8, opacity, std::nullopt);
+  for (double const shift : {0.0, 2.5 * mm, 6.0 * mm, 10.9 * mm, 40.0 * mm}) {
+    // Three texels and the slopes beside them, on average one.
+    double const expected = std::max(0.0, 1.0 - (4.0 + shift / mm) / columns);
+    int const layers = layers_for(shift, tile.web(), infinite);
+    EXPECT_NEAR(layered_transmittance(tile, layers, shift, 0.0), expected, 1e-3) << shift;
+  }
+}
+
+// Leaves of many directions, cut out of a sheet but for ribs one texel wide along their middles.
+OpacityTile leaves(std::optional<double> threshold) {
+  constexpr int side = 128;
+  constexpr int points = 4;  // of a texel, each way
+  struct Leaf {
+    double u, v, angle, half_length;
+  };
+  std::vector<Leaf> all;
+  for (int n = 0; n < 16; ++n) {
+    // Spread evenly (R2, Roberts 2018).
+    all.push_back({std::fmod(0.7548776662 * n, 1.0) * side, std::fmod(0.5698402910 * n, 1.0) * side,
+                   2.4 * n, 14.0 + n % 8 * 2.0});
+  }
+  auto const is_open = [&](double u, double v) {
+    return std::ranges::any_of(all, [&](Leaf const& leaf) {
+      double const du = std::remainder(u - leaf.u, side);
+      double const dv = std::remainder(v - leaf.v, side);
+      double const along =
+          (du * std::cos(leaf.angle) + dv * std::sin(leaf.angle)) / leaf.half_length;
+      double const aside = std::abs(dv * std::cos(leaf.angle) - du * std::sin(leaf.angle));
+      return aside > 0.5 && aside < 0.4 * leaf.half_length * (1.0 - along * along);
+    });
+  };
+  std::vector<float> opacity;
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      int solid = 0;
+      for (int j = 0; j < points; ++j) {
+        for (int i = 0; i < points; ++i) {
+          if (!is_open(column + (i + 0.5) / points, row + (j + 0.5) / points)) ++solid;
+        }
+      }
+      opacity.push_back(static_cast<float>(solid) / (points * points));
+    }
+  }
+  return {side * mm, side * mm, side, side, opacity, threshold};
+}
+
+TEST(OpacityTile, OfLeavesIsTheSameInLayersInATableAndInVeryManyLayers) {
+  double const thickness = 6 * mm;
+  for (auto const threshold : {std::optional<double>(0.5), std::optional<double>()}) {
+    OpacityTile const tile = leaves(threshold);
+    ScreenTransmittance const table(tile, thickness);
+    for (double const theta : {15.0, 40.0, 55.0, 70.0, 80.0}) {
+      double const shift = thickness * std::tan(theta * degree);
+      int const layers = layers_for(shift, tile.web(), infinite);
+      for (double const phi : {0.0, 26.0, 49.0, 90.0, 131.0, 160.0}) {
+        int const very_many = 1 + static_cast<int>(std::ceil(shift / (0.1 * mm)));
+        double const expected = layered_transmittance(tile, very_many, shift, phi * degree);
+        EXPECT_NEAR(layered_transmittance(tile, layers, shift, phi * degree), expected, 3e-3)
+            << theta << ", " << phi;
+        EXPECT_NEAR(table(theta * degree, phi * degree), expected, 3e-3) << theta << ", " << phi;
+      }
+    }
+  }
 }
 
 // Noise on every texel, and one in 10000 inverted.

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+
+namespace gpu_shading::energyplus {
+
+// For main() of our programs: a signal that would end this process first ends the programs that it
+// runs and deletes its temporary folders, then ends it as before. Signals that are ignored or
+// handled already stay so. In a process that did not call this, such as a host of EnergyPlus, no
+// signal is touched.
+void clean_up_at_signals();
+
+// The same without a signal, for an end that calls no destructors.
+void clean_up_now() noexcept;
+
+// For main() of a program in which EnergyPlus does not run: writing past the limit of a file's size
+// (ulimit -f) is an error and no signal. Programs that it runs get the signal as before.
+void take_file_limit_as_error();
+bool takes_file_limit_as_error() noexcept;
+
+// A folder that is deleted if a signal ends this process. Not on Windows.
+class FolderAtSignals {
+ public:
+  explicit FolderAtSignals(std::filesystem::path const& folder);
+  FolderAtSignals(FolderAtSignals const&) = delete;
+  FolderAtSignals& operator=(FolderAtSignals const&) = delete;
+  ~FolderAtSignals();
+
+ private:
+  std::size_t slot_;
+};
+
+// A process that is ended if a signal ends this one. Not on Windows.
+class ProcessAtSignals {
+ public:
+  explicit ProcessAtSignals(int process);
+  ProcessAtSignals(ProcessAtSignals const&) = delete;
+  ProcessAtSignals& operator=(ProcessAtSignals const&) = delete;
+  ~ProcessAtSignals();
+
+ private:
+  std::size_t slot_;
+};
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gpu_shading::energyplus {
+
+// For programs that start EnergyPlus and read its files, not its standard error: writes
+// eplusout.err and eplusout.end about a run that was refused before EnergyPlus started, with the
+// names, in the folder and in the format of an EnergyPlus that stops on its input. As there, files
+// of an earlier run with these names are overwritten and all others are left alone. Writes nothing
+// if the arguments, EnergyPlus's own without the program's name, ask for no run. Prints a warning
+// if the files cannot be written.
+// `installation`: the folder of Energy+.idd. `elapsed`: since the program started.
+void report_refusal(std::vector<std::string> const& arguments,
+                    std::filesystem::path const& installation, std::string const& error,
+                    std::chrono::duration<double> elapsed) noexcept;
+
+}  // namespace gpu_shading::energyplus
