@@ -8,14 +8,13 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "gpu_shading/error.h"
 #include "optics/check_length.h"
-#include "optics/solid_runs.h"
+#include "optics/longest_step.h"
 
 namespace gpu_shading {
 namespace {
@@ -171,23 +170,7 @@ double OpacityTile::open_fraction() const {
   return static_cast<double>(open) / solid_texel / static_cast<double>(opacity_->size());
 }
 
-void OpacityTile::find_web() {
-  std::vector<SolidRuns::Level> levels;
-  int const count = threshold_ ? 1 : 8;
-  for (int level = 0; level < count; ++level) {
-    double const threshold = threshold_.value_or((level + 0.5) / count);
-    levels.push_back({threshold * static_cast<double>(solid_value), least_solid(threshold)});
-  }
-  SolidRuns const runs(*opacity_, columns_, rows_, levels);
-  constexpr double stepped_over = 2e-3;
-  double const diagonal = std::hypot(texel_width(), texel_height());
-  double const narrowest = std::min({runs.step_along_rows(stepped_over) * texel_width(),
-                                     runs.step_along_columns(stepped_over) * texel_height(),
-                                     runs.step_along_diagonals(stepped_over) * diagonal});
-  // Between two directions, at most this angle from the nearer one.
-  double const slope = std::atan2(texel_height(), texel_width());
-  web_ = narrowest * std::cos(0.5 * std::max(slope, 0.5 * std::numbers::pi - slope));
-}
+void OpacityTile::find_web() { web_ = longest_step(*this); }
 
 double OpacityTile::hole() const {
   std::uint16_t const solid = least_solid(threshold_.value_or(0.5));

@@ -87,6 +87,9 @@ class TileRays::Walk {
       }
       return found;
     }
+    double falls(double limit) const {
+      return Cell{length, -first, -slope, -curvature}.exceeds(-limit);
+    }
     double highest_at() const {
       double const top = curvature < 0.0 ? std::clamp(-0.5 * slope / curvature, 0.0, length) : 0.0;
       return at(top) >= at(length) ? top : length;
@@ -218,13 +221,16 @@ TileRays::Direction TileRays::direction(double phi) const {
   return {.along_x = along_x, .along_y = along_y, .per_x = 1.0 / along_x, .per_y = 1.0 / along_y};
 }
 
+double TileRays::beyond_edge() const {
+  return 1e-4 * std::min(tile_.texel_width(), tile_.texel_height());
+}
+
 std::size_t TileRays::follow(double u, double v, Direction const& direction, double farthest,
                              std::vector<Rise>& rises) const {
   rises.clear();
   Walk walk(*this, wrapped(u / tile_.texel_width() - 0.5, columns_),
             wrapped(v / tile_.texel_height() - 0.5, rows_), direction);
-  double const texel = std::min(tile_.texel_width(), tile_.texel_height());
-  double const beyond_edge = 1e-4 * texel;
+  double const beyond = beyond_edge();
   // The value to exceed.
   float passed = thresholded_ ? most_open_ : sample(walk.x(), walk.y());
   // Smaller rises of fractional opacity are ignored.
@@ -239,7 +245,7 @@ std::size_t TileRays::follow(double u, double v, Direction const& direction, dou
     ++steps;
     if (nothing_in(walk.largest(level))) {
       if (level + 1 == levels_.size()) break;
-      walk.advance(walk.length_in_block(level) + beyond_edge);
+      walk.advance(walk.length_in_block(level) + beyond);
       ++level;
       continue;
     }
@@ -249,7 +255,7 @@ std::size_t TileRays::follow(double u, double v, Direction const& direction, dou
     }
     auto const corners = walk.corners();
     if (nothing_in(static_cast<std::uint16_t>(*std::ranges::max_element(corners)))) {
-      walk.advance(walk.length_in_cell() + beyond_edge);
+      walk.advance(walk.length_in_cell() + beyond);
       continue;
     }
     auto const cell = walk.cell(corners);
@@ -265,9 +271,52 @@ std::size_t TileRays::follow(double u, double v, Direction const& direction, dou
       passed = std::max(passed, value);
       if (value >= solid * highest) break;
     }
-    walk.advance(cell.length + beyond_edge);
+    walk.advance(cell.length + beyond);
   }
   return steps;
+}
+
+bool TileRays::rise(Walk& walk, float limit, double farthest) const {
+  std::size_t level = 0;
+  while (walk.shift() < farthest) {
+    if (static_cast<float>(walk.largest(level)) <= limit) {
+      if (level + 1 == levels_.size()) return false;
+      walk.advance(walk.length_in_block(level) + beyond_edge());
+      ++level;
+    } else if (level > 0) {
+      --level;
+    } else {
+      auto const cell = walk.cell(walk.corners());
+      double const rise = cell.exceeds(static_cast<double>(limit));
+      walk.advance(std::min(rise, cell.length) + beyond_edge());
+      if (rise <= cell.length) return true;
+    }
+  }
+  return false;
+}
+
+bool TileRays::fall(Walk& walk, float limit, double farthest) const {
+  while (walk.shift() < farthest) {
+    auto const cell = walk.cell(walk.corners());
+    double const fall = cell.falls(static_cast<double>(limit));
+    walk.advance(std::min(fall, cell.length) + beyond_edge());
+    if (fall <= cell.length) return true;
+  }
+  return false;
+}
+
+std::optional<TileRays::Run> TileRays::first_run(double u, double v, Direction const& direction,
+                                                 double level, double farthest,
+                                                 double longest) const {
+  float const limit = thresholded_ ? most_open_ : static_cast<float>(level) * highest;
+  Walk walk(*this, wrapped(u / tile_.texel_width() - 0.5, columns_),
+            wrapped(v / tile_.texel_height() - 0.5, rows_), direction);
+  if (sample(walk.x(), walk.y()) > limit || !rise(walk, limit, farthest)) return {};
+  double const begin = walk.shift();
+  if (!fall(walk, limit, begin + longest)) return Run{begin, longest, 0.0};
+  double const end = walk.shift();
+  rise(walk, limit, end + longest);
+  return Run{begin, end - begin, walk.shift() - end};
 }
 
 }  // namespace gpu_shading

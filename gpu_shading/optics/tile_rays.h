@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "gpu_shading/opacity_tile.h"
@@ -43,6 +44,18 @@ class TileRays {
   std::size_t follow(double u, double v, Direction const& direction, double farthest,
                      std::vector<Rise>& rises) const;
 
+  // The first solid run on a path from an open point, between two open ones.
+  struct Run {
+    double before;  // from the point
+    double length;
+    double after;
+  };
+  // None if there is none before the shift reaches `farthest`. What is solid or open for longer
+  // than `longest` counts as solid from there on. Solid is what is above the tile's threshold or,
+  // if it has none, above `level`.
+  std::optional<Run> first_run(double u, double v, Direction const& direction, double level,
+                               double farthest, double longest) const;
+
  private:
   class Walk;
 
@@ -57,6 +70,11 @@ class TileRays {
   // The texels at and after a column and row.
   std::array<double, 4> corners(int column, int row) const;
   float sample(double x, double y) const;  // as a value of texels
+  // Go on to where the interpolated value exceeds a limit or falls to it, and whether it does
+  // before the shift reaches `farthest`.
+  bool rise(Walk& walk, float limit, double farthest) const;
+  bool fall(Walk& walk, float limit, double farthest) const;
+  double beyond_edge() const;
 
   OpacityTile const& tile_;
   std::uint16_t const* texels_;

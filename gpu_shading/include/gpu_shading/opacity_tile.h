@@ -54,15 +54,13 @@ class OpacityTile {
   // Mean open fraction of the texels, after applying the threshold if there is one.
   double open_fraction() const;
 
-  // The longest step in the plane that steps over almost no web between holes: of all rays, at
-  // most 2e-3 in each direction, counted where they can step over one at all. Stray texels (up to
-  // one in 10000), frayed edges (noise of 0.05 in opacity) and narrow webs in an equally small part
-  // of the tile do not shorten it; where all webs are equally wide, it steps over none. Webs are
-  // measured along rows, columns and diagonals of texels, to where the interpolated opacity falls
-  // to the threshold, or to each of eight thresholds for fractional opacity. The result is the
-  // shortest step of these directions times the cosine of the largest angle from one of them, 22.5
-  // degrees for square texels. Infinite if there is no web. Lengths below an eighth of a texel
-  // count as that.
+  // The longest step in the plane that steps over almost no web between holes: at most 2e-3 of all
+  // rays in any direction step over the first web on their way. Stray texels (up to one in 10000),
+  // frayed edges (noise of 0.05 in opacity) and narrow webs in an equally small part of the tile do
+  // not shorten it; where all webs are equally wide, it steps over none. Webs are where the
+  // interpolated opacity is above the threshold or, for fractional opacity, above levels between 0
+  // and 1, one for each ray. They are met by 4096 rays in each of eight directions, and the result
+  // is 2 % below the shortest of their steps. Infinite if there is no web.
   double web() const { return web_; }
 
   // The size of a typical hole: the mean length of runs of open texels along rows and columns.

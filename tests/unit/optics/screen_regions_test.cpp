@@ -83,7 +83,7 @@ TEST(ScreenRegions, OfAGradientAreEachTheirClosedForm) {
     image.fill(OpacityTile(holes.back(), texel), band * side / bands, (band + 1) * side / bands);
   }
   OpacityTile const tile = image.tile(texel);
-  EXPECT_LT(tile.web(), 2.05 * mm);
+  EXPECT_LT(tile.web(), 2.3 * mm);  // 2 mm in a quarter of it
   double const thickness = 3 * mm;
   ScreenTransmittance const table(tile, thickness);
   ASSERT_EQ(table.regions_across(), 16);

