@@ -109,10 +109,13 @@ Json describe(Source const& source, SampleSet const& set, RunTimes const& year) 
   if (source.extensions) {
     json["inputs"]["extensions"] = describe_file(*source.extensions, source.extensions_hash);
   }
-  for (auto const& [name, area] : set.scene.receivers) {
+  auto const& errors = set.samples.expected_errors();
+  for (std::size_t i = 0; i < set.scene.receivers.size(); ++i) {
+    auto const& [name, area] = set.scene.receivers[i];
     auto const normal = glm::normalize(area);
     json["receivers"].push_back(
         {{"name", name}, {"area", glm::length(area)}, {"normal", {normal.x, normal.y, normal.z}}});
+    if (i < errors.size()) json["receivers"].back()["expected_error"] = errors[i];
   }
   return json;
 }

@@ -68,6 +68,18 @@ void list_transmitting_surfaces(SceneAssembly const& scene, Messages const& mess
   }
 }
 
+std::string describe_expected_error(double error, Sampling sampling) {
+  // The paper's grids have no estimate.
+  if (error == 0.0) return "";
+  double const goal = error_goal(sampling.density);
+  auto const estimate =
+      fmt::format("; estimated mean error of the worst receiver's sunlit fraction {:.4f}", error);
+  if (error < goal) return estimate;
+  return fmt::format(
+      "{}, above the goal of {:.4f}; {} is more accurate", estimate, goal,
+      sampling.density == Sampling::Density::fine ? "timestep" : "sampled:fine or timestep");
+}
+
 }  // namespace
 
 void check_device(DeviceInfo const& device, Options const& options, Messages const& messages) {
@@ -122,9 +134,10 @@ void describe_answers(SunAnswers const& answers, Options const& options, Message
                   describe(device), describe_fineness(options), asked, casters, counts.directions,
                   from_cache, did.receivers_drawn, did.receivers_clear, did.seconds));
   if (auto const& sampled = answers.sampled()) {
-    messages.remark(
-        fmt::format("{} directions of the sun answered from samples at {}, --gpu-shading-update {}",
-                    sampled->answered(), sampled->sampled(), name_of(options.update)));
+    messages.remark(fmt::format(
+        "{} directions of the sun answered from samples at {}, --gpu-shading-update {}{}",
+        sampled->answered(), sampled->sampled(), name_of(options.update),
+        describe_expected_error(sampled->expected_error(), *options.update.sampling)));
   }
 }
 

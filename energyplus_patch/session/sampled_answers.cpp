@@ -1,5 +1,6 @@
 #include "session/sampled_answers.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "session/foreseen_directions.h"
@@ -21,7 +22,11 @@ void SampledAnswers::sample(State& state, std::vector<SurfaceId> receivers) {
   state.batches.emplace_back(
       sampling_, latitude_, std::move(areas),
       [&](std::span<SunDirection const> suns) { return rendered_->at(suns, receivers); });
-  sampled_ += state.batches.back().directions().size();
+  auto const& samples = state.batches.back();
+  sampled_ += samples.directions().size();
+  for (double const error : samples.expected_errors()) {
+    expected_error_ = std::max(expected_error_, error);
+  }
   state.sun.reset();
 }
 

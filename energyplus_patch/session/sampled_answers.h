@@ -38,6 +38,8 @@ class SampledAnswers {
 
   // Directions that samples were taken at, those of each state and of later receivers apart.
   std::size_t sampled() const { return sampled_; }
+  // Largest estimated mean error of a receiver's sunlit fraction.
+  double expected_error() const { return expected_error_; }
   // Directions answered from samples.
   std::size_t answered() const { return answered_; }
 
@@ -70,6 +72,7 @@ class SampledAnswers {
   std::map<std::uint32_t, State> states_;
   std::optional<SunDirection> last_rendered_;
   std::size_t sampled_ = 0;
+  double expected_error_ = 0.0;
   std::size_t answered_ = 0;
 };
 

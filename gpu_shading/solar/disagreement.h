@@ -12,14 +12,16 @@
 namespace gpu_shading {
 
 // Where splines through the samples of a table are expected to be wrong, at 2,500 directions over
-// the year: where samples do not predict one another, and where different splines differ.
+// the year and at some that graze the receivers: where samples do not predict one another, and
+// where different splines differ.
 class Disagreement {
  public:
   Disagreement(SunlitTable const& table, SunlitSplines const& splines, double latitude);
 
   // Estimated error of each receiver's fraction, mean over the times of a year when the sun faces
-  // it. A sample is predicted from farther away than what lies between samples; the estimate is
-  // half the misses, which is within a factor of 2 for most receivers.
+  // it: half the misses, because a sample is predicted from farther away than what lies between
+  // samples, and the doubts of splines. The errors of tests/bench/sampling_error are at most twice
+  // this.
   std::vector<double> const& expected_errors() const { return expected_errors_; }
 
   // Returns `count` further directions, one after another where the product of these is largest:
@@ -38,10 +40,13 @@ class Disagreement {
     glm::dvec3 towards_sun{};
     std::array<std::size_t, nearby> samples{};  // nearest first
     double distance_squared = 0.0;              // to the nearest existing direction
-    double duration = 0.0;  // of the sun near this declination, relative to an equinox
+    double duration = 0.0;  // of the sun near it, relative to one of the 2,500 at an equinox
   };
 
-  Candidate candidate_at(HourDirection direction, double latitude) const;
+  void add_grazing(double latitude, std::size_t evenly_spread);
+  std::vector<glm::dvec3> distinct_normals() const;  // a dozen at most
+  // The solid angle is that of the directions it stands for, relative to one of the 2,500.
+  Candidate candidate_at(HourDirection direction, double latitude, double solid_angle) const;
   double misses_near(Candidate const& candidate, std::size_t receiver) const;
   void estimate(std::size_t receiver);
 

@@ -56,8 +56,12 @@ std::size_t usual_directions(Sampling::Density density) {
   return 320;
 }
 
-std::size_t most_directions(Sampling::Density density) {
-  return usual_directions(density) * 13 / 10;
+std::size_t most_directions(Sampling::Density density) { return usual_directions(density) * 2; }
+
+double error_goal(Sampling::Density density) {
+  constexpr double of_medium = 4e-3;
+  auto const medium = static_cast<double>(usual_directions(Sampling::Density::medium));
+  return of_medium * medium / static_cast<double>(usual_directions(density));
 }
 
 class SampleRounds::Implementation {
@@ -76,6 +80,7 @@ class SampleRounds::Implementation {
   Sampling sampling() const { return sampling_; }
   double latitude() const { return latitude_; }
   SunlitTable& table() { return table_; }
+  std::vector<double>& expected_errors() { return expected_errors_; }
   std::vector<SunDirection> const& directions() const { return directions_; }
 
   void add(std::vector<std::vector<Sunlit>> const& answers) {
@@ -86,46 +91,40 @@ class SampleRounds::Implementation {
 
  private:
   void refine() {
-    while (directions_.empty() && refined_ < usual_refinements + further_refinements &&
-           !sampling_.paper_grid) {
-      ++refined_;
-      SunlitSplines const splines(table_, SunlitSplines::Purpose::refinement);
-      Disagreement const disagreement(table_, splines, latitude_);
-      auto const usual = usual_directions(sampling_.density);
-      if (refined_ <= usual_refinements) {
-        add_directions(disagreement, usual, usual_refinements, 0.0);
-      } else {
-        add_directions(disagreement, most_directions(sampling_.density),
-                       usual_refinements + further_refinements,
-                       samples_times_error / static_cast<double>(usual));
-      }
+    if (sampling_.paper_grid) return;
+    while (directions_.empty() && start_round()) {
     }
   }
 
-  // This round's share of the directions up to `most` by the round `last`, if a receiver is
-  // expected to be less accurate than `wanted`.
-  void add_directions(Disagreement const& disagreement, std::size_t most, int last, double wanted) {
-    auto const& errors = disagreement.expected_errors();
-    auto const worst = std::max_element(errors.begin(), errors.end());
-    if (worst == errors.end() || *worst < wanted) {
-      refined_ = usual_refinements + further_refinements;
-      return;
-    }
+  // This round's share of the directions that are left. False after the last round, and once no
+  // receiver is expected to be less accurate than the goal.
+  bool start_round() {
+    SunlitSplines const splines(table_, SunlitSplines::Purpose::refinement);
+    Disagreement const disagreement(table_, splines, latitude_);
+    expected_errors_ = disagreement.expected_errors();
+    bool const usual = refined_ < usual_refinements;
+    int const last = usual ? usual_refinements : usual_refinements + further_refinements;
+    double const wanted = usual ? 0.0 : error_goal(sampling_.density);
+    bool const needed = std::any_of(expected_errors_.begin(), expected_errors_.end(),
+                                    [&](double error) { return error >= wanted; });
+    if (refined_ == last || !needed) return false;
+    ++refined_;
+    auto const most =
+        usual ? usual_directions(sampling_.density) : most_directions(sampling_.density);
     auto const count =
         (most - table_.directions().size()) / static_cast<std::size_t>(last - refined_ + 1);
     directions_ = directions_at(disagreement.further_directions(count, wanted), latitude_);
+    return true;
   }
 
   static constexpr int usual_refinements = 4;
-  static constexpr int further_refinements = 3;
-  // With an expected error of 3e-3, most receivers' mean error stays below 5e-3 at medium density.
-  // Errors fall with the number of samples.
-  static constexpr double samples_times_error = 320 * 3e-3;
+  static constexpr int further_refinements = 5;
 
   Sampling sampling_;
   double latitude_;
   SunlitTable table_;
   int refined_ = 0;
+  std::vector<double> expected_errors_;
   std::vector<SunDirection> directions_;
 };
 
@@ -145,8 +144,12 @@ void SampleRounds::add(std::vector<std::vector<Sunlit>> const& answers) {
 
 class SampledSunlit::Implementation {
  public:
-  Implementation(Sampling sampling, double latitude, SunlitTable table)
-      : sampling_(sampling), latitude_(latitude), table_(std::move(table)) {
+  Implementation(Sampling sampling, double latitude, SunlitTable table,
+                 std::vector<double> expected_errors)
+      : sampling_(sampling),
+        latitude_(latitude),
+        table_(std::move(table)),
+        expected_errors_(std::move(expected_errors)) {
     interpolate();
   }
 
@@ -159,6 +162,7 @@ class SampledSunlit::Implementation {
   }
 
   SunlitTable const& table() const { return table_; }
+  std::vector<double> const& expected_errors() const { return expected_errors_; }
 
   std::vector<Sunlit> at(SunDirection direction) const {
     return table_.compose(splines_->at(direction), to_vector(direction));
@@ -178,6 +182,7 @@ class SampledSunlit::Implementation {
   Sampling sampling_;
   double latitude_;
   SunlitTable table_;
+  std::vector<double> expected_errors_;
   std::unique_ptr<Interpolant> splines_;
 };
 
@@ -192,8 +197,8 @@ SampledSunlit::SampledSunlit(Sampling sampling, double latitude, std::vector<glm
       }()) {}
 SampledSunlit::SampledSunlit(SampleRounds rounds) {
   auto& of = *rounds.implementation_;
-  implementation_ =
-      std::make_unique<Implementation>(of.sampling(), of.latitude(), std::move(of.table()));
+  implementation_ = std::make_unique<Implementation>(
+      of.sampling(), of.latitude(), std::move(of.table()), std::move(of.expected_errors()));
 }
 SampledSunlit::~SampledSunlit() = default;
 SampledSunlit::SampledSunlit(SampledSunlit&&) noexcept = default;
@@ -224,6 +229,10 @@ std::vector<SampledFractions> const& SampledSunlit::fractions() const {
 
 std::vector<bool> const& SampledSunlit::lit(std::size_t receiver) const {
   return implementation_->table().lit(receiver);
+}
+
+std::vector<double> const& SampledSunlit::expected_errors() const {
+  return implementation_->expected_errors();
 }
 
 bool in_suns_range(SunDirection direction, double latitude) {

@@ -1,7 +1,8 @@
-// Sunlit fractions from samples against closed forms, over a year of sun positions: mean and
-// largest error, error of the year's beam, by latitude, samples and kind of shade.
+// Sunlit fractions from samples against closed forms, over a year of sun positions, by latitude,
+// samples and kind of shade: the mean error, that of the worst window and its estimate by the
+// samples alone, the largest error, and the error of the year's beam.
 //
-//   sampling_error [every]    one day in so many; 5 when left out
+//   sampling_error [every [samples]]    one day in so many, 5 when left out; one kind of samples
 
 #include <algorithm>
 #include <array>
@@ -9,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>
+#include <string_view>
 
 #include "support/shaded_window.h"
 #include "table_main.h"
@@ -30,6 +32,11 @@ constexpr std::array<Mode, 6> modes{{{"fine", {Sampling::Density::fine, false}},
                                      {"paper-medium", {Sampling::Density::medium, true}},
                                      {"paper-coarse", {Sampling::Density::coarse, true}}}};
 
+double expected_worst(SampledSunlit const& sampled) {
+  auto const& errors = sampled.expected_errors();
+  return errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
+}
+
 void print_row(double latitude, Mode const& mode, Scene const& scene,
                std::vector<SunDirection> const& suns) {
   auto const start = std::chrono::steady_clock::now();
@@ -38,19 +45,22 @@ void print_row(double latitude, Mode const& mode, Scene const& scene,
   double const seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   auto const errors = errors_of(sampled, scene.windows, suns);
-  std::printf("%6.1f  %-13s %-18s %8zu %9.4f %8.3f %9.2f %8.2f\n", latitude, mode.name,
-              scene.name.c_str(), sampled.directions().size(), errors.mean, errors.largest,
-              100.0 * errors.beam, seconds);
+  std::printf("%6.1f  %-13s %-22s %8zu %9.4f %9.4f %9.4f %8.3f %9.2f %8.2f\n", latitude, mode.name,
+              scene.name.c_str(), sampled.directions().size(), errors.mean, errors.worst,
+              expected_worst(sampled), errors.largest, 100.0 * errors.beam, seconds);
   std::fflush(stdout);
 }
 
-void print_table(int every) {
+void print_table(int every, std::string_view only) {
   std::printf("closed forms\n");
   std::printf(
-      "latitude samples     shade             directions mean error largest  beam %% seconds\n");
+      "latitude samples     shade               directions mean error   worst estimated largest  "
+      "beam "
+      "%% seconds\n");
   for (double const latitude : {0.0, 42.0, 66.5, 80.0, -35.0}) {
     auto const suns = year_of_suns(latitude * degree, every);
     for (auto const& mode : modes) {
+      if (!only.empty() && only != mode.name) continue;
       for (auto const& scene : scenes()) print_row(latitude, mode, scene, suns);
     }
   }
@@ -62,6 +72,6 @@ void print_table(int every) {
 int main(int argc, char** argv) {
   return gpu_shading::print_or_say_why("sampling_error", [&] {
     int const every = argc > 1 ? std::atoi(argv[1]) : 5;
-    gpu_shading::shaded_window::print_table(std::max(1, every));
+    gpu_shading::shaded_window::print_table(std::max(1, every), argc > 2 ? argv[2] : "");
   });
 }

@@ -25,7 +25,21 @@ struct LocalSun {
   double z;
 };
 
-// The shaded part of the vertical line at x: a ray from (x, 0, z) is at x + t sun.x, t sun.y, z + t
+struct Axes {
+  glm::dvec3 right;
+  glm::dvec3 out;
+  glm::dvec3 up;
+};
+
+Axes axes_of(Window const& window) {
+  double const s = std::sin(window.azimuth);
+  double const c = std::cos(window.azimuth);
+  double const rise = std::sin(window.tilt);
+  double const level = std::cos(window.tilt);
+  return {{-c, s, 0.0}, {s * rise, c * rise, level}, {-s * level, -c * level, rise}};
+}
+
+// The shaded part of the line at x, along z: a ray from (x, 0, z) is at x + t sun.x, t sun.y, z + t
 // sun.z.
 Interval shadow(Blade const& blade, LocalSun const& sun, double /*x*/) {
   double const slope = sun.z / sun.y;
@@ -46,7 +60,9 @@ Interval shadow(Overhang const& overhang, LocalSun const& sun, double x) {
     to = std::min(to, std::max(a, b));
   }
   if (to <= from) return {};
-  return {overhang.z - to * sun.z, overhang.z - from * sun.z};
+  double const a = overhang.z - to * sun.z;
+  double const b = overhang.z - from * sun.z;
+  return {std::min(a, b), std::max(a, b)};
 }
 
 Interval shadow(Fin const& fin, LocalSun const& sun, double x) {
@@ -62,6 +78,23 @@ Interval shadow(Rectangle const& rectangle, LocalSun const& sun, double x) {
   return {rectangle.bottom - t * sun.z, rectangle.top - t * sun.z};
 }
 
+// Where along x a shadow starts or ends, or stops growing.
+std::vector<double> bends(Blade const& /*blade*/, LocalSun const& /*sun*/) { return {}; }
+
+std::vector<double> bends(Overhang const& overhang, LocalSun const& sun) {
+  double const shift = overhang.depth / sun.y * sun.x;
+  return {overhang.left, overhang.right, overhang.left - shift, overhang.right - shift};
+}
+
+std::vector<double> bends(Fin const& fin, LocalSun const& sun) {
+  return {fin.x, fin.x - fin.depth / sun.y * sun.x};
+}
+
+std::vector<double> bends(Rectangle const& rectangle, LocalSun const& sun) {
+  double const shift = rectangle.distance / sun.y * sun.x;
+  return {rectangle.left - shift, rectangle.right - shift};
+}
+
 double covered(std::vector<Interval>& intervals, double height) {
   std::sort(intervals.begin(), intervals.end(),
             [](Interval const& a, Interval const& b) { return a.from < b.from; });
@@ -73,6 +106,27 @@ double covered(std::vector<Interval>& intervals, double height) {
     end = std::max(end, top);
   }
   return sum;
+}
+
+// The shaded area between two lines, with no bend between them.
+double shaded_between(double from, double to, std::vector<Caster> const& casters,
+                      LocalSun const& sun, double height) {
+  // Shadows that overlap may still have kinks.
+  constexpr double lines_per_metre = 20.0;
+  int const lines = 2 + static_cast<int>(lines_per_metre * (to - from));
+  double shaded = 0.0;
+  std::vector<Interval> intervals;
+  for (int i = 0; i < lines; ++i) {
+    double const x = from + (i + 0.5) / lines * (to - from);
+    intervals.clear();
+    for (auto const& caster : casters) {
+      auto const interval =
+          std::visit([&](auto const& shape) { return shadow(shape, sun, x); }, caster);
+      if (interval.to > std::max(interval.from, 0.0)) intervals.push_back(interval);
+    }
+    shaded += covered(intervals, height);
+  }
+  return shaded / lines * (to - from);
 }
 
 std::vector<Scene> make_scenes() {
@@ -87,49 +141,71 @@ std::vector<Scene> make_scenes() {
   for (int i = 0; i < 20; ++i) {
     slats.push_back(Rectangle{0.6, 0.3 * i - 1.5, 0.3 * i - 1.35, -0.5, 2.5});
   }
+  std::vector<Caster> upward;
+  for (int i = 1; i < 12; ++i) upward.push_back(Blade{0.05, 0.15 * i, 0.2, 0.15 * i + 0.1});
+  std::vector<Caster> blades;
+  for (int i = 1; i < 60; ++i) blades.push_back(Blade{0.5, 0.1 * i - 1.5, 0.6, 0.1 * i - 1.53});
+  std::vector<Caster> fins;
+  for (int i = 0; i <= 20; ++i) fins.push_back(Fin{0.15 * i + 0.001, 0.15, 0, 1.5});
+  std::vector<Caster> const masts{Fin{-1.5, 8, 0.5, 1.2},   Fin{4, 8, 0.5, 1.0},
+                                  Overhang{4, 8, 0.5, 1.2}, Overhang{-3, 8, 0.5, 1.2},
+                                  Overhang{8, 8, 6, 8},     Fin{-6, 8, -6, -4}};
+  std::vector<Caster> over_skylight;
+  for (int i = -20; i < 60; ++i) {
+    over_skylight.push_back(Blade{0.3, 0.15 * i, 0.4, 0.15 * i + 0.1});
+  }
   std::vector<Scene> made{{"overhang and fins", 5e-3, 5e-3, {}},
                           {"neighbour", 5e-3, 5e-3, {}},
-                          {"louvres", 1.5e-2, 2e-2, {}},
-                          {"slats", 1.5e-2, 2e-2, {}}};
+                          {"louvres", 5e-3, 2e-2, {}},
+                          {"slats", 5e-3, 2e-2, {}},
+                          {"upward louvres", 7.5e-3, 2e-2, {}},
+                          {"distant blades", 6.6e-3, 2e-2, {}},
+                          {"rows of fins", 5e-3, 2e-2, {}},
+                          {"masts about a skylight", 5e-3, 5e-3, {}},
+                          {"blades over a skylight", 1.2e-2, 2e-2, {}}};
   for (double const azimuth : {180.0, 250.0, 90.0, 0.0}) {
     made[0].windows.push_back({3.0, 2.0, azimuth * degree, overhang_and_fins});
     made[1].windows.push_back({3.0, 2.0, azimuth * degree, neighbour});
     made[2].windows.push_back({3.0, 1.5, azimuth * degree, louvres});
     made[3].windows.push_back({3.0, 1.5, azimuth * degree, slats});
+    made[4].windows.push_back({3.0, 1.5, azimuth * degree, upward});
+    made[5].windows.push_back({3.0, 1.5, azimuth * degree, blades});
+    made[6].windows.push_back({3.0, 1.5, azimuth * degree, fins});
+  }
+  for (double const azimuth : {180.0, 225.0}) {
+    made[7].windows.push_back({2.0, 1.5, azimuth * degree, masts, 0.0});
+    made[8].windows.push_back({2.0, 1.5, azimuth * degree, over_skylight, 0.0});
   }
   return made;
 }
 
 }  // namespace
 
-glm::dvec3 Window::normal_times_area() const {
-  return width * height * glm::dvec3(std::sin(azimuth), std::cos(azimuth), 0.0);
-}
+glm::dvec3 Window::normal_times_area() const { return width * height * axes_of(*this).out; }
 
 double Window::cosine(SunDirection sun) const {
-  return std::max(0.0, std::cos(sun.altitude) * std::cos(sun.azimuth - azimuth));
+  return std::max(0.0, glm::dot(axes_of(*this).out, to_vector(sun)));
 }
 
 double Window::sunlit_fraction(SunDirection sun) const {
-  double const level = std::cos(sun.altitude);
-  // Seen from outside, right is anticlockwise of where the window looks.
-  LocalSun const local{-level * std::sin(sun.azimuth - azimuth), cosine(sun),
-                       std::sin(sun.altitude)};
+  auto const [right, out, up] = axes_of(*this);
+  auto const towards_sun = to_vector(sun);
+  LocalSun const local{glm::dot(right, towards_sun), glm::dot(out, towards_sun),
+                       glm::dot(up, towards_sun)};
   if (local.y <= 0.0) return 0.0;
-  constexpr int lines = 100;
-  double shaded = 0.0;
-  std::vector<Interval> intervals;
-  for (int i = 0; i < lines; ++i) {
-    double const x = (i + 0.5) / lines * width;
-    intervals.clear();
-    for (auto const& caster : casters) {
-      auto const interval =
-          std::visit([&](auto const& shape) { return shadow(shape, local, x); }, caster);
-      if (interval.to > std::max(interval.from, 0.0)) intervals.push_back(interval);
+  std::vector<double> parts{0.0, width};
+  for (auto const& caster : casters) {
+    auto const more = std::visit([&](auto const& shape) { return bends(shape, local); }, caster);
+    for (double const x : more) {
+      if (x > 0.0 && x < width) parts.push_back(x);
     }
-    shaded += covered(intervals, height);
   }
-  return 1.0 - shaded / (lines * height);
+  std::sort(parts.begin(), parts.end());
+  double shaded = 0.0;
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    shaded += shaded_between(parts[i], parts[i + 1], casters, local, height);
+  }
+  return 1.0 - shaded / (width * height);
 }
 
 std::vector<Scene> const& scenes() {
@@ -209,6 +285,7 @@ Errors errors_of(SampledSunlit const& sampled, std::vector<Window> const& window
   for (auto const& sums : of_window) {
     if (sums.count == 0.0) continue;
     errors.mean += sums.error / sums.count / static_cast<double>(windows.size());
+    errors.worst = std::max(errors.worst, sums.error / sums.count);
     if (sums.beam < 0.1 * most) continue;
     errors.beam = std::max(errors.beam, std::abs(sums.beam_error) / sums.beam);
   }

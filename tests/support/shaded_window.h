@@ -1,14 +1,16 @@
 #pragma once
 
+#include <numbers>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "gpu_shading/sampled_sunlit.h"
 
-// Windows whose sunlit fraction has a closed form along each vertical line. Coordinates as seen
-// from outside, metres: x to the right and z up from the window's lower left corner, y out of the
-// wall.
+// Windows and skylights whose sunlit fraction has a closed form along each line of equal x.
+// Coordinates as seen from outside, metres: x to the right and z up from the lower left corner in
+// the plane of the glass, y out of it. A skylight whose foot is in the south has x to the east and
+// z to the north.
 namespace gpu_shading::shaded_window {
 
 // z follows the line from (near, foot) to (far, head) in y; from left to right without end.
@@ -45,6 +47,7 @@ struct Window {
   double height;
   double azimuth;  // azimuth that it faces, radians
   std::vector<Caster> casters;
+  double tilt = std::numbers::pi / 2.0;  // radians; 0: a skylight, whose foot is towards `azimuth`
 
   glm::dvec3 normal_times_area() const;
   // Beam per square metre; 0 if it faces away.
@@ -52,10 +55,11 @@ struct Window {
   double sunlit_fraction(SunDirection sun) const;
 };
 
-// One kind of shade, in front of windows facing south, west-southwest, east and north.
+// One kind of shade, in front of windows facing south, west-southwest, east and north, or over
+// skylights whose sides face south and southwest.
 struct Scene {
   std::string name;
-  double wanted_mean;  // largest mean error of the sunlit fraction at medium density
+  double wanted_mean;  // largest mean error of a window's sunlit fraction at medium density
   double wanted_beam;  // and of the beam
   std::vector<Window> windows;
 };
@@ -72,7 +76,8 @@ std::vector<glm::dvec3> receivers_of(std::vector<Window> const& windows);
 std::vector<SunDirection> year_of_suns(double latitude, int every);
 
 struct Errors {
-  double mean = 0.0;  // |sunlit fraction|, while the sun faces the window; mean over windows
+  double mean = 0.0;   // |sunlit fraction|, while the sun faces the window; mean over windows
+  double worst = 0.0;  // largest mean of a window
   double largest = 0.0;
   // Error of the year's beam, for a sun of constant strength: the largest of the windows that get
   // at least a tenth of the beam of the best.

@@ -29,8 +29,12 @@ struct Sampling {
 // than the paper's grid of the same density has at 42 degrees north.
 std::size_t usual_directions(Sampling::Density density);
 
-// Maximum number of directions: three tenths more.
+// Maximum number of directions: twice as many.
 std::size_t most_directions(Sampling::Density density);
+
+// Mean error of a receiver's sunlit fraction above which directions are added: 2.7e-3, 4e-3 and
+// 5.4e-3.
+double error_goal(Sampling::Density density);
 
 // The sunlit areas of each receiver, in order, for each direction, in order.
 using SunlitSource =
@@ -83,8 +87,8 @@ class SampleRounds {
 // the usual directions lie on arcs of equal declination, offset from one another; the others are
 // added in four rounds where these splines differ and where the other samples predict a sample
 // worst, above all for the receivers whose error is estimated to be largest. While the estimate of
-// any receiver is too large, up to three more rounds add directions where those receivers need
-// them. Fractions are limited to 0 .. 1, and so are their sums.
+// any receiver is above error_goal(), up to five more rounds add directions where those receivers
+// need them. Fractions are limited to 0 .. 1, and so are their sums.
 //
 // The paper's grid instead uses cubic B-splines along the azimuth and then across the days.
 class SampledSunlit {
@@ -114,6 +118,10 @@ class SampledSunlit {
 
   // The samples themselves: first the unscheduled ones of each receiver, in order.
   std::vector<SampledFractions> const& fractions() const;
+
+  // Estimated error of each receiver's fraction, mean over the times of a year when the sun faces
+  // it. Empty for the paper's grid and after with().
+  std::vector<double> const& expected_errors() const;
 
   // Whether the sun faces a receiver, for each of directions().
   std::vector<bool> const& lit(std::size_t receiver) const;

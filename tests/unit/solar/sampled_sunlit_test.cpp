@@ -127,12 +127,12 @@ TEST(SampledSunlit, StaysWithinNothingAndTheCosine) {
   }
 }
 
-TEST(SampledSunlit, TakesThreeTenthsMoreIfAReceiverNeedsThem) {
+TEST(SampledSunlit, TakesTwiceAsManyIfAReceiverNeedsThem) {
   for (auto const density : {medium, coarse}) {
     SampledSunlit const sampled({density, false}, 42 * degree, sides,
                                 fraction_source(sides, noise));
     EXPECT_LE(sampled.directions().size(), most_directions(density));
-    EXPECT_GE(sampled.directions().size(), most_directions(density) - 4);
+    EXPECT_GE(sampled.directions().size(), most_directions(density) - 6);
   }
 }
 
@@ -259,7 +259,7 @@ class ClosedForms : public testing::TestWithParam<double> {};
 
 TEST_P(ClosedForms, MediumIsWithinWhatIsWantedAndAThirdOfThePapersGrid) {
   double const latitude = GetParam() * degree;
-  auto const suns = year_of_suns(latitude, 14);
+  auto const suns = year_of_suns(latitude, 7);
   for (auto const& scene : scenes()) {
     auto const errors = [&](bool paper) {
       return errors_of(SampledSunlit({medium, paper}, latitude, receivers_of(scene.windows),
@@ -267,7 +267,7 @@ TEST_P(ClosedForms, MediumIsWithinWhatIsWantedAndAThirdOfThePapersGrid) {
                        scene.windows, suns);
     };
     auto const ours = errors(false);
-    EXPECT_LT(ours.mean, scene.wanted_mean) << scene.name;
+    EXPECT_LT(ours.worst, scene.wanted_mean) << scene.name;
     EXPECT_LT(ours.beam, scene.wanted_beam) << scene.name;
     EXPECT_LT(ours.mean, errors(true).mean / 3.0) << scene.name;
   }
