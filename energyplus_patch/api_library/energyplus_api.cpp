@@ -168,6 +168,7 @@ extern "C" EXPORTED int energyplus(void* state, int argc, char const** argv) {
 EXPORTED int EnergyPlusPgm(std::vector<std::string> const& arguments, std::string const& path) {
   auto const words = [&] {
     std::vector<char const*> result;
+    result.reserve(arguments.size());
     for (auto const& argument : arguments) result.push_back(argument.c_str());
     return result;
   };

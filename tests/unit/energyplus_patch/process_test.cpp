@@ -104,6 +104,10 @@ TEST(TemporaryFolder, GoesWithTheNextOneWhereItsProcessIsKilled) {
 
 // In a process of its own, with a folder in `parent`.
 class EndingSignals : public testing::TestWithParam<int> {
+ public:
+  EndingSignals(EndingSignals const&) = delete;
+  EndingSignals& operator=(EndingSignals const&) = delete;
+
  protected:
   EndingSignals() { setenv("TMPDIR", parent.path().c_str(), 1); }
   ~EndingSignals() override { unsetenv("TMPDIR"); }
