@@ -5,7 +5,9 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <numbers>
+#include <span>
 
+#include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/renderer.h"
 #include "gpu_shading/transmittance.h"
 #include "support/exact.h"
@@ -15,6 +17,9 @@ namespace gpu_shading {
 namespace {
 
 constexpr double scheduled = 0.5;
+// Round holes in a sheet without thickness.
+constexpr double hole = 0.005;
+constexpr double pitch_of_holes = 0.01;
 
 // In the receiver's plane from its middle, seen from outside.
 Ring ring_of(std::vector<glm::dvec2> const& places, double y) {
@@ -90,6 +95,12 @@ Scene SlopedShades::scene() const {
       surface.transmittance = std::make_shared<Transmittance const>(Transmittance::constant(0.6));
     }
     if (beam == Beam::scheduled) surface.schedule = 0;
+    if (beam == Beam::screen) {
+      surface.screen = std::make_shared<PerforatedScreen const>(
+          HolePattern(
+              {.arrangement = Arrangement::Straight, .size = hole, .pitch = pitch_of_holes}),
+          Sheet{.thickness = 0.0, .detail = ScreenDetail::effective});
+    }
     scene.add(surface);
   }
   return scene;
@@ -101,7 +112,7 @@ char const* SlopedShades::name(Shade shade) {
 }
 
 char const* SlopedShades::name(Beam beam) {
-  constexpr std::array names{"opaque", "glass", "scheduled"};
+  constexpr std::array names{"opaque", "glass", "scheduled", "screen"};
   return names.at(static_cast<std::size_t>(beam));
 }
 
@@ -115,6 +126,23 @@ std::vector<SunDirection> suns_over_edges(int count) {
   return suns;
 }
 
+namespace {
+
+// What reaches the receiver, by exact polygons. Shades do not cover one another.
+double expected_area(SlopedShades shades, SunDirection sun) {
+  if (shades.beam != SlopedShades::Beam::screen) {
+    return exact::projected_sunlit_area(shades.scene(), sun, 0,
+                                        std::span(&scheduled, std::size_t{1}));
+  }
+  double const open = std::numbers::pi / 4 * (hole * hole) / (pitch_of_holes * pitch_of_holes);
+  shades.beam = SlopedShades::Beam::opaque;
+  Scene const opaque = shades.scene();
+  return open * exact::projected_area(opaque, sun, 0) +
+         (1.0 - open) * exact::projected_sunlit_area(opaque, sun, 0);
+}
+
+}  // namespace
+
 void SlopeErrors::add(SlopedShades const& shades, std::vector<SunDirection> const& suns,
                       double target, bool samples_only) {
   Scene const scene = shades.scene();
@@ -125,8 +153,7 @@ void SlopeErrors::add(SlopedShades const& shades, std::vector<SunDirection> cons
   Renderer renderer(scene, options);
   for (SunDirection const sun : suns) {
     double const whole = exact::projected_area(scene, sun, 0);
-    double const lit =
-        exact::projected_sunlit_area(scene, sun, 0, std::span(&scheduled, std::size_t{1}));
+    double const lit = expected_area(shades, sun);
     Sunlit const answer = sunlit(renderer, sun, 0);
     double got = answer.projected_area;
     for (auto const& part : answer.scheduled) {

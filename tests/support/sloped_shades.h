@@ -13,12 +13,13 @@ namespace gpu_shading {
 struct SlopedShades {
   enum class Receiver { wide, narrow, square, triangle, octagon, with_hole };
   enum class Shade { edge, gable, slats };
-  enum class Beam { opaque, glass, scheduled };
+  enum class Beam { opaque, glass, scheduled, screen };
 
   static constexpr std::array receivers{Receiver::wide,     Receiver::narrow,  Receiver::square,
                                         Receiver::triangle, Receiver::octagon, Receiver::with_hole};
   static constexpr std::array shades{Shade::edge, Shade::gable, Shade::slats};
-  static constexpr std::array beams{Beam::opaque, Beam::glass, Beam::scheduled};
+  // All but screens have exact answers where edges are few.
+  static constexpr std::array beams{Beam::opaque, Beam::glass, Beam::scheduled, Beam::screen};
 
   Receiver receiver = Receiver::wide;
   Shade shade = Shade::edge;

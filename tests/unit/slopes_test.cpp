@@ -52,6 +52,21 @@ TEST(Slopes, NoneIsInStepWithTheSamplesOfFineTiles) {
   EXPECT_LE(errors.most(), 3e-4);
 }
 
+// Perforated sheets whose holes are not drawn dim pixels, in place of rows of samples.
+TEST(Slopes, OfScreensAreWithinTheTarget) {
+  std::vector<SunDirection> const suns = suns_over_edges(4);
+  SlopeErrors errors;
+  for (int i = 1; i < 900; ++i) {
+    auto const turn = static_cast<std::size_t>(i);
+    errors.add({SlopedShades::receivers.at(turn % 6), SlopedShades::shades.at(turn / 6 % 2),
+                SlopedShades::Beam::screen, 0.1 * i},
+               suns, 1e-3, false);
+  }
+  std::printf("screens: most %.1e\n", errors.most());
+  EXPECT_LE(errors.beyond(1e-3), 0.01);
+  EXPECT_LE(errors.most(), 3e-3);
+}
+
 // Without an option that asks for samples.
 TEST(Slopes, OfFewEdgesAreExact) {
   std::vector<SunDirection> const suns = suns_over_edges(4);
