@@ -1,5 +1,7 @@
 #include "launcher/expansion_folder.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <string_view>
 #include <system_error>
@@ -26,11 +28,12 @@ bool make_absolute(FileOption const& option, std::vector<std::string>& arguments
   bool found = false;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     auto& argument = arguments[i];
-    auto const with_value = std::string(option.word) + "=";
+    auto const with_value = fmt::format("{}=", option.word);
     if (argument == option.letter || argument == option.word) {
       if (++i < arguments.size()) arguments[i] = absolute(arguments[i]);
     } else if (argument.starts_with(with_value)) {
-      argument = with_value + absolute(argument.substr(with_value.size()));
+      argument.replace(with_value.size(), std::string::npos,
+                       absolute(argument.substr(with_value.size())));
     } else {
       continue;
     }

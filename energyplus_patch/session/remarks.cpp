@@ -72,12 +72,14 @@ std::string describe_expected_error(double error, Sampling sampling) {
   // The paper's grids have no estimate.
   if (error == 0.0) return "";
   double const goal = error_goal(sampling.density);
-  auto const estimate =
+  std::string remark =
       fmt::format("; estimated mean error of the worst receiver's sunlit fraction {:.4f}", error);
-  if (error < goal) return estimate;
-  return fmt::format(
-      "{}, above the goal of {:.4f}; {} is more accurate", estimate, goal,
-      sampling.density == Sampling::Density::fine ? "timestep" : "sampled:fine or timestep");
+  if (error >= goal) {
+    remark += fmt::format(
+        ", above the goal of {:.4f}; {} is more accurate", goal,
+        sampling.density == Sampling::Density::fine ? "timestep" : "sampled:fine or timestep");
+  }
+  return remark;
 }
 
 }  // namespace

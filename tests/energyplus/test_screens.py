@@ -105,7 +105,8 @@ def assert_refused(run, message):
     assert run.status == 1
     ours = [line for line in run.errors.splitlines() if line.startswith("gpu_shading: ")]
     assert ours == [f"gpu_shading: error: {message}"]
-    assert not run.text("eplusout.err")
+    assert message.partition("\n")[0] in run.text("eplusout.err")
+    assert not run.text("eplusout.eio")
 
 
 @pytest.mark.parametrize("screen, message", [

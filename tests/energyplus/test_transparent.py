@@ -158,7 +158,8 @@ def test_bad_shade_stops_before_energyplus_starts(patched, box, weather, tmp_pat
                          ["--gpu-shading", "-D"])
     assert run.status == 1
     assert "GPUShading:TransparentShade Glass: Surface Name is \"tree *\"" in run.errors
-    assert not run.text("eplusout.err")
+    assert "Surface Name is \"tree *\"" in run.text("eplusout.err")
+    assert not run.text("eplusout.eio")
 
 
 def test_canopy_of_many_panes_dims_by_its_glass(patched, weather, tmp_path, monkeypatch):

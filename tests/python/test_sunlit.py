@@ -155,8 +155,8 @@ def test_an_added_surface_counts_at_once():
 
 def test_python_goes_on_while_the_library_computes(below):
     """The interpreter's lock is released: another thread counts meanwhile."""
-    renderer = below.renderer(resolution=2048)
-    suns = np.random.default_rng(1).uniform([110, 5], [250, 70], (1000, 2))
+    renderer = below.renderer()
+    suns = np.random.default_rng(1).uniform([110, 5], [250, 70], (400_000, 2))
     counted, done = [], threading.Event()
 
     def count():

@@ -303,8 +303,10 @@ OpacityTile leaves(std::optional<double> threshold) {
   struct Leaf {
     double u, v, angle, half_length;
   };
+  constexpr int count = 16;
   std::vector<Leaf> all;
-  for (int n = 0; n < 16; ++n) {
+  all.reserve(count);
+  for (int n = 0; n < count; ++n) {
     // Spread evenly (R2, Roberts 2018).
     all.push_back({std::fmod(0.7548776662 * n, 1.0) * side, std::fmod(0.5698402910 * n, 1.0) * side,
                    2.4 * n, 14.0 + n % 8 * 2.0});
