@@ -233,15 +233,18 @@ int main(int argc, char** argv) {
   clean_up_at_signals();
   occupy_standard_descriptors();
   std::filesystem::path folder;
-  std::vector<std::string> arguments;
+  std::optional<std::vector<std::string>> arguments;
   try {
     folder = own_folder();
     arguments = arguments_of(argc, argv);
-    return launch(arguments, argv);
+    return launch(*arguments, argv);
   } catch (std::exception const& error) {
     auto const why = error_line(error);
     std::fprintf(stderr, "gpu_shading: error: %s\n", why.c_str());
-    report_refusal(arguments, folder, why, std::chrono::steady_clock::now() - start);
+    // Without its arguments, it is not known where a run's files belong.
+    if (arguments) {
+      report_refusal(*arguments, folder, why, std::chrono::steady_clock::now() - start);
+    }
     return EXIT_FAILURE;
   }
 }

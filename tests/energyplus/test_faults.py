@@ -53,8 +53,12 @@ class Command:
         variables = {name: str(value) for name, value in variables.items()}
         variables |= {"LD_PRELOAD": str(library)} if library else {}
         variables |= {"GPU_SHADING_DEVICE": "cpu", "TMPDIR": str(self.temporary)}
-        return subprocess.run([str(word) for word in self.words], env={**os.environ, **variables}, text=True,
-                              errors="replace", capture_output=True, timeout=120)
+        elsewhere = self.folder / "current"
+        elsewhere.mkdir()
+        done = subprocess.run([str(word) for word in self.words], env={**os.environ, **variables}, text=True,
+                              errors="replace", capture_output=True, timeout=120, cwd=elsewhere)
+        assert not list(elsewhere.iterdir()), "files in the current folder"
+        return done
 
     def files(self):
         # Times are not the same twice.
