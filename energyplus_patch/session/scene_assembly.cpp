@@ -23,9 +23,8 @@ void check_coordinates(Surface const& surface, std::string const& model) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       auto const& point = ring[i];
       if (is_within_reach(point)) continue;
-      throw Error(fmt::format(
-          "{}: surface {}: vertex {} is ({}, {}, {}) m, expected {} m at most from the origin",
-          model, printable(surface.name), i + 1, point.x, point.y, point.z, farthest_coordinate));
+      throw Error(fmt::format("{}: surface {}: vertex {} {}", model, printable(surface.name), i + 1,
+                              describe_out_of_reach(point)));
     }
   };
   check(surface.polygon.outline);

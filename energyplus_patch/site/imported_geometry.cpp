@@ -110,9 +110,8 @@ class Builder {
       points.push_back(place(position));
       auto const& point = points.back();
       if (is_within_reach(point)) continue;
-      throw Error(fmt::format(
-          "vertex {} of {} is ({}, {}, {}) m, expected {} m at most from the origin", points.size(),
-          printable(part), point.x, point.y, point.z, farthest_coordinate));
+      throw Error(fmt::format("vertex {} of {} {}", points.size(), printable(part),
+                              describe_out_of_reach(point)));
     }
     surroundings_.casters.reserve(surroundings_.casters.size() + mesh.triangles.size());
     for (auto const& [a, b, c] : mesh.triangles) {
