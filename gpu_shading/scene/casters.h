@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
@@ -12,9 +13,19 @@
 #include "scene/detail.h"
 #include "scene/plane_frame.h"
 #include "scene/screens.h"
-#include "scene/shadow.h"
 
 namespace gpu_shading {
+
+class Shadow;
+
+// A surface lies in a receiver's plane or behind it, and does not shade the receiver, unless one of
+// its vertices is this far in front of the plane, in metres: neighbours meant to be coplanar differ
+// by the rounding of a model's coordinates.
+inline constexpr double coplanar = 1e-4;
+
+// Casters are clipped this far in front of the plane, in metres: the noise of single precision
+// within a building. It lets through a strip of clearance x tan(incidence).
+inline constexpr double clearance = 1e-6;
 
 // The smallest cosine of incidence at which a surface faces the sun, as in EnergyPlus (its
 // SunIsUpValue).
@@ -27,6 +38,13 @@ inline constexpr double edge_on = 1e-6;
 struct InView {
   std::vector<SurfaceId> casters;  // in the order of their ids
   bool warped = false;             // one is not flat: its triangles cast what its outline does not
+};
+
+// Sun directions of which each is between two others in two planes across a receiver, by the
+// tangents of their angles to its normal: towards its u and its v axis.
+struct SunSector {
+  glm::dvec2 low{0.0};
+  glm::dvec2 high{0.0};
 };
 
 // The scene's surfaces as casters, for culling in double precision, at a cost that depends on the

@@ -10,19 +10,11 @@
 #include <span>
 
 #include "scene/bvh.h"
+#include "scene/casters.h"
 #include "scene/detail.h"
 #include "scene/plane_frame.h"
 
 namespace gpu_shading {
-
-// A surface lies in a receiver's plane or behind it, and does not shade the receiver, unless one of
-// its vertices is this far in front of the plane, in metres: neighbours meant to be coplanar differ
-// by the rounding of a model's coordinates.
-inline constexpr double coplanar = 1e-4;
-
-// Casters are clipped this far in front of the plane, in metres: the noise of single precision
-// within a building. It lets through a strip of clearance x tan(incidence).
-inline constexpr double clearance = 1e-6;
 
 inline double height_above(PlaneFrame const& frame, glm::dvec3 const& point) {
   return glm::dot(frame.normal, point - frame.origin);
@@ -171,13 +163,6 @@ class Shadow {
   double high_u_ = 0.0;
   double low_v_ = 0.0;
   double high_v_ = 0.0;
-};
-
-// Sun directions of which each is between two others in two planes across a receiver, by the
-// tangents of their angles to its normal: towards its u and its v axis.
-struct SunSector {
-  glm::dvec2 low{0.0};
-  glm::dvec2 high{0.0};
 };
 
 // Where a box may cast a shadow on a receiver's rectangle from any direction of a sector.
