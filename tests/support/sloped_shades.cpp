@@ -126,26 +126,16 @@ std::vector<SunDirection> suns_over_edges(int count) {
   return suns;
 }
 
-namespace {
-
-// What reaches the receiver, by exact polygons. Shades do not cover one another.
-double expected_area(SlopedShades shades, SunDirection sun) {
-  if (shades.beam != SlopedShades::Beam::screen) {
-    return exact::projected_sunlit_area(shades.scene(), sun, 0,
-                                        std::span(&scheduled, std::size_t{1}));
-  }
-  double const open = std::numbers::pi / 4 * (hole * hole) / (pitch_of_holes * pitch_of_holes);
-  shades.beam = SlopedShades::Beam::opaque;
-  Scene const opaque = shades.scene();
-  return open * exact::projected_area(opaque, sun, 0) +
-         (1.0 - open) * exact::projected_sunlit_area(opaque, sun, 0);
-}
-
-}  // namespace
-
 void SlopeErrors::add(SlopedShades const& shades, std::vector<SunDirection> const& suns,
                       double target, bool samples_only) {
   Scene const scene = shades.scene();
+  // Shades do not cover one another: what a screen lets through is a share of its opaque shadow.
+  bool const screened = shades.beam == SlopedShades::Beam::screen;
+  double const open =
+      screened ? std::numbers::pi / 4 * (hole * hole) / (pitch_of_holes * pitch_of_holes) : 0.0;
+  SlopedShades without_holes = shades;
+  if (screened) without_holes.beam = SlopedShades::Beam::opaque;
+  Scene const polygons = without_holes.scene();
   RendererOptions options;
   options.device = on_cpu;
   options.error = target;
@@ -153,7 +143,9 @@ void SlopeErrors::add(SlopedShades const& shades, std::vector<SunDirection> cons
   Renderer renderer(scene, options);
   for (SunDirection const sun : suns) {
     double const whole = exact::projected_area(scene, sun, 0);
-    double const lit = expected_area(shades, sun);
+    double const beside =
+        exact::projected_sunlit_area(polygons, sun, 0, std::span(&scheduled, std::size_t{1}));
+    double const lit = open * whole + (1.0 - open) * beside;
     Sunlit const answer = sunlit(renderer, sun, 0);
     double got = answer.projected_area;
     for (auto const& part : answer.scheduled) {

@@ -18,65 +18,61 @@
 namespace gpu_shading {
 namespace {
 
+using Shade = SlopedShades::Shade;
+using Beam = SlopedShades::Beam;
+
 struct Slopes {
   double target;
   int pitches;  // between 0 and 90 degrees
   int suns;
+  bool samples_only;
+  std::vector<Shade> shades;
+  std::vector<Beam> beams;
 };
 
 // At each pitch another receiver, shade and beam.
 SlopeErrors errors_of(Slopes const& slopes) {
   std::vector<SunDirection> const suns = suns_over_edges(slopes.suns);
+  std::size_t const shades = slopes.shades.size();
   SlopeErrors errors;
   for (int i = 1; i < slopes.pitches; ++i) {
     auto const turn = static_cast<std::size_t>(i);
-    SlopedShades const shades{SlopedShades::receivers.at(turn % 6),
-                              SlopedShades::shades.at(turn / 6 % 3),
-                              SlopedShades::beams.at(turn / 18 % 3), 90.0 * i / slopes.pitches};
-    errors.add(shades, suns, slopes.target, true);
+    SlopedShades const sloped{
+        SlopedShades::receivers.at(turn % 6), slopes.shades.at(turn / 6 % shades),
+        slopes.beams.at(turn / (6 * shades) % slopes.beams.size()), 90.0 * i / slopes.pitches};
+    errors.add(sloped, suns, slopes.target, slopes.samples_only);
   }
   std::printf("%zu views: most %.1e, beyond %g: %.2f %%\n", errors.count(), errors.most(),
               slopes.target, 100.0 * errors.beyond(slopes.target));
   return errors;
 }
 
+std::vector<Shade> const all_shades{Shade::edge, Shade::gable, Shade::slats};
+std::vector<Shade> const few_edges{Shade::edge, Shade::gable};
+std::vector<Beam> const without_screens{Beam::opaque, Beam::glass, Beam::scheduled};
+
 TEST(Slopes, NoneIsInStepWithTheSamples) {
-  SlopeErrors const errors = errors_of({1e-3, 900, 4});
+  SlopeErrors const errors = errors_of({1e-3, 900, 4, true, all_shades, without_screens});
   EXPECT_LE(errors.beyond(1e-3), 0.01);
   EXPECT_LE(errors.most(), 3e-3);
 }
 
 TEST(Slopes, NoneIsInStepWithTheSamplesOfFineTiles) {
-  SlopeErrors const errors = errors_of({1e-4, 90, 2});
+  SlopeErrors const errors = errors_of({1e-4, 90, 2, true, all_shades, without_screens});
   EXPECT_LE(errors.beyond(1e-4), 0.01);
   EXPECT_LE(errors.most(), 3e-4);
 }
 
 // Perforated sheets whose holes are not drawn dim pixels, in place of rows of samples.
 TEST(Slopes, OfScreensAreWithinTheTarget) {
-  std::vector<SunDirection> const suns = suns_over_edges(4);
-  SlopeErrors errors;
-  for (int i = 1; i < 900; ++i) {
-    auto const turn = static_cast<std::size_t>(i);
-    errors.add({SlopedShades::receivers.at(turn % 6), SlopedShades::shades.at(turn / 6 % 2),
-                SlopedShades::Beam::screen, 0.1 * i},
-               suns, 1e-3, false);
-  }
-  std::printf("screens: most %.1e\n", errors.most());
+  SlopeErrors const errors = errors_of({1e-3, 900, 4, false, few_edges, {Beam::screen}});
   EXPECT_LE(errors.beyond(1e-3), 0.01);
   EXPECT_LE(errors.most(), 3e-3);
 }
 
 // Without an option that asks for samples.
 TEST(Slopes, OfFewEdgesAreExact) {
-  std::vector<SunDirection> const suns = suns_over_edges(4);
-  SlopeErrors errors;
-  for (int i = 1; i < 900; ++i) {
-    auto const turn = static_cast<std::size_t>(i);
-    errors.add({SlopedShades::receivers.at(turn % 6), SlopedShades::shades.at(turn / 6 % 2),
-                SlopedShades::beams.at(turn / 12 % 3), 0.1 * i},
-               suns, 1e-3, false);
-  }
+  SlopeErrors const errors = errors_of({1e-3, 900, 4, false, few_edges, without_screens});
   EXPECT_GT(errors.count(), 3000U);
   EXPECT_LE(errors.most(), 1e-7);
 }
