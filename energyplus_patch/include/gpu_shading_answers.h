@@ -1,8 +1,9 @@
 #ifndef GPU_SHADING_ANSWERS_H
 #define GPU_SHADING_ANSWERS_H
 
-// What the target penumbra (energyplus_patch/source) asks libgpu_shading_answers.so. In C++17 and
-// with types of the standard library alone, because its caller is compiled as EnergyPlus is.
+// What the target penumbra (energyplus_patch/routes/penumbra/drop_in) asks
+// libgpu_shading_answers.so. In C++17 and with types of the standard library alone, because its
+// caller is compiled as EnergyPlus is.
 //
 // Coordinates are in metres, in world axes: x east, y north, z up. Areas are in m2 normal to the
 // beam. Functions throw std::runtime_error with one line that can be shown to a user.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/text.h"
+#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "idf/input_object.h"
+#include "model/idf/input_object.h"
 
 namespace gpu_shading::energyplus {
 

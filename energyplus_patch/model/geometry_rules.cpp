@@ -10,9 +10,9 @@
 #include <optional>
 #include <utility>
 
-#include "base/text.h"
 #include "gpu_shading/error.h"
-#include "site/farthest_coordinate.h"
+#include "model/site/farthest_coordinate.h"
+#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gpu_shading/scene.h"
-#include "idf/input_object.h"
+#include "model/idf/input_object.h"
 
 namespace gpu_shading::energyplus {
 

@@ -7,11 +7,11 @@
 #include <optional>
 #include <utility>
 
-#include "base/text.h"
 #include "gpu_shading/error.h"
 #include "model/daylighting.h"
 #include "model/geometry_rules.h"
 #include "model/shading_outlines.h"
+#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "gpu_shading/scene.h"
-#include "idf/input_object.h"
-#include "idf/mentions.h"
-#include "idf/placeholders.h"
-#include "input/shading_input.h"
-#include "options/options.h"
+#include "model/idf/input_object.h"
+#include "model/idf/mentions.h"
+#include "model/idf/placeholders.h"
+#include "model/input/shading_input.h"
+#include "model/options/options.h"
 
 namespace gpu_shading::energyplus {
 

@@ -6,15 +6,15 @@
 #include <string_view>
 
 #include "gpu_shading/error.h"
-#include "idf/extension_objects.h"
-#include "idf/model_file.h"
-#include "idf/side_file.h"
 #include "model/daylighting.h"
+#include "model/idf/extension_objects.h"
+#include "model/idf/model_file.h"
+#include "model/idf/side_file.h"
 #include "model/ray_warnings.h"
 #include "model/simplified_surfaces.h"
+#include "model/site/site_clock.h"
+#include "model/site/texture_axes.h"
 #include "model/transform_warning.h"
-#include "site/site_clock.h"
-#include "site/texture_axes.h"
 
 namespace gpu_shading::energyplus {
 namespace {

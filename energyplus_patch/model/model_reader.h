@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "idf/input_object.h"
-#include "idf/model_file.h"
-#include "input/perforated_screens.h"
-#include "input/shading_input.h"
-#include "input/transparent_shades.h"
+#include "model/idf/input_object.h"
+#include "model/idf/model_file.h"
+#include "model/input/perforated_screens.h"
+#include "model/input/shading_input.h"
+#include "model/input/transparent_shades.h"
 #include "model/lean_input.h"
+#include "model/options/options.h"
 #include "model/simplified_surfaces.h"
-#include "options/options.h"
-#include "site/surroundings.h"
+#include "model/site/surroundings.h"
 
 namespace gpu_shading::energyplus {
 

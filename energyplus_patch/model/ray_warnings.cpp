@@ -6,9 +6,9 @@
 #include <array>
 #include <string_view>
 
-#include "base/text.h"
-#include "extensions/extension_fields.h"
 #include "model/daylighting.h"
+#include "model/extensions/extension_fields.h"
+#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "idf/input_object.h"
-#include "input/shading_input.h"
+#include "model/idf/input_object.h"
+#include "model/input/shading_input.h"
 
 namespace gpu_shading::energyplus {
 

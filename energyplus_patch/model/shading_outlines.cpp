@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/text.h"
+#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {

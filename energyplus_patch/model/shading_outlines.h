@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "idf/input_object.h"
-#include "input/shading_input.h"
 #include "model/geometry_rules.h"
+#include "model/idf/input_object.h"
+#include "model/input/shading_input.h"
 
 namespace gpu_shading::energyplus {
 

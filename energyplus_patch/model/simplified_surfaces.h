@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "gpu_shading/scene.h"
-#include "idf/input_object.h"
-#include "idf/mentions.h"
-#include "input/shading_input.h"
+#include "model/idf/input_object.h"
+#include "model/idf/mentions.h"
+#include "model/input/shading_input.h"
 
 namespace gpu_shading::energyplus {
 

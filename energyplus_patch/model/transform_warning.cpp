@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "base/text.h"
 #include "model/geometry_rules.h"
+#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {

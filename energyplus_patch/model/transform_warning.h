@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "idf/input_object.h"
+#include "model/idf/input_object.h"
 
 namespace gpu_shading::energyplus {
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string_view>
 
-#include "base/text.h"
 #include "gpu_shading/error.h"
+#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <unordered_map>
 
-#include "base/text.h"
+#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {

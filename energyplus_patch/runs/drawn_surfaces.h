@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "gpu_shading/scene.h"
-#include "input/shading_input.h"
+#include "model/input/shading_input.h"
 #include "runs/drawing.h"
 
 namespace gpu_shading::energyplus {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string_view>
 
-#include "base/process.h"
 #include "gpu_shading/error.h"
+#include "platform/process.h"
 
 namespace gpu_shading::energyplus {
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "base/process.h"
 #include "gpu_shading/error.h"
+#include "platform/process.h"
 #include "runs/installation.h"
 
 namespace gpu_shading::energyplus {

@@ -7,7 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "base/staged_files.h"
+#include "platform/staged_files.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "idf/model_editor.h"
+#include "model/idf/model_editor.h"
 
 namespace gpu_shading::energyplus {
 

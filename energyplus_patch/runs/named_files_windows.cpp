@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "base/text.h"
 #include "gpu_shading/error.h"
+#include "platform/text.h"
 #include "runs/named_files.h"
 
 namespace gpu_shading::energyplus {

@@ -10,11 +10,11 @@
 #include <string_view>
 #include <system_error>
 
-#include "base/console.h"
-#include "base/error_line.h"
-#include "base/text.h"
 #include "gpu_shading/error.h"
-#include "options/command_line.h"
+#include "model/options/command_line.h"
+#include "platform/console.h"
+#include "platform/error_line.h"
+#include "platform/text.h"
 #include "runs/installation.h"
 
 namespace gpu_shading::energyplus {

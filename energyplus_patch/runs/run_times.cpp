@@ -11,8 +11,8 @@
 #include <optional>
 #include <unordered_map>
 
-#include "base/text.h"
 #include "gpu_shading/error.h"
+#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {

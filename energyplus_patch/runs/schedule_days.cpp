@@ -5,8 +5,8 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "base/text.h"
 #include "gpu_shading/error.h"
+#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -8,12 +8,12 @@
 #include <string_view>
 #include <utility>
 
-#include "base/files.h"
-#include "base/process.h"
-#include "base/text.h"
 #include "gpu_shading/error.h"
-#include "idf/input_object.h"
-#include "idf/model_editor.h"
+#include "model/idf/input_object.h"
+#include "model/idf/model_editor.h"
+#include "platform/files.h"
+#include "platform/process.h"
+#include "platform/text.h"
 #include "runs/named_files.h"
 #include "runs/stop_reasons.h"
 

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <string_view>
 
-#include "base/text.h"
+#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "gl_module/gl_module.h"
+#include "backends/opengl/module/gl_module.h"
 #include "gpu_shading/device.h"
 #include "gpu_shading/error.h"
 

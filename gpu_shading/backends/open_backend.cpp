@@ -4,12 +4,12 @@
 
 #include <utility>
 
-#include "backends/checked_backend.h"
+#include "backends/checked/checked_backend.h"
+#include "backends/cpu/cpu_backend.h"
+#include "backends/cpu/cpu_picture_raster.h"
+#include "backends/opengl/module/gl_module.h"
 #include "backends/sheet_pairs_on_cpu.h"
-#include "gl_module/gl_module.h"
 #include "gpu_shading/error.h"
-#include "raster_cpu/cpu_backend.h"
-#include "raster_cpu/cpu_picture_raster.h"
 
 namespace gpu_shading {
 namespace {

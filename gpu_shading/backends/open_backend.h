@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "backends/checked_backend.h"
+#include "backends/checked/checked_backend.h"
+#include "backends/interface/picture_raster.h"
+#include "backends/interface/view_backend.h"
 #include "gpu_shading/device.h"
-#include "view/picture_raster.h"
-#include "view/view_backend.h"
 
 namespace gpu_shading {
 

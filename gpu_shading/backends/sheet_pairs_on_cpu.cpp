@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <utility>
 
-#include "raster_cpu/screen_overlap.h"
-#include "threads/parallel.h"
-#include "view/sheet_in_beam.h"
+#include "filters/perforation/screen_overlap.h"
+#include "filters/perforation/sheet_in_beam.h"
+#include "platform/parallel.h"
 #include "view/view.h"
 
 namespace gpu_shading {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "view/view_backend.h"
+#include "backends/interface/view_backend.h"
 
 namespace gpu_shading {
 

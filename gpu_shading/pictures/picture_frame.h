@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <limits>
 
-#include "view/picture_raster.h"
+#include "backends/interface/picture_raster.h"
 
 namespace gpu_shading {
 

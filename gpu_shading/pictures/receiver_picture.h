@@ -1,8 +1,8 @@
 #pragma once
 
+#include "backends/interface/picture_raster.h"
+#include "geometry/plane_frame.h"
 #include "gpu_shading/renderer.h"
-#include "scene/plane_frame.h"
-#include "view/picture_raster.h"
 
 namespace gpu_shading {
 

@@ -11,14 +11,14 @@
 #include <vector>
 
 #include "backends/open_backend.h"
+#include "filters/transmission.h"
+#include "geometry/bvh.h"
+#include "geometry/triangulation.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/fraction_colour.h"
 #include "pictures/colours.h"
 #include "pictures/picture_frame.h"
 #include "pictures/shadow_map.h"
-#include "scene/bvh.h"
-#include "scene/triangulation.h"
-#include "view/transmission.h"
 
 namespace gpu_shading {
 namespace {

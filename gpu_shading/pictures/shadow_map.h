@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "backends/interface/picture_raster.h"
 #include "pictures/picture_frame.h"
-#include "view/picture_raster.h"
 
 namespace gpu_shading {
 

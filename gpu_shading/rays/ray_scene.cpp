@@ -5,14 +5,14 @@
 #include <numeric>
 #include <utility>
 
+#include "filters/transmittance/shades.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/rays.h"
+#include "platform/parallel.h"
 #include "rays/ray_path.h"
 #include "rays/ray_screens.h"
 #include "rays/ray_shapes.h"
 #include "scene/casters.h"
-#include "scene/shades.h"
-#include "threads/parallel.h"
 
 namespace gpu_shading {
 namespace {

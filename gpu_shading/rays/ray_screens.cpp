@@ -7,11 +7,11 @@
 #include <glm/vec2.hpp>
 #include <limits>
 
+#include "filters/perforation/sheet_in_beam.h"
+#include "filters/perforation/sheet_outline.h"
+#include "filters/perforation/sheet_rays.h"
 #include "gpu_shading/perforated_screen.h"
-#include "raster_cpu/sheet_outline.h"
-#include "raster_cpu/sheet_rays.h"
 #include "rays/ray_shapes.h"
-#include "view/sheet_in_beam.h"
 
 namespace gpu_shading {
 namespace {

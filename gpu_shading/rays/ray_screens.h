@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "filters/perforation/screens.h"
 #include "gpu_shading/scene.h"
 #include "rays/ray_path.h"
 #include "rays/ray_tree.h"
-#include "scene/screens.h"
 
 namespace gpu_shading {
 

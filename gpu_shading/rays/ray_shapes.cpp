@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "scene/ring.h"
-#include "scene/triangulation.h"
+#include "geometry/ring.h"
+#include "geometry/triangulation.h"
 
 namespace gpu_shading {
 namespace {

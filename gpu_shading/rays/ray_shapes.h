@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "geometry/bvh.h"
 #include "gpu_shading/polygon.h"
 #include "gpu_shading/shading_rule.h"
 #include "rays/ray_path.h"
 #include "rays/ray_tree.h"
-#include "scene/bvh.h"
 
 namespace gpu_shading {
 

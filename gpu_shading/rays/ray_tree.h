@@ -8,8 +8,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "geometry/bvh.h"
 #include "rays/ray_path.h"
-#include "scene/bvh.h"
 
 namespace gpu_shading {
 

@@ -4,11 +4,11 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "exact/exact_view.h"
+#include "backends/exact/exact_view.h"
+#include "platform/parallel.h"
+#include "platform/stopwatch.h"
 #include "render/sample_cost.h"
 #include "render/tile_stretch.h"
-#include "threads/parallel.h"
-#include "view/stopwatch.h"
 
 namespace gpu_shading {
 namespace {

@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "backends/interface/view_backend.h"
+#include "filters/transmission.h"
 #include "gpu_shading/renderer.h"
 #include "render/question.h"
 #include "render/receivers.h"
 #include "scene/casters.h"
-#include "view/transmission.h"
-#include "view/view_backend.h"
 
 namespace gpu_shading {
 

@@ -9,11 +9,11 @@
 #include <unordered_map>
 #include <vector>
 
+#include "filters/transmission.h"
 #include "gpu_shading/scene.h"
 #include "scene/casters.h"
 #include "view/tile.h"
 #include "view/tile_size.h"
-#include "view/transmission.h"
 
 namespace gpu_shading {
 

@@ -9,16 +9,16 @@
 #include <utility>
 
 #include "backends/open_backend.h"
+#include "filters/transmission.h"
+#include "geometry/triangulation.h"
 #include "gpu_shading/error.h"
 #include "pictures/receiver_picture.h"
+#include "platform/stopwatch.h"
 #include "render/question_batch.h"
 #include "render/receivers.h"
 #include "render/renderer_with_backend.h"
 #include "scene/casters.h"
-#include "scene/triangulation.h"
-#include "view/stopwatch.h"
 #include "view/tile_size.h"
-#include "view/transmission.h"
 
 namespace gpu_shading {
 namespace {

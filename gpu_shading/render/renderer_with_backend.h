@@ -3,8 +3,8 @@
 #include <functional>
 #include <memory>
 
+#include "backends/interface/view_backend.h"
 #include "gpu_shading/renderer.h"
-#include "view/view_backend.h"
 
 namespace gpu_shading {
 

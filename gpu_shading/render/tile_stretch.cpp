@@ -5,10 +5,10 @@
 #include <limits>
 #include <numbers>
 
+#include "antialias/aliasing.h"
+#include "antialias/repeat.h"
+#include "filters/perforation/sheet_in_beam.h"
 #include "gpu_shading/perforated_screen.h"
-#include "scene/repeat.h"
-#include "view/aliasing.h"
-#include "view/sheet_in_beam.h"
 #include "view/view.h"
 
 namespace gpu_shading {

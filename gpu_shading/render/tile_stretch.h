@@ -1,8 +1,8 @@
 #pragma once
 
+#include "backends/interface/view_backend.h"
+#include "filters/transmission.h"
 #include "gpu_shading/scene.h"
-#include "view/transmission.h"
-#include "view/view_backend.h"
 
 namespace gpu_shading {
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <optional>
 
-#include "scene/ring.h"
+#include "geometry/ring.h"
 #include "scene/shadow.h"
 
 namespace gpu_shading {

@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "geometry/bvh.h"
+#include "geometry/plane_frame.h"
 #include "gpu_shading/scene.h"
-#include "scene/bvh.h"
 #include "scene/detail.h"
-#include "scene/plane_frame.h"
-#include "scene/screens.h"
+#include "scene/sheet_faces.h"
 
 namespace gpu_shading {
 

@@ -9,10 +9,10 @@
 #include <limits>
 #include <span>
 
-#include "scene/bvh.h"
+#include "geometry/bvh.h"
+#include "geometry/plane_frame.h"
 #include "scene/casters.h"
 #include "scene/detail.h"
-#include "scene/plane_frame.h"
 
 namespace gpu_shading {
 

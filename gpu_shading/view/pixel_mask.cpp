@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "view/instructions.h"
+#include "platform/instructions.h"
 
 namespace gpu_shading {
 namespace {

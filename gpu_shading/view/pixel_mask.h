@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "view/convex_area.h"
+#include "geometry/convex_area.h"
 
 namespace gpu_shading {
 

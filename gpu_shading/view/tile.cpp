@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <limits>
 
-#include "scene/triangulation.h"
+#include "geometry/triangulation.h"
 
 namespace gpu_shading {
 namespace {

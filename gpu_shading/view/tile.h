@@ -6,8 +6,8 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "geometry/plane_frame.h"
 #include "gpu_shading/scene.h"
-#include "scene/plane_frame.h"
 #include "view/pixel_mask.h"
 #include "view/view.h"
 

@@ -15,7 +15,7 @@ namespace gpu_shading {
 // louvres and overhangs lie, do better if there are many: within (6 sqrt(min(L, 25)) + 0.03 L) /
 // side^2 in 98 % of cases, over 2 to 400 louvres, slats and fins and 64 to 512 pixels, except for
 // one pair of count and side in 77, in which the distance of the louvres aliased with the pixel
-// grid. The CPU's fine grid (raster_cpu/coverage.h) is more accurate.
+// grid. The CPU's fine grid (backends/cpu/coverage.h) is more accurate.
 class TileSize {
  public:
   // A fixed number of pixels, at least 1.

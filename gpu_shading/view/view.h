@@ -7,8 +7,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "geometry/plane_frame.h"
 #include "gpu_shading/scene.h"
-#include "scene/plane_frame.h"
 #include "scene/turns.h"
 
 namespace gpu_shading {

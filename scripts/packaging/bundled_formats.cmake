@@ -1,6 +1,6 @@
 # What a wheel reads and writes images with, in place of Debian's libraries, which bring 350 MB: OpenImageIO of PyPI,
 # whose library has its formats within, libtiff without JBIG, whose library is under the GPL, and libgeotiff without
-# PROJ, of which nothing is called. scripts/build_wheel fetches OpenImageIO.
+# PROJ, of which nothing is called. scripts/dev/build_wheel fetches OpenImageIO.
 set(GPU_SHADING_OPENIMAGEIO "" CACHE PATH
     "Folder with PyPI's OpenImageIO: `package`, as pip installs it, and `src` of its sources")
 
@@ -24,7 +24,7 @@ endfunction()
 file(GLOB openimageio ${GPU_SHADING_OPENIMAGEIO}/package/OpenImageIO/lib/libOpenImageIO.so.*)
 file(GLOB openimageio_util ${GPU_SHADING_OPENIMAGEIO}/package/OpenImageIO/lib/libOpenImageIO_Util.so.*)
 if(NOT openimageio OR NOT openimageio_util)
-  message(FATAL_ERROR "GPU_SHADING_OPENIMAGEIO has no OpenImageIO: run scripts/build_wheel")
+  message(FATAL_ERROR "GPU_SHADING_OPENIMAGEIO has no OpenImageIO: run scripts/dev/build_wheel")
 endif()
 string(REGEX MATCH "[0-9]+[.][0-9.]+$" version ${openimageio})
 configure_openimageio_headers(${version} ${PROJECT_BINARY_DIR}/openimageio)

@@ -13,7 +13,7 @@ from shading_runs import energyplus, results
 
 HOSTS = Path(__file__).resolve().parent / "hosts"
 SCRIPT = energyplus.REPOSITORY / "scripts" / "patch_energyplus"
-FORWARDED = energyplus.REPOSITORY / "energyplus_patch" / "api_library" / "function_names.inc"
+FORWARDED = energyplus.REPOSITORY / "energyplus_patch" / "routes" / "patched" / "c_api" / "function_names.inc"
 PYTHON_API = energyplus.REPOSITORY / ".venv" / "EnergyPlus-lbnl" / "pyenergyplus"
 OURS = {"energyplus", "_Z13EnergyPlusPgmRKSt6vectorINSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEESaIS5_EERKS5_"}
 

@@ -1,6 +1,6 @@
 """The shading cases of ASHRAE Standard 140 in the ranges of its reference programs, and against polygon clipping.
 
-Those of low mass, of the editions of 2007 and 2020; scripts/benchmark --bestest runs the others too.
+Those of low mass, of the editions of 2007 and 2020; scripts/dev/benchmark --bestest runs the others too.
 """
 
 import bestest

@@ -1,8 +1,8 @@
 """The packages in bare Debians, by the very commands of the page on installing: from nothing to sunlit fractions.
 
-Needs root, debootstrap, a network, and packages that scripts/build_wheel and scripts/build_deb have made, the latter on
-each release; what is missing is said. Each prints how long it took and what it put on the disk. GPU_SHADING_CHROOTS
-names a folder in which bare Debians are kept, so that debootstrap runs only once.
+Needs root, debootstrap, a network, and packages that scripts/dev/build_wheel and scripts/dev/build_deb have made, the
+latter on each release; what is missing is said. Each prints how long it took and what it put on the disk.
+GPU_SHADING_CHROOTS names a folder in which bare Debians are kept, so that debootstrap runs only once.
 """
 
 import os
@@ -17,7 +17,7 @@ import pytest
 from shading_runs import energyplus
 
 OUT = energyplus.REPOSITORY / "out"
-PAGE = energyplus.REPOSITORY / "gpu_shading" / "docs" / "installing.md"
+PAGE = energyplus.REPOSITORY / "energyplus_patch" / "docs" / "installing.md"
 CONTAINERFILE = energyplus.REPOSITORY / "scripts" / "packaging" / "Containerfile"
 USER = 1000
 PLACE = "/home/user"

@@ -6,7 +6,7 @@ import sys
 
 from shading_runs import energyplus
 
-SCRIPT = energyplus.REPOSITORY / "scripts" / "demo_louvres"
+SCRIPT = energyplus.REPOSITORY / "scripts" / "dev" / "demo_louvres"
 
 
 def test_the_sentence_says_what_was_measured(patched, tmp_path):

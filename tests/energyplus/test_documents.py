@@ -1,4 +1,4 @@
-"""README.md and the pages of gpu_shading/docs say what is so: every command in them is run."""
+"""README.md, its namesakes and the pages of docs say what is so: every command in them is run."""
 
 import os
 import re
@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "gpu_shading" / "docs").glob("*.md"))]
-DICTIONARY = ROOT / "energyplus_patch" / "extensions" / "GPUShading.idd"
+PAGES = [ROOT / "README.md", *sorted(page for wing in ("energyplus_patch", "gpu_shading") for page in
+                                     (ROOT / wing / "README.md", *(ROOT / wing / "docs").glob("*.md")))]
+DICTIONARY = ROOT / "energyplus_patch" / "model" / "extensions" / "GPUShading.idd"
 # What blocks may be in; those in sh are run.
 LANGUAGES = {"sh", "idf", "python", "text", "cmake"}
 BLOCK = re.compile(r"(?:<!-- not run: (?P<why>.*?) -->\n)?```(?P<language>\w*)\n(?P<text>.*?)^```$", re.M | re.S)
@@ -134,7 +135,7 @@ def test_options_are_those_of_the_program(patched, tmp_path):
 def test_the_numbers_of_lean_input_are_those_of_the_code():
     header = (ROOT / "energyplus_patch" / "model" / "lean_input.h").read_text(encoding="utf-8")
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    running = (ROOT / "gpu_shading" / "docs" / "running.md").read_text(encoding="utf-8")
+    running = (ROOT / "energyplus_patch" / "docs" / "running.md").read_text(encoding="utf-8")
     row = re.search(r"^\| `--gpu-shading-lean .*", readme, re.M)[0]
     for name, said in (("fewest_left_out", "if there are {} or more"),
                        ("fewest_with_reflections", "{} or more with solar reflections")):
@@ -144,11 +145,11 @@ def test_the_numbers_of_lean_input_are_those_of_the_code():
 
 
 def test_the_reference_has_the_dictionary_s_objects_and_fields():
-    done = subprocess.run([ROOT / "scripts" / "extension_objects", "document", "--check"], capture_output=True,
+    done = subprocess.run([ROOT / "scripts" / "dev" / "extension_objects", "document", "--check"], capture_output=True,
                           text=True)
     assert done.returncode == 0, done.stderr
     # By another reading than the script's own.
-    page = (ROOT / "gpu_shading" / "docs" / "extensions.md").read_text(encoding="utf-8")
+    page = (ROOT / "energyplus_patch" / "docs" / "extensions.md").read_text(encoding="utf-8")
     tables = {name: rows for name, rows in re.findall(
         r"^\| field of `(.*?)` \|.*\n\|---.*\n((?:\|.*\n)+)", page, re.M)}
     objects = DICTIONARY.read_text(encoding="utf-8").split("\nGPUShading:")[1:]
@@ -163,7 +164,7 @@ def test_messages_are_the_program_s():
     for source in sorted((ROOT / "energyplus_patch").rglob("*.cpp")) + sorted((ROOT / "gpu_shading").rglob("*.cpp")):
         # Literals that follow one another are one.
         text += re.sub(r'"\s*"', "", source.read_text(encoding="utf-8"))
-    rows = re.findall(r"^\| `(.*?)` \|", (ROOT / "gpu_shading" / "docs" / "troubleshooting.md").read_text(), re.M)
+    rows = re.findall(r"^\| `(.*?)` \|", (ROOT / "energyplus_patch" / "docs" / "troubleshooting.md").read_text(), re.M)
     assert len(rows) > 8
     for message in rows:
         for part in message.split("..."):
@@ -172,7 +173,7 @@ def test_messages_are_the_program_s():
 
 def test_the_pictures_are_used():
     used = "".join(page.read_text(encoding="utf-8") for page in PAGES)
-    for picture in (ROOT / "gpu_shading" / "docs" / "pictures").iterdir():
+    for picture in (ROOT / "energyplus_patch" / "docs" / "pictures").iterdir():
         assert picture.name in used, picture
 
 

@@ -49,7 +49,7 @@ def test_its_files_look_beside_themselves(installed):
 
 def test_pages_lead_to_one_another(installed):
     share = installed / "share" / "gpu_shading"
-    pages = [share / "README.md", *(share / "gpu_shading" / "docs").glob("*.md")]
+    pages = [share / "README.md", *share.glob("*/README.md"), *share.glob("*/docs/*.md")]
     assert len(pages) > 10
     for page in pages:
         for target in re.findall(r"\]\(([^)#:]+\.(?:md|png|jpg)|LICENSE)\b", page.read_text(encoding="utf-8")):
@@ -90,7 +90,7 @@ def test_the_python_package_finds_its_library(installed):
 
 
 def test_the_licence_page_names_every_library(installed):
-    page = (ROOT / "gpu_shading" / "docs" / "licences.md").read_text(encoding="utf-8").lower()
+    page = (ROOT / "energyplus_patch" / "docs" / "licences.md").read_text(encoding="utf-8").lower()
     linked = set().union(*(needed(path) for path in (installed / "libexec" / "gpu_shading").iterdir()))
     assert len(linked - SYSTEM) > 9
     for name in linked - SYSTEM - {"libenergyplusapi-official.so"}:

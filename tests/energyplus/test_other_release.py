@@ -1,4 +1,4 @@
-"""EnergyPlus 24.2.0, built from its sources: as they are, and with energyplus_patch/source in place of Penumbra.
+"""EnergyPlus 24.2.0, built from its sources: as they are, and with routes/penumbra/drop_in in place of Penumbra.
 
 GPU_SHADING_STOCK_24_2 and GPU_SHADING_SOURCE_24_2 name the folders of the two builds' programs.
 """

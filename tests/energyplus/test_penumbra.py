@@ -47,7 +47,7 @@ def expect_all_passed(done):
 
 
 def test_on_linux(sources, tmp_path):
-    library = energyplus.build_folder() / "tests" / "unit" / "energyplus_patch" / "libopengl_redirection.so"
+    library = energyplus.build_folder() / "tests" / "energyplus_patch" / "libopengl_redirection.so"
     if not library.is_file():
         pytest.skip(f"{library} is missing: run scripts/build")
     build(sources, tmp_path)

@@ -1,4 +1,4 @@
-"""Direct irradiance behind a perforated screen, against Radiance. scripts/benchmark --radiance has a whole building."""
+"""Direct irradiance behind a perforated screen, against Radiance; scripts/dev/benchmark --radiance has a building."""
 
 import pytest
 import radiance

@@ -128,7 +128,7 @@ def vector(azimuth, altitude):
 
 
 def our_suns(latitude, steps):
-    folder = energyplus.REPOSITORY / os.environ.get("GPU_SHADING_BUILD", "build") / "tests" / "unit" / "solar"
+    folder = energyplus.REPOSITORY / os.environ.get("GPU_SHADING_BUILD", "build") / "tests" / "gpu_shading" / "sun"
     program = folder / "print_sun_positions"
     if not program.is_file():
         pytest.skip(f"{program} is missing: run scripts/build")

@@ -23,7 +23,7 @@ WHEELS = energyplus.REPOSITORY / "out" / "wheel"
 def wheel():
     wheels = sorted(WHEELS.glob("energyplus_gpu_shading-*.whl"))
     if not wheels:
-        pytest.skip(f"{WHEELS} has no wheel: run scripts/build_wheel")
+        pytest.skip(f"{WHEELS} has no wheel: run scripts/dev/build_wheel")
     return wheels[-1]
 
 

@@ -106,9 +106,9 @@ ON_LINUX_ALONE = ("Rays.AMillion*", "HolePattern.LetsThrough*", "ScreenRegions.*
                   "*OfAutoLayers*", "OpacityTile.FindsTheWeb*", "SampledSunlit.KeepsToTheBudget*")
 
 
-@pytest.mark.parametrize("program", ["unit_tests", "optics/optics_tests", "site/site_tests", "solar/solar_tests"])
+@pytest.mark.parametrize("program", ["unit_tests", "filters/optics_tests", "site/site_tests", "sun/solar_tests"])
 def test_the_library_passes_its_own_tests(wine, program):
-    done = wine.run([windows.build_folder() / "tests" / "unit" / f"{program}.exe",
+    done = wine.run([windows.build_folder() / "tests" / "gpu_shading" / f"{program}.exe",
                      f"--gtest_filter=-{':'.join(ON_LINUX_ALONE)}"])
     assert done.returncode == 0, done.stdout[-4000:]
     assert "[  PASSED  ]" in done.stdout

@@ -10,7 +10,7 @@ from shading_runs import energyplus, input_file, results
 @pytest.fixture(scope="module")
 def on_wrong_gpu(patched, tmp_path_factory):
     """A patched EnergyPlus whose OpenGL module plays a GPU with a broken driver."""
-    module = energyplus.build_folder() / "tests" / "wrong_gpu" / "libgpu_shading_gl.so"
+    module = energyplus.build_folder() / "tests" / "gpu_shading" / "backends" / "wrong_gpu" / "libgpu_shading_gl.so"
     if not module.is_file():
         pytest.skip(f"{module} is missing: run scripts/build with the tests")
     prefix = tmp_path_factory.mktemp("wrong_gpu") / "EnergyPlus"

@@ -12,7 +12,7 @@ WEATHER = "USA_CO_Golden-NREL.724666_TMY3.epw"
 
 
 def build_folder():
-    """The folder of scripts/build_windows."""
+    """The folder of scripts/dev/build_windows."""
     return energyplus.REPOSITORY / os.environ.get("GPU_SHADING_WINDOWS_BUILD", "build-windows")
 
 
@@ -31,7 +31,7 @@ def why_not():
         if not shutil.which(program):
             return f"{program} is missing: run scripts/setup --windows"
     if not (build_folder() / "energyplus_patch" / "energyplus.exe").is_file():
-        return f"{build_folder()} has no library for Windows: run scripts/build_windows"
+        return f"{build_folder()} has no library for Windows: run scripts/dev/build_windows"
     return ""
 
 

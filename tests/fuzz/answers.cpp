@@ -1,7 +1,7 @@
 #include <span>
 #include <vector>
 
-#include "cache/answer_file.h"
+#include "answers/answer_file.h"
 #include "fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {

@@ -1,5 +1,5 @@
 #include "fuzz.h"
-#include "site/terrain_file.h"
+#include "model/site/terrain_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   using namespace gpu_shading::energyplus;

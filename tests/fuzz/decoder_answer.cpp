@@ -4,10 +4,10 @@
 #include <cmath>
 #include <string>
 
-#include "assets/elevation_file.h"
-#include "assets/mesh_file.h"
-#include "assets/texture_file.h"
-#include "decoding/answer.h"
+#include "files/decoding/answer.h"
+#include "files/elevation_file.h"
+#include "files/mesh_file.h"
+#include "files/texture_file.h"
 #include "fuzz.h"
 
 namespace {

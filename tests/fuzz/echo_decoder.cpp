@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdlib>
 
-#include "decoding/decoder.h"
+#include "files/decoding/decoder.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 #include "fuzz.h"
-#include "idf/model_file.h"
+#include "model/idf/model_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   using namespace gpu_shading::energyplus;

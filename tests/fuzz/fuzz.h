@@ -10,9 +10,9 @@
 #include <string>
 #include <string_view>
 
-#include "base/process.h"
-#include "base/text.h"
 #include "gpu_shading/error.h"
+#include "platform/process.h"
+#include "platform/text.h"
 
 // libFuzzer's own entry. Everything but an Error is a finding.
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size);

@@ -1,7 +1,7 @@
-#include "site/geotiff.h"
+#include "model/site/geotiff.h"
 
 #include "fuzz.h"
-#include "site/terrain_file.h"
+#include "model/site/terrain_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   using namespace gpu_shading::energyplus;

@@ -1,6 +1,6 @@
 // What is checked of glTF before Assimp opens it.
 
-#include "mesh_decoder/gltf_nodes.h"
+#include "files/mesh_decoder/gltf_nodes.h"
 
 #include "fuzz.h"
 

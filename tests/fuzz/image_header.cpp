@@ -1,8 +1,8 @@
 // What is read of an image before OpenImageIO opens it.
 
+#include "files/image_decoder/bmp_header.h"
+#include "files/image_decoder/image_format.h"
 #include "fuzz.h"
-#include "image_decoder/bmp_header.h"
-#include "image_decoder/image_format.h"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   using namespace gpu_shading::decoding;

@@ -7,8 +7,8 @@
 #include <bit>
 #include <cstdlib>
 
+#include "files/image_decoder/images.h"
 #include "fuzz.h"
-#include "image_decoder/images.h"
 
 namespace {
 

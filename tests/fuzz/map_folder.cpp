@@ -1,4 +1,4 @@
-#include "maps/map_folder.h"
+#include "reports/map_folder.h"
 
 #include "fuzz.h"
 

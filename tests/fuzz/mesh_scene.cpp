@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <memory>
 
+#include "files/mesh_decoder/scene_parts.h"
 #include "fuzz.h"
-#include "mesh_decoder/scene_parts.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "assets/mesh_file.h"
+#include "files/mesh_file.h"
 #include "fuzz.h"
 
 // The first byte chooses the ending of the file's name.

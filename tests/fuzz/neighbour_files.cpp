@@ -1,7 +1,7 @@
 // The names that a mesh gives to other files: whatever they are, nothing outside its folder is
 // read.
 
-#include "mesh_decoder/neighbour_files.h"
+#include "files/mesh_decoder/neighbour_files.h"
 
 #include <assimp/IOStream.hpp>
 #include <memory>

@@ -1,9 +1,9 @@
-#include "samples/sample_parts.h"
+#include "tasks/samples/sample_parts.h"
 
 #include <fmt/format.h>
 
-#include "cache/digest.h"
 #include "fuzz.h"
+#include "scene/digest.h"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   using namespace gpu_shading::energyplus;

@@ -1,7 +1,7 @@
-#include "idf/side_file.h"
+#include "model/idf/side_file.h"
 
 #include "fuzz.h"
-#include "idf/extension_objects.h"
+#include "model/idf/extension_objects.h"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   using namespace gpu_shading::energyplus;

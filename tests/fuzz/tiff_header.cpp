@@ -2,10 +2,10 @@
 
 #include <exception>
 
+#include "files/image_decoder/elevations.h"
+#include "files/image_decoder/images.h"
+#include "files/image_decoder/small_tiff.h"
 #include "fuzz.h"
-#include "image_decoder/elevations.h"
-#include "image_decoder/images.h"
-#include "image_decoder/small_tiff.h"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   using namespace gpu_shading;

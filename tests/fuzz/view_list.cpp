@@ -1,4 +1,4 @@
-#include "session/view_list.h"
+#include "tasks/view_list.h"
 
 #include "fuzz.h"
 

@@ -1,7 +1,7 @@
-#include "site/weather_header.h"
+#include "model/site/weather_header.h"
 
 #include "fuzz.h"
-#include "site/calendar_date.h"
+#include "model/site/calendar_date.h"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   using namespace gpu_shading::energyplus;

@@ -151,7 +151,7 @@ def test_a_library_of_no_package_is_refused(built, tmp_path):
 def test_the_wheel_lists_every_library_in_it():
     wheels = sorted((ROOT / "out" / "wheel").glob("energyplus_gpu_shading-*.whl"))
     if not wheels:
-        pytest.skip(f"{ROOT / 'out' / 'wheel'} has no wheel: run scripts/build_wheel")
+        pytest.skip(f"{ROOT / 'out' / 'wheel'} has no wheel: run scripts/dev/build_wheel")
     with zipfile.ZipFile(wheels[-1]) as wheel:
         (bill_name,) = [name for name in wheel.namelist() if name.endswith(".dist-info/sboms/gpu_shading.cdx.json")]
         document = json.loads(wheel.read(bill_name))
@@ -166,7 +166,7 @@ def test_the_wheel_lists_every_library_in_it():
 def test_the_debian_package_lists_what_is_compiled_in(tmp_path):
     packages = sorted((ROOT / "out" / "deb").glob("*/energyplus-gpu-shading_*.deb"))
     if not packages:
-        pytest.skip(f"{ROOT / 'out' / 'deb'} has no package: run scripts/build_deb")
+        pytest.skip(f"{ROOT / 'out' / 'deb'} has no package: run scripts/dev/build_deb")
     subprocess.run(["dpkg-deb", "-x", packages[-1], tmp_path], check=True)
     document = json.loads((tmp_path / "usr" / "share" / "gpu_shading" / "gpu_shading.cdx.json").read_text())
     assert_well_formed(document)

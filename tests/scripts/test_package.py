@@ -32,7 +32,7 @@ def prefix(tmp_path_factory):
 def example(prefix, tmp_path_factory):
     """Of a copy, so that nothing else of the repository is found."""
     folder = tmp_path_factory.mktemp("example")
-    for file in (ROOT / "gpu_shading" / "example").iterdir():
+    for file in (ROOT / "gpu_shading" / "docs" / "example").iterdir():
         (folder / file.name).write_text(file.read_text())
     build = folder / "build"
     run("cmake", "-S", folder, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Debug",

@@ -81,7 +81,7 @@ def test_a_missing_package_changes_nothing(tmp_path):
 def test_scripts_refuse_before_they_build(script, tmp_path):
     """A folder is relative to where the script is called."""
     mine = packages(tmp_path / "out", "mine_1.deb", "mine.whl")
-    refused(run(SCRIPTS / script, "out", folder=tmp_path), tmp_path / "out", script)
+    refused(run(SCRIPTS / "dev" / script, "out", folder=tmp_path), tmp_path / "out", script)
     assert [path.read_text() for path in mine] == ["mine_1.deb", "mine.whl"]
 
 
@@ -94,12 +94,12 @@ def test_windows_libraries_replace_only_their_own(tmp_path):
 
 def test_windows_refuses_before_it_builds(tmp_path):
     """Its folder is in that of the sources."""
-    (tmp_path / "scripts").mkdir()
-    shutil.copy(SCRIPTS / "build_windows", tmp_path / "scripts")
+    (tmp_path / "scripts" / "dev").mkdir(parents=True)
+    shutil.copy(SCRIPTS / "dev" / "build_windows", tmp_path / "scripts" / "dev")
     for name in ("packaging", "shading_runs"):
         shutil.copytree(SCRIPTS / name, tmp_path / "scripts" / name)
     target = tmp_path / "out" / "windows"
     target.parent.mkdir()
     mine = packages(target, "mine.zip")[0]
-    refused(run(tmp_path / "scripts" / "build_windows"), target, "build_windows")
+    refused(run(tmp_path / "scripts" / "dev" / "build_windows"), target, "build_windows")
     assert mine.read_text() == "mine.zip"

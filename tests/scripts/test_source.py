@@ -1,4 +1,4 @@
-"""energyplus_patch/source: the target penumbra in a program of another project, and the patch of EnergyPlus."""
+"""routes/penumbra/drop_in: the target penumbra in a program of another project, and the patch of EnergyPlus."""
 
 import os
 import subprocess
@@ -8,7 +8,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / os.environ.get("GPU_SHADING_BUILD", "build")
-SOURCE = ROOT / "energyplus_patch" / "source"
+SOURCE = ROOT / "energyplus_patch" / "routes" / "penumbra" / "drop_in"
 ENERGYPLUS = "GPU_SHADING_ENERGYPLUS_SOURCES"
 
 PROGRAM = """\

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "backends/opengl/raster/gl_backend.h"
 #include "gpu_shading/renderer.h"
-#include "raster_gl/gl_backend.h"
 
 namespace gpu_shading {
 

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "backends/cpu/cpu_backend.h"
 #include "gpu_shading/renderer.h"
-#include "raster_cpu/cpu_backend.h"
 #include "render/renderer_with_backend.h"
 
 namespace gpu_shading {

@@ -1,4 +1,4 @@
-# Compiles for Windows on x86-64 by MinGW-w64 (Debian: g++-mingw-w64-x86-64-posix): scripts/build_windows.
+# Compiles for Windows on x86-64 by MinGW-w64 (Debian: g++-mingw-w64-x86-64-posix): scripts/dev/build_windows.
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)
 # Of MinGW's two libraries of threads, the one that has std::thread.

@@ -1,4 +1,4 @@
-# What is built for Windows, by scripts/build_windows, and its archive.
+# What is built for Windows, by scripts/dev/build_windows, and its archive.
 add_subdirectory(energyplus_patch)
 if(GPU_SHADING_TESTS)
   enable_testing()
@@ -7,7 +7,7 @@ endif()
 
 install(TARGETS opengl32 windows_launcher gpu_shading_program RUNTIME DESTINATION . COMPONENT windows)
 install(FILES scripts/packaging/windows/patch_energyplus.cmd DESTINATION . COMPONENT windows)
-install(FILES gpu_shading/docs/windows.md DESTINATION . RENAME README.md COMPONENT windows)
+install(FILES energyplus_patch/docs/windows.md DESTINATION . RENAME README.md COMPONENT windows)
 # Of the libraries that are compiled in.
 install(FILES LICENSE DESTINATION licences RENAME gpu_shading COMPONENT windows)
 foreach(package libboost-dev libcli11-dev libeigen3-dev libfmt-dev libgeographiclib-dev libglm-dev libjs-three libtbb-dev

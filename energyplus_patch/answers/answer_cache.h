@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "answers/answer_file.h"
+
+namespace gpu_shading::energyplus {
+
+// Answers of one scene that are kept after the run, in a folder with one file per scene, named by
+// its hash. Safe with any number of processes: a file is replaced in one step, after answers that
+// others have stored meanwhile are added; a damaged file counts as missing.
+class AnswerCache {
+ public:
+  static constexpr std::uint64_t default_most_bytes = std::uint64_t{1} << 30U;  // of the folder
+
+  // Reads the file if there is one. A file that cannot be used gives a remark and is replaced by
+  // store().
+  AnswerCache(std::filesystem::path const& folder, Hash const& scene, AnswerLimits limits,
+              std::function<void(std::string const&)> const& remark,
+              std::uint64_t most_bytes = default_most_bytes);
+
+  // Adds known answers for the run's receivers to a direction of the run.
+  void recall(AnswerSet& run, Answers::Direction& direction);
+
+  // The same for a question about interior surfaces; nullptr if it is not known.
+  std::vector<Sunlit> const* recall_interior(AnswerSet& run, Answers::Direction& direction,
+                                             std::uint64_t window_and_list);
+
+  // Number of directions of the run that received an answer.
+  std::size_t directions_recalled() const { return directions_recalled_; }
+
+  // Adds the run's answers to the file and keeps the folder within its size limit. Call it once, at
+  // the end: the answers that were read are discarded. Throws Error if the file cannot be written,
+  // and leaves no partial file.
+  void store(AnswerSet const& run);
+
+ private:
+  Answers::Direction const* find(AnswerSet const& run, Answers::Direction const& direction) const;
+  void note_recalled(Answers::Direction& direction);
+
+  std::filesystem::path folder_;
+  std::filesystem::path file_;
+  Hash scene_;
+  AnswerLimits limits_;
+  std::uint64_t most_bytes_;
+  std::size_t directions_recalled_ = 0;
+  AnswerSet known_;
+  std::unordered_map<SurfaceId, ReceiverNumber> numbers_;  // of known_.receivers
+};
+
+}  // namespace gpu_shading::energyplus

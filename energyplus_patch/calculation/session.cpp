@@ -1,0 +1,247 @@
+#include "calculation/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <utility>
+
+#include "answers/cache_folder.h"
+#include "answers/open_answers.h"
+#include "gpu_shading/error.h"
+#include "gpu_shading/sun_direction.h"
+#include "model/options/report_folder.h"
+#include "reports/remarks.h"
+#include "reports/report.h"
+#include "reports/run_report.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+// Keeps the `limit` largest values and sets the others to 0; EnergyPlus adds the beam that no
+// surface takes to the diffuse radiation.
+void keep_largest(std::vector<float>& areas, std::size_t limit) {
+  auto const lit = static_cast<std::size_t>(
+      std::count_if(areas.begin(), areas.end(), [](float area) { return area > 0.0F; }));
+  if (lit <= limit) return;
+  std::vector<std::size_t> order(areas.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
+  for (std::size_t i = limit; i < order.size(); ++i) areas[order[i]] = 0.0F;
+}
+
+std::string list(Stages const& stages) {
+  std::string line;
+  for (auto const& [stage, seconds] : stages) {
+    line += fmt::format("{}{} {:.2f} s", line.empty() ? "" : ", ", stage, seconds);
+  }
+  return line;
+}
+
+}  // namespace
+
+SurfaceId Session::add(Surface surface) {
+  if (scene_.model().lean.is_placeholder(surface.name)) {
+    added_.emplace_back(std::move(surface));
+  } else {
+    added_.emplace_back(scene_.add(std::move(surface)));
+  }
+  return static_cast<SurfaceId>(added_.size() - 1);
+}
+
+SurfaceId Session::add_mirrored(SurfaceId original) {
+  if (auto const* const placeholder = std::get_if<Surface>(&added_.at(original))) {
+    added_.emplace_back(mirrored(*placeholder));
+  } else {
+    added_.emplace_back(scene_.add_mirrored(in_scene(original)));
+  }
+  return static_cast<SurfaceId>(added_.size() - 1);
+}
+
+Surface const& Session::surface(SurfaceId id) const {
+  auto const* const placeholder = std::get_if<Surface>(&added_[id]);
+  return placeholder != nullptr ? *placeholder : scene_.surfaces()[in_scene(id)];
+}
+
+std::vector<SurfaceId> Session::shading_surfaces() const {
+  std::vector<SurfaceId> ids;
+  for (SurfaceId id = 0; id < size(); ++id) {
+    auto const& name = surface(id).name;
+    if (is_placeholder(id) ? !is_mirrored(name) : input().shading_surfaces.contains(name)) {
+      ids.push_back(id);
+    }
+  }
+  return ids;
+}
+
+SurfaceId Session::in_scene(SurfaceId id) const {
+  if (id >= size()) throw Error(fmt::format("EnergyPlus asks for surface {} of {}", id, size()));
+  auto const* const found = std::get_if<SurfaceId>(&added_[id]);
+  if (found == nullptr) throw Error("EnergyPlus asks for what a placeholder receives indoors");
+  return *found;
+}
+
+void Session::start(Messages messages, Schedules schedules, std::function<double()> latitude) {
+  messages_ = std::move(messages);
+  scene_.complete(std::move(schedules));
+  auto const& options = scene_.model().options;
+  if (options.report) {
+    prepare_report(*options.report);
+    prepare_page(*options.report);
+    record_.emplace(scene_.areas(), scene_.shown_receivers());
+  }
+  if (options.cache) prepare_cache_folder(*options.cache);
+  answers_.emplace(SunAnswers::Site{scene_.areas(), options.update.sampling, std::move(latitude)});
+  answers_->open(open_answers(scene_, scene_.receivers(), options.device, messages_));
+  check_device(answers_->rendered().renderer().device(), options, messages_);
+  describe_scene(scene_, messages_);
+}
+
+SceneAssembly& Session::complete(Schedules schedules) {
+  scene_.complete(std::move(schedules));
+  return scene_;
+}
+
+SunAnswers& Session::answers() {
+  if (!answers_) throw Error("EnergyPlus asks for shading before its surfaces are complete");
+  return *answers_;
+}
+
+void Session::begin_day(RunDay const& day, RunRecord::Beam const& beam) {
+  if (record_) record_->begin_day(day, beam);
+}
+
+void Session::set_time(Moment moment) {
+  if (!answers_) return;
+  moment_ = moment;
+  if (record_) record_->begin_step(moment);
+  if (auto* const first = first_sun_now()) first->reset();
+  if (scene_.optics().update(moment)) {
+    messages_.warning(
+        "a Transmittance Schedule with a constant value has changed, by an EMS or another program: "
+        "its new values are used from now on");
+    store_answers(answers_->rendered(), messages_);
+    auto const receivers = answers_->rendered().known().receivers;
+    // The CPU also if it took over from a GPU.
+    auto const device = choice_of(answers_->rendered().renderer().device());
+    obstructions_.reset();
+    luminance_.reset();
+    renew_reflections();
+    answers_->close();
+    answers_->open(open_answers(scene_, receivers, device, messages_));
+  } else {
+    answers_->deploy(scene_.optics().deployments());
+  }
+}
+
+void Session::set_sun(SunDirection sun) {
+  answers().set_sun(sun);
+  if (record_) record_->set_sun(sun);
+  if (auto* const first = first_sun_now()) *first = to_vector(sun);
+}
+
+// Where the sun of this moment is kept, at an hour's first timestep.
+std::optional<glm::dvec3>* Session::first_sun_now() {
+  if (moment_.timestep != 1 || moment_.hour < 1) return nullptr;
+  return &first_suns_.at(static_cast<std::size_t>(moment_.hour - 1));
+}
+
+std::optional<glm::dvec3> Session::first_sun(int hour) const {
+  return first_suns_.at(static_cast<std::size_t>(hour - 1));
+}
+
+float Session::projected_sunlit_area(SurfaceId receiver) {
+  auto& answers = this->answers();
+  if (receiver < size() && is_placeholder(receiver)) {
+    auto const& polygon = surface(receiver).polygon;
+    double const facing = glm::dot(normal(polygon), answers.towards_sun());
+    return static_cast<float>(area(polygon) * std::max(facing, 0.0));
+  }
+  auto const id = in_scene(receiver);
+  double const rendered = scene_.unshaded()[id] ? answers.unshaded_area(id)
+                                                : answers.area(id, scene_.optics().factors());
+  if (record_) record_->note(id, rendered);
+  return static_cast<float>(rendered * scene_.area_ratio(id));
+}
+
+std::vector<float> Session::interior_areas(SurfaceId window,
+                                           std::vector<SurfaceId> const& interiors) {
+  auto& answers = this->answers();
+  std::vector<SurfaceId> ids(interiors.size());
+  std::transform(interiors.begin(), interiors.end(), ids.begin(),
+                 [&](SurfaceId interior) { return in_scene(interior); });
+  auto areas =
+      answers.interior_areas(InteriorKey({in_scene(window), ids}), scene_.optics().factors());
+  keep_largest(areas, max_back_surfaces);
+  return areas;
+}
+
+double Session::daylight_transmittance(Ray const& ray, int hour) {
+  if (!answers_) throw Error("EnergyPlus asks for daylight before its surfaces are complete");
+  if (!obstructions_) obstructions_.emplace(scene_);
+  return obstructions_->transmittance(ray, hour);
+}
+
+void Session::begin_daylighting() {
+  if (obstructions_) obstructions_->renew();
+  if (luminance_) luminance_->renew();
+}
+
+HiddenReflections* Session::reflections() {
+  if (!answers_) throw Error("EnergyPlus asks for reflections before its surfaces are complete");
+  if (!reflections_) reflections_.emplace(scene_);
+  return reflections_->any() ? &*reflections_ : nullptr;
+}
+
+HiddenLuminance* Session::luminance() {
+  if (!answers_) throw Error("EnergyPlus asks for daylight before its surfaces are complete");
+  if (!luminance_) luminance_.emplace(scene_);
+  return luminance_->any() ? &*luminance_ : nullptr;
+}
+
+// With the optics as they are now.
+void Session::renew_reflections() {
+  if (!reflections_) return;
+  auto rays = reflections_->rays();
+  reflections_.emplace(scene_);
+  reflections_->set_rays(std::move(rays));
+}
+
+void Session::finish() {
+  if (!answers_) return;
+  auto const& asked = answers_->asked();
+  bool const any = std::find(asked.begin(), asked.end(), true) != asked.end();
+  if (!any && answers_->counts().directions == 0)
+    return;  // the run ended before the first question
+  describe_answers(*answers_, scene_.model().options, messages_);
+  store_answers(answers_->rendered(), messages_);
+  write_reports();
+}
+
+void Session::write_reports() {
+  auto const& options = scene_.model().options;
+  auto const stages = stages_of(answers_->counts().rendering);
+  if (options.stages) write_stages(*options.stages, stages);
+  if (!options.report) return;
+  messages_.remark("time by stage: " + list(stages));
+  auto& rendered = answers_->rendered();
+  auto const& known = rendered.known();
+  auto const& optics = scene_.optics();
+  record_->end();
+  auto const left_out = write_report(
+      *options.report, rendered.renderer(), known.receivers, answers_->asked(),
+      scene_.shown_receivers(), known.answers, optics.factors(),
+      {optics.deployment_names(), known.states}, stages, [&](StagedFiles& files) {
+        write_run(files, *options.report, scene_, rendered.renderer().device(), *record_);
+      });
+  if (left_out > 0) {
+    messages_.remark(
+        fmt::format("--gpu-shading-report: the first {} pictures are drawn, {} more are not; "
+                    "draw these with gpu_shading view",
+                    max_report_pictures, left_out));
+  }
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,168 @@
+#include "model/idf/extension_objects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "model/extensions/extension_fields.h"
+#include "model/extensions/field_text.h"
+#include "platform/naming.h"
+#include "platform/text.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+constexpr std::string_view name_field = "name";
+
+ExtensionType const& find_extension_type(std::string_view type) {
+  std::string known;
+  for (auto const& candidate : extension_types()) {
+    if (same_name(candidate.type, type)) return candidate;
+    known += fmt::format("{} {}", known.empty() ? "" : ",", candidate.type);
+  }
+  throw Error(fmt::format("{}: no such object; known:{}", type, known));
+}
+
+bool is_named(ExtensionType const& type) { return type.fields.front()->key == name_field; }
+
+std::string item_title(ExtensionType const& type, std::size_t index) {
+  return fmt::format("{} {}", type.list_field->title, index + 1);
+}
+
+// For both kinds of file.
+void check_object(ExtensionType const& type, InputObject const& object) {
+  for (auto const* const field : type.fields) check(*field, object[field->key], field->title);
+  if (type.list_field == nullptr) return;
+  if (object.list.empty()) check(*type.list_field, "", item_title(type, 0));
+  for (std::size_t i = 0; i < object.list.size(); ++i) {
+    check(*type.list_field, object.list[i], item_title(type, i));
+  }
+}
+
+// ---- epJSON
+
+// A value, for a message.
+std::string shown(nlohmann::json const& value) {
+  if (value.is_string()) return "the text " + in_quotes(value.get<std::string>());
+  auto const text = in_quotes(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  return text.substr(1, text.size() - 2);
+}
+
+bool takes_text(FieldInfo const& field, std::string const& text) {
+  if (field.kind == FieldKind::text || field.any_text) return true;
+  if (field.words.empty()) return false;
+  if (text.empty()) return !field.required;
+  return std::find(field.words.begin(), field.words.end(), text) != field.words.end();
+}
+
+bool takes_number(FieldInfo const& field) {
+  return field.kind == FieldKind::integer || field.kind == FieldKind::real;
+}
+
+// As text; what the text may be is for check() to say.
+std::string text_of_value(FieldInfo const& field, nlohmann::json const& value,
+                          std::string_view title) {
+  if (value.is_string() && takes_text(field, value.get<std::string>())) return value;
+  if (value.is_number() && takes_number(field)) return value.dump();
+  throw Error(fmt::format("{} is {}, expected {}", title, shown(value), expectation(field)));
+}
+
+std::vector<std::string> list_of(ExtensionType const& type, nlohmann::json const& items) {
+  auto const& key = type.list_field->key;
+  auto const refuse = [&](std::string_view what, nlohmann::json const& value) {
+    throw Error(fmt::format("{} is {}, expected an {} with {}", what, shown(value),
+                            &value == &items ? "array of objects" : "object", key));
+  };
+  if (!items.is_array()) refuse(type.list, items);
+  std::vector<std::string> list;
+  for (auto const& item : items) {
+    auto const title = fmt::format("{}[{}]", type.list, list.size());
+    if (!item.is_object() || item.size() != 1 || !item.contains(key)) refuse(title, item);
+    list.push_back(text_of_value(*type.list_field, item.front(), item_title(type, list.size())));
+  }
+  return list;
+}
+
+FieldInfo const& find_field(ExtensionType const& type, std::string_view key) {
+  for (auto const* const field : type.fields) {
+    if (field->key == key && key != name_field) return *field;
+  }
+  throw Error(fmt::format("{}: no such field", in_quotes(key)));
+}
+
+InputObject from_epjson(ExtensionType const& type, std::string const& name,
+                        nlohmann::json const& fields) {
+  InputObject object{std::string(type.type), {}, {}, {}};
+  if (is_named(type)) {
+    object.name = name;
+    object.fields.emplace(name_field, name);
+  }
+  naming(object.title(), [&] {
+    if (!fields.is_object()) {
+      throw Error(fmt::format("is {}, expected an object with fields", shown(fields)));
+    }
+    for (auto const& [key, value] : fields.items()) {
+      if (type.list_field != nullptr && key == type.list) {
+        object.list = list_of(type, value);
+      } else {
+        auto const& field = find_field(type, key);
+        object.fields.emplace(key, text_of_value(field, value, field.title));
+      }
+    }
+    check_object(type, object);
+  });
+  return object;
+}
+
+}  // namespace
+
+InputObject read_extension(IdfObject const& object) {
+  auto const& type = find_extension_type(object.type);
+  InputObject result{std::string(type.type), {}, {}, {}};
+  auto const& values = object.fields;
+  if (is_named(type) && !values.empty()) result.name = values.front();
+  naming(result.title(), [&] {
+    if (type.list_field == nullptr && values.size() > type.fields.size()) {
+      throw Error(fmt::format("{} fields, expected {} at most", values.size(), type.fields.size()));
+    }
+    for (std::size_t i = 0; i < std::min(values.size(), type.fields.size()); ++i) {
+      result.fields.emplace(type.fields[i]->key, values[i]);
+    }
+    for (std::size_t i = type.fields.size(); i < values.size(); ++i) {
+      result.list.push_back(values[i]);
+    }
+    // Blank fields at the end mean nothing.
+    while (!result.list.empty() && result.list.back().empty()) result.list.pop_back();
+    check_object(type, result);
+  });
+  return result;
+}
+
+std::vector<InputObject> read_extensions(std::string_view type_name,
+                                         nlohmann::json const& instances) {
+  auto const& type = find_extension_type(type_name);
+  if (!instances.is_object()) {
+    throw Error(
+        fmt::format("{}: is {}, expected an object of objects", type.type, shown(instances)));
+  }
+  std::vector<InputObject> objects;
+  for (auto const& [name, fields] : instances.items()) {
+    objects.push_back(from_epjson(type, name, fields));
+  }
+  return objects;
+}
+
+void check_unique(std::vector<InputObject> const& objects) {
+  std::set<std::pair<std::string, std::string>> seen;
+  for (auto const& object : objects) {
+    if (!is_extension(object.type)) continue;
+    if (seen.emplace(object.type, upper(object.name)).second) continue;
+    throw Error(fmt::format("{}: given twice, expected {}", object.where(),
+                            object.name.empty() ? "once at most" : "one object of this name"));
+  }
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/extensions/field_text.h"
+#include "model/idf/input_object.h"
+
+// Reading an object's fields. Every function throws Error: field, value, what was expected; the
+// object is for the caller to name.
+namespace gpu_shading::energyplus {
+
+// The field's value, or its default where it is blank.
+template <typename Value>
+Value read(InputObject const& object, Field<Value> const& field) {
+  return parse(field, object[field.key], field.title);
+}
+
+// The items that are not blank.
+std::vector<std::string> read(InputObject const& object,
+                              Field<std::vector<std::string>> const& field);
+
+// The value of a field that may be blank elsewhere, but not here.
+[[noreturn]] void refuse_blank(FieldInfo const& field);
+template <typename Value>
+Value needed(InputObject const& object, Field<std::optional<Value>> const& field) {
+  auto const value = read(object, field);
+  if (!value) refuse_blank(field);
+  return *value;
+}
+
+// Degrees that are given together or not at all.
+struct Coordinates {
+  double latitude;
+  double longitude;
+};
+std::optional<Coordinates> read_coordinates(InputObject const& object,
+                                            Field<std::optional<double>> const& latitude,
+                                            Field<std::optional<double>> const& longitude);
+
+// A length in metres, and the largest value that does not look like millimetres.
+struct LengthLimit {
+  FieldInfo const& field;
+  double most;
+};
+
+// Returns a line for each length above that value.
+std::vector<std::string> lengths_beyond(InputObject const& object,
+                                        std::initializer_list<LengthLimit> const& limits);
+
+// `why`, as in "with Hole Shape Texture".
+using Fields = std::initializer_list<std::reference_wrapper<FieldInfo const>>;
+void expect_blank(InputObject const& object, Fields const& fields, std::string_view why);
+
+}  // namespace gpu_shading::energyplus

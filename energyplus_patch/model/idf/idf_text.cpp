@@ -1,0 +1,60 @@
+#include "model/idf/idf_text.h"
+
+#include <fmt/format.h>
+
+#include "platform/text.h"
+
+namespace gpu_shading::energyplus {
+
+std::vector<IdfObject> parse_idf(std::string_view text) {
+  std::vector<IdfObject> objects;
+  IdfObject current;
+  std::string token;
+  bool inside = false;
+  auto const take_token = [&] {
+    if (current.type.empty() && current.fields.empty()) {
+      current.type = trimmed(token);
+    } else {
+      current.fields.push_back(trimmed(token));
+    }
+    token.clear();
+  };
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    char const c = text[at];
+    if (c == '!') {
+      at = text.find('\n', at);
+      if (at == std::string_view::npos) break;
+      continue;
+    }
+    if (c == ',' || c == ';') {
+      take_token();
+      if (c == ';') {
+        current.end = at + 1;
+        if (!current.type.empty()) objects.push_back(std::move(current));
+        current = {};
+        inside = false;
+      }
+      continue;
+    }
+    if (!inside && c != ' ' && c != '\t' && c != '\r' && c != '\n') {
+      inside = true;
+      current.begin = at;
+    }
+    if (inside) token += c;
+  }
+  if (inside) {
+    take_token();
+    current.end = text.size();
+    current.is_closed = false;
+    if (!current.type.empty()) objects.push_back(std::move(current));
+  }
+  return objects;
+}
+
+std::string format_idf(std::string_view type, std::vector<std::string> const& fields) {
+  std::string text(type);
+  for (auto const& field : fields) text += fmt::format(",\n  {}", field);
+  return text + ";\n";
+}
+
+}  // namespace gpu_shading::energyplus

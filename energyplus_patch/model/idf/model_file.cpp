@@ -1,0 +1,271 @@
+#include "model/idf/model_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include "gpu_shading/error.h"
+#include "model/idf/extension_objects.h"
+#include "model/idf/json_text.h"
+#include "platform/files.h"
+#include "platform/naming.h"
+#include "platform/text.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+constexpr std::string_view shadow_calculation = "ShadowCalculation";
+constexpr std::string_view reflectance = "ShadingProperty:Reflectance";
+constexpr std::size_t method_field = 0;
+constexpr std::size_t frequency_field = 1;
+
+InputObject from_idf(ObjectType const& type, std::vector<std::string> const& values) {
+  InputObject object{std::string(type.type), {}, {}, {}};
+  std::size_t const own = std::min(values.size(), type.fields.size());
+  for (std::size_t i = 0; i < own; ++i) {
+    object.fields.emplace(type.fields[i], values[i]);
+  }
+  if (!type.list.empty()) {
+    for (std::size_t i = own; i < values.size(); ++i) object.list.push_back(values[i]);
+  }
+  object.name = object["name"];
+  return object;
+}
+
+// Of EnergyPlus's own objects, which its schema checks later.
+void require_object(nlohmann::json const& value, std::string_view type, std::string_view name) {
+  if (value.is_object()) return;
+  throw Error(fmt::format("{} {}: expected an object with fields", type, in_quotes(name)));
+}
+
+void read_list(ObjectType const& type, nlohmann::json const& items,
+               std::vector<std::string>& list) {
+  auto const add = [&](nlohmann::json const& item, std::string const& field) {
+    list.push_back(item.contains(field) ? text_of(item.at(field)) : "");
+  };
+  if (!items.is_array())
+    throw Error(fmt::format("{}: {}: expected an array", type.type, type.list));
+  for (auto const& item : items) {
+    require_object(item, type.type, type.list);
+    if (type.list_field.empty()) {
+      for (char const* field :
+           {"vertex_x_coordinate", "vertex_y_coordinate", "vertex_z_coordinate"}) {
+        add(item, field);
+      }
+    } else {
+      add(item, std::string(type.list_field));
+    }
+  }
+}
+
+InputObject from_epjson(ObjectType const& type, std::string const& name,
+                        nlohmann::json const& fields) {
+  require_object(fields, type.type, name);
+  InputObject object{std::string(type.type), {}, {}, {}};
+  for (auto const& [field, value] : fields.items()) {
+    if (value.is_primitive()) object.fields[field] = text_of(value);
+  }
+  if (!type.fields.empty() && type.fields.front() == "name") {
+    object.name = name;
+    object.fields["name"] = name;
+  }
+  if (!type.list.empty() && fields.contains(type.list)) {
+    read_list(type, fields.at(std::string(type.list)), object.list);
+  }
+  // In epJSON, each layer of a construction is a separate field.
+  if (type.type == "Construction") {
+    constexpr int most_layers = 10;
+    for (int layer = 1; layer <= most_layers; ++layer) {
+      auto const field = layer == 1 ? "outside_layer" : fmt::format("layer_{}", layer);
+      if (fields.contains(field)) object.list.push_back(text_of(fields.at(field)));
+    }
+  }
+  return object;
+}
+
+bool goes(std::string_view type, std::string const& surface, Names const& left_out) {
+  bool const is_surface = type.size() > 8 && same_name(type.substr(0, 8), "Shading:") &&
+                          same_name(type.substr(type.rfind(':')), ":Detailed");
+  return (is_surface || same_name(type, reflectance)) && left_out.contains(upper(surface));
+}
+
+bool goes(IdfObject const& object, Names const& left_out) {
+  return !left_out.empty() && !object.fields.empty() &&
+         goes(object.type, object.fields.front(), left_out);
+}
+
+void take_out(nlohmann::json& model, Names const& left_out) {
+  std::vector<std::string> emptied;
+  for (auto const& [type, instances] : model.items()) {
+    if (!instances.is_object()) continue;
+    for (auto instance = instances.begin(); instance != instances.end();) {
+      bool const named_by_field = same_name(type, reflectance);
+      auto const& name = named_by_field && instance->contains("shading_surface_name")
+                             ? text_of(instance->at("shading_surface_name"))
+                             : instance.key();
+      instance = goes(type, name, left_out) ? instances.erase(instance) : std::next(instance);
+    }
+    if (instances.empty()) emptied.push_back(type);
+  }
+  for (auto const& type : emptied) model.erase(type);
+}
+
+}  // namespace
+
+std::vector<InputObject> read_idf(std::string_view text) { return read_idf(parse_idf(text)); }
+
+std::vector<InputObject> read_idf(std::vector<IdfObject> const& parsed) {
+  std::vector<InputObject> objects;
+  for (auto const& object : parsed) {
+    if (is_extension(object.type)) {
+      objects.push_back(read_extension(object));
+    } else if (auto const* type = find_type(object.type)) {
+      objects.push_back(from_idf(*type, object.fields));
+    }
+  }
+  return objects;
+}
+
+std::vector<InputObject> read_epjson(nlohmann::json const& model) {
+  if (!model.is_object()) {
+    throw Error(fmt::format("expected a JSON object, got: {}", model.type_name()));
+  }
+  std::vector<InputObject> objects;
+  for (auto const& [type_name, instances] : model.items()) {
+    if (is_extension(type_name)) {
+      auto extensions = read_extensions(type_name, instances);
+      std::move(extensions.begin(), extensions.end(), std::back_inserter(objects));
+      continue;
+    }
+    auto const* type = find_type(type_name);
+    if (type == nullptr || !instances.is_object()) continue;
+    for (auto const& [name, fields] : instances.items()) {
+      objects.push_back(from_epjson(*type, name, fields));
+    }
+  }
+  return objects;
+}
+
+std::vector<InputObject> read_objects(std::filesystem::path const& path) {
+  auto const text = read_text_file(path);
+  return naming(path.string(), [&] {
+    auto objects = is_epjson(path) ? read_epjson(parse_epjson(text)) : read_idf(text);
+    for (auto& object : objects) object.file = path.string();
+    return objects;
+  });
+}
+
+nlohmann::json parse_epjson(std::string_view text) {
+  constexpr int most_depth = 100;
+  // Keys of extension objects at the depths of types, of names, and of fields and below.
+  std::vector<std::set<std::string>> keys;
+  std::string title;
+  bool is_ours = false;
+  auto const watch = [&](int depth, nlohmann::json::parse_event_t event,
+                         nlohmann::json const& parsed) {
+    auto const level = static_cast<std::size_t>(depth);
+    if (depth > most_depth) throw Error(fmt::format("is nested more than {} deep", most_depth));
+    // Its keys come a level deeper.
+    if (event == nlohmann::json::parse_event_t::object_start) keys.resize(level + 1);
+    if (event != nlohmann::json::parse_event_t::key) return true;
+    auto const key = parsed.get<std::string>();
+    keys.resize(level + 1);
+    if (level == 1) {
+      is_ours = is_extension(key);
+      title = key;
+    }
+    if (is_ours && !keys[level].insert(key).second) {
+      throw Error(fmt::format("{}: \"{}\" is given twice", title, key));
+    }
+    return true;
+  };
+  try {
+    return nlohmann::json::parse(text, watch);
+  } catch (nlohmann::json::exception const& error) {
+    throw Error(error.what());
+  }
+}
+
+bool is_epjson(std::filesystem::path const& path) {
+  return same_name(path.extension().string(), ".epJSON") ||
+         same_name(path.extension().string(), ".json");
+}
+
+bool is_idf(std::filesystem::path const& path) {
+  return same_name(path.extension().string(), ".idf") ||
+         same_name(path.extension().string(), ".imf");
+}
+
+std::string rewrite_idf(std::string_view text, Rewrite const& rewrite) {
+  return rewrite_idf(text, parse_idf(text), rewrite);
+}
+
+std::string rewrite_idf(std::string_view text, std::vector<IdfObject> const& parsed,
+                        Rewrite const& rewrite) {
+  std::string result;
+  result.reserve(text.size() + 256);
+  std::size_t copied = 0;
+  bool found = false;
+  for (auto const& object : parsed) {
+    bool const shadow = same_name(object.type, shadow_calculation);
+    if (!shadow && !is_extension(object.type) && !goes(object, rewrite.left_out)) continue;
+    result += text.substr(copied, object.begin - copied);
+    copied = object.end;
+    if (!shadow) continue;
+    found = true;
+    auto fields = object.fields;
+    fields.resize(std::max(fields.size(), frequency_field + 1));
+    fields[method_field] = rewrite.shading_method;
+    if (!rewrite.update_frequency.empty()) fields[frequency_field] = rewrite.update_frequency;
+    result += format_idf(object.type, fields);
+  }
+  result += text.substr(copied);
+  // What follows must not become part of it. EnergyPlus takes a line break for part of a field, so
+  // there is one only after a comment.
+  bool const is_open = !parsed.empty() && !parsed.back().is_closed && copied < text.size();
+  bool const in_comment = text.substr(text.rfind('\n') + 1).find('!') != std::string_view::npos;
+  if (is_open) result += in_comment ? "\n;\n" : ";\n";
+  if (!found) {
+    result += '\n';
+    result += format_idf(shadow_calculation, {rewrite.shading_method, rewrite.update_frequency});
+  }
+  if (!rewrite.placeholders.empty()) result += '\n';
+  if (needs_sky_schedule(rewrite.placeholders)) result += sky_schedule_idf();
+  for (auto const& placeholder : rewrite.placeholders) {
+    result += format_idf(placeholder_type, placeholder_fields(placeholder));
+  }
+  return result;
+}
+
+void rewrite_epjson(nlohmann::json& model, Rewrite const& rewrite) {
+  std::vector<std::string> extensions;
+  std::string shadow_key(shadow_calculation);
+  for (auto const& [type, instances] : model.items()) {
+    if (is_extension(type)) extensions.push_back(type);
+    if (same_name(type, shadow_calculation)) shadow_key = type;
+  }
+  for (auto const& type : extensions) model.erase(type);
+  if (!rewrite.left_out.empty()) take_out(model, rewrite.left_out);
+  if (needs_sky_schedule(rewrite.placeholders)) add_sky_schedule(model);
+  for (auto const& placeholder : rewrite.placeholders) {
+    model[placeholder_type][placeholder.name] = placeholder_json(placeholder);
+  }
+  auto& instances = model[shadow_key];
+  if (instances.is_null()) instances = nlohmann::json::object();
+  if (!instances.is_object()) {
+    throw Error(fmt::format("{}: expected an object of objects", shadow_calculation));
+  }
+  if (instances.empty()) instances["ShadowCalculation 1"] = nlohmann::json::object();
+  for (auto& fields : instances) {
+    require_object(fields, shadow_calculation, shadow_key);
+    fields["shading_calculation_method"] = rewrite.shading_method;
+    if (!rewrite.update_frequency.empty()) {
+      fields["shading_calculation_update_frequency_method"] = rewrite.update_frequency;
+    }
+  }
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/idf/idf_text.h"
+#include "model/idf/input_object.h"
+#include "model/idf/mentions.h"
+#include "model/idf/placeholders.h"
+
+namespace gpu_shading::energyplus {
+
+// Objects of the known types and every extension object, in the model's order. Throws Error if the
+// dictionary does not allow an extension object.
+std::vector<InputObject> read_idf(std::string_view text);
+std::vector<InputObject> read_idf(std::vector<IdfObject> const& parsed);
+std::vector<InputObject> read_epjson(nlohmann::json const& model);
+
+// Parses epJSON. Throws Error where it is none, and where an extension object or one of its fields
+// is given twice, of which all but the last would be lost.
+nlohmann::json parse_epjson(std::string_view text);
+
+// The objects of known types (known_types) and every extension object in a model's file. Throws
+// Error, naming the file.
+std::vector<InputObject> read_objects(std::filesystem::path const& path);
+
+// By the ending of the file's name.
+bool is_epjson(std::filesystem::path const& path);
+bool is_idf(std::filesystem::path const& path);
+
+// What EnergyPlus shall read instead of the model that the user wrote.
+struct Rewrite {
+  std::string shading_method;    // PixelCounting or PolygonClipping
+  std::string update_frequency;  // Periodic or Timestep; "" keeps the model's
+  Names left_out = {};  // detailed shading surfaces, with their ShadingProperty:Reflectance
+  std::vector<Placeholder> placeholders = {};  // added
+};
+
+// ShadowCalculation changed, or added where there is none, all its other fields kept; extension
+// objects and the surfaces that are left out taken out; placeholders added. Everything else stays
+// as it is, to the byte in the case of an IDF. `parsed`: the text's objects.
+std::string rewrite_idf(std::string_view text, Rewrite const& rewrite);
+std::string rewrite_idf(std::string_view text, std::vector<IdfObject> const& parsed,
+                        Rewrite const& rewrite);
+void rewrite_epjson(nlohmann::json& model, Rewrite const& rewrite);
+
+}  // namespace gpu_shading::energyplus

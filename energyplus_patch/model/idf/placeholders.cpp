@@ -1,0 +1,106 @@
+#include "model/idf/placeholders.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace gpu_shading::energyplus {
+namespace {
+
+constexpr char const* sky_schedule = "GPU SHADING SKY";
+constexpr std::array sky_schedule_data{
+    "Through: 12/31", "For: AllDays", "Until: 12:00", "1", "Until: 24:00", "0"};
+
+using Corner = std::array<double, 3>;
+
+// Centred on the ground, which determines the air temperature that EnergyPlus uses for a surface.
+// It faces the model.
+std::array<Corner, 4> corners(Placeholder const& placeholder) {
+  constexpr double far = 1e6;  // metres; larger than any model's coordinates
+  constexpr double width = 0.1;
+  double const east = placeholder.quarter == 0 || placeholder.quarter == 3 ? 1.0 : -1.0;
+  double const north = placeholder.quarter < 2 ? 1.0 : -1.0;
+  auto const corner = [&](double side, double z) {
+    return Corner{east * far + side * north * width, north * far - side * east * width, z * far};
+  };
+  return {corner(-1, 1), corner(-1, -1), corner(1, -1), corner(1, 1)};
+}
+
+// Creates placeholders with names of their own.
+class Maker {
+ public:
+  explicit Maker(Names const& taken) : taken_(taken) {}
+
+  void add(std::string const& schedule, int quarter) {
+    std::string name;
+    do {
+      name = fmt::format("GPU SHADING PLACEHOLDER {}", ++number_);
+    } while (taken_.contains(name));
+    made_.push_back({name, schedule, quarter});
+  }
+
+  std::vector<Placeholder> take() { return std::move(made_); }
+
+ private:
+  Names const& taken_;
+  int number_ = 0;
+  std::vector<Placeholder> made_;
+};
+
+}  // namespace
+
+std::vector<Placeholder> make_placeholders(std::vector<std::string> const& schedules,
+                                           Names const& taken) {
+  Maker maker(taken);
+  for (int quarter = 0; quarter < 4; ++quarter) maker.add("", quarter);
+  for (auto const& schedule : schedules) maker.add(schedule, 0);
+  return maker.take();
+}
+
+Placeholder make_sky_placeholder(Names const& taken) {
+  Maker maker(taken);
+  maker.add(sky_schedule, 0);
+  return maker.take().front();
+}
+
+bool needs_sky_schedule(std::vector<Placeholder> const& placeholders) {
+  return std::any_of(placeholders.begin(), placeholders.end(),
+                     [](Placeholder const& each) { return each.schedule == sky_schedule; });
+}
+
+std::string sky_schedule_idf() {
+  auto text = fmt::format("ScheduleTypeLimits,{};\nSchedule:Compact,{},{}", sky_schedule,
+                          sky_schedule, sky_schedule);
+  for (auto const* field : sky_schedule_data) text += fmt::format(",{}", field);
+  return text + ";\n";
+}
+
+void add_sky_schedule(nlohmann::json& model) {
+  model["ScheduleTypeLimits"][sky_schedule] = nlohmann::json::object();
+  auto& schedule = model["Schedule:Compact"][sky_schedule];
+  schedule["schedule_type_limits_name"] = sky_schedule;
+  for (auto const* field : sky_schedule_data) schedule["data"].push_back({{"field", field}});
+}
+
+std::vector<std::string> placeholder_fields(Placeholder const& placeholder) {
+  std::vector<std::string> fields{placeholder.name, placeholder.schedule, "4"};
+  for (auto const& corner : corners(placeholder)) {
+    for (double const value : corner) fields.push_back(fmt::format("{}", value));
+  }
+  return fields;
+}
+
+nlohmann::json placeholder_json(Placeholder const& placeholder) {
+  nlohmann::json object;
+  if (!placeholder.schedule.empty()) object["transmittance_schedule_name"] = placeholder.schedule;
+  object["number_of_vertices"] = 4;
+  for (auto const& [x, y, z] : corners(placeholder)) {
+    object["vertices"].push_back(
+        {{"vertex_x_coordinate", x}, {"vertex_y_coordinate", y}, {"vertex_z_coordinate", z}});
+  }
+  return object;
+}
+
+}  // namespace gpu_shading::energyplus

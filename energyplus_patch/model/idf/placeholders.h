@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/idf/mentions.h"
+
+namespace gpu_shading::energyplus {
+
+// Shading surfaces that EnergyPlus reads instead of casters that it does not know.
+struct Placeholder {
+  std::string name;
+  std::string schedule;  // transmittance schedule, or ""
+  int quarter = 0;       // 0 .. 3: north-east of the model, and further counterclockwise
+};
+
+// EnergyPlus asks for the sunlit area of a receiver if some caster has a vertex in front of its
+// plane and reaches above its lowest vertex. Four distant poles, one in each quadrant and reaching
+// as far down as up, have an end in front of any plane. They are so narrow that rays of daylighting
+// and of solar reflections do not meet them. EnergyPlus also checks transmittance schedules to
+// decide how often it needs the sky's shading: each of `schedules` gets a placeholder of its own.
+// Names differ from all of `taken`.
+std::vector<Placeholder> make_placeholders(std::vector<std::string> const& schedules,
+                                           Names const& taken);
+
+// One with a schedule of our own that varies. With DetailedSkyDiffuseModeling, EnergyPlus
+// recomputes the sky's shading at every timestep only if the transmittance schedule of some shading
+// surface varies. (EnergyPlus 25.2 does not notice schedules that are lowest at the start of the
+// day, so that a model's own schedule will not do.)
+Placeholder make_sky_placeholder(Names const& taken);
+
+// Whether there is one, so that its schedule has to be added to the model.
+bool needs_sky_schedule(std::vector<Placeholder> const& placeholders);
+std::string sky_schedule_idf();
+void add_sky_schedule(nlohmann::json& model);
+
+// The fields of the Shading:Site:Detailed object: name, schedule, number of vertices, coordinates.
+std::vector<std::string> placeholder_fields(Placeholder const& placeholder);
+nlohmann::json placeholder_json(Placeholder const& placeholder);
+
+inline constexpr char const* placeholder_type = "Shading:Site:Detailed";
+
+}  // namespace gpu_shading::energyplus

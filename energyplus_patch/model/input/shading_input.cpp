@@ -1,0 +1,262 @@
+#include "model/input/shading_input.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <regex>
+#include <vector>
+
+#include "gpu_shading/error.h"
+#include "platform/text.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+bool is_shading(std::string_view type) {
+  return type.starts_with("Shading:") && !type.starts_with("ShadingProperty");
+}
+
+bool yes(InputObject const& object, std::string const& field) {
+  return same_name(object[field], "Yes");
+}
+
+bool is_exterior(InputObject const& object) {
+  for (std::string_view const kind :
+       {":Adiabatic", ":Underground", ":Interzone", ":GroundContact"}) {
+    if (object.type.ends_with(kind)) return false;
+  }
+  auto const& boundary = object["outside_boundary_condition"];
+  return boundary.empty() || same_name(boundary, "Outdoors") ||
+         same_name(boundary, "OtherSideConditionsModel");
+}
+
+// The leading "major.minor" of a version.
+std::string release(std::string_view version) {
+  auto const dot = version.find('.');
+  if (dot == std::string_view::npos) return std::string(version);
+  auto const second = version.find_first_not_of("0123456789", dot + 1);
+  return std::string(version.substr(0, second));
+}
+
+void read_shadow_calculation(InputObject const& object, ShadingInput& input) {
+  input.shading_method = object["shading_calculation_method"];
+  // Tools write a resolution beside PolygonClipping, without meaning it.
+  auto const& text = object["pixel_counting_resolution"];
+  if (!text.empty() && same_name(input.shading_method, "PixelCounting")) {
+    constexpr int most = 65536;
+    auto const value = parse_number(text);
+    if (!value || *value < 1.0 || *value > most) {
+      throw Error(
+          fmt::format("ShadowCalculation: Pixel Counting Resolution is {}, expected a number from "
+                      "1 to {}",
+                      in_quotes(text), most));
+    }
+    input.pixel_counting_resolution = static_cast<int>(*value);
+  }
+  input.every_timestep =
+      same_name(object["shading_calculation_update_frequency_method"], "Timestep");
+  constexpr double least_days = 1.0;
+  constexpr double most_days = 366.0;
+  auto const days = parse_number(object["shading_calculation_update_frequency"]);
+  if (days) {
+    input.update_days = static_cast<int>(std::clamp(*days, least_days, most_days));
+  }
+  input.detailed_sky =
+      same_name(object["sky_diffuse_modeling_algorithm"], "DetailedSkyDiffuseModeling");
+  input.disable_within_groups = yes(object, "disable_self_shading_within_shading_zone_groups");
+  input.disable_between_groups =
+      yes(object, "disable_self_shading_from_shading_zone_groups_to_other_zones");
+  if (yes(object, "output_external_shading_calculation_results")) input.all_shading_wanted = true;
+  for (auto const& group : object.list) {
+    if (!group.empty()) input.shading_zone_groups.push_back(upper(group));
+  }
+}
+
+void read_shading_surface(InputObject const& object, ShadingInput& input) {
+  ShadingInput::ShadingSurface surface;
+  surface.type = object.type;
+  surface.transmittance_schedule = upper(object["transmittance_schedule_name"]);
+  auto const name = upper(object.name);
+  if (object.type.starts_with("Shading:Fin")) {
+    // EnergyPlus creates two surfaces from one object, with these names.
+    input.shading_surfaces[name + " Left"] = surface;
+    input.shading_surfaces[name + " Right"] = surface;
+  } else {
+    input.shading_surfaces[name] = surface;
+  }
+}
+
+// A share of a ShadingProperty:Reflectance, 0 .. 1. EnergyPlus itself refuses other values.
+double share(InputObject const& object, std::string_view field, double blank) {
+  return std::clamp(parse_number(object[field]).value_or(blank), 0.0, 1.0);
+}
+
+// The properties may stand before their surface.
+void read_reflectances(std::vector<InputObject> const& objects, ShadingInput& input) {
+  for (auto const& object : objects) {
+    if (object.type != "ShadingProperty:Reflectance") continue;
+    auto const surface = input.shading_surfaces.find(upper(object["shading_surface_name"]));
+    if (surface == input.shading_surfaces.end()) continue;
+    surface->second.reflectance =
+        share(object, "diffuse_solar_reflectance_of_unglazed_part_of_shading_surface", 0.2);
+    surface->second.visible_reflectance =
+        share(object, "diffuse_visible_reflectance_of_unglazed_part_of_shading_surface", 0.2);
+    surface->second.glazed = share(object, "fraction_of_shading_surface_that_is_glazed", 0.0);
+  }
+}
+
+// What outputs and EMS sensors name.
+struct Named {
+  std::set<std::string> names;  // upper case
+  std::vector<std::regex> patterns;
+
+  bool contains(std::string const& name) const {
+    return names.contains(upper(name)) ||
+           std::any_of(patterns.begin(), patterns.end(),
+                       [&](std::regex const& pattern) { return std::regex_match(name, pattern); });
+  }
+};
+
+// Whether the values of an output variable depend on the sunlit fraction of its surface.
+bool depends_on_shading(std::string_view variable) {
+  // EnergyPlus reports these of shading surfaces too.
+  constexpr std::array<std::string_view, 4> starts{
+      "Surface Outside Face Sunlit ", "Surface Outside Face Incident ", "Surface Anisotropic Sky ",
+      "Debug Surface Solar Shading Model "};
+  return std::any_of(starts.begin(), starts.end(), [&](std::string_view start) {
+    return same_name(variable.substr(0, start.size()), start);
+  });
+}
+
+// Tables have rows for all surfaces.
+void read_table(InputObject const& object, ShadingInput& input) {
+  input.all_surfaces_shown =
+      input.all_surfaces_shown ||
+      std::any_of(object.list.begin(), object.list.end(), depends_on_shading);
+}
+
+// EnergyPlus treats the key of an output as a regular expression if it looks like one.
+void read_output(InputObject const& object, ShadingInput& input, Named& named) {
+  auto const& key = object["key_value"];
+  if (key.empty() || key == "*") {
+    input.all_surfaces_shown =
+        input.all_surfaces_shown || depends_on_shading(object["variable_name"]);
+  } else if (key.find_first_of("^$.|?*+()[]{}\\") == std::string::npos) {
+    named.names.insert(upper(key));
+  } else if (is_surface_output(object)) {
+    try {
+      named.patterns.emplace_back(key, std::regex::icase | std::regex::optimize);
+    } catch (std::regex_error const&) {
+      input.unreadable_key =
+          fmt::format("{}: Key Value is \"{}\", which is not a valid pattern", object.type, key);
+      input.all_shading_wanted = true;
+    }
+    named.names.insert(upper(key));
+  }
+}
+
+constexpr std::string_view mirrored_prefix = "Mir-";
+
+}  // namespace
+
+std::string mirrored_name(std::string const& shading_surface) {
+  return std::string(mirrored_prefix) + shading_surface;
+}
+
+bool is_mirrored(std::string const& surface) { return surface.starts_with(mirrored_prefix); }
+
+bool is_surface_output(InputObject const& object) {
+  constexpr std::string_view start = "Surface ";
+  auto const& variable = object["variable_name"];
+  return object.type == "Output:Variable" && variable.size() > start.size() &&
+         same_name(std::string_view(variable).substr(0, start.size()), start);
+}
+
+Casting ShadingInput::casting(std::string const& surface) const {
+  if (base_of.contains(surface) || not_exterior.contains(surface)) return Casting::never;
+  return zone_of.contains(surface) ? Casting::turned_away : Casting::always;
+}
+
+bool ShadingInput::mirrored_shown() const {
+  return all_surfaces_shown || !unreadable_key.empty() ||
+         std::any_of(wanted_shading.begin(), wanted_shading.end(), is_mirrored);
+}
+
+std::string ShadingInput::base_surface(std::string const& surface) const {
+  auto const base = base_of.find(surface);
+  return base == base_of.end() ? surface : base->second;
+}
+
+bool ShadingInput::receives(std::string const& surface) const {
+  if (shading_surfaces.contains(surface) || is_mirrored(surface)) return wants(surface);
+  return !not_exterior.contains(base_surface(surface));
+}
+
+ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
+  ShadingInput input;
+  Named named;
+  bool shadow_calculation_read = false;
+  for (auto const& object : objects) {
+    if (object.type == "Version") {
+      input.version = object["version_identifier"];
+    } else if (object.type == "Building") {
+      auto const distribution = upper(object["solar_distribution"]);
+      input.minimal_shadowing = distribution == "MINIMALSHADOWING";
+      input.reflections = distribution.ends_with("WITHREFLECTIONS");
+    } else if (object.type == "ShadowCalculation") {
+      // EnergyPlus uses the first one and warns about the others.
+      if (!shadow_calculation_read) read_shadow_calculation(object, input);
+      shadow_calculation_read = true;
+    } else if (object.type == "ZoneList") {
+      auto& zones = input.zone_lists[upper(object.name)];
+      for (auto const& zone : object.list) {
+        if (!zone.empty()) zones.insert(upper(zone));
+      }
+    } else if (is_shading(object.type)) {
+      read_shading_surface(object, input);
+    } else if (object.fields.contains("zone_name")) {
+      input.zone_of[upper(object.name)] = upper(object["zone_name"]);
+      if (!is_exterior(object)) input.not_exterior.insert(upper(object.name));
+    } else if (object.fields.contains("building_surface_name")) {
+      input.base_of[upper(object.name)] = upper(object["building_surface_name"]);
+    } else if (object.fields.contains("surface_name") && !is_extension(object.type)) {
+      named.names.insert(upper(object["surface_name"]));
+    } else if (object.type == "DaylightingDevice:Shelf") {
+      named.names.insert(upper(object["outside_shelf_name"]));
+    } else if (object.type == "Output:Variable" || object.type == "Output:Table:TimeBins") {
+      read_output(object, input, named);
+    } else if (object.type == "Output:Table:Monthly" || object.type == "Output:Table:Annual") {
+      read_table(object, input);
+    } else if (object.type == "EnergyManagementSystem:Actuator") {
+      input.actuated.insert(upper(object["actuated_component_unique_name"]));
+    } else if (object.type == "EnergyManagementSystem:Sensor") {
+      named.names.insert(upper(object["output_variable_or_output_meter_index_key_name"]));
+    }
+  }
+  read_reflectances(objects, input);
+  for (auto const& [name, surface] : input.shading_surfaces) {
+    for (auto const& each : {name, mirrored_name(name)}) {
+      if (named.contains(each)) input.wanted_shading.insert(each);
+    }
+  }
+  return input;
+}
+
+void check_supported(ShadingInput const& input, std::string_view version) {
+  if (!input.version.empty() && release(input.version) != release(version)) {
+    throw Error(
+        fmt::format("Version: Version Identifier is {}, this EnergyPlus is {}: bring the model up "
+                    "to date first "
+                    "(IDFVersionUpdater)",
+                    input.version, release(version)));
+  }
+  if (same_name(input.shading_method, "Scheduled") || same_name(input.shading_method, "Imported")) {
+    throw Error(fmt::format(
+        "ShadowCalculation: Shading Calculation Method is {}: this model brings its own sunlit "
+        "fractions, which --gpu-shading would replace; run it without the flag",
+        input.shading_method));
+  }
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gpu_shading/transmittance.h"
+#include "model/idf/input_object.h"
+#include "model/input/shading_input.h"
+
+namespace gpu_shading::energyplus {
+
+// The GPUShading:TransparentShade of a surface.
+struct TransparentShade {
+  std::string object;       // its name
+  std::string description;  // description of the model, e.g. "construction Double Clear"
+  std::shared_ptr<Transmittance const> transmittance;  // for solar radiation
+  std::shared_ptr<Transmittance const> visible;        // for light; may be the same object
+};
+
+struct TransparentShades {
+  std::map<std::string, TransparentShade> by_surface;  // upper-case names
+  std::vector<std::string> warnings;
+};
+
+// Reads every GPUShading:TransparentShade of a model. `folder`: where relative file names start.
+// Throws Error, naming object, field and value, for a pattern that matches no shading surface, a
+// surface named twice, a transmittance model that is invalid or leaves 0 .. 1, or a construction or
+// material that cannot be used.
+TransparentShades read_transparent_shades(std::vector<InputObject> const& objects,
+                                          ShadingInput const& input,
+                                          std::filesystem::path const& folder);
+
+}  // namespace gpu_shading::energyplus

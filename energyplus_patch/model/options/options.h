@@ -1,0 +1,127 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "files/asset_folder.h"
+#include "gpu_shading/device.h"
+#include "gpu_shading/sampled_sunlit.h"
+#include "model/idf/input_object.h"
+#include "model/input/shading_input.h"
+
+namespace gpu_shading::energyplus {
+
+enum class Mode {
+  automatic,  // a GPU if there is one, otherwise software with a warning
+  require,    // an error if there is no GPU
+  off,        // EnergyPlus's PolygonClipping, with extension objects removed
+};
+
+// Whether shading surfaces that only cast shadows are left out of EnergyPlus's input.
+enum class Lean {
+  automatic,  // if there are many
+  on,         // for any number
+  off,
+};
+
+// When shading is calculated.
+struct Update {
+  bool every_timestep = false;  // if false: as often as the model asks
+  // At every timestep, interpolated between samples of the sun's positions.
+  std::optional<Sampling> sampling = std::nullopt;
+
+  bool operator==(Update const&) const = default;
+};
+
+// How sunlit fractions reach EnergyPlus.
+enum class Method {
+  automatic,  // the first of these that the library allows
+  patched,    // its shading functions are redirected to ours
+  opengl,     // it counts pixels, and its calls of OpenGL are answered
+  scheduled,  // as schedules, rendered before the run
+};
+
+// The user's choices from one source; choices that it does not make are empty.
+struct Choices {
+  std::optional<Mode> mode;
+  // Resolution or target error; at most one of them.
+  std::optional<int> resolution;
+  std::optional<double> error = std::nullopt;
+  std::optional<Update> update;
+  std::optional<DeviceChoice> device;
+  std::optional<std::filesystem::path> file;
+  std::optional<std::filesystem::path> report;
+  std::optional<std::filesystem::path> cache = std::nullopt;  // empty: off
+  // The folder where relative file names in the model start, set by the launcher; empty: the
+  // model's folder.
+  std::optional<std::filesystem::path> folder = std::nullopt;
+  // Where the user started EnergyPlus, if the launcher starts it in another folder.
+  std::optional<std::filesystem::path> start = std::nullopt;
+  std::optional<Lean> lean;
+  // Not in GPUShading:Settings: a model does not widen what is read for it.
+  std::optional<Assets> assets = std::nullopt;
+  std::optional<Method> method = std::nullopt;
+  std::optional<int> threads = std::nullopt;
+  std::optional<bool> quiet = std::nullopt;
+  // For compare_shading: gets the table of where the time went.
+  std::optional<std::filesystem::path> stages = std::nullopt;
+  // For the gpu_shading program: EnergyPlus is run for the task in this file alone (task_file.h).
+  std::optional<std::filesystem::path> task = std::nullopt;
+
+  // Fills empty choices from a source of lower precedence. If one of resolution and error is set,
+  // the lower source sets neither.
+  void fill_from(Choices const& lower);
+  bool any() const;
+};
+
+// Removes our flags from `arguments` (both "--flag=value" and "--flag value", except for
+// --gpu-shading, whose value needs the equals sign). Throws Error for an unknown flag of ours or an
+// invalid value.
+Choices take_flags(std::vector<std::string>& arguments);
+
+// The value as in the flag.
+std::string name_of(Mode mode);
+std::string name_of(Update const& update);
+std::string name_of(DeviceChoice const& device);
+std::string name_of(Lean lean);
+std::string name_of(Method method);
+std::string name_of(Assets assets);
+
+// The inverse of take_flags().
+std::vector<std::string> to_flags(Choices const& choices);
+
+// Applies threads and quiet, which hold for the whole process.
+void apply_to_process(Choices const& choices);
+
+// GPU_SHADING, GPU_SHADING_RESOLUTION, ...; empty variables count as unset.
+Choices read_environment();
+
+// GPUShading:Settings. Throws Error if a value cannot be used.
+Choices read_settings(std::vector<InputObject> const& objects);
+
+// The resolved options of a run.
+struct Options {
+  static constexpr double default_error = 1e-3;
+
+  Mode mode = Mode::automatic;
+  std::optional<int> resolution = std::nullopt;  // empty: determined by the error
+  double error = default_error;
+  Update update;
+  DeviceChoice device;
+  std::optional<std::filesystem::path> report;
+  Lean lean = Lean::automatic;
+  std::optional<std::filesystem::path> cache = std::nullopt;
+  std::optional<std::filesystem::path> stages = std::nullopt;
+};
+
+// Precedence: `choices` (command line, then environment), GPUShading:Settings, the model's Pixel
+// Counting Resolution, default. The first source that gives a resolution or an error decides both.
+Options resolve(Choices choices, Choices const& settings, ShadingInput const& input);
+
+// One line per flag, for --help.
+std::string_view flags_help();
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,267 @@
+#include "model/site/site_context.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+#include <utility>
+
+#include "gpu_shading/error.h"
+#include "gpu_shading/footprint.h"
+#include "gpu_shading/terrain.h"
+#include "model/extensions/extension_fields.h"
+#include "model/idf/fields.h"
+#include "model/site/building_file.h"
+#include "model/site/extent.h"
+#include "model/site/left_out.h"
+#include "model/site/terrain_file.h"
+#include "platform/naming.h"
+#include "platform/text.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+namespace field = extension::site_context;
+
+std::optional<MapCoordinates> read_map_coordinates(InputObject const& object,
+                                                   Field<std::string> const& coordinates) {
+  auto const text = read(object, coordinates);
+  if (text.empty()) return std::nullopt;
+  try {
+    return MapCoordinates::parse(text);
+  } catch (Error const& error) {
+    throw Error(fmt::format("{} is {}", coordinates.title, error.what()));
+  }
+}
+
+HeightRule read_heights(InputObject const& object) {
+  HeightRule rule;
+  rule.height = read(object, field::height_property);
+  rule.levels = read(object, field::levels_property);
+  rule.storey = read(object, field::storey_height);
+  rule.otherwise = read(object, field::default_height);
+  return rule;
+}
+
+// One object with the contents of its files.
+struct Context {
+  std::string name;
+  std::string file;  // file of buildings, as the user wrote it
+  std::optional<BuildingFile> buildings;
+  std::optional<TerrainGrid> terrain;
+  double clear_distance = 0.0;
+  std::vector<std::string> left_out;
+};
+
+Context read_context(InputObject const& object, std::filesystem::path const& folder) {
+  Context context;
+  context.name = object.name;
+  context.left_out = read(object, field::left_out_name);
+  auto const buildings = read(object, field::buildings_file_name);
+  auto const terrain = read(object, field::terrain_file_name);
+  if (buildings.empty() && terrain.empty()) {
+    throw Error(fmt::format("{} and {} are blank, expected one of them or both",
+                            field::buildings_file_name.title, field::terrain_file_name.title));
+  }
+  if (buildings.empty()) {
+    expect_blank(object,
+                 {field::buildings_coordinates, field::height_property, field::levels_property,
+                  field::storey_height, field::default_height},
+                 "without Buildings File Name");
+  } else {
+    auto const coordinates = read_map_coordinates(object, field::buildings_coordinates);
+    auto const heights = read_heights(object);
+    context.file = buildings;
+    context.buildings = naming(field::buildings_file_name.title, [&] {
+      return read_buildings(folder / buildings, heights, coordinates);
+    });
+  }
+  if (terrain.empty()) {
+    expect_blank(object, {field::terrain_coordinates, field::terrain_clear_distance},
+                 "without Terrain File Name");
+  } else {
+    auto const coordinates = read_map_coordinates(object, field::terrain_coordinates);
+    context.clear_distance = read(object, field::terrain_clear_distance).value_or(0.0);
+    context.terrain = naming(field::terrain_file_name.title,
+                             [&] { return read_terrain(folder / terrain, coordinates); });
+  }
+  return context;
+}
+
+// Elevation of the ground below a building: the lowest of its corners, so that no side is in the
+// air. Corners where the terrain has no data are ignored.
+double ground_below(Footprint const& part, TerrainGrid const& terrain) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (auto const& corner : part.outline) {
+    if (auto const elevation = elevation_at(terrain, corner)) {
+      lowest = std::min(lowest, *elevation);
+    }
+  }
+  if (std::isinf(lowest)) {
+    throw Error("none of its corners is on the terrain, expected ground below every building");
+  }
+  return lowest;
+}
+
+// Creates the casters of one context.
+class Builder {
+ public:
+  Builder(Context const& context, SiteOrigin const& origin, Surroundings& surroundings)
+      : context_(context), origin_(origin), axes_(origin.place), surroundings_(surroundings) {}
+
+  void build() {
+    if (context_.terrain) {
+      naming(field::terrain_file_name.title, [&] { add_terrain(*context_.terrain); });
+    }
+    if (context_.buildings) {
+      naming(field::buildings_file_name.title, [&] { add_buildings(*context_.buildings); });
+    }
+    constexpr double near = 5e4;  // m
+    if (extent_.distance() > near) {
+      surroundings_.warnings.push_back(
+          fmt::format("{} {}: all of it is farther than {:.0f} km from the model: check the "
+                      "origin, and that each position gives the longitude first",
+                      field::type, context_.name, near / 1000.0));
+    }
+    surroundings_.remarks.push_back(fmt::format("{} {}: {}; {}; origin {}", field::type,
+                                                context_.name, described_, extent_.describe(),
+                                                describe_origin()));
+  }
+
+ private:
+  void add(std::string const& name, Polygon polygon) {
+    extent_.include(polygon.outline);
+    OutsideCaster caster;
+    caster.surface.name = name;
+    caster.surface.polygon = std::move(polygon);
+    surroundings_.casters.push_back(std::move(caster));
+  }
+
+  void add_name(std::string const& name) {
+    surroundings_.types.try_emplace(name, std::string(field::type));
+  }
+
+  void describe(std::string const& part) { described_ += (described_.empty() ? "" : ", ") + part; }
+
+  void add_terrain(TerrainGrid const& terrain) {
+    auto const name = upper(context_.name) + ":TERRAIN";
+    add_name(name);
+    auto polygons = ground(terrain, axes_, context_.clear_distance);
+    describe(fmt::format("terrain of {} x {} nodes ({} cells drawn{})", terrain.columns,
+                         terrain.rows, polygons.size(), describe_north(terrain.coordinates)));
+    surroundings_.casters.reserve(surroundings_.casters.size() + polygons.size());
+    for (auto& polygon : polygons) add(name, std::move(polygon));
+    warn_of_elevation(terrain);
+  }
+
+  std::string describe_north(MapCoordinates const& coordinates) const {
+    if (coordinates.geographic()) return {};
+    double const turned = coordinates.convergence(coordinates.from_geographic(origin_.place));
+    return fmt::format(", {}: grid north {:.3f} degrees {} of true north", coordinates.name(),
+                       std::abs(turned), turned < 0.0 ? "west" : "east");
+  }
+
+  void warn_of_elevation(TerrainGrid const& terrain) {
+    auto const there = elevation_at(terrain, origin_.place);
+    constexpr double alike = 5.0;  // m
+    if (!there || std::abs(*there - origin_.place.elevation) <= alike) return;
+    surroundings_.warnings.push_back(
+        fmt::format("{} {}: at the origin the terrain is at {:.1f} m, the model's ground at {:.1f} "
+                    "m: give Origin Elevation, or Terrain for it",
+                    field::type, context_.name, *there, origin_.place.elevation));
+  }
+
+  void add_buildings(BuildingFile const& file) {
+    std::size_t drawn = 0;
+    std::size_t faces = 0;
+    std::size_t left_out = 0;
+    for (auto const& building : file.buildings) {
+      if (is_left_out(context_.left_out, building.name)) {
+        ++left_out;
+        continue;
+      }
+      auto const name = upper(context_.name + ":" + building.name);
+      add_name(name);
+      ++drawn;
+      for (auto part : building.parts) {
+        faces += naming(fmt::format("{}: {}", context_.file, building.label),
+                        [&] { return add_part(name, std::move(part)); });
+      }
+    }
+    describe(
+        fmt::format("{} building{} ({} walls and roofs{}{}{})", drawn, drawn == 1 ? "" : "s", faces,
+                    left_out == 0 ? "" : fmt::format(", {} left out", left_out),
+                    file.others == 0 ? "" : fmt::format(", {} features without area", file.others),
+                    describe_north(file.coordinates)));
+  }
+
+  std::size_t add_part(std::string const& name, Footprint part) {
+    double const below =
+        context_.terrain ? ground_below(part, *context_.terrain) : origin_.place.elevation;
+    part.base += below;
+    part.top += below;
+    auto faces = upright_prism(part, axes_);
+    double base = std::numeric_limits<double>::infinity();
+    for (auto const& corner : faces[1].outline) base = std::min(base, corner.z);
+    surroundings_.buildings.push_back({name, faces[0], base});
+    for (auto& face : faces) add(name, std::move(face));
+    return faces.size();
+  }
+
+  std::string describe_origin() const {
+    return fmt::format("{:.6f} {} {:.6f} {} {:.1f} m ({})", std::abs(origin_.place.latitude),
+                       origin_.place.latitude < 0.0 ? "S" : "N", std::abs(origin_.place.longitude),
+                       origin_.place.longitude < 0.0 ? "W" : "E", origin_.place.elevation,
+                       origin_.source);
+  }
+
+  Context const& context_;
+  SiteOrigin const& origin_;
+  LocalAxes axes_;
+  Surroundings& surroundings_;
+  Extent extent_;
+  std::string described_;
+};
+
+void stand_on_terrain(std::vector<Context> const& contexts, SiteOrigin& origin) {
+  for (auto const& context : contexts) {
+    if (!context.terrain) continue;
+    if (auto const elevation = elevation_at(*context.terrain, origin.place)) {
+      origin.place.elevation = *elevation;
+      origin.source += ", at the terrain's elevation";
+      return;
+    }
+  }
+  throw Error(
+      fmt::format("{}: Origin Elevation is Terrain, but no terrain has data at latitude {}, "
+                  "longitude {}",
+                  field::type, origin.place.latitude, origin.place.longitude));
+}
+
+}  // namespace
+
+void read_site_contexts(std::vector<InputObject> const& objects,
+                        std::filesystem::path const& folder, SiteOrigin& origin,
+                        Surroundings& surroundings) {
+  std::vector<Context> contexts;
+  for (auto const& object : objects) {
+    if (object.type != field::type) continue;
+    naming(object.where(), [&] {
+      contexts.push_back(read_context(object, folder));
+      constexpr double tallest_storey = 20.0;
+      constexpr double tallest_building = 1000.0;
+      auto const odd = lengths_beyond(object, {{field::storey_height, tallest_storey},
+                                               {field::default_height, tallest_building}});
+      surroundings.warnings.insert(surroundings.warnings.end(), odd.begin(), odd.end());
+    });
+  }
+  if (origin.at_terrain) stand_on_terrain(contexts, origin);
+  for (auto const& context : contexts) {
+    naming(fmt::format("{} {}", field::type, context.name),
+           [&] { Builder(context, origin, surroundings).build(); });
+  }
+}
+
+}  // namespace gpu_shading::energyplus

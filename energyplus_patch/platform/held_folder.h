@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "platform/ending_signals.h"
+
+namespace gpu_shading::energyplus {
+
+// A new folder of this process's own, deleted with the object, or by clean_up_at_signals(). If the
+// process is killed, the next object with the same parent and prefix deletes it: it holds a file
+// that says whose it is, locked for as long as the process lives. Folders without that file, of
+// other users or under other names are left alone.
+class HeldFolder {
+ public:
+  // In an existing folder, under `prefix` and eight hexadecimal digits. Throws Error: "PARENT:
+  // cannot be written (why)".
+  HeldFolder(std::filesystem::path const& parent, std::string_view prefix);
+  HeldFolder(HeldFolder const&) = delete;
+  HeldFolder& operator=(HeldFolder const&) = delete;
+  ~HeldFolder();
+
+  std::filesystem::path const& path() const { return path_; }
+
+  static constexpr char const* lock_name = ".lock";
+
+ private:
+  bool make(std::filesystem::path const& parent, std::string_view prefix);
+
+  std::filesystem::path path_;
+  std::optional<FolderAtSignals> at_signals_;
+  std::shared_ptr<void> held_;  // what this platform locks
+};
+
+}  // namespace gpu_shading::energyplus

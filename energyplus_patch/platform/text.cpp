@@ -1,0 +1,161 @@
+#include "platform/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+namespace gpu_shading::energyplus {
+namespace {
+
+char upper(char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); }
+
+// Whether a byte of UTF-8 belongs to the character before it.
+bool continues(char byte) { return (static_cast<unsigned char>(byte) & 0xc0U) == 0x80; }
+
+// Adds the byte text[i], escaped if it is part of a control character.
+void add_escaped(std::string_view text, std::size_t i, std::string& line) {
+  auto const byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
+  bool const is_c1 = (i > 0 && byte(i - 1) == 0xc2 && byte(i) < 0xa0) ||
+                     (byte(i) == 0xc2 && i + 1 < text.size() && byte(i + 1) < 0xa0);
+  if (text[i] == '\n') {
+    line += "\\n";
+  } else if (byte(i) < 0x20 || byte(i) == 0x7f || is_c1) {
+    line += fmt::format("\\x{:02x}", static_cast<unsigned>(byte(i)));
+  } else {
+    line += text[i];
+  }
+}
+
+}  // namespace
+
+std::string upper(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(), [](char c) { return upper(c); });
+  return result;
+}
+
+bool same_name(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return upper(x) == upper(y); });
+}
+
+bool matches(std::string_view pattern, std::string_view name) {
+  constexpr auto none = std::string_view::npos;
+  std::size_t at = 0;       // in the pattern
+  std::size_t star = none;  // the last star before it,
+  std::size_t taken = 0;    // and the end of what that star stands for
+  for (std::size_t i = 0; i < name.size();) {
+    if (at < pattern.size() && pattern[at] == '*') {
+      star = at++;
+      taken = i;
+    } else if (at < pattern.size() && upper(pattern[at]) == upper(name[i])) {
+      ++at;
+      ++i;
+    } else if (star != none) {
+      // Earlier stars need not be tried again: what follows them was found at the first place.
+      at = star + 1;
+      i = ++taken;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', at) == none;
+}
+
+std::optional<double> parse_number(std::string const& text) {
+  // from_chars does not accept a plus sign.
+  bool const plus = text.starts_with('+') && !text.starts_with("+-");
+  char const* const begin = text.data() + (plus ? 1 : 0);
+  char const* const end = text.data() + text.size();
+  double value = 0.0;
+  auto const [parsed, error] = std::from_chars(begin, end, value);
+  if (error != std::errc{} || parsed != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::string trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  auto const first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
+}
+
+std::vector<std::string> comma_separated(std::string const& line) {
+  std::vector<std::string> fields;
+  std::istringstream text(line);
+  for (std::string field; std::getline(text, field, ',');) fields.push_back(trimmed(field));
+  return fields;
+}
+
+std::string printable(std::string_view text) {
+  constexpr std::size_t most = 80;
+  std::string line;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    // Not within a character of UTF-8.
+    if (line.size() >= most && !continues(text[i])) return line + "...";
+    add_escaped(text, i, line);
+  }
+  return line;
+}
+
+std::string one_line(std::string_view message) {
+  constexpr std::size_t most = 2000;
+  constexpr std::size_t start = 1200;
+  std::string line;
+  for (std::size_t i = 0; i < message.size(); ++i) {
+    if (message[i] == '\n') {
+      // Lists, of which each item has a line, are indented.
+      auto const next = std::min(message.find_first_not_of(" \t\r\n", i), message.size());
+      if (!line.empty() && line.back() != ' ' && next < message.size()) line += ' ';
+      i = next - 1;
+    } else {
+      add_escaped(message, i, line);
+    }
+  }
+  if (line.size() <= most) return line;
+  auto from = start;
+  auto to = line.size() - (most - start);
+  while (from > 0 && continues(line[from])) --from;
+  while (to < line.size() && continues(line[to])) ++to;
+  return line.substr(0, from) + " ... " + line.substr(to);
+}
+
+std::string without_controls(std::string_view text) {
+  std::string escaped;
+  escaped.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\n') {
+      escaped += '\n';
+    } else {
+      add_escaped(text, i, escaped);
+    }
+  }
+  return escaped;
+}
+
+std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", printable(text)); }
+
+std::string csv_quoted(std::string_view text) {
+  constexpr std::string_view formula = "=+-@\t\r";
+  bool const is_formula = !text.empty() && formula.find(text.front()) != std::string_view::npos;
+  std::string field = "\"";
+  if (is_formula && !parse_number(std::string(text))) field += '\'';
+  for (char const letter : text) {
+    if (letter == '"') field += '"';
+    field += letter;
+  }
+  return field + '"';
+}
+
+std::string csv_field(std::string_view text) {
+  auto quoted = csv_quoted(text);
+  bool const same = quoted.size() == text.size() + 2;
+  return same && text.find_first_of(",\"\r\n") == std::string_view::npos ? std::string(text)
+                                                                         : quoted;
+}
+
+}  // namespace gpu_shading::energyplus

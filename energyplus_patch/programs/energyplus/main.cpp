@@ -1,0 +1,250 @@
+// energyplus: runs the official program or, with --gpu-shading, EnergyPlus's own library with its
+// shading calculation redirected.
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "answers/cache_folder.h"
+#include "gpu_shading/error.h"
+#include "model/idf/model_file.h"
+#include "model/model_reader.h"
+#include "model/options/command_line.h"
+#include "model/options/report_folder.h"
+#include "platform/console.h"
+#include "platform/ending_signals.h"
+#include "platform/error_line.h"
+#include "platform/process.h"
+#include "platform/text.h"
+#include "programs/energyplus/expansion_folder.h"
+#include "runs/installation.h"
+#include "runs/refused_run.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using Path = std::filesystem::path;
+
+constexpr char const* official_program = "energyplus-official";
+constexpr char const* patch_library = "libgpu_shading_energyplus.so";
+
+void* load(Path const& library) {
+  // RTLD_LOCAL: symbols of one library must not resolve to another's (EnergyPlus contains an old
+  // expat and sqlite, which Mesa would bind to).
+  void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) throw Error(dlerror());
+  return handle;
+}
+
+template <typename Function>
+Function* find(void* library, char const* name) {
+  void* const function = dlsym(library, name);
+  if (function == nullptr) throw Error(dlerror());
+  return reinterpret_cast<Function*>(function);
+}
+
+// The same calls as in EnergyPlus's own program.
+using RunEnergyPlus = int(std::vector<std::string> const&, std::string const&);
+constexpr char const* run_energyplus =
+    "_Z13EnergyPlusPgmRKSt6vectorINSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEESaIS5_EERKS5"
+    "_";
+
+// For a folder created from an installation without a program.
+[[noreturn]] void run_library(char** argv) {
+  std::vector<std::string> arguments;
+  for (char** argument = argv; *argument != nullptr; ++argument) arguments.emplace_back(*argument);
+  void* const library = load(find_energyplus_library(own_folder()));
+  std::exit(find<RunEnergyPlus>(library, run_energyplus)(arguments, {}));
+}
+
+[[noreturn]] void run_official(char** argv) {
+  auto const program = std::filesystem::weakly_canonical(own_folder() / official_program);
+  if (!std::filesystem::exists(program)) run_library(argv);
+  execv(program.c_str(), argv);
+  throw Error(
+      fmt::format("{}: {}; {}", program.string(), std::strerror(errno), how_to_restore(program)));
+}
+
+// Errors in the model are reported before anything is written. What it chooses is added to the
+// user's choices, so that the module can check the device before EnergyPlus starts.
+void check_model(Path const& path, Choices& choices) {
+  if (!std::filesystem::exists(path) || (!is_idf(path) && !is_epjson(path))) return;
+  auto const model = read_model(path, choices);
+  if (model.options.mode != Mode::off) {
+    check_supported(model.shading, read_version(own_folder()));
+    if (model.options.cache) prepare_cache_folder(*model.options.cache);
+    if (model.options.report && !choices.task) prepare_report(*model.options.report);
+    choices.device = model.options.device;
+    choices.resolution = model.options.resolution;
+  }
+}
+
+// EnergyPlus writes the objects that it reads, from which ours have been taken out.
+void check_conversion(Path const& path) {
+  if (!std::filesystem::exists(path) || (!is_idf(path) && !is_epjson(path))) return;
+  for (InputObject const& object : read_objects(path)) {
+    if (!same_name(std::string_view(object.type).substr(0, extension_prefix.size()),
+                   extension_prefix)) {
+      continue;
+    }
+    throw Error(
+        fmt::format("{}: {} would be lost in the conversion: expected it in {}.gpu-shading.idf",
+                    path.string(), object.type, path.stem().string()));
+  }
+}
+
+// As C has a list of words.
+class Words {
+ public:
+  explicit Words(std::vector<std::string> const& words) {
+    for (auto const& word : words) pointers_.push_back(word.c_str());
+  }
+
+  int count() const { return static_cast<int>(pointers_.size()); }
+  char const* const* data() const { return pointers_.data(); }
+
+ private:
+  std::vector<char const*> pointers_;
+};
+
+// Our module's functions, include/gpu_shading_energyplus.h.
+struct Module {
+  using Run = int(char const* library, int, char const* const* flags, int, char const* const*);
+
+  Module() {
+    void* const library = load(own_folder() / patch_library);
+    install = find<int(char const*, int, char const* const*)>(library, "gpu_shading_install");
+    run_opengl = find<Run>(library, "gpu_shading_run_opengl");
+    run_scheduled = find<Run>(library, "gpu_shading_run_scheduled");
+    message = find<char const*()>(library, "gpu_shading_message");
+    unwritten = find<char const*()>(library, "gpu_shading_unwritten");
+  }
+
+  int (*install)(char const*, int, char const* const*);
+  Run* run_opengl;
+  Run* run_scheduled;
+  char const* (*message)();
+  char const* (*unwritten)();
+};
+
+int run_scheduled(Path const& energyplus, Module const& module,
+                  std::vector<std::string> const& arguments, Words const& flags) {
+  Words const words(arguments);
+  int const status = module.run_scheduled(energyplus.c_str(), flags.count(), flags.data(),
+                                          words.count(), words.data());
+  if (status < 0) throw Error(module.message());
+  return status;
+}
+
+// Empty where the library or the model does not allow this; the module's message says why.
+std::optional<int> run_opengl(Path const& energyplus, Module const& module,
+                              std::vector<std::string> const& arguments, Words const& flags) {
+  constexpr int cannot_patch = -2;
+  Words const words(arguments);
+  int const status = module.run_opengl(energyplus.c_str(), flags.count(), flags.data(),
+                                       words.count(), words.data());
+  if (status == cannot_patch) return std::nullopt;
+  if (status < 0) throw Error(module.message());
+  return status;
+}
+
+// For a library whose shading functions cannot be redirected.
+int run_unpatched(Path const& energyplus, Module const& module,
+                  std::vector<std::string> const& arguments, Words const& flags, bool task) {
+  print_line(fmt::format("this EnergyPlus cannot be patched: {}", module.message()));
+  if (auto const status = run_opengl(energyplus, module, arguments, flags)) return *status;
+  if (task) throw Error(module.message());
+  print_line(fmt::format("sunlit fractions are passed as schedules: {}", module.message()));
+  return run_scheduled(energyplus, module, arguments, flags);
+}
+
+// The program's name and EnergyPlus's arguments.
+int run_shaded(char const* program, std::vector<std::string> arguments, Choices const& choices) {
+  auto const energyplus = find_energyplus_library(own_folder());
+  auto const texts = to_flags(choices);
+  Words const flags(texts);
+  auto const method = choices.method.value_or(Method::automatic);
+  Module const module;
+  if (method == Method::scheduled) return run_scheduled(energyplus, module, arguments, flags);
+  if (method == Method::opengl) {
+    if (auto const status = run_opengl(energyplus, module, arguments, flags)) return *status;
+    throw Error(module.message());
+  }
+
+  void* const library = load(energyplus);
+  constexpr int cannot_patch = 2;
+  int const installed = module.install(energyplus.c_str(), flags.count(), flags.data());
+  if (installed == cannot_patch && method == Method::automatic) {
+    return run_unpatched(energyplus, module, arguments, flags, choices.task.has_value());
+  }
+  if (installed != 0) throw Error(module.message());
+  arguments.insert(arguments.begin(), program);
+  int const status = find<RunEnergyPlus>(library, run_energyplus)(arguments, {});
+  // The user has been told why.
+  return status == EXIT_SUCCESS && *module.unwritten() != '\0' ? EXIT_FAILURE : status;
+}
+
+// `arguments`: of the program; our flags are taken out.
+int launch(std::vector<std::string>& arguments, char** argv) {
+  auto choices = take_flags(arguments);
+  auto const environment = read_environment();
+  if (!choices.any() && !environment.mode) run_official(argv);
+  choices.fill_from(environment);
+  apply_to_process(choices);
+
+  auto const line = read_command_line(arguments);
+  if (line.version) fmt::print("gpu_shading {}\n", GPU_SHADING_VERSION);
+  if (line.help) std::fputs(std::string(flags_help()).c_str(), stdout);
+  if (line.model) {
+    if (line.convert) check_conversion(*line.model);
+    check_model(*line.model, choices);
+    // A preprocessor (-x) passes another file to EnergyPlus, but files beside the user's model
+    // still apply.
+    choices.folder = std::filesystem::absolute(*line.model).parent_path();
+    choices.file = find_side_file(*line.model, choices);
+  }
+  std::optional<ExpansionFolder> expansion;
+  auto energyplus_arguments = arguments;
+  if (line.expand && line.model) {
+    expansion.emplace(energyplus_arguments, line);
+    choices.start = expansion->start();
+    if (choices.file) choices.file = *choices.start / *choices.file;
+  }
+  return run_shaded(argv[0], std::move(energyplus_arguments), choices);
+}
+
+}  // namespace
+}  // namespace gpu_shading::energyplus
+
+int main(int argc, char** argv) {
+  using namespace gpu_shading::energyplus;
+  auto const start = std::chrono::steady_clock::now();
+  catch_lack_of_memory();
+  clean_up_at_signals();
+  occupy_standard_descriptors();
+  std::filesystem::path folder;
+  std::optional<std::vector<std::string>> arguments;
+  try {
+    folder = own_folder();
+    arguments = arguments_of(argc, argv);
+    return launch(*arguments, argv);
+  } catch (std::exception const& error) {
+    auto const why = error_line(error);
+    std::fprintf(stderr, "gpu_shading: error: %s\n", why.c_str());
+    // Without its arguments, it is not known where a run's files belong.
+    if (arguments) {
+      report_refusal(*arguments, folder, why, std::chrono::steady_clock::now() - start);
+    }
+    return EXIT_FAILURE;
+  }
+}

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "model/options/options.h"
+#include "tasks/task.h"
+
+namespace gpu_shading::energyplus {
+
+// The model to run, and how.
+struct ModelRun {
+  std::filesystem::path model;                                  // IDF or epJSON
+  std::optional<std::filesystem::path> weather = std::nullopt;  // empty: one of EnergyPlus's own
+  Choices choices;
+};
+
+// Throws Error unless it is a file with the ending of a model.
+void require_model(std::filesystem::path const& model);
+
+// Has EnergyPlus, in a process of its own, read a model and hand over its surfaces, and a task done
+// with them. Throws Error: an error of the model, why the task could not be done, or how
+// EnergyPlus's process ended without a reply.
+TaskReply run_task(ModelRun const& run, Task const& task);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,330 @@
+#include "programs/gpu_shading/screen.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <glm/trigonometric.hpp>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "files/image_file.h"
+#include "files/picture_sheet.h"
+#include "gpu_shading/error.h"
+#include "model/extensions/extension_fields.h"
+#include "model/geometry_rules.h"
+#include "model/idf/model_file.h"
+#include "model/model_reader.h"
+#include "model/shading_outlines.h"
+#include "platform/console.h"
+#include "platform/file_names.h"
+#include "platform/files.h"
+#include "platform/nearest_word.h"
+#include "platform/process.h"
+#include "platform/staged_files.h"
+#include "platform/text.h"
+#include "programs/gpu_shading/model_run.h"
+#include "programs/gpu_shading/screen_bsdf.h"
+#include "programs/gpu_shading/screen_optics.h"
+#include "programs/gpu_shading/screen_plot.h"
+#include "programs/gpu_shading/tile_picture.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using Path = std::filesystem::path;
+namespace field = extension::perforated_screen;
+
+// One object of the model, and surfaces that it names.
+struct NamedScreen {
+  std::shared_ptr<ScreenMaker> maker;
+  std::vector<std::string> surfaces;
+};
+
+struct DescribedScreen {
+  NamedScreen named;
+  std::shared_ptr<PerforatedScreen const> screen;
+  std::string description;
+  double rotation = 0.0;  // degrees
+};
+
+// By their objects' names.
+std::map<std::string, NamedScreen> screens_of(PerforatedScreens const& screens) {
+  std::map<std::string, NamedScreen> named;
+  for (auto const& [surface, screen] : screens.by_surface) {
+    auto& entry = named[screen.maker->object()];
+    entry.maker = screen.maker;
+    entry.surfaces.push_back(surface);
+  }
+  return named;
+}
+
+std::vector<NamedScreen> choose(std::map<std::string, NamedScreen> const& screens,
+                                ScreenTask const& task) {
+  if (screens.empty()) {
+    throw Error(fmt::format("{}: has no {}", task.model.string(), field::type));
+  }
+  std::vector<NamedScreen> chosen;
+  std::vector<std::string> names;
+  for (auto const& [name, screen] : screens) {
+    names.push_back(name);
+    if (task.name.empty() || matches(task.name, name)) chosen.push_back(screen);
+  }
+  if (chosen.empty()) {
+    throw Error(fmt::format("{}: no {} matches {}{}", task.model.string(), field::type,
+                            in_quotes(task.name), did_you_mean(task.name, names)));
+  }
+  return chosen;
+}
+
+// Polygons by the upper-case names of their surfaces, as far as they are known without EnergyPlus.
+using Outlines = std::map<std::string, Polygon>;
+
+Outlines read_outlines(Path const& path, ShadingInput const& shading) {
+  auto const objects = read_objects(path);
+  if (!reason_against_outlines(objects).empty()) return {};
+  auto const rules = read_geometry_rules(objects);
+  Outlines outlines;
+  for (auto const& object : objects) {
+    if (auto outline = outline_of(object, shading, rules)) {
+      outlines[upper(object.name)].outline = std::move(outline->vertices);
+    }
+  }
+  return outlines;
+}
+
+DescribedScreen describe(NamedScreen const& named, Polygon const& surface) {
+  return {named, named.maker->make(surface), named.maker->describe(surface),
+          glm::degrees(named.maker->placement(surface).rotation)};
+}
+
+// A texture that covers each surface has another tile, and so another transmittance, for each size
+// of them. Surfaces of unknown size get a line each in `refused`.
+void describe_each(NamedScreen const& named, Outlines const& outlines,
+                   std::vector<DescribedScreen>& screens, std::vector<std::string>& refused) {
+  auto const first = screens.size();
+  for (auto const& name : named.surfaces) {
+    auto const outline = outlines.find(name);
+    if (outline == outlines.end()) {
+      refused.push_back(fmt::format(
+          "{}: {} and {} are blank, so that the tile has the size of {}, which only EnergyPlus "
+          "knows; give one of them",
+          named.maker->where(), field::tile_width.title, field::tile_height.title, name));
+      continue;
+    }
+    auto described = describe({named.maker, {name}}, outline->second);
+    auto const same = std::find_if(
+        screens.begin() + static_cast<std::ptrdiff_t>(first), screens.end(),
+        [&](DescribedScreen const& other) { return other.screen == described.screen; });
+    if (same == screens.end()) {
+      screens.push_back(std::move(described));
+    } else {
+      same->named.surfaces.push_back(name);
+    }
+  }
+}
+
+std::vector<DescribedScreen> describe(std::vector<NamedScreen> const& chosen, Path const& path,
+                                      ShadingInput const& shading) {
+  std::vector<DescribedScreen> screens;
+  std::vector<std::string> refused;
+  std::optional<Outlines> outlines;
+  for (auto const& named : chosen) {
+    if (named.maker->stretches()) {
+      if (!outlines) outlines = read_outlines(path, shading);
+      describe_each(named, *outlines, screens, refused);
+    } else {
+      screens.push_back(describe(named, {}));
+    }
+  }
+  if (screens.empty()) throw Error(refused.front());
+  for (auto const& line : refused) print_line("warning: " + line);
+  return screens;
+}
+
+constexpr std::array azimuths{0, 45, 90, 135};
+
+void print_table(PerforatedScreen const& screen) {
+  constexpr int step = 10;
+  constexpr int last = 80;
+  print_text(
+      fmt::format("{:>7}{:>10}{:>10}{:>10}{:>10}\n", "theta", "u (0)", "45", "v (90)", "135"));
+  for (int theta = 0; theta <= last; theta += step) {
+    print_text(fmt::format("{:>7}", theta));
+    for (auto const phi : azimuths) {
+      print_text(fmt::format("{:>10.4f}", transmittance(screen, theta, phi)));
+    }
+    print_text("\n");
+  }
+}
+
+std::string list(std::vector<std::string> const& surfaces) {
+  constexpr std::size_t most = 3;
+  auto const shown = std::min(surfaces.size(), most);
+  std::vector<std::string> names(shown);
+  std::transform(surfaces.begin(), surfaces.begin() + static_cast<std::ptrdiff_t>(shown),
+                 names.begin(), [](std::string const& name) { return printable(name); });
+  auto text = fmt::format("{}", fmt::join(names, ", "));
+  if (surfaces.size() > most) text += fmt::format(" and {} more", surfaces.size() - most);
+  return text;
+}
+
+void print(DescribedScreen const& described) {
+  auto const& screen = *described.screen;
+  print_text(fmt::format("{}\n", one_line(described.named.maker->where())));
+  print_text(fmt::format("  sheet          {}\n", one_line(described.description)));
+  print_text(fmt::format("  surfaces       {}\n", list(described.named.surfaces)));
+  print_text(fmt::format("  open fraction  {:.4f}\n", screen.open_fraction()));
+  double const cut_off = glm::degrees(screen.transmittance().cut_off());
+  constexpr double right_angle = 90.0;
+  if (screen.sheet().thickness > 0.0 && cut_off < right_angle) {
+    print_text(fmt::format(
+        "  cut-off        {:.1f} degrees from the normal: no beam passes beyond\n", cut_off));
+  }
+  if (described.rotation != 0.0) {
+    print_text(fmt::format(
+        "  rotation       u and v are rotated by {:g} degrees counterclockwise as seen from "
+        "outside\n",
+        described.rotation));
+  }
+  print_text("\n");
+  print_table(screen);
+}
+
+void print_legend() {
+  print_text(
+      "\nFraction of the beam that passes, tau, by angle of incidence from the normal, theta, and\n"
+      "azimuth about the normal, phi, in degrees. u (phi = 0) runs to the right along the lower\n"
+      "edge of the surface as seen from outside, and v (phi = 90) runs up; there, theta is the\n"
+      "profile angle. Both faces are alike, and so are phi and phi + 180.\n");
+}
+
+void write_table(PerforatedScreen const& screen, std::ostream& csv) {
+  constexpr int last_theta = 89;
+  constexpr int phi_step = 5;
+  constexpr int circle = 360;
+  csv << "theta [deg],phi [deg],tau [-]\n";
+  for (int theta = 0; theta <= last_theta; ++theta) {
+    for (int phi = 0; phi < circle; phi += phi_step) {
+      csv << fmt::format("{},{},{:.6f}\n", theta, phi, transmittance(screen, theta, phi));
+    }
+  }
+}
+
+std::string encode_tile(DescribedScreen const& described, std::string const& name) {
+  constexpr int size = 480;
+  constexpr double oblique = 30.0;
+  TemporaryFolder const temporary;
+  PictureSheet sheet;
+  for (double const angle : {0.0, oblique}) {
+    auto const file = temporary.path() / fmt::format("{}.png", angle);
+    write_whole_file(file, [&](std::ostream& out) {
+      out << encode_image("tile.png", draw_tile(*described.screen, angle, size));
+    });
+    sheet.items.push_back(
+        {file, angle > 0.0 ? fmt::format("{:g} degrees from the right", angle) : "from the front"});
+  }
+  return encode_sheet(name, sheet);
+}
+
+std::optional<std::string> try_encoding_tile(DescribedScreen const& described,
+                                             std::string const& name) {
+  try {
+    return encode_tile(described, name);
+  } catch (Error const& error) {
+    print_line(fmt::format("warning: {}: not drawn: {}", name, error.what()));
+    return std::nullopt;
+  }
+}
+
+void write_files(std::vector<DescribedScreen> const& screens, StagedFiles& files,
+                 Path const& folder) {
+  FileNames tables;
+  FileNames plots;
+  FileNames tiles;
+  std::vector<std::string> written;
+  for (auto const& described : screens) {
+    auto const& object = described.named.maker->object();
+    written.push_back(tables.add(object, "_tau.csv"));
+    files.write(written.back(), [&](std::ostream& csv) { write_table(*described.screen, csv); });
+    written.push_back(plots.add(object, "_tau.svg"));
+    files.write(written.back(), [&](std::ostream& svg) {
+      write_polar_plot(*described.screen, printable(object), one_line(described.description), svg);
+    });
+    // Installations without the picture formats have the tables and plots.
+    auto const tile = tiles.add(object, "_tile.png");
+    if (auto const picture = try_encoding_tile(described, tile)) {
+      files.write(tile, *picture);
+      written.push_back(tile);
+    }
+  }
+  files.commit();
+  print_text("\n");
+  for (auto const& name : written) print_text(fmt::format("{}\n", (folder / name).string()));
+}
+
+// As EnergyPlus has it for solar reflections: of the model's ShadingProperty:Reflectance, or its
+// default.
+SheetReflectance reflectance_of(std::string const& surface, ShadingInput const& shading) {
+  auto const found = shading.shading_surfaces.find(surface);
+  auto const properties =
+      found == shading.shading_surfaces.end() ? ShadingInput::ShadingSurface{} : found->second;
+  double const matt = 1.0 - properties.glazed;
+  return {matt * properties.reflectance, matt * properties.visible_reflectance};
+}
+
+SheetReflectance reflectance_of(NamedScreen const& named, ShadingInput const& shading,
+                                Path const& file) {
+  auto const& first = named.surfaces.front();
+  auto const reflectance = reflectance_of(first, shading);
+  auto const differs = [&](std::string const& surface) {
+    return reflectance_of(surface, shading) != reflectance;
+  };
+  auto const other = std::find_if(named.surfaces.begin(), named.surfaces.end(), differs);
+  if (other != named.surfaces.end()) {
+    print_line(
+        fmt::format("warning: --bsdf {}: {} and {} have different reflectances; the file has "
+                    "those of {}",
+                    file.string(), printable(first), printable(*other), printable(first)));
+  }
+  return reflectance;
+}
+
+void write_bsdf_file(DescribedScreen const& described, ShadingInput const& shading,
+                     Path const& file) {
+  auto const& object = described.named.maker->object();
+  auto const reflectance = reflectance_of(described.named, shading, file);
+  write_whole_file(file, [&](std::ostream& xml) {
+    write_bsdf(*described.screen, described.rotation, reflectance, printable(object),
+               one_line(described.description), xml);
+  });
+  print_text(fmt::format("{}\n", file.string()));
+}
+
+}  // namespace
+
+void describe_screens(ScreenTask const& task, Choices const& choices) {
+  require_model(task.model);
+  auto const model = read_model(task.model, choices);
+  auto const screens = describe(choose(screens_of(model.screens), task), task.model, model.shading);
+  for (auto const& warning : model.screens.warnings()) print_line("warning: " + warning);
+  if (task.bsdf && screens.size() != 1) {
+    throw Error(fmt::format("--bsdf {}: one file is for one screen, but {} are chosen; name one",
+                            task.bsdf->string(), screens.size()));
+  }
+  std::optional<StagedFiles> files;
+  if (task.folder) files.emplace(*task.folder);
+  for (auto const& screen : screens) {
+    if (&screen != &screens.front()) print_text("\n");
+    print(screen);
+  }
+  print_legend();
+  if (files) write_files(screens, *files, *task.folder);
+  if (task.bsdf) write_bsdf_file(screens.front(), model.shading, *task.bsdf);
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,146 @@
+#include "reports/remarks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "gpu_shading/error.h"
+#include "model/site/own_building.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+void describe_surroundings(SceneAssembly const& scene, Messages const& messages) {
+  auto const& model = scene.model();
+  auto const& surroundings = model.surroundings;
+  if (surroundings.empty()) return;
+  for (auto const& warning : surroundings.warnings) messages.warning(warning);
+  for (auto const& line :
+       warn_of_own_buildings(surroundings.buildings, scene.surfaces(), model.shading)) {
+    messages.warning(line);
+  }
+  messages.eio("! <GPU Shading Surroundings>, Remark\n");
+  for (auto remark : surroundings.remarks) {
+    messages.remark(remark);
+    // Commas separate the file's fields.
+    std::replace(remark.begin(), remark.end(), ',', ';');
+    messages.eio(fmt::format("GPU Shading Surroundings,{}\n", remark));
+  }
+}
+
+void warn_of_actuated_schedules(SceneAssembly const& scene, Messages const& messages) {
+  auto const& input = scene.model().shading;
+  if (input.every_timestep || scene.model().options.update.every_timestep) return;
+  auto const warn = [&](std::string_view field, std::string const& schedule) {
+    messages.warning(fmt::format(
+        "{} {} is overridden by an EMS actuator, but shading is calculated for whole periods: the "
+        "value at the time counts for all of it; see --gpu-shading-update",
+        field, schedule));
+  };
+  for (auto const& [name, surface] : input.shading_surfaces) {
+    if (!input.actuated.contains(surface.transmittance_schedule)) continue;
+    warn("Transmittance Schedule", surface.transmittance_schedule);
+    break;
+  }
+  for (auto const& schedule : scene.optics().deployment_names()) {
+    if (input.actuated.contains(schedule)) warn("Deployment Schedule", schedule);
+  }
+}
+
+void list_transmitting_surfaces(SceneAssembly const& scene, Messages const& messages) {
+  bool first = true;
+  std::set<std::string_view> described;  // a mesh's triangles share its name
+  for (auto const id : scene.shading_surfaces()) {
+    auto const& surface = scene.surfaces()[id];
+    if (described.contains(surface.name)) continue;
+    auto optics =
+        describe_optics(scene.model(), surface, scene.model().surroundings.texture_of(id));
+    if (optics == "opaque") continue;
+    described.insert(surface.name);
+    if (first) messages.eio("! <GPU Shading Surface>, Surface Name, Transmittance\n");
+    first = false;
+    // Commas separate the file's fields.
+    std::replace(optics.begin(), optics.end(), ',', ';');
+    messages.eio(fmt::format("GPU Shading Surface,{},{}\n", surface.name, optics));
+  }
+}
+
+std::string describe_expected_error(double error, Sampling sampling) {
+  // The paper's grids have no estimate.
+  if (error == 0.0) return "";
+  double const goal = error_goal(sampling.density);
+  std::string remark =
+      fmt::format("; estimated mean error of the worst receiver's sunlit fraction {:.4f}", error);
+  if (error >= goal) {
+    remark += fmt::format(
+        ", above the goal of {:.4f}; {} is more accurate", goal,
+        sampling.density == Sampling::Density::fine ? "timestep" : "sampled:fine or timestep");
+  }
+  return remark;
+}
+
+}  // namespace
+
+void check_device(DeviceInfo const& device, Options const& options, Messages const& messages) {
+  if (!device.software) return;
+  if (options.mode == Mode::require) {
+    throw DeviceError(
+        fmt::format("--gpu-shading=require: no GPU available, only {}; see gpu_shading devices",
+                    describe(device)));
+  }
+  if (options.device.kind == DeviceChoice::Kind::automatic) {
+    messages.remark(
+        fmt::format("no GPU available; computing on the CPU, {} thread{}; see gpu_shading devices",
+                    device.threads, device.threads == 1 ? "" : "s"));
+  }
+}
+
+void describe_scene(SceneAssembly const& scene, Messages const& messages) {
+  auto const& model = scene.model();
+  for (auto const& warning : model.shades.warnings) messages.warning(warning);
+  for (auto const& warning : model.screens.warnings()) messages.warning(warning);
+  for (auto const& warning : model.ray_warnings) messages.warning(warning);
+  if (!model.transform_warning.empty()) messages.warning(model.transform_warning);
+  for (auto const& remark : model.remarks) messages.remark(remark);
+  if (auto const& remark = model.lean.remark; !remark.empty()) {
+    messages.remark(remark);
+    messages.eio(
+        fmt::format("! <GPU Shading Lean Input>, Surfaces Left Out, Remark\n"
+                    "GPU Shading Lean Input,{},{}\n",
+                    model.lean.left_out.size(), remark));
+  }
+  describe_surroundings(scene, messages);
+  warn_of_actuated_schedules(scene, messages);
+  list_transmitting_surfaces(scene, messages);
+}
+
+void describe_answers(SunAnswers const& answers, Options const& options, Messages const& messages) {
+  auto const& rendered = answers.rendered();
+  auto const& device = rendered.renderer().device();
+  auto const& scene = rendered.renderer().scene();
+  auto const counts = answers.counts();
+  std::size_t casters = 0;
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    if (scene[id].casting != Casting::never) ++casters;
+  }
+  auto const from_cache =
+      rendered.has_cache() ? fmt::format(" rendered, {} from the cache", counts.recalled) : "";
+  auto const asked = std::count(answers.asked().begin(), answers.asked().end(), true);
+  auto const& did = counts.rendering;
+  messages.remark(
+      fmt::format("shading rendered by {}, {}: {} receivers, {} casters, {} directions{}, {} "
+                  "views drawn, {} clear, {:.2f} s",
+                  describe(device), describe_fineness(options), asked, casters, counts.directions,
+                  from_cache, did.receivers_drawn, did.receivers_clear, did.seconds));
+  if (auto const& sampled = answers.sampled()) {
+    messages.remark(fmt::format(
+        "{} directions of the sun answered from samples at {}, --gpu-shading-update {}{}",
+        sampled->answered(), sampled->sampled(), name_of(options.update),
+        describe_expected_error(sampled->expected_error(), *options.update.sampling)));
+  }
+}
+
+}  // namespace gpu_shading::energyplus

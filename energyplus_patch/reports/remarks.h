@@ -1,0 +1,19 @@
+#pragma once
+
+#include "answers/sun_answers.h"
+#include "platform/messages.h"
+#include "scene/scene_assembly.h"
+
+namespace gpu_shading::energyplus {
+
+// Says that there is no GPU. Throws DeviceError where a GPU is required.
+void check_device(DeviceInfo const& device, Options const& options, Messages const& messages);
+
+// Before the first question: the model's warnings, what was left out and what surrounds it, and the
+// .eio's list of the surfaces that let light through.
+void describe_scene(SceneAssembly const& scene, Messages const& messages);
+
+// After the last question: what rendered how much.
+void describe_answers(SunAnswers const& answers, Options const& options, Messages const& messages);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "answers/answers.h"
+#include "answers/deployment_states.h"
+#include "gpu_shading/renderer.h"
+#include "platform/staged_files.h"
+
+namespace gpu_shading::energyplus {
+// Wall-clock seconds of a run by stage.
+using Stages = std::vector<std::pair<std::string, double>>;
+
+// The renderer's own stages, and the remaining time since this module was loaded.
+Stages stages_of(RendererStatistics const& statistics);
+
+// The deployments at which answers were given.
+struct Deployments {
+  std::vector<std::string> const& schedules;
+  DeploymentStates const& states;
+};
+
+// What a user needs to check a surprising number by eye, into `folder`:
+//   sunlit.csv       receiver, sun azimuth and altitude (degrees), projected sunlit area (m2),
+//                    sunlit fraction, and the share of screens in place by each deployment
+//                    schedule, where there are any: every answer that EnergyPlus was given, or
+//                    interpolated between
+//   NAME_AZ_ALT.png  what the sun sees of a receiver, at up to three of its answers: the one most
+//                    shaded but lit, the one nearest to half sunlit, and the one at the highest
+//                    sun. With deployments NAME_AZ_ALT_SHARE[_SHARE ...].png, shares in percent.
+//   pictures.csv     picture, receiver, sun azimuth and altitude (degrees), shares: every picture
+//   of
+//                    this report; others in the folder are of earlier ones
+//   stages.csv       stage, wall-clock seconds
+// and what `more` adds.
+// `receivers`: by their numbers; those that were asked for, by surface, are reported, and those of
+// `shown` drawn. Returns how many pictures were left out, being more than max_report_pictures.
+// Throws Error when the folder cannot be written; all files in it are those of before then.
+inline constexpr std::size_t max_report_pictures = 300;
+std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer,
+                         std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
+                         std::vector<SurfaceId> const& shown, Answers const& answers,
+                         std::vector<double> const& factors, Deployments const& deployments,
+                         Stages const& stages, std::function<void(StagedFiles&)> const& more);
+
+// The table alone. Columns: stage, seconds. Throws Error when the file cannot be written.
+void write_stages(std::filesystem::path const& file, Stages const& stages);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "gpu_shading/scene.h"
+#include "gpu_shading/sun_direction.h"
+#include "scene/schedules.h"
+
+namespace gpu_shading::energyplus {
+
+// A day that EnergyPlus begins to simulate.
+struct RunDay {
+  enum class Kind { design_day, run_period, other };
+
+  Kind kind = Kind::other;
+  int environment = 0;
+  int month = 0;
+  int day = 0;
+  bool warm_up = false;
+  int steps_per_hour = 1;
+};
+
+// The sunlit fractions that EnergyPlus was given, by day and hour, and the beam solar energy that
+// they make of the weather: of the run periods, or of the design days where there are no others.
+// EnergyPlus multiplies the same numbers.
+class RunRecord {
+ public:
+  struct Hour {
+    int hour = 0;  // 1 .. 24
+    SunDirection sun;
+    std::vector<float> fractions;  // by receiver; negative where the sun is behind it
+  };
+  // The hours during all of which the sun faces a receiver, and before and after them, as
+  // scripts/compare_shading takes them (results.py): the others' hourly fractions count timesteps
+  // with the sun behind the receiver as 0.
+  struct WholeHours {
+    float sum = 0.0F;  // of their mean sunlit fractions
+    int count = 0;
+  };
+  struct Day {
+    int month = 0;
+    int day = 0;
+    std::vector<Hour> hours;        // with the sun up, at their last timestep
+    std::vector<WholeHours> whole;  // by receiver
+  };
+
+  // `areas`: unit normal x net area (m2), by surface.
+  RunRecord(std::vector<glm::dvec3> areas, std::vector<SurfaceId> receivers);
+
+  // What EnergyPlus says, in its order: a day begins; a timestep of it, whose sun and answers hold
+  // for this day and those that follow, until others are given; the sun; m2 normal to its beam.
+  // The direct normal irradiance, W/m2, at every timestep of a day is asked for where it counts.
+  // A day may begin again at each of its timesteps.
+  using Beam = std::function<std::vector<double>()>;
+  void begin_day(RunDay const& day, Beam const& beam);
+  void begin_step(Moment moment);
+  void set_sun(SunDirection sun);
+  void note(SurfaceId receiver, double projected_area);
+  void end();
+
+  std::vector<SurfaceId> const& receivers() const { return receivers_; }
+  // Days with answers of their own. Some are left out where they would take too much memory.
+  std::vector<Day> const& days() const { return kept().days; }
+  bool of_design_days() const { return run_period_.simulated == 0; }
+  // The days that EnergyPlus simulated, without warm-up.
+  std::size_t simulated() const { return kept().simulated; }
+  // By receiver, kWh/m2.
+  std::vector<double> const& beam() const { return kept().beam; }
+
+ private:
+  struct Step {
+    std::optional<SunDirection> sun;
+    std::vector<float> fractions;
+  };
+  struct Period {
+    std::vector<Day> days;
+    std::size_t values = 0;  // in `days`
+    std::size_t stride = 1;  // one of so many days is kept
+    std::size_t offered = 0;
+    std::size_t simulated = 0;
+    std::vector<double> beam;
+  };
+
+  Period& period() { return day_->kind == RunDay::Kind::run_period ? run_period_ : design_days_; }
+  Period const& kept() const { return of_design_days() ? design_days_ : run_period_; }
+  void end_day();
+  void add_beam();
+  void keep_day();
+  bool is_faced(std::size_t receiver, std::size_t step) const;
+  WholeHours whole_hours(std::size_t receiver) const;
+
+  std::vector<glm::dvec3> areas_;
+  std::vector<SurfaceId> receivers_;
+  std::vector<std::optional<std::size_t>> columns_;  // of receivers, by surface
+  std::optional<RunDay> day_;
+  std::vector<double> beam_;  // of the day
+  std::vector<Step> steps_;
+  bool has_new_steps_ = false;
+  Step* step_ = nullptr;  // being answered
+  glm::dvec3 towards_sun_{0.0, 0.0, 1.0};
+  Period run_period_;
+  Period design_days_;
+};
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,307 @@
+#include "reports/run_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <glm/trigonometric.hpp>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+#include "gpu_shading/error.h"
+#include "gpu_shading/perforated_screen.h"
+#include "gpu_shading/transmittance.h"
+#include "model/options/report_folder.h"
+#include "platform/naming.h"
+#include "platform/text.h"
+#include "reports/map_folder.h"
+#include "reports/map_grid.h"
+#include "reports/page/run_page.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+constexpr char const* page_file = "index.html";
+// Sunlit fractions that a page has: one byte each, a third more as text.
+constexpr std::size_t most_percents = 900000;
+constexpr std::size_t most_days = 122;
+
+// Some of many days, evenly spread.
+std::vector<RunRecord::Day const*> chosen_days(RunRecord const& record) {
+  auto const& all = record.days();
+  std::size_t values = 0;
+  for (auto const& day : all) values += day.hours.size() * record.receivers().size();
+  std::size_t const stride = std::max({std::size_t{1}, (values + most_percents - 1) / most_percents,
+                                       (all.size() + most_days - 1) / most_days});
+  std::vector<RunRecord::Day const*> days;
+  for (std::size_t i = 0; i < all.size(); i += stride) days.push_back(&all[i]);
+  return days;
+}
+
+double degrees_clockwise(double radians) {
+  constexpr double circle = 360.0;
+  double const degrees = glm::degrees(radians);
+  return degrees < 0.0 ? degrees + circle : degrees;
+}
+
+PageStyle style_of(Surface const& surface) {
+  PageStyle style;
+  if (auto const& screen = surface.screen) {
+    constexpr std::array<char const*, 4> holes{"round", "square", "slotted", "hexagonal"};
+    constexpr std::array<char const*, 3> arrangements{"straight", "staggered 45", "staggered 60"};
+    style.kind = PageStyle::Kind::screen;
+    style.passes = screen->open_fraction();
+    style.hole = "texture";
+    if (auto const& pattern = screen->pattern()) {
+      auto const& holed = pattern->perforation();
+      style.hole = holes.at(static_cast<std::size_t>(holed.hole));
+      style.arrangement = arrangements.at(static_cast<std::size_t>(holed.arrangement));
+      style.size = holed.size;
+      style.length = holed.length;
+      style.pitch = holed.pitch;
+      style.row_pitch = holed.row_pitch;
+    }
+  } else if (surface.transmittance) {
+    // To whole percents, so that a few styles serve all.
+    constexpr double percents = 100.0;
+    style.kind = PageStyle::Kind::glass;
+    style.passes = std::round((*surface.transmittance)(0.0) * percents) / percents;
+  } else if (surface.schedule >= 0) {
+    style.kind = PageStyle::Kind::glass;
+    style.passes = 0.5;
+  }
+  return style;
+}
+
+class PageStyles {
+ public:
+  PageStyles() : styles_(2) { styles_.front().kind = PageStyle::Kind::receiver; }
+
+  std::size_t number_of(Surface const& surface) {
+    auto const style = style_of(surface);
+    auto const found = std::find(styles_.begin(), styles_.end(), style);
+    if (found != styles_.end()) return static_cast<std::size_t>(found - styles_.begin());
+    constexpr std::size_t most = 1000;
+    if (styles_.size() == most) return 1;
+    styles_.push_back(style);
+    return styles_.size() - 1;
+  }
+  std::vector<PageStyle> const& all() const { return styles_; }
+
+ private:
+  std::vector<PageStyle> styles_;  // receivers', opaque casters', others
+};
+
+PageReceiver receiver_of(Surface const& surface, double beam) {
+  auto const facing = normal(surface.polygon);
+  PageReceiver receiver;
+  receiver.area = area(surface.polygon);
+  constexpr double horizontal = 1e-6;
+  if (std::hypot(facing.x, facing.y) > horizontal) {
+    receiver.azimuth = degrees_clockwise(std::atan2(facing.x, facing.y));
+  }
+  receiver.tilt = glm::degrees(std::acos(std::clamp(facing.z, -1.0, 1.0)));
+  receiver.beam = beam;
+  return receiver;
+}
+
+std::uint8_t percent_of(float fraction) {
+  constexpr float percents = 100.0F;
+  return fraction < 0.0F ? RunPage::turned_away
+                         : static_cast<std::uint8_t>(std::lround(fraction * percents));
+}
+
+void add_hours(RunPage& page, std::vector<RunRecord::Day const*> const& days) {
+  std::vector<std::pair<double, int>> sums(page.receivers.size(), {0.0, 0});
+  for (auto const* day : days) {
+    for (std::size_t i = 0; i < day->whole.size(); ++i) {
+      sums[i].first += double{day->whole[i].sum};
+      sums[i].second += day->whole[i].count;
+    }
+    auto& added = page.days.emplace_back(PageDay{day->month, day->day, {}});
+    for (auto const& [hour, sun, fractions] : day->hours) {
+      added.hours.push_back({hour, sun});
+      for (float const fraction : fractions) page.percents.push_back(percent_of(fraction));
+    }
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    auto const [sum, count] = sums[i];
+    if (count > 0) page.receivers[i].mean = sum / count;
+  }
+}
+
+void add_surfaces(RunPage& page, SceneAssembly const& assembly, RunRecord const& record) {
+  auto const scene = assembly.scene();
+  PageStyles styles;
+  std::vector<bool> added(scene.size(), false);
+  for (std::size_t i = 0; i < record.receivers().size(); ++i) {
+    auto const id = record.receivers()[i];
+    added[id] = true;
+    page.surfaces.push_back({scene[id].name, scene[id].polygon, 0});
+    page.receivers.push_back(receiver_of(scene[id], record.beam()[i]));
+  }
+  for (auto const id : assembly.shown()) {
+    auto const& surface = scene[id];
+    if (added[id] || surface.casting == Casting::never || area(surface.polygon) <= 0.0) continue;
+    page.surfaces.push_back({surface.name, surface.polygon, styles.number_of(surface)});
+  }
+  page.styles = styles.all();
+}
+
+RunPage page_of(SceneAssembly const& assembly, DeviceInfo const& device, RunRecord const& record,
+                std::vector<RunRecord::Day const*> const& days) {
+  RunPage page;
+  page.title = assembly.model().file;
+  add_surfaces(page, assembly, record);
+  add_hours(page, days);
+  page.facts = {
+      {record.of_design_days() ? "Design days simulated" : "Days simulated",
+       std::to_string(record.simulated())},
+      {"Receivers", std::to_string(page.receivers.size())},
+      {"Surfaces that only cast shadows",
+       std::to_string(page.surfaces.size() - page.receivers.size())},
+      {"Shading computed on", gpu_shading::describe(device)},
+  };
+  if (days.size() < record.days().size()) {
+    page.notes.push_back(
+        fmt::format("The page and its tables have {} of the {} days with answers of "
+                    "their own; sunlit.csv has all answers.",
+                    days.size(), record.days().size()));
+  }
+  return page;
+}
+
+// Sums over all maps of a page: one byte for each of the two values.
+constexpr std::size_t most_map_cells = 200000;
+
+// Adds the map of a receiver. Throws Error if it cannot be read.
+void add_map(RunPage& page, std::filesystem::path const& folder, MapFolder::Row const& row,
+             std::size_t receiver) {
+  auto array = read_map_array(folder / (row.stem + ".npy"));
+  // One cell is the bounding rectangle.
+  constexpr double widest = 1e9;
+  MapGrid const whole(page.surfaces[receiver].polygon, widest);
+  auto const& axes = whole.axes();
+  auto const size = whole.cell_size();
+  page.maps.push_back({receiver, axes.origin, size.x * axes.u, size.y * axes.v, array.columns,
+                       array.rows, std::move(array.hours), std::move(array.energy), row.mean_hours,
+                       row.mean_energy});
+}
+
+void add_maps_of(RunPage& page, std::filesystem::path const& folder) {
+  auto const maps = read_map_folder(folder);
+  if (!maps) return;
+  page.maps_from = maps->from;
+  page.maps_to = maps->to;
+  std::unordered_map<std::string, std::size_t> receivers;
+  for (std::size_t i = 0; i < page.receivers.size(); ++i) {
+    receivers.emplace(csv_field(page.surfaces[i].name), i);
+  }
+  std::size_t cells = 0;
+  for (auto const& row : maps->rows) {
+    auto const found = receivers.find(row.receiver);
+    if (found == receivers.end()) continue;
+    add_map(page, folder, row, found->second);
+    cells += page.maps.back().hours.size();
+    if (cells <= most_map_cells) continue;
+    page.maps.pop_back();
+    page.notes.push_back(fmt::format(
+        "Maps of {} receivers are shown; more would make the page too large.", page.maps.size()));
+    return;
+  }
+}
+
+// Maps are not needed: one that cannot be read is no reason to lose a run's report.
+void add_maps(RunPage& page, std::filesystem::path const& report) {
+  for (auto const& folder : {report, report / "maps"}) {
+    try {
+      add_maps_of(page, folder);
+    } catch (std::exception const& error) {
+      auto why = one_line(error.what());
+      auto const where = report.string() + '/';
+      // The page may go elsewhere, and say nothing of this computer.
+      for (auto at = why.find(where); at != std::string::npos; at = why.find(where)) {
+        why.erase(at, where.size());
+      }
+      page.notes.push_back(fmt::format("Maps are left out: {}", why));
+    }
+    if (!page.maps.empty()) return;
+  }
+}
+
+void write_facts(RunPage const& page, std::ostream& csv) {
+  csv << "fact,value\n";
+  for (auto const& [fact, value] : page.facts) {
+    csv << fmt::format("{},{}\n", csv_field(fact), csv_field(value));
+  }
+  for (auto const& note : page.notes) csv << fmt::format("Note,{}\n", csv_field(note));
+}
+
+void write_receivers(RunPage const& page, std::ostream& csv) {
+  csv << "receiver,area [m2],azimuth [deg],tilt [deg],mean sunlit fraction,beam [kWh/m2],"
+         "beam [kWh]\n";
+  for (std::size_t i = 0; i < page.receivers.size(); ++i) {
+    auto const& [area, azimuth, tilt, mean, beam] = page.receivers[i];
+    csv << fmt::format("{},{:.3f},{:.1f},{:.1f},{},{:.1f},{:.1f}\n",
+                       csv_field(page.surfaces[i].name), area, azimuth, tilt,
+                       mean ? fmt::format("{:.4f}", *mean) : "", beam, beam * area);
+  }
+}
+
+void write_hours(RunPage const& page, std::vector<RunRecord::Day const*> const& days,
+                 std::ostream& csv) {
+  csv << "day,hour,sun azimuth [deg],sun altitude [deg]";
+  for (std::size_t i = 0; i < page.receivers.size(); ++i) {
+    csv << ',' << csv_field(page.surfaces[i].name);
+  }
+  csv << '\n';
+  for (auto const* day : days) {
+    for (auto const& [hour, sun, fractions] : day->hours) {
+      csv << fmt::format("{:02}-{:02},{},{:.4f},{:.4f}", day->month, day->day, hour,
+                         degrees_clockwise(sun.azimuth), glm::degrees(sun.altitude));
+      for (float const fraction : fractions)
+        csv << fmt::format(",{:.4f}", std::max(fraction, 0.0F));
+      csv << '\n';
+    }
+  }
+}
+
+bool is_our_page(std::filesystem::path const& file) {
+  std::ifstream stream(file, std::ios::binary);
+  constexpr std::size_t enough = 1000;
+  std::string head(enough, '\0');
+  stream.read(head.data(), static_cast<std::streamsize>(enough));
+  return head.find(page_marker) != std::string::npos;
+}
+
+}  // namespace
+
+void prepare_page(std::filesystem::path const& folder) {
+  naming("--gpu-shading-report", [&] {
+    StagedFiles files(folder);
+    files.add(page_file);
+    auto const file = folder / page_file;
+    std::error_code ignored;
+    if (std::filesystem::exists(file, ignored) && !is_our_page(file)) {
+      throw Error(fmt::format("{} is not of an earlier report: move it, or choose another folder",
+                              file.string()));
+    }
+  });
+}
+
+void write_run(StagedFiles& files, std::filesystem::path const& folder,
+               SceneAssembly const& assembly, DeviceInfo const& device, RunRecord const& record) {
+  auto const days = chosen_days(record);
+  auto page = page_of(assembly, device, record, days);
+  add_maps(page, folder);
+  simplify(page);
+  files.write(facts_table, [&](std::ostream& csv) { write_facts(page, csv); });
+  files.write(receivers_table, [&](std::ostream& csv) { write_receivers(page, csv); });
+  files.write(hours_table, [&](std::ostream& csv) { write_hours(page, days, csv); });
+  files.write(page_file, to_html(std::move(page)));
+}
+
+}  // namespace gpu_shading::energyplus

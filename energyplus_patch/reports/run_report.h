@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+
+#include "gpu_shading/device.h"
+#include "platform/staged_files.h"
+#include "reports/run_record.h"
+#include "scene/scene_assembly.h"
+
+namespace gpu_shading::energyplus {
+
+// The page of a run, and the tables with its numbers:
+//   index.html         the model in 3D with its sunlit fractions by day and hour
+//   run_receivers.csv  receiver, area (m2), azimuth and tilt of the normal (degrees), mean sunlit
+//                      fraction of the page's days, over the hours during all of which the sun
+//                      faces it, blank if there are none, beam
+//                      solar energy of the run (kWh/m2 and kWh)
+//   run_hours.csv      month and day, hour at whose end the sun is there, its azimuth and altitude
+//                      (degrees), and the sunlit fraction of each receiver, 0 if it faces away
+//   run_facts.csv      what the page says below its title
+// Maps that gpu_shading map has written into the report's folder, or its folder maps, are on the
+// page, too.
+void write_run(StagedFiles& files, std::filesystem::path const& folder,
+               SceneAssembly const& assembly, DeviceInfo const& device, RunRecord const& record);
+
+// Throws Error if the folder has an index.html that is not of this report, or one that cannot be
+// replaced.
+void prepare_page(std::filesystem::path const& folder);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,181 @@
+#include "routes/patched/entries/daylight_reflection_entries.h"
+
+#include <optional>
+
+#include "routes/patched/entries/daylight_memory_entries.h"
+#include "routes/patched/entries/reflection_entries.h"
+#include "routes/patched/entries/run.h"
+#include "routes/patched/memory/object_memory.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+DaylightFunctions& originals() {
+  static DaylightFunctions instance;
+  return instance;
+}
+void (*original_horizontal)(State&, Illuminance&) = nullptr;
+void (*original_point_factors)(State&, int, int, int, int&, int, int, int, int, int) = nullptr;
+void (*original_map_factors)(State&, int, int, int, int, int, int) = nullptr;
+
+// The thread's run, as in this_run().
+struct Answering {
+  Session const* session = nullptr;  // that was asked
+  bool failed = false;
+  std::optional<DaylightReflections> active;
+};
+Answering& answering() {
+  thread_local Answering instance;
+  return instance;
+}
+
+void warn() {
+  answering().failed = true;  // it may be in use
+  messages_of(this_run())
+      .warning(
+          "this EnergyPlus keeps its daylighting in another way than expected: what is not in its "
+          "input (lean input, Geometry, SiteContext) dims light on its way to windows, but neither "
+          "reflects it nor dims it on its way to what reflects it");
+}
+
+// Whether `action` could be done.
+template <typename Action>
+bool answer(State& state, Action const& action) {
+  return guarded([&] {
+    auto* const active = daylight_reflections(state);
+    if (active == nullptr) return false;
+    try {
+      action(*active);
+      return true;
+    } catch (Unexpected const&) {
+      warn();
+      return false;
+    }
+  });
+}
+
+// EnergyPlus asks for it where the sun is up.
+void horizontal(State& state, Illuminance& at) {
+  if (auto* const memory = daylight_memory()) memory->note_sun();
+  original_horizontal(state, at);
+  answer(state, [&](DaylightReflections& active) { active.add_horizontal(at); });
+}
+
+void closest(State& state, Vector const& from, Vector const& ray, int& surface, Vector& hit) {
+  bool const done = answer(
+      state, [&](DaylightReflections& active) { active.closest(state, from, ray, surface, hit); });
+  if (!done) originals().closest(state, from, ray, surface, hit);
+}
+
+double sun_luminance(State& state, int hour, Vector const& ray, int surface, Vector const& hit) {
+  double luminance = 0.0;
+  bool const done = answer(state, [&](DaylightReflections& active) {
+    luminance = active.sun_luminance(state, hour, ray, surface, hit);
+  });
+  return done ? luminance : originals().sun_luminance(state, hour, ray, surface, hit);
+}
+
+double sky_on_ground(State& state, Vector const& point, int altitudes, int azimuths) {
+  double share = 0.0;
+  bool const done = answer(state, [&](DaylightReflections& active) {
+    share = active.sky_on_ground(state, point, altitudes, azimuths);
+  });
+  return done ? share : originals().sky_on_ground(state, point, altitudes, azimuths);
+}
+
+void inter_reflected(State& state, int sun_position, int hour, int enclosure, int window) {
+  // EnergyPlus counts positions of the sun for each window.
+  auto* const memory = daylight_memory();
+  DaylightMemory::Reflected const reflected{hour, sun_position == 1, enclosure, window};
+  if (memory != nullptr && !memory->begin_reflected(reflected)) return;
+  SkyIntegral const kept(hour, window);
+  bool const done = answer(state, [&](DaylightReflections& active) {
+    active.inter_reflected(state, sun_position, hour, enclosure, window);
+  });
+  if (!done) originals().inter_reflected(state, sun_position, hour, enclosure, window);
+}
+
+void begin_factors(State& state) {
+  answer(state, [](DaylightReflections& active) { active.begin_factors(); });
+}
+
+void point_factors(State& state, int control, int point, int hour, int& sun_position, int window,
+                   int exterior_window, int columns, int rows, int shading_control) {
+  begin_factors(state);
+  original_point_factors(state, control, point, hour, sun_position, window, exterior_window,
+                         columns, rows, shading_control);
+}
+
+void map_factors(State& state, int map, int point, int hour, int window, int exterior_window,
+                 int shading_control) {
+  begin_factors(state);
+  original_map_factors(state, map, point, hour, window, exterior_window, shading_control);
+}
+
+}  // namespace
+
+DaylightReflections* daylight_reflections(State& state) {
+  auto const& run = this_run();
+  auto& known = answering();
+  if (!run.model || !run.model->daylighting_answered || !run.model->reflections_answered ||
+      run.session == nullptr) {
+    return nullptr;
+  }
+  if (known.session == run.session) {
+    return known.active && !known.failed ? &*known.active : nullptr;
+  }
+  forget_daylight_reflections();
+  known.session = run.session;
+  auto const& installed = installation().daylight_reflections;
+  if (!installed || run.session->luminance() == nullptr) return nullptr;
+  auto* const solar = solar_reflections(state);
+  if (solar == nullptr) {
+    warn();
+    return nullptr;
+  }
+  auto functions = originals();
+  functions.element = installed->element;
+  return &known.active.emplace(*solar, *run.session, functions, installed->classes);
+}
+
+void forget_daylight_reflections() {
+  auto& known = answering();
+  known.session = nullptr;
+  known.failed = false;
+  known.active.reset();
+}
+
+ElementFunction* find_element_function(SymbolTable const& symbols) {
+  auto const* const symbol = symbols.find(
+      "_ZN10EnergyPlus6Dayltg40FigureDayltgCoeffsAtPointsForSunPositionERNS_14EnergyPlusDataE"
+      "iiiiiiiiiiRidRKN9ObjexxFCL7Vector3IdEES8_diiddddiNS_12DataSurfaces14WinShadingTypeEidS8_NS0_"
+      "10ExtWinTypeEidS8_bbNS0_9CalledForEdRdi");
+  return symbol == nullptr ? nullptr : reinterpret_cast<ElementFunction*>(symbol->address);
+}
+
+std::vector<EntryPatch> daylight_reflection_entries() {
+  auto& original = originals();
+  return {
+      watch("_ZN10EnergyPlus6Dayltg19DayltgExtHorizIllumERNS_14EnergyPlusDataERNS0_6IllumsE",
+            &horizontal, &original_horizontal),
+      watch("_ZN10EnergyPlus6Dayltg24DayltgClosestObstructionERNS_14EnergyPlusDataERKN9ObjexxFCL7"
+            "Vector3IdEES7_RiRS5_",
+            &closest, &original.closest),
+      watch("_ZN10EnergyPlus6Dayltg23DayltgSurfaceLumFromSunERNS_14EnergyPlusDataEiRKN9ObjexxFCL7"
+            "Vector3IdEEiS7_",
+            &sun_luminance, &original.sun_luminance),
+      watch("_ZN10EnergyPlus6Dayltg19CalcObstrMultiplierERNS_14EnergyPlusDataERKN9ObjexxFCL7"
+            "Vector3IdEEii",
+            &sky_on_ground, &original.sky_on_ground),
+      watch("_ZN10EnergyPlus6Dayltg25DayltgInterReflectedIllumERNS_14EnergyPlusDataEiiii",
+            &inter_reflected, &original.inter_reflected),
+      watch("_ZN10EnergyPlus6Dayltg38FigureRefPointDayltgFactorsToAddIllumsERNS_14EnergyPlusDataE"
+            "iiiRiiiiii",
+            &point_factors, &original_point_factors),
+      watch("_ZN10EnergyPlus6Dayltg38FigureMapPointDayltgFactorsToAddIllumsERNS_14EnergyPlusDataE"
+            "iiiiii",
+            &map_factors, &original_map_factors),
+  };
+}
+
+}  // namespace gpu_shading::energyplus

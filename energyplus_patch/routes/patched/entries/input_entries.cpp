@@ -1,0 +1,194 @@
+#include "routes/patched/entries/input_entries.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <ios>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <system_error>
+
+#include "model/idf/model_file.h"
+#include "platform/console.h"
+#include "platform/error_line.h"
+#include "platform/naming.h"
+#include "routes/patched/entries/run.h"
+
+namespace gpu_shading::energyplus {
+
+// EnergyPlus's function that prints its line about shading, watched to get the file that it writes
+// to. Its arguments are passed on unchanged in registers and on the stack, so the entry is written
+// in assembly.
+extern "C" {
+__attribute__((visibility("hidden"))) void* gpu_shading_original_print = nullptr;
+__attribute__((visibility("hidden"))) void gpu_shading_note_eio(std::ostream* eio) {
+  this_run().eio = eio;
+}
+__attribute__((naked)) void gpu_shading_watch_print();
+}
+
+__attribute__((naked)) void gpu_shading_watch_print() {
+  asm("push %rdi\n\t"
+      "push %rsi\n\t"
+      "push %rdx\n\t"
+      "push %rcx\n\t"
+      "push %r8\n\t"
+      "push %r9\n\t"
+      "sub $8, %rsp\n\t"
+      "call gpu_shading_note_eio\n\t"
+      "add $8, %rsp\n\t"
+      "pop %r9\n\t"
+      "pop %r8\n\t"
+      "pop %rcx\n\t"
+      "pop %rdx\n\t"
+      "pop %rsi\n\t"
+      "pop %rdi\n\t"
+      "jmp *gpu_shading_original_print(%rip)");
+}
+
+namespace {
+
+using Path = std::filesystem::path;
+
+void (*original_process_input)(void*, State&) = nullptr;
+std::string (*original_read_file)(Path const&, std::ios_base::openmode) = nullptr;
+nlohmann::json (*original_read_json)(Path const&, std::ios_base::openmode) = nullptr;
+void (*original_end)(State&) = nullptr;
+void (*original_abort)(State&) = nullptr;
+
+// Objects that polygon clipping ignores.
+void warn_of_missing_surroundings(Run const& run) {
+  if (run.model->surroundings.empty()) return;
+  messages_of(run).warning(
+      "rendering is off: GPUShading:SiteContext and GPUShading:Geometry are ignored, so their "
+      "geometry casts no shadow");
+}
+
+// Shades that are opaque to polygon clipping because only our objects make them transparent.
+void warn_of_opaque_shades(Run const& run) {
+  std::set<std::string> opaque;
+  for (auto const& [surface, shade] : run.model->shades.by_surface) opaque.insert(surface);
+  for (auto const& [surface, screen] : run.model->screens.by_surface) opaque.insert(surface);
+  for (auto const& [surface, type] : run.model->surroundings.types) opaque.erase(surface);
+  if (opaque.empty()) return;
+  auto const more = opaque.size() - 1;
+  messages_of(run).warning(
+      fmt::format("rendering is off: GPUShading objects are ignored, so these surfaces are opaque "
+                  "except for transmittance schedules: {}{}",
+                  *opaque.begin(), more == 0 ? "" : fmt::format(" and {} more", more)));
+}
+
+// Reads the model and returns the text that EnergyPlus is to read instead.
+Rewrite take_model(std::vector<InputObject> objects, Path const& path,
+                   MentionFinder const& find_mentions) {
+  auto& run = this_run();
+  run.model = understand(
+      std::move(objects), path, installation().choices,
+      {find_mentions, installation().daylight_rays, installation().reflection_classes.has_value(),
+       installation().daylight_reflections.has_value()});
+  if (run.model->options.mode != Mode::off) {
+    check_supported(run.model->shading, installation().version);
+    // Now, because EnergyPlus may stop at such a surface.
+    if (auto const& warning = run.model->simplified.warning; !warning.empty()) {
+      messages_of(run).warning(warning);
+    }
+  } else {
+    warn_of_opaque_shades(run);
+    warn_of_missing_surroundings(run);
+  }
+  return rewrite_for(*run.model);
+}
+
+// EnergyPlus passes the state here, before the input is read and after its preprocessors.
+void process_input(void* self, State& state) {
+  if (auto const& start = installation().choices.start) {
+    std::error_code ignored;
+    std::filesystem::current_path(*start, ignored);
+  }
+  this_run() = {};
+  this_run().state = &state;
+  original_process_input(self, state);
+}
+
+// The first file that EnergyPlus reads in a run is its model, whatever name a preprocessor gives it
+// (.expidf, .epmidf); schedules and other files come later.
+bool is_model() {
+  auto const& run = this_run();
+  return run.state != nullptr && !run.model;
+}
+
+std::string read_file(Path const& path, std::ios_base::openmode mode) {
+  auto text = original_read_file(path, mode);
+  if (!is_model()) return text;
+  return guarded([&] {
+    auto const parsed = parse_idf(text);
+    auto const find = [&](Names const& names) { return find_mentions(parsed, names); };
+    auto objects = naming(path.string(), [&] { return read_idf(parsed); });
+    return rewrite_idf(text, parsed, take_model(std::move(objects), path, find));
+  });
+}
+
+// EnergyPlus's JSON value has the same layout as ours: it is the same library, and its versions 3.x
+// do not differ in any member.
+nlohmann::json read_json(Path const& path, std::ios_base::openmode mode) {
+  auto json = original_read_json(path, mode);
+  if (!is_model()) return json;
+  return guarded([&] {
+    auto const find = [&](Names const& names) { return find_mentions(json, names); };
+    auto objects = naming(path.string(), [&] { return read_epjson(json); });
+    rewrite_epjson(json, take_model(std::move(objects), path, find));
+    return std::move(json);
+  });
+}
+
+void finish_run() {
+  auto& run = this_run();
+  if (run.session == nullptr) return;
+  try {
+    run.session->finish();
+  } catch (std::exception const& error) {
+    run.unwritten = error_line(error);
+    print_line("error: " + run.unwritten);
+    installation().functions.warning(*run.state, "gpu_shading: " + run.unwritten);
+  }
+  run.session = nullptr;
+}
+
+void end_energyplus(State& state) {
+  finish_run();
+  original_end(state);
+}
+
+void abort_energyplus(State& state) {
+  finish_run();
+  original_abort(state);
+}
+
+constexpr char const* print_shading_line =
+    "_ZN10EnergyPlus6vprintIJNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEES6_iiS6_jS6_S6_S6_"
+    "S6_"
+    "EEEvRSoSt17basic_string_viewIcS4_EDpRKT_";
+
+}  // namespace
+
+std::vector<EntryPatch> input_entries() {
+  EntryPatch print{print_shading_line, reinterpret_cast<void*>(&gpu_shading_watch_print),
+                   &gpu_shading_original_print};
+  print.needed = false;
+  print.result.reset();
+  return {
+      watch("_ZN10EnergyPlus14InputProcessor12processInputERNS_14EnergyPlusDataE", &process_input,
+            &original_process_input),
+      watch("_ZN10EnergyPlus10FileSystem8readFileERKNSt10filesystem7__cxx114pathESt13_Ios_Openmode",
+            &read_file, &original_read_file),
+      watch("_ZN10EnergyPlus10FileSystem8readJSONERKNSt10filesystem7__cxx114pathESt13_Ios_Openmode",
+            &read_json, &original_read_json),
+      watch("_ZN10EnergyPlus13EndEnergyPlusERNS_14EnergyPlusDataE", &end_energyplus, &original_end),
+      watch("_ZN10EnergyPlus15AbortEnergyPlusERNS_14EnergyPlusDataE", &abort_energyplus,
+            &original_abort),
+      print,
+  };
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <exception>
+#include <filesystem>
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "calculation/session.h"
+#include "routes/patched/binary/stored_result.h"
+#include "routes/patched/memory/reflection_memory.h"
+#include "routes/patched/memory/surface_luminance.h"
+#include "routes/patched/symbols/energyplus.h"
+#include "routes/patched/symbols/schedule_functions.h"
+#include "tasks/asked_task.h"
+
+namespace gpu_shading::energyplus {
+
+// What the process keeps: set by the installation, before any run.
+struct Installation {
+  std::filesystem::path library;
+  std::string version;  // of EnergyPlus, e.g. "25.2.0"
+  EnergyPlusFunctions functions;
+  ScheduleFunctions schedules;
+  std::optional<StoredResult> surface_ids;  // where EnergyPlus keeps what add_surface returned
+  bool daylight_rays = false;               // the functions of daylighting's rays are redirected
+  // Where solar reflections are found, if their functions are redirected.
+  std::optional<ReflectionClasses> reflection_classes;
+  // What reflections in daylighting need, if their functions are redirected.
+  struct DaylightParts {
+    DaylightClasses classes;
+    ElementFunction* element;
+  };
+  std::optional<DaylightParts> daylight_reflections;
+  bool daylight_memory = false;   // the functions of DaylightMemory are redirected
+  Choices choices;                // command line over environment
+  std::optional<AskedTask> task;  // that EnergyPlus is run for
+};
+Installation& installation();
+
+// One EnergyPlus run. EnergyPlus runs a state on one thread from its input to its end, and none of
+// its shading functions is handed the state; so this is the thread's.
+struct Run {
+  State* state = nullptr;
+  std::optional<Model> model;   // once the input is read
+  std::ostream* eio = nullptr;  // once EnergyPlus has written its own line on shading
+  Session* session = nullptr;   // while EnergyPlus has one
+  std::string unwritten;        // why its output is not complete, "" where it is
+};
+Run& this_run();
+
+// Where a session's messages go: this run's .err and .eio.
+Messages messages_of(Run const& run);
+
+// Ends EnergyPlus's run: with a fatal message, which is EnergyPlus's own way. An exception other
+// than TaskDone is an error, printed and replied to a task.
+[[noreturn]] void end_run(std::exception_ptr const& thrown);
+
+// Calls `action`; an exception of ours ends EnergyPlus's run.
+template <typename Action>
+auto guarded(Action const& action) {
+  std::exception_ptr thrown;
+  try {
+    return action();
+  } catch (std::exception const&) {
+    thrown = std::current_exception();
+  }
+  end_run(thrown);
+}
+
+// A function as EnergyPlus may call it: guarded.
+template <auto function>
+struct Guarded;
+template <typename Result, typename... Arguments, Result (*function)(Arguments...)>
+struct Guarded<function> {
+  static Result call(Arguments... arguments) {
+    return guarded([&] { return function(arguments...); });
+  }
+};
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "routes/patched/binary/entry_patch.h"
+
+namespace gpu_shading::energyplus {
+
+// While it lives, this thread's EnergyPlus does not write errors and warnings for which the
+// function returns true, nor the lines that continue them. One at a time.
+class UnwantedMessages {
+ public:
+  explicit UnwantedMessages(std::function<bool(std::string_view message)> unwanted);
+  ~UnwantedMessages();
+  UnwantedMessages(UnwantedMessages const&) = delete;
+  UnwantedMessages& operator=(UnwantedMessages const&) = delete;
+};
+
+// The functions through which EnergyPlus writes them.
+std::vector<EntryPatch> message_entries();
+
+}  // namespace gpu_shading::energyplus

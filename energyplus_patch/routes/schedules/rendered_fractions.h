@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "calculation/session.h"
+#include "model/model_reader.h"
+#include "routes/schedules/sunlit_fractions.h"
+#include "runs/run_times.h"
+
+namespace gpu_shading::energyplus {
+
+// Renders the sunlit fractions of every exterior surface at every timestep with the sun up,
+// including the run's schedule values; interpolated from samples if the model's options say so.
+// `surfaces`: those of the whole model. `latitude`: the site's, in radians; only called when
+// sampling. Throws Error.
+SunlitFractions render_fractions(Model model, std::vector<Surface> const& surfaces,
+                                 RunTimes const& run, Messages const& messages,
+                                 std::function<double()> const& latitude);
+
+// The transmittance and deployment schedules of a model's shades, in upper case, without
+// duplicates.
+std::vector<std::string> shade_schedules(Model const& model);
+
+// The schedules whose values are only known during the run, and a warning about these.
+std::vector<std::string> unknown_schedules(Model const& model, RunTimes const& run);
+std::string describe_unknown(std::vector<std::string> const& schedules);
+
+}  // namespace gpu_shading::energyplus

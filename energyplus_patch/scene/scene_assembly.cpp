@@ -1,0 +1,194 @@
+#include "scene/scene_assembly.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "gpu_shading/error.h"
+#include "model/extensions/extension_fields.h"
+#include "model/site/farthest_coordinate.h"
+#include "platform/text.h"
+#include "scene/build_id.h"
+#include "scene/model_rule.h"
+#include "scene/scene_hash.h"
+
+namespace gpu_shading::energyplus {
+
+namespace {
+
+// EnergyPlus hands over what it has read.
+void check_coordinates(Surface const& surface, std::string const& model) {
+  auto const check = [&](Ring const& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      auto const& point = ring[i];
+      if (is_within_reach(point)) continue;
+      throw Error(fmt::format("{}: surface {}: vertex {} {}", model, printable(surface.name), i + 1,
+                              describe_out_of_reach(point)));
+    }
+  };
+  check(surface.polygon.outline);
+  for (auto const& hole : surface.polygon.holes) check(hole);
+}
+
+}  // namespace
+
+SurfaceId SceneAssembly::add(Surface surface) {
+  if (surface.casting != Casting::never) surface.casting = model_.shading.casting(surface.name);
+  double ratio = 1.0;
+  auto const written = model_.simplified.outlines.find(surface.name);
+  if (written != model_.simplified.outlines.end()) {
+    double const passed = area(surface.polygon);
+    surface.polygon.outline = written->second;
+    double const rendered = area(surface.polygon);
+    if (rendered > 0.0) ratio = passed / rendered;
+  }
+  check_coordinates(surface, model_.file);
+  area_ratios_.push_back(ratio);
+  return surfaces_.add(std::move(surface));
+}
+
+SurfaceId SceneAssembly::add_mirrored(SurfaceId original) {
+  area_ratios_.push_back(area_ratios_[original]);
+  return surfaces_.add(mirrored(surfaces_[original]));
+}
+
+void SceneAssembly::complete(Schedules schedules) {
+  for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
+    auto const& name = surfaces_[id].name;
+    bool const wanted = model_.shading.receives(name) && !window_of_reveal(name);
+    receives_.push_back(wanted);
+    bool const shading = model_.shading.shading_surfaces.contains(name) || is_mirrored(name);
+    unshaded_.push_back(!wanted && shading);
+  }
+  complete_ = true;
+  for (auto& caster : model_.lean.casters) {
+    check_coordinates(caster, model_.file);
+    surfaces_.add(std::move(caster));
+  }
+  model_.lean.casters.clear();
+  model_.surroundings.first = static_cast<SurfaceId>(surfaces_.size());
+  for (auto& caster : model_.surroundings.casters) {
+    check_coordinates(caster.surface, model_.file);
+    surfaces_.add(std::move(caster.surface));
+  }
+  optics_ = ShadeOptics(model_, std::move(schedules));
+}
+
+std::vector<SurfaceId> SceneAssembly::shading_surfaces() const {
+  std::vector<SurfaceId> ids;
+  for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
+    if (model_.shading.shading_surfaces.contains(surfaces_[id].name)) ids.push_back(id);
+  }
+  return ids;
+}
+
+std::vector<glm::dvec3> SceneAssembly::areas() const {
+  std::vector<glm::dvec3> areas;
+  areas.reserve(size());
+  for (SurfaceId id = 0; id < size(); ++id) {
+    auto const& polygon = surfaces_[id].polygon;
+    areas.push_back(area(polygon) * normal(polygon));
+  }
+  return areas;
+}
+
+std::vector<SurfaceId> SceneAssembly::receivers() const {
+  std::vector<SurfaceId> ids;
+  for (SurfaceId id = 0; id < size(); ++id) {
+    if (receives_[id] && area(surfaces_[id].polygon) > 0.0) ids.push_back(id);
+  }
+  return ids;
+}
+
+std::vector<SurfaceId> SceneAssembly::shown_receivers() const {
+  auto const& shading = model_.shading;
+  auto ids = receivers();
+  std::erase_if(ids, [&](SurfaceId id) {
+    auto const& name = surfaces_[id].name;
+    return (shading.shading_surfaces.contains(name) || is_mirrored(name)) && !shading.names(name);
+  });
+  return ids;
+}
+
+std::vector<SurfaceId> SceneAssembly::shown() const {
+  auto const& types = model_.surroundings.types;
+  std::vector<SurfaceId> ids;
+  for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
+    auto const& name = surfaces_[id].name;
+    auto const type = types.find(name);
+    bool const context = type != types.end() && type->second == extension::site_context::type;
+    bool const copy = is_mirrored(name) && !model_.shading.names(name);
+    if (!context && !copy) ids.push_back(id);
+  }
+  return ids;
+}
+
+Scene SceneAssembly::scene(ShadeOptics::Radiation radiation) const {
+  Scene scene;
+  for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
+    auto surface = surfaces_[id];
+    optics_.apply(surface, model_.surroundings.texture_of(id), radiation);
+    scene.add(std::move(surface));
+  }
+  std::vector<WallCopy> copies;
+  for (SurfaceId id = 0; id < size(); ++id) {
+    auto const& wall = surfaces_[id];
+    if (wall.polygon.holes.empty() || wall.casting == Casting::never) continue;
+    Surface closed;
+    closed.name = wall.name;
+    closed.polygon.outline = wall.polygon.outline;
+    closed.casting = wall.casting;
+    optics_.apply(closed, std::nullopt, radiation);
+    copies.push_back({id, scene.add(std::move(closed))});
+  }
+  scene.set_rule(make_shading_rule(model_.shading, scene, copies).rule);
+  return scene;
+}
+
+Scene SceneAssembly::hidden_casters() const {
+  Scene scene;
+  for (auto id = static_cast<SurfaceId>(size()); id < surfaces_.size(); ++id) {
+    auto surface = surfaces_[id];
+    optics_.apply(surface, model_.surroundings.texture_of(id), ShadeOptics::Radiation::light);
+    if (surface.casting != Casting::never) scene.add(std::move(surface));
+  }
+  return scene;
+}
+
+std::vector<SurfaceId> SceneAssembly::hidden(Scene const& scene) const {
+  std::vector<SurfaceId> ids;
+  for (auto id = static_cast<SurfaceId>(size()); id < surfaces_.size(); ++id) {
+    if (scene[id].casting != Casting::never) ids.push_back(id);
+  }
+  return ids;
+}
+
+Hash SceneAssembly::hash(Scene const& scene, DeviceInfo const& device) const {
+  return hash_scene(scene, {renderer_options(model_.options), device, build_id()});
+}
+
+Surface mirrored(Surface const& original) {
+  Surface copy;
+  copy.name = mirrored_name(original.name);
+  copy.polygon = original.polygon;
+  copy.casting = Casting::never;
+  std::reverse(copy.polygon.outline.begin(), copy.polygon.outline.end());
+  return copy;
+}
+
+RendererOptions renderer_options(Options const& options) {
+  RendererOptions chosen;
+  chosen.device = options.device;
+  chosen.resolution = options.resolution;
+  chosen.error = options.error;
+  return chosen;
+}
+
+std::string describe_fineness(Options const& options) {
+  return options.resolution
+             ? fmt::format("{} x {} pixels", *options.resolution, *options.resolution)
+             : fmt::format("error {}", options.error);
+}
+
+}  // namespace gpu_shading::energyplus

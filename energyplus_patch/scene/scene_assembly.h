@@ -1,0 +1,102 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "gpu_shading/renderer.h"
+#include "model/model_reader.h"
+#include "scene/digest.h"
+#include "scene/schedules.h"
+#include "scene/shade_optics.h"
+
+namespace gpu_shading::energyplus {
+
+// The surfaces of one run and what they let through: those of the model that EnergyPlus adds, then
+// casters that EnergyPlus does not see (lean input, surroundings). Placeholders stay out of it.
+// Functions throw Error.
+class SceneAssembly {
+ public:
+  explicit SceneAssembly(Model model) : model_(std::move(model)) {}
+  ~SceneAssembly() = default;
+  SceneAssembly(SceneAssembly const&) = delete;  // the optics refer to the model
+  SceneAssembly& operator=(SceneAssembly const&) = delete;
+
+  // Adds a surface of EnergyPlus's. Not after complete().
+  SurfaceId add(Surface surface);
+  // The same for the copy of a shading surface that faces the other way.
+  SurfaceId add_mirrored(SurfaceId original);
+
+  // EnergyPlus has added all its surfaces: adds the other casters and reads the schedules.
+  void complete(Schedules schedules);
+
+  Model const& model() const { return model_; }
+  ShadeOptics& optics() { return optics_; }
+  ShadeOptics const& optics() const { return optics_; }
+
+  // Without optics: names, polygons and whether they cast shadows.
+  Scene const& surfaces() const { return surfaces_; }
+
+  // Surfaces that EnergyPlus added; their ids are the first.
+  std::size_t size() const { return complete_ ? receives_.size() : surfaces_.size(); }
+
+  // Ids of the model's shading surfaces, in order.
+  std::vector<SurfaceId> shading_surfaces() const;
+
+  // EnergyPlus's area of a surface over the area that is rendered: it deletes vertices that are
+  // close to each other (SimplifiedSurfaces).
+  double area_ratio(SurfaceId surface) const { return area_ratios_[surface]; }
+
+  // After complete(), by surface of EnergyPlus's:
+  // unit normal x net area (m2);
+  std::vector<glm::dvec3> areas() const;
+  // whether its sunlit fraction is wanted: that of a shading surface rarely is, that of a window's
+  // reveal never;
+  std::vector<bool> const& receives() const { return receives_; }
+  // whether it counts as unshaded, because its sunlit fraction is not wanted but EnergyPlus may ask
+  // for it.
+  std::vector<bool> const& unshaded() const { return unshaded_; }
+
+  // The surfaces with an area whose sunlit fractions are wanted.
+  std::vector<SurfaceId> receivers() const;
+
+  // The same for people: without shading surfaces that nothing names, whose sunlit fractions only
+  // EnergyPlus wants, for reflections and for outputs of all surfaces.
+  std::vector<SurfaceId> shown_receivers() const;
+
+  // What shows a person the model: all but terrain, neighbouring buildings and mirrored copies that
+  // nothing names.
+  std::vector<SurfaceId> shown() const;
+
+  // The scene to render, with the optics as they are now: the surfaces by their ids, then a copy
+  // without openings of each wall that has openings.
+  Scene scene(ShadeOptics::Radiation radiation = ShadeOptics::Radiation::solar) const;
+
+  // The casters that are not EnergyPlus's surfaces, with the optics as they are now for light.
+  Scene hidden_casters() const;
+
+  // Their ids in scene().
+  std::vector<SurfaceId> hidden(Scene const& scene) const;
+
+  // Hash of all that an answer depends on: of a scene(), rendered on a device.
+  Hash hash(Scene const& scene, DeviceInfo const& device) const;
+
+ private:
+  Model model_;
+  Scene surfaces_;
+  std::vector<double> area_ratios_;
+  bool complete_ = false;
+  std::vector<bool> receives_;
+  std::vector<bool> unshaded_;
+  ShadeOptics optics_;
+};
+
+// The copy of a shading surface that faces the other way.
+Surface mirrored(Surface const& original);
+
+// How a model is rendered.
+RendererOptions renderer_options(Options const& options);
+
+// "512 x 512 pixels", "error 0.001"
+std::string describe_fineness(Options const& options);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,162 @@
+#include "scene/shade_optics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "gpu_shading/transmittance.h"
+#include "model/extensions/extension_fields.h"
+#include "platform/naming.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+// The value of a schedule that an object's field names.
+std::pair<double, double> range_of(Schedules const& schedules, std::string const& name,
+                                   std::string const& object, std::string_view field) {
+  return naming(fmt::format("{}: {}", object, field), [&] { return schedules.range(name); });
+}
+
+// The screen of a surface, nullptr if it has none. A surface without area cannot have one.
+SurfaceScreen const* screen_of(Model const& model, Surface const& surface) {
+  auto const found = model.screens.by_surface.find(surface.name);
+  if (found == model.screens.by_surface.end() || area(surface.polygon) <= 0.0) return nullptr;
+  return &found->second;
+}
+
+}  // namespace
+
+ShadeOptics::ShadeOptics(Model const& model, Schedules schedules)
+    : model_(&model), schedules_(std::move(schedules)) {
+  add_transmittance_schedules();
+  add_deployments();
+}
+
+void ShadeOptics::add_transmittance_schedules() {
+  for (auto const& [name, surface] : model_->shading.shading_surfaces) {
+    auto const& schedule_name = surface.transmittance_schedule;
+    if (schedule_name.empty()) continue;
+    auto const [place, added] = by_name_.try_emplace(schedule_name);
+    if (!added) continue;
+    auto const [least, most] = range_of(schedules_, schedule_name, surface.type + " " + name,
+                                        "Transmittance Schedule Name");
+    if (least == most) {
+      place->second.held = least;
+    } else {
+      make_factor(schedule_name, place->second);
+    }
+  }
+}
+
+void ShadeOptics::add_deployments() {
+  for (auto const& [surface, screen] : model_->screens.by_surface) {
+    auto const& name = screen.deployment_schedule;
+    auto const& known = deployment_names_;
+    if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) continue;
+    auto const range = range_of(schedules_, name, screen.maker->where(),
+                                extension::perforated_screen::deployment_schedule_name.title);
+    deployment_names_.push_back(name);
+    deployments_.push_back(range.second);
+  }
+}
+
+void ShadeOptics::make_factor(std::string const& name, Schedule& schedule) {
+  schedule.held.reset();
+  schedule.factor = static_cast<int>(factor_names_.size());
+  factor_names_.push_back(name);
+  factors_.push_back(0.0);
+}
+
+void ShadeOptics::apply(Surface& surface, std::optional<TextureAxes> const& texture,
+                        Radiation radiation) const {
+  auto const shading = model_->shading.shading_surfaces.find(surface.name);
+  if (shading == model_->shading.shading_surfaces.end()) return;
+  auto const shade = model_->shades.by_surface.find(surface.name);
+  if (shade != model_->shades.by_surface.end()) {
+    surface.transmittance =
+        radiation == Radiation::solar ? shade->second.transmittance : shade->second.visible;
+  }
+  apply_screen(surface, texture);
+  auto const schedule = by_name_.find(shading->second.transmittance_schedule);
+  if (schedule == by_name_.end()) return;
+  auto const& held = schedule->second.held;
+  if (!held) {
+    surface.schedule = schedule->second.factor;
+  } else if (*held <= 0.0) {
+    surface.transmittance.reset();
+    surface.screen.reset();
+    surface.deployment = -1;
+  } else if (*held < 1.0) {
+    auto& product = products_[{surface.transmittance.get(), *held}];
+    if (!product) {
+      Transmittance const model =
+          surface.transmittance ? *surface.transmittance : Transmittance::constant(1.0);
+      product = std::make_shared<Transmittance const>(Transmittance::product(model, *held));
+    }
+    surface.transmittance = product;
+  } else if (!surface.transmittance && !surface.screen) {
+    surface.casting = Casting::never;
+  }
+}
+
+void ShadeOptics::apply_screen(Surface& surface, std::optional<TextureAxes> const& texture) const {
+  auto const* const screen = screen_of(*model_, surface);
+  if (screen == nullptr) return;
+  surface.screen = screen->maker->make(surface.polygon, texture);
+  surface.placement = screen->maker->placement(surface.polygon, texture);
+  auto const& known = deployment_names_;
+  auto const found = std::find(known.begin(), known.end(), screen->deployment_schedule);
+  if (found != known.end()) surface.deployment = static_cast<int>(found - known.begin());
+}
+
+bool ShadeOptics::update(Moment moment) {
+  bool changed = false;
+  for (auto& [name, schedule] : by_name_) {
+    if (schedule.held && schedules_.value(name, moment) != *schedule.held) {
+      make_factor(name, schedule);
+      changed = true;
+    }
+  }
+  factors_ = factors_at(moment);
+  deployments_ = deployments_at(moment);
+  return changed;
+}
+
+std::vector<double> ShadeOptics::factors_at(Moment moment) const {
+  std::vector<double> factors;
+  for (auto const& name : factor_names_) factors.push_back(schedules_.value(name, moment));
+  return factors;
+}
+
+std::vector<double> ShadeOptics::deployments_at(Moment moment) const {
+  std::vector<double> deployments;
+  for (auto const& name : deployment_names_) {
+    deployments.push_back(moment.timestep > 0 ? schedules_.value(name, moment)
+                                              : schedules_.range(name).second);
+  }
+  return deployments;
+}
+
+std::string describe_optics(Model const& model, Surface const& surface,
+                            std::optional<TextureAxes> const& texture) {
+  auto const shading = model.shading.shading_surfaces.find(surface.name);
+  if (shading == model.shading.shading_surfaces.end()) return "opaque";
+  auto const shade = model.shades.by_surface.find(surface.name);
+  auto const& schedule = shading->second.transmittance_schedule;
+  std::string text;
+  if (shade != model.shades.by_surface.end()) {
+    text = fmt::format("transparent ({})", shade->second.description);
+  }
+  if (auto const* const screen = screen_of(model, surface)) {
+    text = screen->maker->describe(surface.polygon, texture);
+    if (!screen->deployment_schedule.empty()) {
+      text += fmt::format(" deployed by {}", screen->deployment_schedule);
+    }
+  }
+  if (!schedule.empty()) {
+    text += fmt::format("{}schedule {}", text.empty() ? "" : " x ", schedule);
+  }
+  return text.empty() ? "opaque" : text;
+}
+
+}  // namespace gpu_shading::energyplus

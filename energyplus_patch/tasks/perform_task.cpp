@@ -1,0 +1,132 @@
+#include "tasks/perform_task.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <variant>
+
+#include "answers/cache_folder.h"
+#include "answers/open_answers.h"
+#include "gpu_shading/error.h"
+#include "model/extensions/extension_fields.h"
+#include "reports/remarks.h"
+#include "runs/run_times.h"
+#include "tasks/draw_views.h"
+#include "tasks/listing.h"
+#include "tasks/map_receivers.h"
+#include "tasks/samples/direction_fractions.h"
+#include "tasks/samples/take_samples.h"
+#include "tasks/scene_document.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+std::string perform(ListingTask const& task, SceneAssembly& scene, Messages const& /*messages*/) {
+  if (task.vertices) {
+    return task.json ? scene_document(scene) : list_vertices(scene.surfaces(), scene.model());
+  }
+  auto const listing = list_surfaces(scene.surfaces(), scene.model(), scene.receives());
+  return task.json ? to_json_text(listing) : to_text(listing);
+}
+
+std::string perform(ViewsTask const& task, SceneAssembly& scene, Messages const& messages) {
+  RendererOptions options = watched_options(scene.model().options, messages);
+  options.samples_only = true;  // by which the device that draws is checked
+  Renderer renderer(scene.scene(), options);
+  scene.optics().update({});
+  renderer.set_deployments(scene.optics().deployments());
+  std::vector<bool> receives(scene.surfaces().size(), false);
+  for (auto const id : scene.shown_receivers()) receives[id] = true;
+  draw_views(task.views, task.folder,
+             {renderer, scene.shown(), std::move(receives), scene.optics().factors(), task.size});
+  return {};
+}
+
+// For tasks that render: the answers of a device that was checked.
+RenderedAnswers open_for_task(SceneAssembly& scene, std::vector<SurfaceId> const& receivers,
+                              Messages const& messages) {
+  auto const& options = scene.model().options;
+  if (options.cache) prepare_cache_folder(*options.cache);
+  auto answers = open_answers(scene, receivers, options.device, messages);
+  check_device(answers.renderer().device(), options, messages);
+  describe_scene(scene, messages);
+  scene.optics().update({});
+  answers.deploy(scene.optics().deployments());
+  return answers;
+}
+
+// Each position of a screen would need samples of its own.
+void refuse_moving_screens(ShadeOptics const& optics) {
+  for (auto const& name : optics.deployment_names()) {
+    auto const [least, most] = optics.schedules().range(name);
+    if (least < most) {
+      throw Error(fmt::format(
+          "{}: {} {}: has values from {} to {}, expected a constant value for samples",
+          extension::perforated_screen::type,
+          extension::perforated_screen::deployment_schedule_name.title, name, least, most));
+    }
+  }
+}
+
+SampledScene sampled_scene(SamplesTask const& task, SceneAssembly const& scene,
+                           RenderedAnswers const& answers) {
+  auto const areas = scene.areas();
+  SampledScene sampled;
+  sampled.asked = task.asked;
+  sampled.hash = to_text(scene.hash(answers.renderer().scene(), {}));
+  sampled.fineness = describe_fineness(scene.model().options);
+  sampled.schedules = scene.optics().factor_names();
+  for (auto const id : answers.known().receivers) {
+    sampled.receivers.push_back({scene.surfaces()[id].name, areas[id]});
+  }
+  return sampled;
+}
+
+std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages const& messages) {
+  auto const& options = scene.model().options;
+  refuse_moving_screens(scene.optics());
+  // All that a run asks for, because the samples depend on it.
+  auto answers = open_for_task(scene, scene.receivers(), messages);
+  auto const& device = answers.renderer().device();
+  auto const sampled = sampled_scene(task, scene, answers);
+  auto line = take_samples(task, options.update.sampling.value(), sampled, describe(device),
+                           [&](std::span<SunDirection const> suns) {
+                             return answers.at(suns, answers.known().receivers);
+                           });
+  store_answers(answers, messages);
+  return line;
+}
+
+std::string perform(DirectionsTask const& task, SceneAssembly& scene, Messages const& messages) {
+  auto answers = open_for_task(scene, scene.shown_receivers(), messages);
+  auto const areas = scene.areas();
+  auto const& factors = scene.optics().factors();
+  std::vector<ReceiverFractions> receivers;
+  for (auto const id : answers.known().receivers) {
+    receivers.push_back({{scene.surfaces()[id].name, areas[id]}, {}});
+  }
+  auto const rendered = answers.at(task.directions, answers.known().receivers);
+  for (std::size_t i = 0; i < task.directions.size(); ++i) {
+    auto const sun = to_vector(task.directions[i]);
+    for (std::size_t k = 0; k < receivers.size(); ++k) {
+      auto& [receiver, fractions] = receivers[k];
+      fractions.push_back(sunlit_fraction(rendered[i][k].at(factors), receiver.area, sun));
+    }
+  }
+  write_fractions(task.file, receivers);
+  store_answers(answers, messages);
+  return fmt::format("{} directions of {} receivers", task.directions.size(), receivers.size());
+}
+
+std::string perform(MapTask const& task, SceneAssembly& scene, Messages const& messages) {
+  describe_scene(scene, messages);
+  return map_receivers(task, scene);
+}
+
+}  // namespace
+
+std::string perform_task(Task const& task, SceneAssembly& scene, Messages const& messages) {
+  return std::visit([&](auto const& wanted) { return perform(wanted, scene, messages); }, task);
+}
+
+}  // namespace gpu_shading::energyplus

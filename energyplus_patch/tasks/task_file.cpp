@@ -1,0 +1,162 @@
+#include "tasks/task_file.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <variant>
+
+#include "gpu_shading/error.h"
+#include "platform/files.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using Json = nlohmann::json;
+using Path = std::filesystem::path;
+
+void write(Path const& file, Json const& json) {
+  auto const bytes = Json::to_cbor(json);
+  write_whole_file(file, [&](std::ostream& out) {
+    out.write(reinterpret_cast<char const*>(bytes.data()),
+              static_cast<std::streamsize>(bytes.size()));
+  });
+}
+
+template <typename Parse>
+auto read(Path const& file, Parse const& parse) {
+  auto const bytes = read_text_file(file);
+  try {
+    return parse(Json::from_cbor(bytes));
+  } catch (Json::exception const& error) {
+    throw Error(
+        fmt::format("{}: is not a file of gpu_shading's own ({})", file.string(), error.what()));
+  }
+}
+
+Json to_json(ListingTask const& task) {
+  return {{"kind", "listing"}, {"vertices", task.vertices}, {"json", task.json}};
+}
+
+Json to_json(ViewsTask const& task) {
+  Json views = Json::array();
+  for (auto const& [picture, sun, receiver, camera] : task.views) {
+    views.push_back(Json::array({picture, sun.azimuth, sun.altitude, receiver}));
+    if (!camera) continue;
+    views.back().push_back(camera->azimuth);
+    views.back().push_back(camera->altitude);
+  }
+  return {{"kind", "views"},
+          {"views", std::move(views)},
+          {"folder", task.folder.string()},
+          {"size", task.size}};
+}
+
+Json to_json(SamplesTask const& task) {
+  return {{"kind", "samples"},          {"asked", task.asked},
+          {"latitude", task.latitude},  {"parts", task.parts.string()},
+          {"shard", task.shard.number}, {"shards", task.shard.shards},
+          {"progress", task.progress}};
+}
+
+Json to_json(DirectionsTask const& task) {
+  Json directions = Json::array();
+  for (auto const& direction : task.directions) {
+    directions.push_back({direction.azimuth, direction.altitude});
+  }
+  return {
+      {"kind", "directions"}, {"directions", std::move(directions)}, {"file", task.file.string()}};
+}
+
+DirectionsTask to_directions_task(Json const& json) {
+  DirectionsTask task{{}, json.at("file").get<std::string>()};
+  for (auto const& direction : json.at("directions")) {
+    task.directions.push_back({direction.at(0), direction.at(1)});
+  }
+  return task;
+}
+
+Json to_json(MapTask const& task) {
+  Json times = Json::array();
+  for (auto const& [month, day, hour, timestep, sun, schedules, beam] : task.run.times) {
+    times.push_back({month, day, hour, timestep, sun.azimuth, sun.altitude, Json(schedules), beam});
+  }
+  return {{"kind", "maps"},
+          {"receivers", task.receivers},
+          {"spacing", task.spacing},
+          {"rays", task.rays_per_cell},
+          {"steps", task.run.steps_per_hour},
+          {"schedules", task.run.schedules},
+          {"times", std::move(times)},
+          {"file", task.file.string()},
+          {"progress", task.progress}};
+}
+
+MapTask to_map_task(Json const& json) {
+  MapTask task{json.at("receivers"),
+               json.at("spacing"),
+               json.at("rays"),
+               {json.at("steps"), {}, json.at("schedules")},
+               json.at("file").get<std::string>(),
+               json.at("progress")};
+  for (auto const& time : json.at("times")) {
+    task.run.times.push_back({time.at(0),
+                              time.at(1),
+                              time.at(2),
+                              time.at(3),
+                              {time.at(4), time.at(5)},
+                              time.at(6),
+                              time.at(7)});
+  }
+  return task;
+}
+
+Task to_task(Json const& json) {
+  auto const kind = json.at("kind").get<std::string>();
+  if (kind == "listing") return ListingTask{json.at("vertices"), json.at("json")};
+  if (kind == "maps") return to_map_task(json);
+  if (kind == "directions") return to_directions_task(json);
+  if (kind == "samples") {
+    return SamplesTask{json.at("asked"),
+                       json.at("latitude"),
+                       json.at("parts").get<std::string>(),
+                       {json.at("shard"), json.at("shards")},
+                       json.at("progress")};
+  }
+  ViewsTask task{{}, json.at("folder").get<std::string>(), json.at("size")};
+  for (auto const& view : json.at("views")) {
+    task.views.push_back({view.at(0), {view.at(1), view.at(2)}, view.at(3)});
+    constexpr std::size_t with_camera = 6;
+    if (view.size() == with_camera) {
+      task.views.back().camera = SunDirection{view.at(4), view.at(5)};
+    }
+  }
+  return task;
+}
+
+}  // namespace
+
+void write_request(Path const& file, TaskRequest const& request) {
+  auto json = std::visit([](auto const& task) { return to_json(task); }, request.task);
+  json["reply"] = request.reply.string();
+  write(file, json);
+}
+
+TaskRequest read_request(Path const& file) {
+  return read(file, [](Json const& json) {
+    return TaskRequest{to_task(json), json.at("reply").get<std::string>()};
+  });
+}
+
+void write_reply(Path const& file, TaskReply const& reply) {
+  write(file, {{"text", reply.text}, {"warnings", reply.warnings}, {"error", reply.error}});
+}
+
+std::optional<TaskReply> find_reply(Path const& file) {
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  return read(file, [](Json const& json) {
+    return TaskReply{json.at("text"), json.at("warnings"), json.at("error")};
+  });
+}
+
+}  // namespace gpu_shading::energyplus

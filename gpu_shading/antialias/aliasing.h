@@ -1,0 +1,60 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "antialias/blade_spectrum.h"
+#include "antialias/hole_spectrum.h"
+#include "antialias/repeat.h"
+#include "filters/perforation/screens.h"
+#include "filters/perforation/sheet_in_beam.h"
+#include "view/tile.h"
+#include "view/view.h"
+
+namespace gpu_shading {
+
+// How much what repeats in a view aliases with a grid of samples. The mean of a pattern over a grid
+// is wrong by the amplitude of each of the pattern's frequencies times that of the receiver's
+// outline, at the frequency's distance from the nearest vector of the grid's reciprocal lattice.
+class Aliasing {
+ public:
+  // `view` is that of the casters in front, on the tile.
+  Aliasing(View const& view, OutlineSpectrum const& outline) : view_(view), outline_(outline) {}
+
+  // A screen whose holes are drawn.
+  void add(Screens::Entry const& screen, SheetInBeam const& sheet);
+  // A screen of which rows of holes are drawn.
+  void add_rows(Screens::Entry const& screen, SheetInBeam const& sheet);
+  void add(SampledRepeats const& repeats);
+  // Rays pass more than one of the screens.
+  void overlap();
+
+  // The same on another tile of the receiver. `from`, `to`: the maps of both tiles.
+  Aliasing on_tile(TileMap const& from, TileMap const& to, OutlineSpectrum const& outline) const;
+
+  // An error with which no better grid of so many rows is looked for.
+  static double small_enough(int rows) { return 0.015 / rows; }
+
+  bool none() const { return screens_.empty() && blades_.empty(); }
+  // Upper limit of the squared error of a grid, or anything above `enough`.
+  double squared_error(TileGrid const& grid, double enough) const;
+
+ private:
+  struct AlikeScreens {
+    Screens::Entry const* first;
+    HoleSpectrum holes;
+    int count;
+  };
+
+  double squared_error_of_each(TileGrid const& grid, double enough) const;
+  double squared_error_of_pairs(TileGrid const& grid, HoleSpectrum const& second,
+                                double enough) const;
+
+  View const& view_;
+  OutlineSpectrum outline_;
+  std::vector<AlikeScreens> screens_;
+  std::vector<BladeSpectrum> blades_;
+  std::vector<HoleSpectrum::Frequency> first_;  // of the first screen, if they overlap
+};
+
+}  // namespace gpu_shading

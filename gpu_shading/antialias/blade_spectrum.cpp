@@ -1,0 +1,113 @@
+#include "antialias/blade_spectrum.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <numeric>
+
+#include "antialias/nearest_whole.h"
+#include "geometry/convex_area.h"
+#include "platform/instructions.h"
+
+namespace gpu_shading {
+namespace {
+
+glm::dvec2 in_tiles(View const& view, glm::dvec3 const& vector) {
+  return 0.5 *
+         glm::dvec2(glm::dot(glm::dvec3(view.x), vector), glm::dot(glm::dvec3(view.y), vector));
+}
+
+// The square of what a vector of the grid's reciprocal lattice adds to the error of a multiple of
+// the frequency, for blades of all of the receiver and without pi.
+[[gnu::always_inline]] inline double squared_at(OutlineSpectrum const& outline,
+                                                glm::dvec2 const& at, double multiple,
+                                                TileGrid const& grid, double column, double row) {
+  double const error = outline.amplitude(at - grid.reciprocal(column, row)) / multiple;
+  return column == 0.0 && row == 0.0 ? 0.0 : error * error;
+}
+
+// Of the vectors around a strong multiple.
+double near_strong(OutlineSpectrum const& outline, glm::dvec2 const& first, TileGrid const& grid,
+                   int multiple) {
+  constexpr int around = 2;
+  glm::dvec2 const at = static_cast<double>(multiple) * first;
+  double const middle = nearest_whole(at.x / grid.width);
+  double const rows = at.y / grid.rows;
+  double sum = 0.0;
+  for (int up = -around; up <= around; ++up) {
+    for (int across = -around; across <= around; ++across) {
+      double const column = middle + across;
+      double const row = nearest_whole(rows - column * grid.shear) + up;
+      sum += squared_at(outline, at, multiple, grid, column, row);
+    }
+  }
+  return sum;
+}
+
+// Of the vectors next to some weak multiples, from one on. Written for the compiler to take several
+// at a time.
+constexpr int at_once = 32;
+[[gnu::always_inline]] inline double near_weak(OutlineSpectrum const& outline,
+                                               glm::dvec2 const& first, TileGrid const& grid,
+                                               int from) {
+  glm::dvec2 const cell(1.0 / grid.width, 1.0 / grid.rows);
+  std::array<double, at_once> squared{};
+  for (int i = 0; i < at_once; ++i) {
+    auto const multiple = static_cast<double>(from + i);
+    glm::dvec2 const at = multiple * first;
+    double const column = nearest_whole(at.x * cell.x);
+    double const row = nearest_whole(at.y * cell.y - column * grid.shear);
+    squared[static_cast<std::size_t>(i)] = squared_at(outline, at, multiple, grid, column, row);
+  }
+  return std::accumulate(squared.begin(), squared.end(), 0.0);
+}
+
+}  // namespace
+
+std::optional<BladeSpectrum> BladeSpectrum::make(Repeat const& repeat, double share,
+                                                 View const& view, OutlineSpectrum const& outline) {
+  glm::dvec2 const step = in_tiles(view, repeat.step);
+  glm::dvec2 const edge = in_tiles(view, repeat.edge);
+  double const turn = cross(step, edge);
+  constexpr double in_line = 1e-3;
+  if (std::abs(turn) <= in_line * glm::length(step) * glm::length(edge)) return std::nullopt;
+  // One cycle a step, none along the edge.
+  glm::dvec2 const first = glm::dvec2(edge.y, -edge.x) / turn;
+  constexpr double most_cycles = 1e9;
+  if (!(glm::length(first) < most_cycles)) return std::nullopt;
+  return BladeSpectrum(first, share, outline);
+}
+
+bool BladeSpectrum::merge(BladeSpectrum const& other) {
+  constexpr double in_step = 0.1;
+  if (std::min(glm::distance(first_, other.first_), glm::distance(first_, -other.first_)) > in_step)
+    return false;
+  share_ += other.share_;
+  return true;
+}
+
+double BladeSpectrum::squared_error(TileGrid const& grid, double enough) const {
+  // Grid vectors at a distance matter to the strongest multiples alone.
+  constexpr int strongest = 3;
+  // High multiples matter: the weaker they are, the closer some vector comes, until there are more
+  // multiples than pixels.
+  constexpr int most = 512;
+  double const pixels = static_cast<double>(grid.width) * grid.rows;
+  int const last = static_cast<int>(
+      std::clamp(4.0 * pixels / glm::length(first_), double{strongest}, double{most}));
+  double const amplitude = share_ / std::numbers::pi;
+  double const wanted = enough / (amplitude * amplitude);
+  double sum = 0.0;
+  for (int multiple = 1; multiple <= strongest; ++multiple) {
+    sum += near_strong(outline_, first_, grid, multiple);
+  }
+  for (int from = strongest + 1; from <= last && sum < wanted; from += at_once) {
+    sum += run<near_weak>(outline_, first_, grid, from);
+  }
+  return amplitude * amplitude * sum;
+}
+
+}  // namespace gpu_shading

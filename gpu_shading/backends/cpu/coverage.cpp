@@ -1,0 +1,439 @@
+#include "backends/cpu/coverage.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <utility>
+
+#include "antialias/sample_grid.h"
+#include "backends/cpu/shade_counts.h"
+#include "platform/parallel.h"
+
+namespace gpu_shading {
+namespace {
+
+View in_pixels(View view, TileGrid const& grid) {
+  glm::dvec4 const shift(0.0, 0.0, 0.0, 1.0);
+  view.x = 0.5 * grid.width * (view.x + shift);
+  view.y = 0.5 * grid.rows * (view.y + shift);
+  view.x += grid.shear * view.y;
+  return view;
+}
+
+bool any_scheduled(std::span<Shade const> shades) {
+  return std::any_of(shades.begin(), shades.end(),
+                     [](Shade const& shade) { return shade.schedule != Shades::unscheduled; });
+}
+
+bool any_transmits(std::span<Shade const> shades) {
+  return std::any_of(shades.begin(), shades.end(),
+                     [](Shade const& shade) { return shade.transmittance > 0.0F; });
+}
+
+// Whether shades are of few transmittances, which ShadeCounts takes, and nothing else is in view.
+bool can_be_counted(CastersInView const& casters) {
+  if (casters.opaque() || !casters.screens.numbers.empty()) return false;
+  if (any_scheduled(casters.shades)) return false;
+  constexpr std::size_t most = 6;
+  std::array<float, most> kinds{};
+  std::size_t count = 0;
+  for (Shade const& shade : casters.shades) {
+    auto const end = kinds.begin() + static_cast<std::ptrdiff_t>(count);
+    if (shade.transmittance == 0.0F) continue;
+    if (std::find(kinds.begin(), end, shade.transmittance) != end) continue;
+    if (count == most) return false;
+    kinds.at(count++) = shade.transmittance;
+  }
+  return true;
+}
+
+// Places of casters in the order of their schedules.
+std::vector<std::size_t> by_schedule(std::span<Shade const> shades) {
+  std::vector<std::size_t> order(shades.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return shades[a].schedule < shades[b].schedule;
+  });
+  return order;
+}
+
+// Calls use(word, bit) for the set bits of some words, in order.
+template <typename Use>
+void each_bit(std::uint64_t word, std::size_t number, Use use) {
+  for (std::uint64_t rest = word; rest != 0; rest &= rest - 1) {
+    use(number * PixelMask::word_bits + static_cast<std::size_t>(std::countr_zero(rest)));
+  }
+}
+
+// Calls use(first, end) for parts of a number of rows, on at most this many threads.
+template <typename Use>
+void in_rows(int rows, int threads, Use use) {
+  // The largest tiles would take too much memory at once.
+  constexpr int most = 2048;
+  if (threads <= 1) {
+    for (int first = 0; first < rows; first += most) use(first, std::min(first + most, rows));
+    return;
+  }
+  int const share = std::min((rows + threads - 1) / threads, most);
+  for_each_index(static_cast<std::size_t>((rows + share - 1) / share), [&](std::size_t part) {
+    int const first = static_cast<int>(part) * share;
+    use(first, std::min(first + share, rows));
+  });
+}
+
+// Where a view is sampled, and whether it is ShadeCounts that counts shades there.
+struct Sampled {
+  TileGrid grid;
+  bool counting = false;
+};
+
+Sampled sampled(Tile const& tile, View const& view, CastersInView const& casters, Samples samples) {
+  if (samples == Samples::pixels) return {pixels_of(tile)};
+  if (!casters.screens.numbers.empty()) {
+    return {grid_for_screens(tile, view, casters.screens, casters.repeats)};
+  }
+  auto const on = [&](TileGrid const& grid) {
+    return grid_for_blades(grid, tile, view, casters.repeats);
+  };
+  if (casters.opaque()) return {on(fine_grid(tile))};
+  if (can_be_counted(casters)) return {on(counting_grid(tile)), true};
+  return {on(pixels_of(tile))};
+}
+
+// From samples to pixels of the tile, if `own` samples are the receiver's.
+void scale(LuminanceSums& sums, Tile const& tile, std::uint64_t own) {
+  // Multiplied first: exactly all pixels where all samples are sunlit.
+  auto const pixels = static_cast<double>(tile.counted_pixels);
+  auto const samples = static_cast<double>(own);
+  sums.unscheduled = sums.unscheduled * pixels / samples;
+  for (LuminanceSums::Scheduled& part : sums.scheduled) part.sum = part.sum * pixels / samples;
+}
+
+}  // namespace
+
+struct Coverage::InteriorPiece {
+  std::size_t surface;  // its index in the question
+  ConvexArea area;
+  DepthPlane depth;
+};
+
+// Some rows of a tile, few enough that the masks of all pieces there stay in a processor's cache.
+struct Coverage::Band {
+  struct Part {
+    InteriorPiece const* piece = nullptr;
+    PixelMask mask;  // of the band's rows
+
+    double depth_at(std::size_t word, int bit) const {
+      return piece->depth.at(mask.column(word) + bit, mask.row(word));
+    }
+  };
+
+  std::span<Part> parts() { return std::span(kept).first(count); }
+  std::span<Part const> parts() const { return std::span(kept).first(count); }
+  std::span<std::uint64_t const> rows_of(PixelMask const& mask) const {
+    return mask.words().subspan(first_word, words);
+  }
+
+  std::size_t first_word = 0;  // of the tile's words
+  std::size_t words = 0;
+  std::vector<Part> kept;  // with their memory, from one band to the next
+  std::size_t count = 0;
+};
+
+template <typename Use>
+void Coverage::each_area(SurfaceId caster, View const& pixels, int side, Use use) const {
+  pieces_.each(caster, pixels, [&](ProjectedPiece const& piece) { use(piece.area(side)); });
+}
+
+LuminanceSums Coverage::sums(Tile const& tile, View const& view, CastersInView const& casters,
+                             Samples samples, int threads) const {
+  auto const [grid, counting] = sampled(tile, view, casters, samples);
+  View const pixels = in_pixels(view, grid);
+  std::atomic<std::uint64_t> own = 0;
+  LuminanceSums sums;
+  if (casters.opaque()) {
+    sums.unscheduled = lit(tile, grid, pixels, casters.surfaces, threads, own);
+  } else if (counting) {
+    sums.unscheduled = counted(tile, grid, pixels, casters, threads, own);
+  } else if (any_scheduled(casters.shades)) {
+    sums = scheduled(tile, grid, pixels, casters, threads, own);
+  } else {
+    sums.unscheduled = luminance(tile, grid, pixels, casters, threads, own);
+  }
+  // Rows may all miss a small receiver that pixels meet.
+  if (own == 0) return this->sums(tile, view, casters, Samples::pixels, threads);
+  scale(sums, tile, own);
+  return sums;
+}
+
+void Coverage::darken(PixelMask& mask, int side, View const& pixels,
+                      std::span<SurfaceId const> casters) const {
+  for (SurfaceId const id : casters) {
+    each_area(id, pixels, side, [&](ConvexArea const& area) { mask.darken(area); });
+  }
+}
+
+void Coverage::shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* passed,
+                     View const& pixels, CastersInView const& casters) const {
+  if (casters.opaque()) return darken(mask, shaded.columns(), pixels, casters.surfaces);
+  auto const shade_by = [&](std::size_t i) {
+    Shade const& shade = casters.shades[i];
+    each_area(casters.surfaces[i], pixels, shaded.columns(), [&](ConvexArea const& area) {
+      if (shade.transmittance > 0.0F) {
+        shaded.multiply(area, shade.transmittance);
+        if (shade.schedule != Shades::unscheduled) passed->pass(area, shade.schedule);
+      } else {
+        mask.darken(area);
+      }
+    });
+  };
+  if (passed == nullptr) {
+    for (std::size_t i = 0; i < casters.shades.size(); ++i) shade_by(i);
+  } else {
+    for (std::size_t const i : by_schedule(casters.shades)) shade_by(i);
+  }
+  shade_by_screens(shaded, mask, pixels, casters.screens);
+}
+
+double Coverage::lit(Tile const& tile, TileGrid const& grid, View const& pixels,
+                     std::span<SurfaceId const> casters, int threads,
+                     std::atomic<std::uint64_t>& own) const {
+  std::atomic<std::uint64_t> sum = 0;
+  in_rows(grid.rows, threads, [&](int first, int end) {
+    static thread_local PixelMask mask;
+    mask.start(grid.columns(), first, end);
+    light(mask, tile, grid);
+    own += mask.lit();
+    darken(mask, grid.side(), pixels, casters);
+    sum += mask.lit();
+  });
+  return static_cast<double>(sum);
+}
+
+double Coverage::luminance(Tile const& tile, TileGrid const& grid, View const& pixels,
+                           CastersInView const& casters, int threads,
+                           std::atomic<std::uint64_t>& own) const {
+  bool const darkening = !any_transmits(casters.shades) && all_or_nothing(casters.screens, pixels);
+  std::vector<double> sums(static_cast<std::size_t>(grid.rows));
+  in_rows(grid.rows, threads, [&](int first, int end) {
+    static thread_local PixelMask mask;
+    static thread_local LuminanceTile shaded;
+    mask.start(grid.columns(), first, end);
+    light(mask, tile, grid);
+    own += mask.lit();
+    if (darkening) {
+      shaded.lay_out(grid.columns(), first, end);
+    } else {
+      shaded.start(grid.columns(), first, end);
+    }
+    shade(mask, shaded, nullptr, pixels, casters);
+    std::span const rows = std::span(sums).subspan(static_cast<std::size_t>(first));
+    if (darkening) {
+      rows[0] = static_cast<double>(mask.lit());
+    } else {
+      shaded.sum_rows(mask, rows);
+    }
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+double Coverage::counted(Tile const& tile, TileGrid const& grid, View const& pixels,
+                         CastersInView const& casters, int threads,
+                         std::atomic<std::uint64_t>& own) const {
+  std::vector<double> sums(static_cast<std::size_t>(grid.rows));
+  in_rows(grid.rows, threads, [&](int first, int end) {
+    static thread_local PixelMask mask;
+    static thread_local ShadeCounts counts;
+    mask.start(grid.columns(), first, end);
+    light(mask, tile, grid);
+    own += mask.lit();
+    counts.start(grid.columns(), first, end);
+    for (std::size_t i = 0; i < casters.shades.size(); ++i) {
+      float const transmittance = casters.shades[i].transmittance;
+      each_area(casters.surfaces[i], pixels, grid.side(), [&](ConvexArea const& area) {
+        if (transmittance > 0.0F) {
+          counts.add(area, transmittance);
+        } else {
+          mask.darken(area);
+        }
+      });
+    }
+    counts.sum_rows(mask, std::span(sums).subspan(static_cast<std::size_t>(first)));
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+LuminanceSums Coverage::scheduled(Tile const& tile, TileGrid const& grid, View const& pixels,
+                                  CastersInView const& casters, int threads,
+                                  std::atomic<std::uint64_t>& own) const {
+  // Rows are summed one by one and added up in order, however threads share them.
+  struct Part {
+    int first;
+    PassedSchedules passed;
+    std::vector<CombinationSums::Sum> row_sums;
+  };
+  std::mutex parts_mutex;
+  std::vector<Part> parts;
+  in_rows(grid.rows, threads, [&](int first, int end) {
+    static thread_local PixelMask mask;
+    static thread_local LuminanceTile shaded;
+    Part part{first, {}, {}};
+    mask.start(grid.columns(), first, end);
+    light(mask, tile, grid);
+    own += mask.lit();
+    shaded.start(grid.columns(), first, end);
+    part.passed.start(grid.columns(), first, end);
+    shade(mask, shaded, &part.passed, pixels, casters);
+    CombinationSums sums(part.passed.combinations());
+    std::span<std::uint64_t const> const words = std::as_const(mask).words();
+    std::size_t const words_a_row = shaded.stride() / PixelMask::word_bits;
+    for (std::size_t word = 0; word < words.size(); ++word) {
+      each_bit(words[word], word, [&](std::size_t pixel) {
+        sums.add(part.passed.pixels()[pixel], std::as_const(shaded).pixels()[pixel]);
+      });
+      if ((word + 1) % words_a_row == 0) sums.take(part.row_sums);
+    }
+    std::lock_guard const lock(parts_mutex);
+    parts.push_back(std::move(part));
+  });
+  std::sort(parts.begin(), parts.end(),
+            [](Part const& a, Part const& b) { return a.first < b.first; });
+  ScheduledTotals totals;
+  for (Part const& part : parts) totals.add(part.passed, part.row_sums);
+  return totals.result();
+}
+
+void Coverage::add_lit(PixelMask const& lit, Band const& band, std::span<LuminanceSums> sums) {
+  for (Band::Part const& part : band.parts()) {
+    std::uint64_t const count = count_common(band.rows_of(lit), part.mask.words());
+    sums[part.piece->surface].unscheduled += static_cast<double>(count);
+  }
+}
+
+void Coverage::add_luminance(PixelMask const& lit, LuminanceTile const& shaded,
+                             PassedSchedules const& passed, Band const& band,
+                             std::span<ScheduledTotals> totals) {
+  CombinationSums by_combination(passed.combinations());
+  std::vector<CombinationSums::Sum> taken;
+  std::span<std::uint64_t const> const words = band.rows_of(lit);
+  for (Band::Part const& part : band.parts()) {
+    for (std::size_t word = 0; word < words.size(); ++word) {
+      each_bit(words[word] & part.mask.words()[word], band.first_word + word,
+               [&](std::size_t pixel) {
+                 by_combination.add(passed.pixels()[pixel], shaded.pixels()[pixel]);
+               });
+    }
+    taken.clear();
+    by_combination.take(taken);
+    totals[part.piece->surface].add(passed, taken);
+  }
+}
+
+std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& view,
+                                                 CastersInView const& casters, Samples samples,
+                                                 View const& behind,
+                                                 std::span<SurfaceId const> interiors) const {
+  static thread_local PixelMask lit;
+  TileGrid const grid = sampled(tile, view, casters, samples).grid;
+  View const pixels = in_pixels(view, grid);
+  lit.start(grid.columns(), 0, grid.rows);
+  light(lit, tile, grid);
+  std::uint64_t const own = lit.lit();
+  if (own == 0) return sums_inside(tile, view, casters, Samples::pixels, behind, interiors);
+  auto const pieces = interior_pieces(grid, in_pixels(behind, grid), interiors);
+  std::vector<LuminanceSums> sums(interiors.size());
+  if (casters.opaque()) {
+    darken(lit, grid.side(), pixels, casters.surfaces);
+    each_band(grid, lit, pieces, [&](Band const& band) { add_lit(lit, band, sums); });
+  } else {
+    static thread_local LuminanceTile shaded;
+    static thread_local PassedSchedules passed;
+    shaded.start(grid.columns(), 0, grid.rows);
+    passed.start(grid.columns(), 0, grid.rows);
+    shade(lit, shaded, &passed, pixels, casters);
+    std::vector<ScheduledTotals> totals(interiors.size());
+    each_band(grid, lit, pieces,
+              [&](Band const& band) { add_luminance(lit, shaded, passed, band, totals); });
+    std::transform(totals.begin(), totals.end(), sums.begin(),
+                   [](ScheduledTotals const& total) { return total.result(); });
+  }
+  for (LuminanceSums& part : sums) scale(part, tile, own);
+  return sums;
+}
+
+std::vector<Coverage::InteriorPiece> Coverage::interior_pieces(
+    TileGrid const& grid, View const& pixels, std::span<SurfaceId const> interiors) const {
+  std::vector<InteriorPiece> found;
+  for (std::size_t i = 0; i < interiors.size(); ++i) {
+    pieces_.each(interiors[i], pixels, [&](ProjectedPiece const& piece) {
+      found.push_back({i, piece.area(grid.side()), piece.depth()});
+    });
+  }
+  return found;
+}
+
+template <typename Use>
+void Coverage::each_band(TileGrid const& grid, PixelMask const& lit,
+                         std::span<InteriorPiece const> pieces, Use use) {
+  constexpr std::size_t most_words = 4096;
+  static thread_local Band band;
+  static thread_local std::vector<std::uint64_t> covered;
+  static thread_local std::vector<std::uint64_t> several;
+  std::size_t const words_a_row = lit.words().size() / static_cast<std::size_t>(grid.rows);
+  int const rows = std::max(1, static_cast<int>(most_words / words_a_row));
+  for (int first = 0; first < grid.rows; first += rows) {
+    int const end = std::min(first + rows, grid.rows);
+    band.first_word = static_cast<std::size_t>(first) * words_a_row;
+    band.words = static_cast<std::size_t>(end - first) * words_a_row;
+    band.count = 0;
+    covered.assign(band.words, 0);
+    several.assign(band.words, 0);
+    for (InteriorPiece const& piece : pieces) {
+      if (piece.area.first_row >= end || piece.area.end_row <= first) continue;
+      if (band.count == band.kept.size()) band.kept.emplace_back();
+      Band::Part& added = band.kept[band.count++];
+      added.piece = &piece;
+      added.mask.start(grid.columns(), first, end);
+      added.mask.light(piece.area);
+      std::span<std::uint64_t const> const words = std::as_const(added.mask).words();
+      for (std::size_t k = 0; k < words.size(); ++k) {
+        several[k] |= covered[k] & words[k];
+        covered[k] |= words[k];
+      }
+    }
+    // In a closed room, two surfaces hardly ever cover the same pixel.
+    std::span<std::uint64_t const> const lit_words = band.rows_of(lit);
+    for (std::size_t word = 0; word < several.size(); ++word) {
+      for (std::uint64_t rest = several[word] & lit_words[word]; rest != 0; rest &= rest - 1) {
+        keep_nearest(band, word, std::countr_zero(rest));
+      }
+    }
+    use(std::as_const(band));
+  }
+}
+
+void Coverage::keep_nearest(Band& band, std::size_t word, int bit) {
+  std::uint64_t const pixel = std::uint64_t{1} << static_cast<unsigned>(bit);
+  std::uint64_t* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (Band::Part& part : band.parts()) {
+    std::uint64_t& pixels = part.mask.words()[word];
+    if ((pixels & pixel) == 0) continue;
+    double const depth = part.depth_at(word, bit);
+    if (nearest != nullptr && !(depth < least)) {
+      pixels &= ~pixel;
+      continue;
+    }
+    if (nearest != nullptr) *nearest &= ~pixel;
+    nearest = &pixels;
+    least = depth;
+  }
+}
+
+}  // namespace gpu_shading

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "antialias/repeat.h"
+#include "backends/cpu/passed_schedules.h"
+#include "backends/cpu/surface_pieces.h"
+#include "backends/interface/view_backend.h"
+#include "filters/perforation/screen_shading.h"
+#include "filters/transmission.h"
+#include "geometry/triangulation.h"
+#include "gpu_shading/scene.h"
+#include "view/luminance_tile.h"
+#include "view/pixel_mask.h"
+#include "view/tile.h"
+#include "view/view.h"
+
+namespace gpu_shading {
+
+// What is in front of a receiver at one direction of the sun.
+struct CastersInView {
+  std::span<SurfaceId const> surfaces;  // but those that are screens and nothing else
+  std::span<Shade const> shades;        // of each surface; none where all are opaque
+  ScreensInView screens;
+  SampledRepeats repeats = {};  // of surfaces at equal distances
+
+  bool opaque() const { return shades.empty() && screens.numbers.empty(); }
+};
+
+// Where a tile is sampled: where it is most accurate, or at the centres of its pixels, as OpenGL
+// does.
+enum class Samples { fine, pixels };
+
+// Rasterises views on the CPU: as a rasteriser of triangles does, but with a bit for each pixel and
+// by convex pieces, and in double precision up to the edges. In place of OpenGL without a GPU it
+// takes a tenth of the time (tests/bench/opaque_cost). Any number of threads may ask.
+class Coverage {
+ public:
+  // `meshes`: of all surfaces, by id; not referenced later.
+  explicit Coverage(std::span<Mesh const> meshes) : pieces_(meshes) {}
+
+  SurfacePieces const& pieces() const { return pieces_; }
+
+  // Luminance over a tile's pixels as `view`, in front of its receiver, has the casters, in
+  // pixels. On so many threads at most; the same on any number.
+  LuminanceSums sums(Tile const& tile, View const& view, CastersInView const& casters,
+                     Samples samples, int threads) const;
+  // The same over those pixels where each of `interiors` is the nearest in the view `behind`; of
+  // surfaces in the same place the first has them.
+  std::vector<LuminanceSums> sums_inside(Tile const& tile, View const& view,
+                                         CastersInView const& casters, Samples samples,
+                                         View const& behind,
+                                         std::span<SurfaceId const> interiors) const;
+
+  // Some rows of pixels as `pixels`, a view whose x and y are in pixels, has the casters: takes
+  // those that opaque casters cover from the mask, and multiplies the luminance by what the others
+  // let through. `passed` notes scheduled shades; it may be null where there are none.
+  void shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* passed, View const& pixels,
+             CastersInView const& casters) const;
+
+ private:
+  struct InteriorPiece;
+  struct Band;
+
+  // The areas of a caster in a view with x and y in pixels, one after another.
+  template <typename Use>
+  void each_area(SurfaceId caster, View const& pixels, int side, Use use) const;
+
+  // Sums over a grid's samples; `own` takes the number of those that are the receiver's.
+  double lit(Tile const& tile, TileGrid const& grid, View const& pixels,
+             std::span<SurfaceId const> casters, int threads,
+             std::atomic<std::uint64_t>& own) const;
+  double counted(Tile const& tile, TileGrid const& grid, View const& pixels,
+                 CastersInView const& casters, int threads, std::atomic<std::uint64_t>& own) const;
+  double luminance(Tile const& tile, TileGrid const& grid, View const& pixels,
+                   CastersInView const& casters, int threads,
+                   std::atomic<std::uint64_t>& own) const;
+  LuminanceSums scheduled(Tile const& tile, TileGrid const& grid, View const& pixels,
+                          CastersInView const& casters, int threads,
+                          std::atomic<std::uint64_t>& own) const;
+
+  void darken(PixelMask& mask, int side, View const& pixels,
+              std::span<SurfaceId const> casters) const;
+
+  // Where each piece of the interior surfaces is.
+  std::vector<InteriorPiece> interior_pieces(TileGrid const& grid, View const& pixels,
+                                             std::span<SurfaceId const> interiors) const;
+  // Calls use(band) for all rows, in order, with each sample in one piece: where several are, in
+  // the nearest.
+  template <typename Use>
+  static void each_band(TileGrid const& grid, PixelMask const& lit,
+                        std::span<InteriorPiece const> pieces, Use use);
+  static void keep_nearest(Band& band, std::size_t word, int bit);
+  // Add the lit samples of each piece to the sums of its surface.
+  static void add_lit(PixelMask const& lit, Band const& band, std::span<LuminanceSums> sums);
+  static void add_luminance(PixelMask const& lit, LuminanceTile const& shaded,
+                            PassedSchedules const& passed, Band const& band,
+                            std::span<ScheduledTotals> totals);
+
+  SurfacePieces pieces_;
+};
+
+}  // namespace gpu_shading

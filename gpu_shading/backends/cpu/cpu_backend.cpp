@@ -1,0 +1,123 @@
+#include "backends/cpu/cpu_backend.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "antialias/sample_grid.h"
+#include "filters/perforation/screen_overlap.h"
+#include "gpu_shading/error.h"
+#include "platform/instructions.h"
+#include "platform/parallel.h"
+#include "platform/stopwatch.h"
+#include "view/view.h"
+
+namespace gpu_shading {
+namespace {
+
+// Number of casters from which several cores share a view.
+constexpr std::size_t worth_sharing = 200;
+
+// Pixels per side of a tile up to which holes smaller than pixels are replaced by their effective
+// transmittance, which takes no account of where the receiver's edges cut them, unless by rows.
+constexpr int largest_by_effect = 4096;
+
+}  // namespace
+
+DeviceInfo cpu_device() {
+  DeviceInfo info;
+  info.renderer = "CPU";
+  info.version = name(instructions());
+  info.threads = available_threads();
+  info.software = true;
+  info.max_resolution = 16384;
+  return info;
+}
+
+CpuBackend::CpuBackend(BackendInput const& input)
+    : device_(cpu_device()),
+      scene_(input.scene),
+      coverage_(input.meshes),
+      transmission_(input.transmission),
+      statistics_(input.statistics) {}
+
+CpuBackend::ViewScreens CpuBackend::note_screens(ReceiverView const& view,
+                                                 std::vector<ScreensAtDirection>& directions) {
+  ViewScreens noted;
+  if (view.transmits) noted.numbers = transmission_.screens_among(view.casters);
+  if (noted.numbers.empty()) return noted;
+  if (directions.empty() || directions.back().towards_sun != view.towards_sun) {
+    directions.push_back({view.towards_sun, {}, {}});
+  }
+  for (int const number : noted.numbers) {
+    Screens::Entry const& screen = transmission_.screens()[number];
+    directions.back().add(
+        number, may_see_effect(*screen.screen, screen.normal, view.towards_sun, view.pixel_area()));
+  }
+  noted.direction = directions.size() - 1;
+  return noted;
+}
+
+void CpuBackend::add(std::vector<ReceiverView> views) {
+  Stopwatch const watch(statistics_.count_seconds);
+  std::vector<ScreensAtDirection> directions;
+  std::vector<ViewScreens> noted;
+  noted.reserve(views.size());
+  for (ReceiverView const& view : views) noted.push_back(note_screens(view, directions));
+  std::vector<std::vector<SheetInBeam>> sheets(directions.size());
+  for_each_index(sheets.size(),
+                 [&](std::size_t i) { sheets[i] = transmission_.sheets(directions[i]); });
+  bool const few = views.size() < static_cast<std::size_t>(available_threads());
+  std::size_t const first = sums_.size();
+  sums_.resize(first + views.size());
+  for_each_index(views.size(), [&](std::size_t i) {
+    ReceiverView const& view = views[i];
+    ScreensInView screens;
+    if (!noted[i].numbers.empty()) {
+      screens = {&transmission_.screens(), sheets[noted[i].direction], noted[i].numbers};
+    }
+    bool const shared = few && (view.casters.size() >= worth_sharing || !screens.numbers.empty());
+    sums_[first + i] = sums_of(view, screens, shared ? available_threads() : 1);
+  });
+}
+
+std::vector<ViewSums> CpuBackend::finish() { return std::exchange(sums_, {}); }
+
+ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& screens,
+                             int threads) const {
+  Tile const& tile = *view.tile;
+  std::vector<SurfaceId> plain;
+  std::vector<Shade> shades;
+  View const in_front = view_in_front(*view.frame, tile.map, view.towards_sun);
+  CastersInView casters{view.casters, {}, screens};
+  casters.screens.overlap = !view.at_pixels && screens.numbers.size() > 1 &&
+                            any_overlap(*screens.screens, screens.numbers, in_front);
+  casters.screens.every_hole =
+      casters.screens.overlap || (!view.at_pixels && tile.side > largest_by_effect);
+  casters.screens.by_rows = !view.at_pixels && !casters.screens.every_hole &&
+                            edges_cut_rows(tile, in_front, casters.screens);
+  if (view.transmits) {
+    plain = transmission_.plain_among(view.casters);
+    shades.reserve(plain.size());
+    for (SurfaceId const id : plain) shades.push_back(transmission_.shade(id, view.towards_sun));
+    casters.surfaces = plain;
+    casters.shades = shades;
+  }
+  if (!view.at_pixels) casters.repeats = repeats_among(scene_, casters.surfaces);
+  Samples const samples = view.at_pixels ? Samples::pixels : Samples::fine;
+  ViewSums sums;
+  sums.receiver_pixels = tile.counted_pixels;
+  try {
+    if (view.through) {
+      View const behind = view_behind(*view.frame, tile.map, view.towards_sun, 1.0);
+      sums.parts = coverage_.sums_inside(tile, in_front, casters, samples, behind, view.interiors);
+    } else {
+      sums.parts.push_back(coverage_.sums(tile, in_front, casters, samples, threads));
+    }
+  } catch (Error const& error) {
+    throw Error(fmt::format("surface '{}': {}", scene_[view.receiver].name, error.what()));
+  }
+  return sums;
+}
+
+}  // namespace gpu_shading

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "backends/interface/view_backend.h"
+#include "filters/transmission.h"
+#include "geometry/plane_frame.h"
+#include "gpu_shading/scene.h"
+
+namespace gpu_shading {
+
+// A receiver at one direction of the sun, and what shades it.
+struct ExactQuestion {
+  SurfaceId receiver = 0;
+  PlaneFrame const& frame;
+  glm::dvec3 towards_sun{0.0};         // in front of the receiver
+  std::span<SurfaceId const> casters;  // flat, and no perforated screens
+  bool through = false;  // the receiver is a window, and the sun may reach these behind it:
+  std::span<SurfaceId const> interiors;
+};
+
+// The luminance of a receiver, or of each interior surface, without samples: outlines are clipped
+// at the receiver's plane, projected onto it along the sun's rays, and swept (EdgeSweep). In parts
+// of the receiver's own area, so that 1 is all of it. Exact to about 1e-12.
+//
+// Empty if the sweep would take more than `most_steps`, or if it cannot answer: behind very many
+// combinations of schedules, or where interior surfaces pass through one another.
+std::optional<std::vector<LuminanceSums>> exact_sums(Scene const& scene,
+                                                     Transmission const& transmission,
+                                                     ExactQuestion const& question,
+                                                     double most_steps);
+
+}  // namespace gpu_shading

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "filters/transmission.h"
+#include "geometry/plane_frame.h"
+#include "geometry/triangulation.h"
+#include "gpu_shading/device.h"
+#include "gpu_shading/renderer_statistics.h"
+#include "gpu_shading/scene.h"
+#include "view/tile.h"
+
+namespace gpu_shading {
+
+// A receiver on its tile as the sun sees it from one direction, and the casters in front of it.
+// Objects that it points to must stay alive until the view is answered.
+struct ReceiverView {
+  SurfaceId receiver = 0;
+  PlaneFrame const* frame = nullptr;
+  Tile const* tile = nullptr;
+  glm::dvec3 towards_sun{0.0};
+  double cosine = 0.0;  // cosine of the angle of incidence, above 0
+  std::vector<SurfaceId> casters;
+  bool transmits = false;  // some caster transmits part of the beam
+  bool through =
+      false;  // the receiver is a window, and the sun may reach these surfaces behind it:
+  std::span<SurfaceId const> interiors;
+  // Sampled at the centres of the tile's pixels, even by a back end that has better samples: for
+  // comparison with another.
+  bool at_pixels = false;
+
+  // Area of a pixel normal to the beam, m2; on a bounding tile, of all that is seen through it.
+  double pixel_area() const { return tile->map.pixel_area(tile->side) * cosine; }
+};
+
+// Luminance summed over pixels: 1 for a sunlit pixel, less where casters transmit.
+struct LuminanceSums {
+  double unscheduled = 0.0;  // what passed no scheduled shade
+  // What passed scheduled shades: schedules, as numbered by Shades, with the number of shades of
+  // each, in the order of schedules. Each combination once.
+  struct Scheduled {
+    std::vector<std::pair<int, int>> powers;
+    double sum = 0.0;
+  };
+  std::vector<Scheduled> scheduled;
+};
+
+struct ViewSums {
+  // The receiver's own pixels on its tile, as this back end finds them. If there are none, the
+  // parts are meaningless, and the tile must be a bounding one.
+  std::uint64_t receiver_pixels = 0;
+  std::vector<LuminanceSums> parts;  // one, or one for each of the view's interior surfaces
+};
+
+// What a back end rasterises. All but the meshes must outlive it.
+struct BackendInput {
+  Scene const& scene;
+  std::span<Mesh const> meshes;  // of all of the scene's surfaces, by id
+  Transmission const& transmission;
+  RendererStatistics& statistics;  // receives its seconds
+};
+
+// Rasterises views of one scene and sums their pixels. One thread at a time.
+class ViewBackend {
+ public:
+  ViewBackend() = default;
+  virtual ~ViewBackend() = default;
+  ViewBackend(ViewBackend const&) = delete;
+  ViewBackend& operator=(ViewBackend const&) = delete;
+  ViewBackend(ViewBackend&&) = delete;
+  ViewBackend& operator=(ViewBackend&&) = delete;
+
+  virtual DeviceInfo const& device() const = 0;
+
+  // Whether it samples views at the centres of their tiles' pixels, so that tiles should not alias
+  // with what repeats in a view.
+  virtual bool samples_pixels() const { return true; }
+
+  // Takes a batch of views, which may be started at once or later. Throws DeviceError if the device
+  // fails, and Error if a view cannot be answered; then call forget() to discard what was taken.
+  virtual void add(std::vector<ReceiverView> views) = 0;
+  // Sums of all views added since the last finish(), in their order. Throws DeviceError.
+  virtual std::vector<ViewSums> finish() = 0;
+  virtual void forget() = 0;
+};
+
+}  // namespace gpu_shading

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "backends/opengl/gl/buffer.h"
+#include "backends/opengl/gl/program.h"
+#include "backends/opengl/gl/texture.h"
+#include "backends/opengl/gl/vertex_array.h"
+#include "backends/opengl/raster/draw_list.h"
+#include "filters/perforation/screens.h"
+
+namespace gpu_shading {
+
+// The scene's screens on the device: their quadrilaterals, their textures, and the passes that draw
+// them.
+class ScreenGeometry {
+ public:
+  // `views`: records of the views, which must outlive it. Throws DeviceError if the device cannot
+  // draw screens.
+  ScreenGeometry(Screens const& screens, glm::dvec3 const& scene_origin, gl::Buffer const& views);
+
+  std::size_t count() const { return looks_.size(); }
+
+  // Adds screens, by index, as draws of one view of a list with the tables of its direction.
+  // `pixel_area`: m2 normal to the beam.
+  Range add_to(DrawList& list, DirectionTables& tables, std::uint32_t view,
+               std::span<int const> numbers, double pixel_area) const;
+
+  // Sets the data of the screens in view at the list's directions.
+  SheetBlocks sheets(DrawList const& list, Transmission const& transmission) const;
+
+  void upload(DrawList const& list);
+
+  // Outputs 0 and the factor on the luminance, as in transmit.frag.
+  void draw(Range draws) const;
+  void draw_all() const { draw({0, draws_.size()}); }
+
+ private:
+  void add_quadrilaterals(Screens const& screens, glm::dvec3 const& scene_origin);
+  void add_looks(Screens const& screens);
+  void link_program(int program);
+
+  int most_texels_ = 0;  // a side of a texture
+  std::vector<std::uint32_t> indices_;
+  std::vector<Range> ranges_;  // of the indices, by screen
+  struct Look {
+    std::shared_ptr<PerforatedScreen const> screen;
+    glm::dvec3 normal{0.0};
+    int texture = -1;  // none
+  };
+  ScreenLook look_of(Look const& look, bool by_effect) const;
+
+  std::vector<Look> looks_;  // by screen
+  std::vector<gl::ValueTexture> textures_;
+  std::vector<ScreenDraw> draws_;        // as uploaded
+  std::array<gl::Program, 3> programs_;  // by ScreenLook::program
+  gl::Buffer vertices_;
+  gl::Buffer draw_indices_;
+  gl::Buffer sheets_;
+  gl::Buffer regions_;
+  gl::VertexArray quadrilaterals_;
+};
+
+}  // namespace gpu_shading

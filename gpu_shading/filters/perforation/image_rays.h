@@ -1,0 +1,36 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "filters/perforation/sheet_in_beam.h"
+#include "gpu_shading/opacity_tile.h"
+
+namespace gpu_shading {
+
+// The opacity of the image of a tile, and what passes its layers, ray by ray on the CPU. Positions
+// are in the sheet's plane, m.
+class ImageRays {
+ public:
+  // `parts`: the fractions of the path at which layers are. The image must outlive it.
+  ImageRays(OpacityTile const& image, SheetInBeam const& sheet, std::vector<double> const& depths);
+
+  // 0 .. 1.
+  float solid_at(glm::dvec2 const& place) const;
+  // The fraction of a ray that passes all layers, from its position at the inside face.
+  float through(glm::dvec2 const& place) const;
+
+ private:
+  // In texels, from 0 up to the image's columns and rows.
+  glm::dvec2 in_image(glm::dvec2 const& place) const;
+  float opacity(glm::dvec2 const& texel) const;
+  float solid(float opacity) const;
+
+  OpacityTile const* image_;
+  float threshold_;  // less than 0: none
+  glm::dvec2 tile_;
+  glm::dvec2 size_;                 // texels
+  std::vector<glm::dvec2> layers_;  // from a ray's position at the inside face, in the image
+};
+
+}  // namespace gpu_shading

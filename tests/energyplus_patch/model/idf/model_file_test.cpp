@@ -1,0 +1,103 @@
+
+#include "model/idf/model_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gpu_shading/error.h"
+#include "model/idf/idf_text.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using testing::HasSubstr;
+
+Rewrite const pixel_counting{"PixelCounting", ""};
+
+std::vector<std::string> shadow_fields(std::string const& text) {
+  for (auto const& object : parse_idf(text)) {
+    if (object.type == "ShadowCalculation") return object.fields;
+  }
+  return {};
+}
+
+TEST(RewriteIdf, OnlyTheMethodChanges) {
+  std::string const before = "Version,25.2;\n! note\n";
+  std::string const after = "\nZone,A;  !- last\n";
+  auto const text =
+      rewrite_idf(before + "ShadowCalculation,PolygonClipping,Periodic,7,15000,,,Detailed;" + after,
+                  pixel_counting);
+  EXPECT_EQ(shadow_fields(text), (std::vector<std::string>{"PixelCounting", "Periodic", "7",
+                                                           "15000", "", "", "Detailed"}));
+  EXPECT_TRUE(text.starts_with(before));
+  EXPECT_TRUE(text.ends_with(after));
+}
+
+TEST(RewriteIdf, ModelWithoutShadowCalculationGetsOne) {
+  auto const text = rewrite_idf("Version,25.2;", {"PixelCounting", "Timestep"});
+  EXPECT_EQ(shadow_fields(text), (std::vector<std::string>{"PixelCounting", "Timestep"}));
+}
+
+TEST(RewriteIdf, ExtensionObjectsAreTakenOut) {
+  auto const text =
+      rewrite_idf("A,1;\nGPUShading:Settings,\n  1024;  !- Resolution\nB,2;", pixel_counting);
+  EXPECT_THAT(text, Not(HasSubstr("GPUShading")));
+  EXPECT_THAT(text, HasSubstr("A,1;"));
+  EXPECT_THAT(text, HasSubstr("B,2;"));
+}
+
+TEST(RewriteEpJson, OnlyTheMethodChanges) {
+  auto model = nlohmann::json::parse(R"({"Version": {"Version 1": {"version_identifier": "25.2"}},
+    "GPUShading:Settings": {"s": {"resolution": 256}},
+    "ShadowCalculation": {"s": {"shading_calculation_method": "PolygonClipping",
+                                "shading_calculation_update_frequency": 7}}})");
+  auto expected = model;
+  expected.erase("GPUShading:Settings");
+  expected["ShadowCalculation"]["s"]["shading_calculation_method"] = "PixelCounting";
+  rewrite_epjson(model, pixel_counting);
+  EXPECT_EQ(model, expected);
+}
+
+TEST(RewriteEpJson, ModelWithoutShadowCalculationGetsOne) {
+  auto model = nlohmann::json::object();
+  rewrite_epjson(model, {"PolygonClipping", "Timestep"});
+  ASSERT_EQ(model["ShadowCalculation"].size(), 1U);
+  EXPECT_EQ(*model["ShadowCalculation"].begin(),
+            (nlohmann::json{{"shading_calculation_method", "PolygonClipping"},
+                            {"shading_calculation_update_frequency_method", "Timestep"}}));
+}
+
+TEST(ReadModel, BothFormatsGiveTheSameObjects) {
+  auto const idf = read_idf(
+      "shading:zone:detailed,Fin 1,Wall,Half,3,0,0,0.5,1,0,0,1,0,1;\n"
+      "ZoneList,Pair,North,South;\nUnknown,x;\nGPUShading:Settings,256;");
+  auto const json = read_epjson(nlohmann::json::parse(R"({
+    "GPUShading:Settings": {"any": {"resolution": 256}},
+    "Shading:Zone:Detailed": {"Fin 1": {"base_surface_name": "Wall",
+                                        "transmittance_schedule_name": "Half",
+                                        "number_of_vertices": 3, "vertices": [
+      {"vertex_x_coordinate": 0, "vertex_y_coordinate": 0, "vertex_z_coordinate": 0.5},
+      {"vertex_z_coordinate": 0, "vertex_y_coordinate": 0, "vertex_x_coordinate": 1},
+      {"vertex_x_coordinate": 1, "vertex_y_coordinate": 0, "vertex_z_coordinate": 1}]}},
+    "Unknown": {"x": {}},
+    "ZoneList": {"Pair": {"zones": [{"zone_name": "North"}, {"zone_name": "South"}]}}})"));
+  ASSERT_EQ(idf.size(), 3U);
+  ASSERT_EQ(json.size(), 3U);
+  EXPECT_EQ(idf[0].type, "Shading:Zone:Detailed");
+  EXPECT_EQ(idf[0].fields, json[1].fields);
+  EXPECT_EQ(idf[0].list, json[1].list);
+  EXPECT_EQ(idf[1].list, (std::vector<std::string>{"North", "South"}));
+  EXPECT_EQ(idf[1].list, json[2].list);
+  EXPECT_EQ(idf[2]["resolution"], "256");
+  EXPECT_EQ(json[0]["resolution"], "256");
+}
+
+TEST(ReadModel, ExtensionsThatDoNotExistAreErrors) {
+  EXPECT_THROW(read_idf("GPUShading:Nonsense,1;"), Error);
+  EXPECT_THROW(read_idf("GPUShading:Settings,1,idf,auto,,more;"), Error);
+  EXPECT_THROW(read_epjson({{"GPUShading:Nonsense", {{"a", nlohmann::json::object()}}}}), Error);
+  EXPECT_THROW(read_epjson({{"GPUShading:Settings", {{"a", {{"resolutoin", 5}}}}}}), Error);
+}
+
+}  // namespace
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,172 @@
+#include "model/input/shading_input.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gpu_shading/error.h"
+#include "model/idf/model_file.h"
+#include "support/refusal.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+ShadingInput read(std::string const& idf) { return read_shading_input(read_idf(idf)); }
+
+TEST(ShadingInput, ShadingSurfacesGetTheNamesThatEnergyPlusGivesThem) {
+  auto const input = read(
+      "Shading:Site:Detailed,Tree,Leaves,3,0,0,0,1,0,0,1,1,0;"
+      "Window,W 1,Glass,South Wall;"
+      "Shading:Overhang,Hood,w 1,0.1,90,0,0,0.6;"
+      "Shading:Fin,Blade,W 1;");
+  ASSERT_EQ(input.shading_surfaces.size(), 4U);
+  EXPECT_EQ(input.shading_surfaces.at("TREE").transmittance_schedule, "LEAVES");
+  for (auto const* name : {"HOOD", "BLADE Left", "BLADE Right"}) {
+    EXPECT_TRUE(input.shading_surfaces.contains(name)) << name;
+  }
+}
+
+TEST(ShadingInput, ShadingFractionsAreWantedOnlyWhereTheyAreUsed) {
+  std::string const surfaces =
+      "Shading:Building:Detailed,A;Shading:Building:Detailed,B;Shading:Building:Detailed,C;";
+  EXPECT_FALSE(read(surfaces).wants("A"));
+  auto const named = read(surfaces +
+                          "Output:Variable,a,Surface Outside Face Sunlit Fraction;"
+                          "Generator:Photovoltaic,PV,b;"
+                          "GPUShading:TransparentShade,Glass,C,Constant,0.5;");
+  EXPECT_TRUE(named.wants("A"));
+  EXPECT_TRUE(named.wants("B"));
+  EXPECT_FALSE(named.wants("C"));
+  EXPECT_TRUE(
+      read(surfaces + "Building,X,0,City,0.04,0.4,FullExteriorWithReflections;").wants("C"));
+  EXPECT_TRUE(read(surfaces + "ShadowCalculation,PolygonClipping,,,,,,,Yes;").wants("C"));
+}
+
+TEST(ShadingInput, OutputsNameSurfacesByPatternsAndMirroredCopiesToo) {
+  std::string const surfaces =
+      "Shading:Building:Detailed,Fin 1;Shading:Building:Detailed,Fin 2;"
+      "Shading:Building:Detailed,Roof;";
+  auto const by_name =
+      read(surfaces + "Output:Variable,mir-fin 1,Surface Outside Face Sunlit Fraction;");
+  EXPECT_FALSE(by_name.wants("FIN 1"));
+  EXPECT_TRUE(by_name.wants("Mir-FIN 1"));
+  EXPECT_TRUE(by_name.receives("Mir-FIN 1"));
+  EXPECT_FALSE(by_name.receives("Mir-FIN 2"));
+  EXPECT_TRUE(by_name.mirrored_shown());
+  auto const pattern =
+      read(surfaces + "Output:Variable,(Mir-)?fin.*,Surface Outside Face Sunlit Fraction;");
+  for (auto const* name : {"FIN 1", "FIN 2", "Mir-FIN 1", "Mir-FIN 2"}) {
+    EXPECT_TRUE(pattern.wants(name)) << name;
+  }
+  EXPECT_FALSE(pattern.wants("ROOF"));
+  EXPECT_FALSE(read(surfaces + "Output:Variable,Fin 1,Surface Outside Face Sunlit Fraction;")
+                   .mirrored_shown());
+  auto const all = read(surfaces + "Output:Variable,*,Surface Outside Face Sunlit Fraction;");
+  EXPECT_TRUE(all.mirrored_shown());
+  EXPECT_TRUE(all.wants("ROOF") && all.wants("Mir-ROOF"));
+  EXPECT_FALSE(all.names("ROOF"));  // not by its own name
+  // What cannot be interpreted may name any surface.
+  auto const broken = read(surfaces + "Output:Variable,Fin[,Surface Outside Face Sunlit Fraction;");
+  EXPECT_TRUE(broken.wants("ROOF"));
+}
+
+TEST(ShadingInput, OutputsOfAllSurfacesWantShadingSurfacesWhereTheyDependOnShading) {
+  std::string const roof = "Shading:Building:Detailed,Roof;";
+  for (auto const* output : {
+           "Output:Variable,,surface outside face sunlit area,Hourly;",
+           "Output:Variable,*,Surface Outside Face Incident Sky Diffuse Solar Radiation Rate per "
+           "Area;",
+           "Output:Variable,*,Surface Anisotropic Sky Multiplier;",
+           "Output:Table:TimeBins,*,Surface Outside Face Sunlit Fraction,0,0.2,5;",
+           "Output:Table:Monthly,Suns,2,Zone Mean Air Temperature,SumOrAverage,"
+           "Surface Outside Face Sunlit Fraction,SumOrAverage;",
+           "Output:Table:Annual,Suns,,,Surface Outside Face Sunlit Fraction,SumOrAverage,2;",
+       }) {
+    EXPECT_TRUE(read(roof + output).wants("Mir-ROOF")) << output;
+  }
+  for (auto const* output : {
+           "Output:Variable,*,Surface Inside Face Temperature;",
+           "Output:Variable,South,Surface Outside Face Sunlit Fraction;",
+           "Output:Table:Monthly,Warmth,2,Surface Inside Face Temperature,SumOrAverage;",
+       }) {
+    EXPECT_FALSE(read(roof + output).wants("ROOF")) << output;
+  }
+}
+
+TEST(ShadingInput, ReflectanceBelongsToItsSurfaceWhereverItStands) {
+  auto const input = read_shading_input(
+      read_idf("ShadingProperty:Reflectance,tree,0.35,0.4,0.25,Glass;Shading:Site:Detailed,Tree,;"
+               "Shading:Site:Detailed,Wall,;ShadingProperty:Reflectance,Wall,7,,;"
+               "Shading:Site:Detailed,Plain,;ShadingProperty:Reflectance,Nothing,0.5;"));
+  auto const& tree = input.shading_surfaces.at("TREE");
+  EXPECT_EQ(tree.reflectance, 0.35);
+  EXPECT_EQ(tree.visible_reflectance, 0.4);
+  EXPECT_EQ(tree.glazed, 0.25);
+  EXPECT_EQ(input.shading_surfaces.at("WALL").reflectance, 1.0);
+  EXPECT_EQ(input.shading_surfaces.at("PLAIN").reflectance, 0.2);
+  EXPECT_EQ(input.shading_surfaces.at("PLAIN").visible_reflectance, 0.2);
+  EXPECT_EQ(input.shading_surfaces.at("PLAIN").glazed, 0.0);
+}
+
+TEST(ShadingInput, OnlyExteriorSurfacesCast) {
+  auto const input = read(
+      "BuildingSurface:Detailed,Out,Wall,C,Z,,Outdoors;BuildingSurface:Detailed,In,Wall,C,Z,,"
+      "Surface;"
+      "Floor:Detailed,Slab,C,Z,,Ground;Wall:Adiabatic,Party,C,Z;Roof,Top,C,Z;"
+      "FenestrationSurface:Detailed,Door,Door,C,In;Window,Pane,G,Out;Shading:Site:Detailed,Tree;");
+  for (auto const* name : {"OUT", "TOP"}) {
+    EXPECT_EQ(input.casting(name), Casting::turned_away) << name;
+  }
+  for (auto const* name : {"IN", "SLAB", "PARTY", "DOOR", "PANE"}) {
+    EXPECT_EQ(input.casting(name), Casting::never) << name;
+  }
+  for (auto const* name : {"TREE", "PANE reveal 1"}) {
+    EXPECT_EQ(input.casting(name), Casting::always) << name;
+  }
+}
+
+TEST(ShadingInput, ShadowCalculation) {
+  auto const input = read(
+      "ShadowCalculation,PixelCounting,Periodic,20,15000,,1024,,No,Yes,No,Lower,Upper;"
+      "ZoneList,Lower,Z1,z2;");
+  EXPECT_EQ(input.pixel_counting_resolution, 1024);
+  EXPECT_TRUE(input.disable_within_groups);
+  EXPECT_FALSE(input.disable_between_groups);
+  EXPECT_EQ(input.shading_zone_groups, (std::vector<std::string>{"LOWER", "UPPER"}));
+  EXPECT_EQ(input.zone_lists.at("LOWER"), (std::set<std::string>{"Z1", "Z2"}));
+  for (auto const* const wrong : {"many", "0", "-1", "65537", "1e300"}) {
+    EXPECT_THAT(refusal_of([&] {
+                  read(std::string("ShadowCalculation,PixelCounting,,,,,") + wrong + ";");
+                }),
+                testing::HasSubstr(std::string("Pixel Counting Resolution is \"") + wrong +
+                                   "\", expected a number from 1 to 65536"));
+  }
+  EXPECT_FALSE(read("ShadowCalculation,PolygonClipping,,,,,1024;").pixel_counting_resolution);
+  EXPECT_FALSE(read("ShadowCalculation,,,,,,1024;").pixel_counting_resolution);
+}
+
+TEST(ShadingInput, WhatEnergyPlusMayAskFor) {
+  auto const input = read(
+      "BuildingSurface:Detailed,South,Wall,C,Z,,Outdoors,,SunExposed,WindExposed;"
+      "BuildingSurface:Detailed,Party,Wall,C,Z,,Adiabatic,,NoSun,NoWind;"
+      "FenestrationSurface:Detailed,Pane,Window,G,South;"
+      "FenestrationSurface:Detailed,Inner,Window,G,Party;"
+      "Shading:Building:Detailed,Used;Shading:Building:Detailed,Useless;"
+      "Output:Variable,Used,Surface Outside Face Sunlit Fraction;");
+  for (auto const* const name : {"SOUTH", "PANE", "USED"})
+    EXPECT_TRUE(input.receives(name)) << name;
+  for (auto const* const name : {"PARTY", "INNER", "USELESS"}) {
+    EXPECT_FALSE(input.receives(name)) << name;
+  }
+}
+
+TEST(ShadingInput, OtherVersionsAndUserGivenFractionsAreRefused) {
+  EXPECT_NO_THROW(check_supported(read("Version,25.2;"), "25.2.0"));
+  EXPECT_NO_THROW(check_supported(read("Version,25.2.0;"), "25.2.0"));
+  EXPECT_THROW(check_supported(read("Version,24.2;"), "25.2.0"), Error);
+  EXPECT_THROW(check_supported(read("Version,9.1;"), "25.2.0"), Error);
+  EXPECT_THROW(check_supported(read("ShadowCalculation,scheduled;"), "25.2.0"), Error);
+  EXPECT_THROW(check_supported(read("ShadowCalculation,Imported;"), "25.2.0"), Error);
+}
+
+}  // namespace
+}  // namespace gpu_shading::energyplus

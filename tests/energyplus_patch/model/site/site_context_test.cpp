@@ -1,0 +1,200 @@
+#include "model/site/site_context.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gpu_shading/error.h"
+#include "model/idf/model_file.h"
+#include "model/model_reader.h"
+#include "model/site/own_building.h"
+#include "surroundings_test.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string const location = "Site:Location,Here,0,20,0,100;";
+
+// At the equator, where 0.001 degrees of longitude are 111.3 m.
+class SiteContext : public SurroundingsTest {
+ protected:
+  SiteContext() {
+    write("town.geojson", R"({"type": "FeatureCollection", "features": [
+      {"type": "Feature", "id": "a/1", "properties": {"height": 10}, "geometry": {"type": "Polygon",
+        "coordinates": [[[20.001,0],[20.002,0],[20.002,0.001],[20.001,0.001]]]}},
+      {"type": "Feature", "id": "b/2", "properties": {"height": 20}, "geometry": {"type": "Polygon",
+        "coordinates": [[[19.999,-0.001],[20.0005,-0.001],[20.0005,0.0005],[19.999,0.0005]]]}}]})");
+    // A slope of 0.1 to the east, 130 m high at 20 E.
+    write("hill.asc",
+          "ncols 3\nnrows 3\nxllcenter 19.99\nyllcenter -0.01\ncellsize 0.01\n"
+          "18.7 130 241.3\n18.7 130 241.3\n18.7 130 241.3\n");
+  }
+};
+
+TEST_F(SiteContext, WarnsOfMillimetres) {
+  auto const town = [&](std::string const& storey, std::string const& otherwise) {
+    return read(location + "GPUShading:SiteContext,Town,town.geojson,,,," + storey + "," +
+                otherwise + ";")
+        .warnings;
+  };
+  EXPECT_TRUE(town("3.5", "12").empty());
+  EXPECT_THAT(town("3500", "9000"),
+              ElementsAre(HasSubstr("SiteContext Town: Storey Height is 3500 m, more than 20 m: "
+                                    "lengths are in metres, is it in millimetres?"),
+                          HasSubstr("Default Height is 9000 m, more than 1000 m")));
+}
+
+TEST_F(SiteContext, BuildingsStandOnTheTerrain) {
+  auto const found =
+      read(location + "GPUShading:SiteContext,Town,town.geojson,,,,,,hill.asc,,,,,Terrain;");
+  // The ground's four cells, then two houses of a roof and four walls.
+  ASSERT_EQ(found.casters.size(), 4U + 5U + 5U);
+  EXPECT_EQ(found.casters[0].surface.name, "TOWN:TERRAIN");
+  auto const& roof = found.casters[4].surface;
+  EXPECT_EQ(roof.name, "TOWN:A/1");
+  // 0.001 degrees east of 130 m, ground at 141.1 m, roof 10 m above: 21.1 m over the origin.
+  EXPECT_NEAR(roof.polygon.outline[0].z, 21.13, 0.01);
+  ASSERT_EQ(found.buildings.size(), 2U);
+  EXPECT_NEAR(found.buildings[0].base, 11.13, 0.01);
+  EXPECT_EQ(found.types.at("TOWN:B/2"), "GPUShading:SiteContext");
+  EXPECT_TRUE(found.warnings.empty());
+  ASSERT_EQ(found.remarks.size(), 1U);
+  EXPECT_THAT(found.remarks[0], HasSubstr("terrain of 3 x 3 nodes (4 cells drawn), 2 buildings"));
+  EXPECT_THAT(found.remarks[0], HasSubstr("20.000000 E 130.0 m (Site:Location, at the terrain's"));
+}
+
+TEST_F(SiteContext, WithoutTerrainTheGroundIsAtTheOrigin) {
+  auto const found = read(location + "GPUShading:SiteContext,Town,town.geojson;");
+  ASSERT_EQ(found.casters.size(), 10U);
+  auto const& wall = found.casters[1].surface.polygon.outline;
+  EXPECT_NEAR(wall[0].z, 10.0, 2e-3);
+  EXPECT_NEAR(wall[1].z, 0.0, 2e-3);
+}
+
+TEST_F(SiteContext, WhatIsLeftOut) {
+  auto const found = read(location + "GPUShading:SiteContext,Town,town.geojson,,,,,,,,,,,,B/*;");
+  EXPECT_EQ(found.casters.size(), 5U);
+  EXPECT_FALSE(found.types.contains("TOWN:B/2"));
+  EXPECT_THAT(found.remarks[0], HasSubstr("1 building (5 walls and roofs, 1 left out)"));
+  auto const clear = read(location + "GPUShading:SiteContext,Hill,,,,,,,hill.asc,,2000,,,Terrain;");
+  EXPECT_EQ(clear.casters.size(), 0U);
+  EXPECT_THAT(clear.remarks[0], HasSubstr("no part of it is left"));
+}
+
+TEST_F(SiteContext, OriginIsTheObjectsElseTheModels) {
+  std::string const there = "GPUShading:SiteContext,Town,town.geojson,,,,,,,,,0.0,20.001,50";
+  EXPECT_NEAR(read(location + there + ";").casters[1].surface.polygon.outline[1].x, 0.0, 1e-6);
+  EXPECT_EQ(read(there + ";").casters.size(), 10U);
+  // Another object may leave it open, but not differ.
+  EXPECT_EQ(read(there + ";GPUShading:SiteContext,More,town.geojson;").casters.size(), 20U);
+  EXPECT_THAT(refusal(there + ";GPUShading:SiteContext,More,town.geojson,,,,,,,,,0,20.001,51;"),
+              HasSubstr("GPUShading:SiteContext More: its origin differs from that of "
+                        "GPUShading:SiteContext Town"));
+  EXPECT_THAT(refusal("GPUShading:SiteContext,Town,town.geojson;"),
+              HasSubstr("Site:Location is missing"));
+  EXPECT_THAT(refusal("GPUShading:SiteContext,Town,town.geojson,,,,,,,,,0,20;"),
+              HasSubstr("Site:Location is missing"));
+  EXPECT_THAT(refusal("GPUShading:SiteContext,Town,town.geojson,,,,,,,,,5;"),
+              HasSubstr("Town: Origin Longitude is blank"));
+  EXPECT_THAT(refusal("GPUShading:SiteContext,Town,town.geojson,,,,,,,,,91,0,0;"),
+              HasSubstr("Origin Latitude is \"91\", expected a number from -90 to 90 deg"));
+}
+
+TEST_F(SiteContext, WarnsOfAnOriginThatCannotBeRight) {
+  auto const found = read(location +
+                          "GPUShading:SiteContext,Hill,,,,,,,hill.asc;"
+                          "GPUShading:SiteContext,Town,town.geojson;");
+  EXPECT_THAT(found.warnings,
+              ElementsAre(HasSubstr("the terrain is at 130.0 m, the model's ground at 100.0 m")));
+  auto const far = read("Site:Location,There,20,0,0,100;GPUShading:SiteContext,Town,town.geojson;");
+  EXPECT_THAT(far.warnings, ElementsAre(HasSubstr("farther than 50 km")));
+}
+
+TEST_F(SiteContext, SaysWhatIsWrong) {
+  auto const of = [&](std::string const& fields) {
+    return refusal(location + "GPUShading:SiteContext,Town," + fields + ";");
+  };
+  EXPECT_THAT(of(""), HasSubstr("Buildings File Name and Terrain File Name are blank"));
+  EXPECT_THAT(of("village.geojson"), HasSubstr("village.geojson: no such file"));
+  EXPECT_THAT(of("town.geojson,Mars"),
+              HasSubstr("Buildings Coordinates is \"Mars\", expected WGS84, a UTM zone"));
+  EXPECT_THAT(of("town.geojson,,,,-3"),
+              HasSubstr("Storey Height is \"-3\", expected a number above 0"));
+  EXPECT_THAT(of("town.geojson,,,,,tall"),
+              HasSubstr("Default Height is \"tall\", expected a number above 0"));
+  EXPECT_THAT(of("town.geojson,,,,,,,UTM 33N"),
+              HasSubstr("Terrain Coordinates is \"UTM 33N\", expected blank without Terrain"));
+  EXPECT_THAT(of(",,,,,,hill.asc,UTM 13N"),
+              HasSubstr("latitude 0, longitude 20 is too far from UTM 13N"));
+  EXPECT_THAT(of("town.geojson,UTM 13N"), HasSubstr("Buildings File Name"));
+  EXPECT_THAT(of("town.geojson,,,,,,,,,,,Hill"), HasSubstr("Origin Elevation is \"Hill\""));
+  EXPECT_THAT(of("town.geojson,,,,,,,,,,,Terrain"),
+              HasSubstr("Origin Elevation is Terrain, but no terrain has data"));
+  write("bow.geojson", R"({"type": "Feature", "properties": {"height": 10}, "geometry":
+    {"type": "Polygon", "coordinates": [[[20,0],[20.001,0.001],[20.001,0],[20,0.001]]]}})");
+  EXPECT_THAT(of("bow.geojson"),
+              HasSubstr("Town: Buildings File Name: bow.geojson: feature 1: its outline crosses"));
+  write("sea.geojson", R"({"type": "Feature", "properties": {"height": 10}, "geometry":
+    {"type": "Polygon", "coordinates": [[[21,0],[21.001,0],[21.001,0.001]]]}})");
+  EXPECT_THAT(of("sea.geojson,,,,,,hill.asc"), HasSubstr("feature 1: none of its corners is on"));
+}
+
+TEST_F(SiteContext, EpJsonSaysTheSame) {
+  auto const objects = read_epjson(nlohmann::json::parse(R"({
+    "Site:Location": {"Here": {"latitude": 0, "longitude": 20, "elevation": 100}},
+    "GPUShading:SiteContext": {"Town": {"buildings_file_name": "town.geojson", "storey_height": 3,
+      "left_out": [{"left_out_name": "a/1"}]}}})"));
+  auto const found = read_surroundings(objects, folder_.path());
+  EXPECT_EQ(found.casters.size(), 5U);
+  EXPECT_TRUE(found.types.contains("TOWN:B/2"));
+}
+
+TEST_F(SiteContext, PutsUpPlaceholdersUnlessShadingIsOff) {
+  Choices choices;
+  choices.folder = folder_.path();
+  auto const objects = read_idf(location + "GPUShading:SiteContext,Town,town.geojson;");
+  auto const model = understand(objects, folder_.path() / "model.idf", choices);
+  EXPECT_EQ(model.lean.placeholders.size(), 4U);
+  EXPECT_FALSE(model.lean.active());
+  EXPECT_EQ(model.shading.shading_surfaces.at("TOWN:A/1").type, "GPUShading:SiteContext");
+  choices.mode = Mode::off;
+  EXPECT_TRUE(understand(objects, folder_.path() / "model.idf", choices).lean.placeholders.empty());
+  EXPECT_THROW(understand(read_idf("Shading:Site:Detailed,town:a/1;" + location +
+                                   "GPUShading:SiteContext,Town,town.geojson;"),
+                          folder_.path() / "model.idf", choices),
+               Error);
+}
+
+TEST_F(SiteContext, LocationIsCheckedUnlessShadingIsOff) {
+  auto const objects = read_idf("Site:Location,Here,0,20,nan,100;");
+  auto const path = folder_.path() / "model.idf";
+  EXPECT_THAT(refusal_of([&] { understand(objects, path, {}); }),
+              AllOf(HasSubstr("model.idf: Site:Location Here: Time Zone"), HasSubstr("nan")));
+  Choices choices;
+  choices.mode = Mode::off;
+  EXPECT_NO_THROW(understand(objects, path, choices));
+}
+
+TEST_F(SiteContext, TellsTheModelsOwnBuilding) {
+  auto const found = read(location + "GPUShading:SiteContext,Town,town.geojson;");
+  ShadingInput input;
+  input.zone_of = {{"WALL", "ZONE"}, {"NEXT DOOR", "ZONE"}};
+  Scene scene;
+  Surface next;
+  next.name = "NEXT DOOR";  // wall to wall with A/1, facing it
+  double const wall = found.casters[1].surface.polygon.outline[0].x;
+  next.polygon.outline = {{wall, 20, 5}, {wall, 20, 0}, {wall, 40, 0}, {wall, 40, 5}};
+  scene.add(next);
+  EXPECT_THAT(warn_of_own_buildings(found.buildings, scene, input), testing::IsEmpty());
+  Surface own;
+  own.name = "WALL";
+  own.polygon.outline = {{5, 0, 3}, {5, 0, 0}, {9, 0, 0}, {9, 0, 3}};
+  scene.add(own);
+  EXPECT_THAT(warn_of_own_buildings(found.buildings, scene, input),
+              ElementsAre(HasSubstr("TOWN:B/2 encloses the model's WALL")));
+}
+
+}  // namespace
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,64 @@
+#include "reports/page/run_page.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+Polygon square(double x, double size) {
+  return {{{x, 0.0, 0.0}, {x + size, 0.0, 0.0}, {x + size, 0.0, size}, {x, 0.0, size}}, {}};
+}
+
+RunPage page_of(std::size_t receivers, std::size_t casters) {
+  RunPage page;
+  page.title = "model.idf";
+  page.styles.resize(2);
+  page.styles.front().kind = PageStyle::Kind::receiver;
+  for (std::size_t i = 0; i < receivers; ++i) {
+    page.surfaces.push_back(
+        {fmt::format("RECEIVER {}", i), square(static_cast<double>(i), 1.0), 0});
+    page.receivers.push_back({1.0, 180.0, 90.0, 0.5, 100.0});
+  }
+  for (std::size_t i = 0; i < casters; ++i) {
+    double const size = i % 2 == 0 ? 0.1 : 0.5;
+    page.surfaces.push_back({fmt::format("CASTER {}", i), square(static_cast<double>(i), size), 1});
+  }
+  return page;
+}
+
+TEST(RunPage, IsMarkedAsOurs) { EXPECT_THAT(to_html(page_of(1, 0)), HasSubstr(page_marker)); }
+
+TEST(RunPage, KeepsNamesFromBeingMarkup) {
+  auto page = page_of(1, 1);
+  page.title = "</title><script>stop()</script> @scripts@ \xe9";
+  page.surfaces[0].name = "</script><script>stop()</script>";
+  page.surfaces[1].name = "<!-- @library@ \xff";
+  auto const html = to_html(page);
+  EXPECT_THAT(html, Not(HasSubstr("stop()</script>")));
+  EXPECT_THAT(html, Not(HasSubstr("<!-- @library@")));
+  EXPECT_THAT(html, HasSubstr("&lt;/title&gt;&lt;script&gt;stop()&lt;/script&gt; @scripts@"));
+}
+
+TEST(RunPage, OfALargeModelHasLessThanFiveMegabytes) {
+  auto page = page_of(2385, 95000);
+  constexpr std::size_t hours = 377;  // some 900,000 fractions
+  page.days.push_back({3, 21, std::vector<PageHour>(hours)});
+  page.percents.assign(hours * page.receivers.size(), 57);
+  PageMap map;
+  map.columns = 400;
+  map.rows = 500;
+  map.hours.assign(map.columns * map.rows, 3.0F);
+  map.energy = map.hours;
+  page.maps.push_back(map);
+  auto const html = to_html(std::move(page));
+  EXPECT_LT(html.size(), 5'000'000U);
+  EXPECT_THAT(html, HasSubstr("The drawing is simplified: it has 45115 of 95000 casting surfaces"));
+}
+
+}  // namespace
+}  // namespace gpu_shading::energyplus

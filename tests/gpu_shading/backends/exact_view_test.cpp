@@ -1,0 +1,192 @@
+// Answers without samples, against exact polygon clipping.
+
+#include "backends/exact/exact_view.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include "gpu_shading/transmittance.h"
+#include "scene/casters.h"
+#include "support/exact.h"
+#include "support/random_scene.h"
+#include "support/room.h"
+#include "support/shapes.h"
+
+namespace gpu_shading {
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+// Schedules 0 to 2.
+constexpr std::array schedule_factors{0.7, 0.4, 0.0};
+// Of the receiver's area: what polygons rounded to 10 nm, and casters cut at the clearance, leave.
+constexpr double rounding = 2e-5;
+
+class ExactQuestions {
+ public:
+  explicit ExactQuestions(Scene const& scene)
+      : scene_(scene), casters_(scene), transmission_(scene) {}
+
+  std::optional<std::vector<LuminanceSums>> operator()(
+      SunDirection sun, SurfaceId receiver, double most_steps = unlimited,
+      std::vector<SurfaceId> const& interiors = {}) {
+    PlaneFrame const frame = plane_frame(scene_[receiver].polygon).value();
+    InView const in_view = casters_.in_view(scene_, receiver, frame, to_vector(sun));
+    return exact_sums(
+        scene_, transmission_,
+        {receiver, frame, to_vector(sun), in_view.casters, !interiors.empty(), interiors},
+        most_steps);
+  }
+
+  // With schedules by their factors, in parts of the receiver.
+  double total(LuminanceSums const& sums) const {
+    double total = sums.unscheduled;
+    for (auto const& part : sums.scheduled) {
+      double product = part.sum;
+      for (auto const& [number, power] : part.powers) {
+        int const schedule = transmission_.shades().schedules()[static_cast<std::size_t>(number)];
+        product *= std::pow(schedule_factors.at(static_cast<std::size_t>(schedule)), power);
+      }
+      total += product;
+    }
+    return total;
+  }
+
+ private:
+  Scene const& scene_;
+  Casters casters_;
+  Transmission transmission_;
+};
+
+// Gives casters other transmittances and schedules.
+Scene with_shades(Scene const& opaque, std::uint32_t seed) {
+  Scene scene;
+  for (SurfaceId id = 0; id < opaque.size(); ++id) {
+    Surface surface = opaque[id];
+    std::uint32_t const kind = (seed + 3 * id) % 5;
+    if (id > 0 && (kind == 1 || kind == 2)) {
+      surface.transmittance =
+          std::make_shared<Transmittance const>(Transmittance::polynomial_in_cosine({0.1, 0.7}));
+    }
+    if (id > 0 && kind >= 2 && kind <= 3) surface.schedule = static_cast<int>((seed + id) % 3);
+    scene.add(surface);
+  }
+  return scene;
+}
+
+TEST(ExactView, AgreesWithPolygonClippingBehindRandomPolygons) {
+  int shaded = 0;
+  for (std::uint32_t seed = 1; seed <= 400; ++seed) {
+    RandomScene const random = random_scene(seed);
+    Scene const scene = with_shades(random.scene, seed);
+    ExactQuestions ask(scene);
+    auto const sums = ask(random.sun, 0);
+    ASSERT_TRUE(sums) << seed;
+    double const whole = exact::projected_area(scene, random.sun, 0);
+    double const expected =
+        exact::projected_sunlit_area(scene, random.sun, 0, schedule_factors) / whole;
+    EXPECT_NEAR(ask.total(sums->front()), expected, rounding) << seed;
+    if (expected < 0.95) ++shaded;
+  }
+  EXPECT_GT(shaded, 300);
+}
+
+TEST(ExactView, AgreesWithPolygonClippingBehindManyTriangles) {
+  for (int const count : {10, 100, 400}) {
+    Scene const scene = triangle_soup(count, 7);
+    ExactQuestions ask(scene);
+    SunDirection const sun = sun_at(200, 35);
+    auto const sums = ask(sun, 0);
+    ASSERT_TRUE(sums);
+    double const expected =
+        exact::projected_sunlit_area(scene, sun, 0) / exact::projected_area(scene, sun, 0);
+    EXPECT_NEAR(sums->front().unscheduled, expected, rounding) << count;
+  }
+}
+
+TEST(ExactView, OfInteriorSurfacesAgreesWithPolygonClipping) {
+  Room room;
+  // Before the back wall, so it takes what the floor and the wall would get.
+  SurfaceId const table = room.scene.add({"table", level(1, 1, 0.7, 1.5, 1)});
+  room.surfaces.insert(room.surfaces.begin(), table);
+  Surface blind{"blind", south_facing(1.2, -0.3, 1.0, 0.9, 1.0)};
+  blind.schedule = 1;
+  room.scene.add(blind);
+  room.scene.add({"fin", parallelogram({1.1, -1.0, 0}, {0, 1, 0}, {0, 0, 3})});
+  ExactQuestions ask(room.scene);
+  for (double azimuth = 110; azimuth < 250; azimuth += 7) {
+    for (double altitude = 3; altitude < 80; altitude += 11) {
+      SunDirection const sun = sun_at(azimuth, altitude);
+      auto const sums = ask(sun, room.window, unlimited, room.surfaces);
+      ASSERT_TRUE(sums);
+      auto const expected =
+          exact::interior_areas(room.scene, sun, room.window, room.surfaces, schedule_factors);
+      double const whole = exact::projected_area(room.scene, sun, room.window);
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_NEAR(ask.total((*sums)[i]), expected[i] / whole, rounding)
+            << azimuth << ", " << altitude << ": " << room.scene[room.surfaces[i]].name;
+      }
+    }
+  }
+}
+
+// In two boxes that pass through one another, each is nearest somewhere.
+TEST(ExactView, LeavesInteriorSurfacesThatPassThroughOneAnother) {
+  Scene scene;
+  scene.add({"window", south_facing(0, 0, 0, 2, 2)});
+  scene.add({"one way", parallelogram({0, 1, 0}, {2, 1, 0}, {0, 0, 2})});
+  scene.add({"the other", parallelogram({0, 2, 0}, {2, -1, 0}, {0, 0, 2})});
+  ExactQuestions ask(scene);
+  EXPECT_FALSE(ask(sun_at(180, 10), 0, unlimited, {1, 2}));
+  EXPECT_TRUE(ask(sun_at(180, 10), 0, unlimited, {1}));
+}
+
+TEST(ExactView, LeavesWhatWouldTakeLonger) {
+  Scene const leaves = triangle_soup(400, 3);
+  ExactQuestions ask(leaves);
+  EXPECT_FALSE(ask(sun_at(180, 30), 0, 100.0));
+  EXPECT_TRUE(ask(sun_at(180, 30), 0));
+}
+
+// Edges that lie on the receiver's sides, on one another, and on corners.
+TEST(ExactView, OfEdgesInOnePlaceIsExact) {
+  Scene scene;
+  scene.add({"receiver", south_facing(0, 0, 0, 2, 2)});
+  SunDirection const sun = sun_at(180, 1e-9);
+  scene.add({"left half", south_facing(-1, -1, 0, 2, 2)});
+  scene.add({"the same", south_facing(-1, -2, 0, 2, 2)});
+  scene.add({"upper half of the rest", south_facing(1, -1, 1, 1, 1)});
+  scene.add({"beside it", south_facing(2, -1, 0, 5, 2)});
+  scene.add({"half of what is left", {{{1, -1, 0}, {2, -1, 1}, {1, -1, 1}}, {}}});
+  ExactQuestions ask(scene);
+  auto const sums = ask(sun, 0);
+  ASSERT_TRUE(sums);
+  EXPECT_NEAR(sums->front().unscheduled, 0.125, 1e-8);
+}
+
+// A ring whose parts overlap, by the odd-even rule as elsewhere.
+TEST(ExactView, OfAStarThatCrossesItselfLeavesItsMiddleOpen) {
+  Scene scene;
+  scene.add({"receiver", south_facing(-2, 0, -2, 4, 4)});
+  Ring star;
+  for (int i = 0; i < 5; ++i) {
+    double const turn = 2.0 * std::numbers::pi * (2 * i) / 5.0;
+    star.emplace_back(std::sin(turn), -1.0, std::cos(turn));
+  }
+  scene.add({"star", {star, {}}});
+  ExactQuestions ask(scene);
+  auto const sums = ask(sun_at(180, 1e-9), 0);
+  ASSERT_TRUE(sums);
+  // Five points of the pentagram of radius 1 without its pentagon.
+  double const inner = std::pow(std::numbers::phi, -2);
+  double const tenth = 0.5 * inner * std::sin(std::numbers::pi / 5);
+  double const pentagon = 2.5 * inner * inner * std::sin(0.4 * std::numbers::pi);
+  EXPECT_NEAR(sums->front().unscheduled, 1.0 - (10 * tenth - pentagon) / 16.0, 1e-7);
+}
+
+}  // namespace
+}  // namespace gpu_shading
