@@ -198,13 +198,17 @@ int run_shaded(char const* program, std::vector<std::string> arguments, Choices 
 int launch(std::vector<std::string>& arguments, char** argv) {
   auto choices = take_flags(arguments);
   auto const environment = read_environment();
-  if (!choices.any() && !environment.mode) run_official(argv);
+  auto const line = read_command_line(arguments);
+  if (!choices.any() && !environment.mode) {
+    if (line.help) fmt::print("{}", help_hint);
+    std::fflush(stdout);
+    run_official(argv);
+  }
   choices.fill_from(environment);
   apply_to_process(choices);
 
-  auto const line = read_command_line(arguments);
   if (line.version) fmt::print("gpu_shading {}\n", GPU_SHADING_VERSION);
-  if (line.help) std::fputs(std::string(flags_help()).c_str(), stdout);
+  if (line.help) fmt::print("{}", options_help());
   if (line.model) {
     if (line.convert) check_conversion(*line.model);
     check_model(*line.model, choices);

@@ -32,12 +32,15 @@ constexpr int not_wanted = -1;
 int run(std::vector<std::string>& arguments) {
   auto choices = take_flags(arguments);
   auto const environment = read_environment();
-  if (!choices.any() && !environment.mode) return not_wanted;
+  auto const line = read_command_line(arguments);
+  if (!choices.any() && !environment.mode) {
+    if (line.help) std::fputs(help_hint, stdout);
+    return not_wanted;
+  }
   choices.fill_from(environment);
   apply_to_process(choices);
   auto const library = own_folder() / energyplus_library;
-  auto const line = read_command_line(arguments);
-  if (line.help) std::fputs(std::string(flags_help()).c_str(), stdout);
+  if (line.help) std::fputs(options_help().c_str(), stdout);
   if (line.preprocessed) {
     throw Error("-m: an EPMacro model cannot be rendered on Windows; create its IDF first");
   }

@@ -106,7 +106,7 @@ std::vector<std::string> take_options(std::vector<std::string> arguments) {
   return arguments;
 }
 
-std::string options_help() { return std::string(energyplus::flags_help()); }
+std::string options_help() { return energyplus::options_help(); }
 
 bool is_wanted() { return source_run().wanted; }
 
