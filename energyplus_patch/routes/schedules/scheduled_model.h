@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "model/options/options.h"
-#include "routes/schedules/sunlit_fractions.h"
 #include "runs/short_runs.h"
 
 namespace gpu_shading::energyplus {
@@ -25,9 +24,5 @@ struct ScheduledModel {
 using Say = std::function<void(std::string const&)>;
 ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choices,
                                  std::filesystem::path const& folder, Say const& say);
-
-// Returns the fractions alone. Throws Error if the model has no run period.
-SunlitFractions sunlit_fractions(EnergyPlusCall const& call, Choices const& choices,
-                                 Say const& say);
 
 }  // namespace gpu_shading::energyplus
