@@ -4,7 +4,7 @@
 
 #include "calculation/session.h"
 #include "routes/patched/binary/stored_result.h"
-#include "routes/patched/symbols/energyplus.h"
+#include "routes/patched/symbols/energyplus_types.h"
 
 namespace gpu_shading::energyplus {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "routes/patched/memory/own_memory.h"
-#include "routes/patched/symbols/energyplus.h"
+#include "routes/patched/symbols/energyplus_types.h"
 
 // How EnergyPlus's objects and arrays are found and read.
 namespace gpu_shading::energyplus {

@@ -294,26 +294,6 @@ void find_in_surfaces(std::byte const* object, ReflectionClasses const& classes,
 
 }  // namespace
 
-std::optional<ReflectionClasses> find_reflection_classes(SymbolTable const& symbols) {
-  ReflectionClasses const classes{
-      symbols.virtual_functions("N10EnergyPlus26SolarReflectionManagerDataE"),
-      symbols.virtual_functions("N10EnergyPlus12SurfacesDataE"),
-      symbols.virtual_functions("N9ObjexxFCL7Array1DIN10EnergyPlus22SolarReflectionManager18"
-                                "SolReflRecSurfDataEEE"),
-      symbols.virtual_functions("N9ObjexxFCL7Array1DINS_7Vector3IdEEEE"),
-      symbols.virtual_functions("N9ObjexxFCL7Array1DIdEE"),
-      symbols.virtual_functions("N9ObjexxFCL7Array1DIiEE"),
-      symbols.virtual_functions("N9ObjexxFCL7Array2DINS_7Vector3IdEEEE"),
-      symbols.virtual_functions("N9ObjexxFCL7Array2DIdEE"),
-      symbols.virtual_functions("N9ObjexxFCL7Array2DIiEE")};
-  for (auto const* table :
-       {classes.manager, classes.surfaces, classes.receivers, classes.vectors, classes.numbers,
-        classes.integers, classes.vectors_2, classes.numbers_2, classes.integers_2}) {
-    if (table == nullptr) return std::nullopt;
-  }
-  return classes;
-}
-
 std::optional<ReflectionMemory> find_reflection_memory(State& state, Session const& session,
                                                        StoredResult const& ids,
                                                        ReflectionClasses const& classes) {

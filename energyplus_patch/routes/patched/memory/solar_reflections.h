@@ -9,15 +9,15 @@
 #include "gpu_shading/rays.h"
 #include "hidden/hidden_reflections.h"
 #include "routes/patched/memory/reflection_memory.h"
-#include "routes/patched/symbols/energyplus.h"
+#include "routes/patched/symbols/energyplus_symbols.h"
 
 namespace gpu_shading::energyplus {
 
 // EnergyPlus's functions of solar reflections, called with what stands in their memory.
 struct ReflectionFunctions {
-  void (*beam_diffuse)(State&, int hour) = nullptr;
-  void (*beam_specular)(State&, int hour) = nullptr;
-  void (*sky_diffuse)(State&) = nullptr;
+  PointerTo<symbol::beam_diffuse> beam_diffuse = nullptr;
+  PointerTo<symbol::beam_specular> beam_specular = nullptr;
+  PointerTo<symbol::sky_diffuse> sky_diffuse = nullptr;
 };
 
 // Solar reflections of one run, with what EnergyPlus does not know. EnergyPlus's own functions
