@@ -6,7 +6,7 @@
 #include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/reflection_entries.h"
 #include "routes/patched/entries/run.h"
-#include "routes/patched/memory/object_memory.h"
+#include "routes/patched/memory/safe_read.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -51,13 +51,6 @@ class CannotPatch : public Error {
   using Error::Error;
 };
 
-std::optional<StoredResult> find_surface_ids(SymbolTable const& symbols) {
-  Symbol const* const caller = symbols.find(symbol::determine_shadowing_combinations.symbol);
-  Symbol const* const callee = symbols.find(symbol::add_surface.symbol);
-  if (caller == nullptr || callee == nullptr) return std::nullopt;
-  return find_stored_result(*caller, *callee);
-}
-
 std::vector<Entry> all_entries() {
   std::vector<Entry> entries;
   for (auto const& part : {penumbra_entries(), input_entries(), shading_entries(),

@@ -5,7 +5,7 @@
 #include "gpu_shading/error.h"
 #include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
-#include "routes/patched/memory/mirrored_surfaces.h"
+#include "routes/patched/memory/surface_ids.h"
 #include "tasks/perform_task.h"
 
 // Functions that replace the member functions of Penumbra::Penumbra and Penumbra::Surface: same

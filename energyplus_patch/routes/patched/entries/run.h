@@ -9,7 +9,7 @@
 #include <string>
 
 #include "calculation/session.h"
-#include "routes/patched/binary/stored_result.h"
+#include "routes/patched/memory/surface_ids.h"
 #include "routes/patched/symbols/energyplus.h"
 #include "routes/patched/symbols/schedule_functions.h"
 #include "tasks/asked_task.h"

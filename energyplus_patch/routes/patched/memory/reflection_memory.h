@@ -9,7 +9,7 @@
 
 #include "calculation/session.h"
 #include "gpu_shading/scene.h"
-#include "routes/patched/binary/stored_result.h"
+#include "routes/patched/memory/surface_ids.h"
 #include "routes/patched/symbols/energyplus_symbols.h"
 
 namespace gpu_shading::energyplus {
