@@ -9,7 +9,6 @@
 
 #include "platform/console.h"
 #include "platform/error_line.h"
-#include "platform/naming.h"
 #include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
 #include "routes/run_setup.h"
