@@ -5,7 +5,7 @@
 #include "platform/files.h"
 #include "platform/staged_files.h"
 #include "programs/gpu_shading/commands.h"
-#include "routes/schedules/scheduled_model.h"
+#include "routes/schedules/scheduled_run.h"
 #include "runs/installation.h"
 
 namespace gpu_shading::energyplus {
