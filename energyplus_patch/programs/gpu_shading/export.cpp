@@ -36,7 +36,7 @@ void export_scheduled(EnergyPlusCall call, Choices const& choices,
   std::filesystem::create_directory(staged);
   auto const model = prepare_scheduled(call, choices, staged, print_line);
   files.commit();
-  print_text(fmt::format("{}\n", (folder / model.path.filename()).string()));
+  print("{}\n", (folder / model.path.filename()).string());
 }
 
 void export_imported(EnergyPlusCall call, Choices const& choices,

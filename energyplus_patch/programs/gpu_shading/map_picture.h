@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "tasks/trace_maps.h"
+#include "reports/map_grid.h"
+#include "tasks/task.h"
 
 namespace gpu_shading::energyplus {
 
