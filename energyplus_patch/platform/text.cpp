@@ -23,7 +23,7 @@ void add_escaped(std::string_view text, std::size_t i, std::string& line) {
                      (byte(i) == 0xc2 && i + 1 < text.size() && byte(i + 1) < 0xa0);
   if (text[i] == '\n') {
     line += "\\n";
-  } else if (byte(i) < 0x20 || byte(i) == 0x7f || is_c1) {
+  } else if (is_control(byte(i)) || is_c1) {
     line += fmt::format("\\x{:02x}", static_cast<unsigned>(byte(i)));
   } else {
     line += text[i];

@@ -23,6 +23,12 @@ std::string trimmed(std::string_view text);
 // The comma-separated parts of a line, trimmed.
 std::vector<std::string> comma_separated(std::string const& line);
 
+// Whether a byte is one of ASCII's control characters.
+constexpr bool is_control(unsigned char byte) {
+  constexpr unsigned char del = 0x7F;
+  return byte < ' ' || byte == del;
+}
+
 // For a message: control characters escaped (\\n, \\x1b), long text cut to some 80 characters.
 std::string printable(std::string_view text);
 std::string in_quotes(std::string_view text);  // the same, in double quotes

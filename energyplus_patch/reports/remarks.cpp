@@ -117,7 +117,8 @@ void describe_scene(SceneAssembly const& scene, Messages const& messages) {
   list_transmitting_surfaces(scene, messages);
 }
 
-void describe_answers(SunAnswers const& answers, Options const& options, Messages const& messages) {
+void describe_answers(SunQuestions const& answers, Options const& options,
+                      Messages const& messages) {
   auto const& rendered = answers.rendered();
   auto const& device = rendered.renderer().device();
   auto const& scene = rendered.renderer().scene();

@@ -31,8 +31,8 @@ void print_table(std::vector<DeviceTest> const& tests) {
     titles += fmt::format("{:>20}", test.device.index < 0 ? name : "device " + name);
     units += fmt::format("{:>10}{:>10}", "error", "ms");
   }
-  print_text(fmt::format(
-      "Largest error of a sunlit fraction, and milliseconds per view:\n\n{}\n{}\n", titles, units));
+  print("Largest error of a sunlit fraction, and milliseconds per view:\n\n{}\n{}\n", titles,
+        units);
   for (std::size_t row = 0; row < tests.back().kinds.size(); ++row) {
     std::string line = fmt::format("{:24}", tests.back().kinds[row].name);
     for (auto const& test : tests) {
@@ -40,7 +40,7 @@ void print_table(std::vector<DeviceTest> const& tests) {
                                                     test.kinds[row].milliseconds)
                                       : fmt::format("{:>20}", "-");
     }
-    print_text(fmt::format("{}\n", line));
+    print("{}\n", line);
   }
 }
 
@@ -66,12 +66,11 @@ std::string verdict(DeviceTest const& test, DeviceTest const& cpu) {
 
 void list_devices() {
   for (auto const& device : find_devices()) {
-    print_text(fmt::format("{}  {}  [{}; {}]  {}, tiles up to {} x {}\n", device.index,
-                           device.renderer, device.vendor, device.version,
-                           device.software ? "software" : "GPU", device.max_resolution,
-                           device.max_resolution));
+    print("{}  {}  [{}; {}]  {}, tiles up to {} x {}\n", device.index, device.renderer,
+          device.vendor, device.version, device.software ? "software" : "GPU",
+          device.max_resolution, device.max_resolution);
   }
-  print_text(fmt::format("cpu  {}\n", describe(cpu_device())));
+  print("cpu  {}\n", describe(cpu_device()));
 }
 
 bool test_devices() {
@@ -82,8 +81,7 @@ bool test_devices() {
   bool right = true;
   print_text("\n");
   for (auto const& test : tests) {
-    print_text(fmt::format("{}  {}: {}\n", name_of(test.device), describe(test.device),
-                           verdict(test, tests.back())));
+    print("{}  {}: {}\n", name_of(test.device), describe(test.device), verdict(test, tests.back()));
     right = right && test.right();
   }
   return right;

@@ -30,7 +30,7 @@ void export_scheduled(ModelRun const& run, EnergyPlusCall call,
   std::filesystem::create_directory(staged);
   auto const model = prepare_scheduled(call, run.choices, staged, print_line);
   files.commit();
-  print_text(fmt::format("{}\n", (folder / model.path.filename()).string()));
+  print("{}\n", (folder / model.path.filename()).string());
 }
 
 }  // namespace

@@ -17,7 +17,6 @@
 #include "programs/gpu_shading/commands.h"
 #include "programs/gpu_shading/listed_folder.h"
 #include "programs/gpu_shading/map_files.h"
-#include "reports/map_file.h"
 #include "routes/schedules/rendered_fractions.h"
 #include "runs/installation.h"
 #include "runs/short_runs.h"
@@ -89,7 +88,7 @@ RunTimes times_of(ModelRun const& run, Period const& period) {
   call.weather = run.weather;
   auto const model = read_model(run.model, run.choices);
   auto times = run_for_beam(call, shade_schedules(model));
-  auto const unknown = unknown_schedules(model, times);
+  auto const unknown = unknown_schedules(model, times.schedules);
   if (!unknown.empty()) print_line("warning: " + describe_unknown(unknown));
   std::erase_if(times.times,
                 [&](RunTime const& time) { return !period.has(time) || !sun_is_up(time.sun); });
@@ -131,7 +130,7 @@ std::vector<GriddedMap> grid_maps(std::vector<ReceiverMap> maps, double spacing)
 }
 
 // The largest values of all receivers.
-MapValue most_of(std::vector<GriddedMap> const& maps) {
+MapValue max_of(std::vector<GriddedMap> const& maps) {
   MapValue most;
   for (auto const& one : maps) {
     most.hours = std::max(most.hours, one.summary.most.hours);
@@ -186,7 +185,7 @@ std::optional<std::string> try_drawing(std::string const& name, MapHeading const
 
 void write_pictures(std::vector<GriddedMap> const& maps, std::string const& period,
                     bool common_scale, ListedFolder& folder) {
-  auto const most = most_of(maps);
+  auto const most = max_of(maps);
   for (auto const& [map, grid, summary] : maps) {
     auto const name = summary.stem + ".png";
     auto const picture = try_drawing(name, heading_of(summary, period), grid, map.values,
@@ -223,7 +222,7 @@ void draw_maps(ModelRun const& run, MapOrder const& order) {
   write_pictures(maps, dates, order.common_scale, folder);
   folder.write("maps.csv", [&](std::ostream& out) { write_summaries(summaries, out); });
   folder.commit(about);
-  print_text(fmt::format("{}\n", (order.folder / "maps.csv").string()));
+  print("{}\n", (order.folder / "maps.csv").string());
 }
 
 }  // namespace

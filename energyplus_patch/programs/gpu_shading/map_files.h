@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "tasks/trace_maps.h"
+#include "reports/map_grid.h"
+#include "tasks/task.h"
 
 // The files of `gpu_shading map`.
 namespace gpu_shading::energyplus {

@@ -19,7 +19,7 @@
 #include "runs/short_runs.h"
 #include "scene/digest.h"
 #include "tasks/samples/sample_parts.h"
-#include "tasks/samples/sample_tables.h"
+#include "tasks/samples/sample_set.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -128,7 +128,8 @@ RunTimes run_year(Source const& source, SampleSet const& set) {
   call.weather = source.weather;
   auto year = run_for_year(call, set.scene.schedules, steps_per_hour);
   if (set.scene.schedules.empty()) return year;
-  auto const unknown = unknown_schedules(read_model(source.run.model, source.run.choices), year);
+  auto const unknown =
+      unknown_schedules(read_model(source.run.model, source.run.choices), year.schedules);
   if (!unknown.empty()) print_line("warning: " + describe_unknown(unknown));
   return year;
 }
@@ -138,7 +139,7 @@ void put_together(Source const& source, SampleParts const& parts, Path const& fo
   auto const year = run_year(source, set);
   auto const write = [&](std::string_view name, auto const& content) {
     write_whole_file(folder / name, content);
-    print_text(fmt::format("{}\n", (folder / name).string()));
+    print("{}\n", (folder / name).string());
   };
   write("samples.csv", [&](std::ostream& out) { write_samples(set, out); });
   write("year.csv", [&](std::ostream& out) { write_year(set, year, out); });

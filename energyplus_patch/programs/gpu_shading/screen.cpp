@@ -151,12 +151,11 @@ constexpr std::array azimuths{0, 45, 90, 135};
 void print_table(PerforatedScreen const& screen) {
   constexpr int step = 10;
   constexpr int last = 80;
-  print_text(
-      fmt::format("{:>7}{:>10}{:>10}{:>10}{:>10}\n", "theta", "u (0)", "45", "v (90)", "135"));
+  print("{:>7}{:>10}{:>10}{:>10}{:>10}\n", "theta", "u (0)", "45", "v (90)", "135");
   for (int theta = 0; theta <= last; theta += step) {
-    print_text(fmt::format("{:>7}", theta));
+    print("{:>7}", theta);
     for (auto const phi : azimuths) {
-      print_text(fmt::format("{:>10.4f}", transmittance(screen, theta, phi)));
+      print("{:>10.4f}", transmittance(screen, theta, phi));
     }
     print_text("\n");
   }
@@ -173,23 +172,22 @@ std::string list(std::vector<std::string> const& surfaces) {
   return text;
 }
 
-void print(DescribedScreen const& described) {
+void print_described(DescribedScreen const& described) {
   auto const& screen = *described.screen;
-  print_text(fmt::format("{}\n", one_line(described.named.maker->where())));
-  print_text(fmt::format("  sheet          {}\n", one_line(described.description)));
-  print_text(fmt::format("  surfaces       {}\n", list(described.named.surfaces)));
-  print_text(fmt::format("  open fraction  {:.4f}\n", screen.open_fraction()));
+  print("{}\n", one_line(described.named.maker->where()));
+  print("  sheet          {}\n", one_line(described.description));
+  print("  surfaces       {}\n", list(described.named.surfaces));
+  print("  open fraction  {:.4f}\n", screen.open_fraction());
   double const cut_off = glm::degrees(screen.transmittance().cut_off());
   constexpr double right_angle = 90.0;
   if (screen.sheet().thickness > 0.0 && cut_off < right_angle) {
-    print_text(fmt::format(
-        "  cut-off        {:.1f} degrees from the normal: no beam passes beyond\n", cut_off));
+    print("  cut-off        {:.1f} degrees from the normal: no beam passes beyond\n", cut_off);
   }
   if (described.rotation != 0.0) {
-    print_text(fmt::format(
+    print(
         "  rotation       u and v are rotated by {:g} degrees counterclockwise as seen from "
         "outside\n",
-        described.rotation));
+        described.rotation);
   }
   print_text("\n");
   print_table(screen);
@@ -226,7 +224,7 @@ void write_files(std::vector<DescribedScreen> const& screens, StagedFiles& files
   }
   files.commit();
   print_text("\n");
-  for (auto const& name : written) print_text(fmt::format("{}\n", (folder / name).string()));
+  for (auto const& name : written) print("{}\n", (folder / name).string());
 }
 
 // As EnergyPlus has it for solar reflections: of the model's ShadingProperty:Reflectance, or its
@@ -264,7 +262,7 @@ void write_bsdf_file(DescribedScreen const& described, ShadingInput const& shadi
     write_bsdf(*described.screen, described.rotation, reflectance, printable(object),
                one_line(described.description), xml);
   });
-  print_text(fmt::format("{}\n", file.string()));
+  print("{}\n", file.string());
 }
 
 // EnergyPlus is not run.
@@ -281,7 +279,7 @@ void describe_screens(ScreenTask const& task, Choices const& choices) {
   if (task.folder) files.emplace(*task.folder);
   for (auto const& screen : screens) {
     if (&screen != &screens.front()) print_text("\n");
-    print(screen);
+    print_described(screen);
   }
   print_legend();
   if (files) write_files(screens, *files, *task.folder);

@@ -14,8 +14,8 @@
 #include "platform/staged_files.h"
 #include "platform/text.h"
 #include "programs/gpu_shading/commands.h"
-#include "tasks/samples/direction_fractions.h"
 #include "tasks/samples/sky_patches.h"
+#include "tasks/task_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -112,7 +112,7 @@ void sample_sky(ModelRun const& run, std::filesystem::path const& folder) {
   files.write("sky_view.csv", [&](std::ostream& out) { write_views(receivers, out); });
   files.commit();
   for (auto const* const name : {"sky.csv", "sky_view.csv"}) {
-    print_text(fmt::format("{}\n", (folder / name).string()));
+    print("{}\n", (folder / name).string());
   }
 }
 

@@ -208,8 +208,8 @@ void run_view(ModelRun const& model, ViewArguments const& arguments) {
                 arguments.size.value_or(views.size() > 1 ? size_of_many : default_size));
   for (auto const& view : views) {
     auto const sun = view.view.sun;
-    print_text(fmt::format("{}: sun at azimuth {:.3f}, altitude {:.3f} degrees\n", view.caption,
-                           glm::degrees(sun.azimuth), glm::degrees(sun.altitude)));
+    print("{}: sun at azimuth {:.3f}, altitude {:.3f} degrees\n", view.caption,
+          glm::degrees(sun.azimuth), glm::degrees(sun.altitude));
   }
 }
 

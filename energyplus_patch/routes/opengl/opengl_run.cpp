@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <glm/trigonometric.hpp>
@@ -84,12 +83,7 @@ void add_schedules(HostedModel& hosted, Model const& model, EnergyPlusCall const
   auto const names = shade_schedules(model);
   if (names.empty()) return;
   auto days = run_for_schedules(call, names);
-  std::vector<std::string> unknown;
-  for (auto const& name : names) {
-    bool const known =
-        std::find(days.schedules.begin(), days.schedules.end(), name) != days.schedules.end();
-    if (!known || model.shading.actuated.contains(name)) unknown.push_back(name);
-  }
+  auto const unknown = unknown_schedules(model, days.schedules);
   if (!unknown.empty()) {
     auto const warning = describe_unknown(unknown);
     print_line("warning: " + warning);

@@ -564,9 +564,9 @@ TEST(Session, CachedInteriorsAreNotRenderedAgain) {
   std::ifstream in(file, std::ios::binary);
   std::string const text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   auto const known = decode(std::as_bytes(std::span(text)), scene);
-  AnswerSet odd;
+  SceneAnswers odd;
   odd.states = known.states;
-  known.answers.for_each([&](Answers::Direction const& direction) {
+  known.answers.for_each([&](AnswerStore::Direction const& direction) {
     for (auto const& [question, answers] : direction.interior) {
       std::vector<Sunlit> changed(answers.size());
       for (auto& answer : changed) answer.projected_area = 0.125;

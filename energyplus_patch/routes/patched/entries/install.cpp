@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <array>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -254,8 +253,7 @@ extern "C" EXPORTED int gpu_shading_run_opengl(char const* energyplus_library, i
 extern "C" EXPORTED void gpu_shading_report_refusal(char const* energyplus_library, char const* why,
                                                     int argc, char const* const* argv) {
   using namespace gpu_shading::energyplus;
-  std::array<char, 1> ignored{};
-  guarded(ignored.data(), ignored.size(), [&] {
+  failure_of([&] {
     report_refusal({argv, argv + argc}, std::filesystem::path(energyplus_library).parent_path(),
                    why, {});
   });
