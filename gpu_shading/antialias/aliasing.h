@@ -3,9 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "antialias/blade_spectrum.h"
-#include "antialias/hole_spectrum.h"
 #include "antialias/repeat.h"
+#include "antialias/spectra.h"
 #include "filters/perforation/screens.h"
 #include "filters/perforation/sheet_in_beam.h"
 #include "view/tile.h"

@@ -1,5 +1,3 @@
-#include "antialias/blade_spectrum.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "antialias/nearest_whole.h"
+#include "antialias/spectra.h"
 #include "geometry/convex_area.h"
 #include "platform/instructions.h"
 

@@ -1,5 +1,3 @@
-#include "antialias/hole_spectrum.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "antialias/nearest_whole.h"
+#include "antialias/spectra.h"
 #include "geometry/convex_area.h"
 #include "gpu_shading/perforated_screen.h"
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "filters/perforation/screen_overlap.h"
+#include "antialias/antialias.h"
 #include "filters/perforation/sheet_in_beam.h"
 #include "platform/parallel.h"
 #include "view/view.h"

@@ -4,11 +4,11 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "antialias/antialias.h"
 #include "backends/exact/exact_view.h"
 #include "platform/parallel.h"
 #include "platform/stopwatch.h"
 #include "render/sample_cost.h"
-#include "render/tile_stretch.h"
 
 namespace gpu_shading {
 namespace {
@@ -110,7 +110,11 @@ void QuestionBatch::take(Asked const& asked, Found found, std::vector<ReceiverVi
 void QuestionBatch::stretch_tiles(std::vector<ReceiverView>& views) {
   std::vector<double> stretches(views.size());
   for_each_index(views.size(), [&](std::size_t i) {
-    stretches[i] = stretch_without_aliasing(views[i], parts_.scene, parts_.transmission);
+    ReceiverView const& view = views[i];
+    stretches[i] =
+        stretch_without_aliasing({view.receiver, *view.frame, *view.tile, view.towards_sun,
+                                  view.pixel_area(), view.casters, view.transmits},
+                                 parts_.scene, parts_.transmission);
   });
   std::size_t const first = viewed_.size() - views.size();
   for (std::size_t i = 0; i < views.size(); ++i) {

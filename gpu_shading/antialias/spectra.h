@@ -1,17 +1,94 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
+#include <numbers>
+#include <optional>
 #include <vector>
 
-#include "antialias/blade_spectrum.h"
-#include "antialias/outline_spectrum.h"
+#include "antialias/repeat.h"
 #include "filters/perforation/screens.h"
 #include "filters/perforation/sheet_in_beam.h"
+#include "geometry/plane_frame.h"
 #include "view/tile.h"
 #include "view/view.h"
 
 namespace gpu_shading {
+
+// The nearest whole number, of one below 2^51: what adding and taking away leaves. Unlike
+// std::round, it is no call on older processors, and compilers take several at a time.
+inline double nearest_whole(double x) {
+  constexpr double rounding = 0x1.8p52;
+  return (x + rounding) - rounding;
+}
+
+// Upper limit of the Fourier transform of a receiver that fills its bounding rectangle. Frequencies
+// are in cycles per tile.
+class OutlineSpectrum {
+ public:
+  // On a tile that is not stretched, by the slope of its turn.
+  explicit OutlineSpectrum(double slope) {
+    double const c = 1.0 / std::sqrt(1.0 + slope * slope);
+    double const s = slope * c;
+    double const side = std::numbers::pi / (c + std::abs(s));
+    u_ = side * glm::dvec2(c, s);
+    v_ = side * glm::dvec2(-s, c);
+  }
+  OutlineSpectrum(TileMap const& map, PlaneFrame const& frame)
+      : u_(0.5 * std::numbers::pi * frame.width * map.matrix[0]),
+        v_(0.5 * std::numbers::pi * frame.height * map.matrix[1]) {}
+
+  double amplitude(glm::dvec2 const& frequency) const {
+    double const u = std::abs(glm::dot(u_, frequency));
+    double const v = std::abs(glm::dot(v_, frequency));
+    return 1.0 / (std::max(1.0, u) * std::max(1.0, v));
+  }
+  // Its inverse, by no branch and no division.
+  double decay(glm::dvec2 const& frequency) const {
+    double const u = std::abs(glm::dot(u_, frequency));
+    double const v = std::abs(glm::dot(v_, frequency));
+    return at_least_1(u) * at_least_1(v);
+  }
+
+ private:
+  static double at_least_1(double value) { return 0.5 * (value + 1.0 + std::abs(value - 1.0)); }
+
+  glm::dvec2 u_;  // sides of the rectangle, in tiles, times pi
+  glm::dvec2 v_;
+};
+
+// The frequencies of blades at equal distances, such as louvres or fins, as a view has them, in
+// cycles per tile: multiples of one.
+class BladeSpectrum {
+ public:
+  // `first`: the lowest frequency. `share`: of the receiver, behind these blades.
+  BladeSpectrum(glm::dvec2 const& first, double share, OutlineSpectrum const& outline)
+      : outline_(outline), first_(first), share_(share) {}
+
+  // Empty for blades in line, end to end, or too close to tell.
+  static std::optional<BladeSpectrum> make(Repeat const& repeat, double share, View const& view,
+                                           OutlineSpectrum const& outline);
+
+  // Whether the other one's are in step with these over all of the tile; then takes its share.
+  bool merge(BladeSpectrum const& other);
+
+  // The same on a tile of another shape, with its outline. `change`: of frequencies.
+  void change(glm::dmat2 const& change, OutlineSpectrum const& outline) {
+    first_ = change * first_;
+    outline_ = outline;
+  }
+
+  // Upper limit of the squared error of the mean over a grid, or anything above `enough`.
+  double squared_error(TileGrid const& grid, double enough) const;
+
+ private:
+  OutlineSpectrum outline_;
+  glm::dvec2 first_;
+  double share_;
+};
 
 // Whether two screens have the same holes and directions of holes, and so the same spectrum, as the
 // panels of a facade do.

@@ -1,5 +1,3 @@
-#include "filters/perforation/screen_overlap.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <glm/common.hpp>
@@ -8,14 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "antialias/antialias.h"
 #include "geometry/convex_area.h"
 
 namespace gpu_shading {
 namespace {
 
-using Ring = std::vector<glm::dvec2>;
+using RingOnTile = std::vector<glm::dvec2>;
 
-double twice_area(Ring const& ring) {
+double twice_area(RingOnTile const& ring) {
   double twice = 0.0;
   for (std::size_t i = 2; i < ring.size(); ++i) {
     twice += cross(ring[i - 1] - ring[0], ring[i] - ring[0]);
@@ -24,8 +23,8 @@ double twice_area(Ring const& ring) {
 }
 
 // Both convex and counterclockwise.
-Ring common(Ring ring, Ring const& by) {
-  Ring kept;
+RingOnTile common(RingOnTile ring, RingOnTile const& by) {
+  RingOnTile kept;
   for (std::size_t i = 0; i < by.size() && !ring.empty(); ++i) {
     glm::dvec2 const along = by[(i + 1) % by.size()] - by[i];
     kept.clear();
@@ -44,11 +43,11 @@ Ring common(Ring ring, Ring const& by) {
 
 struct PartOnTile {
   int screen;
-  Ring on_tile;
+  RingOnTile on_tile;
   glm::dvec2 least;
   glm::dvec2 most;
 
-  PartOnTile(int number, Ring ring) : screen(number), on_tile(std::move(ring)) {
+  PartOnTile(int number, RingOnTile ring) : screen(number), on_tile(std::move(ring)) {
     least = most = on_tile.front();
     for (glm::dvec2 const& corner : on_tile) {
       least = glm::min(least, corner);
@@ -63,11 +62,11 @@ struct PartOnTile {
 
 std::vector<PartOnTile> parts_on_tile(Screens const& screens, std::span<int const> numbers,
                                       View const& view) {
-  Ring const tile{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  RingOnTile const tile{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   std::vector<PartOnTile> parts;
   for (int const number : numbers) {
     for (Screens::Quadrilateral const& part : screens[number].parts) {
-      Ring ring;
+      RingOnTile ring;
       for (glm::dvec3 const& corner : part.corners) {
         glm::dvec3 const p = corner - view.origin;
         ring.emplace_back(at(view.x, p), at(view.y, p));
