@@ -2,28 +2,54 @@
 
 #include <charconv>
 
-#include "backends/opengl/module/gl_module.h"
+#include "backends/modules.h"
 #include "gpu_shading/device.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading {
+namespace {
 
-DeviceChoice parse_device_choice(std::string const& text) {
-  if (text == "auto") return {DeviceChoice::Kind::automatic, 0};
-  if (text == "cpu" || text == "software") return {DeviceChoice::Kind::cpu, 0};
-  int index = -1;
+// A number from 0; empty for anything else.
+std::optional<int> parse_number(std::string_view text) {
+  int number = -1;
   char const* const end = text.data() + text.size();
-  auto const [last, error] = std::from_chars(text.data(), end, index);
-  if (error != std::errc() || last != end || index < 0) {
-    throw Error(
-        fmt::format("device '{}': expected 'auto', 'cpu' or the number of a device, from 0", text));
-  }
-  return {DeviceChoice::Kind::index, index};
+  auto const [last, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || last != end || number < 0) return std::nullopt;
+  return number;
 }
 
-DeviceChoice choice_of(DeviceInfo const& device) {
-  if (device.index < 0) return {DeviceChoice::Kind::cpu};
-  return {DeviceChoice::Kind::index, device.index};
+std::optional<DeviceId> parse_device(std::string_view text) {
+  if (auto const number = parse_number(text)) return numbered_device(*number);
+  DeviceId const cpu;
+  if (text == cpu.module) return cpu;
+  auto const colon = text.find(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  for (NamedModule const& module : device_modules()) {
+    auto const number = parse_number(text.substr(colon + 1));
+    bool const named = module.name == text.substr(0, colon) && module.name != cpu.module;
+    if (named && number) return DeviceId{module.name, *number};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+DeviceChoice parse_device_choice(std::string const& text) {
+  if (text == "auto") return {};
+  if (auto const device = parse_device(text)) return {device};
+  throw Error(
+      fmt::format("device '{}': expected 'auto', 'cpu' or the number of a device, from 0", text));
+}
+
+std::string device_name(DeviceId const& device) {
+  if (device.is_cpu()) return std::string(device.module);
+  bool const numbered = device == numbered_device(device.number);
+  return numbered ? fmt::format("{}", device.number)
+                  : fmt::format("{}:{}", device.module, device.number);
+}
+
+std::string device_name(DeviceChoice const& choice) {
+  return choice.device ? device_name(*choice.device) : "auto";
 }
 
 std::string describe(DeviceInfo const& device) {
@@ -35,12 +61,17 @@ std::string describe(DeviceInfo const& device) {
 std::vector<DeviceInfo> list_devices(std::vector<std::string>* failures) {
   std::vector<std::string> unasked;
   std::vector<std::string>& lines = failures != nullptr ? *failures : unasked;
-  try {
-    return gl_module().list_devices(lines);
-  } catch (DeviceError const& error) {
-    lines.emplace_back(error.what());
-    return {};
+  std::vector<DeviceInfo> devices;
+  for (NamedModule const& module : device_modules()) {
+    try {
+      for (DeviceInfo& device : module.get().list_devices(lines)) {
+        devices.push_back(std::move(device));
+      }
+    } catch (DeviceError const& error) {
+      lines.emplace_back(error.what());
+    }
   }
+  return devices;
 }
 
 }  // namespace gpu_shading

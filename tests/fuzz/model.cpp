@@ -21,7 +21,7 @@ Choices quick_choices(Lean lean) {
   choices.mode = Mode::automatic;
   choices.error = 0.05;
   choices.update = Update();
-  choices.device = DeviceChoice{.kind = DeviceChoice::Kind::cpu};
+  choices.device = DeviceChoice{DeviceId{}};
   choices.cache = std::filesystem::path();
   choices.quiet = true;
   return choices;

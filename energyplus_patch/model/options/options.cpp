@@ -102,16 +102,15 @@ Update update_of(settings::UpdateFrequency frequency) {
 }
 
 DeviceChoice device_of(std::variant<int, settings::Device> const& device) {
-  using Kind = DeviceChoice::Kind;
-  if (auto const* const index = std::get_if<int>(&device)) return {Kind::index, *index};
+  if (auto const* const number = std::get_if<int>(&device)) return {numbered_device(*number)};
   switch (std::get<settings::Device>(device)) {
     case settings::Device::cpu:
     case settings::Device::software:
-      return {Kind::cpu, 0};
+      return {DeviceId{}};
     case settings::Device::automatic:
       break;
   }
-  return {Kind::automatic, 0};
+  return {};
 }
 
 std::filesystem::path parse_path(std::string const& text, std::string_view expected) {
@@ -238,18 +237,6 @@ std::string name_of(Update const& wanted) {
   return std::string(settings::update_frequency.blank);
 }
 
-std::string name_of(DeviceChoice const& device) {
-  switch (device.kind) {
-    case DeviceChoice::Kind::cpu:
-      return "cpu";
-    case DeviceChoice::Kind::index:
-      return std::to_string(device.index);
-    case DeviceChoice::Kind::automatic:
-      break;
-  }
-  return "auto";
-}
-
 std::string name_of(Lean lean) {
   switch (lean) {
     case Lean::on:
@@ -369,7 +356,7 @@ std::vector<std::string> to_flags(Choices const& choices) {
   if (choices.resolution) add("--gpu-shading-resolution", std::to_string(*choices.resolution));
   if (choices.error) add("--gpu-shading-error", fmt::format("{}", *choices.error));
   if (choices.update) add("--gpu-shading-update", name_of(*choices.update));
-  if (choices.device) add("--gpu-shading-device", name_of(*choices.device));
+  if (choices.device) add("--gpu-shading-device", device_name(*choices.device));
   if (choices.file) add("--gpu-shading-file", choices.file->string());
   if (choices.report) add("--gpu-shading-report", choices.report->string());
   if (choices.cache) {

@@ -85,7 +85,6 @@ Choices take_flags(std::vector<std::string>& arguments);
 // The value as in the flag.
 std::string name_of(Mode mode);
 std::string name_of(Update const& update);
-std::string name_of(DeviceChoice const& device);
 std::string name_of(Lean lean);
 std::string name_of(Method method);
 std::string name_of(Assets assets);

@@ -13,7 +13,7 @@ namespace {
 RendererOptions options_of_environment() {
   constexpr char const* variable = "GPU_SHADING_ERROR";
   RendererOptions options;
-  options.device.kind = DeviceChoice::Kind::cpu;
+  options.device.device = DeviceId{};
   char const* const given = std::getenv(variable);
   if (given == nullptr || *given == '\0') return options;
   char* end = nullptr;

@@ -116,7 +116,7 @@ DeviceTest test_device(DeviceInfo const& device) {
     for (ClosedForm const& form : closed_forms()) {
       // Without the check by which the CPU takes over.
       Renderer renderer = RendererWithBackend::make(form.scene, {}, [&](BackendInput const& input) {
-        return open_backend(input, choice_of(device));
+        return open_backend(input, {device.id});
       });
       Batch const batch = batch_of(form);
       // The first answers, which count, also compile programs.

@@ -352,7 +352,7 @@ TEST(Recorder, RefusesAQueryThatWasNotMade) {
 // A square of 1 m under one that covers its southern half as the sun stands at the zenith.
 TEST(RenderedModel, HalfCoveredSquare) {
   RendererOptions options;
-  options.device.kind = DeviceChoice::Kind::cpu;
+  options.device.device = DeviceId{};
   Recorder recorder(std::make_unique<RenderedModel>(options));
   Penumbra penumbra({rectangle({0, 0, 0}, 1, 1), rectangle({-1, -0.5F, 2}, 3, 1)}, 512, recorder);
   penumbra.set_sun(0.0F, quarter_turn - 1e-4F);
@@ -368,7 +368,7 @@ TEST(RenderedModel, HalfCoveredSquare) {
 // As OpenGL draws them: whichever way the triangles turn.
 TEST(RenderedModel, SurfacesHaveTwoSides) {
   RendererOptions options;
-  options.device.kind = DeviceChoice::Kind::cpu;
+  options.device.device = DeviceId{};
   Recorder recorder(std::make_unique<RenderedModel>(options));
   Penumbra penumbra({rectangle({0, 0, 0}, 1, 1), rectangle({-1, -0.5F, -2}, 3, 1)}, 512, recorder);
   penumbra.set_sun(0.0F, -quarter_turn + 1e-4F);
@@ -391,7 +391,7 @@ TEST(Recorder, KnowsAWindowThatWasNotAskedAbout) {
 
 TEST(RenderedModel, FloorBehindASkylight) {
   RendererOptions options;
-  options.device.kind = DeviceChoice::Kind::cpu;
+  options.device.device = DeviceId{};
   Recorder recorder(std::make_unique<RenderedModel>(options));
   Penumbra penumbra(
       {rectangle({0, 0, 0}, 2, 4), rectangle({2, 0, 0}, 2, 4), rectangle({1.5F, 1, 3}, 1, 1)}, 1024,
