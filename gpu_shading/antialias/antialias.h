@@ -1,9 +1,10 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
+#include <vector>
 
-#include "antialias/repeat.h"
 #include "filters/perforation/screen_shading.h"
 #include "filters/transmission.h"
 #include "geometry/plane_frame.h"
@@ -12,9 +13,27 @@
 
 namespace gpu_shading {
 
-// Samples that do not alias with what repeats in front of a receiver: blades at equal distances,
-// such as louvres and fins, and the holes of perforated sheets. Below, `view` is that of the
-// casters in front, on the tile.
+// Samples that do not alias with repeating geometry in front of a receiver: blades at equal
+// distances, such as louvres and fins, and the holes of perforated sheets. Below, `view` is that of
+// the casters in front, on the tile.
+
+// A surface that repeats another one, as louvres, fins and slats do.
+struct Repeat {
+  glm::dvec3 step{0.0};  // from the other one, m
+  glm::dvec3 edge{0.0};  // the longest of its edges, m
+};
+
+// Empty if no surface shortly before it in the scene has the same shape and orientation.
+std::optional<Repeat> repeat_of(Scene const& scene, SurfaceId id);
+
+// The repeats among a sample of the casters in view.
+struct SampledRepeats {
+  std::vector<Repeat> found;
+  double share = 0.0;  // of all casters that each stands for
+};
+
+// Empty where casters are few.
+SampledRepeats repeats_among(Scene const& scene, std::span<SurfaceId const> casters);
 
 // A view that is sampled at the centres of its tile's pixels; the tile is not stretched.
 struct ViewOnPixels {
@@ -39,7 +58,7 @@ enum class SampleUse {
 };
 
 // The grid on which the CPU samples a tile. A row's span costs the same however fine its columns
-// are, and its ends are nearly exact with many of them: what matters is the number of rows.
+// are, and its ends are nearly exact with many of them: only the number of rows matters.
 // - Coverage: as many rows as a small tile has pixels, down to half as many on a large one, and 9
 // or
 //   17 times as many columns.

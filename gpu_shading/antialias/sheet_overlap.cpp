@@ -44,19 +44,19 @@ RingOnTile common(RingOnTile ring, RingOnTile const& by) {
 struct PartOnTile {
   int screen;
   RingOnTile on_tile;
-  glm::dvec2 least;
-  glm::dvec2 most;
+  glm::dvec2 low;
+  glm::dvec2 high;
 
   PartOnTile(int number, RingOnTile ring) : screen(number), on_tile(std::move(ring)) {
-    least = most = on_tile.front();
+    low = high = on_tile.front();
     for (glm::dvec2 const& corner : on_tile) {
-      least = glm::min(least, corner);
-      most = glm::max(most, corner);
+      low = glm::min(low, corner);
+      high = glm::max(high, corner);
     }
   }
 
   bool is_near(PartOnTile const& other) const {
-    return glm::all(glm::lessThan(least, other.most)) && glm::all(glm::lessThan(other.least, most));
+    return glm::all(glm::lessThan(low, other.high)) && glm::all(glm::lessThan(other.low, high));
   }
 };
 
@@ -83,12 +83,12 @@ std::vector<PartOnTile> parts_on_tile(Screens const& screens, std::span<int cons
 
 bool any_overlap(Screens const& screens, std::span<int const> numbers, View const& view) {
   // Of the tile, of area 4: neighbours that touch do not overlap.
-  constexpr double least = 1e-6;
+  constexpr double min_area = 1e-6;
   std::vector<PartOnTile> const parts = parts_on_tile(screens, numbers, view);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (std::size_t k = i + 1; k < parts.size(); ++k) {
       if (parts[i].screen == parts[k].screen || !parts[i].is_near(parts[k])) continue;
-      if (twice_area(common(parts[i].on_tile, parts[k].on_tile)) > least) return true;
+      if (twice_area(common(parts[i].on_tile, parts[k].on_tile)) > min_area) return true;
     }
   }
   return false;

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "antialias/repeat.h"
+#include "antialias/antialias.h"
 #include "filters/perforation/screens.h"
 #include "filters/perforation/sheet_in_beam.h"
 #include "geometry/plane_frame.h"
@@ -18,8 +18,8 @@
 
 namespace gpu_shading {
 
-// The nearest whole number, of one below 2^51: what adding and taking away leaves. Unlike
-// std::round, it is no call on older processors, and compilers take several at a time.
+// The nearest whole number, for numbers below 2^51, by adding a large number and subtracting it
+// again. Unlike std::round, it needs no call on older processors, and compilers vectorise it.
 inline double nearest_whole(double x) {
   constexpr double rounding = 0x1.8p52;
   return (x + rounding) - rounding;
@@ -60,19 +60,20 @@ class OutlineSpectrum {
   glm::dvec2 v_;
 };
 
-// The frequencies of blades at equal distances, such as louvres or fins, as a view has them, in
-// cycles per tile: multiples of one.
+// The frequencies in a view of blades at equal distances, such as louvres or fins, in cycles per
+// tile: multiples of one.
 class BladeSpectrum {
  public:
   // `first`: the lowest frequency. `share`: of the receiver, behind these blades.
   BladeSpectrum(glm::dvec2 const& first, double share, OutlineSpectrum const& outline)
       : outline_(outline), first_(first), share_(share) {}
 
-  // Empty for blades in line, end to end, or too close to tell.
+  // Empty for blades in line, end to end, or too close together.
   static std::optional<BladeSpectrum> make(Repeat const& repeat, double share, View const& view,
                                            OutlineSpectrum const& outline);
 
-  // Whether the other one's are in step with these over all of the tile; then takes its share.
+  // Adds the share of another spectrum that is in step with this one all over the tile. False if it
+  // is not.
   bool merge(BladeSpectrum const& other);
 
   // The same on a tile of another shape, with its outline. `change`: of frequencies.
@@ -81,7 +82,7 @@ class BladeSpectrum {
     outline_ = outline;
   }
 
-  // Upper limit of the squared error of the mean over a grid, or anything above `enough`.
+  // Upper bound of the squared error of the mean over a grid, or any number above `enough`.
   double squared_error(TileGrid const& grid, double enough) const;
 
  private:
@@ -94,7 +95,7 @@ class BladeSpectrum {
 // panels of a facade do.
 bool alike(Screens::Entry const& a, Screens::Entry const& b);
 
-// The frequencies of a screen's holes as a view has them, in cycles per tile.
+// The frequencies of a screen's holes in a view, in cycles per tile.
 class HoleSpectrum {
  public:
   HoleSpectrum(Screens::Entry const& screen, SheetInBeam const& sheet, View const& view,
@@ -108,7 +109,7 @@ class HoleSpectrum {
   // `negligible` may be left out.
   double squared_error(TileGrid const& grid, int row, double negligible) const;
   // The number of rows from 0 that matter; beyond, errors are small.
-  static int rows(TileGrid const& grid) { return is_large(grid) ? most_rows : 25; }
+  static int rows(TileGrid const& grid) { return is_large(grid) ? max_rows : 25; }
   // Whether a grid has so many places that errors of high frequencies matter, which are small.
   static bool is_large(TileGrid const& grid) {
     constexpr double large = 1000.0 * 1000.0;
@@ -138,7 +139,7 @@ class HoleSpectrum {
   std::vector<BladeSpectrum> sides_in_line() const;
 
  private:
-  static constexpr int most_rows = 49;
+  static constexpr int max_rows = 49;
 
   void describe(PerforatedScreen const& screen, SheetInBeam const& sheet);
   // Of the frequency with an index, by the nearest vector of a grid, if that is in none of its
@@ -158,7 +159,7 @@ class HoleSpectrum {
   double arcs_ = 0.0;              // of a hole
   std::vector<glm::dvec2> sides_;  // one of each two that are parallel
   double size_ = 0.0;              // of a hole
-  double most_ = 0.0;              // limit of any amplitude times its frequency, per m
+  double max_scale_ = 0.0;         // limit of any amplitude times its frequency, per m
 };
 
 }  // namespace gpu_shading

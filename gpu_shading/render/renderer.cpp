@@ -25,16 +25,16 @@ namespace {
 
 TileSize tile_size(RendererOptions const& options, DeviceInfo const& device) {
   if (!options.resolution) {
-    if (!(options.error >= RendererOptions::least_error &&
-          options.error <= RendererOptions::most_error)) {
+    if (!(options.error >= RendererOptions::min_error &&
+          options.error <= RendererOptions::max_error)) {
       throw Error(fmt::format("error {}: expected {} to {}", options.error,
-                              RendererOptions::least_error, RendererOptions::most_error));
+                              RendererOptions::min_error, RendererOptions::max_error));
     }
     // Layers of more pixels would fill a GPU's memory.
-    constexpr int most_drawn = 4096;
+    constexpr int max_drawn = 4096;
     bool const drawn = !device.id.is_cpu();
     return TileSize::for_error(
-        options.error, drawn ? std::min(most_drawn, device.max_resolution) : device.max_resolution);
+        options.error, drawn ? std::min(max_drawn, device.max_resolution) : device.max_resolution);
   }
   if (*options.resolution < 1 || *options.resolution > device.max_resolution) {
     throw Error(fmt::format("resolution {}: expected 1 to {} pixels, the range of the device '{}'",

@@ -4,10 +4,10 @@
 
 #include "calculation/session.h"
 #include "fuzz.h"
+#include "gpu_shading/device.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/polygon.h"
 #include "gpu_shading/sun_position.h"
-#include "gpu_shading/threads.h"
 #include "model/shading_outlines.h"
 
 // What a model's objects say, from their fields to sunlit areas: the values that the reader of the

@@ -52,6 +52,10 @@ std::string describe(DeviceInfo const& device);
 // The CPU that this program runs on.
 DeviceInfo cpu_device();
 
+// From now on no more than `count` threads, the calling one among them, compute in this process at
+// a time: a limit for all of oneTBB in it. Throws Error if it is less than 1.
+void limit_threads(int count);
+
 // Lists the devices of all modules; the CPU is the last. OpenGL has every EGL device that supports
 // an OpenGL 4.5 core context without a display, in EGL's order, followed by Mesa's surfaceless
 // platform if it adds another device. Devices that fail are left out; `failures`, if given, gets
