@@ -2,18 +2,8 @@
 
 import argparse
 import difflib
-import re
-from pathlib import Path
 
-_HERE = Path(__file__).resolve().parent
-
-
-def version():
-    """As CMakeLists.txt has it; an installation has a copy."""
-    installed = _HERE.parent / "VERSION"
-    if installed.is_file():
-        return installed.read_text().strip()
-    return re.search(r"project\(gpu_shading VERSION ([\d.]+)", (_HERE.parents[1] / "CMakeLists.txt").read_text())[1]
+from shading_runs.version import version
 
 
 def add_version(parser):
