@@ -1,6 +1,6 @@
 # What the Python package calls. It needs nothing of Python: one library serves all versions.
 add_library(gpu_shading_python MODULE
-  python/closing.cpp
+  python/guard.cpp
   python/optics_calls.cpp
   python/ray_calls.cpp
   python/renderer_calls.cpp

@@ -37,7 +37,7 @@ bool SampleInterpolation::worth_samples(State& state, SunDirection sun) {
   if (states_.size() == 1 || !state.batches.empty()) return true;
   if (!last_rendered_ || !(*last_rendered_ == sun)) ++state.rendered;
   last_rendered_ = sun;
-  return state.rendered > most_directions(sampling_.density);
+  return state.rendered > max_directions(sampling_.density);
 }
 
 Sunlit const* SampleInterpolation::find(SurfaceId receiver, Question const& question) {

@@ -115,7 +115,7 @@ void Session::set_time(Moment moment) {
     write_cache(answers_->rendered(), messages_);
     auto const receivers = answers_->rendered().known().receivers;
     // The CPU also if it took over from a GPU.
-    auto const device = choice_of(answers_->rendered().renderer().device());
+    DeviceChoice const device{answers_->rendered().renderer().device().id};
     obstructions_.reset();
     luminance_.reset();
     renew_reflections();

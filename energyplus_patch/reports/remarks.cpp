@@ -91,7 +91,7 @@ void check_device(DeviceInfo const& device, Options const& options, Messages con
         fmt::format("--gpu-shading=require: no GPU available, only {}; see gpu_shading devices",
                     describe(device)));
   }
-  if (options.device.kind == DeviceChoice::Kind::automatic) {
+  if (!options.device.device) {
     messages.remark(
         fmt::format("no GPU available; computing on the CPU, {} thread{}; see gpu_shading devices",
                     device.threads, device.threads == 1 ? "" : "s"));

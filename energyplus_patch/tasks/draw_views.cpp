@@ -165,7 +165,7 @@ void draw_views(std::vector<SunView> const& views, std::filesystem::path const& 
       // By the device that gave them, which may be the CPU in place of a GPU that was wrong.
       if (!whole) {
         whole.emplace(drawing.renderer.scene(), drawing.shown,
-                      choice_of(drawing.renderer.device()));
+                      DeviceChoice{drawing.renderer.device().id});
       }
       files.write(view.picture, draw_whole(*whole, view, fractions, drawing.size));
     } else {

@@ -61,10 +61,9 @@ Value value_of(FieldInfo const& field, std::string const& text) {
   } else if constexpr (std::is_same_v<Value, Update>) {
     return updates().at(word.value());
   } else if constexpr (std::is_same_v<Value, DeviceChoice>) {
-    using Kind = DeviceChoice::Kind;
-    if (!word) return {Kind::index, static_cast<int>(parse_number(text).value())};
-    return {*word == static_cast<std::size_t>(settings::Device::cpu) ? Kind::cpu : Kind::automatic,
-            0};
+    if (!word) return {numbered_device(static_cast<int>(parse_number(text).value()))};
+    if (*word == static_cast<std::size_t>(settings::Device::cpu)) return {DeviceId{}};
+    return {};
   } else if constexpr (std::is_enum_v<Value> || std::is_same_v<Value, bool>) {
     return static_cast<Value>(word.value());
   } else {
@@ -83,11 +82,8 @@ std::string text_of(FieldInfo const& field, Update value) {
   return std::string(field.words[static_cast<std::size_t>(found - updates().begin())]);
 }
 
-std::string text_of(FieldInfo const& field, DeviceChoice const& value) {
-  using Kind = DeviceChoice::Kind;
-  if (value.kind == Kind::index) return std::to_string(value.index);
-  auto const word = value.kind == Kind::cpu ? settings::Device::cpu : settings::Device::automatic;
-  return std::string(field.words[static_cast<std::size_t>(word)]);
+std::string text_of(FieldInfo const& /*field*/, DeviceChoice const& value) {
+  return device_name(value);
 }
 
 template <typename Value>

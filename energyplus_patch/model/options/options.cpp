@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "gpu_shading/device.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/renderer.h"
-#include "gpu_shading/threads.h"
 #include "model/extensions/extension_fields.h"
 #include "model/extensions/field_text.h"
 #include "model/options/option_table.h"

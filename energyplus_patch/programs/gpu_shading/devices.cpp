@@ -18,17 +18,13 @@ std::vector<DeviceInfo> find_devices() {
   return devices;
 }
 
-std::string name_of(DeviceInfo const& device) {
-  return device.index < 0 ? "cpu" : fmt::format("{}", device.index);
-}
-
 // Rows are kinds of view, and devices columns.
 void print_table(std::vector<DeviceTest> const& tests) {
   std::string titles = fmt::format("{:24}", "");
   std::string units = titles;
   for (auto const& test : tests) {
-    auto const name = name_of(test.device);
-    titles += fmt::format("{:>20}", test.device.index < 0 ? name : "device " + name);
+    auto const name = device_name(test.device.id);
+    titles += fmt::format("{:>20}", test.device.id.is_cpu() ? name : "device " + name);
     units += fmt::format("{:>10}{:>10}", "error", "ms");
   }
   print("Largest error of a sunlit fraction, and milliseconds per view:\n\n{}\n{}\n", titles,
@@ -45,7 +41,7 @@ void print_table(std::vector<DeviceTest> const& tests) {
 }
 
 std::string compare_times(DeviceTest const& test, DeviceTest const& cpu) {
-  if (test.device.index < 0) return "";
+  if (test.device.id.is_cpu()) return "";
   double const ratio = cpu.milliseconds() / test.milliseconds();
   return ratio >= 1.0 ? fmt::format(", {:.2g} times as fast as the CPU", ratio)
                       : fmt::format(", takes {:.2g} times as long as the CPU", 1.0 / ratio);
@@ -66,22 +62,29 @@ std::string verdict(DeviceTest const& test, DeviceTest const& cpu) {
 
 void list_devices() {
   for (auto const& device : find_devices()) {
-    print("{}  {}  [{}; {}]  {}, tiles up to {} x {}\n", device.index, device.renderer,
-          device.vendor, device.version, device.software ? "software" : "GPU",
-          device.max_resolution, device.max_resolution);
+    auto const name = device_name(device.id);
+    if (device.id.is_cpu()) {
+      print("{}  {}
+", name, describe(device));
+    } else {
+      print(
+          "{}  {}  [{}; {}]  {}, tiles up to {} x {}
+          ", name, device.renderer, device.vendor,
+          device.version,
+          device.software ? "software" : "GPU", device.max_resolution, device.max_resolution);
+    }
   }
-  print("cpu  {}\n", describe(cpu_device()));
 }
 
 bool test_devices() {
   std::vector<DeviceTest> tests;
   for (auto const& device : find_devices()) tests.push_back(test_device(device));
-  tests.push_back(test_device(cpu_device()));
   print_table(tests);
   bool right = true;
   print_text("\n");
   for (auto const& test : tests) {
-    print("{}  {}: {}\n", name_of(test.device), describe(test.device), verdict(test, tests.back()));
+    print("{}  {}: {}\n", device_name(test.device.id), describe(test.device),
+          verdict(test, tests.back()));
     right = right && test.right();
   }
   return right;

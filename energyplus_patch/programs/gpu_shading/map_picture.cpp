@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "files/labelled_image.h"
-#include "gpu_shading/fraction_colour.h"
+#include "gpu_shading/image.h"
 #include "gpu_shading/sun_direction.h"
 #include "programs/gpu_shading/map_canvas.h"
 #include "programs/gpu_shading/map_files.h"

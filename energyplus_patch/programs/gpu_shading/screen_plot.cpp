@@ -4,7 +4,7 @@
 #include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "gpu_shading/fraction_colour.h"
+#include "gpu_shading/image.h"
 #include "platform/markup_text.h"
 #include "programs/gpu_shading/screen_files.h"
 

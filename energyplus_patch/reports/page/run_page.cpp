@@ -13,7 +13,7 @@
 #include <span>
 #include <string_view>
 
-#include "gpu_shading/fraction_colour.h"
+#include "gpu_shading/image.h"
 #include "platform/markup_text.h"
 #include "reports/page/page_parts.h"
 

@@ -117,7 +117,7 @@ TEST(Session, CoordinatesAreNumbersOnEarth) {
 TEST(Session, AnswersInAForkedProcessAsBefore) {
   auto model = model_of("Schedule:Constant,LEAVES,,0.5;");
   model.shading.shading_surfaces["TREE"] = {"Shading:Site:Detailed", "LEAVES"};
-  model.options.device.kind = DeviceChoice::Kind::cpu;
+  model.options.device.device = DeviceId{};
   Schedules const schedules{[](std::string const&) { return std::pair(0.0, 1.0); },
                             [](std::string const&, Moment) { return 0.5; }};
   constexpr int strips = 40;

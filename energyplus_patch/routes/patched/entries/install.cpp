@@ -146,7 +146,7 @@ void install(char const* library, Choices choices, By by) {
 void try_device(Choices const& choices) {
   constexpr int every_device_draws = 16384;
   bool const required = choices.mode == Mode::require;
-  bool const chosen = choices.device && choices.device->kind == DeviceChoice::Kind::index;
+  bool const chosen = choices.device && choices.device->device && !choices.device->device->is_cpu();
   bool const large = choices.resolution.value_or(1) > every_device_draws;
   if (choices.mode == Mode::off || (!required && !chosen && !large)) return;
   Options options;

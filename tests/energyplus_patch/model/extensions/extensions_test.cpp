@@ -66,8 +66,8 @@ TEST(Extensions, ValuesAreOfTheTypesOfTheirFields) {
 }
 
 TEST(Extensions, DictionaryAndLibraryHaveTheSameLimits) {
-  EXPECT_EQ(extension::settings::error.minimum->value, RendererOptions::least_error);
-  EXPECT_EQ(extension::settings::error.maximum->value, RendererOptions::most_error);
+  EXPECT_EQ(extension::settings::error.minimum->value, RendererOptions::min_error);
+  EXPECT_EQ(extension::settings::error.maximum->value, RendererOptions::max_error);
   EXPECT_EQ(parse_number(std::string(extension::settings::error.blank)), Options::default_error);
   EXPECT_EQ(parse_number(std::string(extension::perforated_screen::opacity_threshold.blank)),
             ScreenTexture{}.threshold);

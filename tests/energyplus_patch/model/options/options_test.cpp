@@ -37,7 +37,7 @@ TEST(Options, OurFlagsAreTakenAndEnergyPlusKeepsItsOwn) {
   EXPECT_EQ(choices.mode, Mode::automatic);
   EXPECT_EQ(choices.update, (Update{true}));
   ASSERT_TRUE(choices.device);
-  EXPECT_EQ(choices.device->index, 3);
+  EXPECT_EQ(choices.device->device, numbered_device(3));
 }
 
 TEST(Options, OnAndOffInOtherWords) {

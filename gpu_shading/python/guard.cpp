@@ -1,6 +1,8 @@
+#include "python/guard.h"
+
 #include <atomic>
 
-#include "python/guard.h"
+#include "gpu_shading/device.h"
 
 namespace gpu_shading::python {
 namespace {
@@ -10,6 +12,11 @@ std::atomic<bool> closing = false;
 
 }  // namespace
 
+std::string& message() {
+  thread_local std::string last;
+  return last;
+}
+
 Running::Running() { ++running; }
 
 Running::~Running() {
@@ -18,6 +25,14 @@ Running::~Running() {
 }
 
 bool is_closed() { return closing; }
+
+char const* gpu_shading_message() { return message().c_str(); }
+
+char const* gpu_shading_version() { return GPU_SHADING_VERSION; }
+
+int gpu_shading_limit_threads(int count) {
+  return guarded([&] { limit_threads(count); });
+}
 
 void gpu_shading_close() {
   closing = true;

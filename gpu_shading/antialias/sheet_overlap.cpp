@@ -1,5 +1,3 @@
-#include "filters/perforation/screen_overlap.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <glm/common.hpp>
@@ -8,14 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "antialias/antialias.h"
 #include "geometry/convex_area.h"
 
 namespace gpu_shading {
 namespace {
 
-using Ring = std::vector<glm::dvec2>;
+using RingOnTile = std::vector<glm::dvec2>;
 
-double twice_area(Ring const& ring) {
+double twice_area(RingOnTile const& ring) {
   double twice = 0.0;
   for (std::size_t i = 2; i < ring.size(); ++i) {
     twice += cross(ring[i - 1] - ring[0], ring[i] - ring[0]);
@@ -24,8 +23,8 @@ double twice_area(Ring const& ring) {
 }
 
 // Both convex and counterclockwise.
-Ring common(Ring ring, Ring const& by) {
-  Ring kept;
+RingOnTile common(RingOnTile ring, RingOnTile const& by) {
+  RingOnTile kept;
   for (std::size_t i = 0; i < by.size() && !ring.empty(); ++i) {
     glm::dvec2 const along = by[(i + 1) % by.size()] - by[i];
     kept.clear();
@@ -44,30 +43,30 @@ Ring common(Ring ring, Ring const& by) {
 
 struct PartOnTile {
   int screen;
-  Ring on_tile;
-  glm::dvec2 least;
-  glm::dvec2 most;
+  RingOnTile on_tile;
+  glm::dvec2 low;
+  glm::dvec2 high;
 
-  PartOnTile(int number, Ring ring) : screen(number), on_tile(std::move(ring)) {
-    least = most = on_tile.front();
+  PartOnTile(int number, RingOnTile ring) : screen(number), on_tile(std::move(ring)) {
+    low = high = on_tile.front();
     for (glm::dvec2 const& corner : on_tile) {
-      least = glm::min(least, corner);
-      most = glm::max(most, corner);
+      low = glm::min(low, corner);
+      high = glm::max(high, corner);
     }
   }
 
   bool is_near(PartOnTile const& other) const {
-    return glm::all(glm::lessThan(least, other.most)) && glm::all(glm::lessThan(other.least, most));
+    return glm::all(glm::lessThan(low, other.high)) && glm::all(glm::lessThan(other.low, high));
   }
 };
 
 std::vector<PartOnTile> parts_on_tile(Screens const& screens, std::span<int const> numbers,
                                       View const& view) {
-  Ring const tile{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  RingOnTile const tile{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   std::vector<PartOnTile> parts;
   for (int const number : numbers) {
     for (Screens::Quadrilateral const& part : screens[number].parts) {
-      Ring ring;
+      RingOnTile ring;
       for (glm::dvec3 const& corner : part.corners) {
         glm::dvec3 const p = corner - view.origin;
         ring.emplace_back(at(view.x, p), at(view.y, p));
@@ -84,12 +83,12 @@ std::vector<PartOnTile> parts_on_tile(Screens const& screens, std::span<int cons
 
 bool any_overlap(Screens const& screens, std::span<int const> numbers, View const& view) {
   // Of the tile, of area 4: neighbours that touch do not overlap.
-  constexpr double least = 1e-6;
+  constexpr double min_area = 1e-6;
   std::vector<PartOnTile> const parts = parts_on_tile(screens, numbers, view);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (std::size_t k = i + 1; k < parts.size(); ++k) {
       if (parts[i].screen == parts[k].screen || !parts[i].is_near(parts[k])) continue;
-      if (twice_area(common(parts[i].on_tile, parts[k].on_tile)) > least) return true;
+      if (twice_area(common(parts[i].on_tile, parts[k].on_tile)) > min_area) return true;
     }
   }
   return false;
