@@ -8,6 +8,7 @@
 #include "backends/cpu/cpu_backend.h"
 #include "backends/cpu/cpu_picture_raster.h"
 #include "backends/opengl/module/gl_module.h"
+#include "backends/opengl/module/gpu_presence.h"
 #include "backends/sheet_pairs_on_cpu.h"
 #include "gpu_shading/error.h"
 
@@ -28,6 +29,7 @@ auto open_by_opengl(DeviceChoice const& choice, Warn const& warn, Open open)
     -> decltype(open(gl_module())) {
   if (choice.kind == DeviceChoice::Kind::cpu) return nullptr;
   if (choice.kind == DeviceChoice::Kind::index) return open(gl_module());
+  if (!may_have_gpu()) return nullptr;
   GlModule const* const gl = find_gl_module();
   if (gl == nullptr) return nullptr;
   try {
