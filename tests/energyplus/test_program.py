@@ -194,27 +194,21 @@ def test_little_memory_is_enough_or_said(patched, box, weather, tmp_path, mebiby
     assert (words or "shading rendered by CPU") in done.stderr
 
 
-def test_a_run_has_its_memory_in_large_pages(patched, box, weather, tmp_path):
-    setting = Path("/sys/kernel/mm/transparent_hugepage/enabled")
-    if not setting.is_file() or "[never]" in setting.read_text():
-        pytest.skip("this kernel gives no large pages")
+def test_shading_starts_in_30_milliseconds(patched, official, box, weather, tmp_path):
     model = tmp_path / "box.idf"
     model.write_text(box)
 
-    run = subprocess.Popen([patched, "--gpu-shading", "-w", weather, "-d", tmp_path / "out", model],
-                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    large, resident = 0, 0  # kB of the heap, when most of it was in large pages
-    while run.poll() is None:
-        try:
-            maps = Path(f"/proc/{run.pid}/smaps").read_text()
-        except OSError:
-            continue
-        for heap in re.findall(r"\[heap\]\n(.*?)VmFlags", maps, re.DOTALL):
-            sizes = [int(re.search(rf"{name}: +(\d+)", heap)[1]) for name in ("AnonHugePages", "Rss")]
-            large, resident = max((large, resident), tuple(sizes))
-    assert run.returncode == 0
-    assert large > 0.7 * resident > 20_000
-    assert resident < 400_000
+    def processor_seconds(*command):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        run = subprocess.run([*command, "-D", "-w", weather, "-d", tmp_path / "out", model], capture_output=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        assert run.returncode == 0, run.stderr
+        return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+    # In turn, so that both see the same state of the machine; least of all, without what others do to it.
+    times = [(processor_seconds(patched, "--gpu-shading"), processor_seconds(official)) for _ in range(5)]
+    ours, theirs = map(min, zip(*times, strict=True))
+    assert ours < theirs + 0.030, times
 
 
 @pytest.mark.parametrize("words, near", [(["veiw", "model.idf"], "view"), (["devices", "--tets"], "--test"),

@@ -4,13 +4,10 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <malloc.h>
-#include <sys/mman.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -77,30 +74,6 @@ constexpr char const* run_energyplus =
   execv(program.c_str(), argv);
   throw Error(
       fmt::format("{}: {}; {}", program.string(), std::strerror(errno), how_to_restore(program)));
-}
-
-// EnergyPlus builds and deletes a tree of millions of small objects, its schema, as it starts. That
-// takes a quarter less time in large pages, which one page fault each provides, and without lists
-// of small free chunks, which are merged again and again. Memory is used where it was used before.
-void speed_up_heap() {
-  constexpr int first = 256 << 20;  // bytes that are reserved: more than most runs take
-  constexpr int usual_pad = 128 << 10;
-  constexpr std::uintptr_t large_page = 2 << 20;
-  mallopt(M_MXFAST, 0);
-  rlimit limit{};
-  for (auto const resource : {RLIMIT_AS, RLIMIT_DATA}) {
-    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY) return;
-  }
-  auto const start = reinterpret_cast<std::uintptr_t>(sbrk(0));
-  mallopt(M_TRIM_THRESHOLD, 2 * first);
-  mallopt(M_MMAP_THRESHOLD, 16 << 20);
-  mallopt(M_TOP_PAD, first);
-  void* const volatile reserved = std::malloc(1 << 20);
-  std::free(reserved);
-  mallopt(M_TOP_PAD, usual_pad);
-  auto const end = reinterpret_cast<std::uintptr_t>(sbrk(0));
-  auto const from = (start + large_page - 1) / large_page * large_page;
-  if (from < end) madvise(reinterpret_cast<void*>(from), end - from, MADV_HUGEPAGE);
 }
 
 // Errors in the model are reported before anything is written. What it chooses is added to the
@@ -229,7 +202,9 @@ int launch(std::vector<std::string>& arguments, char** argv) {
   if (!choices.any() && !environment.mode) run_official(argv);
   choices.fill_from(environment);
   apply_to_process(choices);
-  speed_up_heap();
+  // As it starts, EnergyPlus deletes a tree of millions of small objects: lists of small chunks,
+  // which glibc merges again and again, take longer than they save.
+  mallopt(M_MXFAST, 0);
 
   auto const line = read_command_line(arguments);
   if (line.version) fmt::print("gpu_shading {}\n", GPU_SHADING_VERSION);
