@@ -9,6 +9,7 @@
 #include "backends/cpu/cpu_backend.h"
 #include "backends/cpu/cpu_picture_raster.h"
 #include "backends/opengl/module/gl_module.h"
+#include "backends/opengl/module/gpu_presence.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading {
@@ -35,8 +36,8 @@ DeviceModule const& cpu_module() {
 }
 
 constexpr std::array modules{
-    NamedModule{"opengl", gl_module},
-    NamedModule{"cpu", cpu_module},
+    NamedModule{"opengl", gl_module, [] { return may_have_gpu(); }},
+    NamedModule{"cpu", cpu_module, [] { return true; }},
 };
 
 // A number from 0; empty for anything else.

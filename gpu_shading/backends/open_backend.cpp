@@ -118,6 +118,7 @@ auto open_device(DeviceChoice const& choice, Warn const& warn, Open open) {
   if (choice.device) return open(module_of(*choice.device));
   decltype(open(module_of({}))) opened;
   for (NamedModule const& named : device_modules()) {
+    if (!named.may_have_device()) continue;
     DeviceModule const* const module = try_load(named);
     try {
       if (module != nullptr) opened = open(*module);

@@ -195,6 +195,23 @@ def test_little_memory_is_enough_or_said(patched, box, weather, tmp_path, mebiby
     assert (words or "shading rendered by CPU") in done.stderr
 
 
+def test_shading_starts_in_30_milliseconds(patched, official, box, weather, tmp_path):
+    model = tmp_path / "box.idf"
+    model.write_text(box)
+
+    def processor_seconds(*command):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        run = subprocess.run([*command, "-D", "-w", weather, "-d", tmp_path / "out", model], capture_output=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        assert run.returncode == 0, run.stderr
+        return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+    # In turn, so that both see the same state of the machine; least of all, without what others do to it.
+    times = [(processor_seconds(patched, "--gpu-shading"), processor_seconds(official)) for _ in range(5)]
+    ours, theirs = map(min, zip(*times, strict=True))
+    assert ours < theirs + 0.030, times
+
+
 @pytest.mark.parametrize("words, near", [(["veiw", "model.idf"], "view"), (["devices", "--tets"], "--test"),
                                          (["check", "model.idf", "--vertexes"], "--vertices"),
                                          (["view", "--reciever", "x"], "--receiver"),
