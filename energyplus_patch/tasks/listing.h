@@ -33,7 +33,7 @@ Listing list_surfaces(Scene const& scene, Model const& model, std::vector<bool> 
 
 // A table, with the position of its tile below a screen.
 std::string to_text(Listing const& listing);
-// The same as one JSON document (docs/running.md).
+// The same as one JSON document (docs/reference/files.md).
 std::string to_json_text(Listing const& listing);
 
 // The outlines of the same surfaces, one vertex per line, as comma-separated values.
