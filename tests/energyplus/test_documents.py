@@ -213,6 +213,8 @@ def test_each_page_begins_with_what_it_is_for():
 def test_the_glossary_is_used_and_short():
     terms = re.findall(r"^### (.*)$", (MANUAL / "glossary.md").read_text(encoding="utf-8"), re.M)
     assert len(terms) <= 20 and terms == sorted(terms, key=str.lower)
+    linked = "".join(page.read_text(encoding="utf-8") for page in WHOLE)
+    assert [term for term in terms if f"glossary.md#{term.lower().replace(' ', '-')})" not in linked] == []
 
 
 def test_options_are_those_of_the_program(patched, tmp_path):
