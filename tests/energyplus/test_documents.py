@@ -255,6 +255,58 @@ def test_the_reference_has_the_dictionary_s_objects_and_fields():
         assert re.findall(r"^\| (.*?) \|", tables[name], re.M) == re.findall(r"\\field (.*)", text), name
 
 
+def dictionary_fields():
+    """{object in lower case: ([{tag: [values]} of each field], whether the last field repeats)}."""
+    found = {}
+    for text in DICTIONARY.read_text(encoding="utf-8").split("\nGPUShading:")[1:]:
+        head, *parts = re.split(r"^ +[AN]\d+ *[,;] *(?=\\field)", text, flags=re.M)
+        fields = []
+        for part in parts:
+            tags = {}
+            for tag, value in re.findall(r"\\([\w-]+) ?(.*)", part):
+                tags.setdefault(tag, []).append(value)
+            fields.append(tags)
+        found[f"gpushading:{text.split(',')[0].lower()}"] = (fields, "\\extensible" in head)
+    return found
+
+
+def wrong_value(value, tags):
+    """Why a field of an example cannot have its value, or ""."""
+    if not value:
+        return "missing" if "required-field" in tags else ""
+    if value.lower() in map(str.lower, tags.get("key", [])):
+        return ""
+    kind = tags.get("type", ["alpha"])[0]
+    if kind == "choice":
+        return f"not one of {tags['key']}"
+    if kind in ("real", "integer"):
+        low, high = (float(tags.get(tag, [least])[0].strip("<> ")) for tag, least in
+                     (("minimum", "-inf"), ("maximum", "inf")))
+        if not re.fullmatch(r"[-+]?[\d.]+(e[-+]?\d+)?", value) or not low <= float(value) <= high:
+            return f"not a number from {low} to {high}"
+    return ""
+
+
+def test_objects_in_the_documents_are_those_of_the_dictionary():
+    known, seen = dictionary_fields(), set()
+    for page in PAGES:
+        for line, language, text, _ in blocks(page):
+            bare = re.sub(r"!.*", "", text if language == "idf" else
+                          "".join(re.findall(r"GPUShading:[^;']*;", text) if language == "sh" else []))
+            for written in filter(str.strip, bare.split(";")):
+                name, *values = (value.strip() for value in written.split(","))
+                if not name.lower().startswith("gpushading:"):
+                    continue
+                fields, repeats = known[name.lower()]
+                seen.add(name.lower())
+                assert len(values) <= len(fields) or repeats, f"{title(page)}:{line}: {written}"
+                values += [""] * (len(fields) - len(values))
+                for value, tags in zip(values, fields[:-1] if repeats else fields, strict=False):
+                    why = wrong_value(value, tags)
+                    assert not why, f"{title(page)}:{line}: {name}: {tags['field'][0]} {value!r}: {why}"
+    assert seen == set(known)
+
+
 def test_messages_are_the_program_s():
     """What the page on trouble quotes in its tables stands in the sources, three dots for what differs."""
     text = ""
