@@ -217,28 +217,37 @@ def test_the_glossary_is_used_and_short():
     assert [term for term in terms if f"glossary.md#{term.lower().replace(' ', '-')})" not in linked] == []
 
 
+def options_page():
+    return next(page for page in PAGES if "<!-- options -->" in page.read_text(encoding="utf-8"))
+
+
 def test_options_are_those_of_the_program(patched, tmp_path):
-    """Flags, the values that they take, and their environment variables, against --help."""
-    shown = subprocess.run([patched, "--gpu-shading", "--help"], capture_output=True, text=True, cwd=tmp_path,
-                           check=True).stdout
-    spoken = {re.sub(r"[\[\]]", "", flag) for flag in re.findall(r"^ +(--gpu-shading\S*(?: \S+)?) {0,2}", shown, re.M)}
-    page = (MANUAL / "reference" / "options.md").read_text(encoding="utf-8")
-    rows = re.findall(r"^\| `(--gpu-shading.*?)` \| `(\w+)` \|", page, re.M)
-    written = {re.sub(r"[\[\]\\]", "", flag) for flag, _ in rows}
-    assert written == spoken
+    done = subprocess.run([ROOT / "scripts" / "dev" / "option_table", patched.parent / "gpu_shading", "--check"],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    # By another reading than the script's own, against the help for people.
+    rows = re.findall(r"^\| `(--gpu-shading.*?)` \| `(\w+)` \|", options_page().read_text(encoding="utf-8"), re.M)
     for flag, variable in rows:
         assert variable == re.match(r"[\w-]+", flag)[0].strip("-").upper().replace("-", "_")
+    shown = {}
+    for name, command in {"common": [patched, "--gpu-shading", "--help"],
+                          "all": [patched.parent / "gpu_shading", "help", "options", "--help-all"]}.items():
+        text = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, check=True).stdout
+        shown[name] = re.findall(r"^  (--gpu-shading\S*(?: \S+)?)(?:  .*)?$", text, re.M)
+    assert shown["all"] == [flag.replace("\\", "") for flag, _ in rows]
+    experts = {"--gpu-shading-lean", "--gpu-shading-method", "--gpu-shading-assets"}
+    assert shown["common"] == [flag for flag in shown["all"] if flag.split()[0] not in experts]
 
 
 def test_the_numbers_of_lean_input_are_those_of_the_code():
     header = (ROOT / "energyplus_patch" / "model" / "lean_input.h").read_text(encoding="utf-8")
-    options = (MANUAL / "reference" / "options.md").read_text(encoding="utf-8")
-    row = re.search(r"^\| `--gpu-shading-lean .*", options, re.M)[0]
+    running = "".join(page.read_text(encoding="utf-8") for page in PAGES)
+    row = re.search(r"^\| `--gpu-shading-lean .*", options_page().read_text(encoding="utf-8"), re.M)[0]
     for name, said in (("fewest_left_out", "if there are {} or more"),
                        ("fewest_with_reflections", "{} or more with solar reflections")):
         number = re.search(rf"{name} = (\d+);", header)[1]
         assert said.format(number) in row
-        assert re.search(rf"A model with fewer than .*\b{number}\b.*", options)
+        assert re.search(rf"A model with fewer than .*\b{number}\b.*", running)
 
 
 def test_the_reference_has_the_dictionary_s_objects_and_fields():
@@ -328,7 +337,7 @@ def test_the_pictures_are_used():
 
 @pytest.mark.parametrize("command", ["check", "view", "map", "export"])
 def test_options_of_gpu_shading_are_there(patched, command):
-    known = subprocess.run([patched.parent / "gpu_shading", command, "--help"], capture_output=True, text=True,
+    known = subprocess.run([patched.parent / "gpu_shading", command, "--help-all"], capture_output=True, text=True,
                            check=True).stdout
     named = {flag for page in PAGES for text in re.findall(rf"gpu_shading {command} [^`\n]*", page.read_text())
              for flag in re.findall(r"--[a-z-]+", text)}

@@ -1,11 +1,32 @@
 #pragma once
 
+#include <optional>
 #include <ostream>
 #include <string>
 
 #include "gpu_shading/perforated_screen.h"
 
+// The files of `gpu_shading screen`.
 namespace gpu_shading::energyplus {
+
+// Fraction of the beam that passes a screen, away from its edges. Angles in degrees: theta, the
+// angle of incidence from the normal, 0 to below 90, and phi, the azimuth about the normal from u
+// towards v. Exact for patterns; for textures, from their table (see screen_transmittance.h).
+double transmittance(PerforatedScreen const& screen, double theta, double phi);
+
+// By whole degrees of theta and every 5 degrees of phi.
+void write_transmittances(PerforatedScreen const& screen, std::ostream& csv);
+
+// Writes a polar plot of a screen's transmittance as SVG: the radius is the angle of incidence, and
+// colours are those of fraction_colour(), from 0 to the open fraction. Title and subtitle may be
+// any text.
+void write_polar_plot(PerforatedScreen const& screen, std::string const& title,
+                      std::string const& subtitle, std::ostream& svg);
+
+// Encodes a picture of one tile of a screen, from the front and from the right at an angle: the
+// face grey, the walls of holes dark, and what lies behind light. A pattern's tile has a hole at
+// its centre. Nothing, with a warning, in installations without the picture formats.
+std::optional<std::string> encode_tile(PerforatedScreen const& screen, std::string const& name);
 
 // What the solid part of a sheet's faces reflects, diffusely, 0 .. 1; both faces are alike.
 struct SheetReflectance {

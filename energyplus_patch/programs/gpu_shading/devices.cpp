@@ -1,14 +1,12 @@
-#include "programs/gpu_shading/device_table.h"
-
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "gpu_shading/device.h"
 #include "gpu_shading/device_test.h"
 #include "platform/console.h"
+#include "programs/gpu_shading/commands.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -66,8 +64,6 @@ std::string verdict(DeviceTest const& test, DeviceTest const& cpu) {
                      wrong, DeviceTest::tolerance);
 }
 
-}  // namespace
-
 void list_devices() {
   for (auto const& device : find_devices()) {
     print_text(fmt::format("{}  {}  [{}; {}]  {}, tiles up to {} x {}\n", device.index,
@@ -91,6 +87,26 @@ bool test_devices() {
     right = right && test.right();
   }
   return right;
+}
+
+}  // namespace
+
+void add_devices(Program const& program, bool& right) {
+  Command const command(
+      program, "devices",
+      "List the devices that can render, with their numbers for --gpu-shading-device",
+      {"threads", "quiet"});
+  auto const test = std::make_shared<bool>(false);
+  command->add_flag("--test", *test,
+                    "Test each device and the CPU on cases with known answers; print errors, times "
+                    "and a verdict. The exit status is 1 if one is wrong");
+  command.run([test, &right] {
+    if (*test) {
+      right = test_devices();
+    } else {
+      list_devices();
+    }
+  });
 }
 
 }  // namespace gpu_shading::energyplus

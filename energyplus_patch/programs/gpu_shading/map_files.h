@@ -6,6 +6,7 @@
 
 #include "tasks/trace_maps.h"
 
+// The files of `gpu_shading map`.
 namespace gpu_shading::energyplus {
 
 // A receiver in the list of maps.
@@ -33,5 +34,27 @@ void write_cells(MapGrid const& grid, std::vector<MapValue> const& values, std::
 void write_array(MapGrid const& grid, std::vector<MapValue> const& values, std::ostream& npy);
 
 void write_summaries(std::vector<MapSummary> const& summaries, std::ostream& csv);
+
+// What the scales of a picture end at.
+struct MapScales {
+  double hours = 1.0;   // h
+  double energy = 1.0;  // kWh/m2
+};
+
+// The least multiples of a round step that hold the largest values.
+MapScales scales_for(MapValue const& most);
+
+// "180 degrees (S)": an azimuth clockwise from true north, in degrees.
+std::string describe_azimuth(double azimuth);
+
+struct MapHeading {
+  std::string title;
+  std::vector<std::string> lines;
+};
+
+// The map of a receiver as a .png: sunlit hours and beam energy by cell, seen from outside, each
+// with a scale, lengths in metres and the points of the compass. Throws Error.
+std::string draw_map(std::string const& name, MapHeading const& heading, MapGrid const& grid,
+                     std::vector<MapValue> const& values, MapScales const& scales);
 
 }  // namespace gpu_shading::energyplus
