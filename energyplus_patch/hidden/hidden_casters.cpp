@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "gpu_shading/perforated_screen.h"
 #include "hidden/polygon_samples.h"
 
 namespace gpu_shading::energyplus {
@@ -35,11 +34,6 @@ std::vector<SkyShare> sky_patches(int altitudes, int azimuths, double first_azim
 std::vector<SkyShare> const& patches_from_surfaces() {
   static auto const patches = sky_patches(6, 24, 0.0);
   return patches;
-}
-
-double deployed(Surface const& surface, std::span<double const> deployments) {
-  auto const index = static_cast<std::size_t>(surface.deployment);
-  return surface.deployment >= 0 && index < deployments.size() ? deployments[index] : 1.0;
 }
 
 }  // namespace
@@ -107,9 +101,7 @@ double HiddenCasters::reflectance(SurfaceId id, double transmittance) const {
   auto const& properties = found == known.end() ? unknown : found->second;
   double share = radiation_ == ShadeOptics::Radiation::light ? properties.visible_reflectance
                                                              : properties.reflectance;
-  if (surface.screen) {
-    share *= deployed(surface, shares_.deployments) * (1.0 - surface.screen->open_fraction());
-  }
+  share *= surface.filter.solid_share(shares_.deployments);
   return std::min(share, 1.0 - transmittance);
 }
 

@@ -18,8 +18,7 @@ void add_sheets(ReceiverView const& view, View const& in_front, Transmission con
                 Aliasing& aliasing) {
   for (int const number : transmission.screens_among(view.casters)) {
     Screens::Entry const& entry = transmission.screens()[number];
-    bool const effect =
-        may_see_effect(*entry.screen, entry.normal, view.towards_sun, view.pixel_area());
+    bool const effect = may_see_effect(entry, view.towards_sun, view.pixel_area());
     SheetInBeam const sheet = sheet_in_beam(entry, view.towards_sun, 1.0, effect);
     double const pixel = 2.0 / view.tile->side * pixel_in_sheet(entry, in_front);
     bool const drawn = sheet.layers != solid_sheet && pixel < static_cast<double>(sheet.blend_to);

@@ -1,4 +1,4 @@
-#include "gpu_shading/angular_csv.h"
+#include "gpu_shading/transmittance.h"
 
 #include "fuzz.h"
 
