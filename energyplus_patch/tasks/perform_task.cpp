@@ -129,4 +129,14 @@ std::string perform_task(Task const& task, SceneAssembly& scene, Messages const&
   return std::visit([&](auto const& wanted) { return perform(wanted, scene, messages); }, task);
 }
 
+void begin(Session& session, Simulation simulation, AskedTask* task) {
+  if (task == nullptr) {
+    session.start(std::move(simulation));
+    return;
+  }
+  auto& scene = session.complete(std::move(simulation.schedules));
+  task->finish(perform_task(task->task(), scene, simulation.messages));
+  throw TaskDone();
+}
+
 }  // namespace gpu_shading::energyplus

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from shading_runs.version import energyplus_release
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted(page for wing in ("energyplus_patch", "gpu_shading") for page in
@@ -36,7 +37,7 @@ def commands(page):
 @pytest.fixture
 def place(patched, official, weather, box, tmp_path):
     """A user's folder: an EnergyPlus in its home, a model, a weather file, the checkout's folders; and what is set."""
-    links = {"EnergyPlus-25-2-0": official.parent, "EnergyPlus-gpu": patched.parent,
+    links = {f"EnergyPlus-{energyplus_release().replace('.', '-')}": official.parent, "EnergyPlus-gpu": patched.parent,
              "weather.epw": weather, "scripts": ROOT / "scripts", "idf_examples": ROOT / "idf_examples",
              "gpu_shading": ROOT / "gpu_shading",
              "build": ROOT / os.environ.get("GPU_SHADING_BUILD", "build"),

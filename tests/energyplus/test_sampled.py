@@ -12,7 +12,6 @@ import subprocess
 import pytest
 from eso_file import EsoFile
 from shading_runs import energyplus, input_file, results
-from shading_runs.weather import move
 
 LATITUDES = (0.0, 42.0, 66.5, 80.0, -35.0)
 LONGITUDE, ZONE = -105.18, -7.0  # of the weather file
@@ -23,7 +22,7 @@ NORTH_AXIS = (1, "north_axis")
 @pytest.fixture
 def weather_at(weather, tmp_path):
     """The weather file moved to another latitude."""
-    return lambda latitude: move(weather, latitude, tmp_path)
+    return lambda latitude: energyplus.move_weather(weather, latitude, tmp_path)
 
 
 def of_days(text, days):

@@ -22,7 +22,7 @@ STEP = "Zone Timestep"
 
 @pytest.fixture(scope="session")
 def without_opengl():
-    """Another build of EnergyPlus 25.2.0: a library alone, which has nothing to patch."""
+    """Another build of EnergyPlus: a library alone, which has nothing to patch."""
     prefix = energyplus.REPOSITORY / ".venv" / "EnergyPlus-lbnl"
     if not (prefix / "libenergyplusapi.so").is_file():
         pytest.skip(f"{prefix} is missing: scripts/setup could not fetch pyenergyplus-lbnl")

@@ -97,7 +97,7 @@ void render(std::vector<InputObject> const& objects, Model model) {
   Schedules const schedules{[](std::string const&) { return std::pair(0.0, 1.0); },
                             [](std::string const&, Moment moment) { return moment.hour / 24.0; }};
   auto const ignore = [](std::string const&) {};
-  session.start({ignore, ignore, ignore}, schedules, [] { return 0.8; });
+  session.start({{ignore, ignore, ignore}, schedules, [] { return 0.8; }});
   session.set_time({9, 1});
   for (double const altitude : {0.6, 0.01}) ask_for_areas(session, {2.5, altitude});
   ask_for_rays(session, {2.5, 0.6});

@@ -8,7 +8,7 @@
 #include "platform/console.h"
 #include "platform/files.h"
 #include "platform/staged_files.h"
-#include "routes/schedules/scheduled_model.h"
+#include "routes/schedules/scheduled_run.h"
 #include "runs/installation.h"
 
 namespace gpu_shading::energyplus {

@@ -271,9 +271,10 @@ void add_export(CLI::App& app, Choices const& choices) {
   auto* const outputs = command->add_option_group("output");
   outputs->add_option("--scheduled", arguments->folder,
                       "Write the model, with its sunlit fractions as schedules, into this folder");
-  outputs->add_option("--imported", arguments->imported,
-                      "Write the file for Schedule:File:Shading (not for EnergyPlus 25.2.0, whose "
-                      "method Imported does not find its surfaces)");
+  outputs->add_option(
+      "--imported", arguments->imported,
+      "Write the file for Schedule:File:Shading (not for the tested EnergyPlus, whose "
+      "method Imported does not find its surfaces)");
   outputs->require_option(1);
   command->callback([model, arguments] {
     auto const run = model->run();

@@ -57,7 +57,7 @@ SunlitFractions render_fractions(Model model, std::vector<Surface> const& surfac
     receivers.push_back({id, area(surface.polygon) * normal(surface.polygon)});
     table.surfaces.push_back(surface.name);
   }
-  session.start(messages, schedules_of(run, now), latitude);
+  session.start({messages, schedules_of(run, now), latitude});
   Progress progress("rendering sunlit fractions", run.times.size());
   for (std::size_t i = 0; i < run.times.size(); ++i) {
     auto const& time = run.times[i];

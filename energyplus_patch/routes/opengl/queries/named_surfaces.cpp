@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
-#include "routes/opengl/queries/triangle_polygons.h"
 
 namespace gpu_shading::energyplus {
 namespace {

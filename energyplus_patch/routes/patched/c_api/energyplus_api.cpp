@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "gpu_shading_energyplus.h"
 #include "platform/c_interface.h"
 
 namespace {
@@ -100,13 +101,12 @@ class Runs {
   void install() {
     if (own_folder.empty()) fail("the folder of libenergyplusapi is not known");
     Module const module(own_folder / patch_library);
-    constexpr int cannot_patch = 2;
     int const status = module.install((own_folder / official_library).c_str());
-    if (status == cannot_patch) {
+    if (status == gpu_shading_cannot_patch) {
       fail(std::string(module.message()) + "; run " + (own_folder / "energyplus").string() +
            ", which passes sunlit fractions as schedules");
     }
-    if (status != 0) fail(module.message());
+    if (status != gpu_shading_done) fail(module.message());
     module_ = module;
   }
 

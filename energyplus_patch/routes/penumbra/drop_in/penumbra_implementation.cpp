@@ -17,9 +17,9 @@ void PenumbraImplementation::renew() {
   names.clear();
   started = false;
   calculation = guarded([this] {
-    return gpu_shading::answers::make_calculation(
-        size, {[this](const std::string& line) { logger->warning(line); },
-               [this](const std::string& line) { logger->info(line); }});
+    return std::make_unique<gpu_shading::answers::Calculation>(
+        size, gpu_shading::answers::Log{[this](const std::string& line) { logger->warning(line); },
+                                        [this](const std::string& line) { logger->info(line); }});
   });
 }
 

@@ -21,7 +21,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// As EnergyPlus 25.2 writes it, but for most of the codes that mean nothing here.
+// As EnergyPlus writes it, but for most of the codes that mean nothing here.
 std::string polyline(std::string const& comment, std::vector<std::string> const& coordinates) {
   std::string text = "999\n" + comment + "\n  0\nPOLYLINE\n  8\n1\n 10\n 0.0\n 20\n 0.0\n";
   for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) {

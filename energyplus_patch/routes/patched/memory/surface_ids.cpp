@@ -1,10 +1,13 @@
-#include "routes/patched/binary/stored_result.h"
+#include "routes/patched/memory/surface_ids.h"
 
 #include <Zydis/Zydis.h>
 
 #include <algorithm>
 #include <array>
-#include <vector>
+#include <cstring>
+#include <utility>
+
+#include "routes/patched/memory/safe_read.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -58,6 +61,12 @@ std::vector<Instruction> after_last_call(Symbol const& caller, Symbol const& cal
   return kept;
 }
 
+// Element 0 of the array; nullptr if the path does not lead there.
+std::byte* array_at(State& state, StoredResult const& path) {
+  auto* const holder = read_pointer(reinterpret_cast<std::byte*>(&state) + path.outer);
+  return holder == nullptr ? nullptr : read_pointer(holder + path.inner);
+}
+
 }  // namespace
 
 std::optional<StoredResult> find_stored_result(Symbol const& caller, Symbol const& callee) {
@@ -76,6 +85,52 @@ std::optional<StoredResult> find_stored_result(Symbol const& caller, Symbol cons
   auto const outer = find_load(std::prev(inner.base()), inner->operands[1].mem.base);
   if (outer == code.rend()) return std::nullopt;
   return StoredResult{outer->operands[1].mem.disp.value, inner->operands[1].mem.disp.value};
+}
+
+std::optional<StoredResult> find_surface_ids(SymbolTable const& symbols) {
+  Symbol const* const caller = symbols.find(symbol::determine_shadowing_combinations.symbol);
+  Symbol const* const callee = symbols.find(symbol::add_surface.symbol);
+  if (caller == nullptr || callee == nullptr) return std::nullopt;
+  return find_stored_result(*caller, *callee);
+}
+
+std::vector<std::optional<SurfaceId>> read_surface_ids(State& state, StoredResult const& path,
+                                                       std::int32_t surfaces,
+                                                       Session const& session) {
+  auto* const array = array_at(state, path);
+  expect(array != nullptr);
+  std::vector<std::int32_t> numbers(static_cast<std::size_t>(surfaces));
+  expect(read_memory(array + sizeof(std::int32_t), numbers.data(),
+                     numbers.size() * sizeof(std::int32_t)));
+  std::vector<std::optional<SurfaceId>> ids(1);
+  for (auto const number : numbers) {
+    expect(number >= -1 && number < static_cast<std::int32_t>(session.size()));
+    ids.push_back(number < 0 ? std::nullopt : std::optional(static_cast<SurfaceId>(number)));
+  }
+  return ids;
+}
+
+std::optional<std::size_t> hand_over_mirrored_surfaces(State& state, Session& session,
+                                                       StoredResult const& path) {
+  auto* const origin = array_at(state, path);
+  if (origin == nullptr) return std::nullopt;
+  auto* const array = origin + sizeof(std::int32_t);
+
+  // Shading surfaces come first, each followed by its copy, if it has one, with id -1.
+  auto const shading = session.shading_surfaces();
+  std::vector<std::int32_t> kept(2 * shading.size());
+  if (!read_memory(array, kept.data(), kept.size() * sizeof(std::int32_t))) return std::nullopt;
+  std::vector<std::pair<std::size_t, SurfaceId>> copies;  // index in the array, original surface
+  std::size_t at = 0;
+  for (auto const id : shading) {
+    if (kept[at++] != static_cast<std::int32_t>(id)) return std::nullopt;
+    if (at < kept.size() && kept[at] == -1) copies.emplace_back(at++, id);
+  }
+  for (auto const& [place, original] : copies) {
+    auto const id = static_cast<std::int32_t>(session.add_mirrored(original));
+    std::memcpy(array + place * sizeof id, &id, sizeof id);
+  }
+  return copies.size();
 }
 
 }  // namespace gpu_shading::energyplus

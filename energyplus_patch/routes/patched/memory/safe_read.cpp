@@ -1,8 +1,18 @@
-#include "routes/patched/memory/object_memory.h"
+#include "routes/patched/memory/safe_read.h"
 
 #include <malloc.h>
+#include <sys/uio.h>
+#include <unistd.h>
 
 namespace gpu_shading::energyplus {
+
+bool read_memory(void const* from, void* to, std::size_t size) {
+  iovec const local{to, size};
+  iovec const remote{const_cast<void*>(from), size};
+  return process_vm_readv(getpid(), &local, 1, &remote, 1, 0) == static_cast<ssize_t>(size);
+}
+
+std::byte* read_pointer(void const* from) { return read_value<std::byte*>(from).value_or(nullptr); }
 
 std::vector<std::byte const*> words_of(std::byte const* object, std::size_t size) {
   std::vector<std::byte const*> words(size / sizeof(void*));

@@ -1,4 +1,4 @@
-#include "routes/patched/binary/stored_result.h"
+#include "routes/patched/memory/surface_ids.h"
 
 #include <gtest/gtest.h>
 
