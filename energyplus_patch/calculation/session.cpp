@@ -226,8 +226,8 @@ void Session::write_reports() {
   auto const& options = scene_.model().options;
   auto const stages = stages_of(answers_->counts().rendering);
   if (options.stages) write_stages(*options.stages, stages);
+  if (options.verbose) messages_.remark("time by stage: " + list(stages));
   if (!options.report) return;
-  messages_.remark("time by stage: " + list(stages));
   auto& rendered = answers_->rendered();
   auto const& known = rendered.known();
   auto const& optics = scene_.optics();

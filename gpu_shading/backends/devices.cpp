@@ -10,7 +10,7 @@ namespace gpu_shading {
 
 DeviceChoice parse_device_choice(std::string const& text) {
   if (text == "auto") return {DeviceChoice::Kind::automatic, 0};
-  if (text == "cpu" || text == "software") return {DeviceChoice::Kind::cpu, 0};
+  if (text == "cpu") return {DeviceChoice::Kind::cpu, 0};
   int index = -1;
   char const* const end = text.data() + text.size();
   auto const [last, error] = std::from_chars(text.data(), end, index);

@@ -12,7 +12,7 @@ import tempfile
 from contextlib import closing
 from pathlib import Path
 
-# Sunlit fractions are rendered to within 0.001; with 25.2.0 the largest difference is 0.0002.
+# Sunlit fractions are rendered to within 0.001; with the tested release the largest difference is 0.0002.
 MOST_DIFFERENCE = 0.002
 FEWEST_PARTIAL = 40  # fractions between 0.05 and 0.95: what a wrong shadow would change
 SECONDS = 300

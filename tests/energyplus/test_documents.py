@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from shading_runs.version import energyplus_release
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted(page for wing in ("energyplus_patch", "gpu_shading") for page in
@@ -36,7 +37,7 @@ def commands(page):
 @pytest.fixture
 def place(patched, official, weather, box, tmp_path):
     """A user's folder: an EnergyPlus in its home, a model, a weather file, the checkout's folders; and what is set."""
-    links = {"EnergyPlus-25-2-0": official.parent, "EnergyPlus-gpu": patched.parent,
+    links = {f"EnergyPlus-{energyplus_release().replace('.', '-')}": official.parent, "EnergyPlus-gpu": patched.parent,
              "weather.epw": weather, "scripts": ROOT / "scripts", "idf_examples": ROOT / "idf_examples",
              "gpu_shading": ROOT / "gpu_shading",
              "build": ROOT / os.environ.get("GPU_SHADING_BUILD", "build"),
@@ -75,7 +76,8 @@ def test_commands_that_are_not_run_say_why():
         print(f"{page}:{line}: not run: {why}\n{text}", end="")
         assert why.strip()
     # Every one of them is known here, so that no command slips out of being run.
-    known = {"scripts/demo", "apt-get", "pip install", "cmake --build", "podman build", "build_windows", "git apply"}
+    known = {"scripts/demo", "apt-get", "pip install", "cmake --build", "podman build", "build_windows", "git apply",
+             "ctest"}
     assert {re.search("|".join(known), text)[0] for *_, text in listed} == known
 
 
@@ -120,23 +122,32 @@ def test_every_page_is_in_the_index():
     assert all(f"]({title(page)})" in text for page in PAGES[1:])
 
 
+def options_page():
+    return next(page for page in PAGES if "<!-- options -->" in page.read_text(encoding="utf-8"))
+
+
 def test_options_are_those_of_the_program(patched, tmp_path):
-    """Flags, the values that they take, and their environment variables, against --help."""
-    shown = subprocess.run([patched, "--gpu-shading", "--help"], capture_output=True, text=True, cwd=tmp_path,
-                           check=True).stdout
-    spoken = {re.sub(r"[\[\]]", "", flag) for flag in re.findall(r"^ +(--gpu-shading\S*(?: \S+)?) {0,2}", shown, re.M)}
-    rows = re.findall(r"^\| `(--gpu-shading.*?)` \| `(\w+)` \|", (ROOT / "README.md").read_text(encoding="utf-8"), re.M)
-    written = {re.sub(r"[\[\]\\]", "", flag) for flag, _ in rows}
-    assert written == spoken
+    done = subprocess.run([ROOT / "scripts" / "dev" / "option_table", patched.parent / "gpu_shading", "--check"],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    # By another reading than the script's own, against the help for people.
+    rows = re.findall(r"^\| `(--gpu-shading.*?)` \| `(\w+)` \|", options_page().read_text(encoding="utf-8"), re.M)
     for flag, variable in rows:
         assert variable == re.match(r"[\w-]+", flag)[0].strip("-").upper().replace("-", "_")
+    shown = {}
+    for name, command in {"common": [patched, "--gpu-shading", "--help"],
+                          "all": [patched.parent / "gpu_shading", "help", "options", "--help-all"]}.items():
+        text = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, check=True).stdout
+        shown[name] = re.findall(r"^  (--gpu-shading\S*(?: \S+)?)(?:  .*)?$", text, re.M)
+    assert shown["all"] == [flag.replace("\\", "") for flag, _ in rows]
+    experts = {"--gpu-shading-lean", "--gpu-shading-method", "--gpu-shading-assets"}
+    assert shown["common"] == [flag for flag in shown["all"] if flag.split()[0] not in experts]
 
 
 def test_the_numbers_of_lean_input_are_those_of_the_code():
     header = (ROOT / "energyplus_patch" / "model" / "lean_input.h").read_text(encoding="utf-8")
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    running = (ROOT / "energyplus_patch" / "docs" / "running.md").read_text(encoding="utf-8")
-    row = re.search(r"^\| `--gpu-shading-lean .*", readme, re.M)[0]
+    running = "".join(page.read_text(encoding="utf-8") for page in PAGES)
+    row = re.search(r"^\| `--gpu-shading-lean .*", options_page().read_text(encoding="utf-8"), re.M)[0]
     for name, said in (("fewest_left_out", "if there are {} or more"),
                        ("fewest_with_reflections", "{} or more with solar reflections")):
         number = re.search(rf"{name} = (\d+);", header)[1]
@@ -179,7 +190,7 @@ def test_the_pictures_are_used():
 
 @pytest.mark.parametrize("command", ["check", "view", "map", "export"])
 def test_options_of_gpu_shading_are_there(patched, command):
-    known = subprocess.run([patched.parent / "gpu_shading", command, "--help"], capture_output=True, text=True,
+    known = subprocess.run([patched.parent / "gpu_shading", command, "--help-all"], capture_output=True, text=True,
                            check=True).stdout
     named = {flag for page in PAGES for text in re.findall(rf"gpu_shading {command} [^`\n]*", page.read_text())
              for flag in re.findall(r"--[a-z-]+", text)}

@@ -58,9 +58,10 @@ def test_pages_lead_to_one_another(installed):
 
 
 def test_man_pages_have_every_option_of_the_readme(installed):
-    rows = re.findall(r"^\| `(--gpu-shading[\w-]*)", (ROOT / "README.md").read_text(encoding="utf-8"), re.M)
+    pages = (ROOT / "README.md", *(ROOT / "energyplus_patch" / "docs").rglob("*.md"))
+    rows = [flag for page in pages for flag in re.findall(r"^\| `(--gpu-shading[\w-]*)", page.read_text("utf-8"), re.M)]
     assert len(rows) > 9
-    page = (installed / "share" / "man" / "man1" / "gpu_shading-check.1").read_text().replace("\\-", "-")
+    page = (installed / "share" / "man" / "man1" / "gpu_shading.1").read_text().replace("\\-", "-")
     assert all(flag in page for flag in rows)
 
 
@@ -76,6 +77,8 @@ def test_completion_offers_what_the_programs_know(installed, patched):
     assert set(completions(installed, program, "")) >= {"devices", "check", "view", "map", "sample", "export"}
     assert completions(installed, program, "exp") == ["export"]
     assert set(completions(installed, program, "view", "--r")) == {"--receiver"}
+    assert "--gpu-shading-device" in completions(installed, program, "view", "--gpu-shading-de")
+    assert completions(installed, program, "screen", "--gpu-shading-de") == []
     assert "--gpu-shading-device" in completions(installed, patched, "--gpu-shading-de")
     assert completions(installed, installed / "bin" / "patch_energyplus", "--f") == ["--force"]
 

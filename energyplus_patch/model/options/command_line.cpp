@@ -17,7 +17,7 @@ constexpr ValueOption weather_option{"-w", "--weather"};
 constexpr ValueOption folder_option{"-d", "--output-directory"};
 constexpr ValueOption prefix_option{"-p", "--output-prefix"};
 constexpr ValueOption suffix_option{"-s", "--output-suffix"};
-// EnergyPlus 25.2 --help
+// EnergyPlus's --help
 constexpr std::array<ValueOption, 6> value_options{{weather_option,
                                                     folder_option,
                                                     prefix_option,

@@ -190,11 +190,15 @@ int run_shaded(char const* program, std::vector<std::string> arguments, Choices 
 }
 
 int launch(RunSetup& setup, char** argv) {
-  if (!setup.wanted) run_official(argv);
   auto const& line = setup.line;
+  if (!setup.wanted) {
+    if (line.help) fmt::print("{}", help_hint);
+    std::fflush(stdout);
+    run_official(argv);
+  }
   auto& choices = setup.choices;
   if (line.version) fmt::print("gpu_shading {}\n", GPU_SHADING_VERSION);
-  if (line.help) std::fputs(std::string(flags_help()).c_str(), stdout);
+  if (line.help) fmt::print("{}", options_help());
   if (line.model) {
     check_conversion(setup);
     check_model(setup);

@@ -1,10 +1,7 @@
-#include "programs/gpu_shading/map.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <optional>
 #include <regex>
 #include <utility>
@@ -17,10 +14,9 @@
 #include "platform/file_names.h"
 #include "platform/process.h"
 #include "platform/text.h"
+#include "programs/gpu_shading/commands.h"
 #include "programs/gpu_shading/listed_folder.h"
-#include "programs/gpu_shading/map_picture.h"
-#include "programs/gpu_shading/map_tables.h"
-#include "programs/gpu_shading/standard_error.h"
+#include "programs/gpu_shading/map_files.h"
 #include "routes/schedules/rendered_fractions.h"
 #include "runs/installation.h"
 #include "runs/short_runs.h"
@@ -30,6 +26,16 @@ namespace gpu_shading::energyplus {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+struct MapOrder {
+  std::string from;       // "MM-DD"; empty: 1 January
+  std::string to;         // "MM-DD", the last day; empty: 31 December
+  std::string receivers;  // a pattern of names; empty: all that EnergyPlus shades
+  double spacing = 0.25;  // m
+  int rays_per_cell = 4;
+  bool common_scale = false;  // of the pictures; otherwise each has its own
+  std::filesystem::path folder;
+};
 
 constexpr int months_apart = 100;  // of the numbers of days
 
@@ -190,8 +196,8 @@ void write_pictures(std::vector<GriddedMap> const& maps, std::string const& peri
   }
 }
 
-}  // namespace
-
+// Traces and writes maps of sunlit hours and beam energy: for each receiver a picture, a table and
+// an array, and for all of them maps.csv, and maps.json about the run.
 void draw_maps(ModelRun const& run, MapOrder const& order) {
   if (!run.weather) {
     throw Error("-w: a weather file is required (it sets site, calendar and beam radiation)");
@@ -218,6 +224,48 @@ void draw_maps(ModelRun const& run, MapOrder const& order) {
   folder.write("maps.csv", [&](std::ostream& out) { write_summaries(summaries, out); });
   folder.commit(about);
   print("{}\n", (order.folder / "maps.csv").string());
+}
+
+}  // namespace
+
+void add_map(Program const& program) {
+  Command const command(
+      program, "map",
+      "Map the sunlit hours and the beam solar energy over receivers, at the model's own timesteps "
+      "and with its schedules: for each receiver a picture, a table and a NumPy array, and a list "
+      "of all (maps.csv)",
+      model_options());
+  auto const model =
+      command.add_model("Weather file: site, calendar and beam radiation (required)");
+  auto const order = std::make_shared<MapOrder>();
+  command->add_option("--from", order->from, "First day (default: 01-01)")->type_name("MM-DD");
+  command->add_option("--to", order->to, "Last day (default: 12-31)")->type_name("MM-DD");
+  command
+      ->add_option("--receivers", order->receivers,
+                   "Name of a surface, or a pattern in which * stands for any characters; also "
+                   "of shading surfaces (default: all surfaces that EnergyPlus shades)")
+      ->type_name("PATTERN");
+  constexpr double min_spacing = 0.001;
+  constexpr double max_spacing = 1000.0;
+  command->add_option("--spacing", order->spacing, "Largest side of a cell, m")
+      ->check(CLI::Range(min_spacing, max_spacing))
+      ->capture_default_str()
+      ->type_name("M");
+  constexpr int max_rays = 100;
+  command
+      ->add_option("--rays", order->rays_per_cell,
+                   "Rays from each cell to each position of the sun")
+      ->check(CLI::Range(1, max_rays))
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_flag(
+      "--common-scale", order->common_scale,
+      "One colour scale for the pictures of all receivers; otherwise each has its own");
+  command
+      ->add_option("-o,--output", order->folder,
+                   "Folder for the maps: new, empty, or with earlier maps, which are replaced")
+      ->required();
+  command.run([model, order] { draw_maps(*model, *order); });
 }
 
 }  // namespace gpu_shading::energyplus

@@ -1,5 +1,3 @@
-#include "programs/gpu_shading/map_picture.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +13,7 @@
 #include "gpu_shading/fraction_colour.h"
 #include "gpu_shading/sun_direction.h"
 #include "programs/gpu_shading/map_canvas.h"
+#include "programs/gpu_shading/map_files.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -1,5 +1,3 @@
-#include "programs/gpu_shading/map_tables.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <ostream>
 
 #include "platform/text.h"
+#include "programs/gpu_shading/map_files.h"
 
 namespace gpu_shading::energyplus {
 

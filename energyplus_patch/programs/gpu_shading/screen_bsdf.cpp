@@ -1,5 +1,3 @@
-#include "programs/gpu_shading/screen_bsdf.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +11,7 @@
 #include <vector>
 
 #include "platform/markup_text.h"
-#include "programs/gpu_shading/screen_optics.h"
+#include "programs/gpu_shading/screen_files.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -1,5 +1,3 @@
-#include "programs/gpu_shading/screen_plot.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,7 +6,7 @@
 
 #include "gpu_shading/fraction_colour.h"
 #include "platform/markup_text.h"
-#include "programs/gpu_shading/screen_optics.h"
+#include "programs/gpu_shading/screen_files.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -1,11 +1,8 @@
-#include "programs/gpu_shading/sky.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <ostream>
@@ -16,6 +13,7 @@
 #include "platform/process.h"
 #include "platform/staged_files.h"
 #include "platform/text.h"
+#include "programs/gpu_shading/commands.h"
 #include "tasks/samples/sky_patches.h"
 #include "tasks/task_file.h"
 

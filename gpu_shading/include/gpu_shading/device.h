@@ -21,8 +21,7 @@ struct DeviceChoice {
   bool operator==(DeviceChoice const&) const = default;
 };
 
-// Parses "auto", "cpu" or its synonym "software", or a number from 0. Throws Error for anything
-// else.
+// Parses "auto", "cpu" or a number from 0. Throws Error for anything else.
 DeviceChoice parse_device_choice(std::string const& text);
 
 struct DeviceInfo {

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int, c_size_t, c_uint32, c_void_p
 from typing import Any
 
-from gpu_shading import _places
+from gpu_shading import _programs
 from gpu_shading._arrays import whole
 from gpu_shading.errors import DeviceError, Error, InvalidInput
 
@@ -71,7 +71,7 @@ _RELEASES = ("transmittance", "screen", "scene", "renderer", "rays")
 
 
 def _load() -> ctypes.CDLL:
-    loaded = ctypes.CDLL(str(_places.library()))
+    loaded = ctypes.CDLL(str(_programs.library()))
     for name, arguments in _CALLS.items():
         function = getattr(loaded, f"gpu_shading_{name}")
         function.argtypes, function.restype = arguments, c_int

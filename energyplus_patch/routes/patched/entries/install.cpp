@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,16 +20,9 @@
 #include "routes/opengl/opengl_run.h"
 #include "routes/patched/binary/entry_patch.h"
 #include "routes/patched/binary/symbol_table.h"
-#include "routes/patched/entries/daylight_entries.h"
-#include "routes/patched/entries/daylight_memory_entries.h"
-#include "routes/patched/entries/daylight_reflection_entries.h"
+#include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/glfw_entries.h"
-#include "routes/patched/entries/input_entries.h"
-#include "routes/patched/entries/penumbra_entries.h"
-#include "routes/patched/entries/reflection_entries.h"
 #include "routes/patched/entries/run.h"
-#include "routes/patched/entries/shading_entries.h"
-#include "routes/patched/entries/unwanted_messages.h"
 #include "routes/patched/symbols/loaded_library.h"
 #include "routes/schedules/scheduled_run.h"
 #include "runs/installation.h"
@@ -54,73 +49,71 @@ class CannotPatch : public Error {
   using Error::Error;
 };
 
-std::optional<StoredResult> find_surface_ids(SymbolTable const& symbols) {
-  Symbol const* const caller = symbols.find(
-      "_ZN10EnergyPlus12SolarShading30DetermineShadowingCombinationsERNS_14EnergyPlusDataE");
-  Symbol const* const callee = symbols.find("_ZN8Penumbra8Penumbra11add_surfaceERKNS_7SurfaceE");
-  if (caller == nullptr || callee == nullptr) return std::nullopt;
-  return find_stored_result(*caller, *callee);
+std::vector<Entry> all_entries() {
+  std::vector<Entry> entries;
+  for (auto const& part : {penumbra_entries(), input_entries(), shading_entries(),
+                           message_entries(), daylight_entries(), reflection_entries(),
+                           daylight_reflection_entries(), daylight_memory_entries()}) {
+    entries.insert(entries.end(), part.begin(), part.end());
+  }
+  return entries;
 }
 
-bool can_patch(SymbolTable const& symbols, std::vector<EntryPatch> const& entries) {
-  try {
-    check_entries(symbols, entries);
-    return true;
-  } catch (Error const&) {
-    return false;
+// Those of some needs.
+std::vector<EntryPatch> patches_of(std::vector<Entry> const& entries, std::set<Need> const& needs) {
+  std::vector<EntryPatch> patches;
+  for (auto const& entry : entries) {
+    if (needs.contains(entry.need)) patches.push_back(entry.patch);
   }
+  return patches;
 }
 
-std::optional<Installation::DaylightParts> find_daylight_reflections(SymbolTable const& symbols) {
-  auto const classes = find_daylight_classes(symbols);
-  auto* const element = find_element_function(symbols);
-  if (!classes || element == nullptr || !can_patch(symbols, daylight_reflection_entries())) {
-    return std::nullopt;
+// The needs for which this build has all symbols and lets all entries be redirected. Throws Error
+// if it cannot be patched.
+std::set<Need> find_served(SymbolTable const& symbols, std::vector<Entry> const& entries,
+                           bool has_surface_ids) {
+  std::map<Need, std::string> problems;
+  for (auto const& row : energyplus_symbols) {
+    auto& lines = problems[row.need];
+    if (symbols.find(row.symbol) == nullptr)
+      lines += fmt::format("\n  {}: not in this build", row.symbol);
   }
-  return Installation::DaylightParts{*classes, element};
+  std::set<Need> served;
+  for (auto& [need, lines] : problems) {
+    if (lines.empty()) lines = problems_of(symbols, patches_of(entries, {need}));
+    if (lines.empty()) served.insert(need);
+  }
+  if (!served.contains(Need::run)) throw cannot_redirect(symbols, problems[Need::run]);
+  if (!served.contains(Need::from_25_1) && !served.contains(Need::before_25_1)) {
+    throw cannot_redirect(symbols, problems[Need::from_25_1]);
+  }
+  if (!has_surface_ids) served.erase(Need::surface_ids);
+  // Some build on others.
+  auto const require = [&](Need need, Need other) {
+    if (!served.contains(other)) served.erase(need);
+  };
+  require(Need::reflections, Need::surface_ids);
+  require(Need::daylight_reflections, Need::reflections);
+  require(Need::daylight_reflections, Need::daylight_rays);
+  require(Need::daylight_memory, Need::daylight_reflections);
+  return served;
 }
 
 void patch(Loaded const& loaded, Installation& installed) {
-  SymbolTable const symbols(loaded.path, loaded.base);
-  auto entries = penumbra_entries();
-  for (auto const& more : {input_entries(), shading_entries(), message_entries()}) {
-    entries.insert(entries.end(), more.begin(), more.end());
-  }
-  check_entries(symbols, entries);
-  if (auto const days = day_entries(); can_patch(symbols, days)) {
-    entries.insert(entries.end(), days.begin(), days.end());
-  }
-  auto const daylight = daylight_entries();
-  auto const daylight_rays = can_patch(symbols, daylight);
-  if (daylight_rays) entries.insert(entries.end(), daylight.begin(), daylight.end());
+  SymbolTable const symbols(loaded.path, loaded.base, energyplus_symbol_names());
+  auto const entries = all_entries();
   // Must come before the entries are changed, because it reads the code that calls them.
   auto const surface_ids = find_surface_ids(symbols);
-  auto reflection_classes = find_reflection_classes(symbols);
-  auto const reflections = reflection_entries();
-  if (!surface_ids || !can_patch(symbols, reflections)) reflection_classes.reset();
-  if (reflection_classes) entries.insert(entries.end(), reflections.begin(), reflections.end());
-  auto const daylight_reflections =
-      reflection_classes && daylight_rays ? find_daylight_reflections(symbols) : std::nullopt;
-  if (daylight_reflections) {
-    auto const more = daylight_reflection_entries();
-    entries.insert(entries.end(), more.begin(), more.end());
-  }
-  auto const memory = daylight_memory_entries();
-  bool const daylight_memory = daylight_reflections && can_patch(symbols, memory);
-  if (daylight_memory) entries.insert(entries.end(), memory.begin(), memory.end());
-  EnergyPlusFunctions const functions(symbols);
+  auto served = find_served(symbols, entries, surface_ids.has_value());
   ScheduleFunctions const schedules(symbols);
   auto const version = read_version(loaded.path.parent_path());
-  patch_entries(symbols, entries);
-  installed.surface_ids = surface_ids;
-  installed.reflection_classes = reflection_classes;
-  installed.daylight_reflections = daylight_reflections;
-  installed.daylight_memory = daylight_memory;
+  patch_entries(symbols, patches_of(entries, served));
   installed.library = loaded.path;
   installed.version = version;
-  installed.daylight_rays = daylight_rays;
-  installed.functions = functions;
+  installed.functions = EnergyPlusFunctions(symbols);
   installed.schedules = schedules;
+  installed.served = std::move(served);
+  installed.surface_ids = surface_ids;
 }
 
 enum class By { host, environment };
@@ -169,11 +162,12 @@ void try_device(Choices const& choices) {
 void redirect_opengl(char const* library) {
   auto const loaded = find_loaded(library);
   try {
-    SymbolTable const symbols(loaded.path, loaded.base, Symbols::exported);
+    auto const entries = glfw_entries();
+    SymbolTable const symbols(loaded.path, loaded.base, names_of(entries), Symbols::exported);
     if (symbols.find("glfwInit") == nullptr) {
       throw Error(fmt::format("{}: was compiled without OpenGL", loaded.path.string()));
     }
-    patch_entries(symbols, glfw_entries());
+    patch_entries(symbols, entries);
   } catch (Error const& error) {
     throw CannotPatch(error.what());
   }

@@ -210,7 +210,7 @@ std::vector<std::string> take_options(std::vector<std::string> arguments) {
   }
 }
 
-std::string options_help() { return std::string(flags_help()); }
+std::string options_help() { return energyplus::options_help(); }
 
 bool is_wanted() { return source_run().wanted; }
 
