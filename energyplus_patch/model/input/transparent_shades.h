@@ -14,8 +14,8 @@ namespace gpu_shading::energyplus {
 
 // The GPUShading:TransparentShade of a surface.
 struct TransparentShade {
-  std::string object;       // its name
-  std::string description;  // description of the model, e.g. "construction Double Clear"
+  std::string object;                                  // its name
+  std::string description;                             // e.g. "construction Double Clear"
   std::shared_ptr<Transmittance const> transmittance;  // for solar radiation
   std::shared_ptr<Transmittance const> visible;        // for light; may be the same object
 };
@@ -32,5 +32,20 @@ struct TransparentShades {
 TransparentShades read_transparent_shades(std::vector<InputObject> const& objects,
                                           ShadingInput const& input,
                                           std::filesystem::path const& folder);
+
+// For solar radiation and for light.
+struct GlazingTransmittance {
+  Transmittance solar;
+  Transmittance visible;
+};
+
+// Beam transmittances of a Construction of WindowMaterial:Glazing, :Gas, :GasMixture or
+// :SimpleGlazingSystem layers, as EnergyPlus computes them for a window of that construction. Where
+// a material gives no visible transmittance, it is the solar one.
+// `warnings` gets a line for each material that scatters light, because only the undeviated beam is
+// modelled. Throws Error, naming construction, material, field and value.
+GlazingTransmittance construction_transmittance(std::vector<InputObject> const& objects,
+                                                std::string const& construction,
+                                                std::vector<std::string>& warnings);
 
 }  // namespace gpu_shading::energyplus

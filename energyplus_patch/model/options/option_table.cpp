@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "model/extensions/extension_fields.h"
-#include "model/extensions/field_text.h"
+#include "model/extensions/field.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {
@@ -65,10 +65,10 @@ Value value_of(FieldInfo const& field, std::string const& text) {
     if (!word) return {Kind::index, static_cast<int>(parse_number(text).value())};
     return {*word == static_cast<std::size_t>(settings::Device::cpu) ? Kind::cpu : Kind::automatic,
             0};
-  } else if constexpr (std::is_enum_v<Value> || std::is_same_v<Value, bool>) {
-    return static_cast<Value>(word.value());
+  } else if constexpr (std::is_same_v<Value, bool>) {
+    return word.value() != 0;
   } else {
-    return static_cast<Value>(parse_number(text).value());
+    return detail::Parser<Value>::parse(field, text);
   }
 }
 
