@@ -10,7 +10,6 @@
 #include "gpu_shading/transmittance.h"
 #include "model/extensions/extension_fields.h"
 #include "model/idf/fields.h"
-#include "model/input/glazing_construction.h"
 #include "platform/naming.h"
 #include "platform/text.h"
 
