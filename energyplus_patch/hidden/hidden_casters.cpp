@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "gpu_shading/perforated_screen.h"
 #include "scene/flat_polygon.h"
 #include "scene/sky_grid.h"
 
@@ -36,11 +35,6 @@ std::vector<SkyShare> sky_patches(int altitudes, int azimuths, double first_azim
 std::vector<SkyShare> const& patches_from_surfaces() {
   static auto const patches = sky_patches(sky_rows, sky_columns, 0.0);
   return patches;
-}
-
-double deployed(Surface const& surface, std::span<double const> deployments) {
-  auto const index = static_cast<std::size_t>(surface.deployment);
-  return surface.deployment >= 0 && index < deployments.size() ? deployments[index] : 1.0;
 }
 
 }  // namespace
@@ -127,9 +121,7 @@ double HiddenCasters::reflectance(SurfaceId id, double transmittance) const {
   auto const& properties = found == known.end() ? unknown : found->second;
   double share = radiation_ == ShadeOptics::Radiation::light ? properties.visible_reflectance
                                                              : properties.reflectance;
-  if (surface.screen) {
-    share *= deployed(surface, shares_.deployments) * (1.0 - surface.screen->open_fraction());
-  }
+  share *= surface.filter.solid_share(shares_.deployments);
   return std::min(share, 1.0 - transmittance);
 }
 

@@ -68,7 +68,7 @@ class GPU_SHADING_ANSWERS Calculation {
   unsigned add(PlainSurface surface);  // returns its number, from 0
   // Adds the other face of a shading surface; -1: the model has no use for it.
   int add_mirrored(unsigned original);
-  void start(Simulation simulation);
+  void start(Simulation const& simulation);
 
   void set_time(int hour, int timestep);  // timestep 0: the whole simulation
   void set_sun(double azimuth, double altitude);

@@ -158,4 +158,17 @@ std::string csv_field(std::string_view text) {
                                                                          : quoted;
 }
 
+bool matches_any(std::vector<std::string> const& patterns, std::string_view name) {
+  return std::any_of(patterns.begin(), patterns.end(),
+                     [&](std::string const& pattern) { return matches(pattern, name); });
+}
+
+std::string listed(std::vector<std::string> const& names, std::size_t max) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(max, names.size()); ++i) {
+    text += (i == 0 ? "" : ", ") + printable(names[i]);
+  }
+  return names.size() > max ? fmt::format("{} and {} more", text, names.size() - max) : text;
+}
+
 }  // namespace gpu_shading::energyplus

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "gpu_shading/error.h"
-#include "model/site/own_building.h"
+#include "model/site/surroundings.h"
 
 namespace gpu_shading::energyplus {
 namespace {

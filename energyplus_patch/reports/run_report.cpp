@@ -12,8 +12,6 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
-#include "gpu_shading/perforated_screen.h"
-#include "gpu_shading/transmittance.h"
 #include "model/options/report_folder.h"
 #include "platform/naming.h"
 #include "platform/text.h"
@@ -48,30 +46,32 @@ double degrees_clockwise(double radians) {
 }
 
 PageStyle style_of(Surface const& surface) {
+  constexpr std::array<char const*, 4> holes{"round", "square", "slotted", "hexagonal"};
+  constexpr std::array<char const*, 3> arrangements{"straight", "staggered 45", "staggered 60"};
+  auto const look = surface.filter.look();
   PageStyle style;
-  if (auto const& screen = surface.screen) {
-    constexpr std::array<char const*, 4> holes{"round", "square", "slotted", "hexagonal"};
-    constexpr std::array<char const*, 3> arrangements{"straight", "staggered 45", "staggered 60"};
-    style.kind = PageStyle::Kind::screen;
-    style.passes = screen->open_fraction();
-    style.hole = "texture";
-    if (auto const& pattern = screen->pattern()) {
-      auto const& holed = pattern->perforation();
-      style.hole = holes.at(static_cast<std::size_t>(holed.hole));
-      style.arrangement = arrangements.at(static_cast<std::size_t>(holed.arrangement));
-      style.size = holed.size;
-      style.length = holed.length;
-      style.pitch = holed.pitch;
-      style.row_pitch = holed.row_pitch;
+  switch (look.kind) {
+    case FilterLook::Kind::opaque:
+      break;
+    case FilterLook::Kind::glass: {
+      // To whole percents, so that a few styles serve all.
+      constexpr double percents = 100.0;
+      style.kind = PageStyle::Kind::glass;
+      style.passes = std::round(look.passes * percents) / percents;
+      break;
     }
-  } else if (surface.transmittance) {
-    // To whole percents, so that a few styles serve all.
-    constexpr double percents = 100.0;
-    style.kind = PageStyle::Kind::glass;
-    style.passes = std::round((*surface.transmittance)(0.0) * percents) / percents;
-  } else if (surface.schedule >= 0) {
-    style.kind = PageStyle::Kind::glass;
-    style.passes = 0.5;
+    case FilterLook::Kind::holes:
+      style.kind = PageStyle::Kind::screen;
+      style.passes = look.passes;
+      style.hole = "texture";
+      if (!look.holes) break;
+      style.hole = holes.at(static_cast<std::size_t>(look.holes->hole));
+      style.arrangement = arrangements.at(static_cast<std::size_t>(look.holes->arrangement));
+      style.size = look.holes->size;
+      style.length = look.holes->length;
+      style.pitch = look.holes->pitch;
+      style.row_pitch = look.holes->row_pitch;
+      break;
   }
   return style;
 }

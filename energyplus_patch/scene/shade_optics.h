@@ -25,7 +25,7 @@ class ShadeOptics {
 
   enum class Radiation { solar, light };
 
-  // Sets a surface's casting, transmittance, schedule, screen and deployment. `texture`: of a mesh.
+  // Sets a surface's casting and filter. `texture`: of a mesh.
   // Throws Error if a screen's texture cannot be read.
   void apply(Surface& surface, std::optional<TextureAxes> const& texture = std::nullopt,
              Radiation radiation = Radiation::solar) const;

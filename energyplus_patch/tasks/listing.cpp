@@ -173,7 +173,7 @@ std::string text_of(Listing const& listing) {
          fmt::format("{} surfaces\n", listing.surfaces.size());
 }
 
-// The same as one JSON document (docs/running.md).
+// The same as one JSON document (docs/reference/files.md).
 std::string json_text_of(Listing const& listing) {
   Json json{{"format", "gpu_shading check 1"}, {"remarks", listing.remarks}};
   json["rule"] = Json::array();

@@ -25,8 +25,8 @@ namespace {
 struct MapTime {
   SunDirection sun;
   double beam = 0.0;                // direct normal irradiance, W/m2
-  std::vector<double> factors;      // by Surface::schedule
-  std::vector<double> deployments;  // by Surface::deployment
+  std::vector<double> factors;      // by BeamFilter::schedule
+  std::vector<double> deployments;  // by PerforatedSheet::deployment
 };
 
 struct MapSettings {

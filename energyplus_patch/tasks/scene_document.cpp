@@ -107,7 +107,15 @@ class SurfaceTexts {
  public:
   void add(Surface const& surface, bool receives) {
     constexpr std::array<std::string_view, 3> castings{"always", "turned away", "never"};
-    auto const& [u, v, rotation] = surface.placement;
+    auto const* const shade = surface.filter.find<AngularTransmittance>();
+    auto const* const found = surface.filter.find<PerforatedSheet>();
+    PerforatedSheet const sheet = found != nullptr ? *found : PerforatedSheet{};
+    auto const written = static_cast<std::size_t>(shade != nullptr) + (found != nullptr ? 1 : 0);
+    if (written != surface.filter.factors.size()) {
+      throw Error(fmt::format("{}: a document of a scene has no field for its kind of filter",
+                              surface.name));
+    }
+    auto const& [u, v, rotation] = sheet.placement;
     write(
         "{}\n{{\"name\":{},\"casts\":\"{}\",\"receives\":{},\"outline\":", text_.empty() ? "" : ",",
         text_of(surface.name), castings.at(static_cast<std::size_t>(surface.casting)), receives);
@@ -120,8 +128,8 @@ class SurfaceTexts {
     write(
         "],\"transmittance\":{},\"schedule\":{},\"screen\":{},\"origin\":[{},{}],"
         "\"rotation\":{},\"deployment\":{}}}",
-        transmittances_.add(surface.transmittance), surface.schedule, screens_.add(surface.screen),
-        u, v, glm::degrees(rotation), surface.deployment);
+        transmittances_.add(shade != nullptr ? shade->model : nullptr), surface.filter.schedule,
+        screens_.add(sheet.screen), u, v, glm::degrees(rotation), sheet.deployment);
   }
 
   std::string const& text() const { return text_; }

@@ -20,8 +20,7 @@ void add_sheets(ViewOnPixels const& view, View const& in_front, Transmission con
                 Aliasing& aliasing) {
   for (int const number : transmission.screens_among(view.casters)) {
     Screens::Entry const& screen = transmission.screens()[number];
-    bool const effect =
-        may_see_effect(*screen.screen, screen.normal, view.towards_sun, view.pixel_area);
+    bool const effect = may_see_effect(screen, view.towards_sun, view.pixel_area);
     SheetInBeam const sheet = sheet_in_beam(screen, view.towards_sun, 1.0, effect);
     double const pixel = 2.0 / view.tile.side * pixel_in_sheet(screen, in_front);
     bool const drawn = pixel < static_cast<double>(sheet.blend_to);

@@ -53,7 +53,7 @@ bool SheetPairsOnCpu::passes_two(ReceiverView const& view) const {
   if (numbers.size() < 2) return false;
   bool const small_holes = std::any_of(numbers.begin(), numbers.end(), [&](int number) {
     Screens::Entry const& entry = transmission_.screens()[number];
-    return may_see_effect(*entry.screen, entry.normal, view.towards_sun, view.pixel_area());
+    return may_see_effect(entry, view.towards_sun, view.pixel_area());
   });
   return small_holes && any_overlap(transmission_.screens(), numbers,
                                     view_in_front(*view.frame, view.tile->map, view.towards_sun));

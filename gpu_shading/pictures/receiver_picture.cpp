@@ -48,7 +48,7 @@ std::vector<Colour> draw_surroundings(PictureRaster& raster, Scene const& scene,
   bool screened = false;
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     by_number.push_back(tilt_grey(scene[id], shaded.towards_sun));
-    if (scene[id].screen) {
+    if (scene[id].filter.look().kind == FilterLook::Kind::holes) {
       screened = true;
     } else if (id != shaded.receiver) {
       others.push_back(id);

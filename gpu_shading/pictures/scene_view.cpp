@@ -27,10 +27,6 @@ constexpr int samples = 2;
 // Margin around everything shown, as a fraction of its longer side.
 constexpr double scene_border = 0.04;
 
-bool transmits(Surface const& surface) {
-  return surface.transmittance || surface.screen || surface.schedule >= 0;
-}
-
 // The numbers of the surfaces that the sun sees in each sample, and behind those that transmit.
 struct Samples {
   std::vector<std::uint32_t> front;
@@ -108,8 +104,11 @@ class SceneView::Implementation {
   Implementation(Scene const& scene, std::span<SurfaceId const> shown, DeviceChoice const& device)
       : scene_(scene), transmission_(scene), shown_(shown.begin(), shown.end()) {
     auto const first_transmitting = std::stable_partition(
-        shown_.begin(), shown_.end(), [&](SurfaceId id) { return !transmits(scene_[id]); });
+        shown_.begin(), shown_.end(), [&](SurfaceId id) { return !scene_[id].filter.transmits(); });
     opaque_ = static_cast<std::size_t>(first_transmitting - shown_.begin());
+    for (SurfaceId id = 0; id < scene_.size(); ++id) {
+      has_holes_.push_back(scene_[id].filter.look().kind == FilterLook::Kind::holes);
+    }
     find_middle();
     std::vector<Mesh> const meshes = triangulate_all(scene_);
     raster_ = open_picture_raster({scene_, meshes, transmission_}, device);
@@ -176,7 +175,7 @@ class SceneView::Implementation {
 
  private:
   void check(int size) const {
-    int const max_size = raster_->most_pixels() / samples;
+    int const max_size = raster_->max_pixels() / samples;
     if (size < 1 || size > max_size) {
       throw Error(fmt::format("size {} of a view: expected 1 to {} pixels", size, max_size));
     }
@@ -204,15 +203,15 @@ class SceneView::Implementation {
     glm::dvec3 const brightest_facing = glm::normalize(glm::dvec3(0.35, -0.55, 0.75));
     constexpr double flat = 0.88;
     double const tilt = flat + (1.0 - flat) * glm::dot(facing, brightest_facing);
-    if (scene_[id].screen) return tilt * bronze;
-    return tilt * (transmits(scene_[id]) ? glass : sand);
+    if (has_holes_[id]) return tilt * bronze;
+    return tilt * (scene_[id].filter.transmits() ? glass : sand);
   }
 
   // A screen is a raster of open samples, other surfaces are half transparent.
   double share_through(std::uint32_t number, int x, int y) const {
     constexpr int period = 6;
     constexpr double half = 0.5;
-    if (!scene_[number - 1].screen) return half;
+    if (!has_holes_[number - 1]) return half;
     bool const odd = (y / (period / 2)) % 2 != 0;
     return (x + (odd ? period / 2 : 0)) % period < period / 2 ? 0.0 : 1.0;
   }
@@ -255,7 +254,7 @@ class SceneView::Implementation {
       by_number[id + 1] =
           receives ? fraction_colour(*fractions[id]) : tilt_grey(scene_[id], towards_sun);
       // A grey screen before a grey wall would not be seen.
-      if (scene_[id].screen) by_number[id + 1] *= bronze / brightest;
+      if (has_holes_[id]) by_number[id + 1] *= bronze / brightest;
     }
     return by_number;
   }
@@ -264,6 +263,7 @@ class SceneView::Implementation {
   Transmission transmission_;
   std::vector<SurfaceId> shown_;  // those that transmit last
   std::size_t opaque_ = 0;        // how many do not
+  std::vector<bool> has_holes_;   // by surface
   glm::dvec3 middle_{0.0};
   double lowest_ = 0.0;  // height of the lowest surface
   double reach_ = 1.0;

@@ -29,7 +29,7 @@ ShadowMap::ShadowMap(PictureRaster& raster, std::span<SurfaceId const> shown, st
     : axes_(axes),
       origin_(origin),
       frame_(frame),
-      grid_(make_grid(frame, axes, origin, reach, std::min(max_size, raster.most_pixels()))),
+      grid_(make_grid(frame, axes, origin, reach, std::min(max_size, raster.max_pixels()))),
       nearest_(raster.nearest(grid_, shown)),
       nearest_opaque_(opaque < shown.size() ? raster.nearest(grid_, shown.first(opaque))
                                             : nearest_) {}

@@ -36,11 +36,13 @@ int gpu_shading_scene_add(SceneObject* scene, SurfaceRecord const* surface) {
     added.name = surface->name;
     added.polygon = polygon_of(*surface);
     added.casting = enumerator(surface->casting, Casting::never, "casting");
-    if (surface->shade != nullptr) added.transmittance = surface->shade->model;
-    added.schedule = surface->schedule;
-    if (surface->screen != nullptr) added.screen = surface->screen->screen;
-    added.placement = {surface->origin_u, surface->origin_v, surface->rotation};
-    added.deployment = surface->deployment;
+    if (surface->filter != nullptr) added.filter.set(surface->filter->factor);
+    if (surface->screen != nullptr) {
+      added.filter.set(PerforatedSheet{surface->screen->screen,
+                                       {surface->origin_u, surface->origin_v, surface->rotation},
+                                       surface->deployment});
+    }
+    added.filter.schedule = surface->schedule;
     scene->scene.add(std::move(added));
   });
 }

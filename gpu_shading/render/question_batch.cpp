@@ -173,7 +173,7 @@ void QuestionBatch::count(std::size_t casters, bool transmits) {
 }
 
 Sunlit QuestionBatch::sunlit(LuminanceSums const& sums, Asked const& asked, double whole) const {
-  auto const& schedules = parts_.transmission.shades().schedules();
+  auto const& schedules = parts_.transmission.schedules();
   double const per_sum = asked.receiver->area * asked.cosine / whole;
   Sunlit answer;
   answer.projected_area = sums.unscheduled * per_sum;

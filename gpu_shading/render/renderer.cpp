@@ -165,11 +165,11 @@ std::vector<Shade> Renderer::Implementation::shades_at(ShadedReceiver const& sha
   std::vector<Shade> shades;
   for (SurfaceId const caster : shaded.casters) {
     Shade shade = transmission_.shade(caster, shaded.towards_sun);
-    int const schedule = scene_[caster].schedule;
+    int const schedule = scene_[caster].filter.schedule;
     if (schedule >= 0 && static_cast<std::size_t>(schedule) < factors.size()) {
       shade.transmittance *= static_cast<float>(factors[static_cast<std::size_t>(schedule)]);
     }
-    shade.schedule = Shades::unscheduled;
+    shade.schedule = Shade::unscheduled;
     shades.push_back(shade);
   }
   return shades;

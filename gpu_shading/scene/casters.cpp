@@ -25,12 +25,13 @@ double warp(Ring const& ring, glm::dvec3 const& unit_normal) {
 }
 
 // A sheet on the receiver is in front of it by its body, if not by its polygon.
-double body_above(SheetFaces const& faces, glm::dvec3 const& normal, PlaneFrame const& frame) {
+double body_above(BeamFilter::Faces const& faces, glm::dvec3 const& normal,
+                  PlaneFrame const& frame) {
   double const middle = 0.5 * (faces.inside + faces.outside);
   return std::max(0.0, glm::dot(frame.normal, normal) * middle);
 }
 
-// With both faces of its sheet; empty where it cannot cast.
+// With both faces of its body; empty where it cannot cast.
 Box bounds_of(Surface const& surface) {
   Box box;
   if (surface.casting == Casting::never) return box;
@@ -38,7 +39,7 @@ Box bounds_of(Surface const& surface) {
   glm::dvec3 const vector = newell(ring);
   if (ring.size() < 3 || is_degenerate(ring, vector)) return box;
   glm::dvec3 const normal = glm::normalize(vector);
-  SheetFaces const faces = sheet_faces(surface);
+  BeamFilter::Faces const faces = surface.filter.faces();
   for (glm::dvec3 const& vertex : ring) {
     box.include(vertex + faces.inside * normal);
     box.include(vertex + faces.outside * normal);
@@ -91,7 +92,7 @@ void Casters::add(SurfaceId id, Surface const& surface) {
   double const off = warp(ring, caster.normal);
   caster.planar = off <= 1e-6;
   caster.warped = off > 1e-3;  // more than models' coordinates are rounded by
-  caster.faces = sheet_faces(surface);
+  caster.faces = surface.filter.faces();
   caster.only_turned_away = surface.casting == Casting::turned_away;
   points_.insert(points_.end(), ring.begin(), ring.end());
   caster.first_hole = holes_.size();

@@ -11,7 +11,6 @@
 #include "geometry/bvh.h"
 #include "geometry/plane_frame.h"
 #include "gpu_shading/scene.h"
-#include "scene/sheet_faces.h"
 #include "scene/turns.h"
 
 namespace gpu_shading {
@@ -81,7 +80,7 @@ class Casters {
     std::size_t holes = 0;
     ShadingRule::Role role;
     glm::dvec3 normal{0.0};
-    SheetFaces faces;  // of a screen
+    BeamFilter::Faces faces;
     bool planar = true;
     bool warped = false;
     bool only_turned_away = false;

@@ -64,7 +64,7 @@ def test_check_prints_what_each_surface_will_be(program, courtyard):
     (f"Version,{input_version()};\nGPUShading:Settings,none;\n", ("GPUShading:Settings", "Resolution", "none")),
     (f"Version,{input_version()};\nGPUShading:Nonsense,1;\n", ("GPUShading:Nonsense", "no such object")),
     ("Version,23.1;\n", ("Version Identifier", "23.1", input_version())),
-    (f"Version,{input_version()};\n", ("EnergyPlus does not get as far",)),
+    (f"Version,{input_version()};\n", ("EnergyPlus stopped before its shading",)),
 ])
 def test_check_says_what_is_wrong(program, tmp_path, text, words):
     model = tmp_path / "model.idf"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "model/extensions/field_text.h"
+#include "model/extensions/field.h"
 #include "model/options/option_table.h"
 
 namespace gpu_shading::energyplus {

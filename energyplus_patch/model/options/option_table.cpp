@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "model/extensions/extension_fields.h"
-#include "model/extensions/field_text.h"
+#include "model/extensions/field.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {
@@ -64,10 +64,10 @@ Value value_of(FieldInfo const& field, std::string const& text) {
     if (!word) return {numbered_device(static_cast<int>(parse_number(text).value()))};
     if (*word == static_cast<std::size_t>(settings::Device::cpu)) return {DeviceId{}};
     return {};
-  } else if constexpr (std::is_enum_v<Value> || std::is_same_v<Value, bool>) {
-    return static_cast<Value>(word.value());
+  } else if constexpr (std::is_same_v<Value, bool>) {
+    return word.value() != 0;
   } else {
-    return static_cast<Value>(parse_number(text).value());
+    return detail::Parser<Value>::parse(field, text);
   }
 }
 

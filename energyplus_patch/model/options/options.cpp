@@ -8,7 +8,7 @@
 #include "gpu_shading/error.h"
 #include "gpu_shading/renderer.h"
 #include "model/extensions/extension_fields.h"
-#include "model/extensions/field_text.h"
+#include "model/extensions/field.h"
 #include "model/options/option_table.h"
 #include "platform/console.h"
 #include "platform/nearest_word.h"

@@ -35,7 +35,7 @@ void refuse_mistyped_subcommand(CLI::App const& app, std::vector<std::string> co
   throw Error(fmt::format("{}: no such subcommand{}", printable(word), did_you_mean(word, names)));
 }
 
-// Names the first argument that no subcommand takes.
+// Names the first argument that no subcommand accepts.
 [[noreturn]] void refuse_extras(CLI::App const& app) {
   std::vector<std::string> flags;
   for (auto const* const command : app.get_subcommands()) {
@@ -118,7 +118,7 @@ int run(std::vector<std::string> arguments) {
   } catch (CLI::ExtrasError const&) {
     refuse_extras(app);
   } catch (CLI::RequiredError const& error) {
-    // What is missing may be there, but mistyped.
+    // The missing argument may be there, but mistyped.
     if (!app.remaining(true).empty()) refuse_extras(app);
     throw Error(error.what());
   } catch (CLI::ParseError const& error) {

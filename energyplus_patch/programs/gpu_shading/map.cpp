@@ -36,7 +36,7 @@ struct MapOrder {
   std::filesystem::path folder;
 };
 
-constexpr int months_apart = 100;  // of the numbers of days
+constexpr int month_step = 100;
 
 // Days by number, 100 x month + day, in any year.
 struct Period {
@@ -44,7 +44,7 @@ struct Period {
   int to;  // may be less: then across the new year
 
   bool has(RunTime const& time) const {
-    int const day = months_apart * time.month + time.day;
+    int const day = month_step * time.month + time.day;
     return from <= to ? from <= day && day <= to : day >= from || day <= to;
   }
 };
@@ -55,13 +55,13 @@ int parse_day(char const* option, std::string const& text) {
   if (std::regex_match(text, words, form)) {
     constexpr int leap_year = 2024;
     auto const date = std::chrono::year(leap_year) / std::stoi(words[1]) / std::stoi(words[2]);
-    if (date.ok()) return months_apart * std::stoi(words[1]) + std::stoi(words[2]);
+    if (date.ok()) return month_step * std::stoi(words[1]) + std::stoi(words[2]);
   }
   throw Error(fmt::format("{} {}: expected month and day, as in 06-21", option, in_quotes(text)));
 }
 
 std::string day_text(int number) {
-  return fmt::format("{:02}-{:02}", number / months_apart, number % months_apart);
+  return fmt::format("{:02}-{:02}", number / month_step, number % month_step);
 }
 
 std::string describe_days(Period const& period) {
@@ -77,9 +77,9 @@ Period period_of(MapOrder const& order) {
 }
 
 // The times of the period with the sun up, from a run of EnergyPlus with nothing but calendar,
-// weather and schedules: a second or two for a year of any model. The run that traces cannot tell
-// them: it ends at its first question about shading, before any weather, and without that end it
-// would simulate the building for the whole year. The model is read here for the names of the
+// weather and schedules: a second or two for a year of any model. The run that traces cannot
+// provide them: it ends at the first question about shading, before any weather, and would
+// otherwise simulate the building for the whole year. The model is read here for the names of the
 // schedules, which EnergyPlus only reports if it is asked for them by name.
 RunTimes times_of(ModelRun const& run, Period const& period) {
   EnergyPlusCall call;
@@ -130,13 +130,13 @@ std::vector<GriddedMap> grid_maps(std::vector<ReceiverMap> maps, double spacing)
 }
 
 // The largest values of all receivers.
-MapValue max_of(std::vector<GriddedMap> const& maps) {
-  MapValue most;
+MapValue largest_of(std::vector<GriddedMap> const& maps) {
+  MapValue largest;
   for (auto const& one : maps) {
-    most.hours = std::max(most.hours, one.summary.most.hours);
-    most.energy = std::max(most.energy, one.summary.most.energy);
+    largest.hours = std::max(largest.hours, one.summary.largest.hours);
+    largest.energy = std::max(largest.energy, one.summary.largest.energy);
   }
-  return most;
+  return largest;
 }
 
 std::string orientation(MapSummary const& summary) {
@@ -185,11 +185,11 @@ std::optional<std::string> try_drawing(std::string const& name, MapHeading const
 
 void write_pictures(std::vector<GriddedMap> const& maps, std::string const& period,
                     bool common_scale, ListedFolder& folder) {
-  auto const most = max_of(maps);
+  auto const largest = largest_of(maps);
   for (auto const& [map, grid, summary] : maps) {
     auto const name = summary.stem + ".png";
     auto const picture = try_drawing(name, heading_of(summary, period), grid, map.values,
-                                     scales_for(common_scale ? most : summary.most));
+                                     scales_for(common_scale ? largest : summary.largest));
     if (!picture) return;
     folder.write(name, *picture);
   }

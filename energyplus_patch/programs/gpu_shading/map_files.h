@@ -20,8 +20,8 @@ struct MapSummary {
   double cell_width = 0.0;  // m
   double cell_height = 0.0;
   std::size_t cells = 0;
-  MapValue mean;  // of the area
-  MapValue most;  // of a cell
+  MapValue mean;     // of the area
+  MapValue largest;  // of a cell
 };
 
 MapSummary summarise(MapGrid const& grid, std::vector<MapValue> const& values);
@@ -36,14 +36,14 @@ void write_array(MapGrid const& grid, std::vector<MapValue> const& values, std::
 
 void write_summaries(std::vector<MapSummary> const& summaries, std::ostream& csv);
 
-// What the scales of a picture end at.
+// The ends of a picture's scales.
 struct MapScales {
   double hours = 1.0;   // h
   double energy = 1.0;  // kWh/m2
 };
 
 // The least multiples of a round step that hold the largest values.
-MapScales scales_for(MapValue const& most);
+MapScales scales_for(MapValue const& largest);
 
 // "180 degrees (S)": an azimuth clockwise from true north, in degrees.
 std::string describe_azimuth(double azimuth);

@@ -161,22 +161,11 @@ void print_table(PerforatedScreen const& screen) {
   }
 }
 
-std::string list(std::vector<std::string> const& surfaces) {
-  constexpr std::size_t most = 3;
-  auto const shown = std::min(surfaces.size(), most);
-  std::vector<std::string> names(shown);
-  std::transform(surfaces.begin(), surfaces.begin() + static_cast<std::ptrdiff_t>(shown),
-                 names.begin(), [](std::string const& name) { return printable(name); });
-  auto text = fmt::format("{}", fmt::join(names, ", "));
-  if (surfaces.size() > most) text += fmt::format(" and {} more", surfaces.size() - most);
-  return text;
-}
-
 void print_described(DescribedScreen const& described) {
   auto const& screen = *described.screen;
   print("{}\n", one_line(described.named.maker->where()));
   print("  sheet          {}\n", one_line(described.description));
-  print("  surfaces       {}\n", list(described.named.surfaces));
+  print("  surfaces       {}\n", listed(described.named.surfaces, 3));
   print("  open fraction  {:.4f}\n", screen.open_fraction());
   double const cut_off = glm::degrees(screen.transmittance().cut_off());
   constexpr double right_angle = 90.0;
@@ -227,8 +216,7 @@ void write_files(std::vector<DescribedScreen> const& screens, StagedFiles& files
   for (auto const& name : written) print("{}\n", (folder / name).string());
 }
 
-// As EnergyPlus has it for solar reflections: of the model's ShadingProperty:Reflectance, or its
-// default.
+// As in EnergyPlus's solar reflections: the model's ShadingProperty:Reflectance, or the default.
 SheetReflectance reflectance_of(std::string const& surface, ShadingInput const& shading) {
   auto const found = shading.shading_surfaces.find(surface);
   auto const properties =

@@ -14,7 +14,7 @@ namespace gpu_shading::energyplus {
 // towards v. Exact for patterns; for textures, from their table (see screen_transmittance.h).
 double transmittance(PerforatedScreen const& screen, double theta, double phi);
 
-// By whole degrees of theta and every 5 degrees of phi.
+// A table by whole degrees of theta and every 5 degrees of phi.
 void write_transmittances(PerforatedScreen const& screen, std::ostream& csv);
 
 // Writes a polar plot of a screen's transmittance as SVG: the radius is the angle of incidence, and
@@ -28,7 +28,7 @@ void write_polar_plot(PerforatedScreen const& screen, std::string const& title,
 // its centre. Nothing, with a warning, in installations without the picture formats.
 std::optional<std::string> encode_tile(PerforatedScreen const& screen, std::string const& name);
 
-// What the solid part of a sheet's faces reflects, diffusely, 0 .. 1; both faces are alike.
+// Diffuse reflectances of the solid part of a sheet, 0 .. 1; both faces are alike.
 struct SheetReflectance {
   double solar = 0.0;
   double visible = 0.0;
@@ -39,16 +39,16 @@ struct SheetReflectance {
 // Writes a screen as a bidirectional scattering distribution in LBNL WINDOW's XML: Klems's full
 // basis of 145 x 145 directions, Solar and Visible, Transmission and Reflection, Front and Back
 // (front: outside), in 1/sr.
-// - Transmission is what passes of the beam, straight on. A patch of directions has the mean of tau
+// - Transmission is that of the undeviated beam. A patch of directions has the mean of tau
 //   over its projected solid angle, on the diagonal, because a beam that goes on has the same patch
 //   on both sides.
 // - Reflection is that of the solid share of the faces, reflectance x (1 - open fraction) / pi for
 //   all pairs of directions: the faces are level and matt, and holes return nothing.
-// Light that the walls of holes reflect is not in it.
+// Light that the walls of holes reflect is not included.
 //
-// Axes: v is up, and the azimuths of patches run from the right to up as seen from inside, so that
-// of (theta, phi) is pi - phi. `rotation`: of u and v from the lower edge of the surface,
-// counterclockwise as seen from outside, degrees. `name` and `description` may be any text.
+// Axes: v is up, and the azimuths of patches run from the right to up as seen from inside: (theta,
+// phi) has the azimuth pi - phi. `rotation`: from the lower edge of the surface to u, degrees
+// counterclockwise as seen from outside. `name` and `description` may be any text.
 //
 // Basis and format: Klems & Warner, "Measurement of bidirectional optical properties of complex
 // shading devices" (ASHRAE Transactions 101, 1995); WINDOW's BSDF-v1.7.xsd.

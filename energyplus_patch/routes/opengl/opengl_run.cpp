@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
-#include "model/daylighting.h"
+#include "model/energyplus_rays.h"
 #include "model/idf/model_editor.h"
 #include "model/site/weather_header.h"
 #include "platform/console.h"

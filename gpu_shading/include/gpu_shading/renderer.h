@@ -94,9 +94,9 @@ class Renderer {
   DeviceInfo const& device() const;
   RendererStatistics const& statistics() const;
 
-  // Sets the deployed fractions of screens, 0 .. 1, by Surface::deployment, for all later calls.
-  // Screens beyond the end are fully deployed. Beside its deployed fraction, a screen lets the
-  // whole beam pass.
+  // Sets the deployed fractions of screens, 0 .. 1, by PerforatedSheet::deployment, for all later
+  // calls. Screens beyond the end are fully deployed. Beside its deployed fraction, a screen lets
+  // the whole beam pass.
   void set_deployments(std::vector<double> shares);
 
   // Returns the sunlit area of each receiver, in order, for one sun direction.

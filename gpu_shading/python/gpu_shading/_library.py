@@ -20,7 +20,7 @@ _INVALID, _DEVICE, _MEMORY, _CLOSED = 1, 2, 3, 5
 
 class SurfaceRecord(Structure):
     _fields_ = [("name", c_char_p), ("vertices", c_void_p), ("ring_sizes", c_void_p), ("rings", c_size_t),
-                ("casting", c_int), ("shade", c_void_p), ("schedule", c_int), ("screen", c_void_p),
+                ("casting", c_int), ("filter", c_void_p), ("schedule", c_int), ("screen", c_void_p),
                 ("origin_u", c_double), ("origin_v", c_double), ("rotation", c_double), ("deployment", c_int)]
 
 
@@ -67,7 +67,7 @@ _CALLS: dict[str, list[Any]] = {
     "rays_nearest": [c_void_p, POINTER(RayRecord), c_int, c_void_p, c_void_p],
 }
 _TEXTS = ("message", "version")
-_RELEASES = ("transmittance", "screen", "scene", "renderer", "rays")
+_RELEASES = ("filter", "screen", "scene", "renderer", "rays")
 
 
 def _load() -> ctypes.CDLL:

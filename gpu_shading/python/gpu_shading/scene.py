@@ -16,7 +16,7 @@ from gpu_shading import _library, _pickles
 from gpu_shading._arrays import FARTHEST, Floats, number, numbers, pointer, ring, whole, within
 from gpu_shading.errors import InvalidInput
 from gpu_shading.model import Contents, read
-from gpu_shading.optics import Screen, Transmittance, choice
+from gpu_shading.optics import FlatFilter, Screen, Transmittance, choice
 from gpu_shading.rays import Faces, Rays, RayScreens, make_rays
 from gpu_shading.renderer import Renderer, Values, schedule_table
 from gpu_shading.rule import Rule
@@ -37,7 +37,7 @@ class Surface:
     holes: tuple[Floats, ...] = ()
     receives: bool = False
     casts: Casts = "always"
-    transmittance: Transmittance | None = None
+    transmittance: FlatFilter | None = None
     screen: Screen | None = None
     screen_origin: tuple[float, float] = (0.0, 0.0)
     screen_rotation: float = 0.0
@@ -96,7 +96,7 @@ class Scene:
         return made
 
     def add(self, vertices: ArrayLike, *, name: str | None = None, holes: Iterable[ArrayLike] = (),
-            receives: bool = False, casts: Casts = "always", transmittance: float | Transmittance | None = None,
+            receives: bool = False, casts: Casts = "always", transmittance: float | FlatFilter | None = None,
             screen: Screen | None = None, screen_origin: tuple[float, float] = (0.0, 0.0),
             screen_rotation: float = 0.0, schedule: str | None = None, deployment: str | None = None) -> int:
         """Adds a surface and returns its index.
@@ -110,7 +110,7 @@ class Scene:
         index = len(self._surfaces)
         what = f"surface {name or index}"
         choice(casts, _CASTS, f"{what}: casts")
-        if transmittance is not None and not isinstance(transmittance, Transmittance):
+        if transmittance is not None and not isinstance(transmittance, FlatFilter):
             transmittance = Transmittance.constant(number(transmittance, f"{what}: transmittance", 0.0, 1.0))
         if screen is not None and not isinstance(screen, Screen):
             raise InvalidInput(f"{what}: screen: expected a Screen")
@@ -236,7 +236,7 @@ class Scene:
         record = _library.SurfaceRecord(
             name=surface.name.encode(errors="replace"), vertices=pointer(rings), ring_sizes=pointer(sizes),
             rings=len(sizes), casting=_CASTS.index(surface.casts),
-            shade=surface.transmittance.handle.pointer if surface.transmittance else None,
+            filter=surface.transmittance.handle.pointer if surface.transmittance else None,
             schedule=self.schedules.index(surface.schedule) if surface.schedule is not None else -1,
             screen=surface.screen.handle.pointer if surface.screen else None,
             origin_u=surface.screen_origin[0], origin_v=surface.screen_origin[1],

@@ -149,7 +149,7 @@ int Calculation::add_mirrored(unsigned original) {
   return static_cast<int>(shading.add_mirrored(original));
 }
 
-void Calculation::start(Simulation simulation) {
+void Calculation::start(Simulation const& simulation) {
   implementation_->shading->start({messages_of(implementation_->log, simulation),
                                    schedules_of(simulation), simulation.latitude});
 }

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "backends/opengl/egl/error.h"
+#include "backends/opengl/egl/display.h"
 
 namespace gpu_shading::egl {
 namespace {

@@ -5,8 +5,8 @@
 #include "backends/opengl/gl/check.h"
 #include "backends/opengl/gl/draw.h"
 #include "backends/opengl/gl/limits.h"
+#include "backends/opengl/raster/draw_list.h"
 #include "backends/opengl/raster/split_double.h"
-#include "backends/opengl/raster/view_records.h"
 #include "gpu_shading/error.h"
 #include "shaders/sources.h"
 

@@ -4,7 +4,7 @@
 
 #include "gpu_shading/renderer.h"
 #include "model/extensions/extension_fields.h"
-#include "model/extensions/field_text.h"
+#include "model/extensions/field.h"
 #include "model/idf/extension_objects.h"
 #include "model/idf/fields.h"
 #include "model/idf/model_file.h"

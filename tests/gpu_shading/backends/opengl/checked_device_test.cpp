@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <deque>
 
-#include "backends/checked/view_comparison.h"
+#include "backends/checked/checked_backend.h"
 #include "backends/cpu/cpu_backend.h"
 #include "backends/open_backend.h"
 #include "geometry/triangulation.h"
@@ -63,7 +63,7 @@ class Both : public ViewBackend {
 };
 
 class CheckedDevice : public testing::TestWithParam<CasterKind> {};
-INSTANTIATE_TEST_SUITE_P(Of, CheckedDevice, testing::ValuesIn(caster_kinds));
+INSTANTIATE_TEST_SUITE_P(Of, CheckedDevice, testing::ValuesIn(caster_kinds()));
 
 TEST_P(CheckedDevice, DiffersByMuchLessThanTheTolerance) {
   Room room;

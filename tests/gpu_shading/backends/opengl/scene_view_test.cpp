@@ -41,7 +41,7 @@ struct Case {
     Surface sheet;
     sheet.name = "sheet";
     sheet.polygon = level(1, 1, 1, 2, 2);
-    sheet.transmittance = std::move(transmittance);
+    if (transmittance) sheet.filter.set(AngularTransmittance{std::move(transmittance)});
     scene.add(std::move(sheet));
   }
 };

@@ -1,4 +1,4 @@
-#include "model/extensions/field_text.h"
+#include "model/extensions/field.h"
 
 #include <fmt/format.h>
 

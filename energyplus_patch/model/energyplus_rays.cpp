@@ -1,4 +1,5 @@
-#include "model/ray_warnings.h"
+
+#include "model/energyplus_rays.h"
 
 #include <fmt/format.h>
 
@@ -6,32 +7,21 @@
 #include <array>
 #include <string_view>
 
-#include "model/daylighting.h"
 #include "model/extensions/extension_fields.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
-// "A, B, C and 4 more"; "" if there is none.
-std::string join(std::vector<std::string> const& names) {
-  constexpr std::size_t most = 5;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) {
-    if (i > 0) text += ", ";
-    text += printable(names[i]);
-  }
-  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
-  return text;
-}
+constexpr std::size_t max_listed = 5;
 
-// Of the objects of a type.
+// The names of the objects of a type; "" if there are none.
 std::string names_of(std::vector<InputObject> const& objects, std::string_view type) {
   std::vector<std::string> names;
   for (auto const& object : objects) {
     if (object.type == type) names.push_back(object.name);
   }
-  return join(names);
+  return listed(names, max_listed);
 }
 
 // The parts of EnergyPlus in this model that trace rays to shading surfaces, as a warning begins.
@@ -90,23 +80,39 @@ std::vector<std::string> warn_of_rays(std::vector<InputObject> const& objects,
   std::vector<std::string> warnings;
   for (auto const& user : users_of_rays(objects, input)) {
     std::string_view const schedules =
-        user.kind == User::Kind::reflections ? "" : ", but for their Transmittance Schedules";
+        user.kind == User::Kind::reflections ? "" : ", except for their Transmittance Schedules";
     if (auto const& known = opaque_to(user, opaque)) {
       if (known->empty()) continue;
       warnings.push_back(
-          fmt::format("rays of {} take surfaces that stay in EnergyPlus's input as opaque{}: {}",
-                      user.text, schedules, join(*known)));
+          fmt::format("rays of {} treat surfaces that stay in EnergyPlus's input as opaque{}: {}",
+                      user.text, schedules, listed(*known, max_listed)));
       continue;
     }
     for (auto const& [type, seen] : shades) {
       auto const names = names_of(objects, type);
       if (names.empty()) continue;
-      warnings.push_back(seen ? fmt::format("rays of {} take the surfaces of {} {} as opaque{}",
+      warnings.push_back(seen ? fmt::format("rays of {} treat the surfaces of {} {} as opaque{}",
                                             user.text, type, names, schedules)
                               : fmt::format("rays of {} do not see {} {}", user.text, type, names));
     }
   }
   return warnings;
+}
+
+bool has_daylighting(std::vector<InputObject> const& objects) {
+  auto const& types = daylighting_types;
+  return std::any_of(objects.begin(), objects.end(), [&](InputObject const& object) {
+    return std::find(types.begin(), types.end(), object.type) != types.end();
+  });
+}
+
+bool daylighting_can_be_answered(std::vector<InputObject> const& objects) {
+  return std::none_of(objects.begin(), objects.end(), [](InputObject const& object) {
+    return object.type == "Daylighting:DELight:ComplexFenestration" ||
+           object.type == "Construction:ComplexFenestrationState" ||
+           (object.type == "Daylighting:Controls" &&
+            same_name(object["daylighting_method"], "DElight"));
+  });
 }
 
 }  // namespace gpu_shading::energyplus

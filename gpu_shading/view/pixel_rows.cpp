@@ -1,4 +1,4 @@
-#include "view/luminance_tile.h"
+#include "view/pixel_rows.h"
 
 #include <algorithm>
 #include <array>
