@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "answers/cache_folder.h"
-#include "answers/open_answers.h"
+#include "answers/cached_renderer.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/sun_direction.h"
 #include "model/options/report_folder.h"
@@ -83,8 +83,8 @@ void Session::start(Simulation simulation) {
   }
   if (options.cache) prepare_cache_folder(*options.cache);
   answers_.emplace(
-      SunAnswers::Site{scene_.areas(), options.update.sampling, std::move(simulation.latitude)});
-  answers_->open(open_answers(scene_, scene_.receivers(), options.device, messages_));
+      SunQuestions::Site{scene_.areas(), options.update.sampling, std::move(simulation.latitude)});
+  answers_->open(open_renderer(scene_, scene_.receivers(), options.device, messages_));
   check_device(answers_->rendered().renderer().device(), options, messages_);
   describe_scene(scene_, messages_);
 }
@@ -94,7 +94,7 @@ SceneAssembly& Session::complete(Schedules schedules) {
   return scene_;
 }
 
-SunAnswers& Session::answers() {
+SunQuestions& Session::answers() {
   if (!answers_) throw Error("EnergyPlus asks for shading before its surfaces are complete");
   return *answers_;
 }
@@ -112,15 +112,15 @@ void Session::set_time(Moment moment) {
     messages_.warning(
         "a Transmittance Schedule with a constant value has changed, by an EMS or another program: "
         "its new values are used from now on");
-    store_answers(answers_->rendered(), messages_);
+    write_cache(answers_->rendered(), messages_);
     auto const receivers = answers_->rendered().known().receivers;
     // The CPU also if it took over from a GPU.
-    auto const device = choice_of(answers_->rendered().renderer().device());
+    DeviceChoice const device{answers_->rendered().renderer().device().id};
     obstructions_.reset();
     luminance_.reset();
     renew_reflections();
     answers_->close();
-    answers_->open(open_answers(scene_, receivers, device, messages_));
+    answers_->open(open_renderer(scene_, receivers, device, messages_));
   } else {
     answers_->deploy(scene_.optics().deployments());
   }
@@ -218,7 +218,7 @@ void Session::finish() {
   if (!any && answers_->counts().directions == 0)
     return;  // the run ended before the first question
   describe_answers(*answers_, scene_.model().options, messages_);
-  store_answers(answers_->rendered(), messages_);
+  write_cache(answers_->rendered(), messages_);
   write_reports();
 }
 
@@ -226,8 +226,8 @@ void Session::write_reports() {
   auto const& options = scene_.model().options;
   auto const stages = stages_of(answers_->counts().rendering);
   if (options.stages) write_stages(*options.stages, stages);
+  if (options.verbose) messages_.remark("time by stage: " + list(stages));
   if (!options.report) return;
-  messages_.remark("time by stage: " + list(stages));
   auto& rendered = answers_->rendered();
   auto const& known = rendered.known();
   auto const& optics = scene_.optics();

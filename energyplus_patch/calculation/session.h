@@ -7,11 +7,10 @@
 #include <variant>
 #include <vector>
 
-#include "answers/sun_answers.h"
+#include "answers/sun_questions.h"
 #include "calculation/shading_calculation.h"
 #include "hidden/daylight_memory.h"
 #include "hidden/hidden_luminance.h"
-#include "hidden/hidden_obstructions.h"
 #include "hidden/hidden_reflections.h"
 #include "model/model_reader.h"
 #include "reports/run_record.h"
@@ -88,7 +87,7 @@ class Session : public ShadingCalculation {
 
  private:
   SurfaceId in_scene(SurfaceId id) const;
-  SunAnswers& answers();
+  SunQuestions& answers();
   void write_reports();
   void renew_reflections();
   std::optional<glm::dvec3>* first_sun_now();
@@ -100,8 +99,8 @@ class Session : public ShadingCalculation {
   Moment moment_;
   static constexpr std::size_t hours = 24;
   std::array<std::optional<glm::dvec3>, hours> first_suns_;
-  std::optional<SunAnswers> answers_;  // once started
-  std::optional<RunRecord> record_;    // for the report
+  std::optional<SunQuestions> answers_;  // once started
+  std::optional<RunRecord> record_;      // for the report
   DaylightMemory daylight_memory_;
   std::optional<HiddenObstructions> obstructions_;  // once asked for
   std::optional<HiddenReflections> reflections_;    // once asked for

@@ -5,7 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "hidden/polygon_samples.h"
+#include "scene/flat_polygon.h"
+#include "scene/sky_grid.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -32,11 +33,30 @@ std::vector<SkyShare> sky_patches(int altitudes, int azimuths, double first_azim
 
 // Those of EnergyPlus's SkyDifSolarShading.
 std::vector<SkyShare> const& patches_from_surfaces() {
-  static auto const patches = sky_patches(6, 24, 0.0);
+  static auto const patches = sky_patches(sky_rows, sky_columns, 0.0);
   return patches;
 }
 
 }  // namespace
+
+HourShares::Shares const& HourShares::at(int hour) {
+  int const nearest = std::clamp(hour, 1, static_cast<int>(hours));
+  auto& shares = known_.at(static_cast<std::size_t>(nearest - 1));
+  if (!shares) {
+    Moment const moment{nearest, 1};
+    shares = Shares{optics_.factors_at(moment), optics_.deployments_at(moment)};
+  }
+  return *shares;
+}
+
+HiddenObstructions::HiddenObstructions(SceneAssembly const& scene) : shares_(scene.optics()) {
+  auto const casters = scene.hidden_casters();
+  if (casters.size() > 0) rays_.emplace(casters, RayOptions{.faces = RayFaces::both});
+}
+
+double HiddenObstructions::transmittance(Ray const& ray, int hour) {
+  return rays_ ? rays_->transmittance(ray, shares_.at(hour).conditions()) : 1.0;
+}
 
 std::vector<SkyShare> const& sky_patches_from_ground() {
   static auto const patches = sky_patches(5, 18, 0.5);

@@ -68,7 +68,7 @@ class GPU_SHADING_ANSWERS Calculation {
   unsigned add(PlainSurface surface);  // returns its number, from 0
   // Adds the other face of a shading surface; -1: the model has no use for it.
   int add_mirrored(unsigned original);
-  void start(Simulation simulation);
+  void start(Simulation const& simulation);
 
   void set_time(int hour, int timestep);  // timestep 0: the whole simulation
   void set_sun(double azimuth, double altitude);
@@ -94,7 +94,7 @@ class GPU_SHADING_ANSWERS Calculation {
 // Begins a run: takes the options of gpu_shading out of a command line. If one of them is wrong,
 // reading the model will fail.
 GPU_SHADING_ANSWERS std::vector<std::string> take_options(std::vector<std::string> arguments);
-GPU_SHADING_ANSWERS std::string options_help();  // one line for each option
+GPU_SHADING_ANSWERS std::string options_help();  // a paragraph for each option
 
 // Whether this run's options, or the environment, ask for gpu_shading.
 GPU_SHADING_ANSWERS bool is_wanted();

@@ -38,7 +38,7 @@ class ShadeOptics {
   std::vector<double> factors_at(Moment moment) const;
   std::vector<double> deployments_at(Moment moment) const;
 
-  // Whether a surface has a Transmittance or Deployment Schedule, be it a constant one.
+  // Whether a surface has a Transmittance or Deployment Schedule, even a constant one.
   bool has_schedules() const { return !by_name_.empty() || !deployment_names_.empty(); }
 
   Schedules const& schedules() const { return schedules_; }

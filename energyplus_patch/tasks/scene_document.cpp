@@ -1,5 +1,3 @@
-#include "tasks/scene_document.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -14,6 +12,7 @@
 #include "gpu_shading/error.h"
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
+#include "tasks/perform_task.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -21,7 +20,7 @@ namespace {
 using Document = nlohmann::ordered_json;
 
 constexpr int steps_a_degree = 2;
-constexpr std::size_t most_texels = std::size_t{4096} * 4096;
+constexpr std::size_t max_texels = std::size_t{4096} * 4096;
 
 std::string text_of(Document const& json) {
   // Names in IDF files may be in Latin-1; in ASCII, control characters of any kind are escaped.
@@ -58,10 +57,10 @@ Document to_json(HolePattern const& pattern) {
 
 Document to_json(OpacityTile const& tile) {
   auto const texels = tile.opacity();
-  if (texels.size() > most_texels) {
+  if (texels.size() > max_texels) {
     throw Error(
         fmt::format("a texture of {} x {} texels, expected at most {} in all for a document",
-                    tile.columns(), tile.rows(), most_texels));
+                    tile.columns(), tile.rows(), max_texels));
   }
   Document json{{"width", tile.width()},
                 {"height", tile.height()},

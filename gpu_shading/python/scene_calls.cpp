@@ -1,16 +1,9 @@
 #include <vector>
 
-#include "gpu_shading/threads.h"
 #include "python/guard.h"
 #include "python/objects.h"
 
 namespace gpu_shading::python {
-
-std::string& message() {
-  thread_local std::string last;
-  return last;
-}
-
 namespace {
 
 Polygon polygon_of(SurfaceRecord const& record) {
@@ -32,14 +25,6 @@ Polygon polygon_of(SurfaceRecord const& record) {
 }
 
 }  // namespace
-
-char const* gpu_shading_message() { return message().c_str(); }
-
-char const* gpu_shading_version() { return GPU_SHADING_VERSION; }
-
-int gpu_shading_limit_threads(int count) {
-  return guarded([&] { limit_threads(count); });
-}
 
 int gpu_shading_scene_new(SceneObject** made) {
   return guarded([&] { *made = new SceneObject; });

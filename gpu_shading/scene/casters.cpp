@@ -17,11 +17,11 @@ namespace {
 
 // The largest distance of a vertex from the plane through the first.
 double warp(Ring const& ring, glm::dvec3 const& unit_normal) {
-  double most = 0.0;
+  double farthest = 0.0;
   for (glm::dvec3 const& vertex : ring) {
-    most = std::max(most, std::abs(glm::dot(vertex - ring[0], unit_normal)));
+    farthest = std::max(farthest, std::abs(glm::dot(vertex - ring[0], unit_normal)));
   }
-  return most;
+  return farthest;
 }
 
 // A sheet on the receiver is in front of it by its body, if not by its polygon.
@@ -73,9 +73,9 @@ Casters::Casters(Scene const& scene) {
   for (SurfaceId id = 0; id < scene.size(); ++id) boxes.push_back(bounds_of(scene[id]));
   tree_ = Bvh(boxes);
   casters_.reserve(tree_.order().size());
-  places_.resize(scene.size());
+  position_of_.resize(scene.size());
   for (SurfaceId const id : tree_.order()) {
-    places_[id] = static_cast<std::uint32_t>(casters_.size());
+    position_of_[id] = static_cast<std::uint32_t>(casters_.size());
     add(id, scene[id]);
   }
   if (scene.rule().empty()) return;
@@ -123,33 +123,33 @@ InView Casters::in_view(Scene const& scene, SurfaceId receiver, PlaneFrame const
 std::optional<std::vector<std::uint32_t>> Casters::in_sector(Scene const& scene, SurfaceId receiver,
                                                              PlaneFrame const& frame,
                                                              SunSector const& sector) const {
-  constexpr std::size_t most = 24;
-  std::vector<std::uint32_t> places;
+  constexpr std::size_t max_count = 24;
+  std::vector<std::uint32_t> positions;
   std::optional<ShadingRule::Receiver> rule;
   if (!scene.rule().empty()) rule.emplace(scene.rule(), receiver);
   SectorShadow const shadow(frame, sector);
   tree_.search(
       [&](glm::dvec3 const& centre, glm::dvec3 const& reach) {
-        bool const wanted = places.size() <= most && shadow.may_overlap(centre, reach);
+        bool const wanted = positions.size() <= max_count && shadow.may_overlap(centre, reach);
         return wanted ? Containment::intersecting : Containment::outside;
       },
-      [&](std::uint32_t place, std::uint32_t, Containment) {
-        Caster const& caster = casters_[place];
+      [&](std::uint32_t position, std::uint32_t, Containment) {
+        Caster const& caster = casters_[position];
         if (caster.id == receiver || (rule && !rule->counts(caster.role))) return;
-        places.push_back(place);
+        positions.push_back(position);
       });
-  if (places.size() > most) return std::nullopt;
-  std::sort(places.begin(), places.end(),
+  if (positions.size() > max_count) return std::nullopt;
+  std::sort(positions.begin(), positions.end(),
             [&](std::uint32_t a, std::uint32_t b) { return casters_[a].id < casters_[b].id; });
-  return places;
+  return positions;
 }
 
-InView Casters::in_view_of(std::span<std::uint32_t const> places, PlaneFrame const& frame,
+InView Casters::in_view_of(std::span<std::uint32_t const> positions, PlaneFrame const& frame,
                            glm::dvec3 const& towards_sun) const {
   InView found;
   Shadow shadow(frame, towards_sun);
-  for (std::uint32_t const place : places) {
-    add_if_in_view(casters_[place], false, frame, towards_sun, shadow, found);
+  for (std::uint32_t const position : positions) {
+    add_if_in_view(casters_[position], false, frame, towards_sun, shadow, found);
   }
   return found;
 }
@@ -168,7 +168,7 @@ Detail Casters::detail(std::span<SurfaceId const> in_view, PlaneFrame const& fra
   Shadow const shadow(frame, towards_sun);
   for (SurfaceId const id : in_view) {
     if (detail.total() >= enough) break;
-    Caster const& caster = casters_[places_[id]];
+    Caster const& caster = casters_[position_of_[id]];
     shadow.add_edges(points(caster), detail);
     for (Ring const& hole : holes(caster)) shadow.add_edges(hole, detail);
   }

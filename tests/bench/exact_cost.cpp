@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "gpu_shading/threads.h"
+#include "gpu_shading/device.h"
 #include "support/shapes.h"
 #include "table_main.h"
 

@@ -4,10 +4,10 @@
 
 #include "calculation/session.h"
 #include "fuzz.h"
+#include "gpu_shading/device.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/polygon.h"
 #include "gpu_shading/sun_position.h"
-#include "gpu_shading/threads.h"
 #include "model/shading_outlines.h"
 
 // What a model's objects say, from their fields to sunlit areas: the values that the reader of the
@@ -21,7 +21,7 @@ Choices quick_choices(Lean lean) {
   choices.mode = Mode::automatic;
   choices.error = 0.05;
   choices.update = Update();
-  choices.device = DeviceChoice{.kind = DeviceChoice::Kind::cpu};
+  choices.device = DeviceChoice{DeviceId{}};
   choices.cache = std::filesystem::path();
   choices.quiet = true;
   return choices;

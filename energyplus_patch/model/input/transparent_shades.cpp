@@ -6,11 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "gpu_shading/transmittance.h"
 #include "gpu_shading/error.h"
+#include "gpu_shading/transmittance.h"
 #include "model/extensions/extension_fields.h"
 #include "model/idf/fields.h"
-#include "model/input/glazing_construction.h"
 #include "platform/naming.h"
 #include "platform/text.h"
 

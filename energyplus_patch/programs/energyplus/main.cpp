@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -85,7 +86,7 @@ void check_model(RunSetup& setup) {
   choices.resolution = model.options.resolution;
 }
 
-// EnergyPlus writes the objects that it reads, from which ours have been taken out.
+// EnergyPlus writes the objects that it reads, and ours are removed before.
 void check_conversion(RunSetup const& setup) {
   if (!setup.line.convert || !setup.has_model()) return;
   auto const& path = *setup.line.model;
@@ -100,7 +101,7 @@ void check_conversion(RunSetup const& setup) {
   }
 }
 
-// As C has a list of words.
+// `argv`-style view of strings.
 class Words {
  public:
   explicit Words(std::vector<std::string> const& words) {
@@ -185,21 +186,28 @@ int run_shaded(char const* program, std::vector<std::string> arguments, Choices 
   if (installed != gpu_shading_done) throw Error(module.message());
   arguments.insert(arguments.begin(), program);
   int const status = find<RunEnergyPlus>(library, run_energyplus)(arguments, {});
-  // The user has been told why.
+  // The reason has been printed.
   return status == EXIT_SUCCESS && *module.unwritten() != '\0' ? EXIT_FAILURE : status;
 }
 
 int launch(RunSetup& setup, char** argv) {
-  if (!setup.wanted) run_official(argv);
   auto const& line = setup.line;
+  if (!setup.wanted) {
+    if (line.help) fmt::print("{}", help_hint);
+    std::fflush(stdout);
+    run_official(argv);
+  }
   auto& choices = setup.choices;
+  // As it starts, EnergyPlus deletes a tree of millions of small objects: lists of small chunks,
+  // which glibc merges again and again, take longer than they save.
+  mallopt(M_MXFAST, 0);
   if (line.version) fmt::print("gpu_shading {}\n", GPU_SHADING_VERSION);
-  if (line.help) std::fputs(std::string(flags_help()).c_str(), stdout);
+  if (line.help) fmt::print("{}", options_help());
   if (line.model) {
     check_conversion(setup);
     check_model(setup);
-    // A preprocessor (-x) passes another file to EnergyPlus, but files beside the user's model
-    // still apply.
+    // A preprocessor (-x) passes another file to EnergyPlus, but files in the folder of the user's
+    // model still apply.
     choices.folder = std::filesystem::absolute(*line.model).parent_path();
     choices.file = find_side_file(*line.model, choices);
   }

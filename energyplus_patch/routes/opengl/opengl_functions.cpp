@@ -34,13 +34,13 @@ thread_local OpenGlContext* current = nullptr;
 RendererOptions options_of_environment() {
   constexpr char const* variable = "GPU_SHADING_ERROR";
   RendererOptions options;
-  options.device.kind = DeviceChoice::Kind::cpu;
+  options.device.device = DeviceId{};
   char const* const given = std::getenv(variable);
   if (given == nullptr || *given == '\0') return options;
   char* end = nullptr;
   double const error = std::strtod(given, &end);
-  if (*end != '\0' || !(error >= RendererOptions::least_error) ||
-      error > RendererOptions::most_error) {
+  if (*end != '\0' || !(error >= RendererOptions::min_error) ||
+      error > RendererOptions::max_error) {
     throw Error(std::string(variable) + " is '" + given + "': expected a number, 1e-5 to 0.1");
   }
   options.error = error;

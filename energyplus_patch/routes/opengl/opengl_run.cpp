@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <glm/trigonometric.hpp>
@@ -11,7 +10,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
-#include "model/daylighting.h"
+#include "model/energyplus_rays.h"
 #include "model/idf/model_editor.h"
 #include "model/site/weather_header.h"
 #include "platform/console.h"
@@ -84,12 +83,7 @@ void add_schedules(HostedModel& hosted, Model const& model, EnergyPlusCall const
   auto const names = shade_schedules(model);
   if (names.empty()) return;
   auto days = run_for_schedules(call, names);
-  std::vector<std::string> unknown;
-  for (auto const& name : names) {
-    bool const known =
-        std::find(days.schedules.begin(), days.schedules.end(), name) != days.schedules.end();
-    if (!known || model.shading.actuated.contains(name)) unknown.push_back(name);
-  }
+  auto const unknown = unknown_schedules(model, days.schedules);
   if (!unknown.empty()) {
     auto const warning = describe_unknown(unknown);
     print_line("warning: " + warning);

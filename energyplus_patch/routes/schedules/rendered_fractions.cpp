@@ -76,10 +76,10 @@ SunlitFractions render_fractions(Model model, std::vector<Surface> const& surfac
   return table;
 }
 
-std::vector<std::string> unknown_schedules(Model const& model, RunTimes const& run) {
+std::vector<std::string> unknown_schedules(Model const& model,
+                                           std::vector<std::string> const& known) {
   std::vector<std::string> names;
   for (auto const& name : shade_schedules(model)) {
-    auto const& known = run.schedules;
     if (model.shading.actuated.contains(name) ||
         std::find(known.begin(), known.end(), name) == known.end()) {
       names.push_back(name);

@@ -72,12 +72,6 @@ class Collected {
   Say say_;
 };
 
-Model read_supported(EnergyPlusCall const& call, Choices const& choices) {
-  auto model = read_model(call.model, choices);
-  check_supported(model.shading, read_version(call.program.parent_path()));
-  return model;
-}
-
 bool runs_periods(EnergyPlusCall const& call, ModelEditor& model) {
   if (call.annual || call.design_days) return call.annual;
   bool runs = true;
@@ -97,7 +91,7 @@ double latitude_of(EnergyPlusCall const& call) {
 SunlitFractions render(EnergyPlusCall const& call, Model model, Collected& out) {
   auto const run = run_for_times(call, shade_schedules(model));
   if (run.times.empty()) return {};
-  auto const unknown = unknown_schedules(model, run);
+  auto const unknown = unknown_schedules(model, run.schedules);
   if (!unknown.empty()) out.warn(describe_unknown(unknown));
   auto const surfaces = surfaces_of(run_for_surfaces(call), model.shading);
   return render_fractions(std::move(model), surfaces, run, out.messages(),
@@ -189,17 +183,6 @@ ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choi
   done.warnings = std::move(out.warnings);
   done.remarks = std::move(out.remarks);
   return done;
-}
-
-SunlitFractions sunlit_fractions(EnergyPlusCall const& call, Choices const& choices,
-                                 Say const& say) {
-  Collected out(say);
-  auto table = render(call, read_supported(call, choices), out);
-  if (table.empty()) {
-    throw Error(
-        fmt::format("{}: has no run period with the sun above the horizon", call.model.string()));
-  }
-  return table;
 }
 
 int run_scheduled(Path const& library, RunSetup const& setup) {

@@ -24,10 +24,6 @@ using Say = std::function<void(std::string const&)>;
 ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choices,
                                  std::filesystem::path const& folder, Say const& say);
 
-// Returns the fractions alone. Throws Error if the model has no run period.
-SunlitFractions sunlit_fractions(EnergyPlusCall const& call, Choices const& choices,
-                                 Say const& say);
-
 inline constexpr int not_run = -1;
 
 // A whole run of an unmodified EnergyPlus library, with sunlit fractions rendered before it.

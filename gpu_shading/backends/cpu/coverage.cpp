@@ -12,7 +12,7 @@
 #include <numeric>
 #include <utility>
 
-#include "antialias/sample_grid.h"
+#include "antialias/antialias.h"
 #include "backends/cpu/shade_counts.h"
 #include "platform/parallel.h"
 
@@ -96,15 +96,11 @@ struct Sampled {
 
 Sampled sampled(Tile const& tile, View const& view, CastersInView const& casters, Samples samples) {
   if (samples == Samples::pixels) return {pixels_of(tile)};
-  if (!casters.screens.numbers.empty()) {
-    return {grid_for_screens(tile, view, casters.screens, casters.repeats)};
-  }
-  auto const on = [&](TileGrid const& grid) {
-    return grid_for_blades(grid, tile, view, casters.repeats);
-  };
-  if (casters.opaque()) return {on(fine_grid(tile))};
-  if (can_be_counted(casters)) return {on(counting_grid(tile)), true};
-  return {on(pixels_of(tile))};
+  bool const counting = can_be_counted(casters);
+  SampleUse const use = casters.opaque() ? SampleUse::coverage
+                        : counting       ? SampleUse::counting
+                                         : SampleUse::luminance;
+  return {sample_grid(tile, view, casters.screens, casters.repeats, use), counting};
 }
 
 // From samples to pixels of the tile, if `own` samples are the receiver's.

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "antialias/repeat.h"
+#include "antialias/antialias.h"
 #include "backends/cpu/passed_schedules.h"
 #include "backends/cpu/surface_pieces.h"
 #include "backends/interface/view_backend.h"

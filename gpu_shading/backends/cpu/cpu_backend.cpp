@@ -4,8 +4,7 @@
 
 #include <utility>
 
-#include "antialias/sample_grid.h"
-#include "filters/perforation/screens.h"
+#include "antialias/antialias.h"
 #include "gpu_shading/error.h"
 #include "platform/instructions.h"
 #include "platform/parallel.h"

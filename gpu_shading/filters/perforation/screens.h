@@ -4,11 +4,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "gpu_shading/scene.h"
-#include "view/view.h"
 
 namespace gpu_shading {
 
@@ -43,8 +41,5 @@ class Screens {
   std::vector<int> numbers_;
   std::vector<Entry> entries_;
 };
-
-// Whether some ray to a tile passes two of these screens. `view`: of the casters in front.
-bool any_overlap(Screens const& screens, std::span<int const> numbers, View const& view);
 
 }  // namespace gpu_shading

@@ -8,6 +8,7 @@
 #include "gpu_shading/sun_position.h"
 #include "model/idf/model_file.h"
 #include "platform/process.h"
+#include "scene/sky_grid.h"
 
 namespace gpu_shading::energyplus {
 namespace {

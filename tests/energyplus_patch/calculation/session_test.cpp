@@ -117,7 +117,7 @@ TEST(Session, CoordinatesAreNumbersOnEarth) {
 TEST(Session, AnswersInAForkedProcessAsBefore) {
   auto model = model_of("Schedule:Constant,LEAVES,,0.5;");
   model.shading.shading_surfaces["TREE"] = {"Shading:Site:Detailed", "LEAVES"};
-  model.options.device.kind = DeviceChoice::Kind::cpu;
+  model.options.device.device = DeviceId{};
   Schedules const schedules{[](std::string const&) { return std::pair(0.0, 1.0); },
                             [](std::string const&, Moment) { return 0.5; }};
   constexpr int strips = 40;
@@ -564,9 +564,9 @@ TEST(Session, CachedInteriorsAreNotRenderedAgain) {
   std::ifstream in(file, std::ios::binary);
   std::string const text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   auto const known = decode(std::as_bytes(std::span(text)), scene);
-  AnswerSet odd;
+  SceneAnswers odd;
   odd.states = known.states;
-  known.answers.for_each([&](Answers::Direction const& direction) {
+  known.answers.for_each([&](AnswerStore::Direction const& direction) {
     for (auto const& [question, answers] : direction.interior) {
       std::vector<Sunlit> changed(answers.size());
       for (auto& answer : changed) answer.projected_area = 0.125;

@@ -192,7 +192,7 @@ TEST(DaylightMemory, AlwaysComputesWhatIsAddedToSums) {
   }
 }
 
-using Sequence = RecurringAnswers<1>;
+using Sequence = SequenceCache<1>;
 
 // The answer to each question is the question; returns how many were known.
 int ask(Sequence& answers, std::vector<std::uint64_t> const& questions) {
@@ -209,7 +209,7 @@ int ask(Sequence& answers, std::vector<std::uint64_t> const& questions) {
   return known;
 }
 
-TEST(RecurringAnswers, AreFoundInTheirOrder) {
+TEST(SequenceCache, AreFoundInTheirOrder) {
   std::size_t room = 100;
   Sequence answers(room);
   EXPECT_EQ(ask(answers, {1, 2, 3, 2, 1}), 0);
@@ -221,7 +221,7 @@ TEST(RecurringAnswers, AreFoundInTheirOrder) {
   EXPECT_EQ(room, 94U);
 }
 
-TEST(RecurringAnswers, AreForgottenIfTheyAreOfNoUse) {
+TEST(SequenceCache, AreForgottenIfTheyAreOfNoUse) {
   std::size_t room = 100;
   Sequence answers(room);
   EXPECT_EQ(ask(answers, {1, 2, 3}), 0);
@@ -230,7 +230,7 @@ TEST(RecurringAnswers, AreForgottenIfTheyAreOfNoUse) {
   EXPECT_EQ(ask(answers, {4, 5, 6}), 3);
 }
 
-TEST(RecurringAnswers, ShareTheirRoom) {
+TEST(SequenceCache, ShareTheirRoom) {
   std::size_t room = 4;
   {
     Sequence few(room);

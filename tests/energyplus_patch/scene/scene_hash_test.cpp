@@ -8,7 +8,7 @@
 
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
-#include "scene/build_id.h"
+#include "scene/scene_hash.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -26,7 +26,7 @@ struct Everything {
   int columns = 2;
   std::optional<double> threshold = 0.5;
   RendererOptions options;
-  DeviceInfo device{.index = 0,
+  DeviceInfo device{.id = numbered_device(0),
                     .renderer = "renderer",
                     .vendor = "vendor",
                     .version = "version",
@@ -157,7 +157,7 @@ TEST(SceneHash, NamesAndWhoSharesAndTheDevicesNumberDoNot) {
   auto const hash = Everything().hash();
   Everything other;
   for (auto& surface : other.surfaces) surface.name += " renamed";
-  other.device.index = 3;
+  other.device.id.number = 3;
   EXPECT_EQ(other.hash(), hash);
 }
 

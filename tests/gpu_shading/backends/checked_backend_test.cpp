@@ -28,7 +28,7 @@ using Spoil = std::function<void(ReceiverView const&, ViewSums&)>;
 class FakeGpu : public ViewBackend {
  public:
   FakeGpu(BackendInput const& input, Spoil spoil) : cpu_(input), spoil_(std::move(spoil)) {
-    info_.index = 0;
+    info_.id = numbered_device(0);
     info_.renderer = "Fake GPU";
     info_.version = "1.0";
     info_.max_resolution = 32768;
@@ -166,7 +166,7 @@ TEST_P(EachKind, OfWrongAnswersIsCaughtAndAnsweredByTheCpu) {
               0U)
         << warnings[0];
     EXPECT_EQ(warnings[0].find('\n'), std::string::npos);
-    EXPECT_EQ(checked->device().index, -1);
+    EXPECT_TRUE(checked->device().id.is_cpu());
   }
 }
 

@@ -2,12 +2,11 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <utility>
 
-#include "answers/foreseen_directions.h"
 #include "gpu_shading/error.h"
 #include "routes/opengl/queries/named_surfaces.h"
+#include "scene/sky_grid.h"
 #include "tasks/perform_task.h"
 
 namespace gpu_shading::energyplus {
@@ -23,10 +22,9 @@ namespace {
 
 // A patch of the sky where the direction is one, rounded to single precision.
 SunDirection without_rounding(SunDirection sun) {
-  constexpr double step = std::numbers::pi / 12.0;
   constexpr double rounding = 3e-6;
-  SunDirection const patch{std::round(sun.azimuth / step) * step,
-                           (std::floor(sun.altitude / step) + 0.5) * step};
+  SunDirection const patch{std::round(sun.azimuth / sky_step) * sky_step,
+                           (std::floor(sun.altitude / sky_step) + 0.5) * sky_step};
   bool const same = glm::distance(to_vector(patch), to_vector(sun)) < rounding;
   return same && is_sky_patch(patch) ? patch : sun;
 }

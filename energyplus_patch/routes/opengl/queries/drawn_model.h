@@ -10,7 +10,7 @@
 
 #include "calculation/session.h"
 #include "routes/opengl/queries/triangle_polygons.h"
-#include "tasks/asked_task.h"
+#include "tasks/task_file.h"
 
 namespace gpu_shading::energyplus {
 

@@ -25,10 +25,13 @@ constexpr char const* official_program = "energyplus-official.exe";
 constexpr int not_wanted = -1;
 
 int run(RunSetup& setup) {
-  if (!setup.wanted) return not_wanted;
+  if (!setup.wanted) {
+    if (setup.line.help) std::fputs(help_hint, stdout);
+    return not_wanted;
+  }
   auto const library = own_folder() / energyplus_library;
   auto const& line = setup.line;
-  if (line.help) std::fputs(std::string(flags_help()).c_str(), stdout);
+  if (line.help) std::fputs(options_help().c_str(), stdout);
   if (line.preprocessed) {
     throw Error("-m: an EPMacro model cannot be rendered on Windows; create its IDF first");
   }

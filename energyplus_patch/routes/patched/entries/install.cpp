@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <array>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -147,7 +146,7 @@ void install(char const* library, Choices choices, By by) {
 void try_device(Choices const& choices) {
   constexpr int every_device_draws = 16384;
   bool const required = choices.mode == Mode::require;
-  bool const chosen = choices.device && choices.device->kind == DeviceChoice::Kind::index;
+  bool const chosen = choices.device && choices.device->device && !choices.device->device->is_cpu();
   bool const large = choices.resolution.value_or(1) > every_device_draws;
   if (choices.mode == Mode::off || (!required && !chosen && !large)) return;
   Options options;
@@ -254,8 +253,7 @@ extern "C" EXPORTED int gpu_shading_run_opengl(char const* energyplus_library, i
 extern "C" EXPORTED void gpu_shading_report_refusal(char const* energyplus_library, char const* why,
                                                     int argc, char const* const* argv) {
   using namespace gpu_shading::energyplus;
-  std::array<char, 1> ignored{};
-  guarded(ignored.data(), ignored.size(), [&] {
+  failure_of([&] {
     report_refusal({argv, argv + argc}, std::filesystem::path(energyplus_library).parent_path(),
                    why, {});
   });

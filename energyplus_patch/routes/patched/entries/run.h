@@ -12,7 +12,7 @@
 #include "routes/patched/memory/surface_ids.h"
 #include "routes/patched/symbols/energyplus.h"
 #include "routes/patched/symbols/schedule_functions.h"
-#include "tasks/asked_task.h"
+#include "tasks/task_file.h"
 
 namespace gpu_shading::energyplus {
 

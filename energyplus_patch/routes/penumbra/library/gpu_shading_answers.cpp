@@ -149,7 +149,7 @@ int Calculation::add_mirrored(unsigned original) {
   return static_cast<int>(shading.add_mirrored(original));
 }
 
-void Calculation::start(Simulation simulation) {
+void Calculation::start(Simulation const& simulation) {
   implementation_->shading->start({messages_of(implementation_->log, simulation),
                                    schedules_of(simulation), simulation.latitude});
 }
@@ -210,7 +210,7 @@ std::vector<std::string> take_options(std::vector<std::string> arguments) {
   }
 }
 
-std::string options_help() { return std::string(flags_help()); }
+std::string options_help() { return energyplus::options_help(); }
 
 bool is_wanted() { return source_run().wanted; }
 

@@ -153,7 +153,7 @@ void Geometry::use_shades() const {
   if (shade_program_.empty()) {
     throw DeviceError(
         "the device has no storage buffers in its vertex stage, which transparent shades need; "
-        "choose another (gpu_shading devices), or software");
+        "choose another (gpu_shading devices), or cpu");
   }
   gl::cut_at_plane(true);
   shade_program_.use();

@@ -66,7 +66,7 @@ ScreenGeometry::ScreenGeometry(Screens const& screens, glm::dvec3 const& scene_o
   if (gl::query_limits().vertex_storage_blocks < 1) {
     throw DeviceError(
         "the device has no storage buffers in its vertex stage, which perforated screens need; "
-        "choose another (gpu_shading devices), or software");
+        "choose another (gpu_shading devices), or cpu");
   }
   vertices_ = gl::Buffer::create();
   draw_indices_ = gl::Buffer::create();

@@ -192,7 +192,7 @@ std::shared_ptr<DrawnModel> fixed_model(Asked& asked) {
 
 std::shared_ptr<DrawnModel> plain_model() {
   RendererOptions options;
-  options.device.kind = DeviceChoice::Kind::cpu;
+  options.device.device = DeviceId{};
   return std::make_shared<DrawnModel>([options] { return std::make_unique<PlainScene>(options); });
 }
 

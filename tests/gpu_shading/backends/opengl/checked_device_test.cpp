@@ -119,7 +119,7 @@ TEST_P(CheckedDevice, IsNotComplainedAbout) {
     sunlit(renderer, lot.sun, lot.receiver);
     renderer.interior_sunlit_areas(lot.sun, lot.receiver, lot.casters);
   }
-  EXPECT_EQ(renderer.device().index, 0);
+  EXPECT_EQ(renderer.device().id, numbered_device(0));
   EXPECT_GT(renderer.statistics().count_seconds, 0.0);  // they were compared
 }
 

@@ -14,7 +14,7 @@
 
 #include "each_backend.h"
 #include "gpu_shading/error.h"
-#include "gpu_shading/fraction_colour.h"
+#include "gpu_shading/image.h"
 #include "gpu_shading/transmittance.h"
 #include "support/exact.h"
 #include "support/gl_renderer.h"

@@ -14,7 +14,7 @@
 
 #include "backends/open_backend.h"
 #include "each_backend.h"
-#include "gpu_shading/fraction_colour.h"
+#include "gpu_shading/image.h"
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
 #include "render/renderer_with_backend.h"
