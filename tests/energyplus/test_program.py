@@ -275,6 +275,31 @@ def test_commands_list_their_own_options_and_with_help_all_those_of_shading(prog
     assert program("help").stdout == program("--help").stdout
 
 
+@pytest.mark.parametrize("desktop", [{"DISPLAY": ":0"}, {"WAYLAND_DISPLAY": "wayland-0"}, {}])
+def test_docs_opens_the_manual_where_there_is_a_desktop(patched, tmp_path, desktop):
+    page = tmp_path / "share" / "doc" / "energyplus-gpu-shading" / "html" / "index.html"
+    page.parent.mkdir(parents=True)
+    page.write_text("<title>Manual</title>")
+    browser = tmp_path / "bin" / "xdg-open"
+    browser.parent.mkdir()
+    browser.write_text(f'#!/bin/sh\necho "$1" > {tmp_path / "opened"}\n')
+    browser.chmod(0o755)
+    variables = {key: value for key, value in os.environ.items() if not key.endswith("DISPLAY")} | desktop
+    variables |= {"XDG_DATA_DIRS": f"/nowhere:{tmp_path / 'share'}", "PATH": f"{browser.parent}:{os.environ['PATH']}"}
+    done = subprocess.run([patched.parent / "gpu_shading", "docs"], capture_output=True, text=True, env=variables)
+    assert (done.returncode, done.stdout) == (0, f"{page}\n"), done.stderr
+    opened = tmp_path / "opened"
+    assert opened.exists() == bool(desktop)
+    assert not desktop or opened.read_text() == f"{page}\n"
+
+
+def test_docs_says_that_the_manual_is_not_installed(patched):
+    done = subprocess.run([patched.parent / "gpu_shading", "docs"], capture_output=True, text=True,
+                          env={**os.environ, "XDG_DATA_DIRS": "/nowhere"})
+    assert done.returncode == 1
+    assert done.stderr.startswith("gpu_shading: error: the manual is not installed: ")
+
+
 def test_every_program_tells_its_version(program, patched):
     version = re.search(r"project\(gpu_shading VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
     for command in ([], ["check"], ["devices"], ["sample"]):

@@ -63,5 +63,6 @@ void add_sample(Program const& program);
 // divisions of the sky, and writes sky.csv and sky_view.csv, with view factors to the sky.
 void sample_sky(ModelRun const& run, std::filesystem::path const& folder);
 void add_export(Program const& program);
+void add_docs(Program const& program);
 
 }  // namespace gpu_shading::energyplus
