@@ -20,9 +20,9 @@
 #include <optional>
 #include <string_view>
 
-#include "files/beside.h"
-#include "files/decoding/answer.h"
+#include "files/decoding/decoded_message.h"
 #include "files/decoding/server.h"
+#include "files/sibling_file.h"
 #include "gpu_shading/error.h"
 #include "platform/file_descriptor.h"
 
@@ -250,7 +250,7 @@ void DecodingDeadline::fail() const {
 pid_t start_decoding(char const* program, std::vector<std::string> const& words, int input,
                      int output, DecodingDeadline const& deadline) {
   thread_local std::map<std::string, Server> servers;
-  auto const path = beside_this_code(program);
+  auto const path = sibling_file(program);
   auto known = servers.find(path);
   if (known != servers.end()) {
     if (known->second.is_ours()) {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "files/picture_call.h"
-#include "gpu_shading/fraction_colour.h"
+#include "gpu_shading/image.h"
 #include "gpu_shading/scene_view.h"
 #include "platform/text.h"
 

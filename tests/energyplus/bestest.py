@@ -17,6 +17,7 @@ from pathlib import Path
 
 from output_files import values_of
 from shading_runs import energyplus, results
+from shading_runs.version import input_version
 
 SHADED = {610: 600, 630: 620, 910: 900, 930: 920}  # and the same without shades
 J_PER_MWH, J_PER_KWH = 3.6e9, 3.6e6
@@ -149,8 +150,7 @@ SILL, HEAD, WIDTH = 0.2, 2.2, 3.0  # of each window
 SOUTH_WINDOWS = (0.5, 4.5)  # from the west end
 SIDE_WINDOW = 1.5  # from the south end
 
-HEADING = """\
-Version,25.2;
+HEADING = f"Version,{input_version()};\n" + """\
 SimulationControl,No,No,No,No,Yes;
 Building,Case {case},0,Country,0.04,0.004,FullInteriorAndExterior,,6;
 Timestep,{timesteps};

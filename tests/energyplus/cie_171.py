@@ -18,6 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from shading_runs import energyplus
+from shading_runs.version import input_version
 from test_daylighting import PANE, pane_transmittance
 
 ROOM, HEIGHT = 4.0, 3.0
@@ -223,8 +224,7 @@ def by_rays(scene, point, count=200_000):
     return {sky: combined(sky, *integrals) for sky in SKIES}
 
 
-MODEL = """\
-Version,25.2;
+MODEL = f"Version,{input_version()};\n" + """\
 Timestep,1;
 Building,Room,0,Country,0.04,0.4,FullExterior,,1;
 SimulationControl,No,No,No,Yes,No;

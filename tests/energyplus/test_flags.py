@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from shading_runs import energyplus, input_file, results
+from shading_runs.version import input_version
 
 SETTINGS = "GPUShading:Settings,\n  {resolution};  !- Resolution\n"
 
@@ -110,8 +111,8 @@ def test_unreadable_input_fails(shade, tmp_path):
 
 
 def test_input_of_another_version_is_refused(shade, box, tmp_path):
-    path = write_model(box.replace("Version,25.2;", "Version,24.1;"), tmp_path / "old.idf")
-    assert_refused(shade(path), "24.1", "25.2")
+    path = write_model(box.replace(f"Version,{input_version()};", "Version,24.1;"), tmp_path / "old.idf")
+    assert_refused(shade(path), "24.1", input_version())
 
 
 def test_resolution_tells_answers_apart(shade, model):
@@ -244,6 +245,17 @@ def test_quiet_leaves_warnings_and_the_error_file(shade, model):
     assert "gpu_shading: error: " in refused.errors
     by_variable = shade(model, environment={"GPU_SHADING_QUIET": "1"})
     assert by_variable.completed and "gpu_shading: " not in by_variable.errors
+
+
+def test_stages_are_printed_in_verbose_runs_only(shade, model, tmp_path):
+    plain = shade(model, f"--gpu-shading-report={tmp_path / 'report'}")
+    assert plain.completed, plain.why()
+    assert "stage" not in plain.errors + plain.text("eplusout.err")
+    verbose = shade(model, "--gpu-shading-verbose")
+    stages = re.search(r"^gpu_shading: time by stage: (.*)$", verbose.errors, re.M)[1]
+    with (tmp_path / "report" / "stages.csv").open() as file:
+        names = [row.split(",")[0] for row in file.readlines()[1:]]
+    assert re.findall(r"(?:^|, )(.*?) [\d.]+ s", stages) == names
 
 
 # A thread is taken to compute from this many ticks of the scheduler's clock (1/100 s) on.

@@ -10,6 +10,7 @@ import sqlite3
 
 import pytest
 from shading_runs import energyplus
+from shading_runs.version import input_version
 
 # Solar transmittance, front and back reflectance at normal incidence.
 CLEAR_3 = (0.837, 0.075, 0.075)
@@ -65,8 +66,7 @@ CASES = {
     "rated 5.8, 0.25": (5.8, 0.25),
 }
 
-HEAD = """\
-Version,25.2;
+HEAD = f"Version,{input_version()};\n" + """\
 SimulationControl,No,No,No,Yes,No;
 Building,Box,0,Country,0.04,0.4,FullExterior,25,6;
 Timestep,60;

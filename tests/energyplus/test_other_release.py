@@ -12,9 +12,10 @@ import pytest
 import screened_room
 from output_files import differing, snapshot
 from shading_runs import energyplus, input_file, results
+from shading_runs.version import input_version
 
 SCRIPT = energyplus.REPOSITORY / "scripts" / "patch_energyplus"
-TESTED, OTHER = "25.2", "24.2"
+TESTED, OTHER = input_version(), "24.2"
 
 # As test_models.py has them.
 MEAN = 3e-4

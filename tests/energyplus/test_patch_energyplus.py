@@ -12,6 +12,7 @@ from importlib.machinery import SourceFileLoader
 
 import pytest
 from shading_runs import energyplus, output_folder, self_check
+from shading_runs.version import energyplus_release
 
 SCRIPT = energyplus.REPOSITORY / "scripts" / "patch_energyplus"
 
@@ -36,15 +37,15 @@ def build(tmp_path):
 @pytest.fixture
 def prefix(tmp_path):
     """An installation in miniature, with helpers that lack the run bit."""
-    folder = tmp_path / "EnergyPlus-25-2-0"
+    folder = tmp_path / "EnergyPlus"
     (folder / "PostProcess" / "convert").mkdir(parents=True)
     (folder / "DataSets").mkdir()
     (folder / "pyenergyplus").mkdir()
     files = {
         "energyplus": b"#!/bin/sh\necho official\n",
-        "libenergyplusapi.so": b"\x7fELF...\0libenergyplusapi.so.25.2.0\0...",
+        "libenergyplusapi.so": f"\x7fELF...\0libenergyplusapi.so.{energyplus_release()}\0...".encode(),
         "pyenergyplus/api.py": b"",
-        "Energy+.idd": b"!IDD_Version 25.2.0\n",
+        "Energy+.idd": f"!IDD_Version {energyplus_release()}\n".encode(),
         "runreadvars": b"#!/bin/sh\n",
         "DataSets/Schedules.idf": b"",
         "PostProcess/ReadVarsESO": b"\x7fELF" + bytes(12) + b"\x02\0",
@@ -187,12 +188,12 @@ def test_force_accepts_another_version(prefix, build, tmp_path):
 
 
 def test_another_release_is_checked(patched, official, tmp_path, monkeypatch, capsys):
-    """The official 25.2.0 in the place of a release that was never tested."""
+    """The official release in the place of a release that was never tested."""
     script = load_script()
     monkeypatch.setattr(script, "TESTED_VERSION", "24.1.0")
     script.patch(official.parent, tmp_path / "patched", build=energyplus.build_folder())
     said = capsys.readouterr().err
-    assert "EnergyPlus 25.2.0 has not been tested" in said and "agrees with polygon clipping" in said
+    assert f"EnergyPlus {energyplus_release()} has not been tested" in said and "agrees with polygon clipping" in said
     assert (tmp_path / "patched" / "energyplus").is_file()
 
 
@@ -207,7 +208,7 @@ exec {patched} "$@"
 """)
     program.chmod(0o755)
     with pytest.raises(self_check.Disagreement, match="sunlit fraction of (SOUTH|WINDOW) that differs by 0"):
-        self_check.check(tmp_path, "25.2.0")
+        self_check.check(tmp_path, energyplus_release())
 
 
 def test_another_release_that_does_not_run_is_refused(prefix, build, tmp_path):
@@ -291,8 +292,7 @@ def test_runs_where_it_is_installed(prefix, build, tmp_path):
     share = tmp_path / "share"
     (share / "shading_runs").mkdir(parents=True)
     for name in ("patch_energyplus", "shading_runs/__init__.py", "shading_runs/arguments.py",
-                 "shading_runs/errors.py", "shading_runs/output_folder.py", "shading_runs/self_check.py",
-                 "shading_runs/version.py"):
+                 "shading_runs/errors.py", "shading_runs/output_folder.py", "shading_runs/self_check.py"):
         shutil.copy2(SCRIPT.parent / name, share / name)
     (share / "lib").mkdir()
     for path in (build / "energyplus_patch").iterdir():
@@ -318,4 +318,4 @@ def test_the_official_wheel_is_accepted(official, build, tmp_path):
     dest = tmp_path / "patched"
     assert patch(official.parent, dest, "--build", build).returncode == 0
     answer = subprocess.run([dest / "energyplus-official", "--version"], capture_output=True, text=True)
-    assert "25.2.0" in answer.stdout
+    assert energyplus_release() in answer.stdout

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 from shading_runs import energyplus
+from shading_runs.version import energyplus_release, input_version
 from test_screens import write_grey_image
 
 ROOT = energyplus.REPOSITORY
@@ -60,10 +61,10 @@ def test_check_prints_what_each_surface_will_be(program, courtyard):
 
 
 @pytest.mark.parametrize("text, words", [
-    ("Version,25.2;\nGPUShading:Settings,none;\n", ("GPUShading:Settings", "Resolution", "none")),
-    ("Version,25.2;\nGPUShading:Nonsense,1;\n", ("GPUShading:Nonsense", "no such object")),
-    ("Version,23.1;\n", ("Version Identifier", "23.1", "25.2")),
-    ("Version,25.2;\n", ("EnergyPlus does not get as far",)),
+    (f"Version,{input_version()};\nGPUShading:Settings,none;\n", ("GPUShading:Settings", "Resolution", "none")),
+    (f"Version,{input_version()};\nGPUShading:Nonsense,1;\n", ("GPUShading:Nonsense", "no such object")),
+    ("Version,23.1;\n", ("Version Identifier", "23.1", input_version())),
+    (f"Version,{input_version()};\n", ("EnergyPlus stopped before its shading",)),
 ])
 def test_check_says_what_is_wrong(program, tmp_path, text, words):
     model = tmp_path / "model.idf"
@@ -150,7 +151,7 @@ def test_a_killed_program_takes_energyplus_along(started, patched, tmp_path):
     # Nobody was left to clear away; the next command does.
     assert len(list(started.folder.iterdir())) == 1
     empty = tmp_path / "empty.idf"
-    empty.write_text("Version,25.2;\n")
+    empty.write_text(f"Version,{input_version()};\n")
     subprocess.run([patched.parent / "gpu_shading", "check", empty], capture_output=True,
                    env={**os.environ, "TMPDIR": str(started.folder)})
     assert not list(started.folder.iterdir())
@@ -235,14 +236,54 @@ def test_errors_of_arguments_are_one_line(program, words, message):
     assert (done.returncode, done.stdout, said) == (1, "", f"gpu_shading: error: {message}\n")
 
 
+@pytest.mark.parametrize("words", [
+    ("screen", "m.idf", "--gpu-shading-device", "7"),
+    ("screen", "m.idf", "--gpu-shading-report=out"),
+    ("devices", "--gpu-shading-resolution=64"),
+    ("check", "m.idf", "--gpu-shading-cache=cache"),
+    ("view", "m.idf", "-o", "x.png", "--gpu-shading-update=timestep"),
+    ("sample", "m.idf", "-o", "out", "--gpu-shading-update=timestep"),
+    ("export", "m.idf", "--scheduled", "out", "--gpu-shading-method=opengl"),
+])
+def test_a_flag_that_a_command_ignores_is_refused(program, words):
+    flag = next(word for word in words if word.startswith("--gpu")).partition("=")[0]
+    done = program(*words)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr == (f"gpu_shading: error: {flag}: not an option of gpu_shading {words[0]}; "
+                           f"see gpu_shading {words[0]} --help-all\n")
+
+
+def test_the_environment_is_for_all_commands(patched, tmp_path):
+    done = subprocess.run([patched.parent / "gpu_shading", "screen", "m.idf"], capture_output=True, text=True,
+                          cwd=tmp_path, env={**os.environ, "GPU_SHADING_DEVICE": "7"})
+    assert "m.idf" in done.stderr and "device" not in done.stderr.lower()
+
+
+def test_commands_list_their_own_options_and_with_help_all_those_of_shading(program):
+    for command in ("devices", "check", "view", "map", "screen", "sample", "export"):
+        own, all_of_it = (program(command, flag).stdout for flag in ("--help", "--help-all"))
+        assert "--gpu-shading" not in own.replace("--gpu-shading-device", "").replace("--gpu-shading-update", "")
+        assert "gpu_shading help options" in own
+        assert "--gpu-shading-threads N" in all_of_it
+        assert ("--gpu-shading-device auto|cpu|N" in all_of_it) == (command not in ("devices", "screen"))
+        assert program("help", command).stdout == own
+    common, everything = (program("help", "options", *more).stdout for more in ([], ["--help-all"]))
+    assert "--gpu-shading-cache DIR|off" in common
+    for rare in ("method", "assets", "lean"):
+        assert f"--gpu-shading-{rare} " not in common and f"--gpu-shading-{rare} " in everything
+    assert max(map(len, everything.splitlines())) <= 100
+    assert program("help").stdout == program("--help").stdout
+
+
 def test_every_program_tells_its_version(program, patched):
     version = re.search(r"project\(gpu_shading VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
     for command in ([], ["check"], ["devices"], ["sample"]):
         assert program(*command, "--version").stdout == f"gpu_shading {version}\n"
     with_official = subprocess.run([patched, "--gpu-shading", "--version"], capture_output=True, text=True).stdout
-    assert f"gpu_shading {version}\n" in with_official and "EnergyPlus, Version 25.2.0" in with_official
+    assert f"gpu_shading {version}\n" in with_official
+    assert f"EnergyPlus, Version {energyplus_release()}" in with_official
     official = subprocess.run([patched, "--version"], capture_output=True, text=True).stdout
-    assert "gpu_shading" not in official and "25.2.0" in official
+    assert "gpu_shading" not in official and energyplus_release() in official
     for script in ("patch_energyplus", "compare_shading", "compare_sampling", "sample_models"):
         told = subprocess.run([ROOT / "scripts" / script, "--version"], capture_output=True, text=True).stdout
         assert told == f"{script} {version}\n"

@@ -7,13 +7,13 @@ import zlib
 
 import pytest
 from shading_runs import energyplus
+from shading_runs.version import input_version
 
 CORNERS = ("UpperLeftCorner", "LowerLeftCorner", "LowerRightCorner", "UpperRightCorner")
 PATTERN = "GPUShading:PerforatedScreen,Mesh,{surfaces},Round,,,0.005,,0.008,,0.003;\n"
 TEXTURE = "GPUShading:PerforatedScreen,Leaves,{surfaces},Texture,{file},,,,,,0.003;\n"
 
-HEAD = """\
-Version,25.2;
+HEAD = f"Version,{input_version()};\n" + """\
 SimulationControl,No,No,No,Yes,No;
 Building,Box,0,Country,0.04,0.4,FullExterior,25,6;
 Timestep,4;

@@ -1,8 +1,12 @@
-"""Symbols stay where they belong: EnergyPlus's library carries old copies of expat, zlib and sqlite."""
+"""EnergyPlus's symbols: the table of those that are used, and that no library takes another's. EnergyPlus's library
+carries old copies of expat, zlib and sqlite."""
 
 import re
+import subprocess
 
 from shading_runs import energyplus
+
+TABLE = energyplus.REPOSITORY / "energyplus_patch" / "routes" / "patched" / "symbols" / "energyplus_symbols.inc"
 
 BINDING = re.compile(r"binding file (\S+) \[\d+\] to (\S+) \[\d+\]: \w+ symbol `([^']+)'")
 # Statics of the C++ library's inline functions: one of a kind in a process by the ABI's own rule.
@@ -44,3 +48,20 @@ def test_no_library_takes_another_ones_symbols(patched, courtyard, weather, tmp_
     for log in tmp_path.glob("bindings.*"):
         text = log.read_text(errors="replace")
         assert "libassimp" not in text or "libenergyplusapi" not in text, "Assimp is in EnergyPlus's process"
+
+
+def test_the_tested_release_has_every_symbol_of_the_table(official):
+    rows = re.findall(r'^(?:FUNCTION|CLASS)\((\w+), (\w+),[^"]*"(\w+)"\)$', TABLE.read_text(), re.M)
+    assert len(rows) > 80
+    library = official.parent / "libenergyplusapi.so"
+    listed = subprocess.run(["nm", "--defined-only", library], capture_output=True, text=True, check=True).stdout
+    symbols = {line.split()[-1] for line in listed.splitlines()}
+    lacking = {name for need, name, symbol in rows if symbol not in symbols}
+    assert lacking == {name for need, name, _ in rows if need == "before_25_1"}
+
+
+def test_mangled_names_of_energyplus_stand_in_the_table_alone():
+    mangled = re.compile(r"_ZN?K?\d*(10EnergyPlus|8Penumbra|9ObjexxFCL)|_ZTVN")
+    sources = [path for path in (energyplus.REPOSITORY / "energyplus_patch").rglob("*")
+               if path.suffix in {".cpp", ".h", ".inc", ".txt"}]
+    assert [path for path in sources if mangled.search(path.read_text(encoding="utf-8"))] == [TABLE]

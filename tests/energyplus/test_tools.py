@@ -9,6 +9,7 @@ import sys
 import pytest
 import screened_room
 from shading_runs import energyplus
+from shading_runs.version import energyplus_release
 
 TOOLS = energyplus.REPOSITORY / ".venv" / "tools"
 
@@ -39,11 +40,11 @@ model.saveas(sys.argv[3])
 import json, sys
 from pathlib import Path
 from idfkit import EpJSONSchema, IDFParser, save_idf
-schema = EpJSONSchema((25, 2, 0), json.loads(Path(sys.argv[1], "Energy+.schema.epJSON").read_text()))
+schema = EpJSONSchema(RELEASE, json.loads(Path(sys.argv[1], "Energy+.schema.epJSON").read_text()))
 model = IDFParser(Path(sys.argv[2]), schema=schema).parse()
 model["Building"].first().terrain = "City"
 save_idf(model, sys.argv[3])
-""",
+""".replace("RELEASE", repr(tuple(map(int, energyplus_release().split("."))))),
 }
 # Edits a model and runs EnergyPlus.
 BESOS = WITHOUT_TKINTER + """

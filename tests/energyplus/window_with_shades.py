@@ -6,14 +6,15 @@ no fins, and the fins far above its head.
 
 import math
 
+from shading_runs.version import input_version
+
 SIZE = 3.0  # of the window, m
 OVERHANG = 0.6  # depth, m
 FIN = 1.0  # depth, m
 FAR = 30.0  # m
 AZIMUTHS = {"south": 180.0, "west": 270.0}
 
-HEAD = """\
-Version,25.2;
+HEAD = f"Version,{input_version()};\n" + """\
 SimulationControl,No,No,No,Yes,No;
 Building,Box,0,Country,0.04,0.4,FullExterior,25,6;
 Timestep,6;

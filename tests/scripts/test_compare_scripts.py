@@ -8,8 +8,9 @@ import time
 import pytest
 from shading_runs import energyplus, input_file
 from shading_runs.output_folder import MARKER
+from shading_runs.version import input_version
 
-MODEL = "Version,25.2;\nBuilding,{name};\n"
+MODEL = f"Version,{input_version()};\n" + "Building,{name};\n"
 SCRIPTS = ["compare_shading", "compare_sampling"]
 FOLDERS = {"compare_shading": "gpu", "compare_sampling": "A"}
 

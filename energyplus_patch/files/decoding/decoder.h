@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "files/decoding/answer.h"
+#include "files/decoding/decoded_message.h"
 #include "files/decoding/sandbox.h"
 
 namespace gpu_shading::decoding {
@@ -27,6 +27,7 @@ struct Request {
 // words PARENT SECONDS BYTES OPERATION any|restricted NAME. `decode` puts its answer, or throws
 // std::exception with the reason. `reads_neighbours`: whether it reads files beside the file.
 // Returns the exit status.
-int run_decoder(bool reads_neighbours, std::function<void(Request const&, Answer&)> const& decode);
+int run_decoder(bool reads_neighbours,
+                std::function<void(Request const&, DecodedMessage&)> const& decode);
 
 }  // namespace gpu_shading::decoding

@@ -15,7 +15,7 @@ std::string InputObject::title() const { return name.empty() ? type : type + " "
 std::string InputObject::where() const { return file.empty() ? title() : file + ": " + title(); }
 
 std::vector<ObjectType> const& known_types() {
-  // Field names and their order: the Energy+.schema.epJSON of EnergyPlus 25.2.0.
+  // Field names and their order: EnergyPlus's Energy+.schema.epJSON.
   static std::vector<ObjectType> const types{
       {"Version", {"version_identifier"}},
       {"Building",

@@ -25,7 +25,7 @@ std::vector<Placeholder> make_placeholders(std::vector<std::string> const& sched
 
 // One with a schedule of our own that varies. With DetailedSkyDiffuseModeling, EnergyPlus
 // recomputes the sky's shading at every timestep only if the transmittance schedule of some shading
-// surface varies. (EnergyPlus 25.2 does not notice schedules that are lowest at the start of the
+// surface varies. (EnergyPlus does not notice schedules that are lowest at the start of the
 // day, so that a model's own schedule will not do.)
 Placeholder make_sky_placeholder(Names const& taken);
 

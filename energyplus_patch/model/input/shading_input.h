@@ -26,7 +26,7 @@ struct ShadingInput {
     double glazed = 0.0;
   };
 
-  std::string version;         // version of the input, e.g. "25.2"
+  std::string version;         // version of the input, e.g. "9.6"
   std::string shading_method;  // as written, or ""
   std::optional<int> pixel_counting_resolution;
   bool every_timestep = false;  // Shading Calculation Update Frequency Method
@@ -96,7 +96,7 @@ ShadingInput read_shading_input(std::vector<InputObject> const& objects);
 
 // Throws Error for models that this module must not handle: those of another version, or with
 // user-defined sunlit fractions (Scheduled, Imported). `version` is EnergyPlus's own, e.g.
-// "25.2.0".
+// "9.6.0".
 void check_supported(ShadingInput const& input, std::string_view version);
 
 }  // namespace gpu_shading::energyplus

@@ -4,7 +4,7 @@
 
 #include "model/extensions/field.h"
 
-// Fields of EnergyPlus's own objects that say where and when, as Energy+.idd 25.2 has them.
+// Fields of EnergyPlus's own objects that say where and when, as Energy+.idd has them.
 namespace gpu_shading::energyplus {
 
 namespace site_location {

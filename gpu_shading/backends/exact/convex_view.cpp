@@ -189,7 +189,7 @@ bool ConvexView::add_casters(Scene const& scene, Transmission const& transmissio
     if (casters_.polygons() > most_casters) return false;
     Shade const shade = transmission.shade(id, question.towards_sun);
     changes_.push_back(static_cast<double>(shade.transmittance) - 1.0);
-    bool const is_scheduled = shade.transmittance > 0.0F && shade.schedule != Shades::unscheduled;
+    bool const is_scheduled = shade.transmittance > 0.0F && shade.schedule != Shade::unscheduled;
     bits_.push_back(is_scheduled ? std::size_t{1} << scheduled_.size() : 0);
     if (is_scheduled) {
       if (scheduled_.size() == most_scheduled) return false;

@@ -140,7 +140,7 @@ class Light {
     for (std::uint32_t const number : passed_) {
       Shade const& shade = shades_[number];
       product *= static_cast<double>(shade.transmittance);
-      if (shade.schedule == Shades::unscheduled) continue;
+      if (shade.schedule == Shade::unscheduled) continue;
       auto const place = std::find_if(powers_.begin(), powers_.end(), [&](auto const& power) {
         return power.first == shade.schedule;
       });

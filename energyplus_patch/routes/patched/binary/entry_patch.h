@@ -2,8 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "gpu_shading/error.h"
 #include "routes/patched/binary/preserving_thunk.h"
 #include "routes/patched/binary/symbol_table.h"
 
@@ -14,7 +16,6 @@ struct EntryPatch {
   char const* name;           // mangled name
   void* ours;                 // same signature
   void** original = nullptr;  // receives the trampoline to the original, if that still runs
-  bool needed = true;         // if false, it is skipped where the library lacks it
   // Entered so that all registers but that of the result are preserved (preserve_registers); if
   // empty, `ours` looks after them itself.
   std::optional<Result> result = Result::integer;
@@ -37,13 +38,18 @@ EntryPatch watch(char const* name, Returned (*ours)(Arguments...),
   return entry;
 }
 
-// Throws Error if patch_entries would fail.
-void check_entries(SymbolTable const& symbols, std::vector<EntryPatch> const& entries);
+std::vector<std::string_view> names_of(std::vector<EntryPatch> const& entries);
 
-// Redirects all entries to ours, or none. First it checks that each one is present, long enough and
-// unchanged in memory, and that its first instructions can be relocated if the original still runs.
-// No page is writable and executable at once. No code of the library may run during the call.
-// Throws Error with a line for each entry that fails.
+// Why entries cannot be redirected, a line for each that begins with a line break: one must be
+// present, long enough and unchanged in memory, and its first instructions must be relocatable if
+// the original still runs.
+std::string problems_of(SymbolTable const& symbols, std::vector<EntryPatch> const& entries);
+
+// The error that names these problems.
+Error cannot_redirect(SymbolTable const& symbols, std::string const& problems);
+
+// Redirects all entries to ours, or none. No page is writable and executable at once. No code of
+// the library may run during the call. Throws cannot_redirect(), if there are problems.
 void patch_entries(SymbolTable const& symbols, std::vector<EntryPatch> const& entries);
 
 }  // namespace gpu_shading::energyplus

@@ -29,12 +29,10 @@ Elf_Scn* find_symbol_section(Elf* elf, Symbols which) {
   return nullptr;
 }
 
-// How the names of tables of virtual functions begin (Itanium C++ ABI 5.1.4).
-constexpr std::string_view table_prefix = "_ZTV";
-
 }  // namespace
 
-SymbolTable::SymbolTable(std::filesystem::path library, std::byte* base, Symbols which)
+SymbolTable::SymbolTable(std::filesystem::path library, std::byte* base,
+                         std::vector<std::string_view> const& names, Symbols which)
     : library_(std::move(library)) {
   elf_version(EV_CURRENT);
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
@@ -51,34 +49,27 @@ SymbolTable::SymbolTable(std::filesystem::path library, std::byte* base, Symbols
   GElf_Shdr const header = header_of(section);
   Elf_Data* const data = elf_getdata(section, nullptr);
   auto const count = static_cast<int>(header.sh_size / header.sh_entsize);
+  for (auto const& name : names) symbols_.try_emplace(name);
   for (int i = 0; i < count; ++i) {
     GElf_Sym symbol{};
     gelf_getsym(data, i, &symbol);
-    if (symbol.st_shndx == SHN_UNDEF) continue;
+    auto const type = GELF_ST_TYPE(symbol.st_info);
+    if (symbol.st_shndx == SHN_UNDEF || (type != STT_FUNC && type != STT_OBJECT)) continue;
     char const* const name = elf_strptr(elf.get(), header.sh_link, symbol.st_name);
-    if (name != nullptr && GELF_ST_TYPE(symbol.st_info) == STT_OBJECT &&
-        std::string_view(name).starts_with(table_prefix)) {
-      tables_.emplace(name, base + symbol.st_value);
-    }
-    if (GELF_ST_TYPE(symbol.st_info) != STT_FUNC) continue;
-    Elf_Scn* const code = elf_getscn(elf.get(), symbol.st_shndx);
-    if (name == nullptr || code == nullptr) continue;
-    GElf_Shdr const code_header = header_of(code);
-    functions_.emplace(name, Symbol{base + symbol.st_value, symbol.st_size,
-                                    symbol.st_value - code_header.sh_addr + code_header.sh_offset});
+    if (name == nullptr) continue;
+    auto const wanted = symbols_.find(name);
+    Elf_Scn* const content = elf_getscn(elf.get(), symbol.st_shndx);
+    if (wanted == symbols_.end() || wanted->second.address != nullptr || content == nullptr)
+      continue;
+    GElf_Shdr const content_header = header_of(content);
+    wanted->second = {base + symbol.st_value, symbol.st_size,
+                      symbol.st_value - content_header.sh_addr + content_header.sh_offset};
   }
 }
 
 Symbol const* SymbolTable::find(std::string_view name) const {
-  auto const found = functions_.find(std::string(name));
-  return found == functions_.end() ? nullptr : &found->second;
-}
-
-std::byte const* SymbolTable::virtual_functions(std::string_view class_name) const {
-  auto const found = tables_.find(std::string(table_prefix) + std::string(class_name));
-  if (found == tables_.end()) return nullptr;
-  // Two words come before them: an offset and the type's information.
-  return found->second + 2 * sizeof(void*);
+  auto const found = symbols_.find(name);
+  return found == symbols_.end() || found->second.address == nullptr ? nullptr : &found->second;
 }
 
 }  // namespace gpu_shading::energyplus

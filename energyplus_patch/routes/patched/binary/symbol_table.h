@@ -3,13 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 namespace gpu_shading::energyplus {
 
-// A function or an object of a loaded library.
+// A function, or a table of virtual functions, of a loaded library.
 struct Symbol {
   std::byte* address = nullptr;  // in this process
   std::size_t size = 0;
@@ -20,27 +20,24 @@ struct Symbol {
 // from .dynsym, which a stripped library has as well.
 enum class Symbols { all, exported };
 
-// The functions and the tables of virtual functions of a loaded shared library by their mangled
-// names, read from its file. (dlsym does not tell their sizes.)
+// Symbols of a loaded shared library by their mangled names, read from its file. (dlsym does not
+// tell their sizes.)
 class SymbolTable {
  public:
-  // `base`: the library's load address. Throws Error if the file cannot be read or has no such
-  // symbols.
-  SymbolTable(std::filesystem::path library, std::byte* base, Symbols which = Symbols::all);
+  SymbolTable() = default;
+  // Finds `names`, whose text must outlive this. `base`: the library's load address. Throws Error
+  // if the file cannot be read or has no such symbols.
+  SymbolTable(std::filesystem::path library, std::byte* base,
+              std::vector<std::string_view> const& names, Symbols which = Symbols::all);
 
-  // nullptr if there is no such function.
+  // nullptr if there is no such symbol, or it was not among the names.
   Symbol const* find(std::string_view name) const;
-
-  // What the first word of each object of a class points to, from the class's mangled name, such as
-  // "N10EnergyPlus12SurfacesDataE"; nullptr if it has no virtual functions here.
-  std::byte const* virtual_functions(std::string_view class_name) const;
 
   std::filesystem::path const& library() const { return library_; }
 
  private:
   std::filesystem::path library_;
-  std::unordered_map<std::string, Symbol> functions_;
-  std::unordered_map<std::string, std::byte const*> tables_;  // of virtual functions
+  std::unordered_map<std::string_view, Symbol> symbols_;  // without an address: not found
 };
 
 }  // namespace gpu_shading::energyplus

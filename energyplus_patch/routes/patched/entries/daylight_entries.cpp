@@ -1,5 +1,3 @@
-#include "routes/patched/entries/daylight_entries.h"
-
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -7,6 +5,7 @@
 
 #include "routes/patched/entries/daylight_memory_entries.h"
 #include "routes/patched/entries/daylight_reflection_entries.h"
+#include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
 
 namespace gpu_shading::energyplus {
@@ -15,10 +14,10 @@ namespace {
 // Below this, EnergyPlus counts a surface as opaque.
 constexpr double opaque_below = 1e-6;
 
-double (*original_hit_obstruction)(State&, int, int, Vector const&, Vector const&) = nullptr;
-bool (*original_hit_interior)(State&, int, Vector const&, Vector const&) = nullptr;
-bool (*original_hit_between)(State&, int, int, Vector const&, Vector const&) = nullptr;
-void (*original_coefficients)(State&) = nullptr;
+PointerTo<symbol::hit_obstruction> original_hit_obstruction = nullptr;
+PointerTo<symbol::hit_interior> original_hit_interior = nullptr;
+PointerTo<symbol::hit_between> original_hit_between = nullptr;
+PointerTo<symbol::daylight_coefficients> original_coefficients = nullptr;
 
 // What passes from a reference point to a point of a window. EnergyPlus's functions for this say
 // yes or no; where something in between transmits, they say no, and the ray that EnergyPlus then
@@ -131,19 +130,12 @@ void coefficients(State& state) {
 
 }  // namespace
 
-std::vector<EntryPatch> daylight_entries() {
+std::vector<Entry> daylight_entries() {
   return {
-      watch("_ZN10EnergyPlus6Dayltg20DayltgHitObstructionERNS_14EnergyPlusDataEiiRKN9ObjexxFCL7"
-            "Vector3IdEES7_",
-            &hit_obstruction, &original_hit_obstruction),
-      watch("_ZN10EnergyPlus6Dayltg28DayltgHitInteriorObstructionERNS_14EnergyPlusDataEiRKN9"
-            "ObjexxFCL7Vector3IdEES7_",
-            &hit_interior, &original_hit_interior),
-      watch("_ZN10EnergyPlus6Dayltg26DayltgHitBetWinObstructionERNS_14EnergyPlusDataEiiRKN9"
-            "ObjexxFCL7Vector3IdEES7_",
-            &hit_between, &original_hit_between),
-      watch("_ZN10EnergyPlus6Dayltg22CalcDayltgCoefficientsERNS_14EnergyPlusDataE", &coefficients,
-            &original_coefficients),
+      watch(symbol::hit_obstruction, &hit_obstruction, &original_hit_obstruction),
+      watch(symbol::hit_interior, &hit_interior, &original_hit_interior),
+      watch(symbol::hit_between, &hit_between, &original_hit_between),
+      watch(symbol::daylight_coefficients, &coefficients, &original_coefficients),
   };
 }
 

@@ -4,6 +4,7 @@
 
 #include "routes/patched/binary/preserving_thunk.h"
 #include "routes/patched/entries/daylight_reflection_entries.h"
+#include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
 
 // EnergyPlus asks for many luminances, most of which are not kept. Those go straight on to its own
@@ -36,9 +37,9 @@ gpu_shading_sky_luminance:
 namespace gpu_shading::energyplus {
 namespace {
 
-double (*original_tube)(State&, int, double, int) = nullptr;
-void (*original_control_points)(State&, int) = nullptr;
-void (*original_map_points)(State&, int) = nullptr;
+PointerTo<symbol::tube_transmittance> original_tube = nullptr;
+PointerTo<symbol::control_points> original_control_points = nullptr;
+PointerTo<symbol::map_points> original_map_points = nullptr;
 
 // While EnergyPlus integrates over a sky that is kept; nullptr otherwise.
 DaylightMemory*& integrating() {
@@ -64,7 +65,7 @@ void compute_points(State& state, DaylightMemory::Points points, void (*original
     original(state, points.second);
     return;
   }
-  bool const sun = installation().functions.sun_in_weather(state).value_or(true);
+  bool const sun = installation().functions.sun_in_weather(state);
   if (!guarded([&] { return memory->begin_points(points, sun); })) return;
   original(state, points.second);
   memory->end_points();
@@ -82,8 +83,8 @@ void map_points(State& state, int map) {
 
 DaylightMemory* daylight_memory() {
   auto const& run = this_run();
-  bool const ours = installation().daylight_memory && run.session != nullptr && run.model &&
-                    run.model->daylighting_answered;
+  bool const ours = installation().serves(Need::daylight_memory) && run.session != nullptr &&
+                    run.model && run.model->daylighting_answered;
   return ours ? &run.session->daylight_memory() : nullptr;
 }
 
@@ -114,22 +115,18 @@ void begin_daylight_memory(State& state) {
   });
 }
 
-std::vector<EntryPatch> daylight_memory_entries() {
+std::vector<Entry> daylight_memory_entries() {
   static void* const kept =
       preserve_registers(reinterpret_cast<void*>(&sky_luminance), Result::real);
   gpu_shading_kept_luminance = kept;
   auto luminance =
-      watch("_ZN10EnergyPlus6Dayltg18DayltgSkyLuminanceERKNS_14EnergyPlusDataENS0_7SkyTypeEdd",
-            &gpu_shading_sky_luminance, &gpu_shading_own_luminance);
-  luminance.result.reset();  // it changes no register
+      watch(symbol::sky_luminance, &gpu_shading_sky_luminance, &gpu_shading_own_luminance);
+  luminance.patch.result.reset();  // it changes no register
   return {
       luminance,
-      watch("_ZN10EnergyPlus6Dayltg8TransTDDERNS_14EnergyPlusDataEidNS0_7RadTypeE", &tube,
-            &original_tube),
-      watch("_ZN10EnergyPlus6Dayltg25CalcDayltgCoeffsRefPointsERNS_14EnergyPlusDataEi",
-            &control_points, &original_control_points),
-      watch("_ZN10EnergyPlus6Dayltg25CalcDayltgCoeffsMapPointsERNS_14EnergyPlusDataEi", &map_points,
-            &original_map_points),
+      watch(symbol::tube_transmittance, &tube, &original_tube),
+      watch(symbol::control_points, &control_points, &original_control_points),
+      watch(symbol::map_points, &map_points, &original_map_points),
   };
 }
 

@@ -1,19 +1,13 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "hidden/daylight_memory.h"
-#include "routes/patched/binary/entry_patch.h"
-#include "routes/patched/symbols/energyplus.h"
+#include "routes/patched/symbols/energyplus_types.h"
 
 namespace gpu_shading::energyplus {
 
-// The functions of daylighting that compute again what is known (DaylightMemory). They go with
-// daylight_reflection_entries().
-std::vector<EntryPatch> daylight_memory_entries();
-
-// That of this thread's run; nullptr if EnergyPlus's daylighting is left alone.
+// This thread's run's; nullptr if EnergyPlus's daylighting is left alone.
 DaylightMemory* daylight_memory();
 
 // EnergyPlus begins to compute daylight factors.

@@ -3,9 +3,10 @@
 #include <optional>
 
 #include "routes/patched/entries/daylight_memory_entries.h"
+#include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/reflection_entries.h"
 #include "routes/patched/entries/run.h"
-#include "routes/patched/memory/object_memory.h"
+#include "routes/patched/memory/safe_read.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -14,9 +15,9 @@ DaylightFunctions& originals() {
   static DaylightFunctions instance;
   return instance;
 }
-void (*original_horizontal)(State&, Illuminance&) = nullptr;
-void (*original_point_factors)(State&, int, int, int, int&, int, int, int, int, int) = nullptr;
-void (*original_map_factors)(State&, int, int, int, int, int, int) = nullptr;
+PointerTo<symbol::horizontal_illuminance> original_horizontal = nullptr;
+PointerTo<symbol::point_factors> original_point_factors = nullptr;
+PointerTo<symbol::map_factors> original_map_factors = nullptr;
 
 // The thread's run, as in this_run().
 struct Answering {
@@ -126,16 +127,17 @@ DaylightReflections* daylight_reflections(State& state) {
   }
   forget_daylight_reflections();
   known.session = run.session;
-  auto const& installed = installation().daylight_reflections;
-  if (!installed || run.session->luminance() == nullptr) return nullptr;
+  bool const served = installation().serves(Need::daylight_reflections);
+  if (!served || run.session->luminance() == nullptr) return nullptr;
   auto* const solar = solar_reflections(state);
   if (solar == nullptr) {
     warn();
     return nullptr;
   }
+  auto const& symbols = installation().functions.symbols();
   auto functions = originals();
-  functions.element = installed->element;
-  return &known.active.emplace(*solar, *run.session, functions, installed->classes);
+  functions.element = symbol::window_element.in(symbols);
+  return &known.active.emplace(*solar, *run.session, functions, DaylightClasses(symbols));
 }
 
 void forget_daylight_reflections() {
@@ -145,36 +147,16 @@ void forget_daylight_reflections() {
   known.active.reset();
 }
 
-ElementFunction* find_element_function(SymbolTable const& symbols) {
-  auto const* const symbol = symbols.find(
-      "_ZN10EnergyPlus6Dayltg40FigureDayltgCoeffsAtPointsForSunPositionERNS_14EnergyPlusDataE"
-      "iiiiiiiiiiRidRKN9ObjexxFCL7Vector3IdEES8_diiddddiNS_12DataSurfaces14WinShadingTypeEidS8_NS0_"
-      "10ExtWinTypeEidS8_bbNS0_9CalledForEdRdi");
-  return symbol == nullptr ? nullptr : reinterpret_cast<ElementFunction*>(symbol->address);
-}
-
-std::vector<EntryPatch> daylight_reflection_entries() {
+std::vector<Entry> daylight_reflection_entries() {
   auto& original = originals();
   return {
-      watch("_ZN10EnergyPlus6Dayltg19DayltgExtHorizIllumERNS_14EnergyPlusDataERNS0_6IllumsE",
-            &horizontal, &original_horizontal),
-      watch("_ZN10EnergyPlus6Dayltg24DayltgClosestObstructionERNS_14EnergyPlusDataERKN9ObjexxFCL7"
-            "Vector3IdEES7_RiRS5_",
-            &closest, &original.closest),
-      watch("_ZN10EnergyPlus6Dayltg23DayltgSurfaceLumFromSunERNS_14EnergyPlusDataEiRKN9ObjexxFCL7"
-            "Vector3IdEEiS7_",
-            &sun_luminance, &original.sun_luminance),
-      watch("_ZN10EnergyPlus6Dayltg19CalcObstrMultiplierERNS_14EnergyPlusDataERKN9ObjexxFCL7"
-            "Vector3IdEEii",
-            &sky_on_ground, &original.sky_on_ground),
-      watch("_ZN10EnergyPlus6Dayltg25DayltgInterReflectedIllumERNS_14EnergyPlusDataEiiii",
-            &inter_reflected, &original.inter_reflected),
-      watch("_ZN10EnergyPlus6Dayltg38FigureRefPointDayltgFactorsToAddIllumsERNS_14EnergyPlusDataE"
-            "iiiRiiiiii",
-            &point_factors, &original_point_factors),
-      watch("_ZN10EnergyPlus6Dayltg38FigureMapPointDayltgFactorsToAddIllumsERNS_14EnergyPlusDataE"
-            "iiiiii",
-            &map_factors, &original_map_factors),
+      watch(symbol::horizontal_illuminance, &horizontal, &original_horizontal),
+      watch(symbol::closest_obstruction, &closest, &original.closest),
+      watch(symbol::sun_luminance, &sun_luminance, &original.sun_luminance),
+      watch(symbol::sky_on_ground, &sky_on_ground, &original.sky_on_ground),
+      watch(symbol::inter_reflected, &inter_reflected, &original.inter_reflected),
+      watch(symbol::point_factors, &point_factors, &original_point_factors),
+      watch(symbol::map_factors, &map_factors, &original_map_factors),
   };
 }
 

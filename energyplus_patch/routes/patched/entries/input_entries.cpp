@@ -1,5 +1,3 @@
-#include "routes/patched/entries/input_entries.h"
-
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -9,11 +7,11 @@
 #include <string>
 #include <system_error>
 
-#include "model/idf/model_file.h"
 #include "platform/console.h"
 #include "platform/error_line.h"
-#include "platform/naming.h"
+#include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
+#include "routes/run_setup.h"
 
 namespace gpu_shading::energyplus {
 
@@ -51,11 +49,11 @@ namespace {
 
 using Path = std::filesystem::path;
 
-void (*original_process_input)(void*, State&) = nullptr;
-std::string (*original_read_file)(Path const&, std::ios_base::openmode) = nullptr;
-nlohmann::json (*original_read_json)(Path const&, std::ios_base::openmode) = nullptr;
-void (*original_end)(State&) = nullptr;
-void (*original_abort)(State&) = nullptr;
+PointerTo<symbol::process_input> original_process_input = nullptr;
+PointerTo<symbol::read_file> original_read_file = nullptr;
+PointerTo<symbol::read_json> original_read_json = nullptr;
+PointerTo<symbol::end_energyplus> original_end = nullptr;
+PointerTo<symbol::abort_energyplus> original_abort = nullptr;
 
 // Objects that polygon clipping ignores.
 void warn_of_missing_surroundings(Run const& run) {
@@ -83,10 +81,11 @@ void warn_of_opaque_shades(Run const& run) {
 Rewrite take_model(std::vector<InputObject> objects, Path const& path,
                    MentionFinder const& find_mentions) {
   auto& run = this_run();
+  auto const& installed = installation();
   run.model = understand(
-      std::move(objects), path, installation().choices,
-      {find_mentions, installation().daylight_rays, installation().reflection_classes.has_value(),
-       installation().daylight_reflections.has_value()});
+      std::move(objects), path, installed.choices,
+      {find_mentions, installed.serves(Need::daylight_rays), installed.serves(Need::reflections),
+       installed.serves(Need::daylight_reflections)});
   if (run.model->options.mode != Mode::off) {
     check_supported(run.model->shading, installation().version);
     // Now, because EnergyPlus may stop at such a surface.
@@ -122,10 +121,9 @@ std::string read_file(Path const& path, std::ios_base::openmode mode) {
   auto text = original_read_file(path, mode);
   if (!is_model()) return text;
   return guarded([&] {
-    auto const parsed = parse_idf(text);
-    auto const find = [&](Names const& names) { return find_mentions(parsed, names); };
-    auto objects = naming(path.string(), [&] { return read_idf(parsed); });
-    return rewrite_idf(text, parsed, take_model(std::move(objects), path, find));
+    return rewrite_idf_model(text, path, [&](auto objects, MentionFinder const& find) {
+      return take_model(std::move(objects), path, find);
+    });
   });
 }
 
@@ -135,9 +133,9 @@ nlohmann::json read_json(Path const& path, std::ios_base::openmode mode) {
   auto json = original_read_json(path, mode);
   if (!is_model()) return json;
   return guarded([&] {
-    auto const find = [&](Names const& names) { return find_mentions(json, names); };
-    auto objects = naming(path.string(), [&] { return read_epjson(json); });
-    rewrite_epjson(json, take_model(std::move(objects), path, find));
+    rewrite_epjson_model(json, path, [&](auto objects, MentionFinder const& find) {
+      return take_model(std::move(objects), path, find);
+    });
     return std::move(json);
   });
 }
@@ -165,29 +163,19 @@ void abort_energyplus(State& state) {
   original_abort(state);
 }
 
-constexpr char const* print_shading_line =
-    "_ZN10EnergyPlus6vprintIJNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEES6_iiS6_jS6_S6_S6_"
-    "S6_"
-    "EEEvRSoSt17basic_string_viewIcS4_EDpRKT_";
-
 }  // namespace
 
-std::vector<EntryPatch> input_entries() {
-  EntryPatch print{print_shading_line, reinterpret_cast<void*>(&gpu_shading_watch_print),
-                   &gpu_shading_original_print};
-  print.needed = false;
+std::vector<Entry> input_entries() {
+  EntryPatch print{symbol::print_shading_line.symbol,
+                   reinterpret_cast<void*>(&gpu_shading_watch_print), &gpu_shading_original_print};
   print.result.reset();
   return {
-      watch("_ZN10EnergyPlus14InputProcessor12processInputERNS_14EnergyPlusDataE", &process_input,
-            &original_process_input),
-      watch("_ZN10EnergyPlus10FileSystem8readFileERKNSt10filesystem7__cxx114pathESt13_Ios_Openmode",
-            &read_file, &original_read_file),
-      watch("_ZN10EnergyPlus10FileSystem8readJSONERKNSt10filesystem7__cxx114pathESt13_Ios_Openmode",
-            &read_json, &original_read_json),
-      watch("_ZN10EnergyPlus13EndEnergyPlusERNS_14EnergyPlusDataE", &end_energyplus, &original_end),
-      watch("_ZN10EnergyPlus15AbortEnergyPlusERNS_14EnergyPlusDataE", &abort_energyplus,
-            &original_abort),
-      print,
+      watch(symbol::process_input, &process_input, &original_process_input),
+      watch(symbol::read_file, &read_file, &original_read_file),
+      watch(symbol::read_json, &read_json, &original_read_json),
+      watch(symbol::end_energyplus, &end_energyplus, &original_end),
+      watch(symbol::abort_energyplus, &abort_energyplus, &original_abort),
+      {symbol::print_shading_line.need, print},
   };
 }
 

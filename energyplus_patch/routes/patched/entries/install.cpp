@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 
-#include <array>
 #include <filesystem>
+#include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,9 +11,6 @@
 #include "gpu_shading/error.h"
 #include "gpu_shading/renderer.h"
 #include "gpu_shading_energyplus.h"
-#include "model/idf/model_file.h"
-#include "model/options/command_line.h"
-#include "model/options/options.h"
 #include "platform/c_interface.h"
 #include "platform/error_line.h"
 #include "platform/process.h"
@@ -22,16 +20,9 @@
 #include "routes/opengl/opengl_run.h"
 #include "routes/patched/binary/entry_patch.h"
 #include "routes/patched/binary/symbol_table.h"
-#include "routes/patched/entries/daylight_entries.h"
-#include "routes/patched/entries/daylight_memory_entries.h"
-#include "routes/patched/entries/daylight_reflection_entries.h"
+#include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/glfw_entries.h"
-#include "routes/patched/entries/input_entries.h"
-#include "routes/patched/entries/penumbra_entries.h"
-#include "routes/patched/entries/reflection_entries.h"
 #include "routes/patched/entries/run.h"
-#include "routes/patched/entries/shading_entries.h"
-#include "routes/patched/entries/unwanted_messages.h"
 #include "routes/patched/symbols/loaded_library.h"
 #include "routes/schedules/scheduled_run.h"
 #include "runs/installation.h"
@@ -41,14 +32,16 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-// What a host hands over, over the environment. Throws Error.
-Choices given_choices(int count, char const* const* options) {
-  std::vector<std::string> arguments(options, options + count);
-  auto choices = take_flags(arguments);
-  if (!arguments.empty()) throw Error(fmt::format("{}: no such flag", arguments.front()));
-  choices.fill_from(read_environment());
-  apply_to_process(choices);
-  return choices;
+// The options of a host, and EnergyPlus's arguments. Throws Error.
+RunSetup read_setup(int count, char const* const* options, std::vector<std::string> arguments) {
+  std::vector<std::string> flags(options, options + count);
+  RunSetup given(flags);
+  if (!given.arguments.empty())
+    throw Error(fmt::format("{}: no such flag", given.arguments.front()));
+  apply_to_process(given.choices);
+  given.arguments = std::move(arguments);
+  given.line = read_command_line(given.arguments);
+  return given;
 }
 
 // The reason why a library's shading cannot be redirected; another method may work.
@@ -56,73 +49,71 @@ class CannotPatch : public Error {
   using Error::Error;
 };
 
-std::optional<StoredResult> find_surface_ids(SymbolTable const& symbols) {
-  Symbol const* const caller = symbols.find(
-      "_ZN10EnergyPlus12SolarShading30DetermineShadowingCombinationsERNS_14EnergyPlusDataE");
-  Symbol const* const callee = symbols.find("_ZN8Penumbra8Penumbra11add_surfaceERKNS_7SurfaceE");
-  if (caller == nullptr || callee == nullptr) return std::nullopt;
-  return find_stored_result(*caller, *callee);
+std::vector<Entry> all_entries() {
+  std::vector<Entry> entries;
+  for (auto const& part : {penumbra_entries(), input_entries(), shading_entries(),
+                           message_entries(), daylight_entries(), reflection_entries(),
+                           daylight_reflection_entries(), daylight_memory_entries()}) {
+    entries.insert(entries.end(), part.begin(), part.end());
+  }
+  return entries;
 }
 
-bool can_patch(SymbolTable const& symbols, std::vector<EntryPatch> const& entries) {
-  try {
-    check_entries(symbols, entries);
-    return true;
-  } catch (Error const&) {
-    return false;
+// Those of some needs.
+std::vector<EntryPatch> patches_of(std::vector<Entry> const& entries, std::set<Need> const& needs) {
+  std::vector<EntryPatch> patches;
+  for (auto const& entry : entries) {
+    if (needs.contains(entry.need)) patches.push_back(entry.patch);
   }
+  return patches;
 }
 
-std::optional<Installation::DaylightParts> find_daylight_reflections(SymbolTable const& symbols) {
-  auto const classes = find_daylight_classes(symbols);
-  auto* const element = find_element_function(symbols);
-  if (!classes || element == nullptr || !can_patch(symbols, daylight_reflection_entries())) {
-    return std::nullopt;
+// The needs for which this build has all symbols and lets all entries be redirected. Throws Error
+// if it cannot be patched.
+std::set<Need> find_served(SymbolTable const& symbols, std::vector<Entry> const& entries,
+                           bool has_surface_ids) {
+  std::map<Need, std::string> problems;
+  for (auto const& row : energyplus_symbols) {
+    auto& lines = problems[row.need];
+    if (symbols.find(row.symbol) == nullptr)
+      lines += fmt::format("\n  {}: not in this build", row.symbol);
   }
-  return Installation::DaylightParts{*classes, element};
+  std::set<Need> served;
+  for (auto& [need, lines] : problems) {
+    if (lines.empty()) lines = problems_of(symbols, patches_of(entries, {need}));
+    if (lines.empty()) served.insert(need);
+  }
+  if (!served.contains(Need::run)) throw cannot_redirect(symbols, problems[Need::run]);
+  if (!served.contains(Need::from_25_1) && !served.contains(Need::before_25_1)) {
+    throw cannot_redirect(symbols, problems[Need::from_25_1]);
+  }
+  if (!has_surface_ids) served.erase(Need::surface_ids);
+  // Some build on others.
+  auto const require = [&](Need need, Need other) {
+    if (!served.contains(other)) served.erase(need);
+  };
+  require(Need::reflections, Need::surface_ids);
+  require(Need::daylight_reflections, Need::reflections);
+  require(Need::daylight_reflections, Need::daylight_rays);
+  require(Need::daylight_memory, Need::daylight_reflections);
+  return served;
 }
 
 void patch(Loaded const& loaded, Installation& installed) {
-  SymbolTable const symbols(loaded.path, loaded.base);
-  auto entries = penumbra_entries();
-  for (auto const& more : {input_entries(), shading_entries(), message_entries()}) {
-    entries.insert(entries.end(), more.begin(), more.end());
-  }
-  check_entries(symbols, entries);
-  if (auto const days = day_entries(); can_patch(symbols, days)) {
-    entries.insert(entries.end(), days.begin(), days.end());
-  }
-  auto const daylight = daylight_entries();
-  auto const daylight_rays = can_patch(symbols, daylight);
-  if (daylight_rays) entries.insert(entries.end(), daylight.begin(), daylight.end());
+  SymbolTable const symbols(loaded.path, loaded.base, energyplus_symbol_names());
+  auto const entries = all_entries();
   // Must come before the entries are changed, because it reads the code that calls them.
   auto const surface_ids = find_surface_ids(symbols);
-  auto reflection_classes = find_reflection_classes(symbols);
-  auto const reflections = reflection_entries();
-  if (!surface_ids || !can_patch(symbols, reflections)) reflection_classes.reset();
-  if (reflection_classes) entries.insert(entries.end(), reflections.begin(), reflections.end());
-  auto const daylight_reflections =
-      reflection_classes && daylight_rays ? find_daylight_reflections(symbols) : std::nullopt;
-  if (daylight_reflections) {
-    auto const more = daylight_reflection_entries();
-    entries.insert(entries.end(), more.begin(), more.end());
-  }
-  auto const memory = daylight_memory_entries();
-  bool const daylight_memory = daylight_reflections && can_patch(symbols, memory);
-  if (daylight_memory) entries.insert(entries.end(), memory.begin(), memory.end());
-  EnergyPlusFunctions const functions(symbols);
+  auto served = find_served(symbols, entries, surface_ids.has_value());
   ScheduleFunctions const schedules(symbols);
   auto const version = read_version(loaded.path.parent_path());
-  patch_entries(symbols, entries);
-  installed.surface_ids = surface_ids;
-  installed.reflection_classes = reflection_classes;
-  installed.daylight_reflections = daylight_reflections;
-  installed.daylight_memory = daylight_memory;
+  patch_entries(symbols, patches_of(entries, served));
   installed.library = loaded.path;
   installed.version = version;
-  installed.daylight_rays = daylight_rays;
-  installed.functions = functions;
+  installed.functions = EnergyPlusFunctions(symbols);
   installed.schedules = schedules;
+  installed.served = std::move(served);
+  installed.surface_ids = surface_ids;
 }
 
 enum class By { host, environment };
@@ -155,7 +146,7 @@ void install(char const* library, Choices choices, By by) {
 void try_device(Choices const& choices) {
   constexpr int every_device_draws = 16384;
   bool const required = choices.mode == Mode::require;
-  bool const chosen = choices.device && choices.device->kind == DeviceChoice::Kind::index;
+  bool const chosen = choices.device && choices.device->device && !choices.device->device->is_cpu();
   bool const large = choices.resolution.value_or(1) > every_device_draws;
   if (choices.mode == Mode::off || (!required && !chosen && !large)) return;
   Options options;
@@ -171,49 +162,64 @@ void try_device(Choices const& choices) {
 void redirect_opengl(char const* library) {
   auto const loaded = find_loaded(library);
   try {
-    SymbolTable const symbols(loaded.path, loaded.base, Symbols::exported);
+    auto const entries = glfw_entries();
+    SymbolTable const symbols(loaded.path, loaded.base, names_of(entries), Symbols::exported);
     if (symbols.find("glfwInit") == nullptr) {
       throw Error(fmt::format("{}: was compiled without OpenGL", loaded.path.string()));
     }
-    patch_entries(symbols, glfw_entries());
+    patch_entries(symbols, entries);
   } catch (Error const& error) {
     throw CannotPatch(error.what());
   }
 }
 
 // Throws CannotPatch where the library or the model does not allow this method.
-int run_opengl(char const* library, Choices const& choices,
-               std::vector<std::string> const& arguments) {
+int run_opengl(char const* library, RunSetup const& setup) {
   SharedLibrary const loaded(library);  // stays loaded
-  auto const line = read_command_line(arguments);
-  if (line.preprocessed) {
+  if (setup.line.preprocessed) {
     throw CannotPatch(
         "-m: an EPMacro model cannot be answered through OpenGL; create its IDF first");
   }
-  bool const readable = line.model && std::filesystem::exists(*line.model) &&
-                        (is_idf(*line.model) || is_epjson(*line.model));
-  if (!readable) return run_hosted(library, arguments, {});
+  if (!setup.has_model()) return run_hosted(library, setup.arguments, {});
   redirect_opengl(library);
-  auto read = read_hosted(*line.model, choices);
-  return run_by_opengl(library, own_folder() / "energyplus", line, arguments, std::move(read));
+  return run_by_opengl(library, own_folder() / "energyplus", setup);
 }
 
 thread_local std::string message;
 
-int install_with(char const* library, int count, char const* const* options, By by) {
+// Calls `action`, which returns a status; no exception leaves this function.
+template <typename Action>
+int with_status(Action const& action) {
+  message.clear();
   try {
-    auto choices = given_choices(count, options);
-    try_device(choices);
-    install(library, std::move(choices), by);
-    message.clear();
-    return 0;
+    return action();
   } catch (CannotPatch const& error) {
     message = error_line(error);
-    return 2;
+    return gpu_shading_cannot_patch;
   } catch (std::exception const& error) {
-    message = gpu_shading::energyplus::error_line(error);
-    return 1;
+    message = error_line(error);
+    return gpu_shading_failed;
   }
+}
+
+int install_with(char const* library, int count, char const* const* options, By by) {
+  return with_status([&] {
+    auto setup = read_setup(count, options, {});
+    try_device(setup.choices);
+    install(library, std::move(setup.choices), by);
+    return gpu_shading_done;
+  });
+}
+
+// `run`: run_scheduled() or run_opengl().
+template <typename RunLibrary>
+int run_with(char const* library, int count, char const* const* options,
+             std::vector<std::string> arguments, RunLibrary const& run) {
+  return with_status([&] {
+    auto const setup = read_setup(count, options, std::move(arguments));
+    try_device(setup.choices);
+    return run(library, setup);
+  });
 }
 
 }  // namespace
@@ -233,42 +239,21 @@ extern "C" EXPORTED int gpu_shading_install_from_environment(char const* energyp
 extern "C" EXPORTED int gpu_shading_run_scheduled(char const* energyplus_library, int count,
                                                   char const* const* options, int argc,
                                                   char const* const* argv) {
-  using gpu_shading::energyplus::message;
-  try {
-    message.clear();
-    auto const choices = gpu_shading::energyplus::given_choices(count, options);
-    gpu_shading::energyplus::try_device(choices);
-    return gpu_shading::energyplus::run_scheduled(energyplus_library, choices, {argv, argv + argc});
-  } catch (std::exception const& error) {
-    message = gpu_shading::energyplus::error_line(error);
-    return gpu_shading::energyplus::not_run;
-  }
+  using namespace gpu_shading::energyplus;
+  return run_with(energyplus_library, count, options, {argv, argv + argc}, run_scheduled);
 }
 
 extern "C" EXPORTED int gpu_shading_run_opengl(char const* energyplus_library, int count,
                                                char const* const* options, int argc,
                                                char const* const* argv) {
-  using gpu_shading::energyplus::message;
-  constexpr int cannot_patch = -2;
-  try {
-    message.clear();
-    auto const choices = gpu_shading::energyplus::given_choices(count, options);
-    gpu_shading::energyplus::try_device(choices);
-    return gpu_shading::energyplus::run_opengl(energyplus_library, choices, {argv, argv + argc});
-  } catch (gpu_shading::energyplus::CannotPatch const& error) {
-    message = gpu_shading::energyplus::error_line(error);
-    return cannot_patch;
-  } catch (std::exception const& error) {
-    message = gpu_shading::energyplus::error_line(error);
-    return gpu_shading::energyplus::not_run;
-  }
+  using namespace gpu_shading::energyplus;
+  return run_with(energyplus_library, count, options, {argv, argv + argc}, run_opengl);
 }
 
 extern "C" EXPORTED void gpu_shading_report_refusal(char const* energyplus_library, char const* why,
                                                     int argc, char const* const* argv) {
   using namespace gpu_shading::energyplus;
-  std::array<char, 1> ignored{};
-  guarded(ignored.data(), ignored.size(), [&] {
+  failure_of([&] {
     report_refusal({argv, argv + argc}, std::filesystem::path(energyplus_library).parent_path(),
                    why, {});
   });

@@ -1,31 +1,17 @@
-#include "routes/patched/entries/penumbra_entries.h"
-
 #include <memory>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "gpu_shading/error.h"
+#include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
-#include "routes/patched/memory/mirrored_surfaces.h"
+#include "routes/patched/memory/surface_ids.h"
 #include "tasks/perform_task.h"
 
 // Functions that replace the member functions of Penumbra::Penumbra and Penumbra::Surface: same
 // arguments in the same registers (`this` first), and objects of the same size.
 
 namespace gpu_shading::energyplus {
-namespace {
-
-using Coordinates = std::vector<float>;  // x, y, z of every vertex, one vertex after another
-
-Ring to_ring(Coordinates const& xyz) {
-  Ring ring;
-  ring.reserve(xyz.size() / 3);
-  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
-    ring.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
-  }
-  return ring;
-}
 
 // EnergyPlus reserves 16 bytes for a surface and one pointer for the calculation.
 struct SurfaceObject {
@@ -37,6 +23,17 @@ struct PenumbraObject {
   std::unique_ptr<Session> session;
 };
 static_assert(sizeof(PenumbraObject) == 8);
+
+namespace {
+
+Ring to_ring(Coordinates const& xyz) {
+  Ring ring;
+  ring.reserve(xyz.size() / 3);
+  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
+    ring.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
+  }
+  return ring;
+}
 
 void surface_construct(SurfaceObject* self, Coordinates const& outline, std::string const& name) {
   new (self) SurfaceObject{std::make_shared<Surface>(Surface{name, {to_ring(outline), {}}})};
@@ -60,7 +57,8 @@ void surface_add_hole(SurfaceObject* self, Coordinates const& hole) {
 // because EnergyPlus must not fall back to another method by itself.
 bool is_valid_context() { return true; }
 
-void construct(PenumbraObject* self, unsigned /*size*/, void const* /*logger*/) {
+void construct(PenumbraObject* self, unsigned /*size*/,
+               std::shared_ptr<Courierr::Courierr> const& /*logger*/) {
   auto& run = this_run();
   if (!run.model) throw Error("EnergyPlus starts shading before its input was read");
   new (self) PenumbraObject{std::make_unique<Session>(*run.model)};
@@ -83,8 +81,7 @@ unsigned get_number_of_surfaces(PenumbraObject* self) {
 // Needed if light reflected by shading surfaces is modelled, or if an output shows the copies.
 void add_mirrored_surfaces(Session& session, Messages const& messages) {
   auto const& ids = installation().surface_ids;
-  auto const& input = session.input();
-  if (!(input.reflections || input.mirrored_shown()) || session.shading_surfaces().empty()) return;
+  if (!session.wants_mirrored() || session.shading_surfaces().empty()) return;
   if (!ids || !hand_over_mirrored_surfaces(*this_run().state, session, *ids)) {
     messages.warning(
         "this EnergyPlus does not let mirrored shading surfaces be handed over: their sunlit "
@@ -99,13 +96,10 @@ void set_model(PenumbraObject* self) {
   State& state = *this_run().state;
   auto const messages = messages_of(this_run());
   add_mirrored_surfaces(session, messages);
-  auto schedules = installed.schedules.of(state);
-  if (auto& task = installed.task) {
-    task->finish(perform_task(task->task(), session.complete(std::move(schedules)), messages));
-    throw TaskDone();
-  }
-  session.start(messages, std::move(schedules),
-                [&] { return installed.functions.latitude(state); });
+  begin(session,
+        {messages, installed.schedules.of(state),
+         [&installed, &state] { return installed.functions.latitude(state); }},
+        installed.task ? &*installed.task : nullptr);
 }
 
 void set_sun_position(PenumbraObject* self, float azimuth, float altitude) {
@@ -116,46 +110,44 @@ void set_sun_position(PenumbraObject* self, float azimuth, float altitude) {
 void submit_pssa(PenumbraObject* /*self*/) {}
 
 float retrieve_pssa(PenumbraObject* self, unsigned id) {
-  return self->session->projected_sunlit_area(id);
+  return static_cast<float>(self->session->projected_sunlit_area(id));
 }
 
-std::unordered_map<unsigned, float> calculate_interior_pssas(
-    PenumbraObject* self, std::vector<unsigned> const& windows,
-    std::vector<unsigned> const& interiors) {
-  std::unordered_map<unsigned, float> areas;
+InteriorAreas calculate_interior_pssas(PenumbraObject* self, std::vector<unsigned> const& windows,
+                                       std::vector<unsigned> const& interiors) {
+  InteriorAreas areas;
   if (windows.size() != 1) throw Error("EnergyPlus asks for interior areas of several windows");
   auto const answers = self->session->interior_areas(windows.front(), interiors);
-  for (std::size_t i = 0; i < interiors.size(); ++i) areas[interiors[i]] += answers[i];
+  for (std::size_t i = 0; i < interiors.size(); ++i) {
+    areas[interiors[i]] += static_cast<float>(answers[i]);
+  }
   return areas;
 }
 
-template <auto function>
-EntryPatch guarded_entry(char const* symbol) {
+template <auto function, typename Signature>
+Entry guarded_entry(Function<Signature> const& symbol) {
   return replace(symbol, &Guarded<function>::call);
 }
 
 }  // namespace
 
-std::vector<EntryPatch> penumbra_entries() {
+std::vector<Entry> penumbra_entries() {
   return {
-      guarded_entry<&surface_construct>(
-          "_ZN8Penumbra7SurfaceC1ERKSt6vectorIfSaIfEERKNSt7__cxx1112basic_stringIcSt11char_"
-          "traitsIcESaIcEEE"),
-      guarded_entry<&surface_construct_default>("_ZN8Penumbra7SurfaceC1Ev"),
-      guarded_entry<&surface_copy>("_ZN8Penumbra7SurfaceC1ERKS0_"),
-      guarded_entry<&surface_destroy>("_ZN8Penumbra7SurfaceD1Ev"),
-      guarded_entry<&surface_add_hole>("_ZN8Penumbra7Surface8add_holeERKSt6vectorIfSaIfEE"),
-      guarded_entry<&is_valid_context>("_ZN8Penumbra8Penumbra16is_valid_contextEv"),
-      guarded_entry<&construct>("_ZN8Penumbra8PenumbraC1EjRKSt10shared_ptrIN8Courierr8CourierrEE"),
-      guarded_entry<&destroy>("_ZN8Penumbra8PenumbraD1Ev"),
-      guarded_entry<&add_surface>("_ZN8Penumbra8Penumbra11add_surfaceERKNS_7SurfaceE"),
-      guarded_entry<&get_number_of_surfaces>("_ZN8Penumbra8Penumbra22get_number_of_surfacesEv"),
-      guarded_entry<&set_model>("_ZN8Penumbra8Penumbra9set_modelEv"),
-      guarded_entry<&set_sun_position>("_ZN8Penumbra8Penumbra16set_sun_positionEff"),
-      guarded_entry<&submit_pssa>("_ZN8Penumbra8Penumbra11submit_pssaEv"),
-      guarded_entry<&retrieve_pssa>("_ZN8Penumbra8Penumbra13retrieve_pssaEj"),
-      guarded_entry<&calculate_interior_pssas>(
-          "_ZN8Penumbra8Penumbra24calculate_interior_pssasERKSt6vectorIjSaIjEES5_"),
+      guarded_entry<&surface_construct>(symbol::surface_construct),
+      guarded_entry<&surface_construct_default>(symbol::surface_construct_default),
+      guarded_entry<&surface_copy>(symbol::surface_copy),
+      guarded_entry<&surface_destroy>(symbol::surface_destroy),
+      guarded_entry<&surface_add_hole>(symbol::surface_add_hole),
+      guarded_entry<&is_valid_context>(symbol::is_valid_context),
+      guarded_entry<&construct>(symbol::penumbra_construct),
+      guarded_entry<&destroy>(symbol::penumbra_destroy),
+      guarded_entry<&add_surface>(symbol::add_surface),
+      guarded_entry<&get_number_of_surfaces>(symbol::get_number_of_surfaces),
+      guarded_entry<&set_model>(symbol::set_model),
+      guarded_entry<&set_sun_position>(symbol::set_sun_position),
+      guarded_entry<&submit_pssa>(symbol::submit_pssa),
+      guarded_entry<&retrieve_pssa>(symbol::retrieve_pssa),
+      guarded_entry<&calculate_interior_pssas>(symbol::calculate_interior_pssas),
   };
 }
 

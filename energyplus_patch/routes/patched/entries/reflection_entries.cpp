@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "routes/patched/entries/daylight_reflection_entries.h"
+#include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
 #include "routes/patched/entries/unwanted_messages.h"
 #include "routes/patched/memory/reflection_memory.h"
@@ -88,32 +89,21 @@ SolarReflections* solar_reflections(State& state) {
   known.looked = true;
   if (run.session->reflections() == nullptr) return nullptr;
   auto const& installed = installation();
-  std::optional<ReflectionMemory> memory;
-  if (installed.surface_ids && installed.reflection_classes) {
-    memory = find_reflection_memory(state, *run.session, *installed.surface_ids,
-                                    *installed.reflection_classes);
-  }
-  if (memory) {
-    known.active.emplace(std::move(*memory), *run.session, originals());
-    return &*known.active;
+  if (installed.serves(Need::reflections)) {
+    auto memory = find_reflection_memory(state, *run.session, *installed.surface_ids,
+                                         ReflectionClasses(installed.functions.symbols()));
+    if (memory) return &known.active.emplace(std::move(*memory), *run.session, originals());
   }
   warn();
   return nullptr;
 }
 
-std::vector<EntryPatch> reflection_entries() {
+std::vector<Entry> reflection_entries() {
   return {
-      watch("_ZN10EnergyPlus22SolarReflectionManager18InitSolReflRecSurfERNS_14EnergyPlusDataE",
-            &init, &original_init),
-      watch("_ZN10EnergyPlus22SolarReflectionManager31FigureBeamSolDiffuseReflFactorsERNS_"
-            "14EnergyPlusDataEi",
-            &beam_diffuse, &originals().beam_diffuse),
-      watch("_ZN10EnergyPlus22SolarReflectionManager32FigureBeamSolSpecularReflFactorsERNS_"
-            "14EnergyPlusDataEi",
-            &beam_specular, &originals().beam_specular),
-      watch("_ZN10EnergyPlus22SolarReflectionManager28CalcSkySolDiffuseReflFactorsERNS_"
-            "14EnergyPlusDataE",
-            &sky_diffuse, &originals().sky_diffuse),
+      watch(symbol::init_reflections, &init, &original_init),
+      watch(symbol::beam_diffuse, &beam_diffuse, &originals().beam_diffuse),
+      watch(symbol::beam_specular, &beam_specular, &originals().beam_specular),
+      watch(symbol::sky_diffuse, &sky_diffuse, &originals().sky_diffuse),
   };
 }
 

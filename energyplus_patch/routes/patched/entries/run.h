@@ -5,37 +5,29 @@
 #include <iosfwd>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "calculation/session.h"
-#include "routes/patched/binary/stored_result.h"
-#include "routes/patched/memory/reflection_memory.h"
-#include "routes/patched/memory/surface_luminance.h"
+#include "routes/patched/memory/surface_ids.h"
 #include "routes/patched/symbols/energyplus.h"
 #include "routes/patched/symbols/schedule_functions.h"
-#include "tasks/asked_task.h"
+#include "tasks/task_file.h"
 
 namespace gpu_shading::energyplus {
 
 // What the process keeps: set by the installation, before any run.
 struct Installation {
   std::filesystem::path library;
-  std::string version;  // of EnergyPlus, e.g. "25.2.0"
+  std::string version;  // of EnergyPlus, e.g. "9.6.0"
   EnergyPlusFunctions functions;
   ScheduleFunctions schedules;
+  std::set<Need> served;                    // whose symbols this build has, and redirected entries
   std::optional<StoredResult> surface_ids;  // where EnergyPlus keeps what add_surface returned
-  bool daylight_rays = false;               // the functions of daylighting's rays are redirected
-  // Where solar reflections are found, if their functions are redirected.
-  std::optional<ReflectionClasses> reflection_classes;
-  // What reflections in daylighting need, if their functions are redirected.
-  struct DaylightParts {
-    DaylightClasses classes;
-    ElementFunction* element;
-  };
-  std::optional<DaylightParts> daylight_reflections;
-  bool daylight_memory = false;   // the functions of DaylightMemory are redirected
-  Choices choices;                // command line over environment
-  std::optional<AskedTask> task;  // that EnergyPlus is run for
+  Choices choices;                          // command line over environment
+  std::optional<AskedTask> task;            // that EnergyPlus is run for
+
+  bool serves(Need need) const { return served.contains(need); }
 };
 Installation& installation();
 

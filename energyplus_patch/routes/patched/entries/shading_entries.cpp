@@ -1,18 +1,17 @@
-#include "routes/patched/entries/shading_entries.h"
-
 #include <string_view>
 
 #include "routes/patched/entries/daylight_memory_entries.h"
+#include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
 #include "routes/patched/entries/unwanted_messages.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
-void (*original_solar_beam)(State&, int, int) = nullptr;
-void (*original_sky_shading)(State&) = nullptr;
-void (*original_process_shadowing_input)(State&) = nullptr;
-void (*original_solar_calculations)(State&) = nullptr;
+PointerTo<symbol::solar_beam_at_timestep> original_solar_beam = nullptr;
+PointerTo<symbol::sky_shading> original_sky_shading = nullptr;
+PointerTo<symbol::process_shadowing_input> original_process_shadowing_input = nullptr;
+PointerTo<symbol::perform_solar_calculations> original_solar_calculations = nullptr;
 
 void set_time(Moment moment) {
   if (auto* const session = this_run().session) guarded([&] { session->set_time(moment); });
@@ -37,9 +36,7 @@ void solar_calculations(State& state) {
   if (session != nullptr && session->records_days()) {
     guarded([&] {
       auto const& functions = installation().functions;
-      if (auto const day = functions.day(state)) {
-        session->begin_day(*day, [&] { return functions.beam_of_day(state); });
-      }
+      session->begin_day(functions.day(state), [&] { return functions.beam_of_day(state); });
     });
   }
   original_solar_calculations(state);
@@ -58,22 +55,14 @@ void process_shadowing_input(State& state) {
 
 }  // namespace
 
-std::vector<EntryPatch> shading_entries() {
-  auto warning = watch("_ZN10EnergyPlus12SolarShading21processShadowingInputERNS_14EnergyPlusDataE",
-                       &process_shadowing_input, &original_process_shadowing_input);
-  warning.needed = false;  // not before 24.2: the warning is written
+std::vector<Entry> shading_entries() {
   return {
-      watch("_ZN10EnergyPlus12SolarShading25FigureSolarBeamAtTimestepERNS_14EnergyPlusDataEii",
-            &solar_beam, &original_solar_beam),
-      watch("_ZN10EnergyPlus12SolarShading18SkyDifSolarShadingERNS_14EnergyPlusDataE", &sky_shading,
-            &original_sky_shading),
-      warning,
+      watch(symbol::solar_beam_at_timestep, &solar_beam, &original_solar_beam),
+      watch(symbol::sky_shading, &sky_shading, &original_sky_shading),
+      watch(symbol::process_shadowing_input, &process_shadowing_input,
+            &original_process_shadowing_input),
+      watch(symbol::perform_solar_calculations, &solar_calculations, &original_solar_calculations),
   };
-}
-
-std::vector<EntryPatch> day_entries() {
-  return {watch("_ZN10EnergyPlus12SolarShading24PerformSolarCalculationsERNS_14EnergyPlusDataE",
-                &solar_calculations, &original_solar_calculations)};
 }
 
 }  // namespace gpu_shading::energyplus

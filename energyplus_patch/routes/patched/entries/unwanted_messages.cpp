@@ -3,14 +3,14 @@
 #include <string>
 #include <utility>
 
-#include "routes/patched/symbols/energyplus.h"
+#include "routes/patched/entries/entries.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
-ShowFunction* original_show_severe = nullptr;
-ShowFunction* original_show_warning = nullptr;
-ShowFunction* original_show_continue = nullptr;
+PointerTo<symbol::show_severe> original_show_severe = nullptr;
+PointerTo<symbol::show_warning> original_show_warning = nullptr;
+PointerTo<symbol::show_continue> original_show_continue = nullptr;
 
 struct Silence {
   std::function<bool(std::string_view)> unwanted;  // empty: all are written
@@ -48,20 +48,11 @@ UnwantedMessages::UnwantedMessages(std::function<bool(std::string_view message)>
 
 UnwantedMessages::~UnwantedMessages() { silence() = {}; }
 
-std::vector<EntryPatch> message_entries() {
+std::vector<Entry> message_entries() {
   return {
-      watch("_ZN10EnergyPlus15ShowSevereErrorERNS_14EnergyPlusDataERKNSt7__cxx1112basic_"
-            "stringIcSt11char_traitsIcESaIcEEESt8optionalISt17reference_wrapperINS_"
-            "15InputOutputFileEEESE_",
-            &show_severe, &original_show_severe),
-      watch("_ZN10EnergyPlus16ShowWarningErrorERNS_14EnergyPlusDataERKNSt7__cxx1112basic_"
-            "stringIcSt11char_traitsIcESaIcEEESt8optionalISt17reference_wrapperINS_"
-            "15InputOutputFileEEESE_",
-            &show_warning, &original_show_warning),
-      watch("_ZN10EnergyPlus17ShowContinueErrorERNS_14EnergyPlusDataERKNSt7__cxx1112basic_"
-            "stringIcSt11char_traitsIcESaIcEEESt8optionalISt17reference_wrapperINS_"
-            "15InputOutputFileEEESE_",
-            &show_continue, &original_show_continue),
+      watch(symbol::show_severe, &show_severe, &original_show_severe),
+      watch(symbol::show_warning, &show_warning, &original_show_warning),
+      watch(symbol::show_continue, &show_continue, &original_show_continue),
   };
 }
 

@@ -2,9 +2,6 @@
 
 #include <functional>
 #include <string_view>
-#include <vector>
-
-#include "routes/patched/binary/entry_patch.h"
 
 namespace gpu_shading::energyplus {
 
@@ -17,8 +14,5 @@ class UnwantedMessages {
   UnwantedMessages(UnwantedMessages const&) = delete;
   UnwantedMessages& operator=(UnwantedMessages const&) = delete;
 };
-
-// The functions through which EnergyPlus writes them.
-std::vector<EntryPatch> message_entries();
 
 }  // namespace gpu_shading::energyplus

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "routes/patched/memory/object_memory.h"
+#include "routes/patched/memory/safe_read.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -11,19 +11,17 @@
 #include "calculation/session.h"
 #include "routes/patched/memory/solar_reflections.h"
 #include "routes/patched/memory/surface_luminance.h"
-#include "routes/patched/symbols/energyplus.h"
+#include "routes/patched/symbols/energyplus_symbols.h"
 
 namespace gpu_shading::energyplus {
 
 // EnergyPlus's functions of reflections in daylighting.
 struct DaylightFunctions {
-  void (*closest)(State&, Vector const& from, Vector const& ray, int& surface,
-                  Vector& hit) = nullptr;
-  double (*sun_luminance)(State&, int hour, Vector const& ray, int surface,
-                          Vector const& hit) = nullptr;
-  double (*sky_on_ground)(State&, Vector const& point, int altitudes, int azimuths) = nullptr;
-  void (*inter_reflected)(State&, int sun_position, int hour, int enclosure, int window) = nullptr;
-  ElementFunction* element = nullptr;
+  PointerTo<symbol::closest_obstruction> closest = nullptr;
+  PointerTo<symbol::sun_luminance> sun_luminance = nullptr;
+  PointerTo<symbol::sky_on_ground> sky_on_ground = nullptr;
+  PointerTo<symbol::inter_reflected> inter_reflected = nullptr;
+  PointerTo<symbol::window_element> element = nullptr;
 };
 
 // Reflections in the daylighting of one run, with what EnergyPlus does not know. EnergyPlus asks

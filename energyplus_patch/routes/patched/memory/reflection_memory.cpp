@@ -7,8 +7,7 @@
 #include <span>
 #include <string>
 
-#include "routes/patched/memory/object_memory.h"
-#include "routes/patched/memory/own_memory.h"
+#include "routes/patched/memory/safe_read.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -252,23 +251,6 @@ void check(ReflectionMemory::Receiver const& receiver, ReflectionMemory const& m
   }
 }
 
-// The ids of all surfaces, by number.
-std::vector<std::optional<SurfaceId>> read_ids(State& state, StoredResult const& path,
-                                               std::int32_t surfaces, std::size_t known) {
-  auto* const holder = read_pointer(reinterpret_cast<std::byte*>(&state) + path.outer);
-  auto* const origin = holder == nullptr ? nullptr : read_pointer(holder + path.inner);
-  expect(origin != nullptr);
-  std::vector<std::int32_t> numbers(static_cast<std::size_t>(surfaces));
-  expect(read_memory(origin + sizeof(std::int32_t), numbers.data(),
-                     numbers.size() * sizeof(std::int32_t)));
-  std::vector<std::optional<SurfaceId>> ids(1);
-  for (auto const number : numbers) {
-    expect(number >= -1 && number < static_cast<std::int32_t>(known));
-    ids.push_back(number < 0 ? std::nullopt : std::optional(static_cast<SurfaceId>(number)));
-  }
-  return ids;
-}
-
 void find_in_surfaces(std::byte const* object, ReflectionClasses const& classes,
                       ReflectionMemory& memory) {
   constexpr std::size_t hours = 24;
@@ -294,26 +276,6 @@ void find_in_surfaces(std::byte const* object, ReflectionClasses const& classes,
 
 }  // namespace
 
-std::optional<ReflectionClasses> find_reflection_classes(SymbolTable const& symbols) {
-  ReflectionClasses const classes{
-      symbols.virtual_functions("N10EnergyPlus26SolarReflectionManagerDataE"),
-      symbols.virtual_functions("N10EnergyPlus12SurfacesDataE"),
-      symbols.virtual_functions("N9ObjexxFCL7Array1DIN10EnergyPlus22SolarReflectionManager18"
-                                "SolReflRecSurfDataEEE"),
-      symbols.virtual_functions("N9ObjexxFCL7Array1DINS_7Vector3IdEEEE"),
-      symbols.virtual_functions("N9ObjexxFCL7Array1DIdEE"),
-      symbols.virtual_functions("N9ObjexxFCL7Array1DIiEE"),
-      symbols.virtual_functions("N9ObjexxFCL7Array2DINS_7Vector3IdEEEE"),
-      symbols.virtual_functions("N9ObjexxFCL7Array2DIdEE"),
-      symbols.virtual_functions("N9ObjexxFCL7Array2DIiEE")};
-  for (auto const* table :
-       {classes.manager, classes.surfaces, classes.receivers, classes.vectors, classes.numbers,
-        classes.integers, classes.vectors_2, classes.numbers_2, classes.integers_2}) {
-    if (table == nullptr) return std::nullopt;
-  }
-  return classes;
-}
-
 std::optional<ReflectionMemory> find_reflection_memory(State& state, Session const& session,
                                                        StoredResult const& ids,
                                                        ReflectionClasses const& classes) {
@@ -323,7 +285,7 @@ std::optional<ReflectionMemory> find_reflection_memory(State& state, Session con
     ReflectionMemory memory;
     memory.surfaces = static_cast<std::int32_t>(
         read_array<std::int32_t>(layout.first + layout.arrays[obstructions]).size);
-    memory.ids = read_ids(state, ids, memory.surfaces, session.size());
+    memory.ids = read_surface_ids(state, ids, memory.surfaces, session);
     find_name(layout, session, memory.ids);
     find_counts(layout);
     for (std::size_t i = 0; i < layout.count; ++i) {

@@ -9,28 +9,36 @@
 
 #include "calculation/session.h"
 #include "gpu_shading/scene.h"
-#include "routes/patched/binary/stored_result.h"
-#include "routes/patched/binary/symbol_table.h"
-#include "routes/patched/symbols/energyplus.h"
+#include "routes/patched/memory/surface_ids.h"
+#include "routes/patched/symbols/energyplus_symbols.h"
 
 namespace gpu_shading::energyplus {
 
-// The classes of the objects that hold solar reflections, as their first words tell them.
+// The classes of the objects that hold solar reflections, identified by their vtable pointers.
 struct ReflectionClasses {
-  std::byte const* manager = nullptr;    // SolarReflectionManagerData
-  std::byte const* surfaces = nullptr;   // SurfacesData
-  std::byte const* receivers = nullptr;  // Array1D<SolReflRecSurfData>
-  // ObjexxFCL's arrays of vectors, numbers and integers, with one index and with two.
-  std::byte const* vectors = nullptr;
-  std::byte const* numbers = nullptr;
-  std::byte const* integers = nullptr;
-  std::byte const* vectors_2 = nullptr;
-  std::byte const* numbers_2 = nullptr;
-  std::byte const* integers_2 = nullptr;
-};
+  // `symbols` must have those of Need::reflections.
+  explicit ReflectionClasses(SymbolTable const& symbols)
+      : manager(symbol::reflection_manager.in(symbols)),
+        surfaces(symbol::surfaces_data.in(symbols)),
+        receivers(symbol::receivers.in(symbols)),
+        vectors(symbol::vectors.in(symbols)),
+        numbers(symbol::numbers.in(symbols)),
+        integers(symbol::integers.in(symbols)),
+        vectors_2(symbol::vectors_2.in(symbols)),
+        numbers_2(symbol::numbers_2.in(symbols)),
+        integers_2(symbol::integers_2.in(symbols)) {}
 
-// Nothing if the library lacks one.
-std::optional<ReflectionClasses> find_reflection_classes(SymbolTable const& symbols);
+  std::byte const* manager;    // SolarReflectionManagerData
+  std::byte const* surfaces;   // SurfacesData
+  std::byte const* receivers;  // Array1D<SolReflRecSurfData>
+  // ObjexxFCL's arrays of vectors, numbers and integers, with one index and with two.
+  std::byte const* vectors;
+  std::byte const* numbers;
+  std::byte const* integers;
+  std::byte const* vectors_2;
+  std::byte const* numbers_2;
+  std::byte const* integers_2;
+};
 
 // Where EnergyPlus keeps its solar reflections (SolarReflectionManager). The memory is EnergyPlus's
 // own and stays valid until it initializes reflections again. Numbers of surfaces count from 1.

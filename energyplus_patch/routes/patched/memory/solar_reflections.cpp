@@ -2,35 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <set>
 #include <string>
 
-#include "routes/patched/memory/object_memory.h"
+#include "routes/patched/memory/safe_read.h"
 
 namespace gpu_shading::energyplus {
-
-// Changes of EnergyPlus's memory that are taken back at the end.
-class Edits {
- public:
-  Edits() = default;
-  Edits(Edits const&) = delete;
-  Edits& operator=(Edits const&) = delete;
-  ~Edits() {
-    for (auto undo = undo_.rbegin(); undo != undo_.rend(); ++undo) (*undo)();
-  }
-
-  template <typename Value>
-  void set(Value* at, std::type_identity_t<Value> const& value) {
-    undo_.emplace_back([at, before = *at] { *at = before; });
-    *at = value;
-  }
-
- private:
-  std::vector<std::function<void()>> undo_;
-};
 
 namespace {
 
@@ -38,9 +17,6 @@ using std::numbers::pi;
 
 // EnergyPlus's DataEnvironment::SunIsUpValue.
 constexpr double sun_is_up_value = 1e-5;
-
-// A number that EnergyPlus does not compute.
-constexpr double untouched = -1234.5;
 
 }  // namespace
 
@@ -109,7 +85,7 @@ void SolarReflections::weaken(std::vector<ReflectedShare> const& shares, Edits& 
   });
 }
 
-void SolarReflections::add(std::vector<ReflectedShare> const& shares, Outputs const& outputs,
+void SolarReflections::add(std::vector<ReflectedShare> const& shares, DiffuseResults const& results,
                            std::size_t offset) const {
   std::size_t i = 0;
   for (auto const& receiver : memory_.receivers) {
@@ -127,68 +103,27 @@ void SolarReflections::add(std::vector<ReflectedShare> const& shares, Outputs co
     }
     std::size_t const at = offset + static_cast<std::size_t>(receiver.number - 1);
     auto const count = static_cast<double>(points);
-    outputs.shades[at] += shades / count;
+    results.shades[at] += shades / count;
     if (ground <= 0.0) continue;
     // As in EnergyPlus, not more than an unobstructed ground.
     double const most = 0.5 * (1.0 - receiver.normal.z);
-    outputs.ground[at] =
-        std::max(outputs.ground[at], std::min(most, outputs.ground[at] + ground / count));
+    results.ground[at] =
+        std::max(results.ground[at], std::min(most, results.ground[at] + ground / count));
   }
-}
-
-// Finds EnergyPlus's results by what its function does: without rays it sets both of a receiver to
-// 0, and with one ray that meets the ground, far away in a direction from which nothing keeps
-// light, it sets that of the ground. The ray's solid angle is negative, so that the result is not
-// limited.
-template <typename Call>
-std::optional<SolarReflections::Outputs> SolarReflections::learn(
-    std::vector<double*> const& candidates, std::size_t offset, glm::dvec3 const& far,
-    Call const& call) const {
-  Edits edits;
-  for (auto const& receiver : memory_.receivers) edits.set(receiver.ray_count, 0);
-  auto const& first = memory_.receivers.front();
-  std::size_t const at = offset + static_cast<std::size_t>(first.number - 1);
-  for (auto* const array : candidates) edits.set(&array[at], untouched);
-  call();
-  std::vector<double*> set;
-  for (auto* const array : candidates) {
-    if (array[at] == 0.0)
-      set.push_back(array);
-    else if (array[at] != untouched)
-      return std::nullopt;
-  }
-  if (set.size() != 2) return std::nullopt;
-
-  constexpr double distance = 1e9;
-  edits.set(first.ray_count, 1);
-  for (std::size_t point = 0; point < static_cast<std::size_t>(*first.point_count); ++point) {
-    edits.set(&first.hit_numbers[point], point == 0 ? -1 : 0);
-  }
-  edits.set(&first.hits[0], distance * far);
-  edits.set(&first.hit_normals[0], far);
-  edits.set(&first.hit_reflectances[0], 1.0);
-  edits.set(&first.solid_angles[0], -first.solid_angles[0]);
-  call();
-  double const expected =
-      first.solid_angles[0] * first.cosines[0] / pi / static_cast<double>(*first.point_count);
-  // A sum over the sky is 1 within its steps.
-  auto const is_ground = [&](double value) { return std::abs(value / expected - 1.0) < 0.02; };
-  if (set[0][at] == 0.0 && is_ground(set[1][at])) return Outputs{set[0], set[1]};
-  if (set[1][at] == 0.0 && is_ground(set[0][at])) return Outputs{set[1], set[0]};
-  return std::nullopt;
 }
 
 // Calls EnergyPlus's function with what hidden casters leave of its rays, and adds what they
 // reflect.
 template <typename Call>
-void SolarReflections::count(std::vector<ReflectedShare> const& shares, Outputs const& outputs,
-                             std::size_t offset, Call const& call) const {
+void SolarReflections::count(std::vector<ReflectedShare> const& shares,
+                             DiffuseResults const& results, std::size_t offset,
+                             Call const& call) const {
   {
     Edits edits;
     weaken(shares, edits);
     call();
   }
-  add(shares, outputs, offset);
+  add(shares, results, offset);
 }
 
 bool SolarReflections::beam_diffuse(State& state, int hour) {
@@ -199,7 +134,8 @@ bool SolarReflections::beam_diffuse(State& state, int hour) {
   }
   std::size_t const offset = memory_.at(hour, 1);
   if (!beam_) {
-    beam_ = learn(memory_.by_hour, offset, *to_sun, [&] { original_.beam_diffuse(state, hour); });
+    beam_ = find_diffuse_results(memory_, memory_.by_hour, offset, *to_sun,
+                                 [&] { original_.beam_diffuse(state, hour); });
   }
   if (!beam_) {
     original_.beam_diffuse(state, hour);
@@ -214,7 +150,8 @@ bool SolarReflections::beam_diffuse(State& state, int hour) {
 bool SolarReflections::sky_diffuse(State& state) {
   if (!sky_) {
     constexpr glm::dvec3 up{0.0, 0.0, 1.0};
-    sky_ = learn(memory_.by_surface, 0, up, [&] { original_.sky_diffuse(state); });
+    sky_ = find_diffuse_results(memory_, memory_.by_surface, 0, up,
+                                [&] { original_.sky_diffuse(state); });
   }
   if (!sky_) {
     original_.sky_diffuse(state);
@@ -295,32 +232,11 @@ std::vector<SolarReflections::Image> SolarReflections::images(Receiver const& re
   return found;
 }
 
-// Finds the arrays that EnergyPlus's function divides by the number of points.
-std::optional<std::pair<double*, double*>> SolarReflections::learn_specular(State& state,
-                                                                            int hour) const {
-  Edits edits;
-  for (auto const& receiver : memory_.receivers) edits.set(receiver.obstruction_count, 0);
-  auto const& first = memory_.receivers.front();
-  // A surface does not reflect to itself.
-  edits.set(first.obstruction_count, 1);
-  edits.set(&first.obstructions[0], first.number);
-  std::size_t const at = memory_.at(hour, first.number);
-  for (auto* const array : memory_.by_hour) edits.set(&array[at], untouched);
-  original_.beam_specular(state, hour);
-  std::vector<double*> set;
-  for (auto* const array : memory_.by_hour) {
-    if (array[at] == untouched) continue;
-    if (!is_near(array[at], untouched / *first.point_count)) return std::nullopt;
-    set.push_back(array);
-  }
-  if (set.size() != 2) return std::nullopt;
-  return std::pair(set[0], set[1]);
-}
-
 bool SolarReflections::beam_specular(State& state, int hour) {
   auto const to_sun = sun(hour);
   if (to_sun && !specular_pair_) {
-    specular_pair_ = learn_specular(state, hour);
+    specular_pair_ =
+        find_specular_results(memory_, hour, [&] { original_.beam_specular(state, hour); });
     if (!specular_pair_) {
       original_.beam_specular(state, hour);
       return false;

@@ -9,15 +9,16 @@
 #include "gpu_shading/rays.h"
 #include "hidden/hidden_reflections.h"
 #include "routes/patched/memory/reflection_memory.h"
-#include "routes/patched/symbols/energyplus.h"
+#include "routes/patched/memory/reflection_results.h"
+#include "routes/patched/symbols/energyplus_symbols.h"
 
 namespace gpu_shading::energyplus {
 
 // EnergyPlus's functions of solar reflections, called with what stands in their memory.
 struct ReflectionFunctions {
-  void (*beam_diffuse)(State&, int hour) = nullptr;
-  void (*beam_specular)(State&, int hour) = nullptr;
-  void (*sky_diffuse)(State&) = nullptr;
+  PointerTo<symbol::beam_diffuse> beam_diffuse = nullptr;
+  PointerTo<symbol::beam_specular> beam_specular = nullptr;
+  PointerTo<symbol::sky_diffuse> sky_diffuse = nullptr;
 };
 
 // Solar reflections of one run, with what EnergyPlus does not know. EnergyPlus's own functions
@@ -47,12 +48,7 @@ class SolarReflections {
 
  private:
   using Receiver = ReflectionMemory::Receiver;
-  // Two of EnergyPlus's arrays.
-  struct Outputs {
-    double* shades = nullptr;
-    double* ground = nullptr;
-  };
-  struct SpecularOutputs {
+  struct SpecularResults {
     double* factor = nullptr;
     double* cosine = nullptr;  // of incidence, average
   };
@@ -68,17 +64,13 @@ class SolarReflections {
   template <typename Visit>
   void for_each_ray(Visit const& visit) const;
 
-  void weaken(std::vector<ReflectedShare> const& shares, class Edits& edits) const;
-  void add(std::vector<ReflectedShare> const& shares, Outputs const& outputs,
+  void weaken(std::vector<ReflectedShare> const& shares, Edits& edits) const;
+  void add(std::vector<ReflectedShare> const& shares, DiffuseResults const& results,
            std::size_t offset) const;
   template <typename Call>
-  void count(std::vector<ReflectedShare> const& shares, Outputs const& outputs, std::size_t offset,
-             Call const& call) const;
-  template <typename Call>
-  std::optional<Outputs> learn(std::vector<double*> const& candidates, std::size_t offset,
-                               glm::dvec3 const& far, Call const& call) const;
+  void count(std::vector<ReflectedShare> const& shares, DiffuseResults const& results,
+             std::size_t offset, Call const& call) const;
 
-  std::optional<std::pair<double*, double*>> learn_specular(State& state, int hour) const;
   std::vector<Image> images(Receiver const& receiver, glm::dvec3 const& to_sun, int hour);
   std::vector<bool> find_mirrors() const;
   bool is_mirror(std::int32_t number) const;
@@ -90,10 +82,10 @@ class SolarReflections {
   Session& session_;
   ReflectionFunctions original_;
   std::vector<bool> is_mirror_;  // by number
-  std::optional<Outputs> beam_;
-  std::optional<Outputs> sky_;
+  std::optional<DiffuseResults> beam_;
+  std::optional<DiffuseResults> sky_;
   std::optional<std::pair<double*, double*>> specular_pair_;
-  std::optional<SpecularOutputs> specular_;
+  std::optional<SpecularResults> specular_;
   std::map<SurfaceId, RayScene> mirrors_;
 };
 

@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "routes/patched/memory/object_memory.h"
+#include "routes/patched/memory/safe_read.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -33,18 +33,10 @@ std::int32_t find_placeholder(ReflectionMemory const& memory, Session const& ses
 
 }  // namespace
 
-std::optional<DaylightClasses> find_daylight_classes(SymbolTable const& symbols) {
-  DaylightClasses const classes{
-      symbols.virtual_functions("N10EnergyPlus15DaylightingDataE"),
-      symbols.virtual_functions(
-          "N9ObjexxFCL7Array1DISt5arrayIN10EnergyPlus6Dayltg6IllumsELm2EEEE")};
-  if (classes.daylighting == nullptr || classes.hours == nullptr) return std::nullopt;
-  return classes;
-}
-
 SurfaceLuminance::SurfaceLuminance(Ray const& ray, ReflectionMemory const& memory,
                                    Session const& session, DaylightClasses const& classes,
-                                   ElementFunction* function, std::optional<Measured>& measured)
+                                   PointerTo<symbol::window_element> function,
+                                   std::optional<Measured>& measured)
     : memory_(memory),
       session_(session),
       function_(function),

@@ -10,42 +10,24 @@
 #include <vector>
 
 #include "calculation/session.h"
-#include "routes/patched/binary/symbol_table.h"
 #include "routes/patched/memory/reflection_memory.h"
-#include "routes/patched/symbols/energyplus.h"
+#include "routes/patched/symbols/energyplus_symbols.h"
 
 namespace gpu_shading::energyplus {
 
-// EnergyPlus's Illums: what four skies, the sun's light without its disk, and its disk give.
-struct Illuminance {
-  std::array<double, 4> skies;
-  double sun;
-  double sun_disk;
-};
 // Of a bare window, and of one with its shade.
 using Covers = std::array<Illuminance, 2>;
 
-// EnergyPlus's function for the light of a window's element at an hour
-// (FigureDayltgCoeffsAtPointsForSunPosition).
-using ElementFunction = void(State&, int control, int point, int column, int columns, int row,
-                             int rows, int element, int window, int outer_window, int hour,
-                             int& sun_position, double sky_on_ground, Vector const& from,
-                             Vector const& ray, double altitude, int first, int shelf,
-                             double cosine, double obstructions, double transmittance,
-                             double solid_angle, int shading_control, int shading_type, int blind,
-                             double azimuth, Vector const& normal, int window_type,
-                             int construction, double view_azimuth, Vector const& outer_point,
-                             bool inside, bool outside, int caller, double interior_window,
-                             double& interior_window_disk, int map);
-
-// The classes of the objects that hold daylighting, as their first words tell them.
+// The classes of the objects that hold daylighting, identified by their vtable pointers.
 struct DaylightClasses {
-  std::byte const* daylighting = nullptr;  // DaylightingData
-  std::byte const* hours = nullptr;        // Array1D<std::array<Illums, 2>>
-};
+  // `symbols` must have those of Need::daylight_reflections.
+  explicit DaylightClasses(SymbolTable const& symbols)
+      : daylighting(symbol::daylighting_data.in(symbols)),
+        hours(symbol::illuminances_by_hour.in(symbols)) {}
 
-// Nothing if the library lacks one.
-std::optional<DaylightClasses> find_daylight_classes(SymbolTable const& symbols);
+  std::byte const* daylighting;  // DaylightingData
+  std::byte const* hours;        // Array1D<std::array<Illums, 2>>
+};
 
 // How much light of the sky surfaces reflect, as EnergyPlus computes it for daylighting. It is
 // measured: EnergyPlus's own function is called for one element of a window, with a ray that meets
@@ -76,7 +58,7 @@ class SurfaceLuminance {
   // `measured`: set while a surface is measured. Memory and session must outlive this. Throws
   // Unexpected.
   SurfaceLuminance(Ray const& ray, ReflectionMemory const& memory, Session const& session,
-                   DaylightClasses const& classes, ElementFunction* function,
+                   DaylightClasses const& classes, PointerTo<symbol::window_element> function,
                    std::optional<Measured>& measured);
 
   // Luminance by the sky, cd/m2, over its illuminance on the horizontal, lux.
@@ -102,7 +84,7 @@ class SurfaceLuminance {
 
   ReflectionMemory const& memory_;
   Session const& session_;
-  ElementFunction* function_;
+  PointerTo<symbol::window_element> function_;
   std::optional<Measured>& measured_;
   std::vector<Covers*> arrays_;  // by hour, all of this kind
   Covers* direct_ = nullptr;

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
-#include "routes/patched/binary/function_finder.h"
+#include "routes/patched/symbols/energyplus_symbols.h"
 
 namespace gpu_shading::energyplus {
 
@@ -33,27 +33,18 @@ class ScheduleInterface {
 
 namespace {
 
-constexpr char const* get_schedule =
-    "_ZN10EnergyPlus5Sched11GetScheduleERNS_14EnergyPlusDataERKNSt7__cxx1112basic_"
-    "stringIcSt11char_traitsIcESaIcEEE";
-
 // From 25.1 on, schedules are objects.
 class ScheduleObjects : public ScheduleInterface {
  public:
-  explicit ScheduleObjects(SymbolTable const& symbols) {
-    FunctionFinder finder(symbols);
-    finder.find(get_schedule, get_);
-    finder.find("_ZN10EnergyPlus5Sched12ScheduleBase9getMinValERNS_14EnergyPlusDataE", minimum_);
-    finder.find("_ZN10EnergyPlus5Sched12ScheduleBase9getMaxValERNS_14EnergyPlusDataE", maximum_);
-    AtHour* constant_at_hour = nullptr;
-    finder.find("_ZNK10EnergyPlus5Sched16ScheduleConstant10getHrTsValERNS_14EnergyPlusDataEii",
-                constant_at_hour);
-    finder.check();
-    index_ = index_of(reinterpret_cast<void*>(constant_at_hour),
-                      symbols.virtual_functions("N10EnergyPlus5Sched16ScheduleConstantE"));
+  explicit ScheduleObjects(SymbolTable const& symbols)
+      : get_(symbol::get_schedule.in(symbols)),
+        minimum_(symbol::schedule_minimum.in(symbols)),
+        maximum_(symbol::schedule_maximum.in(symbols)),
+        index_(index_of(symbol::constant_schedule_at.in(symbols),
+                        symbol::constant_schedules.in(symbols))) {
     if (index_) return;
-    throw Error(fmt::format("{}: functions missing in this build:\n  virtual getHrTsVal",
-                            symbols.library().string()));
+    throw Error(
+        fmt::format("{}: ScheduleConstant has no virtual getHrTsVal", symbols.library().string()));
   }
 
   Handle find(State& state, std::string const& name) const override {
@@ -68,54 +59,42 @@ class ScheduleObjects : public ScheduleInterface {
   // By the object's own function, because releases add types of schedules.
   double at(State& state, Handle schedule, Moment moment) const override {
     auto const* const found = object(schedule);
-    auto* const* const functions = *reinterpret_cast<AtHour* const* const*>(found);
+    auto* const* const functions = *reinterpret_cast<AtHour const* const*>(found);
     return functions[*index_](found, state, moment.hour, moment.timestep);
   }
 
  private:
-  struct Schedule;  // EnergyPlus's own
-  using Get = Schedule*(State&, std::string const&);
-  using Extreme = double(Schedule*, State&);
-  using AtHour = double(Schedule const*, State&, int hour, int timestep);
+  using AtHour = PointerTo<symbol::constant_schedule_at>;
 
-  static Schedule* object(Handle schedule) {
-    return reinterpret_cast<Schedule*>(schedule);  // NOLINT(performance-no-int-to-ptr)
+  static ScheduleObject* object(Handle schedule) {
+    return reinterpret_cast<ScheduleObject*>(schedule);  // NOLINT(performance-no-int-to-ptr)
   }
 
   // Where a function is in a class's table of virtual functions.
-  static std::optional<std::size_t> index_of(void const* function, std::byte const* table) {
+  static std::optional<std::size_t> index_of(AtHour function, std::byte const* table) {
     constexpr std::size_t most_functions = 16;
     for (std::size_t i = 0; table != nullptr && i < most_functions; ++i) {
-      void* entry = nullptr;
+      AtHour entry = nullptr;
       std::memcpy(&entry, table + i * sizeof entry, sizeof entry);
       if (entry == function) return i;
     }
     return std::nullopt;
   }
 
-  Get* get_ = nullptr;
-  Extreme* minimum_ = nullptr;
-  Extreme* maximum_ = nullptr;
+  PointerTo<symbol::get_schedule> get_;
+  PointerTo<symbol::schedule_minimum> minimum_;
+  PointerTo<symbol::schedule_maximum> maximum_;
   std::optional<std::size_t> index_;
 };
 
 // Before, they were numbered from 1.
 class NumberedSchedules : public ScheduleInterface {
  public:
-  explicit NumberedSchedules(SymbolTable const& symbols) {
-    FunctionFinder finder(symbols);
-    finder.find(
-        "_ZN10EnergyPlus15ScheduleManager16GetScheduleIndexERNS_14EnergyPlusDataERKNSt7__"
-        "cxx1112basic_stringIcSt11char_traitsIcESaIcEEE",
-        find_);
-    finder.find("_ZN10EnergyPlus15ScheduleManager19GetScheduleMinValueERNS_14EnergyPlusDataEi",
-                minimum_);
-    finder.find("_ZN10EnergyPlus15ScheduleManager19GetScheduleMaxValueERNS_14EnergyPlusDataEi",
-                maximum_);
-    finder.find("_ZN10EnergyPlus15ScheduleManager19LookUpScheduleValueERNS_14EnergyPlusDataEiii",
-                at_);
-    finder.check();
-  }
+  explicit NumberedSchedules(SymbolTable const& symbols)
+      : find_(symbol::schedule_index.in(symbols)),
+        minimum_(symbol::numbered_schedule_minimum.in(symbols)),
+        maximum_(symbol::numbered_schedule_maximum.in(symbols)),
+        at_(symbol::numbered_schedule_at.in(symbols)) {}
 
   Handle find(State& state, std::string const& name) const override {
     return static_cast<Handle>(std::max(find_(state, name), 0));
@@ -131,10 +110,10 @@ class NumberedSchedules : public ScheduleInterface {
   }
 
  private:
-  int (*find_)(State&, std::string const&) = nullptr;
-  double (*minimum_)(State&, int) = nullptr;
-  double (*maximum_)(State&, int) = nullptr;
-  double (*at_)(State&, int, int hour, int timestep) = nullptr;
+  PointerTo<symbol::schedule_index> find_;
+  PointerTo<symbol::numbered_schedule_minimum> minimum_;
+  PointerTo<symbol::numbered_schedule_maximum> maximum_;
+  PointerTo<symbol::numbered_schedule_at> at_;
 };
 
 double limited(double value) { return std::clamp(value, 0.0, 1.0); }
@@ -173,7 +152,7 @@ class FoundSchedules {
 }  // namespace
 
 ScheduleFunctions::ScheduleFunctions(SymbolTable const& symbols) {
-  if (symbols.find(get_schedule) != nullptr) {
+  if (has_all(symbols, Need::from_25_1)) {
     interface_ = std::make_shared<ScheduleObjects>(symbols);
   } else {
     interface_ = std::make_shared<NumberedSchedules>(symbols);

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "routes/patched/binary/symbol_table.h"
-#include "routes/patched/symbols/energyplus.h"
+#include "routes/patched/symbols/energyplus_types.h"
 #include "scene/schedules.h"
 
 namespace gpu_shading::energyplus {
@@ -15,7 +15,8 @@ class ScheduleInterface;
 class ScheduleFunctions {
  public:
   ScheduleFunctions() = default;
-  // Throws Error with the list of functions that the build lacks.
+  // `symbols` must have those of Need::from_25_1 or Need::before_25_1. Throws Error if schedules
+  // are objects of an unknown kind.
   explicit ScheduleFunctions(SymbolTable const& symbols);
 
   // A run's schedules by upper-case name; values are limited to 0 .. 1. Functions throw Error if

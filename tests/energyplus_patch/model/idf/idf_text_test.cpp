@@ -11,11 +11,11 @@ TEST(IdfText, CommentsBlanksAndLineEndsAreNotPartOfFields) {
       "Zone,  ! the type\r\n"
       "  Core zone ,  !- Name\r\n"
       "  0.5;  !- North\r\n"
-      "Version,25.2;");
+      "Version,9.6;");
   ASSERT_EQ(objects.size(), 2U);
   EXPECT_EQ(objects[0].type, "Zone");
   EXPECT_EQ(objects[0].fields, (std::vector<std::string>{"Core zone", "0.5"}));
-  EXPECT_EQ(objects[1].fields, (std::vector<std::string>{"25.2"}));
+  EXPECT_EQ(objects[1].fields, (std::vector<std::string>{"9.6"}));
 }
 
 TEST(IdfText, BlankFieldsKeepTheirPlace) {

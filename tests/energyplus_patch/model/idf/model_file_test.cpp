@@ -22,7 +22,7 @@ std::vector<std::string> shadow_fields(std::string const& text) {
 }
 
 TEST(RewriteIdf, OnlyTheMethodChanges) {
-  std::string const before = "Version,25.2;\n! note\n";
+  std::string const before = "Version,9.6;\n! note\n";
   std::string const after = "\nZone,A;  !- last\n";
   auto const text =
       rewrite_idf(before + "ShadowCalculation,PolygonClipping,Periodic,7,15000,,,Detailed;" + after,
@@ -34,7 +34,7 @@ TEST(RewriteIdf, OnlyTheMethodChanges) {
 }
 
 TEST(RewriteIdf, ModelWithoutShadowCalculationGetsOne) {
-  auto const text = rewrite_idf("Version,25.2;", {"PixelCounting", "Timestep"});
+  auto const text = rewrite_idf("Version,9.6;", {"PixelCounting", "Timestep"});
   EXPECT_EQ(shadow_fields(text), (std::vector<std::string>{"PixelCounting", "Timestep"}));
 }
 
@@ -47,7 +47,7 @@ TEST(RewriteIdf, ExtensionObjectsAreTakenOut) {
 }
 
 TEST(RewriteEpJson, OnlyTheMethodChanges) {
-  auto model = nlohmann::json::parse(R"({"Version": {"Version 1": {"version_identifier": "25.2"}},
+  auto model = nlohmann::json::parse(R"({"Version": {"Version 1": {"version_identifier": "9.6"}},
     "GPUShading:Settings": {"s": {"resolution": 256}},
     "ShadowCalculation": {"s": {"shading_calculation_method": "PolygonClipping",
                                 "shading_calculation_update_frequency": 7}}})");

@@ -1,7 +1,5 @@
 // A side file is read as a whole, or refused: none of its objects is dropped in silence.
 
-#include "model/idf/side_file.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -9,6 +7,7 @@
 #include <fstream>
 
 #include "gpu_shading/error.h"
+#include "model/idf/extension_objects.h"
 #include "model/idf/model_file.h"
 #include "platform/process.h"
 
@@ -54,7 +53,7 @@ std::string replaced(std::string text, std::string const& from, std::string cons
 }
 
 TEST_F(SideFile, EncodingsAndLineEndsOfEveryKind) {
-  auto const text = "! comment, with; separators\nVersion,25.2;\n" + shade + "! more\n" + settings;
+  auto const text = "! comment, with; separators\nVersion,9.6;\n" + shade + "! more\n" + settings;
   for (auto const& written :
        {text, "\xEF\xBB\xBF" + text, replaced(text, "\n", "\r\n"), replaced(text, "\n", "\r"),
         "\xEF\xBB\xBF" + replaced(text, "\n", "\r")}) {
@@ -147,13 +146,13 @@ TEST(EpJson, RepeatedKeysOfOurs) {
 
 TEST(RewriteIdf, WhatIsAddedDoesNotBecomePartOfAnOpenObject) {
   for (std::string const end : {"Zone,Core", "Zone,Core ! comment", "Zone,\n  Core\n"}) {
-    auto const text = rewrite_idf("Version,25.2;\n" + end, {"PixelCounting", "Timestep"});
+    auto const text = rewrite_idf("Version,9.6;\n" + end, {"PixelCounting", "Timestep"});
     auto const objects = parse_idf(text);
     ASSERT_EQ(objects.size(), 3U) << text;
     EXPECT_EQ(objects[1].fields, (std::vector<std::string>{"Core"}));
     EXPECT_EQ(objects[2].type, "ShadowCalculation");
   }
-  auto const text = rewrite_idf("Version,25.2;\nGPUShading:Settings,64", {"PixelCounting", ""});
+  auto const text = rewrite_idf("Version,9.6;\nGPUShading:Settings,64", {"PixelCounting", ""});
   EXPECT_EQ(parse_idf(text).size(), 2U);
   EXPECT_EQ(text.find("\n;\n"), std::string::npos);
 }

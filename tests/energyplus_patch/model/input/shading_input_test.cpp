@@ -160,12 +160,12 @@ TEST(ShadingInput, WhatEnergyPlusMayAskFor) {
 }
 
 TEST(ShadingInput, OtherVersionsAndUserGivenFractionsAreRefused) {
-  EXPECT_NO_THROW(check_supported(read("Version,25.2;"), "25.2.0"));
-  EXPECT_NO_THROW(check_supported(read("Version,25.2.0;"), "25.2.0"));
-  EXPECT_THROW(check_supported(read("Version,24.2;"), "25.2.0"), Error);
-  EXPECT_THROW(check_supported(read("Version,9.1;"), "25.2.0"), Error);
-  EXPECT_THROW(check_supported(read("ShadowCalculation,scheduled;"), "25.2.0"), Error);
-  EXPECT_THROW(check_supported(read("ShadowCalculation,Imported;"), "25.2.0"), Error);
+  EXPECT_NO_THROW(check_supported(read("Version,9.6;"), "9.6.0"));
+  EXPECT_NO_THROW(check_supported(read("Version,9.6.0;"), "9.6.0"));
+  EXPECT_THROW(check_supported(read("Version,24.2;"), "9.6.0"), Error);
+  EXPECT_THROW(check_supported(read("Version,8.9;"), "9.6.0"), Error);
+  EXPECT_THROW(check_supported(read("ShadowCalculation,scheduled;"), "9.6.0"), Error);
+  EXPECT_THROW(check_supported(read("ShadowCalculation,Imported;"), "9.6.0"), Error);
 }
 
 }  // namespace

@@ -16,9 +16,10 @@ extern "C" EXPORTED int redirect_opengl_of(void const* inside) {
   try {
     Dl_info found{};
     if (dladdr(inside, &found) == 0) return 1;
+    auto const entries = glfw_entries();
     SymbolTable const symbols(found.dli_fname, static_cast<std::byte*>(found.dli_fbase),
-                              Symbols::exported);
-    patch_entries(symbols, glfw_entries());
+                              names_of(entries), Symbols::exported);
+    patch_entries(symbols, entries);
     return 0;
   } catch (std::exception const& error) {
     std::fprintf(stderr, "%s\n", error.what());

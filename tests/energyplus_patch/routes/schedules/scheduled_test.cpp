@@ -21,7 +21,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// As EnergyPlus 25.2 writes it, but for most of the codes that mean nothing here.
+// As EnergyPlus writes it, but for most of the codes that mean nothing here.
 std::string polyline(std::string const& comment, std::vector<std::string> const& coordinates) {
   std::string text = "999\n" + comment + "\n  0\nPOLYLINE\n  8\n1\n 10\n 0.0\n 20\n 0.0\n";
   for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) {
@@ -155,20 +155,6 @@ TEST(SunlitFractions, ScheduleFileIsOfALeapYear) {
   EXPECT_EQ(lines[0], "WALL,WINDOW");
   EXPECT_EQ(lines[1 + 60 * 48 + 23], "0.25,1");
   EXPECT_EQ(lines[1 + 60 * 48 + 24], "0,0");
-}
-
-TEST(SunlitFractions, ImportedFileHasTheYearsDays) {
-  std::ostringstream out;
-  write_imported_file(table_of(3, 1), out);
-  auto const lines = lines_of(out.str());
-  ASSERT_EQ(lines.size(), 1U + 365U * 48U);
-  EXPECT_EQ(lines[0], "Surface Name,WALL,WINDOW,");
-  EXPECT_EQ(lines[1], " 01/01 00:30,0.00000000,0.00000000,");
-  EXPECT_EQ(lines[1 + 59 * 48 + 23], " 03/01 12:00,0.25000000,1.00000000,");
-  EXPECT_THAT(lines.back(), HasSubstr(" 12/31 24:00,"));
-  std::ostringstream leap;
-  write_imported_file(table_of(2, 29), leap);
-  EXPECT_EQ(lines_of(leap.str()).size(), 1U + 366U * 48U);
 }
 
 std::string shown(bool terminal, Progress::Clock::duration patience) {

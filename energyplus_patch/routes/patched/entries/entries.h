@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "routes/patched/binary/entry_patch.h"
+#include "routes/patched/symbols/energyplus_symbols.h"
+
+namespace gpu_shading::energyplus {
+
+// A function of the table of symbols that is redirected to ours.
+struct Entry {
+  Need need;
+  EntryPatch patch;
+};
+
+// An entry whose original no longer runs.
+template <typename Returned, typename... Arguments>
+Entry replace(Function<Returned(Arguments...)> const& function, Returned (*ours)(Arguments...)) {
+  return {function.need, replace(function.symbol, ours)};
+}
+
+// An entry whose original still runs, through `original`.
+template <typename Returned, typename... Arguments>
+Entry watch(Function<Returned(Arguments...)> const& function, Returned (*ours)(Arguments...),
+            Returned (**original)(Arguments...)) {
+  return {function.need, watch(function.symbol, ours, original)};
+}
+
+// The replaced class, through which EnergyPlus asks for sunlit areas.
+std::vector<Entry> penumbra_entries();
+// The watched functions: where EnergyPlus reads its input, which is changed in memory on the way;
+// where it describes its shading in the .eio file; and where it ends.
+std::vector<Entry> input_entries();
+// Those of the shading calculation that give the day, hour and timestep, and the warning that
+// transmittance schedules are ignored, which does not apply here.
+std::vector<Entry> shading_entries();
+// Those through which EnergyPlus writes errors and warnings: UnwantedMessages.
+std::vector<Entry> message_entries();
+// Those that tell what obstructs rays of daylighting. The originals answer for the surfaces that
+// EnergyPlus knows, ours for the others.
+std::vector<Entry> daylight_entries();
+// Those that compute solar reflections, likewise: SolarReflections.
+std::vector<Entry> reflection_entries();
+// Those of reflections in daylighting, likewise: DaylightReflections.
+std::vector<Entry> daylight_reflection_entries();
+// Those of daylighting that compute again what is known: DaylightMemory.
+std::vector<Entry> daylight_memory_entries();
+
+}  // namespace gpu_shading::energyplus

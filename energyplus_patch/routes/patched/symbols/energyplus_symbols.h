@@ -1,0 +1,100 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <ios>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "routes/patched/binary/symbol_table.h"
+#include "routes/patched/symbols/energyplus_types.h"
+
+namespace gpu_shading::energyplus {
+
+// What a symbol of EnergyPlus serves. If a build lacks one of a need's symbols:
+enum class Need {
+  run,             // sunlit fractions are passed by another route
+  from_25_1,       // before_25_1 serves instead
+  before_25_1,     // from_25_1 serves instead
+  eio_line,        // the .eio file has no lines on shading
+  opaque_warning,  // EnergyPlus warns that pixel counting takes shades as opaque (before 24.2)
+  surface_ids,     // mirrored shading surfaces are taken as shaded, and there are no `reflections`
+  run_days,        // the report has no days
+  daylight_rays,   // hidden casters dim no rays of daylighting
+  reflections,     // hidden casters do not take part in solar reflections
+  daylight_reflections,  // hidden casters do not take part in reflections of daylighting
+  daylight_memory        // EnergyPlus computes daylighting again where nothing has changed
+};
+
+// A function of EnergyPlus.
+template <typename Signature>
+struct Function {
+  using Pointer = Signature*;
+
+  char const* symbol;
+  Need need;
+
+  // nullptr if the build lacks it.
+  Pointer in(SymbolTable const& symbols) const {
+    auto const* const found = symbols.find(symbol);
+    return found == nullptr ? nullptr : reinterpret_cast<Pointer>(found->address);
+  }
+};
+
+// A class of EnergyPlus, by the symbol of its table of virtual functions.
+struct Class {
+  char const* symbol;
+  Need need;
+
+  // What the first word of each object points to; nullptr if the build lacks it.
+  std::byte const* in(SymbolTable const& symbols) const {
+    auto const* const found = symbols.find(symbol);
+    // Two words come before the functions: an offset and the type's information (Itanium C++ ABI).
+    return found == nullptr ? nullptr : found->address + 2 * sizeof(void*);
+  }
+};
+
+namespace symbol {
+#define FUNCTION(need, name, signature, symbol) \
+  inline constexpr Function<signature> name{symbol, Need::need};
+#define CLASS(need, name, symbol) inline constexpr Class name{symbol, Need::need};
+#include "routes/patched/symbols/energyplus_symbols.inc"
+#undef FUNCTION
+#undef CLASS
+}  // namespace symbol
+
+// A pointer to a function of the table: its original, where it is redirected.
+template <auto const& function>
+using PointerTo = typename std::remove_cvref_t<decltype(function)>::Pointer;
+
+// The table without its types.
+struct SymbolRow {
+  char const* symbol;
+  Need need;
+};
+inline constexpr SymbolRow energyplus_symbols[] = {
+#define FUNCTION(need, name, signature, symbol) {symbol, Need::need},
+#define CLASS(need, name, symbol) {symbol, Need::need},
+#include "routes/patched/symbols/energyplus_symbols.inc"
+#undef FUNCTION
+#undef CLASS
+};
+
+inline std::vector<std::string_view> energyplus_symbol_names() {
+  std::vector<std::string_view> names;
+  for (auto const& row : energyplus_symbols) names.emplace_back(row.symbol);
+  return names;
+}
+
+// Whether the build has all symbols of a need.
+inline bool has_all(SymbolTable const& symbols, Need need) {
+  return std::all_of(std::begin(energyplus_symbols), std::end(energyplus_symbols), [&](auto& row) {
+    return row.need != need || symbols.find(row.symbol) != nullptr;
+  });
+}
+
+}  // namespace gpu_shading::energyplus
