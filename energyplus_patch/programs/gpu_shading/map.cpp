@@ -20,6 +20,7 @@
 #include "routes/schedules/rendered_fractions.h"
 #include "runs/installation.h"
 #include "runs/short_runs.h"
+#include "tasks/task_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {
