@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "files/image_file.h"
+#include "files/pictures.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/scene_view.h"
 #include "platform/staged_files.h"

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
-#include "platform/nearest_word.h"
 #include "platform/progress.h"
 #include "platform/text.h"
 #include "tasks/trace_maps.h"

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "files/labelled_image.h"
+#include "files/pictures.h"
 
 namespace gpu_shading::energyplus {
 namespace {

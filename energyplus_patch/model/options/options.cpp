@@ -14,7 +14,6 @@
 #include "model/extensions/extension_fields.h"
 #include "model/extensions/field_text.h"
 #include "platform/console.h"
-#include "platform/nearest_word.h"
 #include "platform/process.h"
 #include "platform/text.h"
 

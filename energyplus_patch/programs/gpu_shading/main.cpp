@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/picture_sheet.h"
+#include "files/pictures.h"
 #include "gpu_shading/error.h"
 #include "model/idf/model_file.h"
 #include "model/model_reader.h"
@@ -23,7 +23,6 @@
 #include "platform/console.h"
 #include "platform/ending_signals.h"
 #include "platform/error_line.h"
-#include "platform/nearest_word.h"
 #include "platform/process.h"
 #include "platform/text.h"
 #include "programs/gpu_shading/check_model.h"

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "files/picture_sheet.h"
+#include "files/pictures.h"
 #include "gpu_shading/error.h"
 #include "platform/console.h"
 #include "platform/process.h"

@@ -12,8 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/image_file.h"
-#include "files/picture_sheet.h"
+#include "files/pictures.h"
 #include "gpu_shading/error.h"
 #include "model/extensions/extension_fields.h"
 #include "model/geometry_rules.h"
@@ -21,9 +20,7 @@
 #include "model/model_reader.h"
 #include "model/shading_outlines.h"
 #include "platform/console.h"
-#include "platform/file_names.h"
 #include "platform/files.h"
-#include "platform/nearest_word.h"
 #include "platform/process.h"
 #include "platform/staged_files.h"
 #include "platform/text.h"

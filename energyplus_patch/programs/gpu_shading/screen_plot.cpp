@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 
 #include "gpu_shading/fraction_colour.h"
-#include "platform/markup_text.h"
+#include "platform/text.h"
 #include "programs/gpu_shading/screen_optics.h"
 
 namespace gpu_shading::energyplus {

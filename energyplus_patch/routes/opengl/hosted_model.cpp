@@ -21,7 +21,7 @@
 #include "platform/process.h"
 #include "routes/opengl/schedule_clock.h"
 #include "routes/schedules/rendered_fractions.h"
-#include "runs/drawn_surfaces.h"
+#include "runs/drawing.h"
 #include "runs/installation.h"
 #include "runs/short_runs.h"
 

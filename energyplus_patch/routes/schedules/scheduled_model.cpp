@@ -15,7 +15,7 @@
 #include "platform/files.h"
 #include "platform/text.h"
 #include "routes/schedules/rendered_fractions.h"
-#include "runs/drawn_surfaces.h"
+#include "runs/drawing.h"
 #include "runs/installation.h"
 
 namespace gpu_shading::energyplus {

@@ -1,4 +1,4 @@
-#include "files/beside.h"
+#include "files/sibling_file.h"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -10,6 +10,7 @@
 #include "platform/process.h"
 
 namespace gpu_shading::energyplus {
+
 namespace {
 
 // Empty if it is not known.
@@ -31,7 +32,7 @@ std::filesystem::path const code_folder = folder_of_this_code();
 
 }  // namespace
 
-std::filesystem::path beside_this_code(char const* name) {
+std::filesystem::path sibling_file(char const* name) {
   if (code_folder.empty()) throw Error(fmt::format("{}: its folder is not known", name));
   return code_folder / name;
 }
