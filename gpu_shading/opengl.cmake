@@ -8,11 +8,9 @@ add_library(gpu_shading_opengl STATIC
   backends/opengl/egl/context.cpp
   backends/opengl/egl/device.cpp
   backends/opengl/egl/display.cpp
-  backends/opengl/egl/error.cpp
   backends/opengl/gl/buffer.cpp
   backends/opengl/gl/check.cpp
   backends/opengl/gl/draw.cpp
-  backends/opengl/gl/fence.cpp
   backends/opengl/gl/framebuffer.cpp
   backends/opengl/gl/limits.cpp
   backends/opengl/gl/program.cpp
@@ -26,11 +24,9 @@ add_library(gpu_shading_opengl STATIC
   backends/opengl/raster/reduction.cpp
   backends/opengl/raster/schedule_keys.cpp
   backends/opengl/raster/screen_geometry.cpp
-  backends/opengl/raster/sheet_block.cpp
   backends/opengl/raster/submissions.cpp
   backends/opengl/raster/target.cpp
   backends/opengl/raster/target_pool.cpp
-  backends/opengl/raster/view_records.cpp
   ${SHADER_SOURCES})
 target_include_directories(gpu_shading_opengl
   PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}

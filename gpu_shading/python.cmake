@@ -1,10 +1,6 @@
 # What the Python package calls. It needs nothing of Python: one library serves all versions.
-add_library(gpu_shading_python MODULE
-  python/closing.cpp
-  python/optics_calls.cpp
-  python/ray_calls.cpp
-  python/renderer_calls.cpp
-  python/scene_calls.cpp)
+file(GLOB calls CONFIGURE_DEPENDS python/*.cpp)
+add_library(gpu_shading_python MODULE ${calls})
 target_include_directories(gpu_shading_python PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 target_compile_definitions(gpu_shading_python PRIVATE GPU_SHADING_VERSION="${PROJECT_VERSION}")
 target_link_libraries(gpu_shading_python PRIVATE project_options gpu_shading)

@@ -15,7 +15,7 @@
 namespace gpu_shading::energyplus {
 
 std::optional<std::vector<std::byte>> read_cache_file(std::filesystem::path const& path,
-                                                      std::size_t most_bytes) {
+                                                      std::size_t max_bytes) {
   // Opened only once, because another file may replace it at any moment; a pipe is not waited for.
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
   FileDescriptor const file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
@@ -25,7 +25,7 @@ std::optional<std::vector<std::byte>> read_cache_file(std::filesystem::path cons
     throw Error("cannot be read");
   }
   auto const size = static_cast<std::size_t>(found.st_size);
-  if (size > most_bytes) throw Error("is too large");
+  if (size > max_bytes) throw Error("is too large");
   std::vector<std::byte> bytes(size);
   for (std::size_t done = 0; done < size;) {
     auto const count = read(file.get(), bytes.data() + done, size - done);

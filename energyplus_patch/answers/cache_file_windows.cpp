@@ -10,13 +10,13 @@
 namespace gpu_shading::energyplus {
 
 std::optional<std::vector<std::byte>> read_cache_file(std::filesystem::path const& path,
-                                                      std::size_t most_bytes) {
+                                                      std::size_t max_bytes) {
   std::error_code failure;
   if (!std::filesystem::exists(path, failure)) return std::nullopt;
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) throw Error("cannot be read");
   auto const size = static_cast<std::size_t>(file.tellg());
-  if (size > most_bytes) throw Error("is too large");
+  if (size > max_bytes) throw Error("is too large");
   std::vector<std::byte> bytes(size);
   file.seekg(0);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));

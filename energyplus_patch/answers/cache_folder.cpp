@@ -61,7 +61,7 @@ void prepare_cache_folder(std::filesystem::path const& folder) {
                           failure.message()));
 }
 
-void bound_cache_folder(std::filesystem::path const& folder, std::uint64_t most_bytes,
+void bound_cache_folder(std::filesystem::path const& folder, std::uint64_t max_bytes,
                         std::filesystem::path const& kept) {
   std::vector<File> files;
   std::uint64_t bytes = 0;
@@ -73,7 +73,7 @@ void bound_cache_folder(std::filesystem::path const& folder, std::uint64_t most_
   std::sort(files.begin(), files.end(),
             [](File const& a, File const& b) { return a.used < b.used; });
   for (auto const& file : files) {
-    if (bytes <= most_bytes) return;
+    if (bytes <= max_bytes) return;
     if (file.path.filename() == kept.filename()) continue;
     if (std::filesystem::remove(file.path, ignored)) bytes -= file.bytes;
   }

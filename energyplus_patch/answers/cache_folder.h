@@ -17,9 +17,9 @@ void prepare_cache_folder(std::filesystem::path const& folder);
 
 std::string cache_file_name(std::string_view hash_digits);
 
-// Evicts files of answers, least recently used first, until all take at most `most_bytes`; `kept`
+// Evicts files of answers, least recently used first, until all take at most `max_bytes`; `kept`
 // stays whatever its size.
-void bound_cache_folder(std::filesystem::path const& folder, std::uint64_t most_bytes,
+void bound_cache_folder(std::filesystem::path const& folder, std::uint64_t max_bytes,
                         std::filesystem::path const& kept);
 
 }  // namespace gpu_shading::energyplus

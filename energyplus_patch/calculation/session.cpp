@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <numeric>
 #include <utility>
 
 #include "answers/cache_folder.h"
-#include "answers/open_answers.h"
+#include "answers/cached_renderer.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/sun_direction.h"
 #include "model/options/report_folder.h"
@@ -18,19 +17,6 @@
 
 namespace gpu_shading::energyplus {
 namespace {
-
-// Keeps the `limit` largest values and sets the others to 0; EnergyPlus adds the beam that no
-// surface takes to the diffuse radiation.
-void keep_largest(std::vector<float>& areas, std::size_t limit) {
-  auto const lit = static_cast<std::size_t>(
-      std::count_if(areas.begin(), areas.end(), [](float area) { return area > 0.0F; }));
-  if (lit <= limit) return;
-  std::vector<std::size_t> order(areas.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
-  for (std::size_t i = limit; i < order.size(); ++i) areas[order[i]] = 0.0F;
-}
 
 std::string list(Stages const& stages) {
   std::string line;
@@ -50,6 +36,8 @@ SurfaceId Session::add(Surface surface) {
   }
   return static_cast<SurfaceId>(added_.size() - 1);
 }
+
+bool Session::wants_mirrored() const { return input().reflections || input().mirrored_shown(); }
 
 SurfaceId Session::add_mirrored(SurfaceId original) {
   if (auto const* const placeholder = std::get_if<Surface>(&added_.at(original))) {
@@ -83,9 +71,10 @@ SurfaceId Session::in_scene(SurfaceId id) const {
   return *found;
 }
 
-void Session::start(Messages messages, Schedules schedules, std::function<double()> latitude) {
-  messages_ = std::move(messages);
-  scene_.complete(std::move(schedules));
+void Session::start(Simulation simulation) {
+  if (answers_) throw Error("the surfaces of a model can be set once");
+  messages_ = std::move(simulation.messages);
+  scene_.complete(std::move(simulation.schedules));
   auto const& options = scene_.model().options;
   if (options.report) {
     prepare_report(*options.report);
@@ -93,8 +82,9 @@ void Session::start(Messages messages, Schedules schedules, std::function<double
     record_.emplace(scene_.areas(), scene_.shown_receivers());
   }
   if (options.cache) prepare_cache_folder(*options.cache);
-  answers_.emplace(SunAnswers::Site{scene_.areas(), options.update.sampling, std::move(latitude)});
-  answers_->open(open_answers(scene_, scene_.receivers(), options.device, messages_));
+  answers_.emplace(
+      SunQuestions::Site{scene_.areas(), options.update.sampling, std::move(simulation.latitude)});
+  answers_->open(open_renderer(scene_, scene_.receivers(), options.device, messages_));
   check_device(answers_->rendered().renderer().device(), options, messages_);
   describe_scene(scene_, messages_);
 }
@@ -104,7 +94,7 @@ SceneAssembly& Session::complete(Schedules schedules) {
   return scene_;
 }
 
-SunAnswers& Session::answers() {
+SunQuestions& Session::answers() {
   if (!answers_) throw Error("EnergyPlus asks for shading before its surfaces are complete");
   return *answers_;
 }
@@ -122,15 +112,15 @@ void Session::set_time(Moment moment) {
     messages_.warning(
         "a Transmittance Schedule with a constant value has changed, by an EMS or another program: "
         "its new values are used from now on");
-    store_answers(answers_->rendered(), messages_);
+    write_cache(answers_->rendered(), messages_);
     auto const receivers = answers_->rendered().known().receivers;
     // The CPU also if it took over from a GPU.
-    auto const device = choice_of(answers_->rendered().renderer().device());
+    DeviceChoice const device{answers_->rendered().renderer().device().id};
     obstructions_.reset();
     luminance_.reset();
     renew_reflections();
     answers_->close();
-    answers_->open(open_answers(scene_, receivers, device, messages_));
+    answers_->open(open_renderer(scene_, receivers, device, messages_));
   } else {
     answers_->deploy(scene_.optics().deployments());
   }
@@ -152,7 +142,7 @@ std::optional<glm::dvec3> Session::first_sun(int hour) const {
   return first_suns_.at(static_cast<std::size_t>(hour - 1));
 }
 
-float Session::projected_sunlit_area(SurfaceId receiver) {
+double Session::projected_sunlit_area(SurfaceId receiver) {
   auto& answers = this->answers();
   if (receiver < size() && is_placeholder(receiver)) {
     auto const& polygon = surface(receiver).polygon;
@@ -166,15 +156,23 @@ float Session::projected_sunlit_area(SurfaceId receiver) {
   return static_cast<float>(rendered * scene_.area_ratio(id));
 }
 
-std::vector<float> Session::interior_areas(SurfaceId window,
-                                           std::vector<SurfaceId> const& interiors) {
+std::vector<double> Session::projected_sunlit_areas(std::span<SurfaceId const> receivers) {
+  std::vector<double> areas;
+  areas.reserve(receivers.size());
+  for (auto const receiver : receivers) areas.push_back(projected_sunlit_area(receiver));
+  return areas;
+}
+
+std::vector<double> Session::interior_areas(SurfaceId window,
+                                            std::vector<SurfaceId> const& interiors) {
   auto& answers = this->answers();
   std::vector<SurfaceId> ids(interiors.size());
   std::transform(interiors.begin(), interiors.end(), ids.begin(),
                  [&](SurfaceId interior) { return in_scene(interior); });
-  auto areas =
+  auto const rounded =
       answers.interior_areas(InteriorKey({in_scene(window), ids}), scene_.optics().factors());
-  keep_largest(areas, max_back_surfaces);
+  std::vector<double> areas(rounded.begin(), rounded.end());
+  keep_largest(areas);
   return areas;
 }
 
@@ -209,6 +207,10 @@ void Session::renew_reflections() {
   reflections_->set_rays(std::move(rays));
 }
 
+std::string Session::vendor() {
+  return answers_ ? answers_->rendered().renderer().device().vendor : "";
+}
+
 void Session::finish() {
   if (!answers_) return;
   auto const& asked = answers_->asked();
@@ -216,7 +218,7 @@ void Session::finish() {
   if (!any && answers_->counts().directions == 0)
     return;  // the run ended before the first question
   describe_answers(*answers_, scene_.model().options, messages_);
-  store_answers(answers_->rendered(), messages_);
+  write_cache(answers_->rendered(), messages_);
   write_reports();
 }
 
@@ -224,8 +226,8 @@ void Session::write_reports() {
   auto const& options = scene_.model().options;
   auto const stages = stages_of(answers_->counts().rendering);
   if (options.stages) write_stages(*options.stages, stages);
+  if (options.verbose) messages_.remark("time by stage: " + list(stages));
   if (!options.report) return;
-  messages_.remark("time by stage: " + list(stages));
   auto& rendered = answers_->rendered();
   auto const& known = rendered.known();
   auto const& optics = scene_.optics();

@@ -1,44 +1,36 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "answers/sun_answers.h"
-#include "gpu_shading/scene.h"
+#include "answers/sun_questions.h"
+#include "calculation/shading_calculation.h"
 #include "hidden/daylight_memory.h"
 #include "hidden/hidden_luminance.h"
-#include "hidden/hidden_obstructions.h"
 #include "hidden/hidden_reflections.h"
 #include "model/model_reader.h"
-#include "platform/messages.h"
 #include "reports/run_record.h"
 #include "scene/scene_assembly.h"
-#include "scene/schedules.h"
 
 namespace gpu_shading::energyplus {
 
-// The shading calculation of one EnergyPlus run, from the surfaces that it adds to the areas that
-// it asks for. Ids are EnergyPlus's, which count from 0 in the order of adding; placeholders have
-// one too, but no surface in the scene. Every function throws gpu_shading::Error.
-class Session {
+// The shading calculation of a model that was read: with its transmittances, screens, schedules and
+// rules, and with surroundings and shading surfaces that EnergyPlus does not see. Placeholders have
+// an id, but no surface in the scene.
+class Session : public ShadingCalculation {
  public:
-  // EnergyPlus's WindowComplexManager has room for this many lit back surfaces per window.
-  static constexpr std::size_t max_back_surfaces = 20;
-
   explicit Session(Model model) : scene_(std::move(model)) {}
 
-  SurfaceId add(Surface surface);
-  std::size_t size() const { return added_.size(); }
+  SurfaceId add(Surface surface) override;
+  std::size_t size() const override { return added_.size(); }
+  bool wants_mirrored() const override;
+  SurfaceId add_mirrored(SurfaceId original) override;
 
   Surface const& surface(SurfaceId id) const;
-
-  // Adds the mirrored copy of a shading surface.
-  SurfaceId add_mirrored(SurfaceId original);
 
   // Whether a surface stands in EnergyPlus's input only for others, or is the copy of one that
   // does.
@@ -49,9 +41,8 @@ class Session {
   // Ids of EnergyPlus's shading surfaces, placeholders too, without mirrored copies, in order.
   std::vector<SurfaceId> shading_surfaces() const;
 
-  // Called when all surfaces are added: reads their optics and opens the device. `latitude`: the
-  // site's, in radians; only called if sun positions are sampled.
-  void start(Messages messages, Schedules schedules, std::function<double()> latitude = {});
+  // Reads the optics of all surfaces, and opens the device.
+  void start(Simulation simulation) override;
 
   // Instead of start(): the surfaces with their optics, for a task (tasks/perform_task.h).
   SceneAssembly& complete(Schedules schedules);
@@ -60,32 +51,26 @@ class Session {
   bool records_days() const { return record_.has_value(); }
   void begin_day(RunDay const& day, RunRecord::Beam const& beam);
 
-  // Sets the time at which schedules are evaluated from now on.
-  void set_time(Moment moment);
-  void set_sun(SunDirection sun);
+  void set_time(Moment moment) override;
+  void set_sun(SunDirection sun) override;
 
-  // m2 normal to the beam. The first call for a direction renders all receivers that were requested
-  // before, together with the directions that EnergyPlus is expected to ask for next, in one batch.
-  float projected_sunlit_area(SurfaceId receiver);
+  // Renders the directions that EnergyPlus is expected to ask for next in the same batch.
+  double projected_sunlit_area(SurfaceId receiver) override;
+  std::vector<double> projected_sunlit_areas(std::span<SurfaceId const> receivers) override;
 
-  // The same for interior surfaces that the sun reaches through a window, in order; only the
-  // max_back_surfaces largest are non-zero.
-  std::vector<float> interior_areas(SurfaceId window, std::vector<SurfaceId> const& interiors);
+  // Only the max_back_surfaces largest are non-zero.
+  std::vector<double> interior_areas(SurfaceId window,
+                                     std::vector<SurfaceId> const& interiors) override;
 
-  // What the surfaces that EnergyPlus does not know let pass of a ray of its daylighting, 0 .. 1,
-  // at an hour of the day (HiddenObstructions).
-  double daylight_transmittance(Ray const& ray, int hour);
-
-  // EnergyPlus computes daylighting for another period.
-  void begin_daylighting();
+  double daylight_transmittance(Ray const& ray, int hour) override;
+  void begin_daylighting() override;
 
   // What need not be computed again for daylighting.
   DaylightMemory& daylight_memory() { return daylight_memory_; }
-  // Whether what the surfaces let pass of a ray of daylighting, EnergyPlus's too, depends on a
-  // schedule.
+  // Whether the transmittance of surfaces for a ray of daylighting depends on a schedule.
   bool daylight_varies() const { return scene_.optics().has_schedules(); }
 
-  // What the same surfaces do to reflected solar radiation; nullptr if there are none.
+  // What hidden casters do to reflected solar radiation; nullptr if there are none.
   HiddenReflections* reflections();
 
   // What they do to light that daylighting receives by reflection; nullptr if there are none.
@@ -95,12 +80,14 @@ class Session {
   // did not ask for it.
   std::optional<glm::dvec3> first_sun(int hour) const;
 
-  // Called at the end of the run: reports what rendered, and writes the report.
-  void finish();
+  std::string vendor() override;
+
+  // Also writes the report.
+  void finish() override;
 
  private:
   SurfaceId in_scene(SurfaceId id) const;
-  SunAnswers& answers();
+  SunQuestions& answers();
   void write_reports();
   void renew_reflections();
   std::optional<glm::dvec3>* first_sun_now();
@@ -112,8 +99,8 @@ class Session {
   Moment moment_;
   static constexpr std::size_t hours = 24;
   std::array<std::optional<glm::dvec3>, hours> first_suns_;
-  std::optional<SunAnswers> answers_;  // once started
-  std::optional<RunRecord> record_;    // for the report
+  std::optional<SunQuestions> answers_;  // once started
+  std::optional<RunRecord> record_;      // for the report
   DaylightMemory daylight_memory_;
   std::optional<HiddenObstructions> obstructions_;  // once asked for
   std::optional<HiddenReflections> reflections_;    // once asked for

@@ -15,9 +15,10 @@
 #include <limits>
 #include <thread>
 
-#include "files/decoding/answer.h"
+#include "files/decoding/decoded_message.h"
 #include "files/decoding_server.h"
 #include "gpu_shading/error.h"
+#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -39,9 +40,7 @@ void open_input(FileDescriptor const& file, std::uint64_t most) {
 }
 
 std::string in_one_line(std::string text) {
-  constexpr unsigned char del = 0x7F;
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == del; }, ' ');
+  std::replace_if(text.begin(), text.end(), is_control, ' ');
   return text;
 }
 
@@ -100,7 +99,7 @@ void DecodingProcess::begin() {
   if (begun_) return;
   begun_ = true;
   auto const mark = next<std::uint32_t>(0, std::numeric_limits<std::uint32_t>::max());
-  if (mark != decoding::answer_mark) throw_invalid();
+  if (mark != decoding::message_mark) throw_invalid();
   using decoding::Status;
   auto const status = next<std::uint32_t>(0, static_cast<std::uint32_t>(Status::failed));
   if (status == static_cast<std::uint32_t>(Status::failed)) throw Error(next_text());

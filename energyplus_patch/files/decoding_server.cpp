@@ -20,7 +20,7 @@
 #include <optional>
 #include <string_view>
 
-#include "files/decoding/answer.h"
+#include "files/decoding/decoded_message.h"
 #include "files/decoding/decoder.h"
 #include "files/sibling_file.h"
 #include "gpu_shading/error.h"

@@ -1,6 +1,7 @@
 #include "hidden/daylight_memory.h"
 
 namespace gpu_shading::energyplus {
+
 void DaylightMemory::note_shadows(int hour) {
   ++shadows_;
   last_hour_ = hour;

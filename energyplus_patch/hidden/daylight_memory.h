@@ -10,12 +10,12 @@
 #include <set>
 #include <utility>
 
-#include "hidden/recurring_answers.h"
+#include "hidden/sequence_cache.h"
 
 namespace gpu_shading::energyplus {
 
-// What EnergyPlus computes again and again for the daylight factors of its reference points and
-// maps, and what need not be computed at all. It computes them for whole days, or, with shadows
+// Recurring work of EnergyPlus's daylight factors for its reference points and maps, and work that
+// need not be done at all. It computes them for whole days, or, with shadows
 // renewed at every timestep, for one timestep of an hour.
 class DaylightMemory {
  public:
@@ -40,7 +40,7 @@ class DaylightMemory {
   void end_points() { rays_ = nullptr; }
 
   // Answers to the rays of these points; nullptr: they are not kept.
-  using Rays = RecurringAnswers<7>;
+  using Rays = SequenceCache<7>;
   Rays* rays() { return rays_; }
   enum class Ray { through_window, in_room };
   static Rays::Question question(Ray kind, int window, glm::dvec3 const& from,
@@ -74,7 +74,7 @@ class DaylightMemory {
 
    private:
     DaylightMemory& memory_;
-    RecurringAnswers<3>* before_;
+    SequenceCache<3>* before_;
   };
 
   // The luminance of one of EnergyPlus's skies in a direction, which `compute` returns, too.
@@ -93,7 +93,7 @@ class DaylightMemory {
   }
 
  private:
-  using Luminances = RecurringAnswers<3>;
+  using Luminances = SequenceCache<3>;
   static constexpr std::size_t hours = 24;
   struct Zeros {
     bool now = false;                // all that does not belong to an hour

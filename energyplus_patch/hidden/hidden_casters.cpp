@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "gpu_shading/perforated_screen.h"
-#include "hidden/polygon_samples.h"
+#include "scene/flat_polygon.h"
+#include "scene/sky_grid.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -33,16 +33,30 @@ std::vector<SkyShare> sky_patches(int altitudes, int azimuths, double first_azim
 
 // Those of EnergyPlus's SkyDifSolarShading.
 std::vector<SkyShare> const& patches_from_surfaces() {
-  static auto const patches = sky_patches(6, 24, 0.0);
+  static auto const patches = sky_patches(sky_rows, sky_columns, 0.0);
   return patches;
 }
 
-double deployed(Surface const& surface, std::span<double const> deployments) {
-  auto const index = static_cast<std::size_t>(surface.deployment);
-  return surface.deployment >= 0 && index < deployments.size() ? deployments[index] : 1.0;
+}  // namespace
+
+HourShares::Shares const& HourShares::at(int hour) {
+  int const nearest = std::clamp(hour, 1, static_cast<int>(hours));
+  auto& shares = known_.at(static_cast<std::size_t>(nearest - 1));
+  if (!shares) {
+    Moment const moment{nearest, 1};
+    shares = Shares{optics_.factors_at(moment), optics_.deployments_at(moment)};
+  }
+  return *shares;
 }
 
-}  // namespace
+HiddenObstructions::HiddenObstructions(SceneAssembly const& scene) : shares_(scene.optics()) {
+  auto const casters = scene.hidden_casters();
+  if (casters.size() > 0) rays_.emplace(casters, RayOptions{.faces = RayFaces::both});
+}
+
+double HiddenObstructions::transmittance(Ray const& ray, int hour) {
+  return rays_ ? rays_->transmittance(ray, shares_.at(hour).conditions()) : 1.0;
+}
 
 std::vector<SkyShare> const& sky_patches_from_ground() {
   static auto const patches = sky_patches(5, 18, 0.5);
@@ -107,9 +121,7 @@ double HiddenCasters::reflectance(SurfaceId id, double transmittance) const {
   auto const& properties = found == known.end() ? unknown : found->second;
   double share = radiation_ == ShadeOptics::Radiation::light ? properties.visible_reflectance
                                                              : properties.reflectance;
-  if (surface.screen) {
-    share *= deployed(surface, shares_.deployments) * (1.0 - surface.screen->open_fraction());
-  }
+  share *= surface.filter.solid_share(shares_.deployments);
   return std::min(share, 1.0 - transmittance);
 }
 

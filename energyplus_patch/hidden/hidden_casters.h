@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <map>
@@ -9,10 +10,56 @@
 #include <vector>
 
 #include "gpu_shading/rays.h"
-#include "hidden/hour_shares.h"
 #include "scene/scene_assembly.h"
 
 namespace gpu_shading::energyplus {
+
+// Values of schedules at the hours of a day, 1 .. 24, at their first timestep, when EnergyPlus
+// reads those of shading surfaces for rays. Read once each.
+class HourShares {
+ public:
+  struct Shares {
+    std::vector<double> factors;
+    std::vector<double> deployments;
+
+    bool operator==(Shares const&) const = default;
+    RayConditions conditions() const { return {.factors = factors, .deployments = deployments}; }
+  };
+
+  // The optics must outlive this.
+  explicit HourShares(ShadeOptics const& optics) : optics_(optics) {}
+
+  // Hours out of range are taken as the nearest. Holds until renew().
+  Shares const& at(int hour);
+
+  // Schedules may have other values from now on: another day.
+  void renew() { known_ = {}; }
+
+ private:
+  static constexpr std::size_t hours = 24;
+  ShadeOptics const& optics_;
+  std::array<std::optional<Shares>, hours> known_;
+};
+
+// Obstructions of EnergyPlus's rays of daylighting that are not in its input: lean input and
+// surroundings. Not for several threads at once.
+class HiddenObstructions {
+ public:
+  // The scene must be complete() and outlive this. Throws Error if a screen's texture cannot be
+  // read.
+  explicit HiddenObstructions(SceneAssembly const& scene);
+
+  // Transmittance of all obstructions along a ray, 0 .. 1. `hour`: 1 .. 24, at whose
+  // first timestep EnergyPlus reads the schedules of shading surfaces for daylighting.
+  double transmittance(Ray const& ray, int hour);
+
+  // Schedules may have other values from now on: another day.
+  void renew() { shares_.renew(); }
+
+ private:
+  std::optional<RayScene> rays_;  // none: there is no obstruction
+  HourShares shares_;
+};
 
 // A direction to the sky, and the share that it has of the irradiance on the horizontal.
 struct SkyShare {
@@ -41,7 +88,7 @@ class HiddenCasters {
     SurfaceId surface = 0;
     glm::dvec3 at{0.0};
     glm::dvec3 normal{0.0};    // on the side that the ray meets
-    double reflectance = 0.0;  // times what is let pass on the way back
+    double reflectance = 0.0;  // times the transmittance on the way back
   };
   struct Way {
     std::vector<Layer> layers;  // that reflect, nearest first
@@ -58,8 +105,7 @@ class HiddenCasters {
   // Schedules may have other values from now on: another day.
   void renew() { by_hour_.renew(); }
 
-  // The product of what casters let pass, 0 .. 1: hidden ones only, or EnergyPlus's own surfaces
-  // too.
+  // Transmittance of all casters, 0 .. 1: hidden ones only, or EnergyPlus's own surfaces too.
   double transmittance(Ray const& ray) const { return hidden_->transmittance(ray, conditions()); }
   double transmittance_of_all(Ray const& ray) const {
     return all_->transmittance(ray, conditions());

@@ -10,11 +10,11 @@
 
 namespace gpu_shading::energyplus {
 
-// What is not in EnergyPlus's input (lean input, surroundings) does to light that EnergyPlus's
-// daylighting receives by reflection, from the surfaces that its rays meet and from the ground. As
-// in EnergyPlus, the mean of a surface's side decides about the sky, and the point that is hit
-// about the sun. Hours are 1 .. 24; schedules are read at their first timestep. Not for several
-// threads at once.
+// The effect of surfaces that are not in EnergyPlus's input (lean input, surroundings) on light
+// that EnergyPlus's daylighting receives by reflection, from the surfaces that its rays meet and
+// from the ground. As in EnergyPlus, the mean of a surface's side decides about the sky, and the
+// point that is hit about the sun. Hours are 1 .. 24; schedules are read at their first timestep.
+// Not for several threads at once.
 class HiddenLuminance {
  public:
   // The scene must be complete() and outlive this. Throws Error if a screen's texture cannot be
@@ -27,7 +27,7 @@ class HiddenLuminance {
   // Whether a ray meets a hidden caster.
   bool meets(Ray const& ray);
 
-  // What is seen of hidden casters along a ray.
+  // Hidden casters along a ray.
   struct View {
     double passed = 1.0;  // of what is behind them
     // Luminance, cd/m2, over the illuminance of the source, lux: of the sun at normal incidence,
@@ -37,7 +37,7 @@ class HiddenLuminance {
   };
   View view(Ray const& ray, int hour, glm::dvec3 const& to_sun);
 
-  // The product of what hidden casters let pass, 0 .. 1.
+  // Transmittance of all hidden casters, 0 .. 1.
   double transmittance(Ray const& ray, int hour);
 
   // The share of a uniform sky's illuminance that a point of the ground receives past all

@@ -22,7 +22,7 @@ struct ReflectionRay {
   double distance = std::numeric_limits<double>::infinity();
 };
 
-// What hidden casters make of a ray.
+// The effect of hidden casters on a ray.
 struct ReflectedShare {
   // What EnergyPlus itself counts for the ray has to be multiplied by this, 0 .. 1.
   double kept = 1.0;
@@ -35,9 +35,9 @@ struct ReflectedShare {
   double ground = 0.0;
 };
 
-// What is not in EnergyPlus's input (lean input, surroundings) does to solar radiation that
-// EnergyPlus's surfaces receive by reflection: it stops a part of what other surfaces and the
-// ground reflect, and of what reaches them, and it reflects itself, diffusely.
+// The effect of surfaces that are not in EnergyPlus's input (lean input, surroundings) on solar
+// radiation that EnergyPlus's surfaces receive by reflection: they stop a part of it, and of what
+// reaches other surfaces and the ground, and reflect themselves, diffusely.
 // As in EnergyPlus's SolarReflectionManager, the mean of a surface's side decides about the sky,
 // and the point that is hit about the beam, but a side of which less than a hundredth is in the sun
 // at the hour's first timestep reflects nothing. Not for several threads at once.
@@ -67,7 +67,7 @@ class HiddenReflections {
   // The same for a uniform sky, with schedules as at the first hour.
   std::vector<ReflectedShare> const& sky();
 
-  // The product of what hidden casters let pass, 0 .. 1.
+  // Transmittance of all hidden casters, 0 .. 1.
   double transmittance(Ray const& ray, int hour);
 
   // Schedules may have other values from now on: another day.

@@ -56,44 +56,45 @@ struct DaylightRay {
 // One shading calculation: surfaces first, then start(), then the sun and questions.
 class GPU_SHADING_ANSWERS Calculation {
  public:
-  Calculation() = default;
-  virtual ~Calculation();
+  // For the model that this thread has read, if one was read; otherwise surfaces are opaque and all
+  // of them cast shadows. size: pixels along each side of a surface's picture.
+  Calculation(unsigned size, Log log);
+  ~Calculation();
   Calculation(Calculation const&) = delete;
   Calculation& operator=(Calculation const&) = delete;
   Calculation(Calculation&&) = delete;
   Calculation& operator=(Calculation&&) = delete;
 
-  virtual unsigned add(PlainSurface surface) = 0;  // returns its number, from 0
+  unsigned add(PlainSurface surface);  // returns its number, from 0
   // Adds the other face of a shading surface; -1: the model has no use for it.
-  virtual int add_mirrored(unsigned original) = 0;
-  virtual void start(Simulation simulation) = 0;
+  int add_mirrored(unsigned original);
+  void start(Simulation const& simulation);
 
-  virtual void set_time(int hour, int timestep) = 0;  // timestep 0: the whole simulation
-  virtual void set_sun(double azimuth, double altitude) = 0;
-  virtual float sunlit_area(unsigned surface) = 0;
-  virtual std::vector<float> sunlit_areas(std::vector<unsigned> const& surfaces) = 0;
-  // What the sun lights of interior surfaces through a window, in order.
-  virtual std::vector<float> interior_areas(unsigned window,
-                                            std::vector<unsigned> const& interiors) = 0;
+  void set_time(int hour, int timestep);  // timestep 0: the whole simulation
+  void set_sun(double azimuth, double altitude);
+  float sunlit_area(unsigned surface);
+  std::vector<float> sunlit_areas(std::vector<unsigned> const& surfaces);
+  // The areas that the sun lights of interior surfaces through a window, in order.
+  std::vector<float> interior_areas(unsigned window, std::vector<unsigned> const& interiors);
 
-  // What a ray of daylighting keeps behind geometry that EnergyPlus does not see, 0 .. 1.
-  virtual double ray_transmittance(DaylightRay const& ray) = 0;
-  virtual void begin_daylighting() = 0;  // of another period
+  // Transmittance, 0 .. 1, of geometry that EnergyPlus does not see for a ray of daylighting.
+  double ray_transmittance(DaylightRay const& ray);
+  void begin_daylighting();  // of another period
 
-  virtual std::string vendor() = 0;  // of the device that computes: GL_VENDOR, "" for the CPU
-  virtual void finish() = 0;         // at the end of the run: says what was rendered
+  std::string vendor();  // of the device that computes: GL_VENDOR, "" for the CPU
+  void finish();         // at the end of the run: says what was rendered
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
 };
-
-// For the model that this thread has read, if one was read; otherwise surfaces are opaque and all
-// of them cast shadows. size: pixels along each side of a surface's picture.
-GPU_SHADING_ANSWERS std::unique_ptr<Calculation> make_calculation(unsigned size, Log log);
 
 // One run at a time is made in a thread, from its options over its model to its calculation.
 
 // Begins a run: takes the options of gpu_shading out of a command line. If one of them is wrong,
 // reading the model will fail.
 GPU_SHADING_ANSWERS std::vector<std::string> take_options(std::vector<std::string> arguments);
-GPU_SHADING_ANSWERS std::string options_help();  // one line for each option
+GPU_SHADING_ANSWERS std::string options_help();  // a paragraph for each option
 
 // Whether this run's options, or the environment, ask for gpu_shading.
 GPU_SHADING_ANSWERS bool is_wanted();

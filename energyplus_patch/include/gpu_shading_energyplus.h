@@ -11,14 +11,20 @@
 extern "C" {
 #endif
 
+/* What these functions return instead of an exit status; gpu_shading_message() has the reason. */
+enum gpu_shading_status {
+  gpu_shading_done = 0,
+  gpu_shading_failed = -1,
+  gpu_shading_cannot_patch = -2 /* this library, or this model, does not allow the method */
+};
+
 /* Takes over the shading calculation of the EnergyPlus library loaded from `energyplus_library`, or
  * of the one libenergyplusapi in the process when NULL. `options`: `count` flags of the launcher,
  * e.g.
  * "--gpu-shading=require" and "--gpu-shading-resolution=1024"; may be NULL if count is 0. What they
  * leave open comes from the environment (GPU_SHADING_...), the model, and the built-in defaults, in
- * this order. Returns 0, or with nothing changed and the reason in gpu_shading_message() 2 where
- * this library cannot be patched, and 1 for anything else. Calling it again for the same library
- * replaces the options. Not while a run is in progress. */
+ * this order. Returns a gpu_shading_status; if it fails, nothing is changed. Calling it again for
+ * the same library replaces the options. Not while a run is in progress. */
 int gpu_shading_install(char const* energyplus_library, int count, char const* const* options);
 
 /* For the libenergyplusapi.so of a folder made by patch_energyplus: the same without options, and
@@ -35,8 +41,7 @@ char const* gpu_shading_unwritten(void);
 
 /* A whole run of an EnergyPlus library whose shading functions cannot be patched, which need not be
  * loaded: it counts pixels, and its calls of OpenGL are answered. Arguments as below. Returns
- * EnergyPlus's exit status, or with the reason in gpu_shading_message() -2 where the library or the
- * model does not allow it, and -1 for any other error. One such run per process. */
+ * EnergyPlus's exit status, or a negative gpu_shading_status. One such run per process. */
 int gpu_shading_run_opengl(char const* energyplus_library, int count, char const* const* options,
                            int argc, char const* const* argv);
 
@@ -44,7 +49,7 @@ int gpu_shading_run_opengl(char const* energyplus_library, int count, char const
  * fractions are rendered first and go in as schedules. `options` as above; `argv`: EnergyPlus's own
  * arguments without the program. The folder of this process's program has to hold one by the name
  * of energyplus that runs the library as it is, as in a folder made by patch_energyplus. Returns
- * EnergyPlus's exit status, or -1 with the reason in gpu_shading_message(). */
+ * EnergyPlus's exit status, or gpu_shading_failed. */
 int gpu_shading_run_scheduled(char const* energyplus_library, int count, char const* const* options,
                               int argc, char const* const* argv);
 

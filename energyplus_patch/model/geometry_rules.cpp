@@ -82,6 +82,20 @@ void note_deletions(Outline& outline) {
   }
 }
 
+bool changes_shape(InputObject const& transform) {
+  return parse_number(transform["current_aspect_ratio"]) !=
+         parse_number(transform["new_aspect_ratio"]);
+}
+
+// The first by its name, or "".
+std::string find_turned_zone(GeometryRules const& rules) {
+  std::string first;
+  for (auto const& [name, zone] : rules.zones) {
+    if (zone.direction != 0.0 && (first.empty() || name < first)) first = name;
+  }
+  return first;
+}
+
 }  // namespace
 
 GeometryRules read_geometry_rules(std::vector<InputObject> const& objects) {
@@ -132,6 +146,23 @@ Outline to_world(GeometryRules const& rules, Ring vertices, Attachment attachmen
   note_deletions(outline);
   for (auto& vertex : outline.vertices) vertex = glm::dvec3(glm::vec3(vertex));
   return outline;
+}
+
+std::string warn_of_transform(std::vector<InputObject> const& objects) {
+  auto const transform =
+      std::find_if(objects.begin(), objects.end(),
+                   [](InputObject const& object) { return object.type == "GeometryTransform"; });
+  if (transform == objects.end() || !changes_shape(*transform)) return {};
+  auto const rules = read_geometry_rules(objects);
+  if (!rules.relative) return {};  // EnergyPlus ignores it
+  auto const turned = find_turned_zone(rules);
+  return fmt::format(
+      "{}: EnergyPlus moves vertices but keeps the areas{} of before, so sunlit fractions are "
+      "wrong, with polygon clipping too; write the transformed vertices into the model instead",
+      transform->where(),
+      turned.empty()
+          ? ""
+          : fmt::format(" and, in turned zones such as {}, the azimuths", printable(turned)));
 }
 
 }  // namespace gpu_shading::energyplus

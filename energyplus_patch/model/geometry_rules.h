@@ -54,4 +54,10 @@ struct Outline {
 Outline to_world(GeometryRules const& rules, Ring vertices, Attachment attachment,
                  GeometryRules::Zone const& zone = {});
 
+// GeometryTransform moves the vertices of a model in relative coordinates, but EnergyPlus
+// keeps the previous areas, by which it divides sunlit areas, and in rotated zones the previous
+// azimuths, from which it computes angles of incidence. A warning, or "" for models that are not
+// affected.
+std::string warn_of_transform(std::vector<InputObject> const& objects);
+
 }  // namespace gpu_shading::energyplus

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
-#include "model/daylighting.h"
+#include "model/energyplus_rays.h"
 #include "model/geometry_rules.h"
 #include "model/shading_outlines.h"
 #include "platform/text.h"

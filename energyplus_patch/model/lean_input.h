@@ -35,13 +35,13 @@ inline constexpr std::size_t fewest_left_out = 100;
 // placeholders, and for each more of them longer.
 inline constexpr std::size_t fewest_with_reflections = 20;
 
-// What EnergyPlus's own rays mean for lean input.
+// Effects of EnergyPlus's own rays on lean input.
 struct EnergyPlusRays {
-  // Whether those of daylighting, and of solar reflections, meet what is left out of EnergyPlus's
-  // input, too.
+  // Whether rays of daylighting, and of solar reflections, are also shaded by surfaces that are
+  // left out of EnergyPlus's input.
   bool daylighting_answered = false;
   bool reflections_answered = false;
-  // Surfaces to leave out in any case, because the rays would take them as opaque. Upper case.
+  // Surfaces to leave out in any case, because the rays would treat them as opaque. Upper case.
   Names transmitting = {};
 };
 
@@ -57,7 +57,7 @@ LeanInput plan_lean_input(std::vector<InputObject> const& objects, ShadingInput 
 // Adds placeholders for casters that EnergyPlus does not know, unless there are some already.
 void ensure_placeholders(LeanInput& lean, ShadingInput const& input);
 
-// Adds the placeholder that has EnergyPlus follow screens which move (make_sky_placeholder).
+// Adds the placeholder that makes EnergyPlus follow moving screens (make_sky_placeholder).
 void add_sky_placeholder(LeanInput& lean, ShadingInput const& input);
 
 }  // namespace gpu_shading::energyplus

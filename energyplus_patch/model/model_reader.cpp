@@ -6,15 +6,14 @@
 #include <string_view>
 
 #include "gpu_shading/error.h"
-#include "model/daylighting.h"
+#include "model/energyplus_rays.h"
+#include "model/geometry_rules.h"
 #include "model/idf/extension_objects.h"
 #include "model/idf/model_file.h"
-#include "model/idf/side_file.h"
-#include "model/ray_warnings.h"
-#include "model/simplified_surfaces.h"
+#include "model/shading_outlines.h"
 #include "model/site/site_clock.h"
 #include "model/site/texture_axes.h"
-#include "model/transform_warning.h"
+#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -22,19 +21,18 @@ namespace {
 // Shades and screens find them by name, like the model's own surfaces.
 void add_surroundings(Surroundings const& surroundings, ShadingInput& shading) {
   for (auto const& [name, type] : surroundings.types) {
-    auto const [place, added] =
+    auto const [entry, added] =
         shading.shading_surfaces.try_emplace(name, ShadingInput::ShadingSurface{.type = type});
     if (!added) {
-      throw Error(fmt::format("{}: {} is also the name of a {}", type, name, place->second.type));
+      throw Error(fmt::format("{}: {} is also the name of a {}", type, name, entry->second.type));
     }
   }
 }
 
 constexpr std::string_view side_suffix = ".gpu-shading.idf";
 
-// Where a tool renames a model or saves it elsewhere, its side file stays behind.
+// A tool that renames or moves a model leaves its side file behind.
 void remark_on_other_side_files(std::filesystem::path const& model, Model& made) {
-  constexpr std::size_t most = 3;
   std::error_code error;
   std::vector<std::string> names;
   for (auto entry = std::filesystem::directory_iterator(
@@ -45,12 +43,8 @@ void remark_on_other_side_files(std::filesystem::path const& model, Model& made)
   }
   std::sort(names.begin(), names.end());
   if (names.empty()) return;
-  auto const shown = std::min(names.size(), most);
-  made.remarks.push_back(fmt::format(
-      "not read, since it does not have the model's name, {}{}: {}{}", model.stem().string(),
-      side_suffix,
-      fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-      names.size() > most ? fmt::format(" and {} more", names.size() - most) : ""));
+  made.remarks.push_back(fmt::format("not read, since it does not have the model's name, {}{}: {}",
+                                     model.stem().string(), side_suffix, listed(names, 3)));
 }
 
 bool any_moves(PerforatedScreens const& screens) {
@@ -58,7 +52,7 @@ bool any_moves(PerforatedScreens const& screens) {
                      [](auto const& each) { return !each.second.deployment_schedule.empty(); });
 }
 
-// The model's own surfaces that transmit by our objects.
+// The model's own surfaces with a TransparentShade or a PerforatedScreen.
 Names transmitting_surfaces(Model const& model) {
   Names names;
   for (auto const& [name, shade] : model.shades.by_surface) names.insert(name);
@@ -67,7 +61,7 @@ Names transmitting_surfaces(Model const& model) {
   return names;
 }
 
-// Those that are in EnergyPlus's input, in order.
+// The surfaces that are in EnergyPlus's input, in order.
 std::vector<std::string> kept(Names const& surfaces, LeanInput const& lean) {
   std::vector<std::string> names;
   for (auto const& name : surfaces) {
@@ -77,7 +71,7 @@ std::vector<std::string> kept(Names const& surfaces, LeanInput const& lean) {
   return names;
 }
 
-// Lean input, and what EnergyPlus's rays make of the rest.
+// Lean input, and warnings about EnergyPlus's rays.
 void plan_rays(std::vector<InputObject> const& objects, Reader const& reader, Model& model) {
   bool const on = model.options.mode != Mode::off;
   EnergyPlusRays rays;
@@ -104,11 +98,11 @@ void plan_rays(std::vector<InputObject> const& objects, Reader const& reader, Mo
 std::optional<std::filesystem::path> find_side_file(std::filesystem::path const& model,
                                                     Choices const& choices) {
   if (choices.file) return choices.file;
-  auto beside = model;
-  beside.replace_extension(side_suffix);
+  auto sibling_file = model;
+  sibling_file.replace_extension(side_suffix);
   // Also a link that leads nowhere: reading it is an error.
-  auto const status = std::filesystem::symlink_status(beside);
-  return std::filesystem::exists(status) ? std::optional(beside) : std::nullopt;
+  auto const status = std::filesystem::symlink_status(sibling_file);
+  return std::filesystem::exists(status) ? std::optional(sibling_file) : std::nullopt;
 }
 
 Model understand(std::vector<InputObject> objects, std::filesystem::path const& path,

@@ -12,7 +12,7 @@
 #include "model/input/transparent_shades.h"
 #include "model/lean_input.h"
 #include "model/options/options.h"
-#include "model/simplified_surfaces.h"
+#include "model/shading_outlines.h"
 #include "model/site/surroundings.h"
 
 namespace gpu_shading::energyplus {
@@ -52,10 +52,10 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
 // The same, from the model's file (.idf, .imf or .epJSON).
 Model read_model(std::filesystem::path const& path, Choices const& choices);
 
-// What EnergyPlus is to read in place of the model's file.
+// The input that EnergyPlus reads in place of the model's file.
 Rewrite rewrite_for(Model const& model);
 
-// The file of extension objects of a model: choices.file, or the one beside the model, or none.
+// The file of extension objects of a model: choices.file, or that in the model's folder, or none.
 std::optional<std::filesystem::path> find_side_file(std::filesystem::path const& model,
                                                     Choices const& choices);
 

@@ -1,9 +1,15 @@
 #include "model/shading_outlines.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
+#include <optional>
 #include <string_view>
 #include <utility>
 
+#include "gpu_shading/error.h"
+#include "model/geometry_rules.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {
@@ -52,6 +58,28 @@ std::optional<GeometryRules::Zone> zone_of(InputObject const& object, ShadingInp
   return zone == rules.zones.end() ? std::nullopt : std::optional(zone->second);
 }
 
+std::optional<GeometryRules> rules_of(std::vector<InputObject> const& objects) {
+  try {
+    return read_geometry_rules(objects);
+  } catch (Error const&) {
+    return std::nullopt;
+  }
+}
+
+std::string describe(std::vector<std::string> const& names, std::size_t degenerate,
+                     std::string const& reason) {
+  auto text = fmt::format(
+      "EnergyPlus deletes coincident vertices (distance < 0.01 m) of {} shading surface{}: {}",
+      names.size(), names.size() == 1 ? "" : "s", listed(names, 5));
+  if (degenerate > 0) {
+    text += fmt::format("; it calls {} of them degenerate and may stop there", degenerate);
+  }
+  if (!reason.empty()) return text + "; their shadows are simplified too (" + reason + ")";
+  return text +
+         "; shadows are rendered with all vertices, but daylighting, reflections and outputs of "
+         "these surfaces follow EnergyPlus's outlines";
+}
+
 }  // namespace
 
 bool is_detailed_shading(InputObject const& object) { return attachment_of(object).has_value(); }
@@ -81,6 +109,29 @@ std::string reason_against_outlines(std::vector<InputObject> const& objects) {
     }
   }
   return {};
+}
+
+SimplifiedSurfaces find_simplified_surfaces(std::vector<InputObject> const& objects,
+                                            ShadingInput const& input, Names const& left_out) {
+  SimplifiedSurfaces found;
+  auto const rules = rules_of(objects);
+  if (!rules) return found;
+  auto const reason = reason_against_outlines(objects);
+  std::vector<std::string> names;
+  std::size_t degenerate = 0;
+  for (auto const& object : objects) {
+    auto const name = upper(object.name);
+    if (!is_detailed_shading(object) || left_out.contains(name)) continue;
+    auto outline = outline_of(object, input, *rules);
+    if (!outline || !(outline->simplified || outline->degenerate)) continue;
+    names.push_back(name);
+    if (outline->degenerate) ++degenerate;
+    if (outline->simplified && reason.empty()) {
+      found.outlines.emplace(name, std::move(outline->vertices));
+    }
+  }
+  if (!names.empty()) found.warning = describe(names, degenerate, reason);
+  return found;
 }
 
 }  // namespace gpu_shading::energyplus

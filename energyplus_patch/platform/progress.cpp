@@ -9,9 +9,12 @@
 
 namespace gpu_shading::energyplus {
 
-Progress::Progress(std::string work, std::size_t total)
-    : Progress(std::move(work), total, stderr, isatty(STDERR_FILENO) != 0,
-               std::chrono::seconds(1)) {}
+Progress::Progress(std::string work, std::size_t total, int descriptor)
+    : work_(std::move(work)), total_(total) {
+  if (descriptor >= 0) own_.reset(fdopen(dup(descriptor), "w"));
+  if (own_) out_ = own_.get();
+  terminal_ = isatty(fileno(out_)) != 0;
+}
 
 Progress::Progress(std::string work, std::size_t total, std::FILE* out, bool terminal,
                    Clock::duration patience)

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
+#include <memory>
 #include <string>
 
 namespace gpu_shading::energyplus {
@@ -13,7 +14,8 @@ class Progress {
  public:
   using Clock = std::chrono::steady_clock;
 
-  Progress(std::string work, std::size_t total);
+  // Into a duplicate of this file descriptor; negative: standard error.
+  Progress(std::string work, std::size_t total, int descriptor = -1);
   // For tests.
   Progress(std::string work, std::size_t total, std::FILE* out, bool terminal,
            Clock::duration patience);
@@ -28,9 +30,10 @@ class Progress {
 
   std::string work_;
   std::size_t total_;
-  std::FILE* out_;
-  bool terminal_;
-  Clock::duration patience_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> own_{nullptr, &std::fclose};
+  std::FILE* out_ = stderr;
+  bool terminal_ = false;
+  Clock::duration patience_ = std::chrono::seconds(1);
   Clock::time_point start_ = Clock::now();
   int shown_ = 0;       // percent
   bool drawn_ = false;  // a bar that has no line break yet

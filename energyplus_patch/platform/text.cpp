@@ -26,7 +26,7 @@ void add_escaped(std::string_view text, std::size_t i, std::string& line) {
                      (byte(i) == 0xc2 && i + 1 < text.size() && byte(i + 1) < 0xa0);
   if (text[i] == '\n') {
     line += "\\n";
-  } else if (byte(i) < 0x20 || byte(i) == 0x7f || is_c1) {
+  } else if (is_control(byte(i)) || is_c1) {
     line += fmt::format("\\x{:02x}", static_cast<unsigned>(byte(i)));
   } else {
     line += text[i];
@@ -232,6 +232,19 @@ std::string markup_text(std::string const& text) {
     }
   }
   return escaped;
+}
+
+bool matches_any(std::vector<std::string> const& patterns, std::string_view name) {
+  return std::any_of(patterns.begin(), patterns.end(),
+                     [&](std::string const& pattern) { return matches(pattern, name); });
+}
+
+std::string listed(std::vector<std::string> const& names, std::size_t max) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(max, names.size()); ++i) {
+    text += (i == 0 ? "" : ", ") + printable(names[i]);
+  }
+  return names.size() > max ? fmt::format("{} and {} more", text, names.size() - max) : text;
 }
 
 }  // namespace gpu_shading::energyplus

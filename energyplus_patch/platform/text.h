@@ -13,6 +13,7 @@ bool same_name(std::string_view a, std::string_view b);
 
 // Whether a name matches a pattern, in which * stands for any characters; case is ignored.
 bool matches(std::string_view pattern, std::string_view name);
+bool matches_any(std::vector<std::string> const& patterns, std::string_view name);
 
 // The number in a field; empty unless the whole text is a finite number.
 std::optional<double> parse_number(std::string const& text);
@@ -23,9 +24,18 @@ std::string trimmed(std::string_view text);
 // The comma-separated parts of a line, trimmed.
 std::vector<std::string> comma_separated(std::string const& line);
 
+// Whether a byte is one of ASCII's control characters.
+constexpr bool is_control(unsigned char byte) {
+  constexpr unsigned char del = 0x7F;
+  return byte < ' ' || byte == del;
+}
+
 // For a message: control characters escaped (\\n, \\x1b), long text cut to some 80 characters.
 std::string printable(std::string_view text);
 std::string in_quotes(std::string_view text);  // the same, in double quotes
+
+// "A, B, C and 4 more", printable.
+std::string listed(std::vector<std::string> const& names, std::size_t max);
 
 // For an error or a warning, whatever names and values it quotes: in one line, control characters
 // escaped, the middle of a very long one left out.

@@ -19,10 +19,10 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-constexpr std::uintmax_t most_list_bytes = std::uintmax_t{1} << 26U;
+constexpr std::uintmax_t max_list_bytes = std::uintmax_t{1} << 26U;
 
 std::string read_list(std::filesystem::path const& file) {
-  if (std::filesystem::file_size(file) > most_list_bytes) {
+  if (std::filesystem::file_size(file) > max_list_bytes) {
     throw Error(fmt::format("{}: is larger than 64 MiB", file.string()));
   }
   return read_text_file(file);
@@ -118,9 +118,9 @@ std::vector<float> plane_of(std::string const& bytes, std::size_t at, std::size_
 
 MapArray array_of(std::string const& bytes) {
   auto const [rows, columns, header] = shape_of(bytes);
-  if (rows == 0 || columns == 0 || rows * columns > MapGrid::most_cells) {
+  if (rows == 0 || columns == 0 || rows * columns > MapGrid::max_cells) {
     throw Error(
-        fmt::format("has {} x {} cells, expected 1 to {}", rows, columns, MapGrid::most_cells));
+        fmt::format("has {} x {} cells, expected 1 to {}", rows, columns, MapGrid::max_cells));
   }
   auto const plane = rows * columns;
   if (bytes.size() != header + 2 * plane * sizeof(float)) throw Error("is not as long as it says");
@@ -158,7 +158,7 @@ std::optional<MapFolder> read_map_folder(std::filesystem::path const& folder) {
 
 MapArray read_map_array(std::filesystem::path const& file) {
   require_file(file);
-  constexpr std::uintmax_t most = 2 * sizeof(float) * MapGrid::most_cells + 70000;
+  constexpr std::uintmax_t most = 2 * sizeof(float) * MapGrid::max_cells + 70000;
   if (std::filesystem::file_size(file) > most) {
     throw Error(fmt::format("{}: is larger than a map", file.string()));
   }

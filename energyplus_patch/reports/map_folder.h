@@ -35,7 +35,7 @@ struct MapArray {
 };
 
 // Throws Error, naming the file, unless it is an array as `gpu_shading map` writes it, with at most
-// MapGrid::most_cells cells and no negative or infinite values.
+// MapGrid::max_cells cells and no negative or infinite values.
 MapArray read_map_array(std::filesystem::path const& file);
 
 }  // namespace gpu_shading::energyplus

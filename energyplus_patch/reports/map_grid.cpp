@@ -32,7 +32,7 @@ glm::dvec3 up_the_map(Polygon const& polygon, glm::dvec3 const& normal) {
 // The number of cells along a side.
 int count_of(double length, double spacing) {
   constexpr double rounding = 1e-6;  // single precision must not add a cell
-  constexpr double most = static_cast<double>(MapGrid::most_cells) + 1.0;
+  constexpr double most = static_cast<double>(MapGrid::max_cells) + 1.0;
   return static_cast<int>(std::clamp(std::ceil(length / spacing - rounding), 1.0, most));
 }
 
@@ -112,9 +112,9 @@ MapGrid::MapGrid(Polygon const& polygon, double spacing) {
   axes_.origin = start + low.x * axes_.u + low.y * axes_.v;
   columns_ = count_of(high.x - low.x, spacing);
   rows_ = count_of(high.y - low.y, spacing);
-  if (static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) > most_cells) {
+  if (static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) > max_cells) {
     throw Error(fmt::format("a receiver of {:.6g} m x {:.6g} m has more than {} cells of {} m",
-                            high.x - low.x, high.y - low.y, most_cells, spacing));
+                            high.x - low.x, high.y - low.y, max_cells, spacing));
   }
   cell_size_ = (high - low) / glm::dvec2(columns_, rows_);
   for (int row = 0; row < rows_; ++row) {

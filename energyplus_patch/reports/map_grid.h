@@ -36,10 +36,10 @@ struct MapCell {
 // A receiver cut into cells of equal size, along its bounding rectangle.
 class MapGrid {
  public:
-  static constexpr std::size_t most_cells = 1000000;
+  static constexpr std::size_t max_cells = 1000000;
 
   // Cells are as wide and high as the spacing (m) or less, so that a whole number of them fits.
-  // Throws Error if there are more than most_cells.
+  // Throws Error if there are more than max_cells.
   MapGrid(Polygon const& polygon, double spacing);
 
   MapAxes const& axes() const { return axes_; }

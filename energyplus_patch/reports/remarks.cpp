@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "gpu_shading/error.h"
-#include "model/site/own_building.h"
+#include "model/site/surroundings.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -91,7 +91,7 @@ void check_device(DeviceInfo const& device, Options const& options, Messages con
         fmt::format("--gpu-shading=require: no GPU available, only {}; see gpu_shading devices",
                     describe(device)));
   }
-  if (options.device.kind == DeviceChoice::Kind::automatic) {
+  if (!options.device.device) {
     messages.remark(
         fmt::format("no GPU available; computing on the CPU, {} thread{}; see gpu_shading devices",
                     device.threads, device.threads == 1 ? "" : "s"));
@@ -117,7 +117,8 @@ void describe_scene(SceneAssembly const& scene, Messages const& messages) {
   list_transmitting_surfaces(scene, messages);
 }
 
-void describe_answers(SunAnswers const& answers, Options const& options, Messages const& messages) {
+void describe_answers(SunQuestions const& answers, Options const& options,
+                      Messages const& messages) {
   auto const& rendered = answers.rendered();
   auto const& device = rendered.renderer().device();
   auto const& scene = rendered.renderer().scene();

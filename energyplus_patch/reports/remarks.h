@@ -1,6 +1,6 @@
 #pragma once
 
-#include "answers/sun_answers.h"
+#include "answers/sun_questions.h"
 #include "platform/messages.h"
 #include "scene/scene_assembly.h"
 
@@ -14,6 +14,7 @@ void check_device(DeviceInfo const& device, Options const& options, Messages con
 void describe_scene(SceneAssembly const& scene, Messages const& messages);
 
 // After the last question: what rendered how much.
-void describe_answers(SunAnswers const& answers, Options const& options, Messages const& messages);
+void describe_answers(SunQuestions const& answers, Options const& options,
+                      Messages const& messages);
 
 }  // namespace gpu_shading::energyplus

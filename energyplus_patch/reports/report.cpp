@@ -9,13 +9,13 @@
 #include <glm/trigonometric.hpp>
 #include <tuple>
 
-#include "answers/foreseen_directions.h"
 #include "files/pictures.h"
 #include "gpu_shading/error.h"
 #include "model/options/report_folder.h"
 #include "platform/files.h"
 #include "platform/naming.h"
 #include "platform/text.h"
+#include "scene/sky_grid.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -31,12 +31,12 @@ struct Row {
 };
 
 std::vector<Row> collect(Renderer const& renderer, SurfaceId receiver, ReceiverNumber number,
-                         Answers const& answers, std::vector<double> const& factors) {
+                         AnswerStore const& answers, std::vector<double> const& factors) {
   auto const& polygon = renderer.scene()[receiver].polygon;
   double const full = area(polygon);
   auto const facing = normal(polygon);
   std::vector<Row> rows;
-  answers.for_each([&](Answers::Direction const& direction) {
+  answers.for_each([&](AnswerStore::Direction const& direction) {
     double const cosine = glm::dot(facing, to_vector(direction.sun));
     // What was rendered ahead depends on what the cache knew.
     if (!direction.asked && !direction.sampled) return;
@@ -130,7 +130,7 @@ void write_stages(std::filesystem::path const& file, Stages const& stages) {
 
 std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer,
                          std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
-                         std::vector<SurfaceId> const& shown, Answers const& answers,
+                         std::vector<SurfaceId> const& shown, AnswerStore const& answers,
                          std::vector<double> const& factors, Deployments const& deployments,
                          Stages const& stages, std::function<void(StagedFiles&)> const& more) {
   std::vector<Row> pictures;

@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "answers/answers.h"
-#include "answers/deployment_states.h"
+#include "answers/answer_store.h"
 #include "gpu_shading/renderer.h"
 #include "platform/staged_files.h"
 
 namespace gpu_shading::energyplus {
+
 // Wall-clock seconds of a run by stage.
 using Stages = std::vector<std::pair<std::string, double>>;
 
@@ -24,7 +24,9 @@ struct Deployments {
   DeploymentStates const& states;
 };
 
-// What a user needs to check a surprising number by eye, into `folder`:
+inline constexpr std::size_t max_report_pictures = 300;
+
+// Writes into `folder` what a user needs to check a surprising number by eye:
 //   sunlit.csv       receiver, sun azimuth and altitude (degrees), projected sunlit area (m2),
 //                    sunlit fraction, and the share of screens in place by each deployment
 //                    schedule, where there are any: every answer that EnergyPlus was given, or
@@ -33,17 +35,15 @@ struct Deployments {
 //                    shaded but lit, the one nearest to half sunlit, and the one at the highest
 //                    sun. With deployments NAME_AZ_ALT_SHARE[_SHARE ...].png, shares in percent.
 //   pictures.csv     picture, receiver, sun azimuth and altitude (degrees), shares: every picture
-//   of
-//                    this report; others in the folder are of earlier ones
+//                    of this report; others in the folder are of earlier ones
 //   stages.csv       stage, wall-clock seconds
-// and what `more` adds.
-// `receivers`: by their numbers; those that were asked for, by surface, are reported, and those of
-// `shown` drawn. Returns how many pictures were left out, being more than max_report_pictures.
-// Throws Error when the folder cannot be written; all files in it are those of before then.
-inline constexpr std::size_t max_report_pictures = 300;
+// and the files that `more` adds. `receivers`: by their numbers; those that were asked for, by
+// surface, are reported, and those of `shown` drawn. Returns the number of pictures beyond
+// max_report_pictures, which are left out. Throws Error when the folder cannot be written; its
+// files are then unchanged.
 std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer,
                          std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
-                         std::vector<SurfaceId> const& shown, Answers const& answers,
+                         std::vector<SurfaceId> const& shown, AnswerStore const& answers,
                          std::vector<double> const& factors, Deployments const& deployments,
                          Stages const& stages, std::function<void(StagedFiles&)> const& more);
 

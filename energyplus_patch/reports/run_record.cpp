@@ -4,14 +4,14 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "answers/foreseen_directions.h"
+#include "scene/sky_grid.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 constexpr std::size_t hours_of_day = 24;
 // Of all days that are kept: 64 MB.
-constexpr std::size_t most_values = std::size_t{1} << 24U;
+constexpr std::size_t max_values = std::size_t{1} << 24U;
 constexpr float behind = -1.0F;
 
 }  // namespace
@@ -155,7 +155,7 @@ void RunRecord::keep_day() {
   if (period.offered++ % period.stride != 0) return;
   period.values += day.hours.size() * receivers_.size();
   period.days.push_back(std::move(day));
-  while (period.values > most_values && period.days.size() > 1) {
+  while (period.values > max_values && period.days.size() > 1) {
     std::vector<Day> fewer;
     period.values = 0;
     for (std::size_t i = 0; i < period.days.size(); i += 2) {

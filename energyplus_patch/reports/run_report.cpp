@@ -12,8 +12,6 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
-#include "gpu_shading/perforated_screen.h"
-#include "gpu_shading/transmittance.h"
 #include "model/options/report_folder.h"
 #include "platform/naming.h"
 #include "platform/text.h"
@@ -26,16 +24,16 @@ namespace {
 
 constexpr char const* page_file = "index.html";
 // Sunlit fractions that a page has: one byte each, a third more as text.
-constexpr std::size_t most_percents = 900000;
-constexpr std::size_t most_days = 122;
+constexpr std::size_t max_percents = 900000;
+constexpr std::size_t max_days = 122;
 
 // Some of many days, evenly spread.
 std::vector<RunRecord::Day const*> chosen_days(RunRecord const& record) {
   auto const& all = record.days();
   std::size_t values = 0;
   for (auto const& day : all) values += day.hours.size() * record.receivers().size();
-  std::size_t const stride = std::max({std::size_t{1}, (values + most_percents - 1) / most_percents,
-                                       (all.size() + most_days - 1) / most_days});
+  std::size_t const stride = std::max({std::size_t{1}, (values + max_percents - 1) / max_percents,
+                                       (all.size() + max_days - 1) / max_days});
   std::vector<RunRecord::Day const*> days;
   for (std::size_t i = 0; i < all.size(); i += stride) days.push_back(&all[i]);
   return days;
@@ -48,30 +46,32 @@ double degrees_clockwise(double radians) {
 }
 
 PageStyle style_of(Surface const& surface) {
+  constexpr std::array<char const*, 4> holes{"round", "square", "slotted", "hexagonal"};
+  constexpr std::array<char const*, 3> arrangements{"straight", "staggered 45", "staggered 60"};
+  auto const look = surface.filter.look();
   PageStyle style;
-  if (auto const& screen = surface.screen) {
-    constexpr std::array<char const*, 4> holes{"round", "square", "slotted", "hexagonal"};
-    constexpr std::array<char const*, 3> arrangements{"straight", "staggered 45", "staggered 60"};
-    style.kind = PageStyle::Kind::screen;
-    style.passes = screen->open_fraction();
-    style.hole = "texture";
-    if (auto const& pattern = screen->pattern()) {
-      auto const& holed = pattern->perforation();
-      style.hole = holes.at(static_cast<std::size_t>(holed.hole));
-      style.arrangement = arrangements.at(static_cast<std::size_t>(holed.arrangement));
-      style.size = holed.size;
-      style.length = holed.length;
-      style.pitch = holed.pitch;
-      style.row_pitch = holed.row_pitch;
+  switch (look.kind) {
+    case FilterLook::Kind::opaque:
+      break;
+    case FilterLook::Kind::glass: {
+      // To whole percents, so that a few styles serve all.
+      constexpr double percents = 100.0;
+      style.kind = PageStyle::Kind::glass;
+      style.passes = std::round(look.passes * percents) / percents;
+      break;
     }
-  } else if (surface.transmittance) {
-    // To whole percents, so that a few styles serve all.
-    constexpr double percents = 100.0;
-    style.kind = PageStyle::Kind::glass;
-    style.passes = std::round((*surface.transmittance)(0.0) * percents) / percents;
-  } else if (surface.schedule >= 0) {
-    style.kind = PageStyle::Kind::glass;
-    style.passes = 0.5;
+    case FilterLook::Kind::holes:
+      style.kind = PageStyle::Kind::screen;
+      style.passes = look.passes;
+      style.hole = "texture";
+      if (!look.holes) break;
+      style.hole = holes.at(static_cast<std::size_t>(look.holes->hole));
+      style.arrangement = arrangements.at(static_cast<std::size_t>(look.holes->arrangement));
+      style.size = look.holes->size;
+      style.length = look.holes->length;
+      style.pitch = look.holes->pitch;
+      style.row_pitch = look.holes->row_pitch;
+      break;
   }
   return style;
 }
@@ -175,7 +175,7 @@ RunPage page_of(SceneAssembly const& assembly, DeviceInfo const& device, RunReco
 }
 
 // Sums over all maps of a page: one byte for each of the two values.
-constexpr std::size_t most_map_cells = 200000;
+constexpr std::size_t max_map_cells = 200000;
 
 // Adds the map of a receiver. Throws Error if it cannot be read.
 void add_map(RunPage& page, std::filesystem::path const& folder, MapFolder::Row const& row,
@@ -206,7 +206,7 @@ void add_maps_of(RunPage& page, std::filesystem::path const& folder) {
     if (found == receivers.end()) continue;
     add_map(page, folder, row, found->second);
     cells += page.maps.back().hours.size();
-    if (cells <= most_map_cells) continue;
+    if (cells <= max_map_cells) continue;
     page.maps.pop_back();
     page.notes.push_back(fmt::format(
         "Maps of {} receivers are shown; more would make the page too large.", page.maps.size()));

@@ -13,11 +13,11 @@ namespace gpu_shading::energyplus {
 //   index.html         the model in 3D with its sunlit fractions by day and hour
 //   run_receivers.csv  receiver, area (m2), azimuth and tilt of the normal (degrees), mean sunlit
 //                      fraction of the page's days, over the hours during all of which the sun
-//                      faces it, blank if there are none, beam
-//                      solar energy of the run (kWh/m2 and kWh)
+//                      faces it, blank if there are none, beam solar energy of the run (kWh/m2 and
+//                      kWh)
 //   run_hours.csv      month and day, hour at whose end the sun is there, its azimuth and altitude
 //                      (degrees), and the sunlit fraction of each receiver, 0 if it faces away
-//   run_facts.csv      what the page says below its title
+//   run_facts.csv      the facts below the page's title
 // Maps that gpu_shading map has written into the report's folder, or its folder maps, are on the
 // page, too.
 void write_run(StagedFiles& files, std::filesystem::path const& folder,

@@ -9,7 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "platform/error_line.h"
+#include "platform/c_interface.h"
+#include "platform/console.h"
 #include "platform/progress.h"
 #include "platform/shared_library.h"
 
@@ -65,14 +66,11 @@ Hosted& hosted() {
   return instance;
 }
 
-// No exception of ours may pass through EnergyPlus, which calls what follows.
+// EnergyPlus calls what follows: no exception of ours may pass through it.
 template <typename Action>
-void guarded(Action const& action) {
-  try {
-    action();
-  } catch (std::exception const& error) {
-    std::fprintf(stderr, "gpu_shading: error: %s\n", error_line(error).c_str());
-  }
+void print_failure(Action const& action) {
+  auto const why = failure_of(action);
+  if (!why.empty()) print_line("error: " + why);
 }
 
 void issue_messages(State state) {
@@ -86,11 +84,11 @@ void issue_messages(State state) {
 }
 
 void tell_messages(State state) {
-  guarded([&] { issue_messages(state); });
+  print_failure([&] { issue_messages(state); });
 }
 
 void show_progress(int percent) {
-  guarded([&] {
+  print_failure([&] {
     if (hosted().progress) hosted().progress->at(static_cast<std::size_t>(percent));
   });
 }

@@ -155,9 +155,8 @@ std::ifstream run(EnergyPlusCall const& call, ModelEditor& model, bool expand,
   std::ifstream file(out / output);
   if (!file || status != 0) {
     if (auto const error = last_error(log)) throw Error(*error);
-    throw Error(
-        fmt::format("{}: EnergyPlus does not get as far as its shading calculation ({}): {}",
-                    call.model.string(), describe_status(status), stop_reasons(out)));
+    throw Error(fmt::format("{}: EnergyPlus stopped before its shading calculation ({}): {}",
+                            call.model.string(), describe_status(status), stop_reasons(out)));
   }
   return file;
 }

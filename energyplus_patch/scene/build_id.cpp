@@ -1,11 +1,10 @@
-#include "scene/build_id.h"
-
 #include <link.h>
 
 #include <cstdint>
 #include <cstring>
 
 #include "gpu_shading/error.h"
+#include "scene/scene_hash.h"
 
 namespace gpu_shading::energyplus {
 namespace {

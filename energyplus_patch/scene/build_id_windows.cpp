@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "gpu_shading/error.h"
-#include "scene/build_id.h"
+#include "scene/scene_hash.h"
 
 namespace gpu_shading::energyplus {
 

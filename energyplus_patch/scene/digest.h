@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <xxhash.h>
 
 #include <array>
@@ -18,7 +20,7 @@ namespace gpu_shading::energyplus {
 using Hash = std::array<std::uint8_t, 16>;
 
 // In hexadecimal digits.
-std::string to_text(Hash const& hash);
+inline std::string to_text(Hash const& hash) { return fmt::format("{:02x}", fmt::join(hash, "")); }
 
 // Hashes values one after another. Lists are hashed with their length, so that following values
 // cannot be confused with their elements.

@@ -21,4 +21,9 @@ bool is_inside(std::vector<FlatRing> const& rings, glm::dvec2 const& point);
 // The i-th point, from 0, of the R2 sequence (Roberts 2018), which fills the unit square evenly.
 glm::dvec2 spread_point(std::size_t i);
 
+// Points of a polygon in its Newell plane, spread evenly: those of the R2 sequence that lie inside.
+// `count` of them, or fewer for a polygon that fills little of its bounding rectangle; none for a
+// degenerate one.
+std::vector<glm::dvec3> polygon_samples(Polygon const& polygon, std::size_t count);
+
 }  // namespace gpu_shading::energyplus

@@ -9,7 +9,6 @@
 #include "model/extensions/extension_fields.h"
 #include "model/site/farthest_coordinate.h"
 #include "platform/text.h"
-#include "scene/build_id.h"
 #include "scene/model_rule.h"
 #include "scene/scene_hash.h"
 

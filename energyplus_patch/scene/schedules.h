@@ -20,8 +20,8 @@ struct Moment {
 // Error if there is no such schedule, without naming the field.
 struct Schedules {
   std::function<std::pair<double, double>(std::string const& name)> range;  // of the simulation
-  std::function<double(std::string const& name, Moment)>
-      value;  // the lowest value for the whole simulation
+  // The lowest value for the whole simulation.
+  std::function<double(std::string const& name, Moment)> value;
 };
 
 }  // namespace gpu_shading::energyplus

@@ -73,28 +73,26 @@ void ShadeOptics::apply(Surface& surface, std::optional<TextureAxes> const& text
   if (shading == model_->shading.shading_surfaces.end()) return;
   auto const shade = model_->shades.by_surface.find(surface.name);
   if (shade != model_->shades.by_surface.end()) {
-    surface.transmittance =
-        radiation == Radiation::solar ? shade->second.transmittance : shade->second.visible;
+    surface.filter.set(radiation == Radiation::solar ? shade->second.solar : shade->second.visible);
   }
   apply_screen(surface, texture);
   auto const schedule = by_name_.find(shading->second.transmittance_schedule);
   if (schedule == by_name_.end()) return;
   auto const& held = schedule->second.held;
   if (!held) {
-    surface.schedule = schedule->second.factor;
+    surface.filter.schedule = schedule->second.factor;
   } else if (*held <= 0.0) {
-    surface.transmittance.reset();
-    surface.screen.reset();
-    surface.deployment = -1;
+    surface.filter = {};
   } else if (*held < 1.0) {
-    auto& product = products_[{surface.transmittance.get(), *held}];
+    auto const* const dimmed = surface.filter.find<AngularTransmittance>();
+    auto const* const model = dimmed != nullptr ? dimmed->model.get() : nullptr;
+    auto& product = products_[{model, *held}];
     if (!product) {
-      Transmittance const model =
-          surface.transmittance ? *surface.transmittance : Transmittance::constant(1.0);
-      product = std::make_shared<Transmittance const>(Transmittance::product(model, *held));
+      product = std::make_shared<Transmittance const>(
+          Transmittance::product(model != nullptr ? *model : Transmittance::constant(1.0), *held));
     }
-    surface.transmittance = product;
-  } else if (!surface.transmittance && !surface.screen) {
+    surface.filter.set(AngularTransmittance{product});
+  } else if (!surface.filter.transmits()) {
     surface.casting = Casting::never;
   }
 }
@@ -102,11 +100,12 @@ void ShadeOptics::apply(Surface& surface, std::optional<TextureAxes> const& text
 void ShadeOptics::apply_screen(Surface& surface, std::optional<TextureAxes> const& texture) const {
   auto const* const screen = screen_of(*model_, surface);
   if (screen == nullptr) return;
-  surface.screen = screen->maker->make(surface.polygon, texture);
-  surface.placement = screen->maker->placement(surface.polygon, texture);
+  PerforatedSheet sheet{screen->maker->make(surface.polygon, texture),
+                        screen->maker->placement(surface.polygon, texture)};
   auto const& known = deployment_names_;
   auto const found = std::find(known.begin(), known.end(), screen->deployment_schedule);
-  if (found != known.end()) surface.deployment = static_cast<int>(found - known.begin());
+  if (found != known.end()) sheet.deployment = static_cast<int>(found - known.begin());
+  surface.filter.set(std::move(sheet));
 }
 
 bool ShadeOptics::update(Moment moment) {
@@ -145,7 +144,7 @@ std::string describe_optics(Model const& model, Surface const& surface,
   auto const& schedule = shading->second.transmittance_schedule;
   std::string text;
   if (shade != model.shades.by_surface.end()) {
-    text = fmt::format("transparent ({})", shade->second.description);
+    text = shade->second.description;
   }
   if (auto const* const screen = screen_of(model, surface)) {
     text = screen->maker->describe(surface.polygon, texture);

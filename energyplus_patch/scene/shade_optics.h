@@ -25,7 +25,7 @@ class ShadeOptics {
 
   enum class Radiation { solar, light };
 
-  // Sets a surface's casting, transmittance, schedule, screen and deployment. `texture`: of a mesh.
+  // Sets a surface's casting and filter. `texture`: of a mesh.
   // Throws Error if a screen's texture cannot be read.
   void apply(Surface& surface, std::optional<TextureAxes> const& texture = std::nullopt,
              Radiation radiation = Radiation::solar) const;
@@ -38,7 +38,7 @@ class ShadeOptics {
   std::vector<double> factors_at(Moment moment) const;
   std::vector<double> deployments_at(Moment moment) const;
 
-  // Whether a surface has a Transmittance or Deployment Schedule, be it a constant one.
+  // Whether a surface has a Transmittance or Deployment Schedule, even a constant one.
   bool has_schedules() const { return !by_name_.empty() || !deployment_names_.empty(); }
 
   Schedules const& schedules() const { return schedules_; }

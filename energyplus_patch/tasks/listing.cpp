@@ -1,5 +1,3 @@
-#include "tasks/listing.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,15 +7,33 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "gpu_shading/screen_placement.h"
 #include "model/extensions/extension_fields.h"
 #include "platform/text.h"
 #include "scene/model_rule.h"
 #include "scene/shade_optics.h"
+#include "tasks/perform_task.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// How a surface takes part in the shading calculation.
+struct ListedSurface {
+  std::string name;
+  std::string kind;
+  double area = 0.0;                                // m2
+  bool receives = false;                            // whether its own sunlit fraction is rendered
+  std::optional<std::string> casts = std::nullopt;  // its optics; empty: it casts no shadows
+  std::optional<TileAxes> tile = std::nullopt;      // of its screen
+};
+
+struct Listing {
+  std::vector<std::string> remarks;  // what lean input did, and which surroundings were read
+  std::vector<ListedSurface> surfaces;
+  std::string rule;  // lines that say which zones do not shade which
+};
 
 std::string kind_of(std::string const& name, ShadingInput const& input) {
   if (window_of_reveal(name)) return "reveal";
@@ -131,8 +147,9 @@ std::vector<std::string> remarks_of(Model const& model) {
   return remarks;
 }
 
-}  // namespace
-
+// `wanted`: by EnergyPlus's surfaces. The surfaces after these are not in its input: first those
+// left out by lean input, then the surroundings, with one row for a mesh and none for neighbouring
+// buildings and terrain.
 Listing list_surfaces(Scene const& scene, Model const& model, std::vector<bool> const& wanted) {
   Listing listing{remarks_of(model), {}, describe(make_shading_rule(model.shading, scene, {}))};
   for (auto const id : listed(scene, model)) {
@@ -147,7 +164,8 @@ Listing list_surfaces(Scene const& scene, Model const& model, std::vector<bool> 
   return listing;
 }
 
-std::string to_text(Listing const& listing) {
+// A table, with the position of its tile below a screen.
+std::string text_of(Listing const& listing) {
   std::string text;
   for (auto const& remark : listing.remarks) text += remark + "\n";
   if (!text.empty()) text += "\n";
@@ -155,7 +173,8 @@ std::string to_text(Listing const& listing) {
          fmt::format("{} surfaces\n", listing.surfaces.size());
 }
 
-std::string to_json_text(Listing const& listing) {
+// The same as one JSON document (docs/reference/files.md).
+std::string json_text_of(Listing const& listing) {
   Json json{{"format", "gpu_shading check 1"}, {"remarks", listing.remarks}};
   json["rule"] = Json::array();
   std::istringstream rule(listing.rule);
@@ -166,6 +185,7 @@ std::string to_json_text(Listing const& listing) {
   return json.dump(1, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
+// The outlines of the same surfaces, one vertex per line, as comma-separated values.
 std::string list_vertices(Scene const& scene, Model const& model) {
   std::string text = "surface,vertex,x [m],y [m],z [m]\n";
   for (auto const id : listed(scene, model)) {
@@ -176,6 +196,16 @@ std::string list_vertices(Scene const& scene, Model const& model) {
     }
   }
   return text;
+}
+
+}  // namespace
+
+std::string perform(ListingTask const& task, SceneAssembly& scene, Messages const& /*messages*/) {
+  if (task.vertices) {
+    return task.json ? scene_document(scene) : list_vertices(scene.surfaces(), scene.model());
+  }
+  auto const listing = list_surfaces(scene.surfaces(), scene.model(), scene.receives());
+  return task.json ? json_text_of(listing) : text_of(listing);
 }
 
 }  // namespace gpu_shading::energyplus

@@ -1,21 +1,142 @@
-#include "tasks/map_receivers.h"
-
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
-#include <memory>
+#include <cstddef>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "gpu_shading/error.h"
+#include "gpu_shading/rays.h"
+#include "gpu_shading/sun_direction.h"
 #include "platform/progress.h"
 #include "platform/text.h"
-#include "tasks/trace_maps.h"
+#include "reports/map_grid.h"
+#include "reports/remarks.h"
+#include "tasks/perform_task.h"
 
 namespace gpu_shading::energyplus {
 namespace {
+
+// A time at which the sun is up.
+struct MapTime {
+  SunDirection sun;
+  double beam = 0.0;                // direct normal irradiance, W/m2
+  std::vector<double> factors;      // by BeamFilter::schedule
+  std::vector<double> deployments;  // by PerforatedSheet::deployment
+};
+
+struct MapSettings {
+  double hours_per_step = 1.0;
+  std::size_t rays_per_cell = 4;  // at each time
+};
+
+// EnergyPlus hands over vertices in single precision: a ray begins this far in front of the
+// receiver, m, so that a surface in the same plane does not stop it.
+constexpr double lift = 1e-5;
+
+// EnergyPlus's limit of the cosine of incidence.
+constexpr double min_cosine = 1e-5;
+
+constexpr std::size_t rays_in_batch = 65536;
+
+bool alike(MapTime const& a, MapTime const& b) {
+  return a.factors == b.factors && a.deployments == b.deployments;
+}
+
+// Neighbouring cells begin at other points, so that the edge of a shadow along a row or a column
+// does not pass all of them in one place.
+std::size_t turn_of(MapCell const& cell) {
+  constexpr std::size_t from_row_to_row = 37;
+  return static_cast<std::size_t>(cell.column) +
+         from_row_to_row * static_cast<std::size_t>(cell.row);
+}
+
+// Rays of successive times with the same conditions, traced together.
+class RayBatch {
+ public:
+  RayBatch(RayScene const& rays, SurfaceId receiver, MapGrid const& grid,
+           MapSettings const& settings)
+      : rays_(rays), receiver_(receiver), grid_(grid), settings_(settings) {
+    values_.resize(grid.cells().size());
+  }
+
+  void add(MapTime const& time, std::size_t number) {
+    auto const sun = to_vector(time.sun);
+    double const cosine = glm::dot(sun, grid_.axes().normal);
+    if (cosine < min_cosine) return;
+    if (!times_.empty() && (batch_.size() >= rays_in_batch || !alike(*times_.front().time, time))) {
+      trace();
+    }
+    times_.push_back({&time, cosine});
+    auto const start = grid_.axes().normal * lift;
+    auto const rays = settings_.rays_per_cell;
+    for (auto const& cell : grid_.cells()) {
+      auto const first = rays * (number + turn_of(cell));
+      for (std::size_t i = 0; i < rays; ++i) {
+        batch_.push_back({grid_.point(cell, first + i) + start, sun});
+      }
+    }
+  }
+
+  std::vector<MapValue> finish() {
+    trace();
+    return std::move(values_);
+  }
+
+ private:
+  struct Added {
+    MapTime const* time;
+    double cosine;
+  };
+
+  void trace() {
+    if (times_.empty()) return;
+    passed_.resize(batch_.size());
+    auto const& first = *times_.front().time;
+    rays_.transmittances(
+        batch_, {.receiver = receiver_, .factors = first.factors, .deployments = first.deployments},
+        passed_);
+    auto passed = passed_.begin();
+    double const share = settings_.hours_per_step / static_cast<double>(settings_.rays_per_cell);
+    constexpr double watts_in_kilowatt = 1000.0;
+    for (auto const& [time, cosine] : times_) {
+      for (auto& value : values_) {
+        double hours = 0.0;
+        for (std::size_t i = 0; i < settings_.rays_per_cell; ++i) hours += share * *passed++;
+        value.hours += hours;
+        value.energy += hours * cosine * time->beam / watts_in_kilowatt;
+      }
+    }
+    times_.clear();
+    batch_.clear();
+  }
+
+  RayScene const& rays_;
+  SurfaceId receiver_;
+  MapGrid const& grid_;
+  MapSettings settings_;
+  std::vector<Added> times_;
+  std::vector<Ray> batch_;
+  std::vector<double> passed_;
+  std::vector<MapValue> values_;
+};
+
+// The values of each cell of a receiver's grid, in order. A cell's value is the mean over rays
+// towards the sun from a few of its points, which take turns from time to time. `done` is called
+// with the number of times that are complete.
+std::vector<MapValue> trace_map(RayScene const& rays, SurfaceId receiver, MapGrid const& grid,
+                                std::vector<MapTime> const& times, MapSettings const& settings,
+                                std::function<void(std::size_t)> const& done) {
+  RayBatch batch(rays, receiver, grid, settings);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    batch.add(times[i], i);
+    done(i + 1);
+  }
+  return batch.finish();
+}
 
 struct MappedReceiver {
   SurfaceId id;
@@ -50,7 +171,7 @@ std::vector<SurfaceId> choose_receivers(SceneAssembly const& scene, std::string 
   return chosen;
 }
 
-std::vector<MappedReceiver> make_grids(SceneAssembly const& scene, MapRequest const& request) {
+std::vector<MappedReceiver> make_grids(SceneAssembly const& scene, MapTask const& request) {
   auto const chosen = choose_receivers(scene, request.receivers);
   if (chosen.empty()) throw Error("the model has no exterior surface to map");
   std::vector<MappedReceiver> receivers;
@@ -64,11 +185,11 @@ std::vector<MappedReceiver> make_grids(SceneAssembly const& scene, MapRequest co
                               error.what()));
     }
     cells += receivers.back().grid.cells().size();
-    if (cells > MapGrid::most_cells) {
+    if (cells > MapGrid::max_cells) {
       throw Error(fmt::format(
           "--spacing {}: the receivers have more than {} cells: use a larger spacing, or choose "
           "fewer with --receivers",
-          request.spacing, MapGrid::most_cells));
+          request.spacing, MapGrid::max_cells));
     }
   }
   return receivers;
@@ -82,7 +203,7 @@ std::vector<double> values_of(std::vector<std::string> const& names, RunTimes co
   return values;
 }
 
-std::vector<MapTime> times_of(MapRequest const& request, ShadeOptics const& optics) {
+std::vector<MapTime> times_of(MapTask const& request, ShadeOptics const& optics) {
   std::vector<MapTime> times;
   for (auto const& time : request.run.times) {
     times.push_back({time.sun, time.beam, values_of(optics.factor_names(), request.run, time),
@@ -91,24 +212,17 @@ std::vector<MapTime> times_of(MapRequest const& request, ShadeOptics const& opti
   return times;
 }
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
 }  // namespace
 
-std::string map_receivers(MapRequest const& request, SceneAssembly& scene) {
+std::string perform(MapTask const& request, SceneAssembly& scene, Messages const& messages) {
+  describe_scene(scene, messages);
   auto const receivers = make_grids(scene, request);
   scene.optics().update({});
   RayScene const rays(scene.scene(), {.screens = ScreenDetail::automatic});
   auto const times = times_of(request, scene.optics());
   MapSettings const settings{1.0 / request.run.steps_per_hour,
                              static_cast<std::size_t>(request.rays_per_cell)};
-  std::unique_ptr<std::FILE, CloseFile> const descriptor(
-      request.progress < 0 ? nullptr : fdopen(dup(request.progress), "w"));
-  auto* const out = descriptor ? descriptor.get() : stderr;
-  Progress progress("tracing rays to the sun", receivers.size() * times.size(), out,
-                    isatty(fileno(out)) != 0, std::chrono::seconds(1));
+  Progress progress("tracing rays to the sun", receivers.size() * times.size(), request.progress);
   std::vector<ReceiverMap> maps;
   std::size_t cells = 0;
   for (auto const& [id, grid] : receivers) {

@@ -6,48 +6,23 @@
 #include <variant>
 
 #include "answers/cache_folder.h"
-#include "answers/open_answers.h"
+#include "answers/cached_renderer.h"
 #include "gpu_shading/error.h"
 #include "model/extensions/extension_fields.h"
 #include "reports/remarks.h"
 #include "runs/run_times.h"
-#include "tasks/draw_views.h"
-#include "tasks/listing.h"
-#include "tasks/map_receivers.h"
-#include "tasks/samples/direction_fractions.h"
 #include "tasks/samples/take_samples.h"
-#include "tasks/scene_document.h"
+#include "tasks/task_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
-std::string perform(ListingTask const& task, SceneAssembly& scene, Messages const& /*messages*/) {
-  if (task.vertices) {
-    return task.json ? scene_document(scene) : list_vertices(scene.surfaces(), scene.model());
-  }
-  auto const listing = list_surfaces(scene.surfaces(), scene.model(), scene.receives());
-  return task.json ? to_json_text(listing) : to_text(listing);
-}
-
-std::string perform(ViewsTask const& task, SceneAssembly& scene, Messages const& messages) {
-  RendererOptions options = watched_options(scene.model().options, messages);
-  options.samples_only = true;  // by which the device that draws is checked
-  Renderer renderer(scene.scene(), options);
-  scene.optics().update({});
-  renderer.set_deployments(scene.optics().deployments());
-  std::vector<bool> receives(scene.surfaces().size(), false);
-  for (auto const id : scene.shown_receivers()) receives[id] = true;
-  draw_views(task.views, task.folder,
-             {renderer, scene.shown(), std::move(receives), scene.optics().factors(), task.size});
-  return {};
-}
-
 // For tasks that render: the answers of a device that was checked.
-RenderedAnswers open_for_task(SceneAssembly& scene, std::vector<SurfaceId> const& receivers,
-                              Messages const& messages) {
+CachedRenderer open_for_task(SceneAssembly& scene, std::vector<SurfaceId> const& receivers,
+                             Messages const& messages) {
   auto const& options = scene.model().options;
   if (options.cache) prepare_cache_folder(*options.cache);
-  auto answers = open_answers(scene, receivers, options.device, messages);
+  auto answers = open_renderer(scene, receivers, options.device, messages);
   check_device(answers.renderer().device(), options, messages);
   describe_scene(scene, messages);
   scene.optics().update({});
@@ -69,7 +44,7 @@ void refuse_moving_screens(ShadeOptics const& optics) {
 }
 
 SampledScene sampled_scene(SamplesTask const& task, SceneAssembly const& scene,
-                           RenderedAnswers const& answers) {
+                           CachedRenderer const& answers) {
   auto const areas = scene.areas();
   SampledScene sampled;
   sampled.asked = task.asked;
@@ -82,6 +57,8 @@ SampledScene sampled_scene(SamplesTask const& task, SceneAssembly const& scene,
   return sampled;
 }
 
+}  // namespace
+
 std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages const& messages) {
   auto const& options = scene.model().options;
   refuse_moving_screens(scene.optics());
@@ -93,7 +70,7 @@ std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages cons
                            [&](std::span<SunDirection const> suns) {
                              return answers.at(suns, answers.known().receivers);
                            });
-  store_answers(answers, messages);
+  write_cache(answers, messages);
   return line;
 }
 
@@ -114,19 +91,22 @@ std::string perform(DirectionsTask const& task, SceneAssembly& scene, Messages c
     }
   }
   write_fractions(task.file, receivers);
-  store_answers(answers, messages);
+  write_cache(answers, messages);
   return fmt::format("{} directions of {} receivers", task.directions.size(), receivers.size());
 }
 
-std::string perform(MapTask const& task, SceneAssembly& scene, Messages const& messages) {
-  describe_scene(scene, messages);
-  return map_receivers(task, scene);
-}
-
-}  // namespace
-
 std::string perform_task(Task const& task, SceneAssembly& scene, Messages const& messages) {
   return std::visit([&](auto const& wanted) { return perform(wanted, scene, messages); }, task);
+}
+
+void begin(Session& session, Simulation simulation, AskedTask* task) {
+  if (task == nullptr) {
+    session.start(std::move(simulation));
+    return;
+  }
+  auto& scene = session.complete(std::move(simulation.schedules));
+  task->finish(perform_task(task->task(), scene, simulation.messages));
+  throw TaskDone();
 }
 
 }  // namespace gpu_shading::energyplus

@@ -2,14 +2,30 @@
 
 #include <string>
 
-#include "platform/messages.h"
-#include "scene/scene_assembly.h"
-#include "tasks/task.h"
+#include "calculation/session.h"
+#include "tasks/task_file.h"
 
 namespace gpu_shading::energyplus {
+
+// Each kind of task, for perform_task().
+std::string perform(ListingTask const& task, SceneAssembly& scene, Messages const& messages);
+std::string perform(ViewsTask const& task, SceneAssembly& scene, Messages const& messages);
+std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages const& messages);
+std::string perform(MapTask const& task, SceneAssembly& scene, Messages const& messages);
+std::string perform(DirectionsTask const& task, SceneAssembly& scene, Messages const& messages);
+
+// The scene that is rendered for a model, as JSON that the Python package reads: every surface with
+// its vertices, optics and part in the shading rule, in the order of the scene. Transmittances are
+// given at each half degree, textures as hexadecimal digits. Throws Error for a texture of more
+// than 4096 x 4096 texels.
+std::string scene_document(SceneAssembly& scene);
 
 // Does what a task asks with the surfaces of a completed assembly: the text that it gives the user.
 // Screens are all in place, schedules at their least transmittance. Throws Error.
 std::string perform_task(Task const& task, SceneAssembly& scene, Messages const& messages);
+
+// EnergyPlus has added all surfaces: starts the session or, where EnergyPlus is run for a task,
+// does it, replies and throws TaskDone. Throws Error.
+void begin(Session& session, Simulation simulation, AskedTask* task);
 
 }  // namespace gpu_shading::energyplus

@@ -1,5 +1,3 @@
-#include "tasks/scene_document.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -14,6 +12,7 @@
 #include "gpu_shading/error.h"
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
+#include "tasks/perform_task.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -21,7 +20,7 @@ namespace {
 using Document = nlohmann::ordered_json;
 
 constexpr int steps_a_degree = 2;
-constexpr std::size_t most_texels = std::size_t{4096} * 4096;
+constexpr std::size_t max_texels = std::size_t{4096} * 4096;
 
 std::string text_of(Document const& json) {
   // Names in IDF files may be in Latin-1; in ASCII, control characters of any kind are escaped.
@@ -58,10 +57,10 @@ Document to_json(HolePattern const& pattern) {
 
 Document to_json(OpacityTile const& tile) {
   auto const texels = tile.opacity();
-  if (texels.size() > most_texels) {
+  if (texels.size() > max_texels) {
     throw Error(
         fmt::format("a texture of {} x {} texels, expected at most {} in all for a document",
-                    tile.columns(), tile.rows(), most_texels));
+                    tile.columns(), tile.rows(), max_texels));
   }
   Document json{{"width", tile.width()},
                 {"height", tile.height()},
@@ -108,7 +107,15 @@ class SurfaceTexts {
  public:
   void add(Surface const& surface, bool receives) {
     constexpr std::array<std::string_view, 3> castings{"always", "turned away", "never"};
-    auto const& [u, v, rotation] = surface.placement;
+    auto const* const shade = surface.filter.find<AngularTransmittance>();
+    auto const* const found = surface.filter.find<PerforatedSheet>();
+    PerforatedSheet const sheet = found != nullptr ? *found : PerforatedSheet{};
+    auto const written = static_cast<std::size_t>(shade != nullptr) + (found != nullptr ? 1 : 0);
+    if (written != surface.filter.factors.size()) {
+      throw Error(fmt::format("{}: a document of a scene has no field for its kind of filter",
+                              surface.name));
+    }
+    auto const& [u, v, rotation] = sheet.placement;
     write(
         "{}\n{{\"name\":{},\"casts\":\"{}\",\"receives\":{},\"outline\":", text_.empty() ? "" : ",",
         text_of(surface.name), castings.at(static_cast<std::size_t>(surface.casting)), receives);
@@ -121,8 +128,8 @@ class SurfaceTexts {
     write(
         "],\"transmittance\":{},\"schedule\":{},\"screen\":{},\"origin\":[{},{}],"
         "\"rotation\":{},\"deployment\":{}}}",
-        transmittances_.add(surface.transmittance), surface.schedule, screens_.add(surface.screen),
-        u, v, glm::degrees(rotation), surface.deployment);
+        transmittances_.add(shade != nullptr ? shade->model : nullptr), surface.filter.schedule,
+        screens_.add(sheet.screen), u, v, glm::degrees(rotation), sheet.deployment);
   }
 
   std::string const& text() const { return text_; }

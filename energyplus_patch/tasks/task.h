@@ -5,19 +5,20 @@
 #include <variant>
 #include <vector>
 
-#include "reports/map_file.h"
-#include "tasks/samples/direction_fractions.h"
-#include "tasks/samples/sample_request.h"
+#include "gpu_shading/polygon.h"
+#include "gpu_shading/sun_direction.h"
+#include "runs/run_times.h"
+#include "tasks/samples/take_samples.h"
 #include "tasks/view_list.h"
 
 namespace gpu_shading::energyplus {
 
 // What the gpu_shading program wants of a model's surfaces in place of a simulation.
 
-// A table of the surfaces (listing.h).
+// A table of the surfaces.
 struct ListingTask {
   bool vertices = false;  // a table of their vertices instead
-  bool json = false;      // as JSON; with vertices, the scene that is rendered (scene_document.h)
+  bool json = false;      // as JSON; with vertices, the scene that is rendered
 
   bool operator==(ListingTask const&) const = default;
 };
@@ -34,11 +35,44 @@ struct ViewsTask {
 // Samples, at the density of --gpu-shading-update.
 using SamplesTask = SampleRequest;
 
-// Maps of sun hours and beam energy.
-using MapTask = MapRequest;
+// Maps of sun hours and beam energy, and the file that they are written to.
+struct MapTask {
+  std::string receivers;  // a pattern of names; empty: all that EnergyPlus shades
+  double spacing = 0.0;   // of the cells, m
+  int rays_per_cell = 0;  // at each time
+  RunTimes run;           // the times with the sun up, with the beam and the schedules
+  std::filesystem::path file;
+  int progress = -1;  // the file descriptor for progress; none if negative
 
-// Sunlit fractions in some directions.
-using DirectionsTask = DirectionsRequest;
+  bool operator==(MapTask const&) const = default;
+};
+
+// What a cell gets in a period.
+struct MapValue {
+  double hours = 0.0;   // h, each weighted by what passes the shades
+  double energy = 0.0;  // beam solar radiation, kWh/m2
+};
+
+// The map of one receiver: MapGrid(polygon, spacing) and the values of its cells.
+struct ReceiverMap {
+  std::string name;
+  Polygon polygon;
+  std::vector<MapValue> values;
+};
+
+// Sunlit fractions of all receivers, as if the sun stood in each of some directions, with schedules
+// at their lowest value and screens fully deployed, and the file that they are written to.
+struct DirectionsTask {
+  std::vector<SunDirection> directions;
+  std::filesystem::path file;
+
+  bool operator==(DirectionsTask const&) const = default;
+};
+
+struct ReceiverFractions {
+  SampledReceiver receiver;
+  std::vector<double> fractions;  // by direction, 0 .. 1; 0 if it is behind the receiver
+};
 
 using Task = std::variant<ListingTask, ViewsTask, SamplesTask, MapTask, DirectionsTask>;
 

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+#include <exception>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <variant>
 
 #include "gpu_shading/error.h"
+#include "platform/error_line.h"
 #include "platform/files.h"
 
 namespace gpu_shading::energyplus {
@@ -134,6 +137,36 @@ Task to_task(Json const& json) {
   return task;
 }
 
+Json ring_to_json(Ring const& ring) {
+  Json json = Json::array();
+  for (auto const& point : ring) json.push_back({point.x, point.y, point.z});
+  return json;
+}
+
+Ring ring_of(Json const& json) {
+  Ring ring;
+  for (auto const& point : json) ring.emplace_back(point.at(0), point.at(1), point.at(2));
+  return ring;
+}
+
+Json map_to_json(ReceiverMap const& map) {
+  Json holes = Json::array();
+  for (auto const& hole : map.polygon.holes) holes.push_back(ring_to_json(hole));
+  Json values = Json::array();
+  for (auto const& value : map.values) values.push_back({value.hours, value.energy});
+  return {{"name", map.name},
+          {"outline", ring_to_json(map.polygon.outline)},
+          {"holes", std::move(holes)},
+          {"values", std::move(values)}};
+}
+
+ReceiverMap map_of(Json const& json) {
+  ReceiverMap map{json.at("name"), {ring_of(json.at("outline")), {}}, {}};
+  for (auto const& hole : json.at("holes")) map.polygon.holes.push_back(ring_of(hole));
+  for (auto const& value : json.at("values")) map.values.push_back({value.at(0), value.at(1)});
+  return map;
+}
+
 }  // namespace
 
 void write_request(Path const& file, TaskRequest const& request) {
@@ -157,6 +190,56 @@ std::optional<TaskReply> find_reply(Path const& file) {
   return read(file, [](Json const& json) {
     return TaskReply{json.at("text"), json.at("warnings"), json.at("error")};
   });
+}
+
+void write_maps(Path const& file, std::vector<ReceiverMap> const& maps) {
+  Json json = Json::array();
+  for (auto const& map : maps) json.push_back(map_to_json(map));
+  write(file, json);
+}
+
+std::vector<ReceiverMap> read_maps(Path const& file) {
+  return read(file, [](Json const& json) {
+    std::vector<ReceiverMap> maps;
+    for (auto const& map : json) maps.push_back(map_of(map));
+    return maps;
+  });
+}
+
+void write_fractions(Path const& file, std::vector<ReceiverFractions> const& receivers) {
+  Json json = Json::array();
+  for (auto const& [receiver, fractions] : receivers) {
+    auto const& area = receiver.area;
+    json.push_back({receiver.name, area.x, area.y, area.z, Json(fractions)});
+  }
+  write(file, json);
+}
+
+std::vector<ReceiverFractions> read_fractions(Path const& file) {
+  return read(file, [](Json const& json) {
+    std::vector<ReceiverFractions> receivers;
+    for (auto const& row : json) {
+      receivers.push_back({{row.at(0), {row.at(1), row.at(2), row.at(3)}}, row.at(4)});
+    }
+    return receivers;
+  });
+}
+
+void AskedTask::finish(std::string text) {
+  reply_.text = std::move(text);
+  write_reply(request_.reply, reply_);
+  replied_ = true;
+}
+
+void AskedTask::fail(std::string const& why) noexcept {
+  if (std::exchange(replied_, true)) return;
+  try {
+    reply_.error = why;
+    write_reply(request_.reply, reply_);
+  } catch (std::exception const& error) {
+    // The program that waits reads it here.
+    std::fprintf(stderr, "gpu_shading: error: %s\n", error_line(error).c_str());
+  }
 }
 
 }  // namespace gpu_shading::energyplus

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "tasks/task.h"
 
@@ -22,5 +25,38 @@ TaskRequest read_request(std::filesystem::path const& file);
 // The file is written as a whole: nothing is found if the process ended before its reply.
 void write_reply(std::filesystem::path const& file, TaskReply const& reply);
 std::optional<TaskReply> find_reply(std::filesystem::path const& file);
+
+// Results of a task that are no text for the user. Throw Error if the file cannot be read or
+// written.
+void write_maps(std::filesystem::path const& file, std::vector<ReceiverMap> const& maps);
+std::vector<ReceiverMap> read_maps(std::filesystem::path const& file);
+void write_fractions(std::filesystem::path const& file,
+                     std::vector<ReceiverFractions> const& receivers);
+std::vector<ReceiverFractions> read_fractions(std::filesystem::path const& file);
+
+// A task of the gpu_shading program that EnergyPlus is run for (--gpu-shading-task), and the reply
+// to it as it comes about.
+class AskedTask {
+ public:
+  // Throws Error if the file cannot be read.
+  explicit AskedTask(std::filesystem::path const& file) : request_(read_request(file)) {}
+
+  Task const& task() const { return request_.task; }
+
+  void warn(std::string const& line) { reply_.warnings.push_back(line); }
+
+  // Either ends it, by writing the reply; only the first does. finish() throws Error if that cannot
+  // be written.
+  void finish(std::string text);
+  void fail(std::string const& why) noexcept;
+
+ private:
+  TaskRequest request_;
+  TaskReply reply_;
+  bool replied_ = false;
+};
+
+// Thrown when the task that EnergyPlus is run for is done.
+class TaskDone : public std::exception {};
 
 }  // namespace gpu_shading::energyplus

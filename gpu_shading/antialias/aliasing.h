@@ -3,9 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "antialias/blade_spectrum.h"
-#include "antialias/hole_spectrum.h"
-#include "antialias/repeat.h"
+#include "antialias/antialias.h"
+#include "antialias/spectra.h"
 #include "filters/perforation/screens.h"
 #include "filters/perforation/sheet_in_beam.h"
 #include "view/tile.h"
@@ -13,30 +12,30 @@
 
 namespace gpu_shading {
 
-// How much what repeats in a view aliases with a grid of samples. The mean of a pattern over a grid
-// is wrong by the amplitude of each of the pattern's frequencies times that of the receiver's
+// The aliasing of a view's repeating geometry with a grid of samples. The mean of a pattern over a
+// grid is wrong by the amplitude of each of the pattern's frequencies times that of the receiver's
 // outline, at the frequency's distance from the nearest vector of the grid's reciprocal lattice.
 class Aliasing {
  public:
   // `view` is that of the casters in front, on the tile.
   Aliasing(View const& view, OutlineSpectrum const& outline) : view_(view), outline_(outline) {}
 
-  // A screen whose holes are drawn.
+  // A screen drawn by its holes.
   void add(Screens::Entry const& screen, SheetInBeam const& sheet);
-  // A screen of which rows of holes are drawn.
+  // A screen drawn by rows of holes.
   void add_rows(Screens::Entry const& screen, SheetInBeam const& sheet);
   void add(SampledRepeats const& repeats);
-  // Rays pass more than one of the screens.
+  // Some rays pass more than one of the screens.
   void overlap();
 
   // The same on another tile of the receiver. `from`, `to`: the maps of both tiles.
   Aliasing on_tile(TileMap const& from, TileMap const& to, OutlineSpectrum const& outline) const;
 
-  // An error with which no better grid of so many rows is looked for.
+  // An error small enough to end the search for a grid of so many rows.
   static double small_enough(int rows) { return 0.015 / rows; }
 
   bool none() const { return screens_.empty() && blades_.empty(); }
-  // Upper limit of the squared error of a grid, or anything above `enough`.
+  // Upper bound of the squared error of a grid, or any number above `enough`.
   double squared_error(TileGrid const& grid, double enough) const;
 
  private:

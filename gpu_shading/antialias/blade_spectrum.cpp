@@ -1,5 +1,3 @@
-#include "antialias/blade_spectrum.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "antialias/nearest_whole.h"
+#include "antialias/spectra.h"
 #include "geometry/convex_area.h"
 #include "platform/instructions.h"
 
@@ -20,8 +18,8 @@ glm::dvec2 in_tiles(View const& view, glm::dvec3 const& vector) {
          glm::dvec2(glm::dot(glm::dvec3(view.x), vector), glm::dot(glm::dvec3(view.y), vector));
 }
 
-// The square of what a vector of the grid's reciprocal lattice adds to the error of a multiple of
-// the frequency, for blades of all of the receiver and without pi.
+// The squared error that a vector of the grid's reciprocal lattice causes at a multiple of the
+// frequency, for blades in front of the whole receiver and without the factor 1 / pi.
 [[gnu::always_inline]] inline double squared_at(OutlineSpectrum const& outline,
                                                 glm::dvec2 const& at, double multiple,
                                                 TileGrid const& grid, double column, double row) {
@@ -76,8 +74,8 @@ std::optional<BladeSpectrum> BladeSpectrum::make(Repeat const& repeat, double sh
   if (std::abs(turn) <= in_line * glm::length(step) * glm::length(edge)) return std::nullopt;
   // One cycle a step, none along the edge.
   glm::dvec2 const first = glm::dvec2(edge.y, -edge.x) / turn;
-  constexpr double most_cycles = 1e9;
-  if (!(glm::length(first) < most_cycles)) return std::nullopt;
+  constexpr double max_cycles = 1e9;
+  if (!(glm::length(first) < max_cycles)) return std::nullopt;
   return BladeSpectrum(first, share, outline);
 }
 
@@ -94,10 +92,10 @@ double BladeSpectrum::squared_error(TileGrid const& grid, double enough) const {
   constexpr int strongest = 3;
   // High multiples matter: the weaker they are, the closer some vector comes, until there are more
   // multiples than pixels.
-  constexpr int most = 512;
+  constexpr int max_multiple = 512;
   double const pixels = static_cast<double>(grid.width) * grid.rows;
   int const last = static_cast<int>(
-      std::clamp(4.0 * pixels / glm::length(first_), double{strongest}, double{most}));
+      std::clamp(4.0 * pixels / glm::length(first_), double{strongest}, double{max_multiple}));
   double const amplitude = share_ / std::numbers::pi;
   double const wanted = enough / (amplitude * amplitude);
   double sum = 0.0;

@@ -1,5 +1,3 @@
-#include "antialias/hole_spectrum.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "antialias/nearest_whole.h"
+#include "antialias/spectra.h"
 #include "geometry/convex_area.h"
 #include "gpu_shading/perforated_screen.h"
 
@@ -54,12 +52,12 @@ double HoleSpectrum::squared_error(TileGrid const& grid, int row, double negligi
   // Beyond this, on small grids, only a frequency that a vector nearly meets matters.
   int const low = is_large(grid) ? order : 12;
   constexpr double nearly = 2.0;
-  constexpr std::size_t most = 2 * most_rows - 1;
+  constexpr std::size_t max_vectors = 2 * max_rows - 1;
   std::size_t const vectors = 2 * static_cast<std::size_t>(order) + 1;
-  std::array<double, most> x;
-  std::array<double, most> y;
-  std::array<double, most> squared_distance;
-  std::array<double, most> decay;
+  std::array<double, max_vectors> x;
+  std::array<double, max_vectors> y;
+  std::array<double, max_vectors> squared_distance;
+  std::array<double, max_vectors> decay;
   glm::dvec2 const first = to_index_ * grid.reciprocal(-order, row);
   glm::dvec2 const step = to_index_ * grid.reciprocal(1.0, 0.0);
   // Written for the compiler to take several at a time.
@@ -73,7 +71,7 @@ double HoleSpectrum::squared_error(TileGrid const& grid, int row, double negligi
     squared_distance[i] = glm::dot(off, off);
     decay[i] = outline_.decay(off);
   }
-  double const least = negligible / most_;
+  double const negligible_share = negligible / max_scale_;
   // Sides keep high frequencies from fading; a grid of more rows, for a smaller error, meets more.
   double const highest = grid.rows / size_;
   double sum = 0.0;
@@ -81,7 +79,7 @@ double HoleSpectrum::squared_error(TileGrid const& grid, int row, double negligi
     glm::dvec2 const frequency = lowest_ * glm::dvec2(x[i], y[i]);
     double const squared = glm::dot(frequency, frequency);
     if (squared > highest * highest || squared == 0.0) continue;
-    if (least * least * squared * decay[i] * decay[i] >= 1.0) continue;
+    if (negligible_share * negligible_share * squared * decay[i] * decay[i] >= 1.0) continue;
     bool const is_low = row <= low && std::abs(static_cast<int>(i) - order) <= low;
     if (!is_low && squared_distance[i] > nearly * nearly) continue;
     double const error = amplitude(frequency) / decay[i];
@@ -117,8 +115,8 @@ double HoleSpectrum::squared_error_of(glm::dvec2 const& index, TileGrid const& g
   if (std::max(std::abs(column), std::abs(row)) < rows(grid)) return 0.0;
   glm::dvec2 const frequency = lowest_ * index;
   double const decay = outline_.decay(at - grid.reciprocal(column, row));
-  double const least = negligible * decay / most_;
-  if (least * least * glm::dot(frequency, frequency) >= 1.0) return 0.0;
+  double const negligible_share = negligible * decay / max_scale_;
+  if (negligible_share * negligible_share * glm::dot(frequency, frequency) >= 1.0) return 0.0;
   double const error = amplitude(frequency) / decay;
   return error * error;
 }
@@ -132,11 +130,11 @@ double HoleSpectrum::error_at(glm::dvec2 const& vector) const {
 }
 
 std::vector<HoleSpectrum::Frequency> HoleSpectrum::lowest() const {
-  constexpr int most = 3;
+  constexpr int max_index = 3;
   constexpr double negligible = 0.02;
   std::vector<Frequency> found;
-  for (int row = -most; row <= most; ++row) {
-    for (int column = -most; column <= most; ++column) {
+  for (int row = -max_index; row <= max_index; ++row) {
+    for (int column = -max_index; column <= max_index; ++column) {
       if (column == 0 && row == 0) continue;
       glm::dvec2 const index(column, row);
       found.push_back({basis_ * index, amplitude(lowest_ * index)});
@@ -145,8 +143,9 @@ std::vector<HoleSpectrum::Frequency> HoleSpectrum::lowest() const {
   auto const louder = [](Frequency const& a, Frequency const& b) {
     return a.amplitude < b.amplitude;
   };
-  double const least = negligible * std::max_element(found.begin(), found.end(), louder)->amplitude;
-  std::erase_if(found, [&](Frequency const& one) { return one.amplitude < least; });
+  double const min_amplitude =
+      negligible * std::max_element(found.begin(), found.end(), louder)->amplitude;
+  std::erase_if(found, [&](Frequency const& one) { return one.amplitude < min_amplitude; });
   return found;
 }
 
@@ -171,12 +170,12 @@ std::vector<BladeSpectrum> HoleSpectrum::sides_in_line() const {
 }
 
 glm::dvec2 HoleSpectrum::lowest_across(glm::dvec2 const& side) const {
-  constexpr int most = 4;
+  constexpr int max_index = 4;
   constexpr double along = 1e-6;
   glm::dvec2 found(0.0);
   double least = std::numeric_limits<double>::infinity();
-  for (int row = 0; row <= most; ++row) {
-    for (int column = row == 0 ? 1 : -most; column <= most; ++column) {
+  for (int row = 0; row <= max_index; ++row) {
+    for (int column = row == 0 ? 1 : -max_index; column <= max_index; ++column) {
       glm::dvec2 const index(column, row);
       glm::dvec2 const frequency = lowest_ * index;
       double const length = glm::length(frequency);
@@ -215,9 +214,9 @@ void HoleSpectrum::describe(PerforatedScreen const& screen, SheetInBeam const& s
   }
   size_ = size;
   // No frequency is below one cycle of the longer side.
-  most_ = arcs_ * std::sqrt(static_cast<double>(std::max(sheet.tile.x, sheet.tile.y)));
-  for (glm::dvec2 const& side : sides_) most_ += glm::length(side) / pi;
-  most_ *= per_area_;
+  max_scale_ = arcs_ * std::sqrt(static_cast<double>(std::max(sheet.tile.x, sheet.tile.y)));
+  for (glm::dvec2 const& side : sides_) max_scale_ += glm::length(side) / pi;
+  max_scale_ *= per_area_;
 }
 
 // Upper limit of the transform of all holes: of their straight sides, and of their arcs.

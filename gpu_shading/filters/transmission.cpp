@@ -1,18 +1,40 @@
 #include "filters/transmission.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <iterator>
 
 namespace gpu_shading {
 
+Transmission::Transmission(Scene const& scene) : entries_(scene.size()), screens_(scene) {
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    int const schedule = scene[id].filter.schedule;
+    if (schedule >= 0) schedules_.push_back(schedule);
+  }
+  std::sort(schedules_.begin(), schedules_.end());
+  schedules_.erase(std::unique(schedules_.begin(), schedules_.end()), schedules_.end());
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    BeamFilter const& filter = scene[id].filter;
+    Entry& entry = entries_[id];
+    entry.transmits = filter.transmits();
+    entry.is_flat = filter.is_flat();
+    if (!entry.transmits) continue;
+    entry.filter = filter;
+    entry.normal = normal(scene[id].polygon);
+    if (filter.schedule < 0) continue;
+    auto const found = std::lower_bound(schedules_.begin(), schedules_.end(), filter.schedule);
+    entry.schedule = static_cast<int>(found - schedules_.begin());
+  }
+}
+
 bool Transmission::any_transmits(std::span<SurfaceId const> casters) const {
-  return std::any_of(casters.begin(), casters.end(),
-                     [&](SurfaceId id) { return shades_.transmits(id); });
+  return std::any_of(casters.begin(), casters.end(), [&](SurfaceId id) { return transmits(id); });
 }
 
 bool Transmission::any_schedule(std::span<SurfaceId const> casters) const {
   return std::any_of(casters.begin(), casters.end(),
-                     [&](SurfaceId id) { return shades_.schedule(id) != Shades::unscheduled; });
+                     [&](SurfaceId id) { return schedule(id) != Shade::unscheduled; });
 }
 
 bool Transmission::any_screen(std::span<SurfaceId const> casters) const {
@@ -20,11 +42,17 @@ bool Transmission::any_screen(std::span<SurfaceId const> casters) const {
                      [&](SurfaceId id) { return screens_.number(id) != Screens::none; });
 }
 
-std::vector<SurfaceId> Transmission::plain_among(std::span<SurfaceId const> casters) const {
-  std::vector<SurfaceId> plain;
-  std::copy_if(casters.begin(), casters.end(), std::back_inserter(plain),
-               [&](SurfaceId id) { return shades_.dims(id); });
-  return plain;
+std::string Transmission::describe(std::span<SurfaceId const> casters) const {
+  bool const screens = any_screen(casters);
+  if (!any_schedule(casters)) return screens ? "perforated screens" : "transparent shades";
+  return screens ? "perforated screens and transmittance schedules" : "transmittance schedules";
+}
+
+std::vector<SurfaceId> Transmission::flat_among(std::span<SurfaceId const> casters) const {
+  std::vector<SurfaceId> flat;
+  std::copy_if(casters.begin(), casters.end(), std::back_inserter(flat),
+               [&](SurfaceId id) { return is_flat(id); });
+  return flat;
 }
 
 std::vector<int> Transmission::screens_among(std::span<SurfaceId const> casters) const {
@@ -35,9 +63,16 @@ std::vector<int> Transmission::screens_among(std::span<SurfaceId const> casters)
   return numbers;
 }
 
+double Transmission::transmittance(SurfaceId id, glm::dvec3 const& towards_sun) const {
+  Entry const& entry = entries_[id];
+  if (!entry.transmits) return 0.0;
+  double const cosine = std::min(1.0, std::abs(glm::dot(entry.normal, towards_sun)));
+  return entry.filter.flat_factor(cosine);
+}
+
 Shade Transmission::shade(SurfaceId id, glm::dvec3 const& towards_sun) const {
-  if (!shades_.transmits(id)) return {};
-  return {static_cast<float>(shades_.transmittance(id, towards_sun)), shades_.schedule(id)};
+  if (!transmits(id)) return {};
+  return {static_cast<float>(transmittance(id, towards_sun)), schedule(id)};
 }
 
 }  // namespace gpu_shading

@@ -28,7 +28,7 @@ enum class Containment { outside, intersecting, inside };
 class Bvh {
  public:
   Bvh() = default;
-  // Empty boxes are ignored.
+  // Ignores empty boxes.
   explicit Bvh(std::vector<Box> const& boxes);
 
   // The boxes' numbers in the order in which the tree has them: nearly those that lie together.

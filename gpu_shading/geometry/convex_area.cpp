@@ -11,8 +11,8 @@ namespace {
 constexpr float middle = 0.5F;
 
 // Index of the first row, or pixel of a row, whose centre is beyond a position.
-int first_beyond(double place, int side) {
-  return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(side)) + double{middle});
+int first_beyond(double position, int side) {
+  return static_cast<int>(std::clamp(position, 0.0, static_cast<double>(side)) + double{middle});
 }
 
 // The limits of an area as they are found.
@@ -91,7 +91,7 @@ template <std::size_t limits>
     case 3:
       return find_some<3>(area, first_row, rows, columns, spans);
     default:
-      return find_some<ConvexArea::most_limits>(area, first_row, rows, columns, spans);
+      return find_some<ConvexArea::max_limits>(area, first_row, rows, columns, spans);
   }
 }
 

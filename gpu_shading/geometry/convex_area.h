@@ -18,13 +18,13 @@ struct RowLimit {
 // its right limits. Areas that share an edge have bitwise the same limit there, so that each pixel
 // is in exactly one of them.
 struct ConvexArea {
-  static constexpr std::size_t most_limits = 5;  // of four edges and a cut
+  static constexpr std::size_t max_limits = 5;  // of four edges and a cut
 
   int first_row = 0;
   int end_row = 0;
   std::size_t limits = 0;  // of the side with more limits; unused ones have no effect
-  std::array<RowLimit, most_limits> left{};
-  std::array<RowLimit, most_limits> right{};
+  std::array<RowLimit, max_limits> left{};
+  std::array<RowLimit, max_limits> right{};
 };
 
 // The area of the parallelogram of two edges, positive if the second is anticlockwise of the first.

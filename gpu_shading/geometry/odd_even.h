@@ -16,7 +16,7 @@ struct GridMesh {
 // Coordinates are at most this far from 0: areas are then exact in 64 bits.
 inline constexpr int grid_limit = 1 << 29;
 
-// Triangles that cover once what an odd number of the rings encloses (the odd-even rule, also for a
+// Triangles that cover once the area inside an odd number of rings (the odd-even rule, also for a
 // ring that intersects itself); rings run either way. Triangles meet corner to corner, so that no
 // crack opens when their corners are rounded. Corners are those of the rings, where edges cross,
 // and where the vertical through one of these meets another edge, rounded to the grid.

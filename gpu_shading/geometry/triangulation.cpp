@@ -54,14 +54,14 @@ class Grid {
     }
     glm::dvec3 const u = glm::normalize(longest - up * glm::dot(up, longest));
     glm::dvec3 const v = glm::cross(up, u);
-    auto const place = [&](glm::dvec3 const& vertex) {
+    auto const position = [&](glm::dvec3 const& vertex) {
       glm::dvec3 const p = vertex - outline[0];
       return glm::dvec2(glm::dot(p, u), glm::dot(p, v));
     };
     double reach = 0.0;
     for (Ring const& ring : rings_) {
       for (glm::dvec3 const& vertex : ring) {
-        glm::dvec2 const p = glm::abs(place(vertex));
+        glm::dvec2 const p = glm::abs(position(vertex));
         reach = std::max({reach, p.x, p.y});
       }
     }
@@ -69,7 +69,7 @@ class Grid {
     for (Ring const& ring : rings_) {
       std::vector<glm::ivec2>& points = points_.emplace_back();
       for (glm::dvec3 const& vertex : ring) {
-        glm::ivec2 const point(glm::round(scale * place(vertex)));
+        glm::ivec2 const point(glm::round(scale * position(vertex)));
         points.push_back(point);
         vertices_.try_emplace({point.x, point.y}, vertex);
       }
@@ -78,7 +78,7 @@ class Grid {
 
   std::vector<std::vector<glm::ivec2>> const& rings() const { return points_; }
 
-  // The polygon's own vertex, or else the place on the edge that the point was rounded from.
+  // The polygon's own vertex, or else the position on the edge that the point was rounded from.
   glm::dvec3 vertex_at(glm::ivec2 const& point) const {
     auto const own = vertices_.find({point.x, point.y});
     if (own != vertices_.end()) return own->second;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <limits>
 
 #include "backends/interface/picture_raster.h"
@@ -35,17 +37,35 @@ struct PictureFrame {
   glm::dvec2 high{-std::numeric_limits<double>::infinity()};
 
   bool empty() const { return !(low.x <= high.x); }
-  void include(glm::dvec2 const& place) {
-    low = glm::min(low, place);
-    high = glm::max(high, place);
+  void include(glm::dvec2 const& position) {
+    low = glm::min(low, position);
+    high = glm::max(high, position);
   }
   double longer() const { return std::max(high.x - low.x, high.y - low.y); }
   PictureFrame widened(double by) const { return {low - by, high + by}; }
 };
 
+// From a point along an axis to -1 .. 1.
+inline glm::dvec4 row_along(glm::dvec3 const& axis, double low, double high) {
+  double const scale = 2.0 / (high - low);
+  return {axis * scale, -scale * 0.5 * (low + high)};
+}
+
 // A frame about `origin` in pixels, `size` on its longer side. `reach`: no surface is farther from
 // the origin, m.
-PictureGrid make_grid(PictureFrame const& frame, SunAxes const& axes, glm::dvec3 const& origin,
-                      double reach, int size);
+inline PictureGrid make_grid(PictureFrame const& frame, SunAxes const& axes,
+                             glm::dvec3 const& origin, double reach, int size) {
+  auto const pixels = [&](double length) {
+    return std::clamp(static_cast<int>(std::lround(size * length / frame.longer())), 1, size);
+  };
+  PictureGrid grid;
+  grid.view.origin = origin;
+  grid.view.x = row_along(axes.right, frame.low.x, frame.high.x);
+  grid.view.y = row_along(axes.up, frame.low.y, frame.high.y);
+  grid.view.z = glm::dvec4(-0.5 * axes.towards_sun / reach, 0.5);
+  grid.width = pixels(frame.high.x - frame.low.x);
+  grid.height = pixels(frame.high.y - frame.low.y);
+  return grid;
+}
 
 }  // namespace gpu_shading

@@ -7,7 +7,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "gpu_shading/fraction_colour.h"
+#include "gpu_shading/image.h"
 #include "pictures/colours.h"
 #include "pictures/picture_frame.h"
 #include "scene/casters.h"
@@ -40,7 +40,7 @@ PictureGrid grid_around(Scene const& scene, ShadedReceiver const& shaded, glm::d
                    reach_of(scene, origin), size);
 }
 
-// What is around the receiver, with screens by their holes over what lies behind them.
+// The surroundings of the receiver; screens are drawn by their holes over the surfaces behind.
 std::vector<Colour> draw_surroundings(PictureRaster& raster, Scene const& scene,
                                       ShadedReceiver const& shaded, PictureGrid const& grid) {
   std::vector<SurfaceId> others;
@@ -48,7 +48,7 @@ std::vector<Colour> draw_surroundings(PictureRaster& raster, Scene const& scene,
   bool screened = false;
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     by_number.push_back(tilt_grey(scene[id], shaded.towards_sun));
-    if (scene[id].screen) {
+    if (scene[id].filter.look().kind == FilterLook::Kind::holes) {
       screened = true;
     } else if (id != shaded.receiver) {
       others.push_back(id);
@@ -76,7 +76,7 @@ Image draw_receiver(PictureRaster& raster, Scene const& scene, ShadedReceiver co
   std::vector<float> const luminance = raster.luminance(grid, shaded);
   bool const faces_sun = glm::dot(frame.normal, shaded.towards_sun) > edge_on;
   bool const opaque = shaded.shades.empty();
-  // The receiver over all of it: what hides it from the sun is its shadow.
+  // The receiver on top: surfaces between it and the sun show as its shadow.
   for (std::size_t i = 0; i < colours.size(); ++i) {
     if (receiver[i] == 0) continue;
     double const share = faces_sun ? static_cast<double>(luminance[i]) : 0.0;

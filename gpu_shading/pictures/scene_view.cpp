@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <utility>
 #include <vector>
 
 #include "backends/open_backend.h"
@@ -15,7 +14,7 @@
 #include "geometry/bvh.h"
 #include "geometry/triangulation.h"
 #include "gpu_shading/error.h"
-#include "gpu_shading/fraction_colour.h"
+#include "gpu_shading/image.h"
 #include "pictures/colours.h"
 #include "pictures/picture_frame.h"
 #include "pictures/shadow_map.h"
@@ -27,10 +26,6 @@ namespace {
 constexpr int samples = 2;
 // Margin around everything shown, as a fraction of its longer side.
 constexpr double scene_border = 0.04;
-
-bool transmits(Surface const& surface) {
-  return surface.transmittance || surface.screen || surface.schedule >= 0;
-}
 
 // The numbers of the surfaces that the sun sees in each sample, and behind those that transmit.
 struct Samples {
@@ -48,41 +43,38 @@ struct Samples {
   }
 };
 
-// Transmitting surfaces are half transparent; edges of surfaces are dark.
-Colour sample_colour(Samples const& seen, std::vector<Colour> const& by_number, std::size_t at) {
-  constexpr double through = 0.5;
+// The mean of a pixel's samples. colour_of(number, sample) is that of a surface, and
+// share_through(number, x, y) the share that those behind it show; edges of surfaces are dark.
+template <typename ColourOf, typename ShareThrough>
+Colour pixel_colour(Samples const& seen, ColourOf const& colour_of,
+                    ShareThrough const& share_through, int column, int row) {
   constexpr double edge = 0.45;
-  Colour colour = by_number[seen.front[at]];
-  if (seen.front[at] != seen.behind[at]) {
-    colour = glm::mix(colour, by_number[seen.behind[at]], through);
-  }
-  return seen.is_edge(at) ? edge * colour : colour;
-}
-
-Colour pixel_colour(Samples const& seen, std::vector<Colour> const& by_number, int column,
-                    int row) {
   Colour sum(0.0);
   for (int y = samples * row; y < samples * (row + 1); ++y) {
     for (int x = samples * column; x < samples * (column + 1); ++x) {
-      sum +=
-          sample_colour(seen, by_number,
-                        static_cast<std::size_t>(y) * seen.columns + static_cast<std::size_t>(x));
+      auto const at = static_cast<std::size_t>(y) * seen.columns + static_cast<std::size_t>(x);
+      Colour colour = colour_of(seen.front[at], at);
+      if (seen.front[at] != seen.behind[at]) {
+        colour =
+            glm::mix(colour, colour_of(seen.behind[at], at), share_through(seen.front[at], x, y));
+      }
+      sum += seen.is_edge(at) ? edge * colour : colour;
     }
   }
   return sum / static_cast<double>(samples * samples);
 }
 
 // Where the plane of a surface is met by the ray of a sample of a view, m.
-class SampledPlaces {
+class SampledPositions {
  public:
-  SampledPlaces(Scene const& scene, SunAxes const& axes, PictureFrame const& frame,
-                PictureGrid const& grid, glm::dvec3 const& middle)
+  SampledPositions(Scene const& scene, SunAxes const& axes, PictureFrame const& frame,
+                   PictureGrid const& grid, glm::dvec3 const& middle)
       : scene_(scene), axes_(axes), frame_(frame), grid_(grid), middle_(middle) {}
 
   glm::dvec3 operator()(SurfaceId surface, glm::dvec3 const& facing, std::size_t sample) const {
     return on_plane(facing, scene_[surface].polygon.outline.front(), sample);
   }
-  // By a normal of the plane and a place on it.
+  // By a normal of the plane and a position on it.
   glm::dvec3 on_plane(glm::dvec3 const& facing, glm::dvec3 const& on, std::size_t sample) const {
     auto const columns = static_cast<std::size_t>(grid_.width);
     std::size_t const column = sample % columns;
@@ -90,11 +82,11 @@ class SampledPlaces {
     glm::dvec2 const share((static_cast<double>(column) + 0.5) / grid_.width,
                            (static_cast<double>(row) + 0.5) / grid_.height);
     auto const at = frame_.low + share * (frame_.high - frame_.low);
-    glm::dvec3 const place = middle_ + at.x * axes_.right + at.y * axes_.up;
+    glm::dvec3 const position = middle_ + at.x * axes_.right + at.y * axes_.up;
     double const slope = glm::dot(facing, axes_.towards_sun);
     constexpr double edge = 1e-6;
-    if (std::abs(slope) < edge) return place;
-    return place + glm::dot(facing, on - place) / slope * axes_.towards_sun;
+    if (std::abs(slope) < edge) return position;
+    return position + glm::dot(facing, on - position) / slope * axes_.towards_sun;
   }
 
  private:
@@ -112,8 +104,11 @@ class SceneView::Implementation {
   Implementation(Scene const& scene, std::span<SurfaceId const> shown, DeviceChoice const& device)
       : scene_(scene), transmission_(scene), shown_(shown.begin(), shown.end()) {
     auto const first_transmitting = std::stable_partition(
-        shown_.begin(), shown_.end(), [&](SurfaceId id) { return !transmits(scene_[id]); });
+        shown_.begin(), shown_.end(), [&](SurfaceId id) { return !scene_[id].filter.transmits(); });
     opaque_ = static_cast<std::size_t>(first_transmitting - shown_.begin());
+    for (SurfaceId id = 0; id < scene_.size(); ++id) {
+      has_holes_.push_back(scene_[id].filter.look().kind == FilterLook::Kind::holes);
+    }
     find_middle();
     std::vector<Mesh> const meshes = triangulate_all(scene_);
     raster_ = open_picture_raster({scene_, meshes, transmission_}, device);
@@ -124,14 +119,13 @@ class SceneView::Implementation {
     glm::dvec3 const towards_sun = to_vector(sun);
     SunAxes const axes(towards_sun);
     PictureGrid grid = make_grid(find_frame(axes, fractions), axes, middle_, reach_, size);
-    int const width = std::exchange(grid.width, samples * grid.width);
-    int const height = std::exchange(grid.height, samples * grid.height);
-    Samples const seen{raster_->nearest(grid, shown_),
-                       raster_->nearest(grid, std::span(shown_).first(opaque_)),
-                       static_cast<std::size_t>(grid.width)};
+    Samples const seen = take_samples(grid);
     std::vector<Colour> const by_number = colours(fractions, towards_sun);
-    return make_image(width, height, [&](int column, int row) {
-      return pixel_colour(seen, by_number, column, row);
+    constexpr double through = 0.5;
+    return make_image(grid.width / samples, grid.height / samples, [&](int column, int row) {
+      return pixel_colour(
+          seen, [&](std::uint32_t number, std::size_t) { return by_number[number]; },
+          [](std::uint32_t, int, int) { return through; }, column, row);
     });
   }
 
@@ -141,22 +135,18 @@ class SceneView::Implementation {
     SunAxes const axes(to_vector(camera));
     auto const frame = find_frame(axes, fractions);
     PictureGrid grid = make_grid(frame, axes, middle_, reach_, size);
-    int const width = std::exchange(grid.width, samples * grid.width);
-    int const height = std::exchange(grid.height, samples * grid.height);
-    auto const opaque = std::span(shown_).first(opaque_);
-    Samples const seen{raster_->nearest(grid, shown_), raster_->nearest(grid, opaque),
-                       static_cast<std::size_t>(grid.width)};
+    Samples const seen = take_samples(grid);
     SunAxes const from_sun(to_vector(sun));
     ShadowMap const shadows(*raster_, shown_, opaque_, find_frame(from_sun, fractions), from_sun,
                             middle_, reach_);
-    SampledPlaces const places(scene_, axes, frame, grid, middle_);
+    SampledPositions const positions(scene_, axes, frame, grid, middle_);
     auto const normals = normals_of_shown();
     constexpr double dark = 0.6;
     auto const colour = [&](std::uint32_t number, std::size_t sample) -> Colour {
       if (number == 0) {
         glm::dvec3 const up(0.0, 0.0, 1.0);
-        auto const place = places.on_plane(up, {0.0, 0.0, lowest_}, sample);
-        return (dark + (1.0 - dark) * shadows.light_on_ground(place)) * ground;
+        auto const position = positions.on_plane(up, {0.0, 0.0, lowest_}, sample);
+        return (dark + (1.0 - dark) * shadows.light_on_ground(position)) * ground;
       }
       SurfaceId const id = number - 1;
       auto const facing =
@@ -165,11 +155,15 @@ class SceneView::Implementation {
       bool const outside = glm::dot(normals[id], axes.towards_sun) > 0.0;
       double const towards = glm::dot(facing, from_sun.towards_sun);
       if (fraction && outside && towards <= 0.0) return slate;
-      double const light = towards > 0.0 ? shadows.light(id, places(id, facing, sample)) : 0.0;
+      double const light = towards > 0.0 ? shadows.light(id, positions(id, facing, sample)) : 0.0;
       return (dark + (1.0 - dark) * light) * unlit_colour(id, fraction, outside, facing);
     };
-    return make_image(width, height,
-                      [&](int column, int row) { return camera_pixel(seen, colour, column, row); });
+    auto const share = [&](std::uint32_t number, int x, int y) {
+      return share_through(number, x, y);
+    };
+    return make_image(grid.width / samples, grid.height / samples, [&](int column, int row) {
+      return pixel_colour(seen, colour, share, column, row);
+    });
   }
 
   ViewScale scale(SunDirection camera, std::span<std::optional<double> const> fractions,
@@ -181,10 +175,19 @@ class SceneView::Implementation {
 
  private:
   void check(int size) const {
-    int const most = raster_->most_pixels() / samples;
-    if (size < 1 || size > most) {
-      throw Error(fmt::format("size {} of a view: expected 1 to {} pixels", size, most));
+    int const max_size = raster_->max_pixels() / samples;
+    if (size < 1 || size > max_size) {
+      throw Error(fmt::format("size {} of a view: expected 1 to {} pixels", size, max_size));
     }
+  }
+
+  // Makes the grid one of samples.
+  Samples take_samples(PictureGrid& grid) {
+    grid.width *= samples;
+    grid.height *= samples;
+    return {raster_->nearest(grid, shown_),
+            raster_->nearest(grid, std::span(shown_).first(opaque_)),
+            static_cast<std::size_t>(grid.width)};
   }
 
   std::vector<glm::dvec3> normals_of_shown() const {
@@ -193,40 +196,22 @@ class SceneView::Implementation {
     return normals;
   }
 
-  // In the sun. Tilts are told apart where colours mean nothing.
+  // Lit by the sun. The tilt shows where the colour has no meaning.
   Colour unlit_colour(SurfaceId id, std::optional<double> const& fraction, bool outside,
                       glm::dvec3 const& facing) const {
     if (fraction && outside) return fraction_colour(*fraction);
     glm::dvec3 const brightest_facing = glm::normalize(glm::dvec3(0.35, -0.55, 0.75));
     constexpr double flat = 0.88;
     double const tilt = flat + (1.0 - flat) * glm::dot(facing, brightest_facing);
-    if (scene_[id].screen) return tilt * bronze;
-    return tilt * (transmits(scene_[id]) ? glass : sand);
-  }
-
-  // The mean of a pixel's samples, by colour(number, sample).
-  template <typename ColourOf>
-  Colour camera_pixel(Samples const& seen, ColourOf const& colour, int column, int row) const {
-    constexpr double edge = 0.45;
-    Colour sum(0.0);
-    for (int y = samples * row; y < samples * (row + 1); ++y) {
-      for (int x = samples * column; x < samples * (column + 1); ++x) {
-        auto const at = static_cast<std::size_t>(y) * seen.columns + static_cast<std::size_t>(x);
-        Colour mixed = colour(seen.front[at], at);
-        if (seen.front[at] != seen.behind[at]) {
-          mixed = glm::mix(mixed, colour(seen.behind[at], at), share_through(seen.front[at], x, y));
-        }
-        sum += seen.is_edge(at) ? edge * mixed : mixed;
-      }
-    }
-    return sum / static_cast<double>(samples * samples);
+    if (has_holes_[id]) return tilt * bronze;
+    return tilt * (scene_[id].filter.transmits() ? glass : sand);
   }
 
   // A screen is a raster of open samples, other surfaces are half transparent.
   double share_through(std::uint32_t number, int x, int y) const {
     constexpr int period = 6;
     constexpr double half = 0.5;
-    if (!scene_[number - 1].screen) return half;
+    if (!has_holes_[number - 1]) return half;
     bool const odd = (y / (period / 2)) % 2 != 0;
     return (x + (odd ? period / 2 : 0)) % period < period / 2 ? 0.0 : 1.0;
   }
@@ -256,8 +241,8 @@ class SceneView::Implementation {
       if (id < fractions.size() && fractions[id]) receivers.include(axes(point - middle_));
     });
     if (receivers.empty()) throw Error("there is no receiver to view");
-    PictureFrame const most = receivers.widened(0.5 * receivers.longer());
-    PictureFrame const frame{glm::max(all.low, most.low), glm::min(all.high, most.high)};
+    PictureFrame const limit = receivers.widened(0.5 * receivers.longer());
+    PictureFrame const frame{glm::max(all.low, limit.low), glm::min(all.high, limit.high)};
     return frame.widened(scene_border * frame.longer());
   }
 
@@ -269,7 +254,7 @@ class SceneView::Implementation {
       by_number[id + 1] =
           receives ? fraction_colour(*fractions[id]) : tilt_grey(scene_[id], towards_sun);
       // A grey screen before a grey wall would not be seen.
-      if (scene_[id].screen) by_number[id + 1] *= bronze / brightest;
+      if (has_holes_[id]) by_number[id + 1] *= bronze / brightest;
     }
     return by_number;
   }
@@ -278,6 +263,7 @@ class SceneView::Implementation {
   Transmission transmission_;
   std::vector<SurfaceId> shown_;  // those that transmit last
   std::size_t opaque_ = 0;        // how many do not
+  std::vector<bool> has_holes_;   // by surface
   glm::dvec3 middle_{0.0};
   double lowest_ = 0.0;  // height of the lowest surface
   double reach_ = 1.0;

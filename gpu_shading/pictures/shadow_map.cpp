@@ -5,7 +5,7 @@
 namespace gpu_shading {
 namespace {
 
-constexpr int most_size = 3000;
+constexpr int max_size = 3000;
 constexpr double behind_glass = 0.6;
 
 // Whether a surface is in a pixel or one next to it, so that its own edge does not shade it.
@@ -29,28 +29,28 @@ ShadowMap::ShadowMap(PictureRaster& raster, std::span<SurfaceId const> shown, st
     : axes_(axes),
       origin_(origin),
       frame_(frame),
-      grid_(make_grid(frame, axes, origin, reach, std::min(most_size, raster.most_pixels()))),
+      grid_(make_grid(frame, axes, origin, reach, std::min(max_size, raster.max_pixels()))),
       nearest_(raster.nearest(grid_, shown)),
       nearest_opaque_(opaque < shown.size() ? raster.nearest(grid_, shown.first(opaque))
                                             : nearest_) {}
 
-std::optional<ShadowMap::Pixel> ShadowMap::pixel_at(glm::dvec3 const& place) const {
-  auto const at = axes_(place - origin_);
+std::optional<ShadowMap::Pixel> ShadowMap::pixel_at(glm::dvec3 const& position) const {
+  auto const at = axes_(position - origin_);
   auto const share = (at - frame_.low) / (frame_.high - frame_.low);
   if (share.x < 0.0 || share.y < 0.0 || share.x >= 1.0 || share.y >= 1.0) return std::nullopt;
   return Pixel{static_cast<int>(share.x * grid_.width), static_cast<int>(share.y * grid_.height)};
 }
 
-double ShadowMap::light(SurfaceId surface, glm::dvec3 const& place) const {
-  auto const pixel = pixel_at(place);
+double ShadowMap::light(SurfaceId surface, glm::dvec3 const& position) const {
+  auto const pixel = pixel_at(position);
   if (!pixel) return 1.0;
   auto const number = static_cast<std::uint32_t>(surface) + 1;
   if (is_near(nearest_, grid_, pixel->x, pixel->y, number)) return 1.0;
   return is_near(nearest_opaque_, grid_, pixel->x, pixel->y, number) ? behind_glass : 0.0;
 }
 
-double ShadowMap::light_on_ground(glm::dvec3 const& place) const {
-  auto const pixel = pixel_at(place);
+double ShadowMap::light_on_ground(glm::dvec3 const& position) const {
+  auto const pixel = pixel_at(position);
   if (!pixel) return 1.0;
   auto const at = static_cast<std::size_t>(pixel->y) * static_cast<std::size_t>(grid_.width) +
                   static_cast<std::size_t>(pixel->x);

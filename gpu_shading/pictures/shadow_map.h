@@ -19,18 +19,18 @@ class ShadowMap {
   ShadowMap(PictureRaster& raster, std::span<SurfaceId const> shown, std::size_t opaque,
             PictureFrame const& frame, SunAxes const& axes, glm::dvec3 const& origin, double reach);
 
-  // Of a place on a surface: 1 in the sun, 0 in the shadow of an opaque surface, between them
+  // Of a position on a surface: 1 in the sun, 0 in the shadow of an opaque surface, between them
   // behind one that transmits. Outside of the frame 1.
-  double light(SurfaceId surface, glm::dvec3 const& place) const;
+  double light(SurfaceId surface, glm::dvec3 const& position) const;
   // The same below everything that is shown.
-  double light_on_ground(glm::dvec3 const& place) const;
+  double light_on_ground(glm::dvec3 const& position) const;
 
  private:
   struct Pixel {
     int x;
     int y;
   };
-  std::optional<Pixel> pixel_at(glm::dvec3 const& place) const;
+  std::optional<Pixel> pixel_at(glm::dvec3 const& position) const;
 
   SunAxes axes_;
   glm::dvec3 origin_;

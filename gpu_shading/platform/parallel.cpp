@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "gpu_shading/device.h"
 #include "gpu_shading/error.h"
-#include "gpu_shading/threads.h"
 
 namespace gpu_shading {
 

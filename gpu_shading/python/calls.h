@@ -25,7 +25,7 @@ enum Status : int {
   closed = 5       // the call came after gpu_shading_close()
 };
 
-struct TransmittanceObject;
+struct FilterObject;
 struct ScreenObject;
 struct SceneObject;
 struct RendererObject;
@@ -34,13 +34,13 @@ struct RaysObject;
 // Enumerators are passed by their numbers, in the order of the public headers.
 struct SurfaceRecord {
   char const* name;
-  double const* vertices;            // x, y, z of all rings: first the outline, then the holes
-  std::size_t const* ring_sizes;     // vertices of each ring
-  std::size_t rings;                 // 1 or more
-  int casting;                       // of Casting
-  TransmittanceObject const* shade;  // or null
-  int schedule;                      // or -1
-  ScreenObject const* screen;        // or null
+  double const* vertices;         // x, y, z of all rings: first the outline, then the holes
+  std::size_t const* ring_sizes;  // vertices of each ring
+  std::size_t rings;              // 1 or more
+  int casting;                    // of Casting
+  FilterObject const* filter;     // a flat one, or null
+  int schedule;                   // or -1
+  ScreenObject const* screen;     // or null
   double origin_u;
   double origin_v;
   double rotation;
@@ -85,22 +85,21 @@ GPU_SHADING_CALL char const* gpu_shading_version();
 GPU_SHADING_CALL int gpu_shading_limit_threads(int count);
 
 // `made`, below, gets the new object.
-GPU_SHADING_CALL int gpu_shading_transmittance_constant(double value, TransmittanceObject** made);
+GPU_SHADING_CALL int gpu_shading_transmittance_constant(double value, FilterObject** made);
 GPU_SHADING_CALL int gpu_shading_transmittance_polynomial(double const* coefficients,
                                                           std::size_t count, int in_cosine,
-                                                          TransmittanceObject** made);
+                                                          FilterObject** made);
 // Angles in degrees.
 GPU_SHADING_CALL int gpu_shading_transmittance_table(double const* angles, double const* values,
-                                                     std::size_t count, TransmittanceObject** made);
+                                                     std::size_t count, FilterObject** made);
 // Layers: transmittance, front and back reflectance of each.
 GPU_SHADING_CALL int gpu_shading_transmittance_glazing(double const* layers, std::size_t count,
-                                                       TransmittanceObject** made);
+                                                       FilterObject** made);
 GPU_SHADING_CALL int gpu_shading_transmittance_simple_glazing(double u_factor, double shgc,
-                                                              TransmittanceObject** made);
-GPU_SHADING_CALL int gpu_shading_transmittance_at(TransmittanceObject const* object,
-                                                  double const* angles, std::size_t count,
-                                                  double* results);
-GPU_SHADING_CALL void gpu_shading_transmittance_release(TransmittanceObject* object);
+                                                              FilterObject** made);
+GPU_SHADING_CALL int gpu_shading_transmittance_at(FilterObject const* object, double const* angles,
+                                                  std::size_t count, double* results);
+GPU_SHADING_CALL void gpu_shading_filter_release(FilterObject* object);
 
 // Lengths: size, length, pitch, row pitch.
 GPU_SHADING_CALL int gpu_shading_screen_pattern(int hole, int arrangement, double const* lengths,

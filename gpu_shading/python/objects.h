@@ -9,8 +9,8 @@
 // What the pointers of calls.h point to.
 namespace gpu_shading::python {
 
-struct TransmittanceObject {
-  std::shared_ptr<Transmittance const> model;
+struct FilterObject {
+  FilterFactor factor;
 };
 
 struct ScreenObject {

@@ -12,9 +12,10 @@ namespace gpu_shading::python {
 namespace {
 
 template <typename Make>
-int make_transmittance(TransmittanceObject** made, Make const& make) {
-  return guarded(
-      [&] { *made = new TransmittanceObject{std::make_shared<Transmittance const>(make())}; });
+int make_transmittance(FilterObject** made, Make const& make) {
+  return guarded([&] {
+    *made = new FilterObject{AngularTransmittance{std::make_shared<Transmittance const>(make())}};
+  });
 }
 
 Sheet sheet_of(SheetRecord const& record) {
@@ -34,12 +35,12 @@ double tau_of_pattern(HolePattern const& pattern, double thickness, double theta
 
 }  // namespace
 
-int gpu_shading_transmittance_constant(double value, TransmittanceObject** made) {
+int gpu_shading_transmittance_constant(double value, FilterObject** made) {
   return make_transmittance(made, [&] { return Transmittance::constant(value); });
 }
 
 int gpu_shading_transmittance_polynomial(double const* coefficients, std::size_t count,
-                                         int in_cosine, TransmittanceObject** made) {
+                                         int in_cosine, FilterObject** made) {
   return make_transmittance(made, [&] {
     std::vector<double> values(coefficients, coefficients + count);
     return in_cosine != 0 ? Transmittance::polynomial_in_cosine(std::move(values))
@@ -48,14 +49,14 @@ int gpu_shading_transmittance_polynomial(double const* coefficients, std::size_t
 }
 
 int gpu_shading_transmittance_table(double const* angles, double const* values, std::size_t count,
-                                    TransmittanceObject** made) {
+                                    FilterObject** made) {
   return make_transmittance(made, [&] {
     return Transmittance::table({angles, angles + count}, {values, values + count});
   });
 }
 
 int gpu_shading_transmittance_glazing(double const* layers, std::size_t count,
-                                      TransmittanceObject** made) {
+                                      FilterObject** made) {
   return make_transmittance(made, [&] {
     std::vector<GlassLayer> panes;
     for (std::size_t i = 0; i < count; ++i) {
@@ -65,19 +66,21 @@ int gpu_shading_transmittance_glazing(double const* layers, std::size_t count,
   });
 }
 
-int gpu_shading_transmittance_simple_glazing(double u_factor, double shgc,
-                                             TransmittanceObject** made) {
+int gpu_shading_transmittance_simple_glazing(double u_factor, double shgc, FilterObject** made) {
   return make_transmittance(made, [&] {
     return Transmittance::glazing(SimpleGlazing{u_factor, shgc});
   });
 }
 
-int gpu_shading_transmittance_at(TransmittanceObject const* object, double const* angles,
+int gpu_shading_transmittance_at(FilterObject const* object, double const* angles,
                                  std::size_t count, double* results) {
-  return guarded([&] { std::transform(angles, angles + count, results, *object->model); });
+  return guarded([&] {
+    std::transform(angles, angles + count, results,
+                   *std::get<AngularTransmittance>(object->factor).model);
+  });
 }
 
-void gpu_shading_transmittance_release(TransmittanceObject* object) { release(object); }
+void gpu_shading_filter_release(FilterObject* object) { release(object); }
 
 int gpu_shading_screen_pattern(int hole, int arrangement, double const* lengths,
                                SheetRecord const* sheet, ScreenObject** made) {

@@ -15,7 +15,7 @@ struct RaysObject {
 
 namespace {
 
-// Lists of what rays meet take more memory than rays do.
+// Lists of the surfaces that rays meet take more memory than the rays.
 constexpr std::size_t block = 16384;
 
 RayConditions conditions_of(RayRecord const& record) {

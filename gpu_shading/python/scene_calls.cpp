@@ -1,16 +1,9 @@
 #include <vector>
 
-#include "gpu_shading/threads.h"
 #include "python/guard.h"
 #include "python/objects.h"
 
 namespace gpu_shading::python {
-
-std::string& message() {
-  thread_local std::string last;
-  return last;
-}
-
 namespace {
 
 Polygon polygon_of(SurfaceRecord const& record) {
@@ -33,14 +26,6 @@ Polygon polygon_of(SurfaceRecord const& record) {
 
 }  // namespace
 
-char const* gpu_shading_message() { return message().c_str(); }
-
-char const* gpu_shading_version() { return GPU_SHADING_VERSION; }
-
-int gpu_shading_limit_threads(int count) {
-  return guarded([&] { limit_threads(count); });
-}
-
 int gpu_shading_scene_new(SceneObject** made) {
   return guarded([&] { *made = new SceneObject; });
 }
@@ -51,11 +36,13 @@ int gpu_shading_scene_add(SceneObject* scene, SurfaceRecord const* surface) {
     added.name = surface->name;
     added.polygon = polygon_of(*surface);
     added.casting = enumerator(surface->casting, Casting::never, "casting");
-    if (surface->shade != nullptr) added.transmittance = surface->shade->model;
-    added.schedule = surface->schedule;
-    if (surface->screen != nullptr) added.screen = surface->screen->screen;
-    added.placement = {surface->origin_u, surface->origin_v, surface->rotation};
-    added.deployment = surface->deployment;
+    if (surface->filter != nullptr) added.filter.set(surface->filter->factor);
+    if (surface->screen != nullptr) {
+      added.filter.set(PerforatedSheet{surface->screen->screen,
+                                       {surface->origin_u, surface->origin_v, surface->rotation},
+                                       surface->deployment});
+    }
+    added.filter.schedule = surface->schedule;
     scene->scene.add(std::move(added));
   });
 }

@@ -5,13 +5,13 @@
 #include <numeric>
 #include <utility>
 
-#include "filters/transmittance/shades.h"
+#include "filters/perforation/sheet_rays.h"
+#include "filters/transmission.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/rays.h"
 #include "platform/parallel.h"
-#include "rays/ray_path.h"
-#include "rays/ray_screens.h"
 #include "rays/ray_shapes.h"
+#include "rays/ray_tree.h"
 #include "scene/casters.h"
 
 namespace gpu_shading {
@@ -53,6 +53,68 @@ void for_each_ray(std::span<Ray const> rays, std::span<Result> results, Answer c
     for (std::size_t i = number * block; i < end; ++i) results[i] = answer(rays[i]);
   });
 }
+
+// Perforated sheets as rays meet them: between their two faces, as the renderer draws them. Numbers
+// are those of Screens.
+class RayScreens {
+ public:
+  // Those of `casters`. Screens must outlive it.
+  RayScreens(Screens const& screens, std::span<SurfaceId const> casters, ScreenDetail detail)
+      : screens_(screens), detail_(detail) {
+    std::vector<Box> boxes(screens_.entries().size());
+    surfaces_.resize(boxes.size());
+    for (SurfaceId const id : casters) {
+      int const number = screens_.number(id);
+      if (number == Screens::none) continue;
+      auto const place = static_cast<std::size_t>(number);
+      boxes[place] = bounds_of(screens_[number]);
+      surfaces_[place] = id;
+      PerforatedScreen const& screen = *screens_[number].screen;
+      if (!by_holes(screen) && !screen.pattern()) screen.transmittance();
+    }
+    tree_ = RayTree(boxes);
+  }
+
+  // Calls met(surface, distance, transmittance) for the sheets that a ray meets no farther than at
+  // `limit`, which `met` may change, unless skips(surface).
+  template <typename Skips, typename Met>
+  void search(RayPath const& ray, double const& limit, std::span<double const> deployments,
+              Skips const& skips, Met const& met) const {
+    tree_.search(ray, limit, [&](std::uint32_t place) {
+      auto const number = static_cast<int>(tree_.order()[place]);
+      SurfaceId const surface = surfaces_[static_cast<std::size_t>(number)];
+      if (skips(surface)) return;
+      Screens::Entry const& entry = screens_[number];
+      auto const sheet = meet_sheet(entry, {ray.origin, ray.direction, ray.length, limit, on_plane},
+                                    by_holes(*entry.screen));
+      if (!sheet) return;
+      double const deployed = entry.deployment < 0 ? 1.0 : at_or_one(deployments, entry.deployment);
+      met(surface, sheet->distance, 1.0 - deployed * (1.0 - sheet->passed));
+    });
+  }
+
+ private:
+  static Box bounds_of(Screens::Entry const& entry) {
+    Box box;
+    for (Screens::Quadrilateral const& part : entry.parts) {
+      for (glm::dvec3 const& corner : part.corners) {
+        box.include(corner + entry.inside * entry.normal);
+        box.include(corner + entry.outside * entry.normal);
+      }
+    }
+    return with_margin(box);
+  }
+
+  bool by_holes(PerforatedScreen const& screen) const {
+    return ScreenDetail::holes ==
+           (detail_ == ScreenDetail::automatic ? screen.sheet().detail : detail_);
+  }
+
+  Screens const& screens_;
+  ScreenDetail detail_;
+  std::vector<SurfaceId> surfaces_;  // by number
+  RayTree tree_;
+};
 
 }  // namespace
 
@@ -104,13 +166,13 @@ class RayScene::Implementation {
   static constexpr glm::dvec3 no_face{0.0};
 
   Implementation(Scene const& scene, RayOptions const& options, std::span<SurfaceId const> casters)
-      : shades_(scene),
+      : transmission_(scene),
         rule_(scene.rule()),
         lit_faces_(scene.size(), no_face),
-        screens_(scene, casters, options.screens) {
+        screens_(transmission_.screens(), casters, options.screens) {
     for (SurfaceId const id : casters) {
       Surface const& surface = scene[id];
-      if (shades_.dims(id)) shapes_.add(id, surface.polygon);
+      if (transmission_.is_flat(id)) shapes_.add(id, surface.polygon);
       if (options.faces == RayFaces::as_casting && surface.casting == Casting::turned_away) {
         lit_faces_[id] = normal(surface.polygon);
       }
@@ -128,19 +190,17 @@ class RayScene::Implementation {
     }
     RayPath const path(ray);
     double limit = path.length;
+    auto const skips = [&](SurfaceId surface) {
+      return surface == ray.from || !counts(surface, path, conditions);
+    };
     shapes_.search(path, limit, [&](SurfaceId surface, double distance) {
-      if (surface == ray.from || !counts(surface, path, conditions)) return;
+      if (skips(surface)) return;
       limit = std::min(limit, met(distance, surface, passed(surface, path, conditions)));
     });
-    screens_.search(path, limit, [&](SurfaceId surface, int number) {
-      if (surface == ray.from || !counts(surface, path, conditions)) return;
-      auto const sheet = screens_.meet(number, path, limit);
-      if (!sheet) return;
-      int const deployment = screens_.deployment(number);
-      double const deployed = deployment < 0 ? 1.0 : at_or_one(conditions.deployments, deployment);
-      double const transmittance = 1.0 - deployed * (1.0 - sheet->passed);
-      limit = std::min(limit, met(sheet->distance, surface, transmittance));
-    });
+    screens_.search(path, limit, conditions.deployments, skips,
+                    [&](SurfaceId surface, double distance, double transmittance) {
+                      limit = std::min(limit, met(distance, surface, transmittance));
+                    });
   }
 
   bool counts(SurfaceId surface, RayPath const& path, RayConditions const& conditions) const {
@@ -154,16 +214,15 @@ class RayScene::Implementation {
   }
 
   double passed(SurfaceId surface, RayPath const& path, RayConditions const& conditions) const {
-    if (!shades_.transmits(surface)) return 0.0;
-    double transmittance = shades_.transmittance(surface, path.direction);
-    if (int const schedule = shades_.schedule(surface); schedule != Shades::unscheduled) {
-      transmittance *=
-          at_or_one(conditions.factors, shades_.schedules()[static_cast<std::size_t>(schedule)]);
+    double transmittance = transmission_.transmittance(surface, path.direction);
+    if (int const schedule = transmission_.schedule(surface); schedule != Shade::unscheduled) {
+      int const index = transmission_.schedules()[static_cast<std::size_t>(schedule)];
+      transmittance *= at_or_one(conditions.factors, index);
     }
     return transmittance;
   }
 
-  Shades shades_;
+  Transmission transmission_;
   ShadingRule rule_;
   std::vector<glm::dvec3> lit_faces_;  // by surface, the normal of a face that stops no rays
   RayShapes shapes_;

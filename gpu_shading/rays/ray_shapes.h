@@ -10,7 +10,6 @@
 #include "geometry/bvh.h"
 #include "gpu_shading/polygon.h"
 #include "gpu_shading/shading_rule.h"
-#include "rays/ray_path.h"
 #include "rays/ray_tree.h"
 
 namespace gpu_shading {

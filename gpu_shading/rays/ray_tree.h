@@ -9,9 +9,25 @@
 #include <vector>
 
 #include "geometry/bvh.h"
-#include "rays/ray_path.h"
+#include "gpu_shading/rays.h"
 
 namespace gpu_shading {
+
+// A ray, prepared to be tested against boxes and polygons.
+struct RayPath {
+  // Throws Error if the ray has no direction or a number that is not finite.
+  explicit RayPath(Ray const& ray);
+
+  glm::dvec3 origin;
+  glm::dvec3 direction;  // of unit length
+  double length;
+
+  // The ray's projection along itself onto two axes. The third is the one along which it is
+  // longest; `shear` is how far it goes along the others meanwhile.
+  std::array<std::size_t, 3> axes;
+  std::array<double, 3> start;  // the origin along these axes
+  std::array<double, 2> shear;
+};
 
 // A bounding volume hierarchy for single rays: that of Bvh, with four boxes at a time in single
 // precision and wide enough for its rounding.

@@ -1,22 +1,36 @@
 #include "render/question_batch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "antialias/antialias.h"
 #include "backends/exact/exact_view.h"
 #include "platform/parallel.h"
 #include "platform/stopwatch.h"
-#include "render/sample_cost.h"
-#include "render/tile_stretch.h"
 
 namespace gpu_shading {
 namespace {
 
 // Number of answers awaited at a time, because their sums take memory.
-constexpr std::size_t most_viewed = 16384;
+constexpr std::size_t max_viewed = 16384;
 // Number of questions whose casters are searched at a time, because the results take memory.
-constexpr std::size_t most_asked = 64;
+constexpr std::size_t max_asked = 64;
+
+// Steps of an EdgeSweep that always take less time than samples.
+constexpr double few_steps = 300.0;
+
+// Time that the samples of a view take on one core, in steps of an EdgeSweep: an estimate within a
+// factor of two (tests/bench/exact_cost). `side`: pixels per side of its tile.
+double sample_cost(Detail const& detail, int side, bool transmits, std::size_t interiors) {
+  double const rows = side;
+  // Edges in a row that is covered already cost less: hence the root.
+  double const crossed = std::sqrt(detail.total() * rows);
+  double const behind = static_cast<double>(interiors);
+  double const passed = transmits ? rows * rows : 0.0;
+  return (1.5 + 1.4 * behind) * rows + 21.0 * crossed + 0.09 * passed;
+}
 
 }  // namespace
 
@@ -30,19 +44,19 @@ void QuestionBatch::ask(Question const& question) {
   if (cosine <= edge_on) return;
   auto const* const in_sector = parts_.receivers.in_sector(question.receiver, question.towards_sun);
   asked_.push_back({question, &seen, cosine, in_sector});
-  if (asked_.size() < most_asked) return;
-  look();
-  if (viewed_.size() >= most_viewed) finish();
+  if (asked_.size() < max_asked) return;
+  cull();
+  if (viewed_.size() >= max_viewed) finish();
 }
 
-void QuestionBatch::look() {
+void QuestionBatch::cull() {
   std::vector<Found> found(asked_.size());
   {
     Stopwatch const watch(parts_.statistics.cull_seconds);
     for_each_index(asked_.size(), [&](std::size_t i) { found[i] = find(asked_[i]); });
   }
   std::vector<ReceiverView> views;
-  for (std::size_t i = 0; i < asked_.size(); ++i) take(asked_[i], std::move(found[i]), views);
+  for (std::size_t i = 0; i < asked_.size(); ++i) enqueue(asked_[i], std::move(found[i]), views);
   asked_.clear();
   if (parts_.backend.samples_pixels()) stretch_tiles(views);
   parts_.backend.add(std::move(views));
@@ -63,11 +77,11 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   found.transmits = parts_.transmission.any_transmits(in_view.casters);
   bool const screened = parts_.transmission.any_screen(in_view.casters);
   bool const may_be_exact = !parts_.samples_only && !screened && !in_view.warped;
-  auto const exact = [&](double most_steps) {
+  auto const exact = [&](double max_steps) {
     return exact_sums(parts_.scene, parts_.transmission,
                       {question.receiver, *seen.frame, question.towards_sun, in_view.casters,
                        question.through, question.interiors},
-                      most_steps);
+                      max_steps);
   };
   if (may_be_exact) found.exact = exact(few_steps);
   if (found.exact) return found;
@@ -78,12 +92,12 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   detail.across += static_cast<double>(std::min<std::size_t>(interiors, 6));
   found.side = parts_.receivers.side_for(seen, detail, screened);
   found.turn = best_turn(detail);
-  double const most_steps = sample_cost(detail, found.side, found.transmits, interiors);
-  if (may_be_exact && most_steps > few_steps) found.exact = exact(most_steps);
+  double const max_steps = sample_cost(detail, found.side, found.transmits, interiors);
+  if (may_be_exact && max_steps > few_steps) found.exact = exact(max_steps);
   return found;
 }
 
-void QuestionBatch::take(Asked const& asked, Found found, std::vector<ReceiverView>& views) {
+void QuestionBatch::enqueue(Asked const& asked, Found found, std::vector<ReceiverView>& views) {
   Question const& question = asked.question;
   Receiver const& seen = *asked.receiver;
   InView& in_view = found.in_view;
@@ -110,7 +124,11 @@ void QuestionBatch::take(Asked const& asked, Found found, std::vector<ReceiverVi
 void QuestionBatch::stretch_tiles(std::vector<ReceiverView>& views) {
   std::vector<double> stretches(views.size());
   for_each_index(views.size(), [&](std::size_t i) {
-    stretches[i] = stretch_without_aliasing(views[i], parts_.scene, parts_.transmission);
+    ReceiverView const& view = views[i];
+    stretches[i] =
+        stretch_without_aliasing({view.receiver, *view.frame, *view.tile, view.towards_sun,
+                                  view.pixel_area(), view.casters, view.transmits},
+                                 parts_.scene, parts_.transmission);
   });
   std::size_t const first = viewed_.size() - views.size();
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -123,7 +141,7 @@ void QuestionBatch::stretch_tiles(std::vector<ReceiverView>& views) {
 }
 
 void QuestionBatch::finish() {
-  look();
+  cull();
   std::vector<ViewSums> const sums = parts_.backend.finish();
   std::vector<Question> again;
   for (std::size_t i = 0; i < viewed_.size(); ++i) {
@@ -155,7 +173,7 @@ void QuestionBatch::count(std::size_t casters, bool transmits) {
 }
 
 Sunlit QuestionBatch::sunlit(LuminanceSums const& sums, Asked const& asked, double whole) const {
-  auto const& schedules = parts_.transmission.shades().schedules();
+  auto const& schedules = parts_.transmission.schedules();
   double const per_sum = asked.receiver->area * asked.cosine / whole;
   Sunlit answer;
   answer.projected_area = sums.unscheduled * per_sum;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,11 +10,21 @@
 #include "backends/interface/view_backend.h"
 #include "filters/transmission.h"
 #include "gpu_shading/renderer.h"
-#include "render/question.h"
 #include "render/receivers.h"
 #include "scene/casters.h"
 
 namespace gpu_shading {
+
+// A question: the sunlit area of a receiver at one sun direction, or of the surfaces behind a
+// window.
+struct Question {
+  SurfaceId receiver = 0;
+  glm::dvec3 towards_sun{0.0};
+  bool through = false;  // the receiver is a window, and these surfaces are wanted:
+  std::span<SurfaceId const> interiors;
+  std::span<Sunlit>
+      answers;  // the receiver's answer, or one for each of `interiors`; zero when asked
+};
 
 // Answers questions: finds the casters in view, has views rasterised, and computes areas from their
 // sums. Answers are complete after finish(); objects that questions refer to must live until then.
@@ -53,7 +64,7 @@ class QuestionBatch {
     bool transmits;
   };
 
-  // What was found out about a question.
+  // The result of culling for a question.
   struct Found {
     InView in_view;
     bool clear = false;  // nothing shades the receiver
@@ -66,11 +77,11 @@ class QuestionBatch {
 
   // Finds the casters in view for all questions since the last call, and has their views
   // rasterised.
-  void look();
+  void cull();
   Found find(Asked const& asked) const;
   // Answers immediately if nothing is in view or the answer is known, otherwise adds the view.
-  void take(Asked const& asked, Found found, std::vector<ReceiverView>& views);
-  // Gives the last views tiles whose pixels do not alias with what repeats there.
+  void enqueue(Asked const& asked, Found found, std::vector<ReceiverView>& views);
+  // Replaces the tiles of the last views by stretched ones whose pixels do not alias.
   void stretch_tiles(std::vector<ReceiverView>& views);
   // `whole`: the sum over all of a receiver that is sunlit.
   void answer(Asked const& asked, std::span<LuminanceSums const> parts, double whole);

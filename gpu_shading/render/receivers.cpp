@@ -75,7 +75,7 @@ Tile& Receivers::tile(SurfaceId id, int side, TileLay const& lay) {
   std::tuple const kind(side, lay.turn, lay.stretch);
   auto const known = receiver.tiles.find(kind);
   if (known != receiver.tiles.end()) return known->second;
-  Tile tile = make_tile(surface(id).polygon, *receiver.frame, side, most_, lay);
+  Tile tile = make_tile(surface(id).polygon, *receiver.frame, side, max_side_, lay);
   return receiver.tiles.emplace(kind, std::move(tile)).first->second;
 }
 

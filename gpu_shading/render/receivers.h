@@ -21,7 +21,7 @@ namespace gpu_shading {
 struct Receiver {
   std::optional<PlaneFrame> frame;  // empty if it has no area
   double area = 0.0;                // exact, m2
-  // How often it was asked about, and the casters by sector once that has been often.
+  // The number of questions about it, and once they are many, the casters by sector of the sky.
   std::size_t times = 0;
   std::unordered_map<int, std::optional<std::vector<std::uint32_t>>> in_sectors;
   // Tiles created so far, by requested resolution, turn and stretch.
@@ -32,16 +32,16 @@ struct Receiver {
 // when first needed.
 class Receivers {
  public:
-  // `most`: maximum number of pixels per side of a tile.
-  Receivers(Scene const& scene, Casters const& casters, TileSize const& size, int most)
-      : scene_(scene), casters_(casters), size_(size), most_(most) {}
+  // `max_side`: pixels of the largest tile.
+  Receivers(Scene const& scene, Casters const& casters, TileSize const& size, int max_side)
+      : scene_(scene), casters_(casters), size_(size), max_side_(max_side) {}
 
   // Throws Error if there is no such surface.
   Receiver const& operator[](SurfaceId id) { return find(id); }
   Surface const& surface(SurfaceId id) const;
 
-  // Casters among which are all that are in view of a receiver in front of whose plane the sun is;
-  // null if they are to be searched for.
+  // Casters that include all in view of a receiver from this direction, which is in front of its
+  // plane; null if they must be searched for.
   std::vector<std::uint32_t> const* in_sector(SurfaceId id, glm::dvec3 const& towards_sun);
 
   TileSize const& size() const { return size_; }
@@ -58,7 +58,7 @@ class Receivers {
   Scene const& scene_;
   Casters const& casters_;
   TileSize size_;
-  int most_;
+  int max_side_;
   std::unordered_map<SurfaceId, Receiver> receivers_;
 };
 

@@ -25,16 +25,16 @@ namespace {
 
 TileSize tile_size(RendererOptions const& options, DeviceInfo const& device) {
   if (!options.resolution) {
-    if (!(options.error >= RendererOptions::least_error &&
-          options.error <= RendererOptions::most_error)) {
+    if (!(options.error >= RendererOptions::min_error &&
+          options.error <= RendererOptions::max_error)) {
       throw Error(fmt::format("error {}: expected {} to {}", options.error,
-                              RendererOptions::least_error, RendererOptions::most_error));
+                              RendererOptions::min_error, RendererOptions::max_error));
     }
     // Layers of more pixels would fill a GPU's memory.
-    constexpr int most_drawn = 4096;
-    bool const drawn = device.index >= 0;
+    constexpr int max_drawn = 4096;
+    bool const drawn = !device.id.is_cpu();
     return TileSize::for_error(
-        options.error, drawn ? std::min(most_drawn, device.max_resolution) : device.max_resolution);
+        options.error, drawn ? std::min(max_drawn, device.max_resolution) : device.max_resolution);
   }
   if (*options.resolution < 1 || *options.resolution > device.max_resolution) {
     throw Error(fmt::format("resolution {}: expected 1 to {} pixels, the range of the device '{}'",
@@ -92,7 +92,7 @@ class Renderer::Implementation {
 
   // A context of OpenGL's does not survive a fork; the CPU's back end does.
   void check_process() const {
-    if (device().index < 0 || getpid() == process_) return;
+    if (device().id.is_cpu() || getpid() == process_) return;
     throw DeviceError(fmt::format(
         "{}: this process was forked from the one that opened the device: open it after "
         "forking, or compute on the CPU",
@@ -165,11 +165,11 @@ std::vector<Shade> Renderer::Implementation::shades_at(ShadedReceiver const& sha
   std::vector<Shade> shades;
   for (SurfaceId const caster : shaded.casters) {
     Shade shade = transmission_.shade(caster, shaded.towards_sun);
-    int const schedule = scene_[caster].schedule;
+    int const schedule = scene_[caster].filter.schedule;
     if (schedule >= 0 && static_cast<std::size_t>(schedule) < factors.size()) {
       shade.transmittance *= static_cast<float>(factors[static_cast<std::size_t>(schedule)]);
     }
-    shade.schedule = Shades::unscheduled;
+    shade.schedule = Shade::unscheduled;
     shades.push_back(shade);
   }
   return shades;
@@ -197,7 +197,7 @@ Image Renderer::Implementation::sun_view(SunDirection sun, SurfaceId id, int siz
   if (!picture_raster_) {
     std::vector<Mesh> const meshes = triangulate_all(scene_);
     // The CPU may have taken over.
-    DeviceChoice const choice = device().index < 0 ? choice_of(device()) : options_.device;
+    DeviceChoice const choice{device().id, options_.device.debug};
     picture_raster_ = open_picture_raster({scene_, meshes, transmission_}, choice);
   }
   return draw_receiver(*picture_raster_, scene_, shaded, *seen.frame, size);

@@ -17,20 +17,21 @@ namespace {
 
 // The largest distance of a vertex from the plane through the first.
 double warp(Ring const& ring, glm::dvec3 const& unit_normal) {
-  double most = 0.0;
+  double farthest = 0.0;
   for (glm::dvec3 const& vertex : ring) {
-    most = std::max(most, std::abs(glm::dot(vertex - ring[0], unit_normal)));
+    farthest = std::max(farthest, std::abs(glm::dot(vertex - ring[0], unit_normal)));
   }
-  return most;
+  return farthest;
 }
 
 // A sheet on the receiver is in front of it by its body, if not by its polygon.
-double body_above(SheetFaces const& faces, glm::dvec3 const& normal, PlaneFrame const& frame) {
+double body_above(BeamFilter::Faces const& faces, glm::dvec3 const& normal,
+                  PlaneFrame const& frame) {
   double const middle = 0.5 * (faces.inside + faces.outside);
   return std::max(0.0, glm::dot(frame.normal, normal) * middle);
 }
 
-// With both faces of its sheet; empty where it cannot cast.
+// With both faces of its body; empty where it cannot cast.
 Box bounds_of(Surface const& surface) {
   Box box;
   if (surface.casting == Casting::never) return box;
@@ -38,7 +39,7 @@ Box bounds_of(Surface const& surface) {
   glm::dvec3 const vector = newell(ring);
   if (ring.size() < 3 || is_degenerate(ring, vector)) return box;
   glm::dvec3 const normal = glm::normalize(vector);
-  SheetFaces const faces = sheet_faces(surface);
+  BeamFilter::Faces const faces = surface.filter.faces();
   for (glm::dvec3 const& vertex : ring) {
     box.include(vertex + faces.inside * normal);
     box.include(vertex + faces.outside * normal);
@@ -72,9 +73,9 @@ Casters::Casters(Scene const& scene) {
   for (SurfaceId id = 0; id < scene.size(); ++id) boxes.push_back(bounds_of(scene[id]));
   tree_ = Bvh(boxes);
   casters_.reserve(tree_.order().size());
-  places_.resize(scene.size());
+  position_of_.resize(scene.size());
   for (SurfaceId const id : tree_.order()) {
-    places_[id] = static_cast<std::uint32_t>(casters_.size());
+    position_of_[id] = static_cast<std::uint32_t>(casters_.size());
     add(id, scene[id]);
   }
   if (scene.rule().empty()) return;
@@ -91,7 +92,7 @@ void Casters::add(SurfaceId id, Surface const& surface) {
   double const off = warp(ring, caster.normal);
   caster.planar = off <= 1e-6;
   caster.warped = off > 1e-3;  // more than models' coordinates are rounded by
-  caster.faces = sheet_faces(surface);
+  caster.faces = surface.filter.faces();
   caster.only_turned_away = surface.casting == Casting::turned_away;
   points_.insert(points_.end(), ring.begin(), ring.end());
   caster.first_hole = holes_.size();
@@ -122,33 +123,33 @@ InView Casters::in_view(Scene const& scene, SurfaceId receiver, PlaneFrame const
 std::optional<std::vector<std::uint32_t>> Casters::in_sector(Scene const& scene, SurfaceId receiver,
                                                              PlaneFrame const& frame,
                                                              SunSector const& sector) const {
-  constexpr std::size_t most = 24;
-  std::vector<std::uint32_t> places;
+  constexpr std::size_t max_count = 24;
+  std::vector<std::uint32_t> positions;
   std::optional<ShadingRule::Receiver> rule;
   if (!scene.rule().empty()) rule.emplace(scene.rule(), receiver);
   SectorShadow const shadow(frame, sector);
   tree_.search(
       [&](glm::dvec3 const& centre, glm::dvec3 const& reach) {
-        bool const wanted = places.size() <= most && shadow.may_overlap(centre, reach);
+        bool const wanted = positions.size() <= max_count && shadow.may_overlap(centre, reach);
         return wanted ? Containment::intersecting : Containment::outside;
       },
-      [&](std::uint32_t place, std::uint32_t, Containment) {
-        Caster const& caster = casters_[place];
+      [&](std::uint32_t position, std::uint32_t, Containment) {
+        Caster const& caster = casters_[position];
         if (caster.id == receiver || (rule && !rule->counts(caster.role))) return;
-        places.push_back(place);
+        positions.push_back(position);
       });
-  if (places.size() > most) return std::nullopt;
-  std::sort(places.begin(), places.end(),
+  if (positions.size() > max_count) return std::nullopt;
+  std::sort(positions.begin(), positions.end(),
             [&](std::uint32_t a, std::uint32_t b) { return casters_[a].id < casters_[b].id; });
-  return places;
+  return positions;
 }
 
-InView Casters::in_view_of(std::span<std::uint32_t const> places, PlaneFrame const& frame,
+InView Casters::in_view_of(std::span<std::uint32_t const> positions, PlaneFrame const& frame,
                            glm::dvec3 const& towards_sun) const {
   InView found;
   Shadow shadow(frame, towards_sun);
-  for (std::uint32_t const place : places) {
-    add_if_in_view(casters_[place], false, frame, towards_sun, shadow, found);
+  for (std::uint32_t const position : positions) {
+    add_if_in_view(casters_[position], false, frame, towards_sun, shadow, found);
   }
   return found;
 }
@@ -167,7 +168,7 @@ Detail Casters::detail(std::span<SurfaceId const> in_view, PlaneFrame const& fra
   Shadow const shadow(frame, towards_sun);
   for (SurfaceId const id : in_view) {
     if (detail.total() >= enough) break;
-    Caster const& caster = casters_[places_[id]];
+    Caster const& caster = casters_[position_of_[id]];
     shadow.add_edges(points(caster), detail);
     for (Ring const& hole : holes(caster)) shadow.add_edges(hole, detail);
   }

@@ -11,8 +11,7 @@
 #include "geometry/bvh.h"
 #include "geometry/plane_frame.h"
 #include "gpu_shading/scene.h"
-#include "scene/detail.h"
-#include "scene/sheet_faces.h"
+#include "scene/turns.h"
 
 namespace gpu_shading {
 
@@ -24,7 +23,7 @@ class Shadow;
 inline constexpr double coplanar = 1e-4;
 
 // Casters are clipped this far in front of the plane, in metres: the noise of single precision
-// within a building. It lets through a strip of clearance x tan(incidence).
+// within a building. A strip as wide as clearance x tan(incidence) stays lit.
 inline constexpr double clearance = 1e-6;
 
 // The smallest cosine of incidence at which a surface faces the sun, as in EnergyPlus (its
@@ -37,11 +36,11 @@ inline constexpr double edge_on = 1e-6;
 // The casters that may shade a receiver at one sun direction.
 struct InView {
   std::vector<SurfaceId> casters;  // in the order of their ids
-  bool warped = false;             // one is not flat: its triangles cast what its outline does not
+  bool warped = false;             // one is not flat: its triangles cast more than its outline
 };
 
-// Sun directions of which each is between two others in two planes across a receiver, by the
-// tangents of their angles to its normal: towards its u and its v axis.
+// A rectangle of sun directions over a receiver, by the tangents of their angles to its normal
+// towards its u and its v axis.
 struct SunSector {
   glm::dvec2 low{0.0};
   glm::dvec2 high{0.0};
@@ -59,13 +58,13 @@ class Casters {
   InView in_view(Scene const& scene, SurfaceId receiver, PlaneFrame const& frame,
                  glm::dvec3 const& towards_sun) const;
 
-  // Places in the tree of casters among which are all that are in view from some sun direction of a
-  // sector, in the order of their ids; empty if a search costs less than to look at so many.
+  // Positions in the tree of casters among which are all that are in view from some sun direction
+  // of a sector, in the order of their ids; empty where a search costs less than so many tests.
   std::optional<std::vector<std::uint32_t>> in_sector(Scene const& scene, SurfaceId receiver,
                                                       PlaneFrame const& frame,
                                                       SunSector const& sector) const;
   // in_view() of these alone.
-  InView in_view_of(std::span<std::uint32_t const> places, PlaneFrame const& frame,
+  InView in_view_of(std::span<std::uint32_t const> positions, PlaneFrame const& frame,
                     glm::dvec3 const& towards_sun) const;
 
   // Detail of the shadows of casters in view, up to `enough`.
@@ -81,7 +80,7 @@ class Casters {
     std::size_t holes = 0;
     ShadingRule::Role role;
     glm::dvec3 normal{0.0};
-    SheetFaces faces;  // of a screen
+    BeamFilter::Faces faces;
     bool planar = true;
     bool warped = false;
     bool only_turned_away = false;
@@ -104,7 +103,7 @@ class Casters {
   std::vector<Caster> casters_;
   std::vector<glm::dvec3> points_;
   std::vector<Ring> holes_;
-  std::vector<std::uint32_t> places_;  // of casters, by id
+  std::vector<std::uint32_t> position_of_;  // of casters, by id
 };
 
 }  // namespace gpu_shading

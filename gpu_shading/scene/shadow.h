@@ -12,7 +12,7 @@
 #include "geometry/bvh.h"
 #include "geometry/plane_frame.h"
 #include "scene/casters.h"
-#include "scene/detail.h"
+#include "scene/turns.h"
 
 namespace gpu_shading {
 
@@ -192,12 +192,12 @@ class SectorShadow {
   }
 
  private:
-  // What is at x, as far as `reach` to both sides, and between two heights, has its shadow at
+  // An object at x, extending `reach` to both sides and between two heights, has its shadow at
   // x - height * tangent.
   bool overlaps(double x, double reach, double base, double top, int axis, double half) const {
-    double const most_left = std::max(base * sector_.high[axis], top * sector_.high[axis]);
-    double const least_left = std::min(base * sector_.low[axis], top * sector_.low[axis]);
-    return x - reach - most_left <= half && x + reach - least_left >= -half;
+    double const max_shift = std::max(base * sector_.high[axis], top * sector_.high[axis]);
+    double const min_shift = std::min(base * sector_.low[axis], top * sector_.low[axis]);
+    return x - reach - max_shift <= half && x + reach - min_shift >= -half;
   }
 
   PlaneFrame const& frame_;

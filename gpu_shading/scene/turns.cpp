@@ -37,7 +37,7 @@ InStep in_step_of(glm::dvec2 const& edge) {
 }
 
 // By direction, from 0 at x to 1 at -x along the square whose corners are on the axes.
-double place_of(glm::dvec2 const& edge) {
+double position_of(glm::dvec2 const& edge) {
   double const x = edge.y < 0.0 ? -edge.x : edge.x;
   return 0.5 - 0.5 * x / (std::abs(edge.x) + std::abs(edge.y));
 }
@@ -56,7 +56,7 @@ std::vector<InStep> make_table() {
 
 InStep const& in_step(glm::dvec2 const& edge) {
   static std::vector<InStep> const table = make_table();
-  auto const entry = static_cast<std::size_t>(place_of(edge) * entries);
+  auto const entry = static_cast<std::size_t>(position_of(edge) * entries);
   return table[std::min<std::size_t>(entry, entries - 1)];
 }
 

@@ -98,9 +98,9 @@ Ring raised(Plan::ring_type const& ring, double elevation, LocalAxes const& here
   Ring raised;
   raised.reserve(ring.size());
   for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
-    auto place = here.to_geographic({ring[i].x(), ring[i].y(), 0.0});
-    place.elevation = elevation;
-    raised.push_back(axes.to_local(place));
+    auto position = here.to_geographic({ring[i].x(), ring[i].y(), 0.0});
+    position.elevation = elevation;
+    raised.push_back(axes.to_local(position));
   }
   return raised;
 }

@@ -39,17 +39,17 @@ glm::dvec3 LocalAxes::to_local(GeographicPoint const& point) const {
 }
 
 GeographicPoint LocalAxes::to_geographic(glm::dvec3 const& point) const {
-  GeographicPoint place;
-  projection(origin_).Reverse(point.x, point.y, point.z, place.latitude, place.longitude,
-                              place.elevation);
-  return place;
+  GeographicPoint position;
+  projection(origin_).Reverse(point.x, point.y, point.z, position.latitude, position.longitude,
+                              position.elevation);
+  return position;
 }
 
-glm::dmat3 LocalAxes::axes_at(GeographicPoint const& place) const {
+glm::dmat3 LocalAxes::axes_at(GeographicPoint const& position) const {
   glm::dvec3 local;
   std::vector<double> rotation(9);  // row after row
-  projection(origin_).Forward(place.latitude, place.longitude, place.elevation, local.x, local.y,
-                              local.z, rotation);
+  projection(origin_).Forward(position.latitude, position.longitude, position.elevation, local.x,
+                              local.y, local.z, rotation);
   glm::dmat3 axes;
   auto element = rotation.begin();
   for (int row = 0; row < 3; ++row) {

@@ -72,16 +72,16 @@ std::string MapCoordinates::name() const {
 
 GeographicPoint MapCoordinates::to_geographic(MapPoint const& point, double elevation) const {
   if (zone_) {
-    GeographicPoint place{0.0, 0.0, elevation};
+    GeographicPoint position{0.0, 0.0, elevation};
     try {
-      UTMUPS::Reverse(zone_->number, zone_->north, point.x, point.y, place.latitude,
-                      place.longitude);
+      UTMUPS::Reverse(zone_->number, zone_->north, point.x, point.y, position.latitude,
+                      position.longitude);
     } catch (GeographicLib::GeographicErr const&) {
       throw Error(
           fmt::format("easting {} m, northing {} m are not in {}", point.x, point.y, name()));
     }
     // It returns NaN for NaN.
-    if (std::isfinite(place.latitude)) return place;
+    if (std::isfinite(position.latitude)) return position;
   } else if (std::abs(point.y) <= 90.0 && std::abs(point.x) <= 2.0 * turn) {
     return {point.y, point.x, elevation};
   }
@@ -97,21 +97,21 @@ MapPoint MapCoordinates::from_geographic(GeographicPoint const& point, double ne
   if (!zone_) {
     return {point.longitude + turn * std::round((near_x - point.longitude) / turn), point.latitude};
   }
-  MapPoint place;
+  MapPoint position;
   int zone = 0;
   bool north = false;
   double convergence = 0.0;
   double scale = 0.0;
   try {
-    UTMUPS::Forward(point.latitude, point.longitude, zone, north, place.x, place.y, convergence,
-                    scale, zone_->number);
+    UTMUPS::Forward(point.latitude, point.longitude, zone, north, position.x, position.y,
+                    convergence, scale, zone_->number);
   } catch (GeographicLib::GeographicErr const&) {
     throw Error(fmt::format("latitude {}, longitude {} is too far from {}", point.latitude,
                             point.longitude, name()));
   }
   // Across the equator, northings continue in the file's own hemisphere.
-  if (north != zone_->north) place.y += (north ? 1.0 : -1.0) * UTMUPS::UTMShift();
-  return place;
+  if (north != zone_->north) position.y += (north ? 1.0 : -1.0) * UTMUPS::UTMShift();
+  return position;
 }
 
 double MapCoordinates::convergence(MapPoint const& point) const {

@@ -15,18 +15,18 @@ std::vector<std::optional<glm::dvec3>> row_of(TerrainGrid const& grid, int row,
   for (int column = 0; column < grid.columns; ++column) {
     double const elevation = grid.elevation(column, row);
     if (!std::isfinite(elevation)) continue;
-    MapPoint const place{grid.first.x + grid.step_x * column, grid.first.y + grid.step_y * row};
+    MapPoint const position{grid.first.x + grid.step_x * column, grid.first.y + grid.step_y * row};
     nodes[static_cast<std::size_t>(column)] =
-        axes.to_local(grid.coordinates.to_geographic(place, elevation));
+        axes.to_local(grid.coordinates.to_geographic(position, elevation));
   }
   return nodes;
 }
 
 }  // namespace
 
-std::optional<double> elevation_at(TerrainGrid const& grid, GeographicPoint const& place) {
+std::optional<double> elevation_at(TerrainGrid const& grid, GeographicPoint const& position) {
   double const middle = grid.first.x + 0.5 * grid.step_x * (grid.columns - 1);
-  auto const point = grid.coordinates.from_geographic(place, middle);
+  auto const point = grid.coordinates.from_geographic(position, middle);
   // A position on the edge is on the grid, whatever the last digit.
   constexpr double rounding = 1e-6;
   auto const along = [&](double value, double first, double step,

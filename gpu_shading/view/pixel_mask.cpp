@@ -81,12 +81,7 @@ void PixelMask::start(int columns, int first_row, int end_row) {
 
 template <bool light>
 void PixelMask::fill(ConvexArea const& area) {
-  RowSpans spans;
-  int const end_row = std::min(area.end_row, end_row_);
-  for (int row = std::max(area.first_row, first_row_); row < end_row; row += RowSpans::most) {
-    int const rows = std::min(RowSpans::most, end_row - row);
-    find_spans(area, row, rows, columns_, spans);
-    if (spans.longest == 0) continue;
+  auto const fill_rows = [&](int row, int rows, RowSpans const& spans) {
     auto const count = static_cast<std::size_t>(rows);
     std::uint64_t* words = &words_[static_cast<std::size_t>(row - first_row_) * stride_];
     if (spans.longest <= thin) {
@@ -103,7 +98,8 @@ void PixelMask::fill(ConvexArea const& area) {
         set_long<light>(words, spans.first[i], spans.length[i]);
       }
     }
-  }
+  };
+  each_rows_of_spans(area, columns_, first_row_, end_row_, fill_rows);
 }
 
 void PixelMask::light(ConvexArea const& area) { fill<true>(area); }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -8,6 +9,31 @@
 #include "geometry/convex_area.h"
 
 namespace gpu_shading {
+
+// Calls use(row, rows, spans) for some rows after another, from `first_row` to `end_row`
+// (exclusive), of which an area covers columns up to `columns`.
+template <typename Use>
+void each_rows_of_spans(ConvexArea const& area, int columns, int first_row, int end_row, Use use) {
+  RowSpans spans;
+  int const end = std::min(area.end_row, end_row);
+  for (int row = std::max(area.first_row, first_row); row < end; row += RowSpans::most) {
+    int const rows = std::min(RowSpans::most, end - row);
+    find_spans(area, row, rows, columns, spans);
+    if (spans.longest > 0) use(row, rows, spans);
+  }
+}
+
+// Calls use(row, first, length) for the columns of each of these rows.
+template <typename Use>
+void each_span(ConvexArea const& area, int columns, int first_row, int end_row, Use use) {
+  each_rows_of_spans(area, columns, first_row, end_row,
+                     [&](int row, int rows, RowSpans const& spans) {
+                       for (int i = 0; i < rows; ++i) {
+                         auto const at = static_cast<std::size_t>(i);
+                         if (spans.length[at] > 0) use(row + i, spans.first[at], spans.length[at]);
+                       }
+                     });
+}
 
 // Counts bits that are set in both, word by word, up to the shorter length.
 std::uint64_t count_common(std::span<std::uint64_t const> a, std::span<std::uint64_t const> b);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -40,7 +39,9 @@ class PixelRows {
 
   // Calls use(row, first, length) for the pixels of each row that an area covers.
   template <typename Use>
-  void each_span(ConvexArea const& area, Use use) const;
+  void each_span(ConvexArea const& area, Use use) const {
+    gpu_shading::each_span(area, columns_, first_row_, end_row_, use);
+  }
 
  private:
   int columns_ = 0;
@@ -50,20 +51,18 @@ class PixelRows {
   std::vector<T> pixels_;
 };
 
-template <typename T>
-template <typename Use>
-void PixelRows<T>::each_span(ConvexArea const& area, Use use) const {
-  RowSpans spans;
-  int const end_row = std::min(area.end_row, end_row_);
-  for (int row = std::max(area.first_row, first_row_); row < end_row; row += RowSpans::most) {
-    int const rows = std::min(RowSpans::most, end_row - row);
-    find_spans(area, row, rows, columns_, spans);
-    if (spans.longest == 0) continue;
-    for (int i = 0; i < rows; ++i) {
-      auto const at = static_cast<std::size_t>(i);
-      if (spans.length[at] > 0) use(row + i, spans.first[at], spans.length[at]);
-    }
+// The luminance of each pixel of a tile, or of some of its rows.
+class LuminanceTile : public PixelRows<float> {
+ public:
+  // All 1.
+  void start(int columns, int first_row, int end_row) {
+    PixelRows<float>::start(columns, first_row, end_row, 1.0F);
   }
-}
+
+  void multiply(ConvexArea const& area, float by);
+
+  // Sums over the sunlit pixels of a mask of the same rows, one sum per row, each in a fixed order.
+  void sum_rows(PixelMask const& lit, std::span<double> sums) const;
+};
 
 }  // namespace gpu_shading

@@ -77,21 +77,15 @@ class Size:
 FULL = Size(storeys=4, screened=(1, 2), strip=0.5, cells=100, cell=8.0, neighbours=11)
 SMALL = Size(storeys=2, screened=(1,), strip=1.0, cells=12, cell=32.0, neighbours=2)
 
+ITHACA = "Ithaca,42.44,-76.5,-5,250"
+ITHACA_DAY = "20,10,DefaultMultipliers,,WetBulb,10,,,,,98000"
+
 HEAD = """\
 ! An academic building of {zones} zones behind folded screens with {holes}.
 ! Written by generate.py --screen {screen}{flag}.
 ! Site: Ithaca, New York; any weather file's own site comes first.
 
-Version,25.2;
-SimulationControl,No,No,No,No,Yes;
-Building,Academic Building,0,City,0.04,0.2,FullExterior,30,6;
-ShadowCalculation,PixelCounting,Periodic,20;
-Timestep,4;
-Site:Location,Ithaca,42.44,-76.5,-5,250;
-RunPeriod,Year,1,1,,12,31,,Sunday;
-SizingPeriod:DesignDay,Clear Autumn Day,10,21,SummerDesignDay,20,10,DefaultMultipliers,,WetBulb,10,,,,,98000,2,180,
-  No,No,No,ASHRAEClearSky,,,,,1.0;
-GlobalGeometryRules,UpperLeftCorner,Counterclockwise,World;
+""" + idf.preamble("Academic Building", ITHACA, ITHACA_DAY, "City") + """\
 Site:GroundTemperature:BuildingSurface,17,17,17,17,18,19,20,20,20,19,18,17;
 
 Material,Door Leaf,Smooth,0.05,0.15,700,1500;
@@ -99,10 +93,7 @@ Construction,Door,Door Leaf;
 
 Output:Variable,*,Zone Ideal Loads Zone Total Heating Energy,Monthly;
 Output:Variable,*,Zone Ideal Loads Zone Total Cooling Energy,Monthly;
-Output:Variable,*,Surface Window Transmitted Solar Radiation Energy,Monthly;
-Output:Variable,*,Surface Window Transmitted Beam Solar Radiation Energy,Monthly;
-Output:SQLite,Simple;
-"""
+""" + idf.SOLAR_OUTPUTS
 
 
 def storey_rooms(storey):

@@ -35,33 +35,14 @@ HEAD = """\
 ! Written by generate.py --glass {glass} --turn {turn:g}.
 ! Weather: USA_CO_Golden-NREL.724666_TMY3.epw, which comes with EnergyPlus.
 
-Version,25.2;
-SimulationControl,No,No,No,No,Yes;
-Building,Canopy,0,Suburbs,0.04,0.2,FullExterior,30,6;
-ShadowCalculation,PixelCounting,Periodic,20;
-Timestep,4;
-Site:Location,Golden,39.74,-105.18,-7,1829;
-RunPeriod,Year,1,1,,12,31,,Sunday;
-SizingPeriod:DesignDay,Clear Autumn Day,10,21,SummerDesignDay,25,12,DefaultMultipliers,,WetBulb,12,,,,,81000,2,180,
-  No,No,No,ASHRAEClearSky,,,,,1.0;
-GlobalGeometryRules,UpperLeftCorner,Counterclockwise,World;
-
-Material,Insulation,Rough,0.1,0.04,30,1400;
-Material,Block,Rough,0.1,0.5,1400,1000;
-WindowMaterial:SimpleGlazingSystem,Glazing,1.4,0.6;
-Construction,Outer Wall,Insulation,Block;
-Construction,Window,Glazing;
-
+""" + idf.preamble("Canopy", idf.GOLDEN, idf.GOLDEN_DAY) + "\n" + idf.WALLS_AND_GLAZING + """
 ! The pane of Jones and Greenberg's hotel: 69 % of the sun at normal incidence; three make 34 %.
 WindowMaterial:Glazing,Canopy Pane,SpectralAverage,,0.0057,0.69,0.07,0.07,0.8,0.08,0.08,0,0.84,0.84,0.9;
 WindowMaterial:Gas,Canopy Gap,Air,0.012;
 Construction,Canopy Glass,{layers};
 GPUShading:TransparentShade,Canopy,Canopy *,Construction,Canopy Glass;
 
-Output:Variable,*,Surface Window Transmitted Solar Radiation Energy,Monthly;
-Output:Variable,*,Surface Window Transmitted Beam Solar Radiation Energy,Monthly;
-Output:SQLite,Simple;
-"""
+""" + idf.SOLAR_OUTPUTS
 
 
 def surface(name, kind, zone, boundary, corners):

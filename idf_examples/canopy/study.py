@@ -9,11 +9,11 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parents[1] / "scripts")]
+sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parents[1] / "scripts")]
 
 import generate  # noqa: E402
-from shading_runs import energyplus, output_folder, results  # noqa: E402
-from shading_runs.errors import in_words  # noqa: E402
+from common import case_study  # noqa: E402
+from shading_runs import results  # noqa: E402
 
 WEATHER = "USA_CO_Golden-NREL.724666_TMY3.epw"
 VARIANTS = {
@@ -38,10 +38,7 @@ def run(name, variant, folder):
     folder.mkdir()
     path = folder / "canopy.idf"
     path.write_text(text_of(variant))
-    done = energyplus.run(energyplus.patched_prefix() / "energyplus", path, energyplus.find_weather(WEATHER),
-                          folder / "run", ["--gpu-shading"])
-    if not done.completed:
-        sys.exit(f"{name}: {done.why()}")
+    done = case_study.run_year(path, WEATHER, name)
     values = results.Results(done.folder, "Monthly")
     rooms = {}
     for window in values.receivers:
@@ -68,11 +65,8 @@ def compare(folder):
 def main():
     parser = argparse.ArgumentParser(description="Compares glass canopies by the sun in the rooms below.")
     parser.add_argument("-o", "--output", type=Path, default=Path("out/canopy"), metavar="DIR", help="for the runs")
-    try:
-        with output_folder.replacing(parser.parse_args().output, "canopy_study") as output:
-            compare(output.path)
-    except (OSError, output_folder.NotOurs) as error:
-        sys.exit(f"canopy: {in_words(error)}")
+    with case_study.replacing(parser.parse_args().output, "canopy") as output:
+        compare(output.path)
 
 
 if __name__ == "__main__":

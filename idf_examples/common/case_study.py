@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -146,6 +147,25 @@ def print_years(study, arguments, output):
     print_changes(study, runs)
 
 
+@contextmanager
+def replacing(folder, name):
+    """An output folder that replaces that of the last study; ends the program if it cannot."""
+    try:
+        with output_folder.replacing(folder, f"{name}_study") as output:
+            yield output
+    except (OSError, output_folder.NotOurs) as error:
+        sys.exit(f"{name}: {in_words(error)}")
+
+
+def run_year(path, weather, words):
+    """Runs a model with our shading in run/ beside it; ends the program if that fails."""
+    done = energyplus.run(energyplus.patched_prefix() / "energyplus", path, energyplus.find_weather(weather),
+                          path.parent / "run", ["--gpu-shading"])  # fmt: skip
+    if not done.completed:
+        sys.exit(f"{words}: {done.why()}")
+    return done
+
+
 def main(study):
     parser = argparse.ArgumentParser(description="Runs each variant for a year and prints a table.")
     parser.add_argument("-o", "--output", type=Path, default=Path("out") / study.name, metavar="DIR",
@@ -159,8 +179,5 @@ def main(study):
     parser.add_argument("--small", action="store_true", help="run the small model of the same kind")
     arguments = parser.parse_args()
     print_all = print_samples if arguments.samples else print_years
-    try:
-        with output_folder.replacing(arguments.output, f"{study.name}_study") as output:
-            print_all(study, arguments, output.path)
-    except (OSError, output_folder.NotOurs) as error:
-        sys.exit(f"{study.name}: {in_words(error)}")
+    with replacing(arguments.output, study.name) as output:
+        print_all(study, arguments, output.path)

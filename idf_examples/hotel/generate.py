@@ -72,21 +72,15 @@ class Size:
 FULL = Size(storeys=12, bays=14, columns=58, rows=100, crown=63.0, neighbours=5)
 SMALL = Size(storeys=1, bays=4, columns=12, rows=14, crown=22.0, neighbours=1)
 
+ABU_DHABI = "Abu Dhabi,24.4,54.6,4,5"
+ABU_DHABI_DAY = "35,10,DefaultMultipliers,,WetBulb,24,,,,,101000"
+
 HEAD = """\
 ! A hotel of {zones} zones under a shell of {panes:,} panes, {glass} glass, turned {turn:g} degrees.
 ! Written by generate.py --glass {glass} --turn {turn:g}{flag}.
 ! Site: Abu Dhabi; any weather file's own site comes first.
 
-Version,25.2;
-SimulationControl,No,No,No,No,Yes;
-Building,Hotel,0,City,0.04,0.2,FullExterior,30,6;
-ShadowCalculation,PixelCounting,Periodic,20;
-Timestep,4;
-Site:Location,Abu Dhabi,24.4,54.6,4,5;
-RunPeriod,Year,1,1,,12,31,,Sunday;
-SizingPeriod:DesignDay,Clear Autumn Day,10,21,SummerDesignDay,35,10,DefaultMultipliers,,WetBulb,24,,,,,101000,2,180,
-  No,No,No,ASHRAEClearSky,,,,,1.0;
-GlobalGeometryRules,UpperLeftCorner,Counterclockwise,World;
+""" + idf.preamble("Hotel", ABU_DHABI, ABU_DHABI_DAY, "City") + """\
 Site:GroundTemperature:BuildingSurface,23,23,23,24,24,25,25,25,25,24,24,23;
 
 ! The pane of Jones and Greenberg's hotel: 69 % of the sun at normal incidence; three make 34 %.
@@ -99,10 +93,7 @@ GPUShading:TransparentShade,Balustrades,Balustrade *,Construction,Balustrade Gla
 
 Output:Variable,*,Zone Ideal Loads Zone Total Heating Energy,Monthly;
 Output:Variable,*,Zone Ideal Loads Zone Total Cooling Energy,Monthly;
-Output:Variable,*,Surface Window Transmitted Solar Radiation Energy,Monthly;
-Output:Variable,*,Surface Window Transmitted Beam Solar Radiation Energy,Monthly;
-Output:SQLite,Simple;
-"""
+""" + idf.SOLAR_OUTPUTS
 
 
 def tower_length(size):

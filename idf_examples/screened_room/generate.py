@@ -12,9 +12,11 @@ import math
 import sys
 from pathlib import Path
 
-sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "scripts")]
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parent), str(HERE.parents[1] / "scripts")]
 
 import random_holes  # noqa: E402
+from common import idf  # noqa: E402
 from shading_runs import output_folder  # noqa: E402
 from shading_runs.errors import in_words  # noqa: E402
 
@@ -47,17 +49,7 @@ HEAD = """\
 ! Written by generate.py --facing {facing} --screen "{screen}".
 ! Weather: USA_CO_Golden-NREL.724666_TMY3.epw, which comes with EnergyPlus.
 
-Version,25.2;
-SimulationControl,No,No,No,No,Yes;
-Building,Screened Room,0,Suburbs,0.04,0.2,FullExterior,30,6;
-ShadowCalculation,PixelCounting,Periodic,20;
-Timestep,4;
-Site:Location,Golden,39.74,-105.18,-7,1829;
-RunPeriod,Year,1,1,,12,31,,Sunday;
-SizingPeriod:DesignDay,Clear Autumn Day,10,21,SummerDesignDay,25,12,DefaultMultipliers,,WetBulb,12,,,,,81000,2,180,
-  No,No,No,ASHRAEClearSky,,,,,1.0;
-GlobalGeometryRules,UpperLeftCorner,Counterclockwise,World;
-
+""" + idf.preamble("Screened Room", idf.GOLDEN, idf.GOLDEN_DAY) + """
 Material,Insulation,Rough,0.1,0.04,30,1400;
 Material,Board,Smooth,0.02,0.2,800,1000;
 WindowMaterial:SimpleGlazingSystem,Glazing,1.4,0.6;
@@ -83,10 +75,7 @@ Lights,Lamps,Room,Working Hours,Watts/Area,,10,,0,0.4,0.1,1.0;
 Output:Variable,*,Zone Lights Electricity Energy,Monthly;
 Output:Variable,*,Zone Air System Sensible Heating Energy,Monthly;
 Output:Variable,*,Zone Air System Sensible Cooling Energy,Monthly;
-Output:Variable,*,Surface Window Transmitted Solar Radiation Energy,Monthly;
-Output:Variable,*,Surface Window Transmitted Beam Solar Radiation Energy,Monthly;
-Output:SQLite,Simple;
-"""
+""" + idf.SOLAR_OUTPUTS
 
 
 def pitch(diameter):

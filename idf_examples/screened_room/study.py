@@ -9,11 +9,11 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parents[1] / "scripts")]
+sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parents[1] / "scripts")]
 
 import generate  # noqa: E402
-from shading_runs import energyplus, output_folder, results  # noqa: E402
-from shading_runs.errors import in_words  # noqa: E402
+from common import case_study  # noqa: E402
+from shading_runs import results  # noqa: E402
 
 WEATHER = "USA_CO_Golden-NREL.724666_TMY3.epw"
 # As in the table; the others are compared with the first two.
@@ -38,10 +38,7 @@ def run(facing, screen, folder):
     path.write_text("".join(generate.model(facing, screen)))
     if screen == "gradient":
         generate.write_image(folder / generate.IMAGE)
-    done = energyplus.run(energyplus.patched_prefix() / "energyplus", path, energyplus.find_weather(WEATHER),
-                          folder / "run", ["--gpu-shading"])
-    if not done.completed:
-        sys.exit(f"{facing}, {screen}: {done.why()}")
+    done = case_study.run_year(path, WEATHER, f"{facing}, {screen}")
     values = results.Results(done.folder, "Monthly")
     return {variable: values.total(variable) for variable in (*SUN, *ENERGY)}, done.seconds
 
@@ -84,11 +81,8 @@ def main():
     parser = argparse.ArgumentParser(description="Compares perforated screens by the sun in the room behind them.")
     parser.add_argument("-o", "--output", type=Path, default=Path("out/screened_room"), metavar="DIR",
                         help="for the runs")  # fmt: skip
-    try:
-        with output_folder.replacing(parser.parse_args().output, "screened_room_study") as output:
-            compare(output.path)
-    except (OSError, output_folder.NotOurs) as error:
-        sys.exit(f"screened_room: {in_words(error)}")
+    with case_study.replacing(parser.parse_args().output, "screened_room") as output:
+        compare(output.path)
 
 
 if __name__ == "__main__":

@@ -14,8 +14,10 @@ import math
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parent), str(HERE.parents[1] / "scripts")]
 
+from common import idf  # noqa: E402
 from shading_runs import output_folder  # noqa: E402
 from shading_runs.errors import in_words  # noqa: E402
 
@@ -41,28 +43,9 @@ HEAD = """\
 ! An office in a small town at the foot of hills. Written by generate.py.
 ! Weather: USA_CO_Golden-NREL.724666_TMY3.epw, which comes with EnergyPlus.
 
-Version,25.2;
-SimulationControl,No,No,No,No,Yes;
-Building,Office,0,Suburbs,0.04,0.2,FullExterior,30,6;
-ShadowCalculation,PixelCounting,Periodic,20;
-Timestep,4;
-Site:Location,Golden,39.74,-105.18,-7,1829;
-RunPeriod,Year,1,1,,12,31,,Sunday;
-SizingPeriod:DesignDay,Clear Autumn Day,10,21,SummerDesignDay,25,12,DefaultMultipliers,,WetBulb,12,,,,,81000,2,180,
-  No,No,No,ASHRAEClearSky,,,,,1.0;
-GlobalGeometryRules,UpperLeftCorner,Counterclockwise,World;
+""" + idf.preamble("Office", idf.GOLDEN, idf.GOLDEN_DAY) + "\n" + idf.WALLS_AND_GLAZING + """Zone,Office;
 
-Material,Insulation,Rough,0.1,0.04,30,1400;
-Material,Block,Rough,0.1,0.5,1400,1000;
-WindowMaterial:SimpleGlazingSystem,Glazing,1.4,0.6;
-Construction,Outer Wall,Insulation,Block;
-Construction,Window,Glazing;
-Zone,Office;
-
-Output:Variable,*,Surface Window Transmitted Solar Radiation Energy,Monthly;
-Output:Variable,*,Surface Window Transmitted Beam Solar Radiation Energy,Monthly;
-Output:SQLite,Simple;
-"""
+""" + idf.SOLAR_OUTPUTS
 
 # The office stands on the terrain, and its own block is left out.
 CONTEXT = """
@@ -158,13 +141,8 @@ def sail(triangles):
             yield f"f {a} {b} {c}\nf {a} {c} {d}\n"
 
 
-def points(corners):
-    return ",\n".join("  " + ",".join(f"{value:g}" for value in corner) for corner in corners) + ";\n"
-
-
-def surface(name, kind, corners):
-    return (f"\nBuildingSurface:Detailed,\n  {name},{kind},Outer Wall,Office,,Outdoors,,SunExposed,WindExposed,,4,\n"
-            + points(corners))  # fmt: skip
+def surface(name, kind, corners, boundary="Outdoors"):
+    return idf.surface(name, kind, "Outer Wall", "Office", boundary, corners)
 
 
 def office():
@@ -177,11 +155,10 @@ def office():
         yield surface(side, "Wall", [(*a, h), (*a, 0), (*b, 0), (*b, h)])
         along = [(q - p) / length for p, q in zip(a, b, strict=True)]
         c, f = ([p + s * t for p, t in zip(a, along, strict=True)] for s in (e, length - e))
-        yield (f"\nFenestrationSurface:Detailed,\n  {side} Window,Window,Window,{side},,,,1,4,\n"
-               + points([(*c, h - e), (*c, e), (*f, e), (*f, h - e)]))  # fmt: skip
+        yield idf.opening(f"{side} Window", "Window", "Window", side,
+                          [(*c, h - e), (*c, e), (*f, e), (*f, h - e)])  # fmt: skip
     yield surface("Roof", "Roof", [(-x, y, h), (-x, -y, h), (x, -y, h), (x, y, h)])
-    yield (surface("Floor", "Floor", [(x, y, 0), (x, -y, 0), (-x, -y, 0), (-x, y, 0)])
-           .replace("Outdoors,,SunExposed,WindExposed", "Adiabatic,,NoSun,NoWind"))  # fmt: skip
+    yield surface("Floor", "Floor", [(x, y, 0), (x, -y, 0), (-x, -y, 0), (-x, y, 0)], "Adiabatic")
 
 
 def context(parts):

@@ -13,11 +13,11 @@ from pathlib import Path
 from statistics import median
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parents[1] / "scripts")]
+sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parents[1] / "scripts")]
 
 import generate  # noqa: E402
-from shading_runs import energyplus, output_folder, results  # noqa: E402
-from shading_runs.errors import in_words  # noqa: E402
+from common import case_study  # noqa: E402
+from shading_runs import energyplus, results  # noqa: E402
 
 WEATHER = "USA_CO_Golden-NREL.724666_TMY3.epw"
 VARIANTS = {
@@ -37,10 +37,7 @@ def year(folder):
     whole = None
     for number, (name, parts) in enumerate(VARIANTS.items()):
         path = generate.write(folder / str(number), parts)
-        done = energyplus.run(energyplus.patched_prefix() / "energyplus", path, energyplus.find_weather(WEATHER),
-                              path.parent / "run", ["--gpu-shading"])
-        if not done.completed:
-            sys.exit(f"{name}: {done.why()}")
+        done = case_study.run_year(path, WEATHER, name)
         values = results.Results(done.folder, "Monthly")
         windows = [values.total(results.SOLAR, f"{side} WINDOW") for side in SIDES]
         whole = whole or sum(windows)
@@ -69,11 +66,8 @@ def main():
                         help="for the runs")
     parser.add_argument("--load", action="store_true", help="measure the time to load meshes instead")
     arguments = parser.parse_args()
-    try:
-        with output_folder.replacing(arguments.output, "site_context_study") as output:
-            (load if arguments.load else year)(output.path)
-    except (OSError, output_folder.NotOurs) as error:
-        sys.exit(f"site_context: {in_words(error)}")
+    with case_study.replacing(arguments.output, "site_context") as output:
+        (load if arguments.load else year)(output.path)
 
 
 if __name__ == "__main__":

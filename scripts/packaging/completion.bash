@@ -9,7 +9,7 @@ _gpu_shading() {
   done
   help=$known
   if [ -n "$subcommand" ]; then
-    help=$("$program" "$subcommand" --help 2>/dev/null)
+    help=$("$program" "$subcommand" --help-all 2>/dev/null)
     subcommands=''
   fi
   if [[ $word == -* ]]; then

@@ -1,4 +1,4 @@
-# Man pages, made of what each program says with --help.
+# Man pages, made of the help of each program.
 find_program(HELP2MAN help2man)
 if(NOT HELP2MAN)
   message(STATUS "packaging: help2man is not installed: man pages are not made")
@@ -7,14 +7,18 @@ if(NOT HELP2MAN)
 endif()
 set(pages)
 
-# add_man_page(<name> <command> DEPENDS <file or target>...): name.1 from `command --help`.
+# add_man_page(<name> <command> [HELP <flag>] DEPENDS <file or target>...): name.1 from `command
+# --help`, or another flag.
 function(add_man_page name command)
-  cmake_parse_arguments(PARSE_ARGV 2 ARG "" "" "DEPENDS")
+  cmake_parse_arguments(PARSE_ARGV 2 ARG "" "HELP" "DEPENDS")
+  if(NOT ARG_HELP)
+    set(ARG_HELP --help)
+  endif()
   set(page ${CMAKE_CURRENT_BINARY_DIR}/man/${name}.1)
   add_custom_command(
     OUTPUT ${page}
     COMMAND ${CMAKE_COMMAND} -E env LC_ALL=C.UTF-8 ${HELP2MAN} --no-info
-            --no-discard-stderr --version-string=${PROJECT_VERSION} --output=${page}
+            --no-discard-stderr --version-string=${PROJECT_VERSION} --output=${page} --help-option=${ARG_HELP}
             --name "GPU shading for EnergyPlus" ${command}
     DEPENDS ${ARG_DEPENDS}
     VERBATIM)
@@ -23,7 +27,7 @@ endfunction()
 
 file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/man)
 set(program $<TARGET_FILE:gpu_shading_program>)
-add_man_page(gpu_shading ${program} DEPENDS gpu_shading_program)
+add_man_page(gpu_shading ${program} HELP --help-all DEPENDS gpu_shading_program)
 foreach(subcommand devices check view map screen sample export)
   add_man_page(gpu_shading-${subcommand} "${program} ${subcommand}" DEPENDS gpu_shading_program)
 endforeach()

@@ -10,8 +10,8 @@ import matplotlib as mpl
 
 DIRECTIONS = ((150.0, 32.0), (330.0, 32.0))  # where they are seen from: azimuth from north and altitude, degrees
 WIDTH = 640
-MOST_CASTERS = 1500  # the largest
-MOST_NUMBERS = 99
+MAX_CASTERS = 1500  # the largest
+MAX_NUMBERS = 99
 RADIUS = 9  # of a number's disc
 
 
@@ -67,7 +67,7 @@ def surfaces_of(scene, receivers):
         elif surface["casts"] != "never" or surface["receives"]:
             casters.append(Surface(rings, name=surface["name"], is_one_sided=surface["receives"]))
     casters.sort(key=lambda caster: -math.hypot(*_newell(caster.rings[0])))
-    return found + casters[:MOST_CASTERS]
+    return found + casters[:MAX_CASTERS]
 
 
 class _View:
@@ -88,7 +88,7 @@ class _View:
     def flat(self, point):
         return _dot(point, self.right), _dot(point, self.up)
 
-    def place(self, point):
+    def position(self, point):
         """Pixels from the upper left corner."""
         x, y = self.flat(point)
         return self.scale * (x - self.left), self.scale * (self.top - y)
@@ -101,14 +101,14 @@ class _View:
 def _path(view, surface):
     parts = []
     for ring in surface.rings:
-        places = " ".join(f"{x:.1f},{y:.1f}" for x, y in map(view.place, ring))
-        parts.append(f"M{places}Z")
+        positions = " ".join(f"{x:.1f},{y:.1f}" for x, y in map(view.position, ring))
+        parts.append(f"M{positions}Z")
     return "".join(parts)
 
 
-def _is_inside(place, rings):
-    """By the odd-even rule, rings of places in a drawing."""
-    x, y = place
+def _is_inside(position, rings):
+    """By the odd-even rule, rings of positions in a drawing."""
+    x, y = position
     inside = False
     for ring in rings:
         for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1], strict=True):
@@ -117,9 +117,9 @@ def _is_inside(place, rings):
     return inside
 
 
-def _distance(place, rings):
+def _distance(position, rings):
     """To the nearest edge."""
-    x, y = place
+    x, y = position
     nearest = math.inf
     for ring in rings:
         for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1], strict=True):
@@ -134,7 +134,7 @@ def _box(rings):
 
 
 def _label(rings, nearer):
-    """A place on a surface for its number, away from edges and not behind nearer surfaces; None: there is none."""
+    """A position on a surface for its number, away from edges and not behind nearer surfaces; None: there is none."""
     left, top, right, bottom = _box(rings)
     hiding = [other for other, (low_x, low_y, high_x, high_y) in nearer
               if low_x < right and high_x > left and low_y < bottom and high_y > top]
@@ -142,9 +142,9 @@ def _label(rings, nearer):
     free = []
     for i in range(1, steps):
         for k in range(1, steps):
-            place = (left + (right - left) * i / steps, top + (bottom - top) * k / steps)
-            if _is_inside(place, rings) and not any(_is_inside(place, other) for other in hiding):
-                free.append((min(_distance(place, each) for each in (rings, *hiding)), place))
+            position = (left + (right - left) * i / steps, top + (bottom - top) * k / steps)
+            if _is_inside(position, rings) and not any(_is_inside(position, other) for other in hiding):
+                free.append((min(_distance(position, each) for each in (rings, *hiding)), position))
     return max(free)[1] if free else None
 
 
@@ -155,13 +155,13 @@ def _draw(view, surfaces, compass):
     facing = [surface for surface in surfaces
               if not surface.is_one_sided or _dot(_newell(surface.rings[0]), view.towards) > 0]
     for surface in sorted(facing, key=view.depth, reverse=True):
-        rings = [[view.place(point) for point in ring] for ring in surface.rings]
+        rings = [[view.position(point) for point in ring] for ring in surface.rings]
         fill = mpl.colors.to_hex(mpl.colormaps["cividis"](surface.sunlit)) if surface.sunlit is not None else "#d5d0c6"
         parts.insert(1, f'<path d="{_path(view, surface)}" fill="{fill}" fill-rule="evenodd">'
                         f"<title>{escape(surface.name)}</title></path>")
-        if surface.number and (place := _label(rings, nearer)):
-            labels.append(f'<circle cx="{place[0]:.1f}" cy="{place[1]:.1f}" r="{RADIUS}"/>'
-                          f'<text x="{place[0]:.1f}" y="{place[1] + 3.5:.1f}">{surface.number}</text>')
+        if surface.number and (position := _label(rings, nearer)):
+            labels.append(f'<circle cx="{position[0]:.1f}" cy="{position[1]:.1f}" r="{RADIUS}"/>'
+                          f'<text x="{position[0]:.1f}" y="{position[1] + 3.5:.1f}">{surface.number}</text>')
         nearer.append((rings, _box(rings)))
     return "\n".join([*parts, *labels, "</svg>"])
 

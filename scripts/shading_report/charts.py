@@ -61,9 +61,9 @@ def _figure(width, height, left=0.6, right=0.15, bottom=0.45, top=0.25):
 
 def _colour_bar(figure, axes, image, gap=0.1, width=0.12, **options):
     """Adds a colour bar to the right of the axes, at their height; gap and width in inches."""
-    place = axes.get_position()
+    position = axes.get_position()
     whole = figure.get_figwidth()
-    bar = figure.add_axes((place.x1 + gap / whole, place.y0, width / whole, place.height))
+    bar = figure.add_axes((position.x1 + gap / whole, position.y0, width / whole, position.height))
     return figure.colorbar(image, cax=bar, **options)
 
 
@@ -165,10 +165,10 @@ def months(names, runs, title, description):
     figure, axes = _figure(4.6, 2.5, left=0.7, right=0.1, bottom=0.55)
     width = 0.8 / len(runs)
     for number, (label, values) in enumerate(runs):
-        places = np.arange(len(names)) + (number - (len(runs) - 1) / 2) * width
-        axes.bar(places, values, width, color=RUN_COLOURS[number], hatch=HATCHES[number], edgecolor="white",
+        positions = np.arange(len(names)) + (number - (len(runs) - 1) / 2) * width
+        axes.bar(positions, values, width, color=RUN_COLOURS[number], hatch=HATCHES[number], edgecolor="white",
                  linewidth=0.4, label=label)
-    numbers = [name if len(names) <= 12 else str(place) for place, name in enumerate(names, start=1)]
+    numbers = [name if len(names) <= 12 else str(position) for position, name in enumerate(names, start=1)]
     axes.set_xticks(range(len(names)), numbers, fontsize=8)
     axes.yaxis.set_major_formatter(_plain)
     axes.set_ylabel("kWh")
@@ -183,11 +183,11 @@ def stages(runs, description):
     names = list(dict.fromkeys(stage for _, parts in runs for stage, _ in parts))
     figure, axes = _figure(6.0, 0.6 + 0.35 * len(runs) + 0.2 * len(names), left=1.4, top=0.1 + 0.2 * len(names))
     shades = mpl.colormaps["cividis"](np.linspace(0.1, 0.95, max(2, len(names))))
-    for place, (_, parts) in enumerate(runs):
+    for position, (_, parts) in enumerate(runs):
         left = 0.0
         for stage, seconds in parts:
-            axes.barh(place, seconds, left=left, color=shades[names.index(stage)], edgecolor="#444444", linewidth=0.5,
-                      label=stage)
+            axes.barh(position, seconds, left=left, color=shades[names.index(stage)], edgecolor="#444444",
+                      linewidth=0.5, label=stage)
             left += seconds
     axes.set_yticks(range(len(runs)), [label for label, _ in runs])
     axes.invert_yaxis()

@@ -25,31 +25,31 @@ class Calendar:
     """The days and hours of a run as columns and rows."""
 
     def __init__(self, run_results):
-        self.places = np.array([i for i, is_warmup in enumerate(run_results.is_warmup) if not is_warmup], int)
+        self.positions = np.array([i for i, is_warmup in enumerate(run_results.is_warmup) if not is_warmup], int)
         self.times = run_results.times
         number = {}
-        for place in self.places:
-            number.setdefault(self.times[place][:3], len(number))
+        for position in self.positions:
+            number.setdefault(self.times[position][:3], len(number))
         self.days = list(number)  # (environment, month, day)
         self.column = np.zeros(len(self.times), int)
         self.row = np.zeros(len(self.times), int)
-        for place in self.places:
-            self.column[place] = number[self.times[place][:3]]
-            self.row[place] = min(max(self.times[place][3], 1), HOURS) - 1
+        for position in self.positions:
+            self.column[position] = number[self.times[position][:3]]
+            self.row[position] = min(max(self.times[position][3], 1), HOURS) - 1
 
     @property
     def environments(self):
         return list(dict.fromkeys(environment for environment, _, _ in self.days))
 
-    def grid(self, values, places):
+    def grid(self, values, positions):
         """The values at these times as an array of hours x days, nan elsewhere."""
         found = np.full((HOURS, len(self.days)), np.nan)
-        found[self.row[places], self.column[places]] = values
+        found[self.row[positions], self.column[positions]] = values
         return found
 
-    def name(self, place):
+    def name(self, position):
         """An hour as text, with its environment if there are several."""
-        environment, month, day, hour, _ = self.times[place]
+        environment, month, day, hour, _ = self.times[position]
         text = f"{day} {month_name(month)}, {hour - 1:02d}–{hour:02d} h"
         return f"{environment}: {text}" if len(self.environments) > 1 else text
 
@@ -81,19 +81,19 @@ def energies(runs, calendar):
     """[(environment, [Amount of each quantity])] and, for run periods, [(month, [Amount ...])]."""
     hourly = {variable: [building(run.results, variable) for run in runs] for _, variable in QUANTITIES}
 
-    def amounts(places):
-        return [Amount(title, [float(values[places].sum()) for values in hourly[variable]])
+    def amounts(positions):
+        return [Amount(title, [float(values[positions].sum()) for values in hourly[variable]])
                 for title, variable in QUANTITIES if any(run.results.values[variable] for run in runs)]
 
     by_environment, by_month = {}, {}
-    for place in calendar.places:
-        environment, month = calendar.times[place][:2]
-        by_environment.setdefault(environment, []).append(place)
+    for position in calendar.positions:
+        environment, month = calendar.times[position][:2]
+        by_environment.setdefault(environment, []).append(position)
         if environment in runs[0].results.weather_periods:
-            by_month.setdefault((environment, month), []).append(place)
+            by_month.setdefault((environment, month), []).append(position)
     several = len({environment for environment, _ in by_month}) > 1
     names = [f"{environment}: {month_name(month)}" if several else month_name(month) for environment, month in by_month]
-    return ([(environment, amounts(places)) for environment, places in by_environment.items()],
+    return ([(environment, amounts(positions)) for environment, positions in by_environment.items()],
             list(zip(names, map(amounts, by_month.values()), strict=True)))
 
 
@@ -115,7 +115,7 @@ def daylight(runs, calendar):
     for point in runs[0].results.illuminance:
         if not all(point in run.results.illuminance for run in runs):
             continue
-        series = np.array([np.asarray(run.results.illuminance[point])[calendar.places] for run in runs])
+        series = np.array([np.asarray(run.results.illuminance[point])[calendar.positions] for run in runs])
         lit = series.max(axis=0) > 0.0
         if lit.any():
             found.append(Daylight(point, int(lit.sum()), series[:, lit].mean(axis=1).tolist(),
@@ -146,7 +146,7 @@ def peaks(runs, calendar):
                 columns.append((key, [np.asarray(run.results.values[variable][key]) / results.J_PER_KWH
                                       for run in runs]))
         for title, series in columns:
-            largest = [int(calendar.places[np.argmax(values[calendar.places])]) for values in series]
+            largest = [int(calendar.positions[np.argmax(values[calendar.positions])]) for values in series]
             peak = Peak(title, load, [float(values[i]) for values, i in zip(series, largest, strict=True)], [])
             peak.times = [calendar.name(i) if value > 0 else "" for i, value in zip(largest, peak.values, strict=True)]
             if any(peak.values):
@@ -158,7 +158,7 @@ def peaks(runs, calendar):
 class WorstHour:
     """An hour with a large difference; days: number of days from this one with the same difference at that hour."""
 
-    place: int
+    position: int
     change: float
     days: int = 1
 
@@ -173,12 +173,12 @@ def worst_hours(difference, calendar, count=10):
     for i in np.argsort(-np.abs(values), kind="stable"):
         if values[i] == 0.0:
             break
-        place = difference.times[i]
-        alike = (calendar.row[place], round(reference[i], SAME), round(values[i], SAME))
+        position = difference.times[i]
+        alike = (calendar.row[position], round(reference[i], SAME), round(values[i], SAME))
         if alike in found:
             found[alike].days += 1
         elif len(found) < count:
-            found[alike] = WorstHour(place, float(values[i]))
+            found[alike] = WorstHour(position, float(values[i]))
         elif abs(values[i]) < abs(min(found.values(), key=lambda each: abs(each.change)).change):
             break
     return list(found.values())

@@ -79,24 +79,24 @@ def _lines(runs, shown):
     lines = []
     for name, receiver in reference.receivers.items():
         found = [names.get(name) for names in by_name]
-        places = next((each.times for each in found if each), ())
+        positions = next((each.times for each in found if each), ())
         sunlit = [run.results.mean_sunlit(name) for run in runs]
         solar = [run.results.total(results.SOLAR, name) if name in run.results.values[results.SOLAR] else None
                  for run in runs]
-        lines.append(Line(shown.get(name, ""), receiver, len(places), sunlit, found, solar))
+        lines.append(Line(shown.get(name, ""), receiver, len(positions), sunlit, found, solar))
     return lines
 
 
 def _maps(name, runs, calendar):
     sunlit = [np.asarray(run.results.values[results.SUNLIT][name]) for run in runs]
-    places = np.array(runs[0].results.sun_up(name))
-    found = [charts.heat_map(calendar.grid(values[places], places), calendar, f"{run.label}: sunlit fraction",
+    positions = np.array(runs[0].results.sun_up(name))
+    found = [charts.heat_map(calendar.grid(values[positions], positions), calendar, f"{run.label}: sunlit fraction",
                              f"Sunlit fraction of {name} by hour and day, {run.label}")
              for run, values in zip(runs, sunlit, strict=True)]
     for run, values in zip(runs[1:], sunlit[1:], strict=True):
-        change = values[places] - sunlit[0][places]
+        change = values[positions] - sunlit[0][positions]
         limit = float(np.abs(change).max(initial=0.0)) or 1e-9
-        found.append(charts.heat_map(calendar.grid(change, places), calendar, f"{run.label} − {runs[0].label}",
+        found.append(charts.heat_map(calendar.grid(change, positions), calendar, f"{run.label} − {runs[0].label}",
                                      f"Difference of the sunlit fraction of {name} by hour and day", limit))
     return found
 
@@ -112,9 +112,9 @@ def _detail(anchor, name, runs, calendar):
     ]
     hours = []
     for worst in facts.worst_hours(of_runs[0][1], calendar):
-        fractions = [run.results.values[results.SUNLIT][name][worst.place] for run in runs]
-        hours.append(Hour(calendar.name(worst.place), runs[0].results.sun_at(worst.place), fractions, worst.change,
-                          worst.days))
+        fractions = [run.results.values[results.SUNLIT][name][worst.position] for run in runs]
+        hours.append(Hour(calendar.name(worst.position), runs[0].results.sun_at(worst.position), fractions,
+                          worst.change, worst.days))
     return Detail(anchor, runs[0].results.receivers[name], _maps(name, runs, calendar), parts, hours)
 
 
@@ -163,7 +163,7 @@ def _numbered(lines, shown):
     lines = [line for line in lines if line.hours]
     first = [line for line in lines if line.anchor]
     first.sort(key=lambda line: list(shown.values()).index(line.anchor))
-    return (first + [line for line in lines if not line.anchor])[:building.MOST_NUMBERS]
+    return (first + [line for line in lines if not line.anchor])[:building.MAX_NUMBERS]
 
 
 def _gather(output, everything, weather, most, further):

@@ -3,6 +3,13 @@
 import argparse
 import difflib
 
+from shading_runs.version import version
+
+
+def add_version(parser):
+    """Adds --version."""
+    parser.add_argument("--version", action="version", version=f"%(prog)s {version()}")
+
 
 class Parser(argparse.ArgumentParser):
     """Says which flag a mistyped one may stand for, as gpu_shading does."""

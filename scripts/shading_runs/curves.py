@@ -24,8 +24,8 @@ def exponent(points):
 def draw(path, panels, ylabel):
     """Writes an SVG of panels side by side, {title: (xlabel, {curve: [(x, y), ...]})}, with logarithmic axes."""
     figure = Figure(figsize=(4.2 * len(panels), 3.4), layout="constrained")
-    for place, (title, (xlabel, curves)) in enumerate(panels.items()):
-        axes = figure.add_subplot(1, len(panels), place + 1)
+    for position, (title, (xlabel, curves)) in enumerate(panels.items()):
+        axes = figure.add_subplot(1, len(panels), position + 1)
         for number, (name, points) in enumerate(curves.items()):
             xs, ys = zip(*sorted(points), strict=True)
             axes.loglog(xs, ys, label=name, color=COLOURS[number % len(COLOURS)], linewidth=1.4, markersize=4,

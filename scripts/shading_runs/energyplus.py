@@ -13,11 +13,10 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from shading_runs.version import add_version
+from shading_runs.arguments import add_version
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-
-
+_LATITUDE = 6  # of the fields of the first line of an EPW file
 PREFIX_MARKER = ".gpu_shading_prefix.json"  # of patch_energyplus
 
 
@@ -111,6 +110,19 @@ def find_weather(name):
         if (folder / name).is_file():
             return (folder / name).resolve()
     raise FileNotFoundError(f"weather file {name}: not found here, in {folders[1]} or in {folders[2]}")
+
+
+def move_weather(path, latitude, folder):
+    """Writes a copy of an EPW file for another latitude (degrees, north positive). Returns its path.
+
+    EnergyPlus takes the sun positions from that file's location.
+    """
+    first, rest = path.read_text(encoding="latin-1").split("\n", 1)
+    fields = first.split(",")
+    fields[_LATITUDE] = f"{latitude:.2f}"
+    moved = folder / f"{path.stem}_at_{latitude:g}.epw"
+    moved.write_text(",".join(fields) + "\n" + rest, encoding="latin-1")
+    return moved
 
 
 @dataclass

@@ -60,26 +60,26 @@ class Idf:
 
     def field(self, class_name, field, default=""):
         """The value of a field of the first object of the class."""
-        for name, places, _, _ in self.objects:
-            if name == class_name.lower() and field[0] < len(places):
-                return self.text[slice(*places[field[0]])] or default
+        for name, spans, _, _ in self.objects:
+            if name == class_name.lower() and field[0] < len(spans):
+                return self.text[slice(*spans[field[0]])] or default
         return default
 
-    def most_daylighting_points(self):
+    def max_daylighting_points(self):
         """The number of reference points of the Daylighting:Controls that has the most; 0 without one."""
-        return max((-(-(len(places) - FIRST_POINT) // FIELDS_OF_POINT) for name, places, _, _ in self.objects
+        return max((-(-(len(spans) - FIRST_POINT) // FIELDS_OF_POINT) for name, spans, _, _ in self.objects
                     if name == "daylighting:controls"), default=0)
 
     def set_field(self, class_name, field, value):
         """Sets a field of the first object of the class, which is created if there is none."""
-        for name, places, _, end in self.objects:
+        for name, spans, _, end in self.objects:
             if name != class_name.lower():
                 continue
-            if field[0] < len(places):
-                start, stop = places[field[0]]
+            if field[0] < len(spans):
+                start, stop = spans[field[0]]
                 self._replace([(start, stop, value)])
             else:
-                blanks = "," * (field[0] - len(places) + 1)
+                blanks = "," * (field[0] - len(spans) + 1)
                 self._replace([(end - 1, end - 1, blanks + value)])
             return
         self.add(class_name, [""] * field[0] + [value])
@@ -103,8 +103,8 @@ class Idf:
     def anchor_paths(self, folder):
         """Makes paths absolute that lead through '..' from folder to an existing file."""
         edits = []
-        for _, places, _, _ in self.objects:
-            for start, end in places:
+        for _, spans, _, _ in self.objects:
+            for start, end in spans:
                 value = self.text[start:end]
                 if ".." in value and (folder / value).exists():
                     edits.append((start, end, os.path.abspath(folder / value)))
@@ -144,7 +144,7 @@ class EpJson:
         first = next(iter(self.data[key].values()), {}) if key else {}
         return str(first.get(field[1], "")) or default
 
-    def most_daylighting_points(self):
+    def max_daylighting_points(self):
         key = self._key("Daylighting:Controls")
         return max((len(fields.get("control_data", ())) for fields in (self.data[key] if key else {}).values()),
                    default=0)

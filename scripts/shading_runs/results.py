@@ -42,7 +42,7 @@ def instrument(model, frequency="Hourly"):
     """Adds to an input file the outputs that Results reads."""
     model.add_unique("Output:SQLite", ["Simple"], ["option_type"])
     model.remove(lambda name: name == "outputcontrol:files")
-    points = model.most_daylighting_points()
+    points = model.max_daylighting_points()
     for variable in VARIABLES:
         if variable != LIGHTS or points:
             model.add_output_variable(variable, frequency)
@@ -179,9 +179,9 @@ class Results:
         hours = self.faced_throughout(receiver) if len(fractions) else []
         return sum(fractions[i] for i in hours) / len(hours) if hours else None
 
-    def sun_at(self, place):
+    def sun_at(self, position):
         """(azimuth, altitude) in degrees of the hour's mean direction while the sun is up, or None."""
-        return self.sun.get(self.times[place][:4])
+        return self.sun.get(self.times[position][:4])
 
     def multiplier(self, variable, key):
         """The multiplier of the zone, or of the surface's zone."""

@@ -13,7 +13,7 @@ from contextlib import closing
 from pathlib import Path
 
 # Sunlit fractions are rendered to within 0.001; with the tested release the largest difference is 0.0002.
-MOST_DIFFERENCE = 0.002
+MAX_DIFFERENCE = 0.002
 FEWEST_PARTIAL = 40  # fractions between 0.05 and 0.95: what a wrong shadow would change
 SECONDS = 300
 # Those of shading surfaces are not rendered unless something uses them.
@@ -129,7 +129,7 @@ def _compare(rendered, clipped):
         raise Disagreement(f"polygon clipping shades its test model at {partial} times only")
     surface, time = max(clipped, key=lambda key: abs(rendered[key] - clipped[key]))
     worst = abs(rendered[surface, time] - clipped[surface, time])
-    if worst > MOST_DIFFERENCE:
+    if worst > MAX_DIFFERENCE:
         raise Disagreement(f"it renders a sunlit fraction of {surface} that differs by {worst:.3f} from polygon "
                            f"clipping ({rendered[surface, time]:.3f}, {clipped[surface, time]:.3f})")
     return worst

@@ -15,7 +15,7 @@ def _stated(file, pattern):
 
 
 def version():
-    """For --version of each script."""
+    """Of this software."""
     return _stated("VERSION", r"project\(gpu_shading VERSION")
 
 
@@ -27,8 +27,3 @@ def energyplus_release():
 def input_version():
     """What the Version object of a model for this release has."""
     return energyplus_release().rpartition(".")[0]
-
-
-def add_version(parser):
-    """Adds --version."""
-    parser.add_argument("--version", action="version", version=f"%(prog)s {version()}")

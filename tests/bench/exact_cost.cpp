@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "gpu_shading/threads.h"
+#include "gpu_shading/device.h"
 #include "support/shapes.h"
 #include "table_main.h"
 
@@ -46,7 +46,7 @@ void add_louvres(Scene& scene, int count, int schedule) {
     double const height = 2.0 * (i + 0.5) / count;
     Surface louvre{"louvre",
                    parallelogram({-0.5, -0.1 - depth, height}, {4, 0, 0}, {0, depth, 0.4 * depth})};
-    louvre.schedule = schedule;
+    louvre.filter.schedule = schedule;
     scene.add(louvre);
   }
 }
@@ -63,7 +63,7 @@ void add_leaves(Scene& scene, int count, int schedule) {
     double const turn = random(0.0, 3.14);
     Surface leaf{"leaf", parallelogram(corner, side * glm::dvec3(std::cos(turn), 0, std::sin(turn)),
                                        side * glm::dvec3(-std::sin(turn), 0, std::cos(turn)))};
-    leaf.schedule = schedule;
+    leaf.filter.schedule = schedule;
     scene.add(leaf);
   }
 }

@@ -37,8 +37,8 @@ Scene canopy(Panes panes) {
   for (int j = 0; j < along; ++j) {
     for (int i = 0; i < across; ++i) {
       Surface pane{"pane", {{node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)}, {}}};
-      if (panes == Panes::transparent) pane.transmittance = glass;
-      if (panes == Panes::scheduled) pane.schedule = (i + j) % 3;
+      if (panes == Panes::transparent) pane.filter.set(AngularTransmittance{glass});
+      if (panes == Panes::scheduled) pane.filter.schedule = (i + j) % 3;
       scene.add(pane);
     }
   }

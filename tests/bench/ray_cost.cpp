@@ -147,8 +147,8 @@ void print_table() {
   glass.transmittance =
       std::make_shared<Transmittance const>(Transmittance::polynomial_in_cosine({0.0, 1.1, -0.4}));
   Surface sheet;
-  sheet.screen = std::make_shared<PerforatedScreen const>(
-      HolePattern({.size = 6e-3, .pitch = 9e-3}), Sheet{.thickness = 1e-3});
+  sheet.filter.set(PerforatedSheet{std::make_shared<PerforatedScreen const>(
+      HolePattern({.size = 6e-3, .pitch = 9e-3}), Sheet{.thickness = 1e-3})});
   std::vector<Ray> const sky = to_the_sky();
   std::vector<Ray> const all = anywhere();
   for (int const count : {1000, 8000, 32000}) {

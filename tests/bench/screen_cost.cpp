@@ -66,7 +66,7 @@ void print_table() {
     auto const screen =
         std::make_shared<PerforatedScreen const>(of, Sheet{.thickness = 0.05, .detail = detail});
     screen->transmittance();  // its construction is not timed
-    return [screen](Surface& sheet) { sheet.screen = screen; };
+    return [screen](Surface& sheet) { sheet.filter.set(PerforatedSheet{screen}); };
   };
   struct Kind {
     char const* name;
@@ -74,7 +74,7 @@ void print_table() {
   };
   std::array const kinds{
       Kind{"opaque", [](Surface&) {}},
-      Kind{"transparent", [&](Surface& sheet) { sheet.transmittance = glass; }},
+      Kind{"transparent", [&](Surface& sheet) { sheet.filter.set(AngularTransmittance{glass}); }},
       Kind{"pattern, holes", screened(holes, ScreenDetail::holes)},
       Kind{"pattern, effective", screened(holes, ScreenDetail::effective)},
       Kind{"raster, holes", screened(OpacityTile(holes, 0.1 / 48), ScreenDetail::holes)},

@@ -223,7 +223,7 @@ def test_triple_glass_admits_less(ran):
 
 def test_study_times_samples_of_every_variant(tmp_path, patched):
     command = [sys.executable, EXAMPLES / "academic_building" / "study.py", "--small", "--samples", "coarse",
-               "--device", "software", "-o", tmp_path]  # fmt: skip
+               "--device", "cpu", "-o", tmp_path]  # fmt: skip
     done = subprocess.run(command, capture_output=True, text=True, timeout=300,
                           env=os.environ | {"GPU_SHADING_ERROR": "0.02"})
     assert done.returncode == 0, done.stderr

@@ -17,7 +17,7 @@ import pytest
 from shading_runs import energyplus
 
 OUT = energyplus.REPOSITORY / "out"
-PAGE = energyplus.REPOSITORY / "energyplus_patch" / "docs" / "installing.md"
+PAGE = energyplus.REPOSITORY / "energyplus_patch" / "docs" / "guides" / "installing.md"
 CONTAINERFILE = energyplus.REPOSITORY / "scripts" / "packaging" / "Containerfile"
 USER = 1000
 PLACE = "/home/user"

@@ -10,8 +10,17 @@ import pytest
 from shading_runs.version import energyplus_release
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", *sorted(page for wing in ("energyplus_patch", "gpu_shading") for page in
-                                     (ROOT / wing / "README.md", *(ROOT / wing / "docs").glob("*.md")))]
+MANUAL = ROOT / "energyplus_patch" / "docs"
+PAGES = [ROOT / "README.md", *sorted(page for wing in ("energyplus_patch", "gpu_shading")
+                                     for page in (ROOT / wing).rglob("*.md"))]
+EXAMPLES = sorted((ROOT / "idf_examples").glob("*/README.md"))
+TUTORIALS = MANUAL / "tutorials"
+# Pages that are followed from top to bottom.
+WALKED = [*sorted(TUTORIALS.glob("*.md")), ROOT / "README.md", MANUAL / "gallery.md"]
+# The pages that a reader needs first, and all that explain how to use this software.
+MAIN_PATH = [ROOT / "README.md", TUTORIALS / "south_office.md", MANUAL / "guides" / "screens.md"]
+WHOLE = [ROOT / "README.md", *MANUAL.rglob("*.md")]
+MAIN_PATH_WORDS, WHOLE_WORDS = 4_000, 24_000
 DICTIONARY = ROOT / "energyplus_patch" / "model" / "extensions" / "GPUShading.idd"
 # What blocks may be in; those in sh are run.
 LANGUAGES = {"sh", "idf", "python", "text", "cmake"}
@@ -51,7 +60,61 @@ def place(patched, official, weather, box, tmp_path):
                       "XDG_CACHE_HOME": os.environ.get("XDG_CACHE_HOME", str(Path.home() / ".cache"))}
 
 
-@pytest.mark.parametrize("page", [page for page in PAGES if commands(page)], ids=title)
+def missing_lines(promised, printed):
+    """Lines that a page promises, with three dots for what differs, and that were not printed in this order."""
+    said = iter(printed.splitlines())
+    return [line for line in promised.splitlines() if not any(
+        re.fullmatch(".*".join(map(re.escape, line.rstrip().split("..."))), words.rstrip()) for words in said)]
+
+
+def walked(page):
+    """[[line, commands, output that is promised or None]]: what a reader types who follows a page."""
+    steps = []
+    for line, language, text, why in blocks(page):
+        if language == "sh" and why is None:
+            steps.append([line, text, None])
+        elif language == "text" and steps:
+            steps[-1][2] = (steps[-1][2] or "") + text
+    return steps
+
+
+def walk(page, folder, environment):
+    """Runs a page's commands in one shell, as one reader would."""
+    steps = walked(page)
+    mark = "step of the reader done"
+    script = "".join(f"{{\n{text}\n}} 2>&1\necho; echo {mark}\n" for _, text, _ in steps)
+    done = subprocess.run(["bash", "-euo", "pipefail", "-c", script], cwd=folder, env=environment,
+                          capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    outputs = done.stdout.split(mark)
+    for (line, text, promised), output in zip(steps, outputs, strict=False):
+        lost = missing_lines(promised or "", output)
+        assert not lost, f"{title(page)}:{line}: not printed: {lost}\n{text}{output[-3000:]}"
+    assert done.returncode == 0, f"{title(page)}: exit status {done.returncode}\n{outputs[-1][-3000:]}{done.stderr}"
+
+
+@pytest.fixture
+def checkout(place):
+    """What somebody has who has built the sources, in a folder that may be written to: links, and no more."""
+    folder, environment = place
+    (folder / ".venv").symlink_to(ROOT / ".venv")
+    return folder, {**environment, "PATH": os.environ["PATH"]}
+
+
+@pytest.mark.parametrize("page", WALKED, ids=title)
+def test_a_reader_sees_what_the_page_promises(page, checkout, patched):
+    """Word by word, with nothing set but what the page sets; README.md says elsewhere how to set PATH."""
+    folder, environment = checkout
+    if page.parent != TUTORIALS:
+        environment["PATH"] = f"{patched.parent}{os.pathsep}{environment['PATH']}"
+    if page.name == "honeybee.md":
+        tools = ROOT / ".venv" / "tools"
+        if not (tools / "honeybee_energy").is_dir():
+            pytest.skip(f"{tools}/honeybee_energy is missing: run scripts/setup")
+        environment["PYTHONPATH"] = str(tools)
+    walk(page, folder, environment)
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if commands(page) and page not in WALKED], ids=title)
 def test_every_command_can_be_run(page, place):
     """As a user would, one after another; a folder that the text makes replaces the one that is at hand."""
     folder, environment = place
@@ -76,7 +139,8 @@ def test_commands_that_are_not_run_say_why():
         print(f"{page}:{line}: not run: {why}\n{text}", end="")
         assert why.strip()
     # Every one of them is known here, so that no command slips out of being run.
-    known = {"scripts/demo", "apt-get", "pip install", "cmake --build", "podman build", "build_windows", "git apply"}
+    known = {"scripts/demo", "scripts/build", "apt-get", "pip install", "cmake --build", "podman build",
+             "build_windows", "git apply", "ctest"}
     assert {re.search("|".join(known), text)[0] for *_, text in listed} == known
 
 
@@ -116,28 +180,69 @@ def test_paths_that_are_named_are_there():
             assert (ROOT / path).exists() or (ROOT / f"{path}.cpp").exists(), f"{title(page)}: {path}"
 
 
-def test_every_page_is_in_the_index():
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    assert all(f"]({title(page)})" in text for page in PAGES[1:])
+def linked_pages(page):
+    text = BLOCK.sub("", page.read_text(encoding="utf-8"))
+    targets = re.findall(r"\]\(([^)#]*\.md)[^)]*\)", text)
+    return {(page.parent / target).resolve() for target in targets}
+
+
+def test_every_page_can_be_reached_from_the_first():
+    reached, new = set(), {ROOT / "README.md"}
+    while new:
+        reached |= new
+        new = set().union(*map(linked_pages, new)) - reached
+    assert set(PAGES) | set(EXAMPLES) <= reached
+
+
+def test_the_manual_is_short():
+    """Counted as `wc -w` counts."""
+    def words(pages):
+        return sum(len(page.read_text(encoding="utf-8").split()) for page in pages)
+
+    print(f"{words(MAIN_PATH)} words on the main path, {words(WHOLE)} in all")
+    assert words(MAIN_PATH) <= MAIN_PATH_WORDS
+    assert words(WHOLE) <= WHOLE_WORDS
+
+
+def test_each_page_begins_with_what_it_is_for():
+    for page in PAGES:
+        lines = page.read_text(encoding="utf-8").splitlines()
+        assert lines[0].startswith("# ") and not lines[1] and re.match(r"[\[*`]?[A-Z`]", lines[2]), title(page)
+
+
+def test_the_glossary_is_used_and_short():
+    terms = re.findall(r"^### (.*)$", (MANUAL / "glossary.md").read_text(encoding="utf-8"), re.M)
+    assert len(terms) <= 20 and terms == sorted(terms, key=str.lower)
+    linked = "".join(page.read_text(encoding="utf-8") for page in WHOLE)
+    assert [term for term in terms if f"glossary.md#{term.lower().replace(' ', '-')})" not in linked] == []
+
+
+def options_page():
+    return next(page for page in PAGES if "<!-- options -->" in page.read_text(encoding="utf-8"))
 
 
 def test_options_are_those_of_the_program(patched, tmp_path):
-    """Flags, the values that they take, and their environment variables, against --help."""
-    shown = subprocess.run([patched, "--gpu-shading", "--help"], capture_output=True, text=True, cwd=tmp_path,
-                           check=True).stdout
-    spoken = {re.sub(r"[\[\]]", "", flag) for flag in re.findall(r"^ +(--gpu-shading\S*(?: \S+)?) {0,2}", shown, re.M)}
-    rows = re.findall(r"^\| `(--gpu-shading.*?)` \| `(\w+)` \|", (ROOT / "README.md").read_text(encoding="utf-8"), re.M)
-    written = {re.sub(r"[\[\]\\]", "", flag) for flag, _ in rows}
-    assert written == spoken
+    done = subprocess.run([ROOT / "scripts" / "dev" / "option_table", patched.parent / "gpu_shading", "--check"],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    # By another reading than the script's own, against the help for people.
+    rows = re.findall(r"^\| `(--gpu-shading.*?)` \| `(\w+)` \|", options_page().read_text(encoding="utf-8"), re.M)
     for flag, variable in rows:
         assert variable == re.match(r"[\w-]+", flag)[0].strip("-").upper().replace("-", "_")
+    shown = {}
+    for name, command in {"common": [patched, "--gpu-shading", "--help"],
+                          "all": [patched.parent / "gpu_shading", "help", "options", "--help-all"]}.items():
+        text = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, check=True).stdout
+        shown[name] = re.findall(r"^  (--gpu-shading\S*(?: \S+)?)(?:  .*)?$", text, re.M)
+    assert shown["all"] == [flag.replace("\\", "") for flag, _ in rows]
+    experts = {"--gpu-shading-lean", "--gpu-shading-method", "--gpu-shading-assets"}
+    assert shown["common"] == [flag for flag in shown["all"] if flag.split()[0] not in experts]
 
 
 def test_the_numbers_of_lean_input_are_those_of_the_code():
     header = (ROOT / "energyplus_patch" / "model" / "lean_input.h").read_text(encoding="utf-8")
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    running = (ROOT / "energyplus_patch" / "docs" / "running.md").read_text(encoding="utf-8")
-    row = re.search(r"^\| `--gpu-shading-lean .*", readme, re.M)[0]
+    running = "".join(page.read_text(encoding="utf-8") for page in PAGES)
+    row = re.search(r"^\| `--gpu-shading-lean .*", options_page().read_text(encoding="utf-8"), re.M)[0]
     for name, said in (("fewest_left_out", "if there are {} or more"),
                        ("fewest_with_reflections", "{} or more with solar reflections")):
         number = re.search(rf"{name} = (\d+);", header)[1]
@@ -150,7 +255,7 @@ def test_the_reference_has_the_dictionary_s_objects_and_fields():
                           text=True)
     assert done.returncode == 0, done.stderr
     # By another reading than the script's own.
-    page = (ROOT / "energyplus_patch" / "docs" / "extensions.md").read_text(encoding="utf-8")
+    page = (MANUAL / "reference" / "extensions.md").read_text(encoding="utf-8")
     tables = {name: rows for name, rows in re.findall(
         r"^\| field of `(.*?)` \|.*\n\|---.*\n((?:\|.*\n)+)", page, re.M)}
     objects = DICTIONARY.read_text(encoding="utf-8").split("\nGPUShading:")[1:]
@@ -159,13 +264,65 @@ def test_the_reference_has_the_dictionary_s_objects_and_fields():
         assert re.findall(r"^\| (.*?) \|", tables[name], re.M) == re.findall(r"\\field (.*)", text), name
 
 
+def dictionary_fields():
+    """{object in lower case: ([{tag: [values]} of each field], whether the last field repeats)}."""
+    found = {}
+    for text in DICTIONARY.read_text(encoding="utf-8").split("\nGPUShading:")[1:]:
+        head, *parts = re.split(r"^ +[AN]\d+ *[,;] *(?=\\field)", text, flags=re.M)
+        fields = []
+        for part in parts:
+            tags = {}
+            for tag, value in re.findall(r"\\([\w-]+) ?(.*)", part):
+                tags.setdefault(tag, []).append(value)
+            fields.append(tags)
+        found[f"gpushading:{text.split(',')[0].lower()}"] = (fields, "\\extensible" in head)
+    return found
+
+
+def wrong_value(value, tags):
+    """Why a field of an example cannot have its value, or ""."""
+    if not value:
+        return "missing" if "required-field" in tags else ""
+    if value.lower() in map(str.lower, tags.get("key", [])):
+        return ""
+    kind = tags.get("type", ["alpha"])[0]
+    if kind == "choice":
+        return f"not one of {tags['key']}"
+    if kind in ("real", "integer"):
+        low, high = (float(tags.get(tag, [least])[0].strip("<> ")) for tag, least in
+                     (("minimum", "-inf"), ("maximum", "inf")))
+        if not re.fullmatch(r"[-+]?[\d.]+(e[-+]?\d+)?", value) or not low <= float(value) <= high:
+            return f"not a number from {low} to {high}"
+    return ""
+
+
+def test_objects_in_the_documents_are_those_of_the_dictionary():
+    known, seen = dictionary_fields(), set()
+    for page in PAGES:
+        for line, language, text, _ in blocks(page):
+            bare = re.sub(r"!.*", "", text if language == "idf" else
+                          "".join(re.findall(r"GPUShading:[^;']*;", text) if language == "sh" else []))
+            for written in filter(str.strip, bare.split(";")):
+                name, *values = (value.strip() for value in written.split(","))
+                if not name.lower().startswith("gpushading:"):
+                    continue
+                fields, repeats = known[name.lower()]
+                seen.add(name.lower())
+                assert len(values) <= len(fields) or repeats, f"{title(page)}:{line}: {written}"
+                values += [""] * (len(fields) - len(values))
+                for value, tags in zip(values, fields[:-1] if repeats else fields, strict=False):
+                    why = wrong_value(value, tags)
+                    assert not why, f"{title(page)}:{line}: {name}: {tags['field'][0]} {value!r}: {why}"
+    assert seen == set(known)
+
+
 def test_messages_are_the_program_s():
     """What the page on trouble quotes in its tables stands in the sources, three dots for what differs."""
     text = ""
     for source in sorted((ROOT / "energyplus_patch").rglob("*.cpp")) + sorted((ROOT / "gpu_shading").rglob("*.cpp")):
         # Literals that follow one another are one.
         text += re.sub(r'"\s*"', "", source.read_text(encoding="utf-8"))
-    rows = re.findall(r"^\| `(.*?)` \|", (ROOT / "energyplus_patch" / "docs" / "troubleshooting.md").read_text(), re.M)
+    rows = re.findall(r"^\| `(.*?)` \|", (MANUAL / "reference" / "messages.md").read_text(), re.M)
     assert len(rows) > 8
     for message in rows:
         for part in message.split("..."):
@@ -174,13 +331,13 @@ def test_messages_are_the_program_s():
 
 def test_the_pictures_are_used():
     used = "".join(page.read_text(encoding="utf-8") for page in PAGES)
-    for picture in (ROOT / "energyplus_patch" / "docs" / "pictures").iterdir():
+    for picture in (MANUAL / "pictures").iterdir():
         assert picture.name in used, picture
 
 
 @pytest.mark.parametrize("command", ["check", "view", "map", "export"])
 def test_options_of_gpu_shading_are_there(patched, command):
-    known = subprocess.run([patched.parent / "gpu_shading", command, "--help"], capture_output=True, text=True,
+    known = subprocess.run([patched.parent / "gpu_shading", command, "--help-all"], capture_output=True, text=True,
                            check=True).stdout
     named = {flag for page in PAGES for text in re.findall(rf"gpu_shading {command} [^`\n]*", page.read_text())
              for flag in re.findall(r"--[a-z-]+", text)}

@@ -104,7 +104,7 @@ def command(request, patched, model, weather, tmp_path_factory):
         "check": ([program, "check", model], []),
         "view": ([program, "view", model, "--at", "06-21 12:00", "--size", "64", "-o", folder / "picture.png"],
                  ["*.png"]),
-        "sample": ([program, "sample", model, "-w", weather, "-o", folder / "out", "--mode", "paper-coarse"],
+        "sample": ([program, "sample", model, "-w", weather, "-o", folder / "out", "--mode", "coarse"],
                    ["out/*.csv", "out/*.json", "out/parts/*.json"]),
         "export": ([program, "export", model, "-w", weather, "--scheduled", folder / "out"], ["out/**/*"]),
         "run": ([patched, "--gpu-shading", f"--gpu-shading-report={folder / 'report'}",

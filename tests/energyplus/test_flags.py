@@ -247,6 +247,17 @@ def test_quiet_leaves_warnings_and_the_error_file(shade, model):
     assert by_variable.completed and "gpu_shading: " not in by_variable.errors
 
 
+def test_stages_are_printed_in_verbose_runs_only(shade, model, tmp_path):
+    plain = shade(model, f"--gpu-shading-report={tmp_path / 'report'}")
+    assert plain.completed, plain.why()
+    assert "stage" not in plain.errors + plain.text("eplusout.err")
+    verbose = shade(model, "--gpu-shading-verbose")
+    stages = re.search(r"^gpu_shading: time by stage: (.*)$", verbose.errors, re.M)[1]
+    with (tmp_path / "report" / "stages.csv").open() as file:
+        names = [row.split(",")[0] for row in file.readlines()[1:]]
+    assert re.findall(r"(?:^|, )(.*?) [\d.]+ s", stages) == names
+
+
 # A thread is taken to compute from this many ticks of the scheduler's clock (1/100 s) on.
 TICKS = 4
 

@@ -49,7 +49,7 @@ def test_its_files_look_beside_themselves(installed):
 
 def test_pages_lead_to_one_another(installed):
     share = installed / "share" / "gpu_shading"
-    pages = [share / "README.md", *share.glob("*/README.md"), *share.glob("*/docs/*.md")]
+    pages = [share / "README.md", *share.glob("*/README.md"), *share.glob("*/docs/**/*.md")]
     assert len(pages) > 10
     for page in pages:
         for target in re.findall(r"\]\(([^)#:]+\.(?:md|png|jpg)|LICENSE)\b", page.read_text(encoding="utf-8")):
@@ -57,10 +57,11 @@ def test_pages_lead_to_one_another(installed):
                 assert (page.parent / target).exists(), f"{page.name}: {target}"
 
 
-def test_man_pages_have_every_option_of_the_readme(installed):
-    rows = re.findall(r"^\| `(--gpu-shading[\w-]*)", (ROOT / "README.md").read_text(encoding="utf-8"), re.M)
+def test_man_pages_have_every_option_of_the_manual(installed):
+    options = ROOT / "energyplus_patch" / "docs" / "reference" / "options.md"
+    rows = re.findall(r"^\| `(--gpu-shading[\w-]*)", options.read_text(encoding="utf-8"), re.M)
     assert len(rows) > 9
-    page = (installed / "share" / "man" / "man1" / "gpu_shading-check.1").read_text().replace("\\-", "-")
+    page = (installed / "share" / "man" / "man1" / "gpu_shading.1").read_text().replace("\\-", "-")
     assert all(flag in page for flag in rows)
 
 
@@ -76,6 +77,8 @@ def test_completion_offers_what_the_programs_know(installed, patched):
     assert set(completions(installed, program, "")) >= {"devices", "check", "view", "map", "sample", "export"}
     assert completions(installed, program, "exp") == ["export"]
     assert set(completions(installed, program, "view", "--r")) == {"--receiver"}
+    assert "--gpu-shading-device" in completions(installed, program, "view", "--gpu-shading-de")
+    assert completions(installed, program, "screen", "--gpu-shading-de") == []
     assert "--gpu-shading-device" in completions(installed, patched, "--gpu-shading-de")
     assert completions(installed, installed / "bin" / "patch_energyplus", "--f") == ["--force"]
 
@@ -90,7 +93,7 @@ def test_the_python_package_finds_its_library(installed):
 
 
 def test_the_licence_page_names_every_library(installed):
-    page = (ROOT / "energyplus_patch" / "docs" / "licences.md").read_text(encoding="utf-8").lower()
+    page = (ROOT / "energyplus_patch" / "docs" / "explanation" / "licences.md").read_text(encoding="utf-8").lower()
     linked = set().union(*(needed(path) for path in (installed / "libexec" / "gpu_shading").iterdir()))
     assert len(linked - SYSTEM) > 9
     for name in linked - SYSTEM - {"libenergyplusapi-official.so"}:

@@ -59,8 +59,8 @@ def test_a_comparison_does_not_print_names_as_commands(official, patched, box, m
 
 
 @pytest.mark.parametrize("arguments, variables, message", [
-    (("check", "model.idf", "--gpu-shading-report="), {}, '--gpu-shading-report is "", expected a folder'),
-    (("check", "model.idf", "--gpu-shading-file="), {}, '--gpu-shading-file is "", expected a file'),
+    (("check", "model.idf", "--gpu-shading-report="), {}, '--gpu-shading-report is blank, expected a folder'),
+    (("check", "model.idf", "--gpu-shading-file="), {}, '--gpu-shading-file is blank, expected a file'),
     (("check", "model.idf"), {"TMPDIR": "model.idf"},
      'TMPDIR is "model.idf", expected a folder for temporary files (Not a directory)'),
     (("check", "loop"), {}, "loop: Too many levels of symbolic links"),

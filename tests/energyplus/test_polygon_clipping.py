@@ -1,7 +1,7 @@
 """Where EnergyPlus's polygon clipping is wrong: the smallest cases, against exact areas.
 
 A window of 3 x 3 m and shades parallel to it, so that a shadow is the shade's own outline, moved; the union of
-rectangles is exact. docs/accuracy.md has the figures that are printed here.
+rectangles is exact. docs/explanation/accuracy.md has the figures that are printed here.
 """
 
 import itertools

@@ -259,7 +259,7 @@ def test_driver_goes_on_with_other_models(patched, box_model, weather, tmp_path)
     pytest.importorskip("distributed", reason="Dask is missing: run scripts/setup")
     (tmp_path / "bad.idf").write_text("Version,24.1;\n")
     status, output, errors = Driver([tmp_path / "bad.idf", box_model, "-w", weather, "-o", tmp_path / "out",
-                                     "--shards", 1, "--workers", 2, "--mode", "paper-coarse"]).finish()
+                                     "--shards", 1, "--workers", 2, "--mode", "coarse"]).finish()
     assert status == 1
     assert output.split() == [str(tmp_path / "out" / "box")]
     assert re.findall(r"sample_models: bad.*", errors) == [line for line in errors.splitlines() if "bad" in line]
@@ -274,14 +274,14 @@ def last_line(done):
 
 
 def test_parts_of_another_model_are_not_taken(patched, box_model, louvres, weather, tmp_path):
-    arguments = [box_model, "-w", weather, "-o", tmp_path / "out", "--mode", "paper-coarse", RESOLUTION]
+    arguments = [box_model, "-w", weather, "-o", tmp_path / "out", "--mode", "coarse", RESOLUTION]
     assert program(arguments).returncode == 0
     before = (tmp_path / "out" / "year.csv").read_bytes()
     again = program(arguments)
     assert "0 directions rendered" in again.stderr
     box_model.write_text(louvres(20))
     refusal = last_line(program([*arguments, "--merge", "1"]))
-    assert "parts/round1-shard1of1.json: belongs to paper-coarse samples" in refusal
+    assert "parts/round1-shard1of1.json: belongs to coarse samples" in refusal
     assert (tmp_path / "out" / "year.csv").read_bytes() == before
     assert program(arguments).returncode == 0
     assert (tmp_path / "out" / "year.csv").read_bytes() != before

@@ -12,7 +12,6 @@ import subprocess
 import pytest
 from eso_file import EsoFile
 from shading_runs import energyplus, input_file, results
-from shading_runs.weather import move
 
 LATITUDES = (0.0, 42.0, 66.5, 80.0, -35.0)
 LONGITUDE, ZONE = -105.18, -7.0  # of the weather file
@@ -23,7 +22,7 @@ NORTH_AXIS = (1, "north_axis")
 @pytest.fixture
 def weather_at(weather, tmp_path):
     """The weather file moved to another latitude."""
-    return lambda latitude: move(weather, latitude, tmp_path)
+    return lambda latitude: energyplus.move_weather(weather, latitude, tmp_path)
 
 
 def of_days(text, days):
@@ -39,11 +38,11 @@ def of_days(text, days):
 def shade(patched, tmp_path):
     """Runs a model with an update; its results at every timestep."""
 
-    def call(model, weather, update):
+    def call(model, weather, update, *options):
         model = model.copy()
         results.instrument(model, "Timestep")
         model.write(tmp_path / "model.idf")
-        flags = ["--gpu-shading", "--gpu-shading-resolution=128", f"--gpu-shading-update={update}"]
+        flags = ["--gpu-shading", "--gpu-shading-resolution=128", f"--gpu-shading-update={update}", *options]
         shutil.rmtree(tmp_path / "run", ignore_errors=True)
         run = energyplus.run(patched, tmp_path / "model.idf", weather, tmp_path / "run", flags)
         assert run.completed, run.why()
@@ -75,8 +74,8 @@ def test_turned_building_and_the_papers_grid(shade, weather_at, courtyard):
     model.set_field("Building", NORTH_AXIS, "35")
     weather = weather_at(42.0)
     _, exact = shade(model, weather, "timestep")
-    ours, paper = (mean_of(results.differences(exact, shade(model, weather, f"sampled:{name}")[1]))
-                   for name in ("medium", "paper-medium"))
+    ours, paper = (mean_of(results.differences(exact, shade(model, weather, "sampled:medium", *options)[1]))
+                   for options in ([], ["--gpu-shading-paper-grid"]))
     assert ours < 5e-3
     assert ours < paper / 3
 

@@ -235,7 +235,7 @@ def test_the_documents_show_what_is_printed(patched, tmp_path):
     done = subprocess.run([patched.parent / "gpu_shading", "screen", "room.idf", "Sheet"], capture_output=True,
                           text=True, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
-    page = energyplus.REPOSITORY / "energyplus_patch" / "docs" / "running.md"
+    page = energyplus.REPOSITORY / "energyplus_patch" / "docs" / "guides" / "screens.md"
     assert f"```text\n{done.stdout}```\n" in page.read_text()
 
 

@@ -18,7 +18,7 @@ COMMANDS = {
     "map": ["gpu_shading", "map", "model.idf", "-w", "weather", "--from", "06-21", "--to", "06-21", "--receivers",
             "South*", "-o", "maps"],
     "screen": ["gpu_shading", "screen", "model.idf", "-o", "screens"],
-    "sample": ["gpu_shading", "sample", "model.idf", "-w", "weather", "-o", "samples", "--mode", "paper-coarse"],
+    "sample": ["gpu_shading", "sample", "model.idf", "-w", "weather", "-o", "samples", "--mode", "coarse"],
     "export": ["gpu_shading", "export", "model.idf", "-w", "weather", "--scheduled", "exported"],
     "run": ["energyplus", "--gpu-shading", "-D", "-w", "weather", "-d", "out", "--gpu-shading-report=report",
             "model.idf"],

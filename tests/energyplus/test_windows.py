@@ -127,7 +127,7 @@ def test_the_library_alone(wine, dropped_in, patched, weather, write_model, tmp_
     assert_same_building(linux, ours)
 
 
-# Whether polygon clipping is right there (docs/accuracy.md).
+# Whether polygon clipping is right there (docs/explanation/accuracy.md).
 @pytest.mark.parametrize("name, clips", [
     ("courtyard", True), ("canopy", False), ("screened room", False), ("20 louvres", False), ("1000 louvres", False),
     ("SolarShadingTest", True), ("SolarShadingTest_DisableSelfShadingGroup", True), ("GeometryTest", True),

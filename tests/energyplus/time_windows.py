@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Times a year of a box behind 1, 20, 200 and 1,000 louvres in Windows: by polygon clipping, with opengl32.dll alone,
-and with --gpu-shading. Prints the seconds that EnergyPlus reports, and ratios, as the table in docs/windows.md.
+and with --gpu-shading. Prints the seconds that EnergyPlus reports, and ratios, as the table in docs/guides/windows.md.
 
     tests/energyplus/time_windows.py [--repeat 2] [--louvres 1 20 200 1000] [--days 365]
 

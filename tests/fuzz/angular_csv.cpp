@@ -1,6 +1,5 @@
-#include "gpu_shading/angular_csv.h"
-
 #include "fuzz.h"
+#include "gpu_shading/transmittance.h"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   using namespace gpu_shading::energyplus;

@@ -1,7 +1,7 @@
 #include <span>
 #include <vector>
 
-#include "answers/answer_file.h"
+#include "answers/cache_encoding.h"
 #include "fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   auto const bytes = std::as_bytes(std::span(data, size));
   constexpr Hash scene{};
   try_to([&] { decode(bytes, scene); });
-  auto const empty = encode(AnswerSet(), scene);
+  auto const empty = encode(SceneAnswers(), scene);
   constexpr std::size_t head = 8 + sizeof(std::uint32_t) + sizeof(Hash);
   std::vector<std::byte> file(empty.begin(), empty.begin() + head);
   file.insert(file.end(), bytes.begin(), bytes.end());

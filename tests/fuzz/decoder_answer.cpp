@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "files/decoding/answer.h"
+#include "files/decoding/decoded_message.h"
 #include "files/image_file.h"
 #include "files/mesh_file.h"
 #include "fuzz.h"
@@ -48,7 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   std::string answer;
   if ((kind & 4U) != 0) {
     constexpr auto done = decoding::Status::done;
-    answer.append(reinterpret_cast<char const*>(&decoding::answer_mark), sizeof(std::uint32_t));
+    answer.append(reinterpret_cast<char const*>(&decoding::message_mark), sizeof(std::uint32_t));
     answer.append(reinterpret_cast<char const*>(&done), sizeof done);
   }
   auto const path = file_of(answer.append(rest), "answer.obj");

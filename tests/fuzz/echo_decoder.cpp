@@ -28,5 +28,5 @@ using namespace gpu_shading::decoding;
 }  // namespace
 
 int main() {
-  _exit(run_decoder(false, [](Request const& /*request*/, Answer& /*answer*/) { echo(); }));
+  _exit(run_decoder(false, [](Request const& /*request*/, DecodedMessage& /*answer*/) { echo(); }));
 }

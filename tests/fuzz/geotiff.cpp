@@ -1,4 +1,3 @@
-#include "model/site/geotiff.h"
 
 #include "fuzz.h"
 #include "model/site/terrain_file.h"

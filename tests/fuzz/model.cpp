@@ -4,10 +4,10 @@
 
 #include "calculation/session.h"
 #include "fuzz.h"
+#include "gpu_shading/device.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/polygon.h"
 #include "gpu_shading/sun_position.h"
-#include "gpu_shading/threads.h"
 #include "model/shading_outlines.h"
 
 // What a model's objects say, from their fields to sunlit areas: the values that the reader of the
@@ -21,7 +21,7 @@ Choices quick_choices(Lean lean) {
   choices.mode = Mode::automatic;
   choices.error = 0.05;
   choices.update = Update();
-  choices.device = DeviceChoice{.kind = DeviceChoice::Kind::cpu};
+  choices.device = DeviceChoice{DeviceId{}};
   choices.cache = std::filesystem::path();
   choices.quiet = true;
   return choices;
@@ -97,7 +97,7 @@ void render(std::vector<InputObject> const& objects, Model model) {
   Schedules const schedules{[](std::string const&) { return std::pair(0.0, 1.0); },
                             [](std::string const&, Moment moment) { return moment.hour / 24.0; }};
   auto const ignore = [](std::string const&) {};
-  session.start({ignore, ignore, ignore}, schedules, [] { return 0.8; });
+  session.start({{ignore, ignore, ignore}, schedules, [] { return 0.8; }});
   session.set_time({9, 1});
   for (double const altitude : {0.6, 0.01}) ask_for_areas(session, {2.5, altitude});
   ask_for_rays(session, {2.5, 0.6});

@@ -1,4 +1,3 @@
-#include "model/idf/side_file.h"
 
 #include "fuzz.h"
 #include "model/idf/extension_objects.h"

@@ -1,7 +1,7 @@
 #include "model/site/weather_header.h"
 
 #include "fuzz.h"
-#include "model/site/calendar_date.h"
+#include "model/site/site_clock.h"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   using namespace gpu_shading::energyplus;

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <ostream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,27 +16,36 @@
 // Casters of each kind that a back end treats in its own way.
 namespace gpu_shading {
 
-enum class CasterKind { opaque, transparent, screen, scheduled, scheduled_screen };
+struct CasterKind {
+  char const* name;
+  BeamFilter filter;
+};
 
-inline constexpr CasterKind caster_kinds[] = {CasterKind::opaque, CasterKind::transparent,
-                                              CasterKind::screen, CasterKind::scheduled,
-                                              CasterKind::scheduled_screen};
+inline void PrintTo(CasterKind const& kind, std::ostream* out) { *out << kind.name; }
+
+inline std::vector<CasterKind> const& caster_kinds() {
+  static std::vector<CasterKind> const kinds = [] {
+    FilterFactor const glass = AngularTransmittance{
+        std::make_shared<Transmittance const>(Transmittance::polynomial_in_cosine({0.1, 0.5}))};
+    FilterFactor const mesh = PerforatedSheet{std::make_shared<PerforatedScreen const>(
+        HolePattern({.size = 0.1, .pitch = 0.14}), Sheet{.thickness = 0.01})};
+    return std::vector<CasterKind>{
+        {"opaque", {}},         {"transparent", {{glass}}},        {"screen", {{mesh}}},
+        {"scheduled", {{}, 0}}, {"scheduled screen", {{mesh}, 0}},
+    };
+  }();
+  return kinds;
+}
+
+inline CasterKind const& caster_kind(std::string_view name) {
+  return *std::find_if(caster_kinds().begin(), caster_kinds().end(),
+                       [&](CasterKind const& kind) { return kind.name == name; });
+}
 
 // Makes a surface a caster of a kind.
-inline void finish(Surface& surface, CasterKind kind, int schedule) {
-  static auto const glass =
-      std::make_shared<Transmittance const>(Transmittance::polynomial_in_cosine({0.1, 0.5}));
-  static auto const mesh = [] {
-    HolePattern const holes(
-        {.hole = Hole::Round, .arrangement = Arrangement::Staggered60, .size = 0.1, .pitch = 0.14});
-    return std::make_shared<PerforatedScreen const>(holes, Sheet{.thickness = 0.01});
-  }();
-  bool const screened = kind == CasterKind::screen || kind == CasterKind::scheduled_screen;
-  if (kind == CasterKind::transparent) surface.transmittance = glass;
-  if (screened) surface.screen = mesh;
-  if (kind == CasterKind::scheduled || kind == CasterKind::scheduled_screen) {
-    surface.schedule = schedule;
-  }
+inline void finish(Surface& surface, CasterKind const& kind, int schedule) {
+  surface.filter = kind.filter;
+  if (kind.filter.schedule >= 0) surface.filter.schedule = schedule;
 }
 
 // A random scene on a site with others.
@@ -45,7 +57,7 @@ struct Lot {
 
 // Adds random scenes side by side, each 50 m east of the one before. Two of three casters are of
 // the kind, and the others are opaque.
-inline std::vector<Lot> add_lots(Scene& scene, std::uint32_t count, CasterKind kind) {
+inline std::vector<Lot> add_lots(Scene& scene, std::uint32_t count, CasterKind const& kind) {
   std::vector<Lot> lots;
   for (std::uint32_t seed = 1; seed <= count; ++seed) {
     RandomScene const random = random_scene(seed);

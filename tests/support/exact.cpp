@@ -114,13 +114,14 @@ struct Part {
 };
 
 double let_through(Surface const& surface, SunDirection sun, std::span<double const> factors) {
-  if (!surface.transmittance && surface.schedule < 0) return 0.0;
+  if (!surface.filter.transmits()) return 0.0;
   double through = 1.0;
-  if (surface.transmittance) {
+  if (auto const* const shade = surface.filter.find<AngularTransmittance>()) {
     double const cosine = glm::dot(glm::normalize(newell(surface.polygon.outline)), to_vector(sun));
-    through *= (*surface.transmittance)(std::acos(std::min(1.0, std::abs(cosine))));
+    through *= (*shade->model)(std::acos(std::min(1.0, std::abs(cosine))));
   }
-  if (surface.schedule >= 0) through *= factors[static_cast<std::size_t>(surface.schedule)];
+  if (surface.filter.schedule >= 0)
+    through *= factors[static_cast<std::size_t>(surface.filter.schedule)];
   return through;
 }
 

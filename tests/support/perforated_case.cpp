@@ -65,8 +65,7 @@ Scene PerforatedCase::scene(std::shared_ptr<PerforatedScreen const> screen) cons
   Scene scene;
   scene.add({"receiver", receiver});
   Surface surface{"sheet", sheet};
-  surface.screen = std::move(screen);
-  surface.placement = placement;
+  surface.filter.set(PerforatedSheet{std::move(screen), placement});
   scene.add(surface);
   return scene;
 }

@@ -34,8 +34,8 @@ Scene RegularShades::scene() const {
                                                   {0, -depth * pitch(), rise * pitch()});
     Surface surface{"blade", blade};
     if (transmittance > 0.0) {
-      surface.transmittance =
-          std::make_shared<Transmittance const>(Transmittance::constant(transmittance));
+      surface.filter.set(AngularTransmittance{
+          std::make_shared<Transmittance const>(Transmittance::constant(transmittance))});
     }
     scene.add(surface);
   }

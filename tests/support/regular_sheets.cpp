@@ -136,10 +136,11 @@ Scene RegularSheets::scene(ScreenDetail detail) const {
   scene.add({"receiver", south_facing(0, 0, 0, width_, height_)});
   for (Sheet const& sheet : sheets_) {
     Surface surface{"sheet", polygon(sheet)};
-    surface.screen = std::make_shared<PerforatedScreen const>(
-        HolePattern(sheet.holes),
-        gpu_shading::Sheet{.thickness = sheet.thickness, .detail = detail});
-    surface.placement.rotation = sheet.rotation;
+    surface.filter.set(
+        PerforatedSheet{std::make_shared<PerforatedScreen const>(
+                            HolePattern(sheet.holes),
+                            gpu_shading::Sheet{.thickness = sheet.thickness, .detail = detail}),
+                        {.rotation = sheet.rotation}});
     scene.add(surface);
   }
   return scene;

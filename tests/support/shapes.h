@@ -32,8 +32,8 @@ inline Sunlit sunlit(Renderer& renderer, SunDirection sun, SurfaceId receiver) {
 }
 
 // Rasterised by OpenGL, on the first device, where misuse of OpenGL is an error; and on the CPU.
-inline constexpr DeviceChoice by_opengl{DeviceChoice::Kind::index, 0, true};
-inline constexpr DeviceChoice on_cpu{DeviceChoice::Kind::cpu, 0};
+inline constexpr DeviceChoice by_opengl{numbered_device(0), true};
+inline constexpr DeviceChoice on_cpu{DeviceId{}};
 
 inline Renderer renderer_of(Scene scene, int resolution = 512, DeviceChoice device = {}) {
   RendererOptions options;

@@ -38,10 +38,10 @@ inline Surface sheet_of(SheetCase const& one, SheetForm form) {
                     .layers = one.layers,
                     .detail = ScreenDetail::holes};
   Surface surface{"sheet", level(-0.5, -0.5, 0, 1, 1)};
-  surface.screen = form == SheetForm::pattern
-                       ? std::make_shared<PerforatedScreen const>(holes, sheet)
-                       : std::make_shared<PerforatedScreen const>(OpacityTile(holes, 1e-3), sheet);
-  surface.placement = {.origin_u = 0.5, .origin_v = 0.5};
+  auto screen = form == SheetForm::pattern
+                    ? std::make_shared<PerforatedScreen const>(holes, sheet)
+                    : std::make_shared<PerforatedScreen const>(OpacityTile(holes, 1e-3), sheet);
+  surface.filter.set(PerforatedSheet{std::move(screen), {.origin_u = 0.5, .origin_v = 0.5}});
   return surface;
 }
 inline glm::dvec3 towards_sun_of(SheetCase const& one) {

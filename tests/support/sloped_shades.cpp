@@ -92,14 +92,15 @@ Scene SlopedShades::scene() const {
   for (Ring const& ring : rings) {
     Surface surface{"shade", {ring, {}}};
     if (beam == Beam::glass) {
-      surface.transmittance = std::make_shared<Transmittance const>(Transmittance::constant(0.6));
+      surface.filter.set(AngularTransmittance{
+          std::make_shared<Transmittance const>(Transmittance::constant(0.6))});
     }
-    if (beam == Beam::scheduled) surface.schedule = 0;
+    if (beam == Beam::scheduled) surface.filter.schedule = 0;
     if (beam == Beam::screen) {
-      surface.screen = std::make_shared<PerforatedScreen const>(
+      surface.filter.set(PerforatedSheet{std::make_shared<PerforatedScreen const>(
           HolePattern(
               {.arrangement = Arrangement::Straight, .size = hole, .pitch = pitch_of_holes}),
-          Sheet{.thickness = 0.0, .detail = ScreenDetail::effective});
+          Sheet{.thickness = 0.0, .detail = ScreenDetail::effective})});
     }
     scene.add(surface);
   }

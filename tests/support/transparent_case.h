@@ -20,8 +20,10 @@ inline Transmittance two_panes() {
 inline Scene transparent_case() {
   Scene scene;
   scene.add({"receiver", level(0, 0, 0, 1, 1)});
-  scene.add({"shade", level(0, 0, 0.1, 1, 1), Casting::always,
-             std::make_shared<Transmittance const>(two_panes())});
+  scene.add({"shade",
+             level(0, 0, 0.1, 1, 1),
+             Casting::always,
+             {{AngularTransmittance{std::make_shared<Transmittance const>(two_panes())}}}});
   return scene;
 }
 

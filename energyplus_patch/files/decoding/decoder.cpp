@@ -164,7 +164,7 @@ bool is_lack_of_memory(std::system_error const& error) {
 }
 
 int decode_file(std::vector<std::string> const& words, bool reads_neighbours,
-                std::function<void(Request const&, Answer&)> const& decode) {
+                std::function<void(Request const&, DecodedMessage&)> const& decode) {
   if (words.size() != word_count) return EXIT_FAILURE;
   end_with(std::atoi(words[0].c_str()));
   closefrom(STDERR_FILENO + 1);  // the program that started this one may have left files open
@@ -172,7 +172,7 @@ int decode_file(std::vector<std::string> const& words, bool reads_neighbours,
   auto const limits = within_given(
       {std::strtoull(words[1].c_str(), nullptr, 10), std::strtoull(words[2].c_str(), nullptr, 10)});
   Request const request{words[3], words[5], words[4] == "any"};
-  Answer answer(STDOUT_FILENO);
+  DecodedMessage answer(STDOUT_FILENO);
   std::string why;
   try {
     auto const folder = std::filesystem::absolute(request.name).parent_path();
@@ -202,7 +202,8 @@ int decode_file(std::vector<std::string> const& words, bool reads_neighbours,
 
 }  // namespace
 
-int run_decoder(bool reads_neighbours, std::function<void(Request const&, Answer&)> const& decode) {
+int run_decoder(bool reads_neighbours,
+                std::function<void(Request const&, DecodedMessage&)> const& decode) {
   return serve([&](std::vector<std::string> const& words) {
     return decode_file(words, reads_neighbours, decode);
   });

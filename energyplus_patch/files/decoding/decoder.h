@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "files/decoding/answer.h"
+#include "files/decoding/decoded_message.h"
 #include "files/decoding/sandbox.h"
 
 // A decoding program is started once and then decodes each file in a process of its own, since
@@ -39,6 +39,7 @@ struct Request {
 // The body of a decoding program's main(), which serves requests of the words PARENT SECONDS BYTES
 // OPERATION any|restricted NAME. `decode` puts its answer, or throws std::exception with the
 // reason. `reads_neighbours`: whether it reads files beside the file. Returns the exit status.
-int run_decoder(bool reads_neighbours, std::function<void(Request const&, Answer&)> const& decode);
+int run_decoder(bool reads_neighbours,
+                std::function<void(Request const&, DecodedMessage&)> const& decode);
 
 }  // namespace gpu_shading::decoding

@@ -20,20 +20,20 @@ namespace {
 
 using namespace gpu_shading::decoding;
 
-void put(Answer& answer, ImageHeader const& header) {
+void put(DecodedMessage& answer, ImageHeader const& header) {
   for (auto const value : {header.width, header.height, header.channels, header.alpha}) {
     answer.put(value);
   }
 }
 
-void put(Answer& answer, ElevationHeader const& header) {
+void put(DecodedMessage& answer, ElevationHeader const& header) {
   for (auto const value : {header.columns, header.rows, header.epsg}) answer.put(value);
   for (auto const value : {header.x, header.y, header.step_x, header.step_y}) {
     answer.put(value);
   }
 }
 
-void decode(Request const& request, Answer& answer) {
+void decode(Request const& request, DecodedMessage& answer) {
   // Here, since that makes OpenImageIO's pool of threads, which a fork would not have.
   OIIO::attribute("threads", 1);
   OIIO::attribute("exr_threads", -1);

@@ -13,7 +13,7 @@ namespace {
 
 using namespace gpu_shading::decoding;
 
-void decode(Request const& request, Answer& answer) {
+void decode(Request const& request, DecodedMessage& answer) {
   auto const parts = read_mesh_parts({input_path, request.name, request.any});
   answer.put(std::uint64_t{parts.size()});
   for (auto const& part : parts) {

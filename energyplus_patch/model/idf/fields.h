@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/extensions/field_text.h"
+#include "model/extensions/field.h"
 #include "model/idf/input_object.h"
 
 // Reading an object's fields. Every function throws Error: field, value, what was expected; the

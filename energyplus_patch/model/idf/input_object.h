@@ -17,12 +17,12 @@ struct InputObject {
   // The extensible part of ZoneList, ShadowCalculation, ...; for vertices, x, y and z one after
   // another.
   std::vector<std::string> list;
-  std::string file = {};  // it was read from; "" where that is not known
+  std::string file = {};  // of the object; "" if unknown
 
   // The field's text, "" if it is blank or absent.
   std::string const& operator[](std::string_view field) const;
 
-  // "TYPE NAME"; "TYPE" where it has no name.
+  // "TYPE NAME", or "TYPE" for types without a name.
   std::string title() const;
   // "FILE: TYPE NAME", as errors begin.
   std::string where() const;

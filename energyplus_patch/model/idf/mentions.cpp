@@ -24,23 +24,23 @@ class Search {
  public:
   explicit Search(Names const& names) : names_(names) {}
 
-  void look(std::string const& text, std::string const& type) {
+  void add(std::string const& text, std::string const& type) {
     if (text.empty()) return;
     auto name = upper(text);
     if (names_.contains(name)) found_.try_emplace(std::move(name), type);
   }
 
-  void look(nlohmann::json const& value, std::string const& type) {
+  void add(nlohmann::json const& value, std::string const& type) {
     if (value.is_string()) {
-      look(value.get_ref<std::string const&>(), type);
+      add(value.get_ref<std::string const&>(), type);
     } else if (value.is_number()) {
-      look(value.dump(), type);
+      add(value.dump(), type);
     } else if (value.is_structured()) {
-      for (auto const& item : value) look(item, type);
+      for (auto const& item : value) add(item, type);
     }
   }
 
-  Mentions take() { return std::move(found_); }
+  Mentions found() { return std::move(found_); }
 
  private:
   Names const& names_;
@@ -55,10 +55,10 @@ Mentions find_mentions(std::vector<IdfObject> const& objects, Names const& names
     auto const reading = reading_of(object.type);
     if (reading == Reading::none) continue;
     for (std::size_t i = reading == Reading::all ? 0 : 1; i < object.fields.size(); ++i) {
-      search.look(object.fields[i], object.type);
+      search.add(object.fields[i], object.type);
     }
   }
-  return search.take();
+  return search.found();
 }
 
 Mentions find_mentions(nlohmann::json const& model, Names const& names) {
@@ -67,11 +67,11 @@ Mentions find_mentions(nlohmann::json const& model, Names const& names) {
     auto const reading = reading_of(type);
     if (reading == Reading::none || !instances.is_object()) continue;
     for (auto const& [name, fields] : instances.items()) {
-      if (reading == Reading::all) search.look(name, type);
-      search.look(fields, type);
+      if (reading == Reading::all) search.add(name, type);
+      search.add(fields, type);
     }
   }
-  return search.take();
+  return search.found();
 }
 
 }  // namespace gpu_shading::energyplus

@@ -9,7 +9,6 @@
 #include "gpu_shading/error.h"
 #include "model/idf/idf_text.h"
 #include "model/idf/input_object.h"
-#include "model/idf/json_text.h"
 #include "model/idf/model_file.h"
 #include "platform/files.h"
 #include "platform/text.h"

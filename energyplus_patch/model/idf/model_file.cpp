@@ -9,7 +9,6 @@
 
 #include "gpu_shading/error.h"
 #include "model/idf/extension_objects.h"
-#include "model/idf/json_text.h"
 #include "platform/files.h"
 #include "platform/naming.h"
 #include "platform/text.h"
@@ -77,8 +76,8 @@ InputObject from_epjson(ObjectType const& type, std::string const& name,
   }
   // In epJSON, each layer of a construction is a separate field.
   if (type.type == "Construction") {
-    constexpr int most_layers = 10;
-    for (int layer = 1; layer <= most_layers; ++layer) {
+    constexpr int max_layers = 10;
+    for (int layer = 1; layer <= max_layers; ++layer) {
       auto const field = layer == 1 ? "outside_layer" : fmt::format("layer_{}", layer);
       if (fields.contains(field)) object.list.push_back(text_of(fields.at(field)));
     }
@@ -158,8 +157,13 @@ std::vector<InputObject> read_objects(std::filesystem::path const& path) {
   });
 }
 
+std::string text_of(nlohmann::json const& value) {
+  constexpr auto replace = nlohmann::json::error_handler_t::replace;
+  return value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, replace);
+}
+
 nlohmann::json parse_epjson(std::string_view text) {
-  constexpr int most_depth = 100;
+  constexpr int max_depth = 100;
   // Keys of extension objects at the depths of types, of names, and of fields and below.
   std::vector<std::set<std::string>> keys;
   std::string title;
@@ -167,7 +171,7 @@ nlohmann::json parse_epjson(std::string_view text) {
   auto const watch = [&](int depth, nlohmann::json::parse_event_t event,
                          nlohmann::json const& parsed) {
     auto const level = static_cast<std::size_t>(depth);
-    if (depth > most_depth) throw Error(fmt::format("is nested more than {} deep", most_depth));
+    if (depth > max_depth) throw Error(fmt::format("is nested more than {} deep", max_depth));
     // Its keys come a level deeper.
     if (event == nlohmann::json::parse_event_t::object_start) keys.resize(level + 1);
     if (event != nlohmann::json::parse_event_t::key) return true;

@@ -19,6 +19,9 @@ std::vector<InputObject> read_idf(std::string_view text);
 std::vector<InputObject> read_idf(std::vector<IdfObject> const& parsed);
 std::vector<InputObject> read_epjson(nlohmann::json const& model);
 
+// A string's characters; other values as JSON.
+std::string text_of(nlohmann::json const& value);
+
 // Parses epJSON. Throws Error where it is none, and where an extension object or one of its fields
 // is given twice, of which all but the last would be lost.
 nlohmann::json parse_epjson(std::string_view text);

@@ -41,7 +41,7 @@ class Maker {
     made_.push_back({name, schedule, quarter});
   }
 
-  std::vector<Placeholder> take() { return std::move(made_); }
+  std::vector<Placeholder>& made() { return made_; }
 
  private:
   Names const& taken_;
@@ -56,13 +56,13 @@ std::vector<Placeholder> make_placeholders(std::vector<std::string> const& sched
   Maker maker(taken);
   for (int quarter = 0; quarter < 4; ++quarter) maker.add("", quarter);
   for (auto const& schedule : schedules) maker.add(schedule, 0);
-  return maker.take();
+  return std::move(maker.made());
 }
 
 Placeholder make_sky_placeholder(Names const& taken) {
   Maker maker(taken);
   maker.add(sky_schedule, 0);
-  return maker.take().front();
+  return maker.made().front();
 }
 
 bool needs_sky_schedule(std::vector<Placeholder> const& placeholders) {

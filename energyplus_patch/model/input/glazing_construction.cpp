@@ -1,8 +1,7 @@
-#include "model/input/glazing_construction.h"
-
 #include <fmt/format.h>
 
 #include "gpu_shading/error.h"
+#include "model/input/transparent_shades.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {

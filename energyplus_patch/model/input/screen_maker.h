@@ -48,8 +48,7 @@ class ScreenMaker {
  public:
   using Holes = std::variant<HolePattern, ScreenTexture>;
 
-  // `where`: what errors begin with. Everything is checked but what only the image's texels can
-  // tell.
+  // `where`: the start of errors. Checks everything except the image's texels.
   ScreenMaker(std::string object, std::string where, Holes holes, Sheet const& sheet,
               ScreenPlacement const& placement);
 

@@ -41,26 +41,26 @@ std::string release(std::string_view version) {
 
 void read_shadow_calculation(InputObject const& object, ShadingInput& input) {
   input.shading_method = object["shading_calculation_method"];
-  // Tools write a resolution beside PolygonClipping, without meaning it.
+  // Tools also write a resolution with PolygonClipping, where it means nothing.
   auto const& text = object["pixel_counting_resolution"];
   if (!text.empty() && same_name(input.shading_method, "PixelCounting")) {
-    constexpr int most = 65536;
+    constexpr int max_resolution = 65536;
     auto const value = parse_number(text);
-    if (!value || *value < 1.0 || *value > most) {
+    if (!value || *value < 1.0 || *value > max_resolution) {
       throw Error(
           fmt::format("ShadowCalculation: Pixel Counting Resolution is {}, expected a number from "
                       "1 to {}",
-                      in_quotes(text), most));
+                      in_quotes(text), max_resolution));
     }
     input.pixel_counting_resolution = static_cast<int>(*value);
   }
   input.every_timestep =
       same_name(object["shading_calculation_update_frequency_method"], "Timestep");
-  constexpr double least_days = 1.0;
-  constexpr double most_days = 366.0;
+  constexpr double min_days = 1.0;
+  constexpr double max_days = 366.0;
   auto const days = parse_number(object["shading_calculation_update_frequency"]);
   if (days) {
-    input.update_days = static_cast<int>(std::clamp(*days, least_days, most_days));
+    input.update_days = static_cast<int>(std::clamp(*days, min_days, max_days));
   }
   input.detailed_sky =
       same_name(object["sky_diffuse_modeling_algorithm"], "DetailedSkyDiffuseModeling");
@@ -106,7 +106,7 @@ void read_reflectances(std::vector<InputObject> const& objects, ShadingInput& in
   }
 }
 
-// What outputs and EMS sensors name.
+// Surfaces that outputs and EMS sensors name.
 struct Named {
   std::set<std::string> names;  // upper case
   std::vector<std::regex> patterns;

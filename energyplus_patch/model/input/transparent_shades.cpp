@@ -6,11 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "gpu_shading/angular_csv.h"
 #include "gpu_shading/error.h"
+#include "gpu_shading/transmittance.h"
 #include "model/extensions/extension_fields.h"
 #include "model/idf/fields.h"
-#include "model/input/glazing_construction.h"
 #include "platform/naming.h"
 #include "platform/text.h"
 
@@ -114,22 +113,10 @@ void add_object(InputObject const& object, std::vector<InputObject> const& objec
   auto const visible = made.visible
                            ? std::make_shared<Transmittance const>(std::move(*made.visible))
                            : transmittance;
-  auto const pattern = read(object, field::surface_name);
-  bool found = false;
-  for (auto const& [surface, unused] : input.shading_surfaces) {
-    if (!matches(pattern, surface)) continue;
-    found = true;
-    auto const [place, added] = shades.by_surface.try_emplace(
-        surface, TransparentShade{object.name, made.description, transmittance, visible});
-    if (!added) {
-      throw Error(fmt::format("{} {}: {} is named by {} already", field::surface_name.title,
-                              in_quotes(pattern), surface, place->second.object));
-    }
-  }
-  if (!found) {
-    throw Error(fmt::format("{} is {}, which no shading surface of the model matches",
-                            field::surface_name.title, in_quotes(pattern)));
-  }
+  add_filter(field::surface_name.title, read(object, field::surface_name),
+             {object.name, fmt::format("transparent ({})", made.description),
+              AngularTransmittance{transmittance}, AngularTransmittance{visible}},
+             input, shades);
 }
 
 }  // namespace
@@ -143,6 +130,24 @@ TransparentShades read_transparent_shades(std::vector<InputObject> const& object
     naming(object.where(), [&] { add_object(object, objects, input, folder, shades); });
   }
   return shades;
+}
+
+void add_filter(std::string_view field, std::string const& pattern, TransparentShade const& filter,
+                ShadingInput const& input, TransparentShades& shades) {
+  bool found = false;
+  for (auto const& [surface, unused] : input.shading_surfaces) {
+    if (!matches(pattern, surface)) continue;
+    found = true;
+    auto const [place, added] = shades.by_surface.try_emplace(surface, filter);
+    if (!added) {
+      throw Error(fmt::format("{} {}: {} is named by {} already", field, in_quotes(pattern),
+                              surface, place->second.object));
+    }
+  }
+  if (!found) {
+    throw Error(fmt::format("{} is {}, which no shading surface of the model matches", field,
+                            in_quotes(pattern)));
+  }
 }
 
 }  // namespace gpu_shading::energyplus

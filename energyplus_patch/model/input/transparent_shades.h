@@ -2,10 +2,11 @@
 
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "gpu_shading/beam_filter.h"
 #include "gpu_shading/transmittance.h"
 #include "model/idf/input_object.h"
 #include "model/input/shading_input.h"
@@ -15,9 +16,9 @@ namespace gpu_shading::energyplus {
 // The GPUShading:TransparentShade of a surface.
 struct TransparentShade {
   std::string object;       // its name
-  std::string description;  // description of the model, e.g. "construction Double Clear"
-  std::shared_ptr<Transmittance const> transmittance;  // for solar radiation
-  std::shared_ptr<Transmittance const> visible;        // for light; may be the same object
+  std::string description;  // e.g. "transparent (construction Double Clear)"
+  FilterFactor solar;
+  FilterFactor visible;  // for light; may share its model with `solar`
 };
 
 struct TransparentShades {
@@ -32,5 +33,25 @@ struct TransparentShades {
 TransparentShades read_transparent_shades(std::vector<InputObject> const& objects,
                                           ShadingInput const& input,
                                           std::filesystem::path const& folder);
+
+// Gives a filter to the shading surfaces whose names match a pattern. Throws Error, with a field's
+// title, if there are none, or one of them has a filter.
+void add_filter(std::string_view field, std::string const& pattern, TransparentShade const& filter,
+                ShadingInput const& input, TransparentShades& shades);
+
+// For solar radiation and for light.
+struct GlazingTransmittance {
+  Transmittance solar;
+  Transmittance visible;
+};
+
+// Beam transmittances of a Construction of WindowMaterial:Glazing, :Gas, :GasMixture or
+// :SimpleGlazingSystem layers, as EnergyPlus computes them for a window of that construction. Where
+// a material gives no visible transmittance, it is the solar one.
+// `warnings` gets a line for each material that scatters light, because only the undeviated beam is
+// modelled. Throws Error, naming construction, material, field and value.
+GlazingTransmittance construction_transmittance(std::vector<InputObject> const& objects,
+                                                std::string const& construction,
+                                                std::vector<std::string>& warnings);
 
 }  // namespace gpu_shading::energyplus

@@ -25,15 +25,16 @@ constexpr std::array<ValueOption, 6> value_options{{weather_option,
                                                     {"-i", "--idd"},
                                                     {"-j", "--jobs"}}};
 
-void take_value(ValueOption const& option, std::string const& value, CommandLine& line) {
+void set_value(ValueOption const& option, std::string const& value, CommandLine& line) {
   if (option.letter == weather_option.letter) line.weather = value;
   if (option.letter == folder_option.letter) line.output_folder = value;
   if (option.letter == prefix_option.letter) line.output_prefix = value;
   if (option.letter == suffix_option.letter) line.output_suffix = value;
 }
 
-// Takes the option at `i`, which is moved to the last of its arguments. Returns whether it is one.
-bool take_option(std::vector<std::string> const& arguments, std::size_t& i, CommandLine& line) {
+// Reads the option at `i`, which is moved to the last of its arguments. Returns whether there is
+// one.
+bool read_option(std::vector<std::string> const& arguments, std::size_t& i, CommandLine& line) {
   std::string_view const argument = arguments[i];
   auto const equals = argument.find('=');
   auto const* const option = std::ranges::find_if(value_options, [&](ValueOption const& known) {
@@ -41,9 +42,9 @@ bool take_option(std::vector<std::string> const& arguments, std::size_t& i, Comm
   });
   if (option == value_options.end()) return false;
   if (argument != option->letter && equals != std::string_view::npos) {
-    take_value(*option, std::string(argument.substr(equals + 1)), line);
+    set_value(*option, std::string(argument.substr(equals + 1)), line);
   } else if (++i < arguments.size()) {
-    take_value(*option, arguments[i], line);
+    set_value(*option, arguments[i], line);
   }
   return true;
 }
@@ -54,7 +55,7 @@ CommandLine read_command_line(std::vector<std::string> const& arguments) {
   CommandLine line;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     auto const& argument = arguments[i];
-    if (take_option(arguments, i, line)) continue;
+    if (read_option(arguments, i, line)) continue;
     if (argument == "-h" || argument == "--help") {
       line.help = true;
     } else if (argument == "-v" || argument == "--version") {

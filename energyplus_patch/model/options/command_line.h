@@ -10,9 +10,9 @@ namespace gpu_shading::energyplus {
 
 // The parts of EnergyPlus's command line that the launcher needs.
 struct CommandLine {
-  std::optional<std::filesystem::path>
-      model;                            // empty if a preprocessor creates it, or if there is no run
-  std::optional<std::size_t> model_at;  // its index in the arguments, if it is one of them
+  // Empty if a preprocessor creates it, or if there is no run.
+  std::optional<std::filesystem::path> model;
+  std::optional<std::size_t> model_at;           // its index in the arguments, if it is one of them
   std::optional<std::filesystem::path> weather;  // -w
   bool expand = false;                           // -x
   bool annual = false;                           // -a

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "files/asset_folder.h"
@@ -15,7 +14,7 @@
 namespace gpu_shading::energyplus {
 
 enum class Mode {
-  automatic,  // a GPU if there is one, otherwise software with a warning
+  automatic,  // a GPU if there is one, otherwise the CPU with a warning
   require,    // an error if there is no GPU
   off,        // EnergyPlus's PolygonClipping, with extension objects removed
 };
@@ -44,54 +43,52 @@ enum class Method {
   scheduled,  // as schedules, rendered before the run
 };
 
-// The user's choices from one source; choices that it does not make are empty.
+// The user's choices from one source; choices that it does not make are empty. option_table.cpp
+// has a row for each.
 struct Choices {
-  std::optional<Mode> mode;
+  std::optional<Mode> mode = std::nullopt;
   // Resolution or target error; at most one of them.
-  std::optional<int> resolution;
+  std::optional<int> resolution = std::nullopt;
   std::optional<double> error = std::nullopt;
-  std::optional<Update> update;
-  std::optional<DeviceChoice> device;
-  std::optional<std::filesystem::path> file;
-  std::optional<std::filesystem::path> report;
+  std::optional<Update> update = std::nullopt;
+  std::optional<DeviceChoice> device = std::nullopt;
+  std::optional<std::filesystem::path> file = std::nullopt;
+  std::optional<std::filesystem::path> report = std::nullopt;
   std::optional<std::filesystem::path> cache = std::nullopt;  // empty: off
   // The folder where relative file names in the model start, set by the launcher; empty: the
   // model's folder.
   std::optional<std::filesystem::path> folder = std::nullopt;
   // Where the user started EnergyPlus, if the launcher starts it in another folder.
   std::optional<std::filesystem::path> start = std::nullopt;
-  std::optional<Lean> lean;
+  std::optional<Lean> lean = std::nullopt;
   // Not in GPUShading:Settings: a model does not widen what is read for it.
   std::optional<Assets> assets = std::nullopt;
   std::optional<Method> method = std::nullopt;
   std::optional<int> threads = std::nullopt;
   std::optional<bool> quiet = std::nullopt;
-  // For compare_shading: gets the table of where the time went.
+  std::optional<bool> verbose = std::nullopt;
+  std::optional<bool> paper_grid = std::nullopt;
   std::optional<std::filesystem::path> stages = std::nullopt;
-  // For the gpu_shading program: EnergyPlus is run for the task in this file alone (task_file.h).
+  // EnergyPlus is run only for the task in this file (task_file.h).
   std::optional<std::filesystem::path> task = std::nullopt;
 
   // Fills empty choices from a source of lower precedence. If one of resolution and error is set,
   // the lower source sets neither.
   void fill_from(Choices const& lower);
+  // Whether a user made any.
   bool any() const;
 };
 
-// Removes our flags from `arguments` (both "--flag=value" and "--flag value", except for
-// --gpu-shading, whose value needs the equals sign). Throws Error for an unknown flag of ours or an
-// invalid value.
+// Removes our flags from `arguments` (both "--flag=value" and "--flag value", except for switches,
+// whose value needs the equals sign). Throws Error for an unknown flag of ours or an invalid value.
 Choices take_flags(std::vector<std::string>& arguments);
-
-// The value as in the flag.
-std::string name_of(Mode mode);
-std::string name_of(Update const& update);
-std::string name_of(DeviceChoice const& device);
-std::string name_of(Lean lean);
-std::string name_of(Method method);
-std::string name_of(Assets assets);
 
 // The inverse of take_flags().
 std::vector<std::string> to_flags(Choices const& choices);
+
+// The value as in the flag.
+std::string name_of(Update const& update);
+std::string name_of(Method method);
 
 // Applies threads and quiet, which hold for the whole process.
 void apply_to_process(Choices const& choices);
@@ -115,13 +112,18 @@ struct Options {
   Lean lean = Lean::automatic;
   std::optional<std::filesystem::path> cache = std::nullopt;
   std::optional<std::filesystem::path> stages = std::nullopt;
+  bool verbose = false;
 };
 
 // Precedence: `choices` (command line, then environment), GPUShading:Settings, the model's Pixel
 // Counting Resolution, default. The first source that gives a resolution or an error decides both.
 Options resolve(Choices choices, Choices const& settings, ShadingInput const& input);
 
-// One line per flag, for --help.
-std::string_view flags_help();
+// For --help: a paragraph for each option. `all`: with those for experts.
+std::string options_help(bool all = false);
+
+// For the official program's --help.
+inline constexpr char const* help_hint =
+    "GPU shading: energyplus --gpu-shading --help lists its options\n\n";
 
 }  // namespace gpu_shading::energyplus

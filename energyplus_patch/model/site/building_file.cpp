@@ -46,7 +46,7 @@ std::string name_of(Json const& feature) {
   return {};
 }
 
-// Higher than any mountain, m, is a damaged file, or another unit.
+// Limit of heights, m: more means a damaged file, or another unit.
 constexpr double most = 10'000.0;
 
 // The value of a property, as a number or as text: "12", "12.5 m".

@@ -1,4 +1,3 @@
-#include "model/site/geotiff.h"
 
 #include <fmt/format.h>
 

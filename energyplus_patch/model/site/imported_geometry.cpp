@@ -1,4 +1,3 @@
-#include "model/site/imported_geometry.h"
 
 #include <fmt/format.h>
 
@@ -14,9 +13,8 @@
 #include "gpu_shading/local_axes.h"
 #include "model/extensions/extension_fields.h"
 #include "model/idf/fields.h"
-#include "model/site/extent.h"
 #include "model/site/farthest_coordinate.h"
-#include "model/site/left_out.h"
+#include "model/site/surroundings.h"
 #include "model/site/texture_axes.h"
 #include "platform/naming.h"
 #include "platform/text.h"
@@ -97,7 +95,7 @@ class Builder {
 
   void add(Mesh const& mesh, Placement const& place) {
     auto const part = mesh.material + ":" + mesh.name;
-    if (is_left_out(left_out_, part)) {
+    if (matches_any(left_out_, part)) {
       ++left_out_meshes_;
       return;
     }
@@ -168,7 +166,7 @@ class MeshFiles {
     }
   }
 
-  std::shared_ptr<std::vector<Mesh> const> take(std::string const& file) {
+  std::shared_ptr<std::vector<Mesh> const> read(std::string const& file) {
     begin_next();
     auto& [named, reading, kept] = files_[file];
     auto meshes = kept;
@@ -184,7 +182,7 @@ class MeshFiles {
 
  private:
   struct File {
-    int named = 0;  // by objects that have not taken it yet
+    int named = 0;  // by objects that have not read it yet
     MeshReading reading;
     std::shared_ptr<std::vector<Mesh> const> kept;
   };
@@ -216,7 +214,7 @@ void read_geometry(InputObject const& object, MeshFiles& files, AssetFolder cons
   bool const stated =
       naming(field::file_name.title, [&] { return states_its_axes(file, folder.assets); });
   auto const placement = read_placement(object, stated, origin);
-  auto const meshes = naming(field::file_name.title, [&] { return files.take(file); });
+  auto const meshes = naming(field::file_name.title, [&] { return files.read(file); });
   Builder builder(object, surroundings);
   naming(fmt::format("{}: {}", field::file_name.title, file), [&] {
     for (auto const& mesh : *meshes) builder.add(mesh, placement);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,9 +16,16 @@ namespace gpu_shading::energyplus {
 // Clock time at a model's site, to the minute.
 using ClockTime = std::chrono::local_time<std::chrono::minutes>;
 
-// Throws Error if Site:Location, where there is one, has coordinates or a time zone that are no
-// numbers within the dictionary's limits: EnergyPlus accepts nan.
+// Throws Error if Site:Location has coordinates or a time zone outside of the dictionary's limits
+// or nan, which EnergyPlus accepts.
 void check_location(std::vector<InputObject> const& objects);
+
+// The day of a year from the notations of EnergyPlus's objects and weather files: "4/30" (month
+// first), "30 April", "Apr 30", "2nd Sunday in March", "Last Sunday in October". Throws Error.
+std::chrono::year_month_day date_in(std::string_view text, std::chrono::year year);
+
+// "Sunday" or its first three letters, in any case.
+std::optional<std::chrono::weekday> weekday_of(std::string_view word);
 
 // A model's site and clock, from which EnergyPlus computes the sun's position.
 class SiteClock {

@@ -1,4 +1,3 @@
-#include "model/site/site_context.h"
 
 #include <fmt/format.h>
 
@@ -14,8 +13,7 @@
 #include "model/extensions/extension_fields.h"
 #include "model/idf/fields.h"
 #include "model/site/building_file.h"
-#include "model/site/extent.h"
-#include "model/site/left_out.h"
+#include "model/site/surroundings.h"
 #include "model/site/terrain_file.h"
 #include "platform/naming.h"
 #include "platform/text.h"
@@ -178,7 +176,7 @@ class Builder {
     std::size_t faces = 0;
     std::size_t left_out = 0;
     for (auto const& building : file.buildings) {
-      if (is_left_out(context_.left_out, building.name)) {
+      if (matches_any(context_.left_out, building.name)) {
         ++left_out;
         continue;
       }

@@ -15,7 +15,7 @@ namespace gpu_shading::energyplus {
 struct SiteOrigin {
   GeographicPoint place;
   std::string source;  // "Site:Location" or the object that gave it
-  // Whether the elevation is to be the terrain's there.
+  // Whether the terrain there determines the elevation.
   bool at_terrain = false;
 };
 

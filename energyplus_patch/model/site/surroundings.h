@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/vec3.hpp>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,6 +11,8 @@
 #include "gpu_shading/scene.h"
 #include "model/idf/input_object.h"
 #include "model/input/screen_maker.h"
+#include "model/input/shading_input.h"
+#include "model/site/site_origin.h"
 
 namespace gpu_shading::energyplus {
 
@@ -43,9 +46,48 @@ struct Surroundings {
   std::optional<TextureAxes> texture_of(SurfaceId surface) const;
 };
 
+// The extent of casters along the world axes.
+class Extent {
+ public:
+  void include(Ring const& ring);
+
+  // Distance in plan from the origin of the world axes to the bounding box; 0 if there are none.
+  double distance() const;
+
+  // "x -12.0 to 30.5, y 0.0 to 8.0, z 0.0 to 12.0 m".
+  std::string describe() const;
+
+ private:
+  bool empty_ = true;
+  glm::dvec3 low_{0.0};
+  glm::dvec3 high_{0.0};
+};
+
 // Reads every such object and its files. `folder`: where relative file names start. Names are in
 // upper case: "CONTEXT:FEATURE", "CONTEXT:TERRAIN", "GEOMETRY:MATERIAL:MESH". Throws Error, naming
 // object, field and value, and for errors in files the feature or the position.
 Surroundings read_surroundings(std::vector<InputObject> const& objects, AssetFolder const& folder);
+
+// Reads every GPUShading:SiteContext, terrain first, because buildings stand on the terrain of the
+// same object. If the origin is to be at the terrain's elevation, that is determined here. Throws
+// Error.
+void read_site_contexts(std::vector<InputObject> const& objects,
+                        std::filesystem::path const& folder, SiteOrigin& origin,
+                        Surroundings& surroundings);
+
+// Whether a GPUShading:Geometry is placed by latitude and longitude.
+bool needs_origin(std::vector<InputObject> const& objects);
+
+// Reads every GPUShading:Geometry: a caster for each triangle, facing the side from which its
+// texture is not mirrored. `origin`: for those placed by latitude and longitude. Throws Error.
+void read_geometries(std::vector<InputObject> const& objects, AssetFolder const& folder,
+                     std::optional<SiteOrigin> const& origin, Surroundings& surroundings);
+
+// Map data usually contains the modelled building, which would then shade itself. Returns one line
+// for each neighbouring building that contains a wall, roof or floor of the model, but at most
+// `max` lines.
+std::vector<std::string> warn_of_own_buildings(std::vector<ContextBuilding> const& buildings,
+                                               Scene const& scene, ShadingInput const& input,
+                                               std::size_t max = 3);
 
 }  // namespace gpu_shading::energyplus

@@ -12,7 +12,6 @@
 #include <string_view>
 
 #include "gpu_shading/error.h"
-#include "model/site/geotiff.h"
 #include "platform/files.h"
 #include "platform/naming.h"
 #include "platform/text.h"
@@ -46,7 +45,7 @@ class Words {
   std::string_view rest_;
 };
 
-// As grids may have it where they have no data.
+// Grids may have nan where they have no data.
 bool is_nan(std::string_view word) { return same_name(word, "nan") || same_name(word, "-nan"); }
 
 bool is_number(std::string_view word) {
@@ -54,8 +53,8 @@ bool is_number(std::string_view word) {
 }
 
 class Header {
-  // Far beyond any coordinate, and what is used for NODATA.
-  static constexpr double most_value = 1e39;
+  // Far beyond any coordinate and any usual value of NODATA.
+  static constexpr double max_value = 1e39;
 
  public:
   // Reads pairs of key and value up to the first elevation.
@@ -65,7 +64,7 @@ class Header {
       auto const text = std::string(words.next());
       bool const no_data = key == "NODATA_VALUE" && is_nan(text);
       auto const value = no_data ? std::numeric_limits<double>::quiet_NaN() : parse_number(text);
-      if (!value || std::abs(*value) > most_value) {
+      if (!value || std::abs(*value) > max_value) {
         throw Error(fmt::format("{} is {}, expected a number", printable(key), in_quotes(text)));
       }
       values_[key] = *value;
@@ -160,7 +159,7 @@ TerrainGrid read_grid(std::string_view text, MapCoordinates const& coordinates) 
   return grid;
 }
 
-// Cells that round to the same place, or go round the earth, would collapse without a word.
+// Cells that round to the same position, or go round the earth, would collapse silently.
 void check_cells(TerrainGrid const& grid) {
   bool const degrees = grid.coordinates.geographic();
   char const* const unit = degrees ? "degrees" : "m";
@@ -177,7 +176,7 @@ void check_cells(TerrainGrid const& grid) {
   }
 }
 
-// What no place on earth has is a damaged file, another unit, or NODATA that is not declared.
+// Other elevations mean a damaged file, another unit, or NODATA that is not declared.
 void check_range(TerrainGrid const& grid) {
   constexpr double least = -500.0;
   constexpr double most = 9000.0;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "gpu_shading/error.h"
-#include "model/site/calendar_date.h"
+#include "model/site/site_clock.h"
 #include "platform/files.h"
 #include "platform/naming.h"
 #include "platform/text.h"
@@ -20,18 +20,18 @@ namespace {
 
 std::vector<std::string> header_of(std::filesystem::path const& weather) {
   constexpr std::size_t header_lines = 8;
-  constexpr std::size_t most_bytes = std::size_t{1} << 20U;
+  constexpr std::size_t max_bytes = std::size_t{1} << 20U;
   require_file(weather);
   std::ifstream file(weather, std::ios::binary);
-  std::string start(most_bytes, '\0');
-  if (!file || file.read(start.data(), most_bytes).bad()) {
+  std::string start(max_bytes, '\0');
+  if (!file || file.read(start.data(), max_bytes).bad()) {
     throw Error(fmt::format("{}: cannot be read", weather.string()));
   }
   start.resize(static_cast<std::size_t>(file.gcount()));
   std::istringstream text(start);
   std::vector<std::string> lines;
   for (std::string line; lines.size() < header_lines && std::getline(text, line);) {
-    if (text.eof() && start.size() == most_bytes) {
+    if (text.eof() && start.size() == max_bytes) {
       throw Error(
           fmt::format("{}: its first {} lines are longer than 1 MiB, expected a weather file (EPW)",
                       weather.string(), header_lines));

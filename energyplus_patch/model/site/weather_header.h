@@ -7,7 +7,7 @@
 
 namespace gpu_shading::energyplus {
 
-// What is used of the first eight lines of a weather file (EPW). The functions throw Error like
+// From the first eight lines of a weather file (EPW). The functions throw Error like
 // require_file(), or "FILE: LINE: FIELD is VALUE, expected ..."; these lines may have 1 MiB in all.
 
 // The location, from which EnergyPlus computes the sun's path in run periods.

@@ -11,7 +11,7 @@ namespace gpu_shading::energyplus {
 
 // The current folder of this process while EnergyPlus runs ExpandObjects (-x), which writes in.idf,
 // Energy+.idd and expanded.idf into the current folder and deletes whatever has their names. A
-// folder of this command's own: no file of the user is touched, and two runs do not meet.
+// temporary folder leaves the user's files alone and keeps runs apart.
 class ExpansionFolder {
  public:
   // Makes the file names in EnergyPlus's arguments absolute.

@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -15,18 +16,15 @@
 #include <string>
 #include <vector>
 
-#include "answers/cache_folder.h"
 #include "gpu_shading/error.h"
-#include "model/idf/model_file.h"
-#include "model/model_reader.h"
-#include "model/options/command_line.h"
-#include "model/options/report_folder.h"
+#include "gpu_shading_energyplus.h"
 #include "platform/console.h"
 #include "platform/ending_signals.h"
 #include "platform/error_line.h"
 #include "platform/process.h"
 #include "platform/text.h"
 #include "programs/energyplus/expansion_folder.h"
+#include "routes/run_setup.h"
 #include "runs/installation.h"
 #include "runs/refused_run.h"
 
@@ -77,21 +75,21 @@ constexpr char const* run_energyplus =
 
 // Errors in the model are reported before anything is written. What it chooses is added to the
 // user's choices, so that the module can check the device before EnergyPlus starts.
-void check_model(Path const& path, Choices& choices) {
-  if (!std::filesystem::exists(path) || (!is_idf(path) && !is_epjson(path))) return;
-  auto const model = read_model(path, choices);
-  if (model.options.mode != Mode::off) {
-    check_supported(model.shading, read_version(own_folder()));
-    if (model.options.cache) prepare_cache_folder(*model.options.cache);
-    if (model.options.report && !choices.task) prepare_report(*model.options.report);
-    choices.device = model.options.device;
-    choices.resolution = model.options.resolution;
-  }
+void check_model(RunSetup& setup) {
+  if (!setup.has_model()) return;
+  auto& choices = setup.choices;
+  auto const model = read_model(*setup.line.model, choices);
+  if (model.options.mode == Mode::off) return;
+  check_supported(model.shading, read_version(own_folder()));
+  prepare_folders(model.options, !choices.task);
+  choices.device = model.options.device;
+  choices.resolution = model.options.resolution;
 }
 
-// EnergyPlus writes the objects that it reads, from which ours have been taken out.
-void check_conversion(Path const& path) {
-  if (!std::filesystem::exists(path) || (!is_idf(path) && !is_epjson(path))) return;
+// EnergyPlus writes the objects that it reads, and ours are removed before.
+void check_conversion(RunSetup const& setup) {
+  if (!setup.line.convert || !setup.has_model()) return;
+  auto const& path = *setup.line.model;
   for (InputObject const& object : read_objects(path)) {
     if (!same_name(std::string_view(object.type).substr(0, extension_prefix.size()),
                    extension_prefix)) {
@@ -103,7 +101,7 @@ void check_conversion(Path const& path) {
   }
 }
 
-// As C has a list of words.
+// `argv`-style view of strings.
 class Words {
  public:
   explicit Words(std::vector<std::string> const& words) {
@@ -149,11 +147,10 @@ int run_scheduled(Path const& energyplus, Module const& module,
 // Empty where the library or the model does not allow this; the module's message says why.
 std::optional<int> run_opengl(Path const& energyplus, Module const& module,
                               std::vector<std::string> const& arguments, Words const& flags) {
-  constexpr int cannot_patch = -2;
   Words const words(arguments);
   int const status = module.run_opengl(energyplus.c_str(), flags.count(), flags.data(),
                                        words.count(), words.data());
-  if (status == cannot_patch) return std::nullopt;
+  if (status == gpu_shading_cannot_patch) return std::nullopt;
   if (status < 0) throw Error(module.message());
   return status;
 }
@@ -182,39 +179,40 @@ int run_shaded(char const* program, std::vector<std::string> arguments, Choices 
   }
 
   void* const library = load(energyplus);
-  constexpr int cannot_patch = 2;
   int const installed = module.install(energyplus.c_str(), flags.count(), flags.data());
-  if (installed == cannot_patch && method == Method::automatic) {
+  if (installed == gpu_shading_cannot_patch && method == Method::automatic) {
     return run_unpatched(energyplus, module, arguments, flags, choices.task.has_value());
   }
-  if (installed != 0) throw Error(module.message());
+  if (installed != gpu_shading_done) throw Error(module.message());
   arguments.insert(arguments.begin(), program);
   int const status = find<RunEnergyPlus>(library, run_energyplus)(arguments, {});
-  // The user has been told why.
+  // The reason has been printed.
   return status == EXIT_SUCCESS && *module.unwritten() != '\0' ? EXIT_FAILURE : status;
 }
 
-// `arguments`: of the program; our flags are taken out.
-int launch(std::vector<std::string>& arguments, char** argv) {
-  auto choices = take_flags(arguments);
-  auto const environment = read_environment();
-  if (!choices.any() && !environment.mode) run_official(argv);
-  choices.fill_from(environment);
-  apply_to_process(choices);
-
-  auto const line = read_command_line(arguments);
+int launch(RunSetup& setup, char** argv) {
+  auto const& line = setup.line;
+  if (!setup.wanted) {
+    if (line.help) fmt::print("{}", help_hint);
+    std::fflush(stdout);
+    run_official(argv);
+  }
+  auto& choices = setup.choices;
+  // As it starts, EnergyPlus deletes a tree of millions of small objects: lists of small chunks,
+  // which glibc merges again and again, take longer than they save.
+  mallopt(M_MXFAST, 0);
   if (line.version) fmt::print("gpu_shading {}\n", GPU_SHADING_VERSION);
-  if (line.help) std::fputs(std::string(flags_help()).c_str(), stdout);
+  if (line.help) fmt::print("{}", options_help());
   if (line.model) {
-    if (line.convert) check_conversion(*line.model);
-    check_model(*line.model, choices);
-    // A preprocessor (-x) passes another file to EnergyPlus, but files beside the user's model
-    // still apply.
+    check_conversion(setup);
+    check_model(setup);
+    // A preprocessor (-x) passes another file to EnergyPlus, but files in the folder of the user's
+    // model still apply.
     choices.folder = std::filesystem::absolute(*line.model).parent_path();
     choices.file = find_side_file(*line.model, choices);
   }
   std::optional<ExpansionFolder> expansion;
-  auto energyplus_arguments = arguments;
+  auto energyplus_arguments = setup.arguments;
   if (line.expand && line.model) {
     expansion.emplace(energyplus_arguments, line);
     choices.start = expansion->start();
@@ -237,7 +235,8 @@ int main(int argc, char** argv) {
   try {
     folder = own_folder();
     arguments = arguments_of(argc, argv);
-    return launch(*arguments, argv);
+    RunSetup setup(*arguments);
+    return launch(setup, argv);
   } catch (std::exception const& error) {
     auto const why = error_line(error);
     std::fprintf(stderr, "gpu_shading: error: %s\n", why.c_str());

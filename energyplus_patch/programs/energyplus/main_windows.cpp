@@ -1,5 +1,5 @@
 // energyplus.exe: runs the official program or, with --gpu-shading, EnergyPlus's library in this
-// process with our opengl32.dll, which lies beside it and does the work.
+// process with our opengl32.dll, which is in the same folder and does the work.
 
 #include <windows.h>
 

@@ -1,32 +1,26 @@
-#include "programs/gpu_shading/export.h"
-
 #include <fmt/format.h>
-
-#include <cstdio>
 
 #include "gpu_shading/error.h"
 #include "platform/console.h"
 #include "platform/files.h"
 #include "platform/staged_files.h"
-#include "routes/schedules/scheduled_model.h"
+#include "programs/gpu_shading/commands.h"
+#include "routes/schedules/scheduled_run.h"
 #include "runs/installation.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
-void complete(EnergyPlusCall& call) {
-  require_file(call.model);
-  if (!call.weather) {
-    throw Error("-w: a weather file is required (it sets site and calendar)");
-  }
-  call.program = find_launcher();
-}
-
-}  // namespace
-
-void export_scheduled(EnergyPlusCall call, Choices const& choices,
+// Writes the model with scheduled sunlit fractions, their file, and links to the files that it
+// needs into a folder, for any program that runs EnergyPlus. Standard error lists what remains to
+// EnergyPlus.
+void export_scheduled(ModelRun const& run, EnergyPlusCall call,
                       std::filesystem::path const& folder) {
-  complete(call);
+  require_file(run.model);
+  if (!run.weather) throw Error("-w: a weather file is required (it sets site and calendar)");
+  call.program = find_launcher();
+  call.model = run.model;
+  call.weather = run.weather;
   if (std::filesystem::exists(folder) && !std::filesystem::is_empty(folder)) {
     throw Error(fmt::format("{}: exists and is not empty: choose another folder", folder.string()));
   }
@@ -34,16 +28,30 @@ void export_scheduled(EnergyPlusCall call, Choices const& choices,
   StagedFiles files(target.parent_path());
   auto const staged = files.add(target.filename().string());
   std::filesystem::create_directory(staged);
-  auto const model = prepare_scheduled(call, choices, staged, print_line);
+  auto const model = prepare_scheduled(call, run.choices, staged, print_line);
   files.commit();
-  print_text(fmt::format("{}\n", (folder / model.path.filename()).string()));
+  print("{}\n", (folder / model.path.filename()).string());
 }
 
-void export_imported(EnergyPlusCall call, Choices const& choices,
-                     std::filesystem::path const& file) {
-  complete(call);
-  auto const table = sunlit_fractions(call, choices, print_line);
-  write_whole_file(file, [&](std::ostream& out) { write_imported_file(table, out); });
+}  // namespace
+
+void add_export(Program const& program) {
+  Command const command(
+      program, "export",
+      "Render sunlit fractions of the run periods, for an EnergyPlus without this renderer",
+      {"", "error", "resolution", "update", "device", "file", "report", "cache", "threads", "quiet",
+       "verbose", "assets"});
+  auto const model = command.add_model("Weather file: site and calendar (required)");
+  auto const call = std::make_shared<EnergyPlusCall>();
+  auto const folder = std::make_shared<std::string>();
+  command->add_flag("-x,--expandobjects", call->expand, "Run ExpandObjects first");
+  command->add_flag("-a,--annual", call->annual, "Simulate a whole year, whatever the run periods");
+  command
+      ->add_option("--scheduled", *folder,
+                   "Write the model, with its sunlit fractions as schedules, into this folder")
+      ->required()
+      ->type_name("DIR");
+  command.run([model, call, folder] { export_scheduled(*model, *call, *folder); });
 }
 
 }  // namespace gpu_shading::energyplus

@@ -11,7 +11,7 @@
 
 namespace gpu_shading::energyplus {
 
-// A folder of files that belong together, with a file about them that lists them with their hashes.
+// A folder of related files, with an index file that lists them with their hashes.
 // Only files that it lists and that are unchanged are replaced, or deleted by commit() if they were
 // not written again. Functions throw Error.
 class ListedFolder {
@@ -26,7 +26,7 @@ class ListedFolder {
   void commit(nlohmann::ordered_json const& facts);
 
  private:
-  // By name, the hashes of what an earlier object wrote.
+  // Hashes of the files that an earlier object wrote, by name.
   std::map<std::string, std::string> read_list() const;
 
   std::filesystem::path folder_;

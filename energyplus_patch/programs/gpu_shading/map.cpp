@@ -1,10 +1,7 @@
-#include "programs/gpu_shading/map.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <optional>
 #include <regex>
 #include <utility>
@@ -17,21 +14,30 @@
 #include "platform/files.h"
 #include "platform/process.h"
 #include "platform/text.h"
+#include "programs/gpu_shading/commands.h"
 #include "programs/gpu_shading/listed_folder.h"
-#include "programs/gpu_shading/map_picture.h"
-#include "programs/gpu_shading/map_tables.h"
-#include "programs/gpu_shading/standard_error.h"
-#include "reports/map_file.h"
+#include "programs/gpu_shading/map_files.h"
 #include "routes/schedules/rendered_fractions.h"
 #include "runs/installation.h"
 #include "runs/short_runs.h"
+#include "tasks/task_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int months_apart = 100;  // of the numbers of days
+struct MapOrder {
+  std::string from;       // "MM-DD"; empty: 1 January
+  std::string to;         // "MM-DD", the last day; empty: 31 December
+  std::string receivers;  // a pattern of names; empty: all that EnergyPlus shades
+  double spacing = 0.25;  // m
+  int rays_per_cell = 4;
+  bool common_scale = false;  // of the pictures; otherwise each has its own
+  std::filesystem::path folder;
+};
+
+constexpr int month_step = 100;
 
 // Days by number, 100 x month + day, in any year.
 struct Period {
@@ -39,7 +45,7 @@ struct Period {
   int to;  // may be less: then across the new year
 
   bool has(RunTime const& time) const {
-    int const day = months_apart * time.month + time.day;
+    int const day = month_step * time.month + time.day;
     return from <= to ? from <= day && day <= to : day >= from || day <= to;
   }
 };
@@ -50,13 +56,13 @@ int parse_day(char const* option, std::string const& text) {
   if (std::regex_match(text, words, form)) {
     constexpr int leap_year = 2024;
     auto const date = std::chrono::year(leap_year) / std::stoi(words[1]) / std::stoi(words[2]);
-    if (date.ok()) return months_apart * std::stoi(words[1]) + std::stoi(words[2]);
+    if (date.ok()) return month_step * std::stoi(words[1]) + std::stoi(words[2]);
   }
   throw Error(fmt::format("{} {}: expected month and day, as in 06-21", option, in_quotes(text)));
 }
 
 std::string day_text(int number) {
-  return fmt::format("{:02}-{:02}", number / months_apart, number % months_apart);
+  return fmt::format("{:02}-{:02}", number / month_step, number % month_step);
 }
 
 std::string describe_days(Period const& period) {
@@ -72,9 +78,9 @@ Period period_of(MapOrder const& order) {
 }
 
 // The times of the period with the sun up, from a run of EnergyPlus with nothing but calendar,
-// weather and schedules: a second or two for a year of any model. The run that traces cannot tell
-// them: it ends at its first question about shading, before any weather, and without that end it
-// would simulate the building for the whole year. The model is read here for the names of the
+// weather and schedules: a second or two for a year of any model. The run that traces cannot
+// provide them: it ends at the first question about shading, before any weather, and would
+// otherwise simulate the building for the whole year. The model is read here for the names of the
 // schedules, which EnergyPlus only reports if it is asked for them by name.
 RunTimes times_of(ModelRun const& run, Period const& period) {
   EnergyPlusCall call;
@@ -83,7 +89,7 @@ RunTimes times_of(ModelRun const& run, Period const& period) {
   call.weather = run.weather;
   auto const model = read_model(run.model, run.choices);
   auto times = run_for_beam(call, shade_schedules(model));
-  auto const unknown = unknown_schedules(model, times);
+  auto const unknown = unknown_schedules(model, times.schedules);
   if (!unknown.empty()) print_line("warning: " + describe_unknown(unknown));
   std::erase_if(times.times,
                 [&](RunTime const& time) { return !period.has(time) || !sun_is_up(time.sun); });
@@ -125,13 +131,13 @@ std::vector<GriddedMap> grid_maps(std::vector<ReceiverMap> maps, double spacing)
 }
 
 // The largest values of all receivers.
-MapValue most_of(std::vector<GriddedMap> const& maps) {
-  MapValue most;
+MapValue largest_of(std::vector<GriddedMap> const& maps) {
+  MapValue largest;
   for (auto const& one : maps) {
-    most.hours = std::max(most.hours, one.summary.most.hours);
-    most.energy = std::max(most.energy, one.summary.most.energy);
+    largest.hours = std::max(largest.hours, one.summary.largest.hours);
+    largest.energy = std::max(largest.energy, one.summary.largest.energy);
   }
-  return most;
+  return largest;
 }
 
 std::string orientation(MapSummary const& summary) {
@@ -180,18 +186,18 @@ std::optional<std::string> try_drawing(std::string const& name, MapHeading const
 
 void write_pictures(std::vector<GriddedMap> const& maps, std::string const& period,
                     bool common_scale, ListedFolder& folder) {
-  auto const most = most_of(maps);
+  auto const largest = largest_of(maps);
   for (auto const& [map, grid, summary] : maps) {
     auto const name = summary.stem + ".png";
     auto const picture = try_drawing(name, heading_of(summary, period), grid, map.values,
-                                     scales_for(common_scale ? most : summary.most));
+                                     scales_for(common_scale ? largest : summary.largest));
     if (!picture) return;
     folder.write(name, *picture);
   }
 }
 
-}  // namespace
-
+// Traces and writes maps of sunlit hours and beam energy: for each receiver a picture, a table and
+// an array, and for all of them maps.csv, and maps.json about the run.
 void draw_maps(ModelRun const& run, MapOrder const& order) {
   if (!run.weather) {
     throw Error("-w: a weather file is required (it sets site, calendar and beam radiation)");
@@ -217,7 +223,49 @@ void draw_maps(ModelRun const& run, MapOrder const& order) {
   write_pictures(maps, dates, order.common_scale, folder);
   folder.write("maps.csv", [&](std::ostream& out) { write_summaries(summaries, out); });
   folder.commit(about);
-  print_text(fmt::format("{}\n", (order.folder / "maps.csv").string()));
+  print("{}\n", (order.folder / "maps.csv").string());
+}
+
+}  // namespace
+
+void add_map(Program const& program) {
+  Command const command(
+      program, "map",
+      "Map the sunlit hours and the beam solar energy over receivers, at the model's own timesteps "
+      "and with its schedules: for each receiver a picture, a table and a NumPy array, and a list "
+      "of all (maps.csv)",
+      model_options());
+  auto const model =
+      command.add_model("Weather file: site, calendar and beam radiation (required)");
+  auto const order = std::make_shared<MapOrder>();
+  command->add_option("--from", order->from, "First day (default: 01-01)")->type_name("MM-DD");
+  command->add_option("--to", order->to, "Last day (default: 12-31)")->type_name("MM-DD");
+  command
+      ->add_option("--receivers", order->receivers,
+                   "Name of a surface, or a pattern in which * stands for any characters; also "
+                   "of shading surfaces (default: all surfaces that EnergyPlus shades)")
+      ->type_name("PATTERN");
+  constexpr double min_spacing = 0.001;
+  constexpr double max_spacing = 1000.0;
+  command->add_option("--spacing", order->spacing, "Largest side of a cell, m")
+      ->check(CLI::Range(min_spacing, max_spacing))
+      ->capture_default_str()
+      ->type_name("M");
+  constexpr int max_rays = 100;
+  command
+      ->add_option("--rays", order->rays_per_cell,
+                   "Rays from each cell to each position of the sun")
+      ->check(CLI::Range(1, max_rays))
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_flag(
+      "--common-scale", order->common_scale,
+      "One colour scale for the pictures of all receivers; otherwise each has its own");
+  command
+      ->add_option("-o,--output", order->folder,
+                   "Folder for the maps: new, empty, or with earlier maps, which are replaced")
+      ->required();
+  command.run([model, order] { draw_maps(*model, *order); });
 }
 
 }  // namespace gpu_shading::energyplus

@@ -7,8 +7,8 @@
 
 namespace gpu_shading::energyplus {
 
-// An image to draw on. Places are in pixels from the upper left corner, colours red, green and
-// blue, 0 .. 255. What lies outside is not drawn.
+// An image to draw on. Positions are in pixels from the upper left corner, colours red, green and
+// blue, 0 .. 255. Drawing outside of it is ignored.
 class MapCanvas {
  public:
   // White. Sizes are at least 1.

@@ -1,5 +1,3 @@
-#include "programs/gpu_shading/map_picture.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,9 +10,10 @@
 #include <utility>
 
 #include "files/pictures.h"
-#include "gpu_shading/fraction_colour.h"
+#include "gpu_shading/image.h"
 #include "gpu_shading/sun_direction.h"
 #include "programs/gpu_shading/map_canvas.h"
+#include "programs/gpu_shading/map_files.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -37,7 +36,7 @@ constexpr int bar_labels = 70;
 constexpr int tick = 5;
 constexpr glm::dvec2 most_of_map{760.0, 560.0};
 constexpr double least_of_map = 60.0;
-constexpr int least_bar = 150;
+constexpr int min_bar = 150;
 constexpr double least_cell_with_lines = 7.0;
 
 struct Quantity {
@@ -68,7 +67,7 @@ double top_of(double most) {
   return step * std::ceil(most / step - 1e-9);
 }
 
-// Where the map of a panel is drawn.
+// The position of a panel's map.
 struct Frame {
   glm::dvec2 corner;  // upper left
   glm::dvec2 size;
@@ -135,7 +134,7 @@ class CellPainter {
   }
 
  private:
-  static constexpr int parts = 3;  // samples of a pixel, each way
+  static constexpr int parts = 3;  // samples of a pixel, each axis
 
   struct Sum {
     glm::dvec3 colour{0.0};
@@ -196,8 +195,8 @@ std::string_view compass_point(double azimuth) {
   return points.at(static_cast<std::size_t>(turned / sector) % points.size());
 }
 
-double azimuth_of(glm::dvec3 const& way) {
-  return std::fmod(glm::degrees(std::atan2(way.x, way.y)) + 360.0, 360.0);
+double azimuth_of(glm::dvec3 const& direction) {
+  return std::fmod(glm::degrees(std::atan2(direction.x, direction.y)) + 360.0, 360.0);
 }
 
 class MapDrawing {
@@ -210,9 +209,9 @@ class MapDrawing {
     map_ = extent * scale_;
     panel_ = glm::ivec2(glm::ceil(map_)) +
              glm::ivec2(left_axis + bar_gap + bar_width + bar_labels, panel_heading + bottom_axis);
-    panel_.y = std::max(panel_.y, panel_heading + bottom_axis + least_bar);
-    constexpr int least_panel = 420;  // room for its heading
-    panel_.x = std::max(panel_.x, least_panel);
+    panel_.y = std::max(panel_.y, panel_heading + bottom_axis + min_bar);
+    constexpr int min_panel = 420;  // room for its heading
+    panel_.x = std::max(panel_.x, min_panel);
     stacked_ = map_.x > map_.y;
     top_ = margin + title_text + 12 + line_height * static_cast<int>(lines().size()) + 24;
   }
@@ -248,7 +247,7 @@ class MapDrawing {
     return lines;
   }
 
-  // About, with the compass beside it.
+  // About, with the compass next to it.
   int width_of_text() const {
     constexpr double wide = 0.62;  // of a letter, by its height
     constexpr int compass = 80;
@@ -275,14 +274,14 @@ class MapDrawing {
   void draw_north(MapCanvas& canvas) {
     auto const& axes = grid_.axes();
     constexpr double length = 22.0;
-    auto const way = length * glm::normalize(glm::dvec2(axes.u.y, -axes.v.y));
+    auto const arrow = length * glm::normalize(glm::dvec2(axes.u.y, -axes.v.y));
     glm::dvec2 const centre{canvas.image().width - margin - 34.0, margin + 34.0};
-    auto const tip = centre + way;
-    canvas.line(centre - way, tip, 2.5, black);
-    auto const side = glm::dvec2(-way.y, way.x);
-    canvas.line(tip, tip - 0.45 * way + 0.3 * side, 2.5, black);
-    canvas.line(tip, tip - 0.45 * way - 0.3 * side, 2.5, black);
-    auto const beyond = centre + 1.55 * way;
+    auto const tip = centre + arrow;
+    canvas.line(centre - arrow, tip, 2.5, black);
+    auto const side = glm::dvec2(-arrow.y, arrow.x);
+    canvas.line(tip, tip - 0.45 * arrow + 0.3 * side, 2.5, black);
+    canvas.line(tip, tip - 0.45 * arrow - 0.3 * side, 2.5, black);
+    auto const beyond = centre + 1.55 * arrow;
     label(beyond.x, beyond.y, "N", LabelAlign::centre);
   }
 
@@ -302,7 +301,7 @@ class MapDrawing {
     draw_scale(canvas, quantity, frame);
   }
 
-  // Where numbers stand along an axis, m: at least at both ends.
+  // Positions of numbers along an axis, m: at least at both ends.
   std::vector<double> ticks(int axis) const {
     double const extent = map_[axis] / scale_[axis];
     constexpr double apart = 70.0;  // pixels between numbers
@@ -316,7 +315,7 @@ class MapDrawing {
 
   void draw_axes(MapCanvas& canvas, Frame const& frame) {
     double const below = frame.corner.y + map_.y + 6.0;
-    double const beside = frame.corner.x - 6.0;
+    double const axis_x = frame.corner.x - 6.0;
     for (double const u : ticks(0)) {
       double const x = frame.place({u, 0.0}).x;
       canvas.line({x, below}, {x, below + tick}, 1.0, grey);
@@ -324,15 +323,15 @@ class MapDrawing {
     }
     for (double const v : ticks(1)) {
       double const y = frame.place({0.0, v}).y;
-      canvas.line({beside - tick, y}, {beside, y}, 1.0, grey);
-      label(beside - tick - 4.0, y, fmt::format("{:.3g}", v), LabelAlign::right);
+      canvas.line({axis_x - tick, y}, {axis_x, y}, 1.0, grey);
+      label(axis_x - tick - 4.0, y, fmt::format("{:.3g}", v), LabelAlign::right);
     }
     canvas.line({frame.corner.x, below}, {frame.corner.x + map_.x, below}, 1.0, grey);
-    canvas.line({beside, frame.corner.y}, {beside, frame.corner.y + map_.y}, 1.0, grey);
+    canvas.line({axis_x, frame.corner.y}, {axis_x, frame.corner.y + map_.y}, 1.0, grey);
     draw_ends(frame, below + tick + text * 2.2);
   }
 
-  // The points of the compass at both ends of u, and what the numbers are.
+  // The points of the compass at both ends of u, and the meaning of the numbers.
   void draw_ends(Frame const& frame, double y) {
     double const right = azimuth_of(grid_.axes().u);
     std::string const middle = "m";
@@ -344,7 +343,7 @@ class MapDrawing {
   void draw_scale(MapCanvas& canvas, Quantity const& quantity, Frame const& frame) {
     glm::ivec2 const corner{static_cast<int>(frame.corner.x + map_.x) + bar_gap,
                             static_cast<int>(frame.corner.y)};
-    int const tall = std::max(static_cast<int>(map_.y), least_bar);
+    int const tall = std::max(static_cast<int>(map_.y), min_bar);
     for (int y = 0; y < tall; ++y) {
       canvas.fill({corner.x, corner.y + y}, {bar_width, 1},
                   fraction_colour((tall - 0.5 - y) / tall));

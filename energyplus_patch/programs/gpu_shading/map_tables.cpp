@@ -1,5 +1,3 @@
-#include "programs/gpu_shading/map_tables.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <ostream>
 
 #include "platform/text.h"
+#include "programs/gpu_shading/map_files.h"
 
 namespace gpu_shading::energyplus {
 
@@ -29,8 +28,8 @@ MapSummary summarise(MapGrid const& grid, std::vector<MapValue> const& values) {
     summary.area += area;
     summary.mean.hours += area * values[i].hours;
     summary.mean.energy += area * values[i].energy;
-    summary.most.hours = std::max(summary.most.hours, values[i].hours);
-    summary.most.energy = std::max(summary.most.energy, values[i].energy);
+    summary.largest.hours = std::max(summary.largest.hours, values[i].hours);
+    summary.largest.energy = std::max(summary.largest.energy, values[i].energy);
   }
   summary.mean.hours /= summary.area;
   summary.mean.energy /= summary.area;
@@ -80,8 +79,8 @@ void write_summaries(std::vector<MapSummary> const& summaries, std::ostream& csv
         "{},{},{:.2f},{:.2f},{:.6g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},"
         "{:.7g}\n",
         csv_field(one.receiver), csv_field(one.stem), one.azimuth, one.tilt, one.area, one.cells,
-        one.cell_width, one.cell_height, one.mean.hours, one.most.hours, one.mean.energy,
-        one.most.energy, one.mean.energy * one.area);
+        one.cell_width, one.cell_height, one.mean.hours, one.largest.hours, one.mean.energy,
+        one.largest.energy, one.mean.energy * one.area);
   }
 }
 

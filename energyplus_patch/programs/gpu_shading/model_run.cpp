@@ -37,7 +37,7 @@ std::vector<std::string> flags_of(Choices choices, Path const& task) {
   return to_flags(choices);
 }
 
-// EnergyPlus, as the model needs it, for a task.
+// The command that runs EnergyPlus for a task.
 std::vector<std::string> command_for(ModelRun const& run, Path const& task, Path const& folder) {
   auto const& [model, weather, choices] = run;
   auto const epw = weather ? *weather : some_weather();
@@ -75,7 +75,7 @@ TaskReply run_task(ModelRun const& run, Task const& task) {
   }
   if (auto const error = last_error(log)) throw Error(*error);
   require_room(folder.path());
-  throw Error(fmt::format("{}: EnergyPlus does not get as far as its shading calculation ({}): {}",
+  throw Error(fmt::format("{}: EnergyPlus stopped before its shading calculation ({}): {}",
                           model.string(), describe_status(status), stop_reasons(folder.path())));
 }
 

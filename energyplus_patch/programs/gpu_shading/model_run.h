@@ -1,5 +1,7 @@
 #pragma once
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <optional>
 
@@ -22,5 +24,26 @@ void require_model(std::filesystem::path const& model);
 // with them. Throws Error: an error of the model, why the task could not be done, or how
 // EnergyPlus's process ended without a reply.
 TaskReply run_task(ModelRun const& run, Task const& task);
+
+// A duplicate of standard error, which a child process inherits; none on Windows, where programs
+// inherit no descriptors.
+class StandardError {
+ public:
+#ifdef _WIN32
+  StandardError() = default;
+#else
+  StandardError() : descriptor_(dup(STDERR_FILENO)) {}
+#endif
+  ~StandardError() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  StandardError(StandardError const&) = delete;
+  StandardError& operator=(StandardError const&) = delete;
+
+  int descriptor() const { return descriptor_; }  // -1: none
+
+ private:
+  int descriptor_ = -1;
+};
 
 }  // namespace gpu_shading::energyplus

@@ -1,8 +1,7 @@
-#include "programs/gpu_shading/sample.h"
-
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
@@ -13,12 +12,14 @@
 #include "platform/console.h"
 #include "platform/files.h"
 #include "platform/process.h"
-#include "programs/gpu_shading/standard_error.h"
+#include "platform/text.h"
+#include "programs/gpu_shading/commands.h"
 #include "routes/schedules/rendered_fractions.h"
 #include "runs/installation.h"
 #include "runs/short_runs.h"
 #include "scene/digest.h"
-#include "tasks/samples/sample_tables.h"
+#include "tasks/samples/sample_parts.h"
+#include "tasks/samples/sample_set.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -127,7 +128,8 @@ RunTimes run_year(Source const& source, SampleSet const& set) {
   call.weather = source.weather;
   auto year = run_for_year(call, set.scene.schedules, steps_per_hour);
   if (set.scene.schedules.empty()) return year;
-  auto const unknown = unknown_schedules(read_model(source.run.model, source.run.choices), year);
+  auto const unknown =
+      unknown_schedules(read_model(source.run.model, source.run.choices), year.schedules);
   if (!unknown.empty()) print_line("warning: " + describe_unknown(unknown));
   return year;
 }
@@ -137,7 +139,7 @@ void put_together(Source const& source, SampleParts const& parts, Path const& fo
   auto const year = run_year(source, set);
   auto const write = [&](std::string_view name, auto const& content) {
     write_whole_file(folder / name, content);
-    print_text(fmt::format("{}\n", (folder / name).string()));
+    print("{}\n", (folder / name).string());
   };
   write("samples.csv", [&](std::ostream& out) { write_samples(set, out); });
   write("year.csv", [&](std::ostream& out) { write_year(set, year, out); });
@@ -148,17 +150,86 @@ void put_together(Source const& source, SampleParts const& parts, Path const& fo
                          year.times.size()));
 }
 
-}  // namespace
+struct SampleOrder {
+  std::string mode = "medium";
+  std::string folder;
+  std::string shard;  // "3/8": render one share of one round; do not write tables
+  int merge = 0;      // write tables from the parts of this many shards; do not render
+  bool sky = false;
+};
 
-void sample(ModelRun const& run, SampleTask const& task) {
+// "3/8".
+Shard parse_shard(std::string const& text) {
+  auto const slash = text.find('/');
+  auto const number = parse_number(text.substr(0, slash));
+  auto const shards = parse_number(slash == std::string::npos ? "" : text.substr(slash + 1));
+  constexpr double max_shards = 10000.0;
+  bool const whole =
+      number && shards && std::floor(*number) == *number && std::floor(*shards) == *shards;
+  if (!whole || *number < 1.0 || *number > *shards || *shards > max_shards) {
+    throw Error(fmt::format("--shard {}: expected I/N, the I-th of N shards, such as 3/8", text));
+  }
+  return {static_cast<int>(*number), static_cast<int>(*shards)};
+}
+
+// Renders the samples that --gpu-shading-update sampled:... uses, without a year's run, and writes
+// samples.csv, year.csv and, last, samples.json, each completely or not at all; rendered parts are
+// in parts/.
+void sample(ModelRun run, SampleOrder const& order) {
+  std::vector<std::string> flags{"--gpu-shading-update=sampled:" + order.mode};
+  run.choices.update = take_flags(flags).update;
+  run.choices.paper_grid = false;
+  std::filesystem::path const folder = order.folder;
   auto const source = read_source(run);
-  auto const folder = task.folder / "parts";
-  if (task.shard) {
-    print_line(render(source, folder, *task.shard));
+  if (!order.shard.empty()) {
+    print_line(render(source, folder / "parts", parse_shard(order.shard)));
     return;
   }
-  if (!task.merge) print_line(render(source, folder, {}));
-  put_together(source, SampleParts(folder, task.merge.value_or(1)), task.folder);
+  if (order.merge == 0) print_line(render(source, folder / "parts", {}));
+  put_together(source, SampleParts(folder / "parts", std::max(order.merge, 1)), folder);
+}
+
+}  // namespace
+
+void add_sample(Program const& program) {
+  Command const command(
+      program, "sample",
+      "Sample sunlit fractions as --gpu-shading-update sampled:... does, without a run, and write "
+      "tables of the samples and of every 15 minutes of the year; or sunlit fractions for patches "
+      "of the sky",
+      model_options({"cache"}));
+  auto const model =
+      command.add_model("Weather file: site and calendar (required, except with --sky)");
+  auto const order = std::make_shared<SampleOrder>();
+  command
+      ->add_option("-o,--output", order->folder,
+                   "Folder for samples.csv and year.csv, or for sky.csv and sky_view.csv")
+      ->required();
+  auto* const mode = command->add_option("--mode", order->mode, "Density of the samples");
+  mode->check(CLI::IsMember({"fine", "medium", "coarse"}))->capture_default_str();
+  auto* const shard = command->add_option(
+      "--shard", order->shard,
+      "Render the I-th of N shares of one round and keep it in the folder; repeat for all shares, "
+      "then for the next round, until all rounds are complete");
+  shard->type_name("I/N");
+  constexpr int max_shards = 10000;
+  auto* const merge = command->add_option(
+      "--merge", order->merge,
+      "Write the tables from the parts that N shards have rendered; render nothing");
+  merge->check(CLI::Range(1, max_shards))->excludes(shard)->type_name("N");
+  command
+      ->add_flag("--sky", order->sky,
+                 "Instead, for the patches of EnergyPlus's, Tregenza's and Reinhart's skies, with "
+                 "view factors to the sky; transmittance schedules are at their lowest value and "
+                 "screens fully deployed")
+      ->excludes(mode, shard, merge);
+  command.run([model, order] {
+    if (order->sky) {
+      sample_sky(*model, order->folder);
+    } else {
+      sample(*model, *order);
+    }
+  });
 }
 
 }  // namespace gpu_shading::energyplus

@@ -1,18 +1,14 @@
-#include "programs/gpu_shading/screen.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <glm/trigonometric.hpp>
 #include <map>
 #include <memory>
 #include <utility>
 #include <vector>
 
-#include "files/pictures.h"
 #include "gpu_shading/error.h"
 #include "model/extensions/extension_fields.h"
 #include "model/geometry_rules.h"
@@ -24,17 +20,22 @@
 #include "platform/process.h"
 #include "platform/staged_files.h"
 #include "platform/text.h"
-#include "programs/gpu_shading/model_run.h"
-#include "programs/gpu_shading/screen_bsdf.h"
-#include "programs/gpu_shading/screen_optics.h"
-#include "programs/gpu_shading/screen_plot.h"
-#include "programs/gpu_shading/tile_picture.h"
+#include "programs/gpu_shading/commands.h"
+#include "programs/gpu_shading/screen_files.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 using Path = std::filesystem::path;
 namespace field = extension::perforated_screen;
+
+// Which screens of a model to describe, and where to.
+struct ScreenTask {
+  Path model;                  // IDF or epJSON
+  std::string name;            // of GPUShading:PerforatedScreen objects, or a pattern; "": all
+  std::optional<Path> folder;  // for files; empty: none are written
+  std::optional<Path> bsdf;    // for one screen's, as XML
+};
 
 // One object of the model, and surfaces that it names.
 struct NamedScreen {
@@ -148,45 +149,32 @@ constexpr std::array azimuths{0, 45, 90, 135};
 void print_table(PerforatedScreen const& screen) {
   constexpr int step = 10;
   constexpr int last = 80;
-  print_text(
-      fmt::format("{:>7}{:>10}{:>10}{:>10}{:>10}\n", "theta", "u (0)", "45", "v (90)", "135"));
+  print("{:>7}{:>10}{:>10}{:>10}{:>10}\n", "theta", "u (0)", "45", "v (90)", "135");
   for (int theta = 0; theta <= last; theta += step) {
-    print_text(fmt::format("{:>7}", theta));
+    print("{:>7}", theta);
     for (auto const phi : azimuths) {
-      print_text(fmt::format("{:>10.4f}", transmittance(screen, theta, phi)));
+      print("{:>10.4f}", transmittance(screen, theta, phi));
     }
     print_text("\n");
   }
 }
 
-std::string list(std::vector<std::string> const& surfaces) {
-  constexpr std::size_t most = 3;
-  auto const shown = std::min(surfaces.size(), most);
-  std::vector<std::string> names(shown);
-  std::transform(surfaces.begin(), surfaces.begin() + static_cast<std::ptrdiff_t>(shown),
-                 names.begin(), [](std::string const& name) { return printable(name); });
-  auto text = fmt::format("{}", fmt::join(names, ", "));
-  if (surfaces.size() > most) text += fmt::format(" and {} more", surfaces.size() - most);
-  return text;
-}
-
-void print(DescribedScreen const& described) {
+void print_described(DescribedScreen const& described) {
   auto const& screen = *described.screen;
-  print_text(fmt::format("{}\n", one_line(described.named.maker->where())));
-  print_text(fmt::format("  sheet          {}\n", one_line(described.description)));
-  print_text(fmt::format("  surfaces       {}\n", list(described.named.surfaces)));
-  print_text(fmt::format("  open fraction  {:.4f}\n", screen.open_fraction()));
+  print("{}\n", one_line(described.named.maker->where()));
+  print("  sheet          {}\n", one_line(described.description));
+  print("  surfaces       {}\n", listed(described.named.surfaces, 3));
+  print("  open fraction  {:.4f}\n", screen.open_fraction());
   double const cut_off = glm::degrees(screen.transmittance().cut_off());
   constexpr double right_angle = 90.0;
   if (screen.sheet().thickness > 0.0 && cut_off < right_angle) {
-    print_text(fmt::format(
-        "  cut-off        {:.1f} degrees from the normal: no beam passes beyond\n", cut_off));
+    print("  cut-off        {:.1f} degrees from the normal: no beam passes beyond\n", cut_off);
   }
   if (described.rotation != 0.0) {
-    print_text(fmt::format(
+    print(
         "  rotation       u and v are rotated by {:g} degrees counterclockwise as seen from "
         "outside\n",
-        described.rotation));
+        described.rotation);
   }
   print_text("\n");
   print_table(screen);
@@ -200,44 +188,6 @@ void print_legend() {
       "profile angle. Both faces are alike, and so are phi and phi + 180.\n");
 }
 
-void write_table(PerforatedScreen const& screen, std::ostream& csv) {
-  constexpr int last_theta = 89;
-  constexpr int phi_step = 5;
-  constexpr int circle = 360;
-  csv << "theta [deg],phi [deg],tau [-]\n";
-  for (int theta = 0; theta <= last_theta; ++theta) {
-    for (int phi = 0; phi < circle; phi += phi_step) {
-      csv << fmt::format("{},{},{:.6f}\n", theta, phi, transmittance(screen, theta, phi));
-    }
-  }
-}
-
-std::string encode_tile(DescribedScreen const& described, std::string const& name) {
-  constexpr int size = 480;
-  constexpr double oblique = 30.0;
-  TemporaryFolder const temporary;
-  PictureSheet sheet;
-  for (double const angle : {0.0, oblique}) {
-    auto const file = temporary.path() / fmt::format("{}.png", angle);
-    write_whole_file(file, [&](std::ostream& out) {
-      out << encode_image("tile.png", draw_tile(*described.screen, angle, size));
-    });
-    sheet.items.push_back(
-        {file, angle > 0.0 ? fmt::format("{:g} degrees from the right", angle) : "from the front"});
-  }
-  return encode_sheet(name, sheet);
-}
-
-std::optional<std::string> try_encoding_tile(DescribedScreen const& described,
-                                             std::string const& name) {
-  try {
-    return encode_tile(described, name);
-  } catch (Error const& error) {
-    print_line(fmt::format("warning: {}: not drawn: {}", name, error.what()));
-    return std::nullopt;
-  }
-}
-
 void write_files(std::vector<DescribedScreen> const& screens, StagedFiles& files,
                  Path const& folder) {
   FileNames tables;
@@ -247,25 +197,24 @@ void write_files(std::vector<DescribedScreen> const& screens, StagedFiles& files
   for (auto const& described : screens) {
     auto const& object = described.named.maker->object();
     written.push_back(tables.add(object, "_tau.csv"));
-    files.write(written.back(), [&](std::ostream& csv) { write_table(*described.screen, csv); });
+    files.write(written.back(),
+                [&](std::ostream& csv) { write_transmittances(*described.screen, csv); });
     written.push_back(plots.add(object, "_tau.svg"));
     files.write(written.back(), [&](std::ostream& svg) {
       write_polar_plot(*described.screen, printable(object), one_line(described.description), svg);
     });
-    // Installations without the picture formats have the tables and plots.
     auto const tile = tiles.add(object, "_tile.png");
-    if (auto const picture = try_encoding_tile(described, tile)) {
+    if (auto const picture = encode_tile(*described.screen, tile)) {
       files.write(tile, *picture);
       written.push_back(tile);
     }
   }
   files.commit();
   print_text("\n");
-  for (auto const& name : written) print_text(fmt::format("{}\n", (folder / name).string()));
+  for (auto const& name : written) print("{}\n", (folder / name).string());
 }
 
-// As EnergyPlus has it for solar reflections: of the model's ShadingProperty:Reflectance, or its
-// default.
+// As in EnergyPlus's solar reflections: the model's ShadingProperty:Reflectance, or the default.
 SheetReflectance reflectance_of(std::string const& surface, ShadingInput const& shading) {
   auto const found = shading.shading_surfaces.find(surface);
   auto const properties =
@@ -299,11 +248,10 @@ void write_bsdf_file(DescribedScreen const& described, ShadingInput const& shadi
     write_bsdf(*described.screen, described.rotation, reflectance, printable(object),
                one_line(described.description), xml);
   });
-  print_text(fmt::format("{}\n", file.string()));
+  print("{}\n", file.string());
 }
 
-}  // namespace
-
+// EnergyPlus is not run.
 void describe_screens(ScreenTask const& task, Choices const& choices) {
   require_model(task.model);
   auto const model = read_model(task.model, choices);
@@ -317,11 +265,41 @@ void describe_screens(ScreenTask const& task, Choices const& choices) {
   if (task.folder) files.emplace(*task.folder);
   for (auto const& screen : screens) {
     if (&screen != &screens.front()) print_text("\n");
-    print(screen);
+    print_described(screen);
   }
   print_legend();
   if (files) write_files(screens, *files, *task.folder);
   if (task.bsdf) write_bsdf_file(screens.front(), model.shading, *task.bsdf);
+}
+
+}  // namespace
+
+void add_screen(Program const& program) {
+  Command const command(
+      program, "screen",
+      "Print the sheet and the transmittance by angle of incidence and azimuth of the perforated "
+      "screens of a model, and write tables, polar plots and pictures of them. EnergyPlus is not "
+      "run",
+      {"file", "threads", "quiet", "assets"});
+  auto const task = std::make_shared<ScreenTask>();
+  command
+      ->add_option_function<std::string>(
+          "model", [task](std::string const& text) { task->model = text; }, "IDF or epJSON file")
+      ->required();
+  command->add_option("name", task->name,
+                      "Name of a GPUShading:PerforatedScreen, or a pattern in which * stands for "
+                      "any characters (default: all)");
+  command->add_option_function<std::string>(
+      "-o,--output", [task](std::string const& text) { task->folder = text; },
+      "Folder for NAME_tau.csv (transmittance by angles), NAME_tau.svg (polar plot) "
+      "and NAME_tile.png (one tile of the sheet)");
+  command
+      ->add_option_function<std::string>(
+          "--bsdf", [task](std::string const& text) { task->bsdf = text; },
+          "File for one screen as a BSDF, in WINDOW's XML with Klems's 145 x 145 "
+          "directions: direct transmission, and diffuse reflection of the faces")
+      ->type_name("FILE");
+  command.run([task, choices = program.choices] { describe_screens(*task, choices); });
 }
 
 }  // namespace gpu_shading::energyplus

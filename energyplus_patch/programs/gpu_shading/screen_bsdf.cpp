@@ -1,5 +1,3 @@
-#include "programs/gpu_shading/screen_bsdf.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +11,7 @@
 #include <vector>
 
 #include "platform/text.h"
-#include "programs/gpu_shading/screen_optics.h"
+#include "programs/gpu_shading/screen_files.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -49,7 +47,7 @@ double squared_sine(double degrees) {
   return sine * sine;
 }
 
-// Steradians, times the cosine.
+// In steradians.
 double projected_solid_angle(PatchRow const& row) {
   return std::numbers::pi * (squared_sine(row.upper) - squared_sine(row.lower)) / row.patches;
 }
@@ -74,7 +72,7 @@ double mean_transmittance(PerforatedScreen const& screen, double rotation, Patch
   return sum / (polar * azimuths);
 }
 
-// Of scattering, 1/sr, by patch.
+// The diagonal of the scattering matrix, 1/sr.
 std::vector<double> diagonal(PerforatedScreen const& screen, double rotation) {
   std::vector<double> values;
   for (auto const& row : klems_full) {
@@ -86,7 +84,7 @@ std::vector<double> diagonal(PerforatedScreen const& screen, double rotation) {
   return values;
 }
 
-// The whole matrix by a function of row and column.
+// The matrix with the values of a function of row and column.
 template <typename Value>
 std::string matrix_text(std::size_t size, Value const& value) {
   std::string text;
@@ -148,7 +146,7 @@ void write_head(PerforatedScreen const& screen, SheetReflectance const& reflecta
       "sheet.\n"
       "     Reflection: diffuse, of the solid share of the faces, {:.4f}, times their reflectance, "
       "{:g} (solar) and {:g} (visible).\n"
-      "     Not in it: light that the walls of holes reflect, and infrared properties. -->\n",
+      "     Not included: light that the walls of holes reflect, and infrared properties. -->\n",
       1.0 - screen.open_fraction(), reflectance.solar, reflectance.visible);
   xml << "<WindowElement xmlns=\"http://windows.lbl.gov\" "
          "xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "

@@ -1,14 +1,12 @@
-#include "programs/gpu_shading/screen_plot.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "gpu_shading/fraction_colour.h"
+#include "gpu_shading/image.h"
 #include "platform/text.h"
-#include "programs/gpu_shading/screen_optics.h"
+#include "programs/gpu_shading/screen_files.h"
 
 namespace gpu_shading::energyplus {
 namespace {

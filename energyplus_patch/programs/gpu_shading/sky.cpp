@@ -1,11 +1,8 @@
-#include "programs/gpu_shading/sky.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <ostream>
@@ -16,8 +13,9 @@
 #include "platform/process.h"
 #include "platform/staged_files.h"
 #include "platform/text.h"
-#include "tasks/samples/direction_fractions.h"
+#include "programs/gpu_shading/commands.h"
 #include "tasks/samples/sky_patches.h"
+#include "tasks/task_file.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -26,9 +24,9 @@ std::array<SkyDivision, 3> skies() { return {energyplus_sky(), reinhart_sky(1), 
 
 // The cosine of incidence of a patch's centre; 0 if it is behind the receiver.
 double cosine_of(SkyPatch const& patch, SampledReceiver const& receiver) {
-  constexpr double least = 1e-5;  // EnergyPlus's limit
+  constexpr double min_cosine = 1e-5;  // EnergyPlus's limit
   double const cosine = glm::dot(glm::normalize(receiver.area), to_vector(patch.centre));
-  return cosine < least ? 0.0 : cosine;
+  return cosine < min_cosine ? 0.0 : cosine;
 }
 
 std::vector<ReceiverFractions> render_sky(ModelRun const& run) {
@@ -44,8 +42,8 @@ std::vector<ReceiverFractions> render_sky(ModelRun const& run) {
   return read_fractions(file);
 }
 
-// What a receiver gets from the first `count` patches of a uniform sky, as a fraction of what it
-// would get if nothing shaded it. `fractions` begins with that of the first patch.
+// Irradiance from the first `count` patches of a uniform sky, as a fraction of the unshaded one.
+// `fractions` begins with that of the first patch.
 double shaded_ratio(SkyDivision const& sky, SampledReceiver const& receiver,
                     double const* fractions, std::size_t count) {
   double unshaded = 0.0;
@@ -65,13 +63,13 @@ void write_patches(std::vector<ReceiverFractions> const& receivers, std::ostream
   for (auto const& sky : skies()) {
     for (std::size_t i = 0; i < sky.patches.size(); ++i) {
       auto const& patch = sky.patches[i];
-      auto const place = fmt::format("{},{},{:.6g},{:.6g},{:.8g}", sky.name, i + 1,
-                                     glm::degrees(patch.centre.azimuth),
-                                     glm::degrees(patch.centre.altitude), patch.solid_angle);
+      auto const patch_text = fmt::format("{},{},{:.6g},{:.6g},{:.8g}", sky.name, i + 1,
+                                          glm::degrees(patch.centre.azimuth),
+                                          glm::degrees(patch.centre.altitude), patch.solid_angle);
       for (auto const& [receiver, fractions] : receivers) {
         double const cosine = cosine_of(patch, receiver);
         if (cosine <= 0.0) continue;
-        csv << fmt::format("{},{},{:.8g},{:.6f}\n", place, csv_field(receiver.name), cosine,
+        csv << fmt::format("{},{},{:.8g},{:.6f}\n", patch_text, csv_field(receiver.name), cosine,
                            fractions[first + i]);
       }
     }
@@ -90,7 +88,7 @@ void write_view(ReceiverFractions const& one, std::ostream& csv) {
                        glm::length(one.receiver.area),
                        glm::degrees(std::acos(std::clamp(up, -1.0, 1.0))), sky.name, unshaded,
                        unshaded * ratio, ratio);
-    // Only EnergyPlus has a ratio of its own for the horizon.
+    // Only EnergyPlus has a separate ratio for the horizon.
     if (fractions == one.fractions.data()) {
       csv << fmt::format("{:.6f}", shaded_ratio(sky, one.receiver, fractions, horizon));
     }
@@ -114,7 +112,7 @@ void sample_sky(ModelRun const& run, std::filesystem::path const& folder) {
   files.write("sky_view.csv", [&](std::ostream& out) { write_views(receivers, out); });
   files.commit();
   for (auto const* const name : {"sky.csv", "sky_view.csv"}) {
-    print_text(fmt::format("{}\n", (folder / name).string()));
+    print("{}\n", (folder / name).string());
   }
 }
 

@@ -1,4 +1,4 @@
-#include "programs/gpu_shading/tile_picture.h"
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,13 @@
 #include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+
+#include "files/pictures.h"
+#include "gpu_shading/error.h"
+#include "platform/console.h"
+#include "platform/files.h"
+#include "platform/process.h"
+#include "programs/gpu_shading/screen_files.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -49,8 +56,8 @@ glm::dvec3 colour_at(PerforatedScreen const& screen, glm::dvec2 at, double shift
   return glm::mix(inside, face, front);
 }
 
-}  // namespace
-
+// `size` pixels on the longer side, seen from a point far to the right (where u points) at an angle
+// in degrees from the normal.
 Image draw_tile(PerforatedScreen const& screen, double angle, int size) {
   auto const& pattern = screen.pattern();
   glm::dvec2 const tile = pattern ? glm::dvec2(pattern->width(), pattern->height())
@@ -82,6 +89,33 @@ Image draw_tile(PerforatedScreen const& screen, double angle, int size) {
     }
   }
   return image;
+}
+
+std::string encode_views(PerforatedScreen const& screen, std::string const& name) {
+  constexpr int size = 480;
+  constexpr double oblique = 30.0;
+  TemporaryFolder const temporary;
+  PictureSheet sheet;
+  for (double const angle : {0.0, oblique}) {
+    auto const file = temporary.path() / fmt::format("{}.png", angle);
+    write_whole_file(file, [&](std::ostream& out) {
+      out << encode_image("tile.png", draw_tile(screen, angle, size));
+    });
+    sheet.items.push_back(
+        {file, angle > 0.0 ? fmt::format("{:g} degrees from the right", angle) : "from the front"});
+  }
+  return encode_sheet(name, sheet);
+}
+
+}  // namespace
+
+std::optional<std::string> encode_tile(PerforatedScreen const& screen, std::string const& name) {
+  try {
+    return encode_views(screen, name);
+  } catch (Error const& error) {
+    print_line(fmt::format("warning: {}: not drawn: {}", name, error.what()));
+    return std::nullopt;
+  }
 }
 
 }  // namespace gpu_shading::energyplus

@@ -13,7 +13,7 @@
 #include <span>
 #include <string_view>
 
-#include "gpu_shading/fraction_colour.h"
+#include "gpu_shading/image.h"
 #include "platform/text.h"
 #include "reports/page/page_parts.h"
 
@@ -23,10 +23,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Vertices that a page may have: with three coordinates of two bytes, a third more as text.
-constexpr std::size_t most_vertices = 190000;
+constexpr std::size_t max_vertices = 190000;
 // More names than this of surfaces that only cast shadows are left out.
-constexpr std::size_t most_caster_names = 3000;
-constexpr std::size_t most_in_ring = 60000;
+constexpr std::size_t max_caster_names = 3000;
+constexpr std::size_t max_in_ring = 60000;
 
 std::string base64(std::span<std::uint8_t const> bytes) {
   constexpr std::string_view digits =
@@ -77,8 +77,8 @@ std::size_t vertices_of(Polygon const& polygon) {
 }
 
 bool is_drawable(Polygon const& polygon) {
-  auto const small = [](Ring const& ring) { return ring.size() <= most_in_ring; };
-  return small(polygon.outline) && polygon.holes.size() <= most_in_ring &&
+  auto const small = [](Ring const& ring) { return ring.size() <= max_in_ring; };
+  return small(polygon.outline) && polygon.holes.size() <= max_in_ring &&
          std::all_of(polygon.holes.begin(), polygon.holes.end(), small);
 }
 
@@ -171,7 +171,7 @@ Json to_json(PageDay const& day) {
   return {{"month", day.month}, {"day", day.day}, {"hours", hours}};
 }
 
-float most_of(std::vector<PageMap> const& maps, std::vector<float> PageMap::*values) {
+float max_of(std::vector<PageMap> const& maps, std::vector<float> PageMap::*values) {
   float most = 0.0F;
   for (auto const& map : maps) {
     // Not greater than it: what is not a number.
@@ -196,8 +196,8 @@ std::string map_codes(std::vector<float> const& values, float most) {
 }
 
 Json maps_of(RunPage const& page) {
-  auto const most_hours = most_of(page.maps, &PageMap::hours);
-  auto const most_energy = most_of(page.maps, &PageMap::energy);
+  auto const max_hours = max_of(page.maps, &PageMap::hours);
+  auto const max_energy = max_of(page.maps, &PageMap::energy);
   auto const numbers = [](glm::dvec3 const& vector) { return Json{vector.x, vector.y, vector.z}; };
   Json list = Json::array();
   for (auto const& map : page.maps) {
@@ -208,12 +208,12 @@ Json maps_of(RunPage const& page) {
                     {"columns", map.columns},
                     {"rows", map.rows},
                     {"means", {map.mean_hours, map.mean_energy}},
-                    {"hours", map_codes(map.hours, most_hours)},
-                    {"energy", map_codes(map.energy, most_energy)}});
+                    {"hours", map_codes(map.hours, max_hours)},
+                    {"energy", map_codes(map.energy, max_energy)}});
   }
   return {{"from", page.maps_from},
           {"to", page.maps_to},
-          {"most", {most_hours, most_energy}},
+          {"most", {max_hours, max_energy}},
           {"list", list}};
 }
 
@@ -230,7 +230,7 @@ Json colours() {
 
 Json content_of(RunPage const& page) {
   Json names = Json::array();
-  bool const all = page.surfaces.size() - page.receivers.size() <= most_caster_names;
+  bool const all = page.surfaces.size() - page.receivers.size() <= max_caster_names;
   auto const named = all ? page.surfaces.size() : page.receivers.size();
   for (std::size_t i = 0; i < named; ++i) names.push_back(page.surfaces[i].name);
   Json content{{"title", page.title}, {"names", names}, {"geometry", geometry_of(page)}};
@@ -280,7 +280,7 @@ void simplify(RunPage& page) {
   }
   for (auto const i : casters) {
     vertices += vertices_of(page.surfaces[i].polygon);
-    if (vertices > most_vertices) break;
+    if (vertices > max_vertices) break;
     kept[i] = is_drawable(page.surfaces[i].polygon);
     drawn += kept[i] ? 1 : 0;
   }

@@ -1,7 +1,7 @@
 #include "gpu_shading/error.h"
 #include "platform/console.h"
 #include "platform/error_line.h"
-#include "routes/opengl/opengl_answers.h"
+#include "routes/opengl/opengl_functions.h"
 
 namespace gpu_shading::energyplus {
 

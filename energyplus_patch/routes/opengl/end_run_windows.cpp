@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "platform/error_line.h"
-#include "routes/opengl/opengl_answers.h"
+#include "routes/opengl/opengl_functions.h"
 
 namespace gpu_shading::energyplus {
 

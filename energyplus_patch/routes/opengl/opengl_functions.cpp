@@ -3,9 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <span>
 #include <string_view>
 #include <utility>
+
+#include "calculation/plain_scene.h"
+#include "gpu_shading/error.h"
 
 // OpenGL 2.1 as far as GLFW 3.3.8, glad and Penumbra notice. What is not here succeeds and does
 // nothing.
@@ -26,6 +30,28 @@ constexpr Enum gl_link_status = 0x8B82;
 constexpr Enum gl_framebuffer_complete = 0x8CD5;
 
 thread_local OpenGlContext* current = nullptr;
+
+RendererOptions options_of_environment() {
+  constexpr char const* variable = "GPU_SHADING_ERROR";
+  RendererOptions options;
+  options.device.device = DeviceId{};
+  char const* const given = std::getenv(variable);
+  if (given == nullptr || *given == '\0') return options;
+  char* end = nullptr;
+  double const error = std::strtod(given, &end);
+  if (*end != '\0' || !(error >= RendererOptions::min_error) ||
+      error > RendererOptions::max_error) {
+    throw Error(std::string(variable) + " is '" + given + "': expected a number, 1e-5 to 0.1");
+  }
+  options.error = error;
+  return options;
+}
+
+// The model of this run, which outlives EnergyPlus's contexts.
+std::shared_ptr<DrawnModel>& model_of_run() {
+  static std::shared_ptr<DrawnModel> instance;
+  return instance;
+}
 
 // A function of OpenGL that changes nothing here.
 long long nothing() { return 0; }
@@ -146,6 +172,25 @@ void* pointer(Function* function) {
 }
 
 }  // namespace
+
+void draw_with(DrawnModel::Input input) {
+  model_of_run() = std::make_shared<DrawnModel>(std::move(input));
+}
+
+void finish_drawing() {
+  auto const finished = std::move(model_of_run());
+  if (finished) finished->finish();
+}
+
+void fail_task(std::string const& why) {
+  if (model_of_run()) model_of_run()->fail(why);
+}
+
+std::shared_ptr<DrawnModel> model_of_context() {
+  if (model_of_run()) return model_of_run();
+  return std::make_shared<DrawnModel>(
+      [options = options_of_environment()] { return std::make_unique<PlainScene>(options); });
+}
 
 void use_context(OpenGlContext* context) { current = context; }
 

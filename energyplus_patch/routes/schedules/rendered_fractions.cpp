@@ -57,7 +57,7 @@ SunlitFractions render_fractions(Model model, std::vector<Surface> const& surfac
     receivers.push_back({id, area(surface.polygon) * normal(surface.polygon)});
     table.surfaces.push_back(surface.name);
   }
-  session.start(messages, schedules_of(run, now), latitude);
+  session.start({messages, schedules_of(run, now), latitude});
   Progress progress("rendering sunlit fractions", run.times.size());
   for (std::size_t i = 0; i < run.times.size(); ++i) {
     auto const& time = run.times[i];
@@ -76,10 +76,10 @@ SunlitFractions render_fractions(Model model, std::vector<Surface> const& surfac
   return table;
 }
 
-std::vector<std::string> unknown_schedules(Model const& model, RunTimes const& run) {
+std::vector<std::string> unknown_schedules(Model const& model,
+                                           std::vector<std::string> const& known) {
   std::vector<std::string> names;
   for (auto const& name : shade_schedules(model)) {
-    auto const& known = run.schedules;
     if (model.shading.actuated.contains(name) ||
         std::find(known.begin(), known.end(), name) == known.end()) {
       names.push_back(name);

@@ -23,8 +23,10 @@ SunlitFractions render_fractions(Model model, std::vector<Surface> const& surfac
 // duplicates.
 std::vector<std::string> shade_schedules(Model const& model);
 
-// The schedules whose values are only known during the run, and a warning about these.
-std::vector<std::string> unknown_schedules(Model const& model, RunTimes const& run);
+// The schedules whose values are only known during the run, and a warning about these. `known`:
+// those of a short run.
+std::vector<std::string> unknown_schedules(Model const& model,
+                                           std::vector<std::string> const& known);
 std::string describe_unknown(std::vector<std::string> const& schedules);
 
 }  // namespace gpu_shading::energyplus

@@ -1,34 +1,205 @@
 #include "routes/schedules/scheduled_run.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/trigonometric.hpp>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
 #include "gpu_shading/error.h"
-#include "model/options/command_line.h"
+#include "model/idf/model_editor.h"
+#include "model/site/weather_header.h"
 #include "platform/console.h"
+#include "platform/files.h"
 #include "platform/process.h"
+#include "platform/text.h"
 #include "routes/hosted_run.h"
-#include "routes/schedules/scheduled_model.h"
+#include "routes/schedules/rendered_fractions.h"
+#include "runs/drawing.h"
+#include "runs/installation.h"
 
 namespace gpu_shading::energyplus {
+namespace {
 
-int run_scheduled(std::filesystem::path const& library, Choices const& choices,
-                  std::vector<std::string> arguments) {
-  auto const line = read_command_line(arguments);
+using Path = std::filesystem::path;
+
+constexpr std::string_view shadow_calculation = "ShadowCalculation";
+constexpr FieldPosition method_field{0, "shading_calculation_method"};
+constexpr FieldPosition frequency_field{1, "shading_calculation_update_frequency_method"};
+constexpr std::string_view local_environment = "SurfaceProperty:LocalEnvironment";
+constexpr FieldPosition exterior_surface{1, "exterior_surface_name"};
+constexpr FieldPosition sunlit_schedule{2, "sunlit_fraction_schedule_name"};
+
+// The warning about what the scheduled method cannot do.
+std::string describe_limits(Model const& model) {
+  std::string text =
+      "scheduled sunlit fractions apply to the beam in run periods only: EnergyPlus "
+      "computes the sky's diffuse light and sizing periods by polygon clipping, and spreads the "
+      "beam through windows over interior surfaces instead of tracing it";
+  if (!model.shades.by_surface.empty() || !model.screens.by_surface.empty()) {
+    text += "; GPUShading objects are opaque to the sky's diffuse light";
+  }
+  if (model.shading.all_shading_wanted || !model.shading.wanted_shading.empty()) {
+    text += "; shading surfaces themselves count as sunlit";
+  }
+  if (model.options.lean == Lean::on) text += "; lean input is off";
+  return text;
+}
+
+class Collected {
+ public:
+  explicit Collected(Say say) : say_(std::move(say)) {}
+
+  void warn(std::string const& line) {
+    say_("warning: " + line);
+    warnings.push_back(line);
+  }
+  void remark(std::string const& line) {
+    say_(line);
+    remarks.push_back(line);
+  }
+  Messages messages() {
+    return {[this](std::string const& line) { warn(line); },
+            [this](std::string const& line) { remark(line); }, [](std::string const&) {}};
+  }
+
+  std::vector<std::string> warnings;
+  std::vector<std::string> remarks;
+
+ private:
+  Say say_;
+};
+
+bool runs_periods(EnergyPlusCall const& call, ModelEditor& model) {
+  if (call.annual || call.design_days) return call.annual;
+  bool runs = true;
+  model.edit("SimulationControl", [&](EditedObject const& control) {
+    runs = !same_name(control.get({4, "run_simulation_for_weather_file_run_periods"}), "No");
+  });
+  return runs;
+}
+
+// Latitude of the site that determines the sun in run periods; radians.
+double latitude_of(EnergyPlusCall const& call) {
+  if (!call.weather)
+    throw Error("-w: a weather file is required (it sets the site at which the sun is sampled)");
+  return glm::radians(read_weather_site(*call.weather).latitude);
+}
+
+SunlitFractions render(EnergyPlusCall const& call, Model model, Collected& out) {
+  auto const run = run_for_times(call, shade_schedules(model));
+  if (run.times.empty()) return {};
+  auto const unknown = unknown_schedules(model, run.schedules);
+  if (!unknown.empty()) out.warn(describe_unknown(unknown));
+  auto const surfaces = surfaces_of(run_for_surfaces(call), model.shading);
+  return render_fractions(std::move(model), surfaces, run, out.messages(),
+                          [&] { return latitude_of(call); });
+}
+
+void set_method(ModelEditor& editor, std::string_view method, std::string_view frequency) {
+  bool found = false;
+  editor.edit(shadow_calculation, [&](EditedObject& object) {
+    object.set(method_field, method);
+    if (!frequency.empty()) object.set(frequency_field, frequency);
+    found = true;
+  });
+  if (found) return;
+  editor.add(shadow_calculation, {{method_field.name, method}, {frequency_field.name, frequency}});
+}
+
+// `file`: beside the model, so that both can be copied together.
+void add_schedules(ModelEditor& editor, SunlitFractions const& table, std::string const& file) {
+  constexpr int minutes_of_hour = 60;
+  constexpr int hours_of_leap_year = 8784;
+  constexpr std::string_view limits = "GPU SHADING SUNLIT FRACTION";
+  editor.add("ScheduleTypeLimits", {{"name", limits},
+                                    {"lower_limit_value", 0},
+                                    {"upper_limit_value", 1},
+                                    {"numeric_type", "Continuous"}});
+  std::unordered_map<std::string, std::string> schedule_of;
+  for (std::size_t i = 0; i < table.surfaces.size(); ++i) {
+    auto const name = fmt::format("{} {}", limits, i + 1);
+    schedule_of[upper(table.surfaces[i])] = name;
+    editor.add("Schedule:File", {{"name", name},
+                                 {"schedule_type_limits_name", limits},
+                                 {"file_name", file},
+                                 {"column_number", i + 1},
+                                 {"rows_to_skip_at_top", 1},
+                                 {"number_of_hours_of_data", hours_of_leap_year},
+                                 {"column_separator", "Comma"},
+                                 {"interpolate_to_timestep", "No"},
+                                 {"minutes_per_item", minutes_of_hour / table.steps_per_hour},
+                                 {"adjust_schedule_for_daylight_savings", "No"}});
+  }
+  // A surface may already have the object for other properties.
+  editor.edit(local_environment, [&](EditedObject& object) {
+    auto const found = schedule_of.find(upper(object.get(exterior_surface)));
+    if (found == schedule_of.end()) return;
+    object.set(sunlit_schedule, found->second);
+    schedule_of.erase(found);
+  });
+  for (auto const& surface : table.surfaces) {
+    auto const found = schedule_of.find(upper(surface));
+    if (found == schedule_of.end()) continue;
+    editor.add(local_environment, {{"name", found->second + " OF ITS SURFACE"},
+                                   {exterior_surface.name, surface},
+                                   {sunlit_schedule.name, found->second}});
+  }
+}
+
+}  // namespace
+
+ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choices,
+                                 Path const& folder, Say const& say) {
+  Collected out(say);
+  auto const editor = edit_model(call.model);
+  editor->remove([](std::string_view type) { return is_extension(type); });
+  auto model = read_model(call.model, choices);
+  if (model.options.mode == Mode::off) {
+    set_method(*editor, "PolygonClipping", "");
+  } else {
+    check_supported(model.shading, read_version(call.program.parent_path()));
+    out.warn(describe_limits(model));
+    SunlitFractions table;
+    if (runs_periods(call, *editor)) table = render(call, std::move(model), out);
+    if (table.empty()) {
+      out.warn(
+          "no run period with the sun above the horizon is run: all shading is computed by polygon "
+          "clipping");
+      set_method(*editor, "PolygonClipping", "");
+    } else {
+      // With Periodic, a day's schedule values would apply to the whole period.
+      set_method(*editor, "Scheduled", "Timestep");
+      constexpr char const* fractions = "gpu_shading_sunlit.csv";
+      write_whole_file(folder / fractions,
+                       [&](std::ostream& file) { write_schedule_file(table, file); });
+      add_schedules(*editor, table, fractions);
+    }
+  }
+  ScheduledModel done;
+  done.path = place_model(*editor, call.model, folder);
+  done.warnings = std::move(out.warnings);
+  done.remarks = std::move(out.remarks);
+  return done;
+}
+
+int run_scheduled(Path const& library, RunSetup const& setup) {
+  auto const& line = setup.line;
   if (line.preprocessed) {
     throw Error(
         "-m: sunlit fractions of an EPMacro model cannot be passed as schedules; create its IDF "
         "first");
   }
-  if (!line.model) return run_hosted(library, arguments, {});
-  if (!std::filesystem::exists(*line.model)) return run_hosted(library, arguments, {});
-  TemporaryFolder const folder;
-  auto const prepared = prepare_scheduled({own_folder() / "energyplus", *line.model, line.weather,
-                                           line.expand, line.annual, line.design_days},
-                                          choices, folder.path(), print_line);
-  if (line.model_at) {
-    arguments[*line.model_at] = prepared.path.string();
-  } else {
-    arguments.push_back(prepared.path.string());
+  if (!line.model || !std::filesystem::exists(*line.model)) {
+    return run_hosted(library, setup.arguments, {});
   }
-  return run_hosted(library, arguments, {prepared.warnings, prepared.remarks});
+  TemporaryFolder const folder;
+  auto const prepared = prepare_scheduled(setup.call(own_folder() / "energyplus"), setup.choices,
+                                          folder.path(), print_line);
+  return run_hosted(library, setup.arguments_for(prepared.path),
+                    {prepared.warnings, prepared.remarks});
 }
 
 }  // namespace gpu_shading::energyplus

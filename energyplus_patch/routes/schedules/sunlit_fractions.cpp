@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <iterator>
 #include <ostream>
@@ -25,7 +24,7 @@ void for_each_row(SunlitFractions const& table, Row const& row) {
           auto const number = row_of(time, table.steps_per_hour);
           bool const known =
               at < table.times.size() && row_of(table.times[at], table.steps_per_hour) == number;
-          row(time, known ? &table.fractions[at] : nullptr);
+          row(known ? &table.fractions[at] : nullptr);
           if (known) ++at;
         }
       }
@@ -42,7 +41,7 @@ void write_schedule_file(SunlitFractions const& table, std::ostream& out) {
   out << '\n';
   std::string dark;
   for (std::size_t i = 0; i < table.surfaces.size(); ++i) dark += i == 0 ? "0" : ",0";
-  for_each_row(table, [&](RunTime const&, std::vector<float> const* fractions) {
+  for_each_row(table, [&](std::vector<float> const* fractions) {
     if (fractions == nullptr) {
       out << dark << '\n';
       return;
@@ -50,32 +49,6 @@ void write_schedule_file(SunlitFractions const& table, std::ostream& out) {
     fmt::memory_buffer line;
     for (std::size_t i = 0; i < fractions->size(); ++i) {
       fmt::format_to(std::back_inserter(line), "{}{:.7g}", i == 0 ? "" : ",", (*fractions)[i]);
-    }
-    out.write(line.data(), static_cast<std::streamsize>(line.size())) << '\n';
-  });
-}
-
-void write_imported_file(SunlitFractions const& table, std::ostream& out) {
-  constexpr int february = 2;
-  constexpr int leap_day = 29;
-  constexpr int minutes_of_hour = 60;
-  auto const is_leap_day = [](RunTime const& time) {
-    return time.month == february && time.day == leap_day;
-  };
-  bool const leap = std::any_of(table.times.begin(), table.times.end(), is_leap_day);
-  out << "Surface Name,";
-  for (auto const& surface : table.surfaces) out << surface << ',';
-  out << '\n';
-  for_each_row(table, [&](RunTime const& time, std::vector<float> const* fractions) {
-    if (is_leap_day(time) && !leap) return;
-    // The end of the timestep.
-    int const minutes = time.timestep * minutes_of_hour / table.steps_per_hour;
-    fmt::memory_buffer line;
-    auto const end = std::back_inserter(line);
-    fmt::format_to(end, " {:02}/{:02} {:02}:{:02},", time.month, time.day,
-                   time.hour - 1 + minutes / minutes_of_hour, minutes % minutes_of_hour);
-    for (std::size_t i = 0; i < table.surfaces.size(); ++i) {
-      fmt::format_to(end, "{:.8f},", fractions == nullptr ? 0.0F : (*fractions)[i]);
     }
     out.write(line.data(), static_cast<std::streamsize>(line.size())) << '\n';
   });

@@ -25,9 +25,4 @@ struct SunlitFractions {
 // lacks.
 void write_schedule_file(SunlitFractions const& table, std::ostream& out);
 
-// The file for Shading Calculation Method "Imported" (Schedule:File:Shading), as EnergyPlus itself
-// writes it with Output External Shading Calculation Results: with a time in front of every row. It
-// covers a leap year only if the table has 29 February.
-void write_imported_file(SunlitFractions const& table, std::ostream& out);
-
 }  // namespace gpu_shading::energyplus

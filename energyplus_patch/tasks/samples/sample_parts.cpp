@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "answers/answers.h"
+#include "answers/answer_store.h"
 #include "gpu_shading/error.h"
 #include "platform/files.h"
 #include "scene/digest.h"

@@ -20,9 +20,10 @@ struct SampledReceiver {
 
 // The scene of the samples, which is the same for all parts.
 struct SampledScene {
-  std::string asked;  // as the caller describes it; a different description means different samples
-  std::string
-      hash;  // hash of geometry, optics, resolution and build: hash_scene() without a device
+  // The caller's description; a different one means different samples.
+  std::string asked;
+  // Of geometry, optics, resolution and build: hash_scene() without a device.
+  std::string hash;
   std::string fineness;  // "error 0.001", "512 x 512 pixels"
   std::vector<SampledReceiver> receivers;
   std::vector<std::string> schedules;  // which answers refer to by index

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/sky_grid.h"
+
 namespace gpu_shading::energyplus {
 namespace {
 
@@ -32,14 +34,11 @@ void add_row(SkyRow const& row, std::vector<SkyPatch>& patches) {
 }  // namespace
 
 SkyDivision energyplus_sky() {
-  constexpr int rows = 6;
-  constexpr int patches_in_row = 24;
-  constexpr double height = pi / 2.0 / rows;
+  constexpr double height = pi / 2.0 / sky_rows;
   SkyDivision sky{"EnergyPlus 144", {}};
-  for (int row = 0; row < rows; ++row) {
-    add_row(
-        {row * height, (row + 1) * height, patches_in_row, pi / 2.0, -2.0 * pi / patches_in_row},
-        sky.patches);
+  for (int row = 0; row < sky_rows; ++row) {
+    add_row({row * height, (row + 1) * height, sky_columns, pi / 2.0, -2.0 * pi / sky_columns},
+            sky.patches);
   }
   return sky;
 }

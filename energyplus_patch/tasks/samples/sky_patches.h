@@ -18,8 +18,7 @@ struct SkyDivision {
   std::vector<SkyPatch> patches;  // rows from the horizon, each from its first patch clockwise
 };
 
-// The directions in which EnergyPlus looks at the sky (Engineering Reference, "Shadowing of Sky
-// Diffuse Solar Radiation"): 6 rows of 24, the first of each row in the east, counterclockwise.
+// EnergyPlus's grid (scene/sky_grid.h), the first of each row in the east, counterclockwise.
 SkyDivision energyplus_sky();
 
 // Reinhart's division of Tregenza's sky (Tregenza 1987; Reinhart and Walkenhorst 2001), in the

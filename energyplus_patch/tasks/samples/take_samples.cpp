@@ -1,12 +1,8 @@
 #include "tasks/samples/take_samples.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
-#include <memory>
 #include <utility>
 
 #include "platform/progress.h"
@@ -14,17 +10,12 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-struct Close {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
 // Rendered in batches, each of which reports progress; this does not change an answer.
 std::vector<std::vector<Sunlit>> render(std::vector<SunDirection> const& directions,
                                         SunlitSource const& source, std::string const& work,
-                                        std::FILE* out) {
+                                        int descriptor) {
   constexpr std::size_t lot = 32;
-  Progress progress(work, directions.size(), out, isatty(fileno(out)) != 0,
-                    std::chrono::seconds(1));
+  Progress progress(work, directions.size(), descriptor);
   std::vector<std::vector<Sunlit>> rows;
   for (std::size_t begin = 0; begin < directions.size(); begin += lot) {
     auto const count = std::min(lot, directions.size() - begin);
@@ -52,8 +43,6 @@ bool lacks(RenderedRound const& found, int shard) {
 
 std::string take_samples(SampleRequest const& request, Sampling sampling, SampledScene const& scene,
                          std::string const& device, SunlitSource const& source) {
-  std::unique_ptr<std::FILE, Close> const progress(
-      request.progress < 0 ? nullptr : fdopen(dup(request.progress), "w"));
   SampleParts const parts(request.parts, request.shard.shards);
   SampleRounds rounds(sampling, request.latitude, scene.areas());
   std::size_t rendered = 0;
@@ -64,7 +53,7 @@ std::string take_samples(SampleRequest const& request, Sampling sampling, Sample
     if (lacks(found, request.shard.number)) {
       auto const own = share(directions, request.shard);
       auto const work = fmt::format("rendering samples, round {}", round);
-      auto answers = render(own, source, work, progress ? progress.get() : stderr);
+      auto answers = render(own, source, work, request.progress);
       parts.write({scene, device, round, request.shard, directions, answers});
       rendered += own.size();
       if (request.shard.shards > 1) {

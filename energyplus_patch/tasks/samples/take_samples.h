@@ -1,12 +1,24 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "gpu_shading/sampled_sunlit.h"
 #include "tasks/samples/sample_parts.h"
-#include "tasks/samples/sample_request.h"
 
 namespace gpu_shading::energyplus {
+
+// Samples of a session in EnergyPlus, and where to; their density is among the session's own
+// options.
+struct SampleRequest {
+  std::string asked;      // for SampledScene
+  double latitude = 0.0;  // radians
+  std::filesystem::path parts;
+  Shard shard;
+  int progress = -1;  // the file descriptor for progress; none if negative
+
+  bool operator==(SampleRequest const&) const = default;
+};
 
 // Renders samples into parts. A single shard goes through all rounds. One of several renders its
 // share of the first round that lacks it, once all shares of the earlier rounds are there. Existing

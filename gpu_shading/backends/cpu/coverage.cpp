@@ -7,11 +7,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <numeric>
 #include <utility>
 
-#include "antialias/sample_grid.h"
+#include "antialias/antialias.h"
 #include "backends/cpu/shade_counts.h"
 #include "platform/parallel.h"
 
@@ -28,7 +29,7 @@ View in_pixels(View view, TileGrid const& grid) {
 
 bool any_scheduled(std::span<Shade const> shades) {
   return std::any_of(shades.begin(), shades.end(),
-                     [](Shade const& shade) { return shade.schedule != Shades::unscheduled; });
+                     [](Shade const& shade) { return shade.schedule != Shade::unscheduled; });
 }
 
 bool any_transmits(std::span<Shade const> shades) {
@@ -95,15 +96,11 @@ struct Sampled {
 
 Sampled sampled(Tile const& tile, View const& view, CastersInView const& casters, Samples samples) {
   if (samples == Samples::pixels) return {pixels_of(tile)};
-  if (!casters.screens.numbers.empty()) {
-    return {grid_for_screens(tile, view, casters.screens, casters.repeats)};
-  }
-  auto const on = [&](TileGrid const& grid) {
-    return grid_for_blades(grid, tile, view, casters.repeats);
-  };
-  if (casters.opaque()) return {on(fine_grid(tile))};
-  if (can_be_counted(casters)) return {on(counting_grid(tile)), true};
-  return {on(pixels_of(tile))};
+  bool const counting = can_be_counted(casters);
+  SampleUse const use = casters.opaque() ? SampleUse::coverage
+                        : counting       ? SampleUse::counting
+                                         : SampleUse::luminance;
+  return {sample_grid(tile, view, casters.screens, casters.repeats, use), counting};
 }
 
 // From samples to pixels of the tile, if `own` samples are the receiver's.
@@ -146,167 +143,164 @@ struct Coverage::Band {
   std::size_t count = 0;
 };
 
-template <typename Use>
-void Coverage::each_area(SurfaceId caster, View const& pixels, int side, Use use) const {
-  pieces_.each(caster, pixels, [&](ProjectedPiece const& piece) { use(piece.area(side)); });
-}
-
-LuminanceSums Coverage::sums(Tile const& tile, View const& view, CastersInView const& casters,
-                             Samples samples, int threads) const {
-  auto const [grid, counting] = sampled(tile, view, casters, samples);
-  View const pixels = in_pixels(view, grid);
-  std::atomic<std::uint64_t> own = 0;
-  LuminanceSums sums;
-  if (casters.opaque()) {
-    sums.unscheduled = lit(tile, grid, pixels, casters.surfaces, threads, own);
-  } else if (counting) {
-    sums.unscheduled = counted(tile, grid, pixels, casters, threads, own);
-  } else if (any_scheduled(casters.shades)) {
-    sums = scheduled(tile, grid, pixels, casters, threads, own);
-  } else {
-    sums.unscheduled = luminance(tile, grid, pixels, casters, threads, own);
-  }
-  // Rows may all miss a small receiver that pixels meet.
-  if (own == 0) return this->sums(tile, view, casters, Samples::pixels, threads);
-  scale(sums, tile, own);
-  return sums;
-}
-
-void Coverage::darken(PixelMask& mask, int side, View const& pixels,
-                      std::span<SurfaceId const> casters) const {
-  for (SurfaceId const id : casters) {
-    each_area(id, pixels, side, [&](ConvexArea const& area) { mask.darken(area); });
+template <typename Dim>
+void Coverage::cover(PixelMask& mask, int side, View const& pixels, CastersInView const& casters,
+                     std::span<std::size_t const> order, Dim dim) const {
+  for (std::size_t i = 0; i < casters.surfaces.size(); ++i) {
+    std::size_t const place = order.empty() ? i : order[i];
+    Shade const shade = casters.shades.empty() ? Shade{} : casters.shades[place];
+    pieces_.each(casters.surfaces[place], pixels, [&](ProjectedPiece const& piece) {
+      if (shade.transmittance > 0.0F) {
+        dim(piece.area(side), shade);
+      } else {
+        mask.darken(piece.area(side));
+      }
+    });
   }
 }
 
 void Coverage::shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* passed,
                      View const& pixels, CastersInView const& casters) const {
-  if (casters.opaque()) return darken(mask, shaded.columns(), pixels, casters.surfaces);
-  auto const shade_by = [&](std::size_t i) {
-    Shade const& shade = casters.shades[i];
-    each_area(casters.surfaces[i], pixels, shaded.columns(), [&](ConvexArea const& area) {
-      if (shade.transmittance > 0.0F) {
-        shaded.multiply(area, shade.transmittance);
-        if (shade.schedule != Shades::unscheduled) passed->pass(area, shade.schedule);
-      } else {
-        mask.darken(area);
-      }
-    });
-  };
-  if (passed == nullptr) {
-    for (std::size_t i = 0; i < casters.shades.size(); ++i) shade_by(i);
-  } else {
-    for (std::size_t const i : by_schedule(casters.shades)) shade_by(i);
-  }
+  std::vector<std::size_t> order;
+  if (passed != nullptr) order = by_schedule(casters.shades);
+  cover(mask, shaded.columns(), pixels, casters, order,
+        [&](ConvexArea const& area, Shade const& shade) {
+          shaded.multiply(area, shade.transmittance);
+          if (shade.schedule != Shade::unscheduled) passed->pass(area, shade.schedule);
+        });
   shade_by_screens(shaded, mask, pixels, casters.screens);
 }
 
-double Coverage::lit(Tile const& tile, TileGrid const& grid, View const& pixels,
-                     std::span<SurfaceId const> casters, int threads,
-                     std::atomic<std::uint64_t>& own) const {
-  std::atomic<std::uint64_t> sum = 0;
-  in_rows(grid.rows, threads, [&](int first, int end) {
-    static thread_local PixelMask mask;
-    mask.start(grid.columns(), first, end);
-    light(mask, tile, grid);
-    own += mask.lit();
-    darken(mask, grid.side(), pixels, casters);
-    sum += mask.lit();
-  });
-  return static_cast<double>(sum);
+void Coverage::darken(PixelMask& mask, int side, View const& pixels,
+                      CastersInView const& casters) const {
+  cover(mask, side, pixels, casters, {}, [](ConvexArea const&, Shade const&) {});
 }
 
-double Coverage::luminance(Tile const& tile, TileGrid const& grid, View const& pixels,
-                           CastersInView const& casters, int threads,
-                           std::atomic<std::uint64_t>& own) const {
-  bool const darkening = !any_transmits(casters.shades) && all_or_nothing(casters.screens, pixels);
-  std::vector<double> sums(static_cast<std::size_t>(grid.rows));
-  in_rows(grid.rows, threads, [&](int first, int end) {
-    static thread_local PixelMask mask;
-    static thread_local LuminanceTile shaded;
-    mask.start(grid.columns(), first, end);
-    light(mask, tile, grid);
-    own += mask.lit();
-    if (darkening) {
-      shaded.lay_out(grid.columns(), first, end);
-    } else {
+// Sums over a grid's samples, row by row. `own` takes the number of those that are the receiver's.
+struct Coverage::Rows {
+  Coverage const& coverage;
+  Tile const& tile;
+  TileGrid const& grid;
+  View pixels;
+  CastersInView const& casters;
+  int threads;
+
+  // Calls use(mask, first, end) for parts of the rows, in any order and by any threads, with the
+  // receiver's samples lit. Returns the number of these.
+  template <typename Use>
+  std::uint64_t each(Use use) const {
+    std::atomic<std::uint64_t> own = 0;
+    in_rows(grid.rows, threads, [&](int first, int end) {
+      static thread_local PixelMask mask;
+      mask.start(grid.columns(), first, end);
+      light(mask, tile, grid);
+      own += mask.lit();
+      use(mask, first, end);
+    });
+    return own;
+  }
+
+  // With sums of rows: calls use(mask, first, end, sums). They are added up in order, however
+  // threads share them.
+  template <typename Use>
+  double sum_rows(std::uint64_t& own, Use use) const {
+    std::vector<double> sums(static_cast<std::size_t>(grid.rows));
+    own = each([&](PixelMask& mask, int first, int end) {
+      use(mask, first, end, std::span(sums).subspan(static_cast<std::size_t>(first)));
+    });
+    return std::accumulate(sums.begin(), sums.end(), 0.0);
+  }
+
+  double lit(std::uint64_t& own) const {
+    std::atomic<std::uint64_t> sum = 0;
+    own = each([&](PixelMask& mask, int /*first*/, int /*end*/) {
+      coverage.darken(mask, grid.side(), pixels, casters);
+      sum += mask.lit();
+    });
+    return static_cast<double>(sum);
+  }
+
+  double counted(std::uint64_t& own) const {
+    return sum_rows(own, [&](PixelMask& mask, int first, int end, std::span<double> sums) {
+      static thread_local ShadeCounts counts;
+      counts.start(grid.columns(), first, end);
+      coverage.cover(mask, grid.side(), pixels, casters, {},
+                     [&](ConvexArea const& area, Shade const& shade) {
+                       counts.add(area, shade.transmittance);
+                     });
+      counts.sum_rows(mask, sums);
+    });
+  }
+
+  double luminance(std::uint64_t& own) const {
+    bool const darkening =
+        !any_transmits(casters.shades) && all_or_nothing(casters.screens, pixels);
+    return sum_rows(own, [&](PixelMask& mask, int first, int end, std::span<double> sums) {
+      static thread_local LuminanceTile shaded;
+      if (darkening) {
+        shaded.lay_out(grid.columns(), first, end);
+      } else {
+        shaded.start(grid.columns(), first, end);
+      }
+      coverage.shade(mask, shaded, nullptr, pixels, casters);
+      if (darkening) {
+        sums[0] = static_cast<double>(mask.lit());
+      } else {
+        shaded.sum_rows(mask, sums);
+      }
+    });
+  }
+
+  LuminanceSums scheduled(std::uint64_t& own) const {
+    struct Part {
+      PassedSchedules passed;
+      std::vector<CombinationSums::Sum> row_sums;
+    };
+    std::mutex parts_mutex;
+    std::map<int, Part> parts;  // by first row
+    own = each([&](PixelMask& mask, int first, int end) {
+      static thread_local LuminanceTile shaded;
+      Part part;
       shaded.start(grid.columns(), first, end);
-    }
-    shade(mask, shaded, nullptr, pixels, casters);
-    std::span const rows = std::span(sums).subspan(static_cast<std::size_t>(first));
-    if (darkening) {
-      rows[0] = static_cast<double>(mask.lit());
-    } else {
-      shaded.sum_rows(mask, rows);
-    }
-  });
-  return std::accumulate(sums.begin(), sums.end(), 0.0);
-}
+      part.passed.start(grid.columns(), first, end);
+      coverage.shade(mask, shaded, &part.passed, pixels, casters);
+      CombinationSums sums(part.passed.combinations());
+      std::span<std::uint64_t const> const words = std::as_const(mask).words();
+      std::size_t const words_a_row = shaded.stride() / PixelMask::word_bits;
+      for (std::size_t word = 0; word < words.size(); ++word) {
+        each_bit(words[word], word, [&](std::size_t pixel) {
+          sums.add(part.passed.pixels()[pixel], std::as_const(shaded).pixels()[pixel]);
+        });
+        if ((word + 1) % words_a_row == 0) sums.take(part.row_sums);
+      }
+      std::lock_guard const lock(parts_mutex);
+      parts.emplace(first, std::move(part));
+    });
+    ScheduledTotals totals;
+    for (auto const& [first, part] : parts) totals.add(part.passed, part.row_sums);
+    return totals.result();
+  }
+};
 
-double Coverage::counted(Tile const& tile, TileGrid const& grid, View const& pixels,
-                         CastersInView const& casters, int threads,
-                         std::atomic<std::uint64_t>& own) const {
-  std::vector<double> sums(static_cast<std::size_t>(grid.rows));
-  in_rows(grid.rows, threads, [&](int first, int end) {
-    static thread_local PixelMask mask;
-    static thread_local ShadeCounts counts;
-    mask.start(grid.columns(), first, end);
-    light(mask, tile, grid);
-    own += mask.lit();
-    counts.start(grid.columns(), first, end);
-    for (std::size_t i = 0; i < casters.shades.size(); ++i) {
-      float const transmittance = casters.shades[i].transmittance;
-      each_area(casters.surfaces[i], pixels, grid.side(), [&](ConvexArea const& area) {
-        if (transmittance > 0.0F) {
-          counts.add(area, transmittance);
-        } else {
-          mask.darken(area);
-        }
-      });
-    }
-    counts.sum_rows(mask, std::span(sums).subspan(static_cast<std::size_t>(first)));
-  });
-  return std::accumulate(sums.begin(), sums.end(), 0.0);
-}
-
-LuminanceSums Coverage::scheduled(Tile const& tile, TileGrid const& grid, View const& pixels,
-                                  CastersInView const& casters, int threads,
-                                  std::atomic<std::uint64_t>& own) const {
-  // Rows are summed one by one and added up in order, however threads share them.
-  struct Part {
-    int first;
-    PassedSchedules passed;
-    std::vector<CombinationSums::Sum> row_sums;
-  };
-  std::mutex parts_mutex;
-  std::vector<Part> parts;
-  in_rows(grid.rows, threads, [&](int first, int end) {
-    static thread_local PixelMask mask;
-    static thread_local LuminanceTile shaded;
-    Part part{first, {}, {}};
-    mask.start(grid.columns(), first, end);
-    light(mask, tile, grid);
-    own += mask.lit();
-    shaded.start(grid.columns(), first, end);
-    part.passed.start(grid.columns(), first, end);
-    shade(mask, shaded, &part.passed, pixels, casters);
-    CombinationSums sums(part.passed.combinations());
-    std::span<std::uint64_t const> const words = std::as_const(mask).words();
-    std::size_t const words_a_row = shaded.stride() / PixelMask::word_bits;
-    for (std::size_t word = 0; word < words.size(); ++word) {
-      each_bit(words[word], word, [&](std::size_t pixel) {
-        sums.add(part.passed.pixels()[pixel], std::as_const(shaded).pixels()[pixel]);
-      });
-      if ((word + 1) % words_a_row == 0) sums.take(part.row_sums);
-    }
-    std::lock_guard const lock(parts_mutex);
-    parts.push_back(std::move(part));
-  });
-  std::sort(parts.begin(), parts.end(),
-            [](Part const& a, Part const& b) { return a.first < b.first; });
-  ScheduledTotals totals;
-  for (Part const& part : parts) totals.add(part.passed, part.row_sums);
-  return totals.result();
+LuminanceSums Coverage::sums(Tile const& tile, View const& view, CastersInView const& casters,
+                             Samples samples, int threads) const {
+  auto const [grid, counting] = sampled(tile, view, casters, samples);
+  Rows const rows{*this, tile, grid, in_pixels(view, grid), casters, threads};
+  std::uint64_t own = 0;
+  LuminanceSums sums;
+  if (casters.opaque()) {
+    sums.unscheduled = rows.lit(own);
+  } else if (counting) {
+    sums.unscheduled = rows.counted(own);
+  } else if (any_scheduled(casters.shades)) {
+    sums = rows.scheduled(own);
+  } else {
+    sums.unscheduled = rows.luminance(own);
+  }
+  // Rows may all miss a small receiver that pixels meet.
+  if (own == 0) return this->sums(tile, view, casters, Samples::pixels, threads);
+  scale(sums, tile, own);
+  return sums;
 }
 
 void Coverage::add_lit(PixelMask const& lit, Band const& band, std::span<LuminanceSums> sums) {
@@ -349,7 +343,7 @@ std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& v
   auto const pieces = interior_pieces(grid, in_pixels(behind, grid), interiors);
   std::vector<LuminanceSums> sums(interiors.size());
   if (casters.opaque()) {
-    darken(lit, grid.side(), pixels, casters.surfaces);
+    darken(lit, grid.side(), pixels, casters);
     each_band(grid, lit, pieces, [&](Band const& band) { add_lit(lit, band, sums); });
   } else {
     static thread_local LuminanceTile shaded;
@@ -381,12 +375,12 @@ std::vector<Coverage::InteriorPiece> Coverage::interior_pieces(
 template <typename Use>
 void Coverage::each_band(TileGrid const& grid, PixelMask const& lit,
                          std::span<InteriorPiece const> pieces, Use use) {
-  constexpr std::size_t most_words = 4096;
+  constexpr std::size_t max_words = 4096;
   static thread_local Band band;
   static thread_local std::vector<std::uint64_t> covered;
   static thread_local std::vector<std::uint64_t> several;
   std::size_t const words_a_row = lit.words().size() / static_cast<std::size_t>(grid.rows);
-  int const rows = std::max(1, static_cast<int>(most_words / words_a_row));
+  int const rows = std::max(1, static_cast<int>(max_words / words_a_row));
   for (int first = 0; first < grid.rows; first += rows) {
     int const end = std::min(first + rows, grid.rows);
     band.first_word = static_cast<std::size_t>(first) * words_a_row;

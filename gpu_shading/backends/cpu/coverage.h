@@ -1,11 +1,10 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "antialias/repeat.h"
+#include "antialias/antialias.h"
 #include "backends/cpu/passed_schedules.h"
 #include "backends/cpu/surface_pieces.h"
 #include "backends/interface/view_backend.h"
@@ -13,8 +12,8 @@
 #include "filters/transmission.h"
 #include "geometry/triangulation.h"
 #include "gpu_shading/scene.h"
-#include "view/luminance_tile.h"
 #include "view/pixel_mask.h"
+#include "view/pixel_rows.h"
 #include "view/tile.h"
 #include "view/view.h"
 
@@ -65,25 +64,15 @@ class Coverage {
   struct InteriorPiece;
   struct Band;
 
-  // The areas of a caster in a view with x and y in pixels, one after another.
-  template <typename Use>
-  void each_area(SurfaceId caster, View const& pixels, int side, Use use) const;
+  struct Rows;
 
-  // Sums over a grid's samples; `own` takes the number of those that are the receiver's.
-  double lit(Tile const& tile, TileGrid const& grid, View const& pixels,
-             std::span<SurfaceId const> casters, int threads,
-             std::atomic<std::uint64_t>& own) const;
-  double counted(Tile const& tile, TileGrid const& grid, View const& pixels,
-                 CastersInView const& casters, int threads, std::atomic<std::uint64_t>& own) const;
-  double luminance(Tile const& tile, TileGrid const& grid, View const& pixels,
-                   CastersInView const& casters, int threads,
-                   std::atomic<std::uint64_t>& own) const;
-  LuminanceSums scheduled(Tile const& tile, TileGrid const& grid, View const& pixels,
-                          CastersInView const& casters, int threads,
-                          std::atomic<std::uint64_t>& own) const;
-
-  void darken(PixelMask& mask, int side, View const& pixels,
-              std::span<SurfaceId const> casters) const;
+  // Covers the samples of a mask, in pixels, and calls dim(area, shade) for the pieces of casters
+  // that transmit. `order` of the casters: none, as they come.
+  template <typename Dim>
+  void cover(PixelMask& mask, int side, View const& pixels, CastersInView const& casters,
+             std::span<std::size_t const> order, Dim dim) const;
+  // Of opaque casters.
+  void darken(PixelMask& mask, int side, View const& pixels, CastersInView const& casters) const;
 
   // Where each piece of the interior surfaces is.
   std::vector<InteriorPiece> interior_pieces(TileGrid const& grid, View const& pixels,

@@ -4,8 +4,7 @@
 
 #include <utility>
 
-#include "antialias/sample_grid.h"
-#include "filters/perforation/screen_overlap.h"
+#include "antialias/antialias.h"
 #include "gpu_shading/error.h"
 #include "platform/instructions.h"
 #include "platform/parallel.h"
@@ -50,9 +49,8 @@ CpuBackend::ViewScreens CpuBackend::note_screens(ReceiverView const& view,
     directions.push_back({view.towards_sun, {}, {}});
   }
   for (int const number : noted.numbers) {
-    Screens::Entry const& screen = transmission_.screens()[number];
-    directions.back().add(
-        number, may_see_effect(*screen.screen, screen.normal, view.towards_sun, view.pixel_area()));
+    directions.back().add(number, may_see_effect(transmission_.screens()[number], view.towards_sun,
+                                                 view.pixel_area()));
   }
   noted.direction = directions.size() - 1;
   return noted;
@@ -86,7 +84,7 @@ std::vector<ViewSums> CpuBackend::finish() { return std::exchange(sums_, {}); }
 ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& screens,
                              int threads) const {
   Tile const& tile = *view.tile;
-  std::vector<SurfaceId> plain;
+  std::vector<SurfaceId> flat;
   std::vector<Shade> shades;
   View const in_front = view_in_front(*view.frame, tile.map, view.towards_sun);
   CastersInView casters{view.casters, {}, screens};
@@ -97,10 +95,10 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
   casters.screens.by_rows = !view.at_pixels && !casters.screens.every_hole &&
                             edges_cut_rows(tile, in_front, casters.screens);
   if (view.transmits) {
-    plain = transmission_.plain_among(view.casters);
-    shades.reserve(plain.size());
-    for (SurfaceId const id : plain) shades.push_back(transmission_.shade(id, view.towards_sun));
-    casters.surfaces = plain;
+    flat = transmission_.flat_among(view.casters);
+    shades.reserve(flat.size());
+    for (SurfaceId const id : flat) shades.push_back(transmission_.shade(id, view.towards_sun));
+    casters.surfaces = flat;
     casters.shades = shades;
   }
   if (!view.at_pixels) casters.repeats = repeats_among(scene_, casters.surfaces);

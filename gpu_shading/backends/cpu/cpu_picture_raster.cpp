@@ -12,11 +12,49 @@
 #include "gpu_shading/device.h"
 #include "platform/parallel.h"
 #include "scene/casters.h"
-#include "view/luminance_tile.h"
 #include "view/pixel_mask.h"
+#include "view/pixel_rows.h"
 
 namespace gpu_shading {
+
 namespace {
+
+// The nearest surface in each pixel of some rows of a square tile, and its depth.
+class NearestSurfaces {
+ public:
+  // None anywhere. Of surfaces whose depths differ by less than `tie` the first to be added has the
+  // pixel.
+  void start(int side, int first_row, int end_row, double tie) {
+    tie_ = tie;
+    depths_.start(side, first_row, end_row, std::numeric_limits<double>::infinity());
+    numbers_.start(side, first_row, end_row, 0);
+  }
+
+  // A piece of a surface whose number is more than 0.
+  void add(ConvexArea const& area, DepthPlane const& depth, std::uint32_t number);
+
+  std::span<std::uint32_t> numbers(int row) { return numbers_.row(row); }
+  std::span<double> depths(int row) { return depths_.row(row); }
+
+ private:
+  double tie_ = 0.0;
+  PixelRows<double> depths_;
+  PixelRows<std::uint32_t> numbers_;
+};
+
+void NearestSurfaces::add(ConvexArea const& area, DepthPlane const& depth, std::uint32_t number) {
+  depths_.each_span(area, [&](int row, int first, int length) {
+    std::span<double> const depths = depths_.row(row);
+    std::span<std::uint32_t> const numbers = numbers_.row(row);
+    for (int column = first; column < first + length; ++column) {
+      auto const pixel = static_cast<std::size_t>(column);
+      double const here = depth.at(column, row);
+      if (here + tie_ >= depths[pixel]) continue;
+      depths[pixel] = here;
+      numbers[pixel] = number;
+    }
+  });
+}
 
 // The square tile whose lower left part a grid is.
 int side_of(PictureGrid const& grid) { return std::max(grid.width, grid.height); }
@@ -104,7 +142,7 @@ struct ScreenExtent {
 CpuPictureRaster::CpuPictureRaster(PictureScene const& scene)
     : transmission_(scene.transmission), coverage_(scene.meshes) {}
 
-int CpuPictureRaster::most_pixels() const { return cpu_device().max_resolution; }
+int CpuPictureRaster::max_pixels() const { return cpu_device().max_resolution; }
 
 std::vector<CpuPictureRaster::Piece> CpuPictureRaster::lay_out(
     PictureGrid const& grid, std::span<SurfaceId const> surfaces) const {
@@ -124,9 +162,8 @@ std::vector<SheetInBeam> CpuPictureRaster::sheets(PictureGrid const& grid,
                                                   std::span<int const> numbers) const {
   ScreensAtDirection direction{towards_sun, {}, {}};
   for (int const number : numbers) {
-    Screens::Entry const& screen = transmission_.screens()[number];
     direction.add(number,
-                  may_see_effect(*screen.screen, screen.normal, towards_sun, grid.pixel_area()));
+                  may_see_effect(transmission_.screens()[number], towards_sun, grid.pixel_area()));
   }
   return transmission_.sheets(direction);
 }
@@ -195,16 +232,16 @@ std::vector<float> CpuPictureRaster::through_screens(PictureGrid const& grid,
 std::vector<float> CpuPictureRaster::luminance(PictureGrid const& grid,
                                                ShadedReceiver const& shaded) {
   View const pixels = in_pixels(grid);
-  std::vector<SurfaceId> plain;
+  std::vector<SurfaceId> flat;
   std::vector<Shade> shades;
   for (std::size_t i = 0; i < shaded.casters.size(); ++i) {
-    if (!transmission_.shades().dims(shaded.casters[i])) continue;
-    plain.push_back(shaded.casters[i]);
+    if (!transmission_.is_flat(shaded.casters[i])) continue;
+    flat.push_back(shaded.casters[i]);
     if (!shaded.shades.empty()) shades.push_back(shaded.shades[i]);
   }
   std::vector<int> const numbers = transmission_.screens_among(shaded.casters);
   std::vector<SheetInBeam> const in_beam = sheets(grid, shaded.towards_sun, numbers);
-  CastersInView const casters{plain, shades, {&transmission_.screens(), in_beam, numbers}};
+  CastersInView const casters{flat, shades, {&transmission_.screens(), in_beam, numbers}};
   std::vector<float> seen(grid.pixels());
   in_rows(grid, [&](Rows const& rows) {
     int const side = side_of(grid);

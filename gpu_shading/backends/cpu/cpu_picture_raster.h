@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "backends/cpu/coverage.h"
-#include "backends/cpu/nearest_surfaces.h"
 #include "backends/cpu/surface_pieces.h"
 #include "backends/interface/picture_raster.h"
 #include "geometry/convex_area.h"
@@ -18,7 +17,7 @@ class CpuPictureRaster : public PictureRaster {
  public:
   explicit CpuPictureRaster(PictureScene const& scene);
 
-  int most_pixels() const override;
+  int max_pixels() const override;
   std::vector<std::uint32_t> nearest(PictureGrid const& grid,
                                      std::span<SurfaceId const> surfaces) override;
   std::vector<float> through_screens(PictureGrid const& grid, glm::dvec3 const& towards_sun,

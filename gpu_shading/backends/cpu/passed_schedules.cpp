@@ -10,7 +10,7 @@ namespace gpu_shading {
 namespace {
 
 // Each takes some 60 bytes.
-constexpr std::size_t most_combinations = std::size_t{1} << 22U;
+constexpr std::size_t max_combinations = std::size_t{1} << 22U;
 
 }  // namespace
 
@@ -42,12 +42,12 @@ std::uint32_t PassedSchedules::with(std::uint32_t combination, int schedule) {
   auto const [entry, added] =
       known_.try_emplace(key, static_cast<std::uint32_t>(combinations_.size()));
   if (!added) return entry->second;
-  if (combinations_.size() >= most_combinations) {
+  if (combinations_.size() >= max_combinations) {
     throw Error(
         fmt::format("sees the sun through more than {} combinations of transmittance schedules; "
                     "let shades share "
                     "schedules",
-                    most_combinations));
+                    max_combinations));
   }
   combinations_.push_back({combination, schedule});
   return entry->second;

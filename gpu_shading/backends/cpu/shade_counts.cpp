@@ -15,7 +15,7 @@ struct Digit {
   double transmittance;
 };
 
-// What passes over some samples of a word, from a digit on.
+// The luminance of some samples of a word, from a digit on.
 double passed(std::span<Digit const> digits, std::size_t word, std::uint64_t samples) {
   double factor = 1.0;
   for (std::size_t i = 0; i < digits.size(); ++i) {
@@ -68,30 +68,18 @@ void ShadeCounts::add(ConvexArea const& area, float transmittance) {
     lowest[word] ^= samples;
     if (carry != 0) carry_on(kind, word, carry);
   };
-  RowSpans spans;
-  int const end_row = std::min(area.end_row, end_row_);
-  for (int row = std::max(area.first_row, first_row_); row < end_row; row += RowSpans::most) {
-    int const rows = std::min(RowSpans::most, end_row - row);
-    find_spans(area, row, rows, columns_, spans);
-    if (spans.longest == 0) continue;
-    for (int i = 0; i < rows; ++i) {
-      auto const first = static_cast<unsigned>(spans.first[static_cast<std::size_t>(i)]);
-      auto const length = static_cast<unsigned>(spans.length[static_cast<std::size_t>(i)]);
-      if (length == 0) continue;
-      unsigned const shift = first % word_bits;
-      std::size_t word =
-          static_cast<std::size_t>(row + i - first_row_) * stride_ + first / word_bits;
-      unsigned const end = shift + length;
-      if (end <= word_bits) {
-        add_to(word, all >> (word_bits - length) << shift);
-        continue;
-      }
-      add_to(word, all << shift);
-      unsigned rest = end - word_bits;
-      for (; rest > word_bits; rest -= word_bits) add_to(++word, all);
-      add_to(++word, all >> (word_bits - rest));
-    }
-  }
+  each_span(area, columns_, first_row_, end_row_, [&](int row, int from, int count) {
+    auto const first = static_cast<unsigned>(from);
+    auto const length = static_cast<unsigned>(count);
+    unsigned const shift = first % word_bits;
+    std::size_t word = static_cast<std::size_t>(row - first_row_) * stride_ + first / word_bits;
+    unsigned const end = shift + length;
+    if (end <= word_bits) return add_to(word, all >> (word_bits - length) << shift);
+    add_to(word, all << shift);
+    unsigned rest = end - word_bits;
+    for (; rest > word_bits; rest -= word_bits) add_to(++word, all);
+    add_to(++word, all >> (word_bits - rest));
+  });
 }
 
 void ShadeCounts::sum_rows(PixelMask const& lit, std::span<double> sums) const {

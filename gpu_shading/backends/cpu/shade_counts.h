@@ -21,8 +21,8 @@ class ShadeCounts {
   // One more shade.
   void add(ConvexArea const& area, float transmittance);
 
-  // Sums of what passes all shades over the sunlit samples of a mask of the same rows, one sum per
-  // row.
+  // Sums of the luminance behind all shades over the sunlit samples of a mask of the same rows, one
+  // sum per row.
   void sum_rows(PixelMask const& lit, std::span<double> sums) const;
 
  private:

@@ -33,7 +33,7 @@ struct DepthPlane {
   }
 };
 
-// A convex piece of a surface as a view has it.
+// A convex piece of a surface, projected by a view.
 class ProjectedPiece {
  public:
   // Three or four corners, and a view with its x and y in pixels; both must outlive this object.

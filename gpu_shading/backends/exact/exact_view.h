@@ -23,11 +23,11 @@ struct ExactQuestion {
 };
 
 // The luminance of a receiver, or of each interior surface, without samples: outlines are clipped
-// at the receiver's plane, projected onto it along the sun's rays, and swept (EdgeSweep). In parts
-// of the receiver's own area, so that 1 is all of it. Exact to about 1e-12.
+// at the receiver's plane and projected onto it along the sun's rays; then a few convex ones are
+// intersected (convex_sums), and others swept (swept_sums). In parts of the receiver's own area, so
+// that 1 is all of it. Exact to about 1e-12.
 //
-// Empty if the sweep would take more than `most_steps`, or if it cannot answer: behind very many
-// combinations of schedules, or where interior surfaces pass through one another.
+// Empty if a sweep would take more than `most_steps`, or if neither can answer.
 std::optional<std::vector<LuminanceSums>> exact_sums(Scene const& scene,
                                                      Transmission const& transmission,
                                                      ExactQuestion const& question,

@@ -59,7 +59,7 @@ class PictureRaster {
   PictureRaster& operator=(PictureRaster&&) = delete;
 
   // Pixels that a grid may have a side.
-  virtual int most_pixels() const = 0;
+  virtual int max_pixels() const = 0;
 
   // The nearest of some surfaces, its id plus 1; 0 where there is none.
   virtual std::vector<std::uint32_t> nearest(PictureGrid const& grid,

@@ -40,8 +40,8 @@ struct ReceiverView {
 // Luminance summed over pixels: 1 for a sunlit pixel, less where casters transmit.
 struct LuminanceSums {
   double unscheduled = 0.0;  // what passed no scheduled shade
-  // What passed scheduled shades: schedules, as numbered by Shades, with the number of shades of
-  // each, in the order of schedules. Each combination once.
+  // What passed scheduled shades: schedules, as numbered by Transmission, with the number of shades
+  // of each, in the order of schedules. Each combination once.
   struct Scheduled {
     std::vector<std::pair<int, int>> powers;
     double sum = 0.0;

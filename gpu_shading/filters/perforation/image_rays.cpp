@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "filters/perforation/mix.h"
-
 namespace gpu_shading {
 namespace {
 
@@ -40,9 +38,9 @@ ImageRays::ImageRays(OpacityTile const& image, SheetInBeam const& sheet,
       threshold_(sheet.threshold),
       tile_(sheet.tile),
       size_(image.columns(), image.rows()) {
-  glm::dvec2 const way(sheet.way);
+  glm::dvec2 const ray_offset(sheet.ray_offset);
   layers_.reserve(depths.size());
-  for (double const depth : depths) layers_.push_back(in_image(depth * way));
+  for (double const depth : depths) layers_.push_back(in_image(depth * ray_offset));
 }
 
 glm::dvec2 ImageRays::in_image(glm::dvec2 const& place) const {

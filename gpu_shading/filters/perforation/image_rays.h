@@ -8,8 +8,12 @@
 
 namespace gpu_shading {
 
-// The opacity of the image of a tile, and what passes its layers, ray by ray on the CPU. Positions
-// are in the sheet's plane, m.
+// Interpolates between two values. Unlike glm::mix, a (1 - part) + b part, it is exact if they are
+// equal.
+inline float mix(float a, float b, float part) { return a + part * (b - a); }
+
+// The opacity of a tile's image, and the transmittance of its layers, ray by ray on the CPU.
+// Positions are in the sheet's plane, m.
 class ImageRays {
  public:
   // `parts`: the fractions of the path at which layers are. The image must outlive it.

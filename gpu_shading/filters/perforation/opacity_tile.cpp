@@ -3,24 +3,96 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
+#include <numbers>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "filters/perforation/check_length.h"
-#include "filters/perforation/longest_step.h"
+#include "filters/perforation/tile_rays.h"
 #include "gpu_shading/error.h"
+#include "platform/parallel.h"
 
 namespace gpu_shading {
+
 namespace {
 
+using Run = TileRays::Run;
+
+constexpr std::size_t directions = 8;  // over pi
+constexpr std::size_t places = 4096;
+constexpr double stepped_over = 2e-3;  // of all rays, in any direction
+
+// Whether a ray steps over a run, into the open one after it.
+bool misses(Run const& run, double step) {
+  double const beyond = std::ceil(run.before / step) * step - run.before - run.length;
+  return beyond > 0.0 && beyond < run.after;
+}
+
+std::vector<Run> runs_along(TileRays const& rays, OpacityTile const& tile, double phi) {
+  double const farthest = tile.width() + tile.height();
+  double const longest = 256.0 * std::max(tile.texel_width(), tile.texel_height());
+  TileRays::Direction const direction = rays.direction(phi);
+  Places const place({.u = 0.0, .v = 0.0, .width = tile.width(), .height = tile.height()}, 0);
+  std::vector<Run> runs;
+  for (std::size_t n = 0; n < places; ++n) {
+    // Fractional opacity, of which the largest value on a path counts, is the mean over levels.
+    double const multiple = static_cast<double>(n) * std::numbers::phi;
+    double const level = multiple - std::floor(multiple);
+    if (auto const run =
+            rays.first_run(place.u(n), place.v(n), direction, level, farthest, longest)) {
+      runs.push_back(*run);
+    }
+  }
+  return runs;
+}
+
+// Layers are at most this step apart, and more than half of it where there are three or more.
+bool is_allowed(std::vector<Run> const& runs, double step) {
+  constexpr double most = stepped_over * static_cast<double>(places);
+  return std::ranges::all_of(std::array{1.0, 0.75, 0.5}, [&](double part) {
+    auto const missed =
+        std::ranges::count_if(runs, [&](Run const& run) { return misses(run, part * step); });
+    return static_cast<double>(missed) <= most;
+  });
+}
+
+// The length of a run: where all have one length, none is stepped over.
+double longest_of(std::vector<Run> runs) {
+  if (runs.empty()) return std::numeric_limits<double>::infinity();
+  std::ranges::sort(runs, std::ranges::greater(), &Run::length);
+  constexpr double next = 0.98;
+  double step = std::numeric_limits<double>::infinity();
+  for (Run const& run : runs) {
+    if (run.length > next * step) continue;
+    step = run.length;
+    if (is_allowed(runs, step)) return step;
+  }
+  return runs.back().length;
+}
+
+// As described at OpacityTile::web().
+double longest_step(OpacityTile const& tile) {
+  TileRays const rays(tile);
+  std::array<double, directions> longest{};
+  constexpr double between = std::numbers::pi / directions;
+  for_each_index(directions, [&](std::size_t index) {
+    longest[index] = longest_of(runs_along(rays, tile, static_cast<double>(index) * between));
+  });
+  // Between two directions, at most half that angle from the nearer one.
+  return std::ranges::min(longest) * std::cos(0.5 * between);
+}
+
 // Maximum number of texels of a tile made from a pattern, each of which takes 256 points.
-constexpr double most_texels = 1U << 26U;
+constexpr double max_texels = 1U << 26U;
 constexpr float solid_value = OpacityTile::solid_texel;
 
 void check_threshold(std::optional<double> threshold) {
@@ -41,7 +113,7 @@ std::size_t index(int column, int row, int columns) {
 int around(int place, int count) { return (place + count) % count; }
 
 void check_texels(std::size_t texels, int columns, int rows) {
-  constexpr int most = OpacityTile::most_texels_a_side;
+  constexpr int most = OpacityTile::max_texels_a_side;
   if (columns > most || rows > most) {
     throw Error(fmt::format("texture is {} x {} texels, expected at most {} per side", columns,
                             rows, most));
@@ -69,7 +141,7 @@ std::vector<std::uint16_t> quantised(std::vector<float> const& opacity) {
 }
 
 // The smallest value above a threshold in 0 .. 1 (exclusive) as a shader compares it.
-std::uint16_t least_solid(double threshold) {
+std::uint16_t min_solid(double threshold) {
   auto const limit = static_cast<float>(threshold);
   int value = std::max(0, static_cast<int>(limit * solid_value) - 1);
   while (static_cast<float>(value) / solid_value <= limit) ++value;
@@ -119,8 +191,8 @@ OpacityTile::OpacityTile(HolePattern const& pattern, double texel, std::optional
     : width_(pattern.width()), height_(pattern.height()), threshold_(threshold) {
   check_positive("texel", texel);
   check_threshold(threshold);
-  if (width_ / texel * (height_ / texel) > most_texels ||
-      std::max(width_, height_) / texel > most_texels_a_side) {
+  if (width_ / texel * (height_ / texel) > max_texels ||
+      std::max(width_, height_) / texel > max_texels_a_side) {
     throw Error(fmt::format("texel is {:.9g} m, too small for a tile of {:.9g} x {:.9g} m", texel,
                             width_, height_));
   }
@@ -161,7 +233,7 @@ OpacityTile OpacityTile::stretched(double width, double height) const {
 double OpacityTile::open_fraction() const {
   std::uint64_t open = 0;
   if (threshold_) {
-    std::uint16_t const solid = least_solid(*threshold_);
+    std::uint16_t const solid = min_solid(*threshold_);
     for (std::uint16_t const value : *opacity_) open += value < solid ? 1U : 0U;
     return static_cast<double>(open) / static_cast<double>(opacity_->size());
   }
@@ -173,7 +245,7 @@ double OpacityTile::open_fraction() const {
 void OpacityTile::find_web() { web_ = longest_step(*this); }
 
 double OpacityTile::hole() const {
-  std::uint16_t const solid = least_solid(threshold_.value_or(0.5));
+  std::uint16_t const solid = min_solid(threshold_.value_or(0.5));
   auto const columns = static_cast<std::size_t>(columns_);
   std::size_t open = 0;
   std::size_t edges = 0;

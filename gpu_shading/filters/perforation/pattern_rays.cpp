@@ -11,20 +11,20 @@ namespace gpu_shading {
 namespace {
 
 using Holes = PatternRays::Holes;
-using Ways = PatternRays::Ways;
+using Passed = PatternRays::Passed;
 
 // The first ray's position and its step from ray to ray, in tiles, and a ray's displacement, m.
 struct Rays {
   glm::vec2 first;
   glm::vec2 step;
-  glm::vec2 way;
+  glm::vec2 ray_offset;
 };
 
 Rays rays_in(glm::dvec2 const& tile, glm::dvec2 const& first, glm::dvec2 const& step,
-             glm::dvec2 const& way) {
+             glm::dvec2 const& ray_offset) {
   // Steps of whole tiles make no difference.
   glm::dvec2 const change = step / tile;
-  return {glm::fract(first / tile), change - glm::round(change), way};
+  return {glm::fract(first / tile), change - glm::round(change), ray_offset};
 }
 
 // What follows is the rule of screen.frag. As one text with it, by glm's vectors, the loop over
@@ -47,23 +47,25 @@ template <SheetShape shape>
 // u, v: from the hole's centre, in tiles. Holes are convex: a ray that is in a hole at both ends is
 // in it all the way.
 template <SheetShape shape>
-[[gnu::always_inline]] inline bool is_in_at_both_ends(Holes const& holes, glm::vec2 const& way,
-                                                      float u, float v) {
+[[gnu::always_inline]] inline bool is_in_at_both_ends(Holes const& holes,
+                                                      glm::vec2 const& ray_offset, float u,
+                                                      float v) {
   float const x = holes.width * u;
   float const y = holes.height * v;
-  return is_in_hole<shape>(holes, x, y) & is_in_hole<shape>(holes, x + way.x, y + way.y);
+  return is_in_hole<shape>(holes, x, y) &
+         is_in_hole<shape>(holes, x + ray_offset.x, y + ray_offset.y);
 }
 
 // u, v: a position in tiles.
 template <SheetShape shape, bool staggered>
-[[gnu::always_inline]] inline bool passes_some_hole(Holes const& holes, glm::vec2 const& way,
+[[gnu::always_inline]] inline bool passes_some_hole(Holes const& holes, glm::vec2 const& ray_offset,
                                                     float u, float v) {
   float const part_u = u - std::floor(u);
   float const part_v = v - std::floor(v);
-  bool passes = is_in_at_both_ends<shape>(holes, way, part_u > 0.5F ? part_u - 1.0F : part_u,
+  bool passes = is_in_at_both_ends<shape>(holes, ray_offset, part_u > 0.5F ? part_u - 1.0F : part_u,
                                           part_v > 0.5F ? part_v - 1.0F : part_v);
   if constexpr (staggered) {
-    passes |= is_in_at_both_ends<shape>(holes, way, part_u - 0.5F, part_v - 0.5F);
+    passes |= is_in_at_both_ends<shape>(holes, ray_offset, part_u - 0.5F, part_v - 0.5F);
   }
   return passes;
 }
@@ -74,8 +76,9 @@ template <SheetShape shape, bool staggered, typename T>
                                              std::array<T, PatternRays::most>& passed) {
   for (int i = 0; i < PatternRays::most; ++i) {
     auto const steps = static_cast<float>(i);
-    bool const passes = passes_some_hole<shape, staggered>(
-        holes, rays.way, rays.first.x + steps * rays.step.x, rays.first.y + steps * rays.step.y);
+    bool const passes = passes_some_hole<shape, staggered>(holes, rays.ray_offset,
+                                                           rays.first.x + steps * rays.step.x,
+                                                           rays.first.y + steps * rays.step.y);
     passed[static_cast<std::size_t>(i)] = passes ? T{1} : T{0};
   }
 }
@@ -96,7 +99,7 @@ template <typename Use>
   }
 }
 
-[[gnu::always_inline]] inline void find_all(Holes const& holes, Rays const& rays, Ways& passed) {
+[[gnu::always_inline]] inline void find_all(Holes const& holes, Rays const& rays, Passed& passed) {
   auto const find = [&](auto shape, auto staggered) __attribute__((always_inline)) {
     find_some<shape, staggered>(holes, rays, passed);
   };
@@ -130,21 +133,21 @@ PatternRays::PatternRays(SheetInBeam const& sheet)
 
 bool PatternRays::is_open(glm::dvec2 const& place) const { return passes(place, glm::dvec2(0.0)); }
 
-bool PatternRays::passes(glm::dvec2 const& place, glm::dvec2 const& way) const {
+bool PatternRays::passes(glm::dvec2 const& place, glm::dvec2 const& ray_offset) const {
   glm::vec2 const in_tile(glm::fract(place / tile_));
   return with_kind(holes_, [&](auto shape, auto staggered) {
-    return passes_some_hole<shape, staggered>(holes_, way, in_tile.x, in_tile.y);
+    return passes_some_hole<shape, staggered>(holes_, ray_offset, in_tile.x, in_tile.y);
   });
 }
 
 void PatternRays::find_passing(glm::dvec2 const& first, glm::dvec2 const& step,
-                               glm::dvec2 const& way, Ways& passed) const {
-  run<find_all>(holes_, rays_in(tile_, first, step, way), passed);
+                               glm::dvec2 const& ray_offset, Passed& passed) const {
+  run<find_all>(holes_, rays_in(tile_, first, step, ray_offset), passed);
 }
 
 std::uint64_t PatternRays::passing(glm::dvec2 const& first, glm::dvec2 const& step,
-                                   glm::dvec2 const& way) const {
-  return run<find_bits>(holes_, rays_in(tile_, first, step, way));
+                                   glm::dvec2 const& ray_offset) const {
+  return run<find_bits>(holes_, rays_in(tile_, first, step, ray_offset));
 }
 
 }  // namespace gpu_shading

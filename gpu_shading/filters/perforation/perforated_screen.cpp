@@ -5,10 +5,12 @@
 
 #include <utility>
 
+#include "filters/perforation/perforation_filter.h"
 #include "gpu_shading/error.h"
 #include "platform/parallel.h"
 
 namespace gpu_shading {
+
 namespace {
 
 void check_layers(std::optional<int> layers) {
@@ -68,6 +70,76 @@ ScreenTransmittance const& PerforatedScreen::transmittance() const {
     make();
   }
   return *lazy_->transmittance;
+}
+
+namespace {
+
+void add_number(FilterDigest& digest, std::optional<double> const& value) {
+  digest.add(value ? 1.0 : 0.0);
+  digest.add(value.value_or(0.0));
+}
+
+void add_pattern(FilterDigest& digest, Perforation const& holes) {
+  for (double const value :
+       {static_cast<double>(holes.hole), static_cast<double>(holes.arrangement), holes.size,
+        holes.length, holes.pitch, holes.row_pitch}) {
+    digest.add(value);
+  }
+}
+
+void add_tile(FilterDigest& digest, OpacityTile const& tile) {
+  for (double const value : {tile.width(), tile.height(), static_cast<double>(tile.columns()),
+                             static_cast<double>(tile.rows())}) {
+    digest.add(value);
+  }
+  add_number(digest, tile.threshold());
+  digest.add_shared(tile.opacity().data(),
+                    [&](FilterDigest& shared) { shared.add(tile.opacity()); });
+}
+
+}  // namespace
+
+BeamFilter::Faces faces_of(PerforatedSheet const& kind) {
+  Sheet const& sheet = kind.screen->sheet();
+  switch (sheet.plane) {
+    case SheetPlane::outside:
+      return {-sheet.thickness, 0.0};
+    case SheetPlane::inside:
+      return {0.0, sheet.thickness};
+    case SheetPlane::centre:
+      break;
+  }
+  return {-sheet.thickness / 2.0, sheet.thickness / 2.0};
+}
+
+double solid_share_of(PerforatedSheet const& kind, std::span<double const> deployments) {
+  auto const index = static_cast<std::size_t>(kind.deployment);
+  bool const varies = kind.deployment >= 0 && index < deployments.size();
+  return (varies ? deployments[index] : 1.0) * (1.0 - kind.screen->open_fraction());
+}
+
+FilterLook look_of(PerforatedSheet const& kind) {
+  FilterLook look{FilterLook::Kind::holes, kind.screen->open_fraction()};
+  if (kind.screen->pattern()) look.holes = kind.screen->pattern()->perforation();
+  return look;
+}
+
+void add_values(FilterDigest& digest, PerforatedSheet const& kind) {
+  Sheet const& sheet = kind.screen->sheet();
+  digest.add(sheet.thickness);
+  digest.add(static_cast<double>(sheet.plane));
+  add_number(digest, sheet.layers);
+  digest.add(static_cast<double>(sheet.detail));
+  digest.add(kind.screen->pattern() ? 1.0 : 0.0);
+  if (kind.screen->pattern()) {
+    add_pattern(digest, kind.screen->pattern()->perforation());
+  } else {
+    add_tile(digest, *kind.screen->tile());
+  }
+  digest.add(kind.placement.origin_u);
+  digest.add(kind.placement.origin_v);
+  digest.add(kind.placement.rotation);
+  digest.add(static_cast<double>(kind.deployment));
 }
 
 }  // namespace gpu_shading

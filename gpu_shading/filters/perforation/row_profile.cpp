@@ -56,7 +56,7 @@ double common(double a, double b, double shift) {
 }  // namespace
 
 RowProfile::RowProfile(SheetInBeam const& sheet) : tile_(sheet.tile), mean_(sheet.effective[3]) {
-  glm::dvec2 const way(sheet.way);
+  glm::dvec2 const ray_offset(sheet.ray_offset);
   auto const fill = [&](Profile& profile, double period, double across, auto open_at) {
     int const holes = sheet.staggered ? 2 : 1;
     for (std::size_t i = 0; i < steps; ++i) {
@@ -71,10 +71,11 @@ RowProfile::RowProfile(SheetInBeam const& sheet) : tile_(sheet.tile), mean_(shee
     for (float& value : profile) value -= mean;
   };
   fill(columns_, tile_.x, tile_.y, [&](double u) {
-    return common(half_height(sheet, u), half_height(sheet, u + way.x), way.y);
+    return common(half_height(sheet, u), half_height(sheet, u + ray_offset.x), ray_offset.y);
   });
-  fill(rows_, tile_.y, tile_.x,
-       [&](double v) { return common(half_width(sheet, v), half_width(sheet, v + way.y), way.x); });
+  fill(rows_, tile_.y, tile_.x, [&](double v) {
+    return common(half_width(sheet, v), half_width(sheet, v + ray_offset.y), ray_offset.x);
+  });
 }
 
 float RowProfile::at(glm::dvec2 const& place) const {
@@ -83,7 +84,7 @@ float RowProfile::at(glm::dvec2 const& place) const {
          rows_[static_cast<unsigned>(in_steps.y) % steps];
 }
 
-void RowProfile::find(glm::dvec2 const& first, glm::dvec2 const& step, Ways& passed) const {
+void RowProfile::find(glm::dvec2 const& first, glm::dvec2 const& step, Passed& passed) const {
   // Steps of whole tiles make no difference; whole tiles keep what is converted above 0.
   constexpr double tiles = 0.5 * PatternRays::most;
   glm::dvec2 const change = step / tile_;

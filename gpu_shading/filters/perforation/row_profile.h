@@ -16,11 +16,11 @@ class RowProfile {
  public:
   explicit RowProfile(SheetInBeam const& sheet);
 
-  // What passes at a position at the inside face, m in the sheet's plane. It can leave 0 .. 1.
+  // Transmittance at a position at the inside face, m in the sheet's plane. It can leave 0 .. 1.
   float at(glm::dvec2 const& place) const;
   // The same for many at equal steps from `first`.
-  using Ways = PatternRays::Ways;
-  void find(glm::dvec2 const& first, glm::dvec2 const& step, Ways& passed) const;
+  using Passed = PatternRays::Passed;
+  void find(glm::dvec2 const& first, glm::dvec2 const& step, Passed& passed) const;
 
  private:
   static constexpr unsigned steps = 256;  // of a tile

@@ -65,7 +65,7 @@ class Part {
  public:
   Part(Screens::Entry const& screen, Screens::Quadrilateral const& part, Faces const& faces,
        SheetInBeam const& sheet, View const& pixels, double pixel, bool by_rows)
-      : outline_(part.places, sheet.way),
+      : outline_(part.places, sheet.ray_offset),
         in_place_(sheet.in_place),
         to_place_(glm::inverse(glm::dmat2(
             glm::dot(glm::dvec3(pixels.x), screen.u), glm::dot(glm::dvec3(pixels.y), screen.u),
@@ -76,7 +76,7 @@ class Part {
 
   // For pixels of one row.
   void shade(int row, int first, int length, PixelMask& lit, LuminanceTile& shaded) const {
-    auto const [whole_first, whole_end] = whole_ways(row, first, first + length);
+    auto const [whole_first, whole_end] = whole_paths(row, first, first + length);
     shade_ends(row, first, whole_first, lit, shaded);
     if (all_or_nothing_) {
       darken_whole(row, whole_first, whole_end, lit);
@@ -98,7 +98,7 @@ class Part {
   float kept(float passed) const { return 1.0F - in_place_ * (1.0F - passed); }
 
   // The pixels of a row whose rays are inside the outline from face to face, or fewer.
-  Pixels whole_ways(int row, int first, int end) const {
+  Pixels whole_paths(int row, int first, int end) const {
     double low = first;
     double high = end;
     glm::dvec2 const start = place(row, 0);
@@ -123,7 +123,7 @@ class Part {
   template <typename Use>
   void each_word(int row, int first, int end, PixelMask const& lit, Use use) const {
     constexpr int word = PixelMask::word_bits;
-    static_assert(SheetRays::most_ways == word);
+    static_assert(SheetRays::max_rays == word);
     for (int x = first; x < end;) {
       int const stop = std::min(end, (x / word + 1) * word);
       auto const unused = static_cast<unsigned>(word - (stop - x));
@@ -148,9 +148,9 @@ class Part {
       for (int x = first; x < end; ++x) luminance[static_cast<std::size_t>(x)] *= by;
       return;
     }
-    SheetRays::Ways passed{};
+    SheetRays::Passed passed{};
     each_word(row, first, end, lit, [&](int x, int stop, std::uint64_t wanted) {
-      rays_.whole_ways(place(row, x), to_place_[0], wanted, passed);
+      rays_.whole_paths(place(row, x), to_place_[0], wanted, passed);
       for (int i = x; i < stop; ++i) {
         luminance[static_cast<std::size_t>(i)] *= kept(passed[static_cast<std::size_t>(i - x)]);
       }
@@ -172,7 +172,7 @@ class Part {
 
   float passed(glm::dvec2 const& place) const {
     auto const part = outline_.part_within(place);
-    return part ? rays_.part_of_way(place, part->begin, part->end) : 1.0F;
+    return part ? rays_.part_of_path(place, part->begin, part->end) : 1.0F;
   }
 
   SheetOutline outline_;

@@ -4,8 +4,8 @@
 
 #include "filters/perforation/screens.h"
 #include "filters/perforation/sheet_in_beam.h"
-#include "view/luminance_tile.h"
 #include "view/pixel_mask.h"
+#include "view/pixel_rows.h"
 #include "view/view.h"
 
 namespace gpu_shading {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "filters/perforation/perforation_filter.h"
 #include "geometry/ring.h"
 #include "geometry/triangulation.h"
 #include "gpu_shading/perforated_screen.h"
-#include "scene/sheet_faces.h"
 
 namespace gpu_shading {
 namespace {
@@ -64,16 +64,17 @@ TileAxes tile_axes(Polygon const& polygon, ScreenPlacement const& placement) {
 Screens::Screens(Scene const& scene) : numbers_(scene.size(), none) {
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     Surface const& surface = scene[id];
-    if (!surface.screen) continue;
+    auto const* const sheet = surface.filter.find<PerforatedSheet>();
+    if (sheet == nullptr) continue;
     Ring const ring = without_repeats(surface.polygon.outline);
     glm::dvec3 const vector = newell(ring);
     if (ring.size() < 3 || is_degenerate(ring, vector)) continue;
     glm::dvec3 const normal = glm::normalize(vector);
-    TileAxes const axes = tile_axes(surface.polygon, surface.placement);
-    SheetFaces const faces = sheet_faces(surface);
+    TileAxes const axes = tile_axes(surface.polygon, sheet->placement);
+    BeamFilter::Faces const faces = faces_of(*sheet);
     numbers_[id] = static_cast<int>(entries_.size());
-    entries_.push_back({surface.screen, normal, axes.u, axes.v, faces.inside, faces.outside,
-                        surface.deployment, parts_of(surface.polygon, ring, normal, axes)});
+    entries_.push_back({sheet->screen, normal, axes.u, axes.v, faces.inside, faces.outside,
+                        sheet->deployment, parts_of(surface.polygon, ring, normal, axes)});
   }
 }
 

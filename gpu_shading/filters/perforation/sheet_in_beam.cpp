@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "filters/perforation/sheet_layers.h"
 #include "gpu_shading/perforated_screen.h"
 
 namespace gpu_shading {
@@ -121,12 +120,12 @@ double pixel_in_sheet(Screens::Entry const& screen, View const& pixels) {
                                   glm::dot(x, screen.v) * glm::dot(y, screen.u)));
 }
 
-bool may_see_effect(PerforatedScreen const& screen, glm::dvec3 const& normal,
-                    glm::dvec3 const& towards_sun, double pixel_area) {
+bool may_see_effect(Screens::Entry const& screen, glm::dvec3 const& towards_sun,
+                    double pixel_area) {
   // Fragment shaders compute the size of pixels themselves, in single precision.
   constexpr double margin = 1.1;
-  double const pixel = std::sqrt(pixel_area / std::abs(glm::dot(normal, towards_sun)));
-  return margin * pixel > static_cast<double>(blend_of(screen).x);
+  double const pixel = std::sqrt(pixel_area / std::abs(glm::dot(screen.normal, towards_sun)));
+  return margin * pixel > static_cast<double>(blend_of(*screen.screen).x);
 }
 
 bool varies(PerforatedScreen const& screen) {
@@ -159,7 +158,7 @@ SheetInBeam sheet_in_beam(Screens::Entry const& entry, glm::dvec3 const& towards
   sheet.normal = entry.normal;
   sheet.inside = static_cast<float>(entry.inside);
   sheet.outside = static_cast<float>(entry.outside);
-  sheet.way = shift;
+  sheet.ray_offset = shift;
   sheet.in_place = static_cast<float>(in_place);
   glm::vec2 const blend = has_effect ? blend_of(screen) : glm::vec2(never, 2.0F * never);
   sheet.blend_from = blend.x;
@@ -185,6 +184,37 @@ std::vector<SheetInBeam> sheets_in_beam(Screens const& screens, ScreensAtDirecti
                                    wanted.by_effect[number]);
   }
   return sheets;
+}
+
+TextureCells texture_cells(OpacityTile const& tile, int max_texels) {
+  int const most = max_texels - 2;
+  TextureCells cells;
+  cells.columns = std::min(tile.columns(), most);
+  cells.rows = std::min(tile.rows(), most);
+  cells.across = (tile.columns() + cells.columns - 1) / cells.columns;
+  cells.up = (tile.rows() + cells.rows - 1) / cells.rows;
+  return cells;
+}
+
+void add_block(SheetBlocks& blocks, SheetInBeam const& sheet, PerforatedScreen const& screen,
+               int max_texels) {
+  SheetBlock& block = blocks.sheets.emplace_back();
+  block.normal = glm::vec4(sheet.normal, sheet.inside);
+  block.ray = glm::vec4(sheet.ray_offset, sheet.outside, sheet.in_place);
+  block.tile = glm::vec4(sheet.tile, sheet.blend_from, sheet.blend_to);
+  block.hole = {sheet.half_hole, sheet.half_slot, sheet.staggered ? 1.0F : 0.0F, sheet.threshold};
+  block.effective = sheet.effective;
+  block.kind = {static_cast<int>(sheet.shape), sheet.layers,
+                static_cast<int>(blocks.regions.size()), sheet.regions_across};
+  block.image.x = sheet.regions_up;
+  if (screen.tile()) {
+    TextureCells const cells = texture_cells(*screen.tile(), max_texels);
+    block.image.y = cells.columns;
+    block.image.z = cells.rows;
+    block.image.w = cells.across;
+    block.texels = {screen.tile()->columns(), screen.tile()->rows(), 0.0F, 0.0F};
+  }
+  blocks.regions.insert(blocks.regions.end(), sheet.regions.begin(), sheet.regions.end());
 }
 
 }  // namespace gpu_shading

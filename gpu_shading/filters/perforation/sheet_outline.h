@@ -18,12 +18,12 @@ class SheetOutline {
   static constexpr std::size_t corners = 4;
   using Places = std::array<glm::dvec2, corners>;
 
-  // `way`: the displacement of the rays from the inside face to the outside face.
-  SheetOutline(Places const& places, glm::dvec2 const& way) : places_(places) {
+  // `ray_offset`: the displacement of the rays from the inside face to the outside face.
+  SheetOutline(Places const& places, glm::dvec2 const& ray_offset) : places_(places) {
     double const hand = cross(places[2] - places[0], places[3] - places[1]) < 0.0 ? -1.0 : 1.0;
     for (std::size_t i = 0; i < corners; ++i) {
       edges_[i] = hand * (places[(i + 1) % corners] - places[i]);
-      steps_[i] = cross(edges_[i], way);
+      steps_[i] = cross(edges_[i], ray_offset);
     }
   }
 

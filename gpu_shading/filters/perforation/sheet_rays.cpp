@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
 
-#include "filters/perforation/mix.h"
+#include "filters/perforation/image_rays.h"
+#include "filters/perforation/sheet_outline.h"
 
 namespace gpu_shading {
 namespace {
 
 // Linear interpolation between the values for thirds of the path.
-float along(glm::vec4 const& thirds, float way) {
-  float const places = 3.0F * way;
+float along(glm::vec4 const& thirds, float share) {
+  float const places = 3.0F * share;
   float sum = thirds[0];
   for (int i = 0; i < 3; ++i) {
     sum += (thirds[i + 1] - thirds[i]) * std::clamp(places - static_cast<float>(i), 0.0F, 1.0F);
@@ -32,12 +35,70 @@ std::vector<double> depths_of(int layers) {
   return depths;
 }
 
+bool has_table(PerforatedScreen const& screen) { return !screen.pattern(); }
+
+// The effective transmittance of a sheet for a displacement; `place`: in the sheet's plane.
+double effective(PerforatedScreen const& screen, glm::dvec2 const& shift, glm::dvec2 const& place) {
+  if (!has_table(screen)) return screen.pattern()->transmittance(shift.x, shift.y);
+  glm::dvec2 const size(screen.tile()->width(), screen.tile()->height());
+  return screen.transmittance().at_place(glm::length(shift), std::atan2(shift.y, shift.x),
+                                         glm::fract(place / size));
+}
+
+// What a ray meets of the parts of one sheet.
+class Passage {
+ public:
+  Passage(Screens::Entry const& entry, SheetRay const& ray)
+      : entry_(entry), ray_(ray), cosine_(glm::dot(entry.normal, ray.direction)) {
+    shift_ = glm::dvec2(glm::dot(entry.u, ray.direction), glm::dot(entry.v, ray.direction)) *
+             ((entry.outside - entry.inside) / cosine_);
+  }
+
+  bool is_in_plane() const {
+    constexpr double rounding = 1e-9;
+    return std::abs(cosine_) < rounding;
+  }
+  bool is_aside() const { return std::abs(cosine_) < from_the_side; }
+  glm::dvec2 const& shift() const { return shift_; }
+
+  // Calls use(distance, place at the inside face, part of the path) for each part that it meets.
+  template <typename Use>
+  void each(Use const& use) const {
+    for (Screens::Quadrilateral const& part : entry_.parts) {
+      glm::dvec3 const& corner = part.corners.front();
+      double const height = glm::dot(entry_.normal, corner - ray_.origin);
+      double distance = height / cosine_;
+      if (!is_between(distance)) {
+        distance += 0.5 * (entry_.inside + entry_.outside) / cosine_;
+        if (!is_between(distance)) continue;
+      }
+      glm::dvec3 const from_corner =
+          ray_.origin + (height + entry_.inside) / cosine_ * ray_.direction - corner;
+      glm::dvec2 const place = part.places.front() + glm::dvec2(glm::dot(from_corner, entry_.u),
+                                                                glm::dot(from_corner, entry_.v));
+      auto const within = SheetOutline(part.places, shift_).part_within(place);
+      if (within) use(distance, place, *within);
+    }
+  }
+
+ private:
+  bool is_between(double distance) const {
+    double const nearest = ray_.margin / std::abs(cosine_);
+    return distance > nearest && ray_.length - distance > nearest;
+  }
+
+  Screens::Entry const& entry_;
+  SheetRay const& ray_;
+  double cosine_;
+  glm::dvec2 shift_{0.0};  // from the inside face to the outside face
+};
+
 }  // namespace
 
 SheetRays::SheetRays(PerforatedScreen const& screen, SheetInBeam const& sheet, double pixel,
                      bool by_rows)
     : sheet_(sheet),
-      ray_(sheet.way),
+      ray_(sheet.ray_offset),
       tile_(sheet.tile),
       blend_(glm::smoothstep(sheet.blend_from, sheet.blend_to, static_cast<float>(pixel))),
       depths_(depths_of(sheet.layers)) {
@@ -54,19 +115,19 @@ std::optional<float> SheetRays::everywhere() const {
   return std::nullopt;
 }
 
-void SheetRays::whole_ways(glm::dvec2 const& first, glm::dvec2 const& step, std::uint64_t wanted,
-                           Ways& passed) const {
+void SheetRays::whole_paths(glm::dvec2 const& first, glm::dvec2 const& step, std::uint64_t wanted,
+                            Passed& passed) const {
   if (!pattern_) {
     for (std::size_t i = 0; i < passed.size(); ++i, wanted >>= 1U) {
       if ((wanted & 1U) == 0) continue;
-      passed[i] = part_of_way(first + static_cast<double>(i) * step, 0.0, 1.0);
+      passed[i] = part_of_path(first + static_cast<double>(i) * step, 0.0, 1.0);
     }
     return;
   }
   if (blend_ == 1.0F) return find_by_effect(first, step, passed);
   find_through_holes(first, step, passed);
   if (blend_ == 0.0F) return;
-  Ways by_effect;
+  Passed by_effect;
   find_by_effect(first, step, by_effect);
   for (std::size_t i = 0; i < passed.size(); ++i) {
     passed[i] = mix(passed[i], by_effect[i], blend_);
@@ -74,10 +135,10 @@ void SheetRays::whole_ways(glm::dvec2 const& first, glm::dvec2 const& step, std:
 }
 
 void SheetRays::find_through_holes(glm::dvec2 const& first, glm::dvec2 const& step,
-                                   Ways& passed) const {
+                                   Passed& passed) const {
   if (sheet_.layers == exact_sheet) return pattern_->find_passing(first, step, ray_, passed);
   passed.fill(1.0F);
-  Ways in_layer;
+  Passed in_layer;
   for (double const depth : depths_) {
     pattern_->find_passing(first + depth * ray_, step, glm::dvec2(0.0), in_layer);
     for (std::size_t i = 0; i < passed.size(); ++i) passed[i] *= in_layer[i];
@@ -85,12 +146,12 @@ void SheetRays::find_through_holes(glm::dvec2 const& first, glm::dvec2 const& st
 }
 
 void SheetRays::find_by_effect(glm::dvec2 const& first, glm::dvec2 const& step,
-                               Ways& passed) const {
+                               Passed& passed) const {
   if (rows_) return rows_->find(first, step, passed);
   passed.fill(sheet_.effective[3]);
 }
 
-float SheetRays::part_of_way(glm::dvec2 const& place, double begin, double end) const {
+float SheetRays::part_of_path(glm::dvec2 const& place, double begin, double end) const {
   float passed = 0.0F;
   if (blend_ < 1.0F) passed = through_holes(place, begin, end);
   if (blend_ > 0.0F) passed = mix(passed, through_effective(place, begin, end), blend_);
@@ -125,8 +186,8 @@ float SheetRays::through_holes(glm::dvec2 const& place, double begin, double end
 
 float SheetRays::through_effective(glm::dvec2 const& place, double begin, double end) const {
   if (rows_ && is_whole(begin, end)) return rows_->at(place);
-  auto const way = static_cast<float>(end - begin);
-  if (sheet_.regions.empty()) return along(sheet_.effective, way);
+  auto const share = static_cast<float>(end - begin);
+  if (sheet_.regions.empty()) return along(sheet_.effective, share);
   int const across = sheet_.regions_across;
   int const up = sheet_.regions_up;
   glm::dvec2 const middle = place + 0.5 * (begin + end) * ray_;
@@ -135,13 +196,51 @@ float SheetRays::through_effective(glm::dvec2 const& place, double begin, double
   glm::vec2 const part(at - corner);
   auto const region = [&](int column, int row) {
     auto const number = around(row, up) * across + around(column, across);
-    return along(sheet_.regions[static_cast<std::size_t>(number)], way);
+    return along(sheet_.regions[static_cast<std::size_t>(number)], share);
   };
   int const left = static_cast<int>(corner.x);
   int const low = static_cast<int>(corner.y);
   float const below = mix(region(left, low), region(left + 1, low), part.x);
   float const above = mix(region(left, low + 1), region(left + 1, low + 1), part.x);
   return mix(below, above, part.y);
+}
+
+std::optional<MetSheet> meet_sheet(Screens::Entry const& entry, SheetRay const& ray,
+                                   bool by_holes) {
+  PerforatedScreen const& screen = *entry.screen;
+  Passage const passage(entry, ray);
+  if (passage.is_in_plane()) return std::nullopt;
+  double nearest = std::numeric_limits<double>::infinity();
+  double passed = passage.is_aside() ? 0.0 : 1.0;
+  if (!passage.is_aside() && by_holes) {
+    SheetInBeam const sheet = sheet_in_beam(entry, ray.direction, 1.0, false);
+    bool const solid = sheet.layers == solid_sheet;
+    std::optional<SheetRays> holes;
+    if (!solid) holes.emplace(screen, sheet, 0.0, false);
+    passage.each([&](double distance, glm::dvec2 const& place, SheetOutline::PathPart const& part) {
+      nearest = std::min(nearest, distance);
+      passed *= solid ? 0.0 : static_cast<double>(holes->part_of_path(place, part.begin, part.end));
+    });
+  } else {
+    double length = 0.0;
+    double begin = 1.0;
+    double end = 0.0;
+    glm::dvec2 at(0.0);
+    passage.each([&](double distance, glm::dvec2 const& place, SheetOutline::PathPart const& part) {
+      nearest = std::min(nearest, distance);
+      length += part.end - part.begin;
+      begin = std::min(begin, part.begin);
+      end = std::max(end, part.end);
+      at = place;
+    });
+    if (std::isfinite(nearest) && !passage.is_aside()) {
+      // Parts overlap at the edges that they share.
+      passed = effective(screen, std::min(length, 1.0) * passage.shift(),
+                         at + 0.5 * (begin + end) * passage.shift());
+    }
+  }
+  if (!std::isfinite(nearest) || nearest > ray.limit) return std::nullopt;
+  return MetSheet{nearest, passed};
 }
 
 }  // namespace gpu_shading

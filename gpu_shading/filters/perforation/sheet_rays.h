@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
 
@@ -13,7 +14,7 @@
 
 namespace gpu_shading {
 
-// What passes a screen at one sun direction, ray by ray on the CPU, by the same rule as
+// Transmittance of a screen at one sun direction, ray by ray on the CPU, by the same rule as
 // screen.frag, which explains the terms.
 class SheetRays {
  public:
@@ -28,31 +29,31 @@ class SheetRays {
   // The transmittances of the whole path for rays that pass the inside face at `first` and at equal
   // steps from there, m in the sheet's plane; only for those whose bit is set in `wanted`, lowest
   // bit first.
-  static constexpr int most_ways = PatternRays::most;
-  using Ways = PatternRays::Ways;
-  void whole_ways(glm::dvec2 const& first, glm::dvec2 const& step, std::uint64_t wanted,
-                  Ways& passed) const;
+  static constexpr int max_rays = PatternRays::most;
+  using Passed = PatternRays::Passed;
+  void whole_paths(glm::dvec2 const& first, glm::dvec2 const& step, std::uint64_t wanted,
+                   Passed& passed) const;
 
   // Whether a ray passes or not, and nothing between.
   bool all_or_nothing() const {
     return pattern_.has_value() && sheet_.layers == exact_sheet && blend_ == 0.0F;
   }
-  // The same as `whole_ways`, if so: a bit for each ray.
+  // The same as `whole_paths`, if so: a bit for each ray.
   std::uint64_t passing(glm::dvec2 const& first, glm::dvec2 const& step) const {
     return pattern_->passing(first, step, ray_);
   }
 
   // The transmittance of a part of the path, 0 at the inside face and 1 at the outside face.
-  float part_of_way(glm::dvec2 const& place, double begin, double end) const;
+  float part_of_path(glm::dvec2 const& place, double begin, double end) const;
 
  private:
   bool is_whole(double begin, double end) const { return begin <= 0.0 && end >= 1.0; }
   float solid_at(glm::dvec2 const& place) const;
   float through_layers(glm::dvec2 const& place, double begin, double end) const;
   float through_holes(glm::dvec2 const& place, double begin, double end) const;
-  // Of whole paths through a pattern, as `whole_ways`.
-  void find_through_holes(glm::dvec2 const& first, glm::dvec2 const& step, Ways& passed) const;
-  void find_by_effect(glm::dvec2 const& first, glm::dvec2 const& step, Ways& passed) const;
+  // Of whole paths through a pattern, as `whole_paths`.
+  void find_through_holes(glm::dvec2 const& first, glm::dvec2 const& step, Passed& passed) const;
+  void find_by_effect(glm::dvec2 const& first, glm::dvec2 const& step, Passed& passed) const;
   float through_effective(glm::dvec2 const& place, double begin, double end) const;
 
   SheetInBeam const& sheet_;
@@ -64,5 +65,22 @@ class SheetRays {
   std::optional<RowProfile> rows_;  // if wanted
   std::optional<ImageRays> image_;  // where there is no pattern
 };
+
+// A ray that meets a sheet anywhere in the scene.
+struct SheetRay {
+  glm::dvec3 origin{0.0};
+  glm::dvec3 direction{0.0};  // of unit length
+  double length = 0.0;
+  double limit = 0.0;   // it meets nothing farther away
+  double margin = 0.0;  // from a sheet's plane, within which neither of its ends meets it, m
+};
+
+struct MetSheet {
+  double distance;  // of the polygon, or else of the middle of the body
+  double passed;    // 0 .. 1, of a sheet that is fully deployed
+};
+
+// By its holes, or by its effective transmittance, whose table is computed at the first call.
+std::optional<MetSheet> meet_sheet(Screens::Entry const& entry, SheetRay const& ray, bool by_holes);
 
 }  // namespace gpu_shading

@@ -17,7 +17,7 @@ std::size_t parts(std::size_t count, int size_log2) {
 }
 
 // The largest value that a shader, after dividing it, does not find above the threshold.
-float most_open(float threshold) {
+float max_open(float threshold) {
   float value = threshold * highest;
   while (value / highest > threshold) value = std::nextafter(value, 0.0F);
   for (float next = value; next / highest <= threshold;) {
@@ -140,7 +140,7 @@ TileRays::TileRays(OpacityTile const& tile)
       columns_(tile.columns()),
       rows_(tile.rows()),
       thresholded_(tile.threshold().has_value()),
-      most_open_(most_open(static_cast<float>(tile.threshold().value_or(0.0)))) {
+      max_open_(max_open(static_cast<float>(tile.threshold().value_or(0.0)))) {
   add_blocks();
   while (levels_.back().largest.size() > 1) add_level_above(levels_.back());
 }
@@ -212,7 +212,7 @@ float TileRays::opacity(double u, double v) const {
   float const value = sample(wrapped(u / tile_.texel_width() - 0.5, columns_),
                              wrapped(v / tile_.texel_height() - 0.5, rows_));
   if (!thresholded_) return value / highest;
-  return value > most_open_ ? 1.0F : 0.0F;
+  return value > max_open_ ? 1.0F : 0.0F;
 }
 
 TileRays::Direction TileRays::direction(double phi) const {
@@ -232,7 +232,7 @@ std::size_t TileRays::follow(double u, double v, Direction const& direction, dou
             wrapped(v / tile_.texel_height() - 0.5, rows_), direction);
   double const beyond = beyond_edge();
   // The value to exceed.
-  float passed = thresholded_ ? most_open_ : sample(walk.x(), walk.y());
+  float passed = thresholded_ ? max_open_ : sample(walk.x(), walk.y());
   // Smaller rises of fractional opacity are ignored.
   float const negligible = thresholded_ ? 0.0F : (1.0F - solid) * highest;
   auto const nothing_in = [&](std::uint16_t largest) {
@@ -308,7 +308,7 @@ bool TileRays::fall(Walk& walk, float limit, double farthest) const {
 std::optional<TileRays::Run> TileRays::first_run(double u, double v, Direction const& direction,
                                                  double level, double farthest,
                                                  double longest) const {
-  float const limit = thresholded_ ? most_open_ : static_cast<float>(level) * highest;
+  float const limit = thresholded_ ? max_open_ : static_cast<float>(level) * highest;
   Walk walk(*this, wrapped(u / tile_.texel_width() - 0.5, columns_),
             wrapped(v / tile_.texel_height() - 0.5, rows_), direction);
   if (sample(walk.x(), walk.y()) > limit || !rise(walk, limit, farthest)) return {};

@@ -6,7 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "filters/perforation/places.h"
 #include "filters/perforation/tile_rays.h"
 #include "platform/parallel.h"
 
@@ -18,10 +17,10 @@ using std::numbers::pi;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // Tangent of the largest angle of incidence that is followed, 89.1 degrees.
-constexpr double most_tangent = 64.0;
+constexpr double max_tangent = 64.0;
 
 // Total number of steps of TileRays, of about 10 ns each, and the overhead of a ray in steps.
-constexpr double most_work = 2.4e8;
+constexpr double max_work = 2.4e8;
 constexpr std::size_t work_of_ray = 4;
 
 struct Start {
@@ -36,7 +35,7 @@ struct Starts {
 };
 
 Starts open_starts(TileRays const& rays, Extent const& extent, std::size_t region,
-                   std::size_t places, std::size_t most_rays) {
+                   std::size_t places, std::size_t max_rays) {
   Starts starts;
   Places const place(extent, region);
   for (std::size_t n = 0; n < places; ++n) {
@@ -46,7 +45,7 @@ Starts open_starts(TileRays const& rays, Extent const& extent, std::size_t regio
     if (opacity >= TileRays::solid) continue;
     double const openness = 1.0 - static_cast<double>(opacity);
     starts.openness += openness;
-    if (starts.rays.size() < most_rays) starts.rays.push_back({u, v, openness});
+    if (starts.rays.size() < max_rays) starts.rays.push_back({u, v, openness});
   }
   starts.openness /= static_cast<double>(places);
   return starts;
@@ -72,7 +71,7 @@ double follow(TileRays const& rays, Start const& start, TileRays::Direction cons
 
 class Maker {
  public:
-  Maker(OpacityTile const& tile, double thickness, int most_directions);
+  Maker(OpacityTile const& tile, double thickness, int max_directions);
 
   TileTable make();
 
@@ -88,7 +87,7 @@ class Maker {
     return rays_.direction(static_cast<double>(index) * pi / table_.directions);
   }
 
-  void lay_out(int most_directions);
+  void lay_out(int max_directions);
   // Determines the number of rays and the step from a few trial rays.
   void try_out();
 
@@ -108,22 +107,22 @@ class Maker {
   double farthest_;
   std::size_t places_ = 0;
   std::size_t rays_each_ = 0;
-  std::size_t most_steps_ = 0;
+  std::size_t max_steps_ = 0;
 };
 
-Maker::Maker(OpacityTile const& tile, double thickness, int most_directions)
+Maker::Maker(OpacityTile const& tile, double thickness, int max_directions)
     : tile_(tile),
       rays_(tile),
-      farthest_(std::min(most_tangent * thickness, 8.0 * (tile.width() + tile.height()))) {
-  lay_out(most_directions);
+      farthest_(std::min(max_tangent * thickness, 8.0 * (tile.width() + tile.height()))) {
+  lay_out(max_directions);
   try_out();
 }
 
-void Maker::lay_out(int most_directions) {
+void Maker::lay_out(int max_directions) {
   constexpr int undivided = 256;
   constexpr double texels = 128.0;
   constexpr int most = 32;
-  table_.directions = most_directions;
+  table_.directions = max_directions;
   if (std::max(tile_.columns(), tile_.rows()) <= undivided) {
     places_ = 65536;
     return;
@@ -133,7 +132,7 @@ void Maker::lay_out(int most_directions) {
   };
   table_.regions_across = regions_along(tile_.columns());
   table_.regions_up = regions_along(tile_.rows());
-  table_.directions = most_directions / 4;
+  table_.directions = max_directions / 4;
   places_ = 16384;
 }
 
@@ -159,9 +158,9 @@ void Maker::try_out() {
   for (std::size_t region = 0; region < regions(); ++region) {
     Starts const starts = open_starts(rays_, extent(region), region, 1024, trial_rays);
     for (std::size_t index = 0; index < directions; ++index) {
-      TileRays::Direction const way = direction(index);
+      TileRays::Direction const towards = direction(index);
       for (Start const& start : starts.rays) {
-        follow(rays_, start, way, farthest_, rises, work, [&](double shift, double loss) {
+        follow(rays_, start, towards, farthest_, rises, work, [&](double shift, double loss) {
           lost += loss;
           lost_shifts += loss * shift;
           longest = std::max(longest, shift);
@@ -172,16 +171,16 @@ void Maker::try_out() {
   }
   double const work_each =
       static_cast<double>(work) / static_cast<double>(std::max<std::size_t>(1, followed));
-  constexpr double most_rays = 4096.0;
+  constexpr double max_rays = 4096.0;
   rays_each_ = static_cast<std::size_t>(std::clamp(
-      most_work / (static_cast<double>(regions()) * std::max(1.0, work_each)), 32.0, most_rays));
-  constexpr double most_values = 12U << 20U;
-  most_steps_ = static_cast<std::size_t>(
-      std::min(2049.0, most_values / (static_cast<double>(regions()) * table_.directions)));
+      max_work / (static_cast<double>(regions()) * std::max(1.0, work_each)), 32.0, max_rays));
+  constexpr double max_values = 12U << 20U;
+  max_steps_ = static_cast<std::size_t>(
+      std::min(2049.0, max_values / (static_cast<double>(regions()) * table_.directions)));
   double const texel = std::min(tile_.texel_width(), tile_.texel_height());
   double const mean = lost > 0.0 ? lost_shifts / lost : texel;
   // The trial rays may have missed the longest path.
-  table_.step = std::clamp(1.25 * longest / static_cast<double>(most_steps_ - 1),
+  table_.step = std::clamp(1.25 * longest / static_cast<double>(max_steps_ - 1),
                            std::max(mean, texel) / 64.0, std::max(mean, texel) / 16.0);
 }
 
@@ -196,18 +195,18 @@ Maker::Region Maker::made(std::size_t region) const {
   }
   double all = 0.0;
   for (Start const& start : starts.rays) all += start.openness;
-  std::vector<double> losses(directions * most_steps_, 0.0);
+  std::vector<double> losses(directions * max_steps_, 0.0);
   std::vector<TileRays::Rise> rises;
   std::size_t work = 0;
   for (std::size_t index = 0; index < directions; ++index) {
-    double* const of_direction = &losses[index * most_steps_];
-    TileRays::Direction const way = direction(index);
+    double* const of_direction = &losses[index * max_steps_];
+    TileRays::Direction const towards = direction(index);
     for (Start const& start : starts.rays) {
       double const end =
-          follow(rays_, start, way, farthest_, rises, work, [&](double shift, double loss) {
+          follow(rays_, start, towards, farthest_, rises, work, [&](double shift, double loss) {
             // The first step beyond it.
             double const place = std::ceil(shift / table_.step);
-            if (place >= static_cast<double>(most_steps_)) return;
+            if (place >= static_cast<double>(max_steps_)) return;
             auto const step = static_cast<std::size_t>(place);
             of_direction[step] += loss;
             found.steps = std::max(found.steps, step + 1);
@@ -219,7 +218,7 @@ Maker::Region Maker::made(std::size_t region) const {
   for (std::size_t index = 0; index < directions; ++index) {
     double left = all;
     for (std::size_t step = 0; step < found.steps; ++step) {
-      left -= losses[index * most_steps_ + step];
+      left -= losses[index * max_steps_ + step];
       found.values.push_back(static_cast<float>(starts.openness * std::max(0.0, left / all)));
     }
   }
@@ -257,8 +256,8 @@ TileTable Maker::make() {
 
 }  // namespace
 
-TileTable make_tile_table(OpacityTile const& tile, double thickness, int most_directions) {
-  return Maker(tile, thickness, most_directions).make();
+TileTable make_tile_table(OpacityTile const& tile, double thickness, int max_directions) {
+  return Maker(tile, thickness, max_directions).make();
 }
 
 }  // namespace gpu_shading

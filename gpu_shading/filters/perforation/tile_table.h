@@ -19,8 +19,8 @@ struct TileTable {
   std::vector<float> values;
 };
 
-// As described for ScreenTransmittance. With one region, there are `most_directions`; otherwise
-// fewer, of which most_directions is a multiple.
-TileTable make_tile_table(OpacityTile const& tile, double thickness, int most_directions);
+// As described for ScreenTransmittance. With one region, there are `max_directions`; otherwise
+// fewer, of which max_directions is a multiple.
+TileTable make_tile_table(OpacityTile const& tile, double thickness, int max_directions);
 
 }  // namespace gpu_shading

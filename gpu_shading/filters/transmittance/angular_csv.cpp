@@ -1,5 +1,3 @@
-#include "gpu_shading/angular_csv.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,6 +16,7 @@
 #include <vector>
 
 #include "gpu_shading/error.h"
+#include "gpu_shading/transmittance.h"
 
 namespace gpu_shading {
 namespace {
@@ -55,13 +54,13 @@ std::vector<std::string> split(std::string_view text) {
 
 std::vector<Line> read_lines(std::filesystem::path const& path) {
   // Not a pipe or a device, which may never come to an end.
-  constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20U;
+  constexpr std::uintmax_t max_bytes = std::uintmax_t{64} << 20U;
   std::error_code failure;
   if (std::filesystem::exists(path, failure) && !std::filesystem::is_regular_file(path, failure)) {
     throw Error(fmt::format("{}: is not a file", path.string()));
   }
   std::ifstream file(path);
-  if (file && std::filesystem::file_size(path, failure) > most_bytes) {
+  if (file && std::filesystem::file_size(path, failure) > max_bytes) {
     throw Error(fmt::format("{}: is larger than 64 MiB", path.string()));
   }
   if (!file) throw Error(fmt::format("{}: cannot be read", path.string()));

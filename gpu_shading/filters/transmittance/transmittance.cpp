@@ -7,13 +7,16 @@
 #include <boost/math/interpolators/pchip.hpp>
 #include <cmath>
 #include <cstddef>
+#include <glm/trigonometric.hpp>
 #include <numbers>
 #include <utility>
 
 #include "filters/transmittance/polynomial.h"
+#include "filters/transmittance/transmittance_filter.h"
 #include "gpu_shading/error.h"
 
 namespace gpu_shading {
+
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -135,6 +138,19 @@ Transmittance Transmittance::table(std::vector<double> angles, std::vector<doubl
   boost::math::interpolators::pchip<std::vector<double>> const curve(std::move(angles),
                                                                      std::move(values));
   return Transmittance([=](double angle) { return curve(within(angle)); });
+}
+
+double factor_at(AngularTransmittance const& kind, double cosine) {
+  return std::clamp((*kind.model)(std::acos(cosine)), 0.0, 1.0);
+}
+
+void add_values(FilterDigest& digest, AngularTransmittance const& kind) {
+  digest.add_shared(kind.model.get(), [&](FilterDigest& shared) {
+    constexpr int samples_a_degree = 100;
+    for (int i = 0; i <= 90 * samples_a_degree; ++i) {
+      shared.add((*kind.model)(glm::radians(static_cast<double>(i) / samples_a_degree)));
+    }
+  });
 }
 
 }  // namespace gpu_shading

@@ -30,7 +30,7 @@ class LocalAxes {
   GeographicPoint to_geographic(glm::dvec3 const& point) const;
 
   // A matrix whose columns are the unit vectors east, north and up at a position.
-  glm::dmat3 axes_at(GeographicPoint const& place) const;
+  glm::dmat3 axes_at(GeographicPoint const& position) const;
 
  private:
   GeographicPoint origin_;

@@ -18,11 +18,11 @@ namespace gpu_shading {
 // shader. Other tiles have fractional opacity, which counts once along a ray: the largest value
 // applies.
 //
-// At most most_texels_a_side texels each way. Value type; copies share the texels. Constructors
+// At most max_texels_a_side texels each way. Value type; copies share the texels. Constructors
 // throw Error for invalid values, as those of HolePattern do.
 class OpacityTile {
  public:
-  static constexpr int most_texels_a_side = 16384;
+  static constexpr int max_texels_a_side = 16384;
   static constexpr std::uint16_t solid_texel = 65535;
 
   OpacityTile(double width, double height, int columns, int rows,

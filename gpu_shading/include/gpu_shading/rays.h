@@ -59,9 +59,9 @@ struct RayConditions {
   std::optional<SurfaceId> receiver = std::nullopt;
   // Surfaces that are passed over.
   std::span<SurfaceId const> excluded = {};
-  // By Surface::schedule, as in Renderer::sun_view; 1 where there are too few.
+  // By BeamFilter::schedule, as in Renderer::sun_view; 1 where there are too few.
   std::span<double const> factors = {};
-  // By Surface::deployment, as in Renderer::set_deployments; 1 where there are too few.
+  // By PerforatedSheet::deployment, as in Renderer::set_deployments; 1 where there are too few.
   std::span<double const> deployments = {};
 };
 

@@ -1,17 +1,42 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "gpu_shading/device.h"
 #include "gpu_shading/image.h"
-#include "gpu_shading/renderer_options.h"
 #include "gpu_shading/renderer_statistics.h"
 #include "gpu_shading/scene.h"
 #include "gpu_shading/sun_direction.h"
 #include "gpu_shading/sunlit.h"
 
 namespace gpu_shading {
+
+// How a renderer computes: on which device, and how finely. Renderer's constructor checks the
+// values.
+struct RendererOptions {
+  static constexpr double min_error = 1e-5;
+  static constexpr double max_error = 0.1;
+
+  DeviceChoice device;
+  // Number of pixels along each side of every receiver's tile, 1 .. DeviceInfo::max_resolution.
+  // Empty: it follows from `error`. In both cases, a receiver with fewer than side^2 / 64 pixels,
+  // or fewer than 16, gets twice as many along each side, repeatedly, up to 4096.
+  std::optional<int> resolution = std::nullopt;
+  // Target accuracy, min_error .. max_error: 99 % of sunlit fractions are within this absolute
+  // error. The size of a tile follows from it and from the length of the shadow edges in view.
+  double error = 1e-3;
+  // Otherwise views with few edges are answered exactly, without samples, where that costs less.
+  bool samples_only = false;
+  // Called with one line when the CPU takes over from an OpenGL device: the first views of each
+  // kind are compared with the CPU's, and one was wrong; or the device cannot draw the scene.
+  // Without it, wrong answers throw DeviceError.
+  std::function<void(std::string const&)> warn = {};
+};
 
 // A window, and the interior surfaces that the sun may reach through it.
 struct InteriorQuestion {
@@ -39,7 +64,7 @@ struct InteriorQuestion {
 // the trapezoids between all outlines, projected in the same way, are summed.
 //
 // Where a caster in view transmits, each pixel has a 32-bit luminance: 1 where the receiver is,
-// multiplied by what every caster lets through (the second method of Jones & Greenberg), 0 for
+// multiplied by the transmittance of every caster (the second method of Jones & Greenberg), 0 for
 // opaque ones. The mean over the receiver's pixels replaces the fraction of sunlit pixels, and is
 // equal to it if all casters are opaque.
 //
@@ -51,7 +76,7 @@ struct InteriorQuestion {
 // mean of random scenes at 512 pixels.
 //
 // OpenGL draws many views at once, each to its own layer of an array texture, so answers do not
-// depend on what else is asked in the same call. Memory in addition to the scene and the answers:
+// depend on other questions in the same call. Memory in addition to the scene and the answers:
 // about 100 MiB on the host, and on a device up to 512 MiB of layers (64 MiB with Mesa's software
 // renderer) and some 100 MiB of geometry.
 class Renderer {
@@ -69,9 +94,9 @@ class Renderer {
   DeviceInfo const& device() const;
   RendererStatistics const& statistics() const;
 
-  // Sets the deployed fractions of screens, 0 .. 1, by Surface::deployment, for all later calls.
-  // Screens beyond the end are fully deployed. Beside its deployed fraction, a screen lets the
-  // whole beam pass.
+  // Sets the deployed fractions of screens, 0 .. 1, by PerforatedSheet::deployment, for all later
+  // calls. Screens beyond the end are fully deployed. Beside its deployed fraction, a screen lets
+  // the whole beam pass.
   void set_deployments(std::vector<double> shares);
 
   // Returns the sunlit area of each receiver, in order, for one sun direction.

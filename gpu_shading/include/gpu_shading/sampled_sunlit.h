@@ -30,7 +30,7 @@ struct Sampling {
 std::size_t usual_directions(Sampling::Density density);
 
 // Maximum number of directions: twice as many.
-std::size_t most_directions(Sampling::Density density);
+std::size_t max_directions(Sampling::Density density);
 
 // Mean error of a receiver's sunlit fraction above which directions are added: 2.7e-3, 4e-3 and
 // 5.4e-3.

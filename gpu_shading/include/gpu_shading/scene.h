@@ -1,18 +1,14 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <string>
 #include <vector>
 
+#include "gpu_shading/beam_filter.h"
 #include "gpu_shading/polygon.h"
-#include "gpu_shading/screen_placement.h"
 #include "gpu_shading/shading_rule.h"
 
 namespace gpu_shading {
-
-class PerforatedScreen;  // gpu_shading/perforated_screen.h
-class Transmittance;     // gpu_shading/transmittance.h
 
 // When a surface casts shadows.
 enum class Casting {
@@ -22,25 +18,11 @@ enum class Casting {
   never,        // it is only a receiver
 };
 
-// As a caster, a surface is opaque unless it has a transmittance, a schedule, or both, which
-// multiply. It is then a flat sheet that transmits the beam straight through, equally through both
-// faces. The angle of incidence is taken from the Newell normal of the outline. Because the sun's
-// rays are parallel, it is one number for each surface and direction; it is computed in double
-// precision for surfaces in view, with no table between the model and the answer.
 struct Surface {
   std::string name;
   Polygon polygon;
   Casting casting = Casting::always;
-  std::shared_ptr<Transmittance const> transmittance = nullptr;
-  // Index of a factor, 0 .. 1, that varies with time; -1: none. Surfaces may share one. Answers
-  // store separately what passed each schedule (Sunlit), so they hold for any factors.
-  int schedule = -1;
-  // A perforated sheet; its transmittance multiplies the transmittance and the schedule.
-  std::shared_ptr<PerforatedScreen const> screen = nullptr;
-  ScreenPlacement placement = {};
-  // Index of the deployed fraction of the screen (Renderer::set_deployments); -1: always fully
-  // deployed.
-  int deployment = -1;
+  BeamFilter filter = {};  // what it does to the beam as a caster
 };
 
 // All surfaces that can cast or receive. Each one casts on every other unless the rule forbids it;

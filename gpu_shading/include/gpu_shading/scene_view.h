@@ -11,7 +11,7 @@
 
 namespace gpu_shading {
 
-// How long things are in a picture.
+// The scale of a picture.
 struct ViewScale {
   double pixels_per_metre = 0.0;  // across the view
   double north_right = 0.0;       // of a metre to the north, pixels to the right
@@ -37,8 +37,8 @@ class SceneView {
   // out of range (1 .. DeviceInfo::max_resolution).
   Image draw(SunDirection sun, std::span<std::optional<double> const> fractions, int size);
 
-  // The same from the direction of `camera`, which is one of azimuth and altitude, too. What the
-  // sun does not reach is darker; receivers that face away from the sun are slate grey, and others
+  // The same from the direction of `camera`, also an azimuth and an altitude. Shaded parts are
+  // darker; receivers that face away from the sun are slate grey, and others
   // sand-coloured. Shadows come from a picture of 3,000 pixels a side, and illustrate.
   Image draw(SunDirection camera, SunDirection sun,
              std::span<std::optional<double> const> fractions, int size);

@@ -36,7 +36,7 @@ struct ShadingRule {
 
   bool empty() const { return roles.empty(); }
 
-  // What is the same for every caster in view of a receiver.
+  // The part of the rule that is the same for every caster in view of a receiver.
   class Receiver {
    public:
     Receiver(ShadingRule const& rule, SurfaceId receiver)

@@ -21,8 +21,8 @@ struct Sunlit {
   // Projected sunlit surface area (PSSA), m2 normal to the beam: the receiver's exact projected
   // area times the sunlit fraction of its own pixels, each weighted by the transmittance of the
   // unscheduled shades in front of it. 0 if the receiver faces away from the sun. The sunlit area
-  // itself is this divided by the cosine of the angle of incidence. What passes scheduled shades is
-  // added to it.
+  // itself is this divided by the cosine of the angle of incidence. Areas lit through scheduled
+  // shades are additional.
   double projected_area = 0.0;
   // One part for each combination of schedules.
   std::vector<ScheduledPart> scheduled;

@@ -27,7 +27,7 @@ struct TerrainGrid {
 
 // Bilinear interpolation between the nodes; empty outside the grid and where one of the four nodes
 // has no data.
-std::optional<double> elevation_at(TerrainGrid const& grid, GeographicPoint const& place);
+std::optional<double> elevation_at(TerrainGrid const& grid, GeographicPoint const& position);
 
 // The ground as polygons in the axes, facing up: a quadrilateral for each four nodes, or a triangle
 // if one of them has no data. Polygons with a node closer to the origin of the axes than

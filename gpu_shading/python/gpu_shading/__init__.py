@@ -15,14 +15,16 @@ except ImportError as _error:
     raise ImportError("gpu_shading needs NumPy: pip install numpy") from _error
 
 from gpu_shading._library import __version__, limit_threads
-from gpu_shading._places import prefix
+from gpu_shading._programs import prefix
 from gpu_shading.errors import DeviceError, Error, InvalidInput, RunError
 from gpu_shading.model import check
 from gpu_shading.optics import Screen, Transmittance
 from gpu_shading.rays import Hits, Rays
+from gpu_shading.renderer import Renderer
+from gpu_shading.rule import Rule
 from gpu_shading.runs import Run, run
 from gpu_shading.samples import read_samples, sample, write_samples
-from gpu_shading.scene import Renderer, Rule, Scene, Surface
+from gpu_shading.scene import Scene, Surface
 
 __all__ = [
     "DeviceError", "Error", "Hits", "InvalidInput", "Rays", "Renderer", "Rule", "Run", "RunError", "Scene", "Screen",

@@ -12,26 +12,26 @@ from gpu_shading.errors import InvalidInput
 
 Floats = NDArray[np.float64]
 FARTHEST = 1e7  # m; beyond it, single precision has no metre left
-MOST_VERTICES = 100_000  # of one surface
+MAX_VERTICES = 100_000  # of one surface
 
 
-def _masked_place(values: object) -> list[int] | None:
+def _masked_position(values: object) -> list[int] | None:
     """The index of the first value that a mask hides. numpy.asarray would uncover it."""
     if isinstance(values, np.ma.MaskedArray):
-        for place in np.argwhere(np.ma.getmaskarray(values)):
-            return [int(index) for index in place]
+        for position in np.argwhere(np.ma.getmaskarray(values)):
+            return [int(index) for index in position]
     elif isinstance(values, (list, tuple)):
         for index, value in enumerate(values):
-            inner = _masked_place(value)
+            inner = _masked_position(value)
             if inner is not None:
                 return [index, *inner]
     return None
 
 
 def unmasked(values: ArrayLike, what: str) -> NDArray[Any]:
-    place = _masked_place(values)
-    if place is not None:
-        raise InvalidInput(f"{what}: masked at {place}, expected numbers")
+    position = _masked_position(values)
+    if position is not None:
+        raise InvalidInput(f"{what}: masked at {position}, expected numbers")
     return np.asarray(values)
 
 
@@ -53,35 +53,35 @@ def numbers(values: ArrayLike, what: str, *, infinite: bool = False) -> Floats:
         raise InvalidInput(f"{what}: expected an array of numbers") from None
     bad = np.isnan(array) if infinite else ~np.isfinite(array)
     if bad.any():
-        place = tuple(int(index) for index in np.argwhere(bad)[0])
-        raise InvalidInput(f"{what}: {array[place]} at {list(place)}, expected finite numbers")
+        position = tuple(int(index) for index in np.argwhere(bad)[0])
+        raise InvalidInput(f"{what}: {array[position]} at {list(position)}, expected finite numbers")
     return array
 
 
-def number(value: float, what: str, least: float = -np.inf, most: float = np.inf) -> float:
+def number(value: float, what: str, low: float = -np.inf, high: float = np.inf) -> float:
     array = numbers(value, what)
     if array.ndim != 0:
         raise InvalidInput(f"{what}: expected one number, got an array of shape {array.shape}")
-    return float(within(array, what, least, most))
+    return float(within(array, what, low, high))
 
 
-def whole(value: int, what: str, least: int, most: int) -> int:
+def whole(value: int, what: str, low: int, high: int) -> int:
     try:
         found = operator.index(value)
     except TypeError:
         raise InvalidInput(f"{what}: {value!r}, expected a whole number") from None
-    if not least <= found <= most:
-        raise InvalidInput(f"{what}: {found}, expected {least} to {most}")
+    if not low <= found <= high:
+        raise InvalidInput(f"{what}: {found}, expected {low} to {high}")
     return found
 
 
-def within(array: Floats, what: str, least: float, most: float, unit: str = "") -> Floats:
+def within(array: Floats, what: str, low: float, high: float, unit: str = "") -> Floats:
     """The array, if all its numbers are in a range."""
-    wrong = (array < least) | (array > most)
+    wrong = (array < low) | (array > high)
     if wrong.any():
-        place = tuple(int(index) for index in np.argwhere(wrong)[0])
-        at = f" at {list(place)}" if place else ""
-        raise InvalidInput(f"{what}: {array[place]:g}{at}, expected {least:g} to {most:g}{unit}")
+        position = tuple(int(index) for index in np.argwhere(wrong)[0])
+        at = f" at {list(position)}" if position else ""
+        raise InvalidInput(f"{what}: {array[position]:g}{at}, expected {low:g} to {high:g}{unit}")
     return array
 
 
@@ -98,8 +98,8 @@ def points(values: ArrayLike, what: str) -> Floats:
 def ring(values: ArrayLike, what: str) -> Floats:
     """The vertices of a polygon."""
     array = points(values, what)
-    if not 3 <= len(array) <= MOST_VERTICES:
-        raise InvalidInput(f"{what}: {len(array)} vertices, expected 3 to {MOST_VERTICES}")
+    if not 3 <= len(array) <= MAX_VERTICES:
+        raise InvalidInput(f"{what}: {len(array)} vertices, expected 3 to {MAX_VERTICES}")
     return array
 
 
@@ -128,8 +128,8 @@ def unit_vectors(angles: Floats) -> Floats:
     return np.column_stack([np.cos(altitude) * np.sin(azimuth), np.cos(altitude) * np.cos(azimuth), np.sin(altitude)])
 
 
-def indices(values: ArrayLike, most: int, what: str) -> NDArray[np.uint32]:
-    """Indices of surfaces, 0 .. most - 1."""
+def indices(values: ArrayLike, count: int, what: str) -> NDArray[np.uint32]:
+    """Indices of surfaces, 0 .. count - 1."""
     try:
         found = unmasked(values, what)
     except InvalidInput:
@@ -138,6 +138,6 @@ def indices(values: ArrayLike, most: int, what: str) -> NDArray[np.uint32]:
         raise InvalidInput(f"{what}: lists of different lengths, expected a list of indices of surfaces") from None
     if found.ndim != 1 or (found.size and found.dtype.kind not in "iu"):
         raise InvalidInput(f"{what}: {found.dtype} of shape {found.shape}, expected a list of indices of surfaces")
-    if found.size and (found.min() < 0 or found.max() >= most):
-        raise InvalidInput(f"{what}: {found.min()} to {found.max()}, expected 0 to {most - 1}")
+    if found.size and (found.min() < 0 or found.max() >= count):
+        raise InvalidInput(f"{what}: {found.min()} to {found.max()}, expected 0 to {count - 1}")
     return np.ascontiguousarray(found, dtype=np.uint32)

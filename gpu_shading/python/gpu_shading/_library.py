@@ -11,7 +11,7 @@ from collections.abc import Callable
 from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int, c_size_t, c_uint32, c_void_p
 from typing import Any
 
-from gpu_shading import _places
+from gpu_shading import _programs
 from gpu_shading._arrays import whole
 from gpu_shading.errors import DeviceError, Error, InvalidInput
 
@@ -20,7 +20,7 @@ _INVALID, _DEVICE, _MEMORY, _CLOSED = 1, 2, 3, 5
 
 class SurfaceRecord(Structure):
     _fields_ = [("name", c_char_p), ("vertices", c_void_p), ("ring_sizes", c_void_p), ("rings", c_size_t),
-                ("casting", c_int), ("shade", c_void_p), ("schedule", c_int), ("screen", c_void_p),
+                ("casting", c_int), ("filter", c_void_p), ("schedule", c_int), ("screen", c_void_p),
                 ("origin_u", c_double), ("origin_v", c_double), ("rotation", c_double), ("deployment", c_int)]
 
 
@@ -67,11 +67,11 @@ _CALLS: dict[str, list[Any]] = {
     "rays_nearest": [c_void_p, POINTER(RayRecord), c_int, c_void_p, c_void_p],
 }
 _TEXTS = ("message", "version")
-_RELEASES = ("transmittance", "screen", "scene", "renderer", "rays")
+_RELEASES = ("filter", "screen", "scene", "renderer", "rays")
 
 
 def _load() -> ctypes.CDLL:
-    loaded = ctypes.CDLL(str(_places.library()))
+    loaded = ctypes.CDLL(str(_programs.library()))
     for name, arguments in _CALLS.items():
         function = getattr(loaded, f"gpu_shading_{name}")
         function.argtypes, function.restype = arguments, c_int

@@ -1,17 +1,78 @@
-"""Runs the programs of the patched folder."""
+"""Where the library and the programs are (beside this package, in a wheel, in a build tree, or on the system), and how
+programs are run."""
 
 from __future__ import annotations
 
+import importlib
+import importlib.util
 import os
 import re
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 
-from gpu_shading import _places
 from gpu_shading.errors import InvalidInput, RunError
 
 Name = str | os.PathLike[str]
+_PACKAGE = Path(__file__).resolve().parent
+_LIBRARY = "libgpu_shading_python.so"
+_MARKER = ".gpu_shading_prefix.json"  # of patch_energyplus
+
+
+def _build() -> Path | None:
+    """The build folder of the sources in which this package lies."""
+    sources = _PACKAGE.parents[2]
+    if not (sources / "CMakeLists.txt").is_file():
+        return None
+    return sources / os.environ.get("GPU_SHADING_BUILD", "build")
+
+
+def _wheel() -> Path | None:
+    found = importlib.util.find_spec("energyplus_gpu_shading")
+    return Path(found.origin).parent if found is not None and found.origin else None
+
+
+def library() -> Path:
+    """The shared library that this package calls."""
+    folders = []
+    build, wheel = _build(), _wheel()
+    if build:
+        folders.append(build / "gpu_shading")
+    # cmake --install puts this package into lib/python3/dist-packages.
+    folders.append(_PACKAGE.parents[3] / "libexec" / "gpu_shading")
+    if wheel:
+        folders.append(wheel / "libexec" / "gpu_shading")
+    for folder in folders:
+        if (folder / _LIBRARY).is_file():
+            return folder / _LIBRARY
+    searched = ", ".join(map(str, folders))
+    raise ImportError(f"gpu_shading: {_LIBRARY} is in none of {searched}: install the package again")
+
+
+def prefix() -> Path:
+    """The patched EnergyPlus: the one that GPU_SHADING_PREFIX names, that of the wheel or of the build, the one in the
+    search path, or ~/EnergyPlus-gpu. Raises RunError if there is none."""
+    chosen, build = os.environ.get("GPU_SHADING_PREFIX"), _build()
+    if chosen:
+        folder = Path(chosen)
+    elif build:
+        folder = build / "EnergyPlus"
+    elif _wheel():
+        folder = _prefix_of_wheel()
+    else:
+        in_path = (Path(name) for name in os.get_exec_path())
+        folder = next((path for path in in_path if (path / _MARKER).is_file()), Path.home() / "EnergyPlus-gpu")
+    if not (folder / "gpu_shading").is_file():
+        raise RunError(f"{folder} is not a folder that patch_energyplus created: name one in GPU_SHADING_PREFIX")
+    return folder
+
+
+def _prefix_of_wheel() -> Path:
+    wheel = importlib.import_module("energyplus_gpu_shading")
+    try:
+        return Path(wheel.prefix())
+    except SystemExit as error:
+        raise RunError(str(error.code)) from None
 
 
 def file(name: Name, what: str) -> Path:
@@ -24,7 +85,7 @@ def file(name: Name, what: str) -> Path:
 
 def gpu_shading(arguments: Sequence[str | Path]) -> str:
     """What the gpu_shading program prints. Raises RunError with its message."""
-    done = subprocess.run([_places.prefix() / "gpu_shading", *arguments], capture_output=True,
+    done = subprocess.run([prefix() / "gpu_shading", *arguments], capture_output=True,
                           stdin=subprocess.DEVNULL)
     if done.returncode != 0:
         raise RunError(last_message(done.stderr.decode(errors="replace"), "gpu_shading", done.returncode))

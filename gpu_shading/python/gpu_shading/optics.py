@@ -32,7 +32,13 @@ def choice(value: str, among: Sequence[str], what: str) -> int:
     return among.index(value)
 
 
-class Transmittance:
+class FlatFilter:
+    """A kind of filter that dims all of a surface alike, by one number for each direction. `handle`: the library's."""
+
+    handle: _library.Handle
+
+
+class Transmittance(FlatFilter):
     """Beam solar transmittance of a flat shade by angle of incidence, 0 to 1, the same through both faces.
 
     Made by one of the class's functions. `tau(angles)` evaluates it; angles are in degrees from the normal, 0 to 90.
@@ -40,7 +46,7 @@ class Transmittance:
 
     def __init__(self, recipe: tuple[str, dict[str, Any]], *arguments: Any) -> None:
         self._recipe = recipe
-        self.handle = _library.Handle("transmittance", f"transmittance_{recipe[0]}", *arguments)
+        self.handle = _library.Handle("filter", f"transmittance_{recipe[0]}", *arguments)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _reduced("Transmittance", self._recipe)

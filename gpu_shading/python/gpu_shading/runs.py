@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gpu_shading import _places, _programs
+from gpu_shading import _programs
 from gpu_shading._arrays import Floats
 from gpu_shading.errors import InvalidInput, RunError
 
@@ -68,7 +68,7 @@ def run(model: _programs.Name, weather: _programs.Name, folder: _programs.Name |
     number of `threads`. `arguments`: more for EnergyPlus, such as ["-D"]. Raises RunError, with EnergyPlus's reason,
     if the run does not complete.
     """
-    program = _places.prefix() / "energyplus"
+    program = _programs.prefix() / "energyplus"
     flags = ["--gpu-shading" if shading else "--gpu-shading=off"]
     for name, value in (("error", error), ("resolution", resolution), ("update", update), ("device", device),
                         ("file", None if extensions is None else _programs.file(extensions, "extensions")),

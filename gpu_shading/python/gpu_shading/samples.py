@@ -43,11 +43,11 @@ def read_samples(folder: _programs.Name) -> xarray.Dataset:
     in degrees; `area` (receiver) in m2; and `normal` (receiver, axis). Attributes say how and of what it was made.
     """
     dataset = _xarray().Dataset
-    place = Path(folder)
+    tables = Path(folder)
     try:
-        about = json.loads((place / "samples.json").read_text(encoding="utf-8"))
+        about = json.loads((tables / "samples.json").read_text(encoding="utf-8"))
         receivers = [str(receiver["name"]) for receiver in about["receivers"]]
-        times, numbers = _year(place / "year.csv", receivers)
+        times, numbers = _year(tables / "year.csv", receivers)
         if about["format"] != _FORMAT:
             raise ValueError(f"its format is {about['format']!r}, expected {_FORMAT!r}")
         made: xarray.Dataset = dataset(
@@ -66,9 +66,9 @@ def read_samples(folder: _programs.Name) -> xarray.Dataset:
                    "longitude": about["site"]["longitude"], "gpu_shading": about["versions"]["gpu_shading"]})
         return made
     except FileNotFoundError as error:
-        raise InvalidInput(f"{place}: has no {Path(error.filename).name}: run gpu_shading sample") from None
+        raise InvalidInput(f"{tables}: has no {Path(error.filename).name}: run gpu_shading sample") from None
     except (KeyError, TypeError, ValueError, UnicodeDecodeError) as error:
-        raise InvalidInput(f"{place}: is not a folder of gpu_shading sample: {error}") from None
+        raise InvalidInput(f"{tables}: is not a folder of gpu_shading sample: {error}") from None
 
 
 def write_samples(dataset: xarray.Dataset, file: _programs.Name) -> None:

@@ -4,48 +4,28 @@ from __future__ import annotations
 
 import itertools
 import os
-import threading
-import time
-import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from ctypes import byref
 from dataclasses import dataclass, fields
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gpu_shading import _library, _pickles
-from gpu_shading._arrays import (
-    FARTHEST,
-    Floats,
-    indices,
-    number,
-    numbers,
-    pointer,
-    ring,
-    suns,
-    unit_vectors,
-    unmasked,
-    whole,
-    within,
-)
+from gpu_shading._arrays import FARTHEST, Floats, number, numbers, pointer, ring, whole, within
 from gpu_shading.errors import InvalidInput
 from gpu_shading.model import Contents, read
-from gpu_shading.optics import Screen, Transmittance, choice
+from gpu_shading.optics import FlatFilter, Screen, Transmittance, choice
 from gpu_shading.rays import Faces, Rays, RayScreens, make_rays
+from gpu_shading.renderer import Renderer, Values, schedule_table
+from gpu_shading.rule import Rule
 
 Casts = Literal["always", "turned away", "never"]
-Values = Mapping[str, float] | ArrayLike
 
 _CASTS = ("always", "turned away", "never")
-_LEAST_COSINE = 1e-5  # EnergyPlus's: with less, the sun is behind a surface
-_MOST_DIRECTIONS = 1024  # in one call of the library, between which Python may stop
-_FIRST_DIRECTIONS = 64
-_LONG_CALL = 0.25  # s
-_MOST_ANSWERS = 1 << 20
-_MOST_PIXELS = 1 << 20  # along a side
-_MOST_TURN = 3600.0  # degrees
+_MAX_PIXELS = 1 << 20  # along a side
+_MAX_TURN = 3600.0  # degrees
 
 
 @dataclass(frozen=True)
@@ -57,36 +37,12 @@ class Surface:
     holes: tuple[Floats, ...] = ()
     receives: bool = False
     casts: Casts = "always"
-    transmittance: Transmittance | None = None
+    transmittance: FlatFilter | None = None
     screen: Screen | None = None
     screen_origin: tuple[float, float] = (0.0, 0.0)
     screen_rotation: float = 0.0
     schedule: str | None = None
     deployment: str | None = None
-
-
-@dataclass(frozen=True)
-class Rule:
-    """Which caster counts for which receiver, as a model asks (gpu_shading/shading_rule.h)."""
-
-    roles: NDArray[np.uint32]
-    """Of each surface in a row: wall, zone, 0 to 3 for which surfaces it shades, and the only one if that is 3."""
-    zone_shades: NDArray[np.uint8]
-    """Square, by the receiver's zone and then the caster's: 1 where it shades."""
-
-    def __post_init__(self) -> None:
-        roles = _whole_numbers(self.roles, "rule: roles", (1 << 32) - 1).astype(np.uint32)
-        if roles.shape[1] != 4:
-            raise InvalidInput(f"rule: roles: an array of shape {roles.shape}, expected (surfaces, 4)")
-        zone_shades = _whole_numbers(self.zone_shades, "rule: zone_shades", 1).astype(np.uint8)
-        if zone_shades.shape[0] != zone_shades.shape[1]:
-            raise InvalidInput(f"rule: zone_shades: an array of shape {zone_shades.shape}, expected (zones, zones)")
-        for column, name, least_beyond in ((1, "zone", len(zone_shades)), (2, "shades", 4)):
-            if len(roles) and roles[:, column].max() >= least_beyond:
-                raise InvalidInput(f"rule: roles: {name} {roles[:, column].max()}, expected less than {least_beyond}")
-        for field, array in (("roles", roles), ("zone_shades", zone_shades)):
-            array.setflags(write=False)
-            object.__setattr__(self, field, array)
 
 
 class Scene:
@@ -107,7 +63,7 @@ class Scene:
                  casters: Iterable[ArrayLike] | Mapping[str, ArrayLike] = (), *, error: float = 1e-3,
                  resolution: int | None = None) -> None:
         self.error = number(error, "error")
-        self.resolution = None if resolution is None else whole(resolution, "resolution", 1, _MOST_PIXELS)
+        self.resolution = None if resolution is None else whole(resolution, "resolution", 1, _MAX_PIXELS)
         self.schedules: list[str] = []
         """Names of transmittance schedules; their values are the `factors` of a question."""
         self.deployments: list[str] = []
@@ -140,7 +96,7 @@ class Scene:
         return made
 
     def add(self, vertices: ArrayLike, *, name: str | None = None, holes: Iterable[ArrayLike] = (),
-            receives: bool = False, casts: Casts = "always", transmittance: float | Transmittance | None = None,
+            receives: bool = False, casts: Casts = "always", transmittance: float | FlatFilter | None = None,
             screen: Screen | None = None, screen_origin: tuple[float, float] = (0.0, 0.0),
             screen_rotation: float = 0.0, schedule: str | None = None, deployment: str | None = None) -> int:
         """Adds a surface and returns its index.
@@ -151,10 +107,10 @@ class Scene:
         along axes at the second vertex, of which u leads to the third, and is turned by `screen_rotation` (degrees).
         `schedule` names a factor that varies with time, `deployment` the part of the screen that is deployed.
         """
-        place = len(self._surfaces)
-        what = f"surface {name or place}"
+        index = len(self._surfaces)
+        what = f"surface {name or index}"
         choice(casts, _CASTS, f"{what}: casts")
-        if transmittance is not None and not isinstance(transmittance, Transmittance):
+        if transmittance is not None and not isinstance(transmittance, FlatFilter):
             transmittance = Transmittance.constant(number(transmittance, f"{what}: transmittance", 0.0, 1.0))
         if screen is not None and not isinstance(screen, Screen):
             raise InvalidInput(f"{what}: screen: expected a Screen")
@@ -166,17 +122,17 @@ class Scene:
             if value is not None and not isinstance(value, str):
                 raise InvalidInput(f"{what}: {kind}: {value!r}, expected a name")
         surface = Surface(
-            name=str(place if name is None else name), vertices=_kept(ring(vertices, what)),
+            name=str(index if name is None else name), vertices=_kept(ring(vertices, what)),
             holes=tuple(_kept(ring(hole, f"{what}: hole")) for hole in holes), receives=bool(receives), casts=casts,
             transmittance=transmittance, screen=screen, screen_origin=(float(origin[0]), float(origin[1])),
-            screen_rotation=number(screen_rotation, f"{what}: screen_rotation", -_MOST_TURN, _MOST_TURN),
+            screen_rotation=number(screen_rotation, f"{what}: screen_rotation", -_MAX_TURN, _MAX_TURN),
             schedule=schedule, deployment=deployment)
         for known, wanted in ((self.schedules, schedule), (self.deployments, deployment)):
             if wanted is not None and wanted not in known:
                 known.append(wanted)
         self._surfaces.append(surface)
         self._forget()
-        return place
+        return index
 
     @property
     def surfaces(self) -> tuple[Surface, ...]:
@@ -226,8 +182,14 @@ class Scene:
         key = (str(device), self.error if error is None else error,
                self.resolution if resolution is None and error is None else resolution)
         if key not in self._renderers:
-            self._renderers[key] = Renderer(self, *key)
+            self._renderers[key] = self._new_renderer(*key)
         return self._renderers[key]
+
+    def _new_renderer(self, device: str, error: float, resolution: int | None) -> Renderer:
+        pixels = 0 if resolution is None else whole(resolution, "resolution", 1, _MAX_PIXELS)
+        handle = _library.Handle("renderer", "renderer_new", self.native(), device.encode(errors="replace"), pixels,
+                                 number(error, "error"))
+        return Renderer(handle, self._area_vectors(), self.receivers, self.factor_table, self.deployment_shares)
 
     def rays(self, *, faces: Faces = "as casting", screens: RayScreens = "effective") -> Rays:
         """What answers for single rays through this scene as it is now. `faces` that stop rays: "as casting", by what
@@ -237,11 +199,11 @@ class Scene:
 
     def factor_table(self, factors: Values | None, directions: int | None) -> Floats:
         """Values of the schedules in rows: one, or one for each direction."""
-        return _table(factors, self.schedules, directions, "factors", None)
+        return schedule_table(factors, self.schedules, directions, "factors", None)
 
     def deployment_shares(self, deployments: Values | None) -> Floats:
         """Values of the schedules of deployment."""
-        return _table(deployments, self.deployments, None, "deployments", 1.0).reshape(-1)
+        return schedule_table(deployments, self.deployments, None, "deployments", 1.0).reshape(-1)
 
     def native(self) -> _library.Handle:
         """The library's own scene, of the surfaces as they are now."""
@@ -250,7 +212,7 @@ class Scene:
             for surface in self._surfaces:
                 self._add_native(made, surface)
             if self._rule is not None:
-                roles, zone_shades = _completed(self._rule.roles, len(self._surfaces)), self._rule.zone_shades
+                roles, zone_shades = self._rule.roles_of(len(self._surfaces)), self._rule.zone_shades
                 _library.call("scene_set_rule", made, pointer(roles), len(roles), pointer(zone_shades),
                               len(zone_shades))
             self._native = made
@@ -274,7 +236,7 @@ class Scene:
         record = _library.SurfaceRecord(
             name=surface.name.encode(errors="replace"), vertices=pointer(rings), ring_sizes=pointer(sizes),
             rings=len(sizes), casting=_CASTS.index(surface.casts),
-            shade=surface.transmittance.handle.pointer if surface.transmittance else None,
+            filter=surface.transmittance.handle.pointer if surface.transmittance else None,
             schedule=self.schedules.index(surface.schedule) if surface.schedule is not None else -1,
             screen=surface.screen.handle.pointer if surface.screen else None,
             origin_u=surface.screen_origin[0], origin_v=surface.screen_origin[1],
@@ -306,91 +268,6 @@ class Scene:
         return f"<Scene: {len(self._surfaces)} surfaces, {len(self.receivers)} receivers>"
 
 
-class Renderer:
-    """Computes how much of a scene the sun reaches. Made by Scene.renderer. Threads may share one; it answers one
-    question at a time, on all cores or on the GPU, and meanwhile other threads of Python run."""
-
-    def __init__(self, scene: Scene, device: str, error: float, resolution: int | None) -> None:
-        pixels = 0 if resolution is None else whole(resolution, "resolution", 1, _MOST_PIXELS)
-        self._handle = _library.Handle("renderer", "renderer_new", scene.native(), device.encode(errors="replace"),
-                                       pixels, number(error, "error"))
-        self._lock = threading.Lock()  # of the deployments and the question that they are for
-        self._surfaces = len(scene.surfaces)
-        self._vectors = scene._area_vectors()
-        self._receivers = scene.receivers
-        self._factor_table = scene.factor_table
-        self._shares = scene.deployment_shares
-
-    @property
-    def device(self) -> str:
-        """What computes, such as "CPU (2 threads, AVX2)"."""
-        return _library.text("renderer_device", self._handle)
-
-    def sunlit(self, directions: ArrayLike, *, receivers: Sequence[int] | None = None, factors: Values | None = None,
-               deployments: Values | None = None) -> Floats:
-        """Sunlit fractions, 0 to 1, of shape directions x receivers.
-
-        `directions`: of shape (..., 2), azimuth clockwise from north and altitude from the horizon in degrees, or
-        (..., 3), vectors to the sun. `receivers`: indices of surfaces, without which all that receive are meant.
-        `factors`: values of the scene's schedules, by name or in their order, or a row of them for each direction;
-        needed if the scene has schedules. `deployments`: the deployed part of screens, by name or in order, 1 if not
-        given. Many directions in one call are faster than one call each.
-        """
-        angles, shape = suns(directions)
-        wanted = self._wanted(receivers)
-        areas = self._projected(angles, wanted, factors, deployments)
-        vectors = self._vectors[wanted]
-        facing = unit_vectors(angles) @ vectors.T
-        lit = facing > _LEAST_COSINE * np.linalg.norm(vectors, axis=1)
-        fractions = np.divide(areas, facing, out=np.zeros_like(areas), where=lit)
-        limited: Floats = np.clip(fractions, 0.0, 1.0)
-        return limited.reshape(*shape, len(wanted))
-
-    def projected_areas(self, directions: ArrayLike, *, receivers: Sequence[int] | None = None,
-                        factors: Values | None = None, deployments: Values | None = None) -> Floats:
-        """The same as areas normal to the beam, m2, as EnergyPlus asks for them."""
-        angles, shape = suns(directions)
-        wanted = self._wanted(receivers)
-        return self._projected(angles, wanted, factors, deployments).reshape(*shape, len(wanted))
-
-    def interior_areas(self, directions: ArrayLike, window: int, interiors: Sequence[int], *,
-                       factors: Values | None = None, deployments: Values | None = None) -> Floats:
-        """Areas normal to the beam (m2) of each of `interiors` that the sun lights through `window` alone."""
-        angles, shape = suns(directions)
-        through = int(indices([window], self._surfaces, "window")[0])
-        wanted = indices(interiors, self._surfaces, "interiors")
-        return self._ask("renderer_interior", angles, wanted, factors, deployments, through).reshape(
-            *shape, len(wanted))
-
-    def _wanted(self, receivers: Sequence[int] | None) -> np.ndarray[Any, np.dtype[np.uint32]]:
-        return indices(self._receivers if receivers is None else receivers, self._surfaces, "receivers")
-
-    def _projected(self, angles: Floats, wanted: np.ndarray[Any, np.dtype[np.uint32]], factors: Values | None,
-                   deployments: Values | None) -> Floats:
-        return self._ask("renderer_sunlit", angles, wanted, factors, deployments)
-
-    def _ask(self, question: str, angles: Floats, wanted: np.ndarray[Any, np.dtype[np.uint32]],
-             factors: Values | None, deployments: Values | None, *window: int) -> Floats:
-        table = self._factor_table(factors, len(angles))
-        shares = self._shares(deployments)
-        results = np.empty((len(angles), len(wanted)))
-        most = max(1, min(_MOST_DIRECTIONS, _MOST_ANSWERS // max(1, len(wanted))))
-        first, step = 0, min(most, _FIRST_DIRECTIONS)
-        with self._lock:
-            _library.call("renderer_set_deployments", self._handle, pointer(shares), len(shares))
-            while first < len(angles) and len(wanted):
-                began = time.monotonic()
-                part, rows = angles[first:first + step], table if len(table) == 1 else table[first:first + step]
-                _library.call(question, self._handle, pointer(part), len(part), *window, pointer(wanted), len(wanted),
-                              byref(_library.FactorTable(pointer(rows), *rows.shape)), pointer(results[first:]))
-                first += step
-                step = min(most, 2 * step) if time.monotonic() - began < _LONG_CALL else max(1, step // 2)
-            lines = _library.text("renderer_warnings", self._handle).splitlines()
-        for line in lines:
-            warnings.warn(line, RuntimeWarning, stacklevel=4)
-        return results
-
-
 def _restored(version: int, state: Mapping[str, Any]) -> Scene:
     """What a pickle of a scene holds."""
     _pickles.require_version(version)
@@ -420,53 +297,7 @@ def _kept(array: Floats) -> Floats:
     return kept
 
 
-def _whole_numbers(values: ArrayLike, what: str, most: int) -> NDArray[Any]:
-    """A copy in C's order, in rows, of numbers from 0 to `most`."""
-    try:
-        found = np.array(unmasked(values, what), order="C")
-    except InvalidInput:
-        raise
-    except ValueError:
-        raise InvalidInput(f"{what}: rows of different lengths, expected an array of whole numbers") from None
-    if found.dtype.kind not in "biu" or found.ndim != 2:
-        raise InvalidInput(f"{what}: {found.dtype} of shape {found.shape}, expected whole numbers in rows")
-    if found.size and (found.min() < 0 or found.max() > most):
-        raise InvalidInput(f"{what}: {found.min()} to {found.max()}, expected 0 to {most}")
-    return found
-
-
-def _completed(roles: np.ndarray[Any, np.dtype[np.uint32]], surfaces: int) -> np.ndarray[Any, np.dtype[np.uint32]]:
-    """Roles with those of surfaces that were added later: each a wall of its own, in the zone of shading surfaces."""
-    added = np.zeros((surfaces - len(roles), 4), dtype=np.uint32)
-    added[:, 0] = roles[:, 0].max(initial=0) + 1 + np.arange(len(added))
-    return np.ascontiguousarray(np.concatenate([roles, added]))
-
-
 def _named(surfaces: Iterable[ArrayLike] | Mapping[str, ArrayLike], kind: str) -> Iterable[tuple[str, ArrayLike]]:
     if isinstance(surfaces, Mapping):
         return surfaces.items()
     return ((f"{kind} {number}", vertices) for number, vertices in enumerate(surfaces))
-
-
-def _table(values: Values | None, names: list[str], directions: int | None, what: str,
-           default: float | None) -> Floats:
-    """Values of schedules, 0 to 1, in rows by the order of `names`."""
-    if values is None:
-        if names and default is None:
-            raise InvalidInput(f"{what}: needed for the schedules {', '.join(names)}")
-        return np.full((1, len(names)), 1.0 if default is None else default)
-    if isinstance(values, Mapping):
-        unknown = [name for name in values if name not in names]
-        missing = [name for name in names if name not in values]
-        if unknown or (missing and default is None):
-            raise InvalidInput(f"{what}: expected {', '.join(names) or 'none'}, got {', '.join(map(str, values))}")
-        table = numbers([values.get(name, default or 0.0) for name in names], what)
-    else:
-        table = numbers(values, what)
-    rows = table[None] if table.ndim == 1 else table
-    if rows.ndim != 2 or rows.shape[1] != len(names) or len(rows) not in (1, directions or 1):
-        raise InvalidInput(f"{what}: an array of shape {table.shape}, expected ({len(names)},)" +
-                           (f" or ({directions}, {len(names)})" if directions is not None else ""))
-    if rows.size and (rows.min() < 0.0 or rows.max() > 1.0):
-        raise InvalidInput(f"{what}: {rows.min():g} to {rows.max():g}, expected 0 to 1")
-    return np.ascontiguousarray(rows)

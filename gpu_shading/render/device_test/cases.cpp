@@ -131,7 +131,7 @@ ClosedForm panes_before_windows() {
     Site const site(apart * i);
     SurfaceId const window = made.scene.add({"window", site.facade(0, 0, 0, side, side)});
     Surface pane{"pane", site.facade(0, -distance, 0, side, side)};
-    pane.transmittance = panes();
+    pane.filter.set(AngularTransmittance{panes()});
     made.scene.add(pane);
     each_sun([&](FacadeSun const& sun) {
       // Rays from the pane go down, and away from the sun.
@@ -166,7 +166,7 @@ ClosedForm perforated_sheets() {
     Sheet sheet{.thickness = thickness};
     sheet.detail = i % 2 == 0 ? ScreenDetail::holes : ScreenDetail::effective;
     Surface screen{"screen", site.facade(-4, -0.2, -4, 9, 9)};
-    screen.screen = std::make_shared<PerforatedScreen const>(holes, sheet);
+    screen.filter.set(PerforatedSheet{std::make_shared<PerforatedScreen const>(holes, sheet)});
     made.scene.add(screen);
     each_sun([&](FacadeSun const& sun) {
       double const wide = std::max(0.0, hole - thickness * std::abs(sun.sideways()));
@@ -196,8 +196,8 @@ ClosedForm images() {
     }
     SurfaceId const window = made.scene.add({"window", site.facade(0, 0, 0, 8 * pitch, 8 * pitch)});
     Surface screen{"screen", site.facade(-4, -0.2, -4, 9, 9)};
-    screen.screen = std::make_shared<PerforatedScreen const>(
-        OpacityTile(pitch, pitch, texels, texels, opacity), Sheet{.thickness = 0.0});
+    screen.filter.set(PerforatedSheet{std::make_shared<PerforatedScreen const>(
+        OpacityTile(pitch, pitch, texels, texels, opacity), Sheet{.thickness = 0.0})});
     made.scene.add(screen);
     each_sun([&](FacadeSun const& sun) {
       double const whole = 64 * pitch * pitch * sun.cosine();
@@ -218,9 +218,9 @@ ClosedForm scheduled_blinds() {
     double const bottom = 1.6 - 0.12 * i;
     SurfaceId const window = made.scene.add({"window", site.facade(0, 0, 0, side, side)});
     Surface from_left{"left", site.facade(-20, -distance, -20, right + 20, 60)};
-    from_left.schedule = 0;
+    from_left.filter.schedule = 0;
     Surface from_above{"above", site.facade(-20, -2 * distance, bottom, 60, 60)};
-    from_above.schedule = 1;
+    from_above.filter.schedule = 1;
     made.scene.add(from_left);
     made.scene.add(from_above);
     each_sun([&](FacadeSun const& sun) {
@@ -296,7 +296,7 @@ ClosedForm rooms(bool glazed) {
     };
     if (glazed) {
       Surface pane{"pane", site.facade(-20, -0.05, -20, 60, 60)};
-      pane.transmittance = panes();
+      pane.filter.set(AngularTransmittance{panes()});
       made.scene.add(pane);
     }
     each_sun([&](FacadeSun const& sun) {

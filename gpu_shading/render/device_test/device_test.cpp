@@ -17,7 +17,7 @@
 namespace gpu_shading {
 namespace {
 
-// Areas as ClosedForm::View::exact has them, by view.
+// By view: areas in the order of ClosedForm::View::exact.
 using Areas = std::vector<std::vector<double>>;
 
 // Views by direction: those of one are answered together.
@@ -82,14 +82,14 @@ double error_of(ClosedForm const& form, Batch const& batch, Renderer& renderer) 
   return worst;
 }
 
-// Per view, over as many rounds as it takes to tell.
+// Per view, over enough rounds to be measured.
 double milliseconds_of(ClosedForm const& form, Batch const& batch, Renderer& renderer) {
   using Clock = std::chrono::steady_clock;
   constexpr double enough = 200.0;
-  constexpr int most = 50;
+  constexpr int max_rounds = 50;
   double spent = 0.0;
   int rounds = 0;
-  while (rounds == 0 || (spent < enough && rounds < most)) {
+  while (rounds == 0 || (spent < enough && rounds < max_rounds)) {
     auto const began = Clock::now();
     answers_of(renderer, batch);
     spent += std::chrono::duration<double, std::milli>(Clock::now() - began).count();
@@ -116,7 +116,7 @@ DeviceTest test_device(DeviceInfo const& device) {
     for (ClosedForm const& form : closed_forms()) {
       // Without the check by which the CPU takes over.
       Renderer renderer = RendererWithBackend::make(form.scene, {}, [&](BackendInput const& input) {
-        return open_backend(input, choice_of(device));
+        return open_backend(input, {device.id});
       });
       Batch const batch = batch_of(form);
       // The first answers, which count, also compile programs.

@@ -3,7 +3,6 @@
 #include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
 #include <vector>
 
-#include "sun/sampling/interpolant.h"
 #include "sun/sampling/sun_arcs.h"
 #include "sun/sampling/sunlit_table.h"
 

@@ -11,15 +11,15 @@ namespace gpu_shading {
 namespace {
 
 // Solid angle of the sun's directions above the horizon.
-double suns_solid_angle() { return 2.0 * std::numbers::pi * std::sin(most_declination); }
+double suns_solid_angle() { return 2.0 * std::numbers::pi * std::sin(max_declination); }
 
 double chord_squared(glm::dvec3 const& a, glm::dvec3 const& b) { return glm::dot(a - b, a - b); }
 
 // Days per year that the sun spends near a declination, relative to an equinox.
 double duration_at(double declination) {
-  constexpr double least = 0.02;
-  double const share = declination / most_declination;
-  return 1.0 / std::sqrt(std::max(1.0 - share * share, least));
+  constexpr double min_value = 0.02;
+  double const share = declination / max_declination;
+  return 1.0 / std::sqrt(std::max(1.0 - share * share, min_value));
 }
 
 }  // namespace
@@ -29,15 +29,15 @@ Disagreement::Disagreement(SunlitTable const& table, SunlitSplines const& spline
       misses_(splines.misses(table)),
       expected_errors_(table.receivers(), 0.0),
       facing_(table.receivers(), 0.0) {
-  constexpr std::size_t looked_at = 2500;
+  constexpr std::size_t candidate_count = 2500;
   if (table.directions().size() < nearby) return;
-  for (auto const direction : spread_on_arcs(latitude, looked_at)) {
+  for (auto const direction : spread_on_arcs(latitude, candidate_count)) {
     candidates_.push_back(candidate_at(direction, latitude, 1.0));
   }
-  add_grazing(latitude, looked_at);
-  doubts_.resize(candidates_.size());
+  add_grazing(latitude, candidate_count);
+  uncertainty_.resize(candidates_.size());
   for_each_index(candidates_.size(), [&](std::size_t i) {
-    doubts_[i] = splines.doubts(to_direction(candidates_[i].direction, latitude));
+    uncertainty_[i] = splines.uncertainty(to_direction(candidates_[i].direction, latitude));
   });
   for (std::size_t receiver = 0; receiver < table.receivers(); ++receiver) estimate(receiver);
 }
@@ -67,7 +67,7 @@ void Disagreement::add_grazing(double latitude, std::size_t evenly_spread) {
             cosine * normal + sine * (std::cos(turn) * across + std::sin(turn) * along));
         if (direction.altitude <= 0.0) continue;
         auto const hours = to_hour_direction(direction, latitude);
-        if (std::abs(hours.declination) > most_declination) continue;
+        if (std::abs(hours.declination) > max_declination) continue;
         candidates_.push_back(candidate_at(hours, latitude, width * step / usual));
       }
     }
@@ -75,10 +75,10 @@ void Disagreement::add_grazing(double latitude, std::size_t evenly_spread) {
 }
 
 std::vector<glm::dvec3> Disagreement::distinct_normals() const {
-  constexpr std::size_t most = 12;
+  constexpr std::size_t max_count = 12;
   constexpr double alike = 0.9998;  // within a degree
   std::vector<glm::dvec3> normals;
-  for (std::size_t i = 0; i < table_.receivers() && normals.size() < most; ++i) {
+  for (std::size_t i = 0; i < table_.receivers() && normals.size() < max_count; ++i) {
     auto const& normal = table_.normal(i);
     bool const known = std::any_of(normals.begin(), normals.end(), [&](glm::dvec3 const& other) {
       return glm::dot(normal, other) > alike;
@@ -108,7 +108,7 @@ Disagreement::Candidate Disagreement::candidate_at(HourDirection direction, doub
 // Mean over the samples near the candidate at which the sun faces the receiver; 0 if there is none.
 double Disagreement::misses_near(Candidate const& candidate, std::size_t receiver) const {
   // The size of a jump does not depend on how finely it is sampled.
-  constexpr double most = 0.2;
+  constexpr double max_miss = 0.2;
   double total = 0.0;
   int lit = 0;
   for (auto const sample : candidate.samples) {
@@ -116,7 +116,7 @@ double Disagreement::misses_near(Candidate const& candidate, std::size_t receive
     total += misses_[receiver][sample];
     ++lit;
   }
-  return lit > 0 ? std::min(total / lit, most) : 0.0;
+  return lit > 0 ? std::min(total / lit, max_miss) : 0.0;
 }
 
 void Disagreement::estimate(std::size_t receiver) {
@@ -128,8 +128,8 @@ void Disagreement::estimate(std::size_t receiver) {
     whole += candidate.duration;
     if (!table_.faces(receiver, candidate.towards_sun)) continue;
     faced += candidate.duration;
-    errors += candidate.duration *
-              (0.5 * misses_near(candidate, receiver) + static_cast<double>(doubts_[i][receiver]));
+    errors += candidate.duration * (0.5 * misses_near(candidate, receiver) +
+                                    static_cast<double>(uncertainty_[i][receiver]));
   }
   if (faced == 0.0) return;
   expected_errors_[receiver] = errors / faced;
@@ -149,7 +149,7 @@ std::vector<HourDirection> Disagreement::further_directions(std::size_t count,
     double const weight = error * error / facing_[receiver];
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (!table_.faces(receiver, candidates[i].towards_sun)) continue;
-      worth[i] += weight * (static_cast<double>(doubts_[i][receiver]) +
+      worth[i] += weight * (static_cast<double>(uncertainty_[i][receiver]) +
                             share_of_misses * misses_near(candidates[i], receiver));
     }
   }

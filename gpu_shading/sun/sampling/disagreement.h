@@ -20,12 +20,12 @@ class Disagreement {
 
   // Estimated error of each receiver's fraction, mean over the times of a year when the sun faces
   // it: half the misses, because a sample is predicted from farther away than what lies between
-  // samples, and the doubts of splines. The errors of tests/bench/sampling_error are at most twice
-  // this.
+  // samples, and the uncertainty of splines. The errors of tests/bench/sampling_error are at most
+  // twice this.
   std::vector<double> const& expected_errors() const { return expected_errors_; }
 
   // Returns `count` further directions, one after another where the product of these is largest:
-  // the doubts of splines there and a share of the misses of nearby samples, summed over the
+  // the uncertainty of splines there and a share of the misses of nearby samples, summed over the
   // receivers that the sun faces there; the square of the distance to the nearest direction; and
   // how long the sun is at that declination. A receiver weighs more the larger its expected error
   // is, and the more rarely the sun faces it. Receivers whose expected error is below `wanted` are
@@ -53,9 +53,9 @@ class Disagreement {
   SunlitTable const& table_;
   Misses misses_;
   std::vector<Candidate> candidates_;
-  std::vector<std::vector<float>> doubts_;  // by candidate and receiver
-  std::vector<double> expected_errors_;     // by receiver
-  std::vector<double> facing_;              // by receiver: share of the year's sun that it faces
+  std::vector<std::vector<float>> uncertainty_;  // by candidate and receiver
+  std::vector<double> expected_errors_;          // by receiver
+  std::vector<double> facing_;  // by receiver: share of the year's sun that it faces
 };
 
 }  // namespace gpu_shading

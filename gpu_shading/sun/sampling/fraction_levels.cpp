@@ -15,14 +15,14 @@ struct Shared {
   std::size_t samples;
 };
 
-// Values that at least five samples share; those of most samples first.
+// Values that at least five samples share, the most frequent first.
 std::vector<Shared> shared_values(std::vector<double> const& ascending) {
-  constexpr std::size_t least_samples = 5;
+  constexpr std::size_t min_samples = 5;
   std::vector<Shared> shared;
   for (auto from = ascending.begin(); from != ascending.end();) {
     auto const to = std::upper_bound(from, ascending.end(), *from + same_within);
     auto const samples = static_cast<std::size_t>(to - from);
-    if (samples >= least_samples) shared.push_back({0.5 * (*from + *(to - 1)), samples});
+    if (samples >= min_samples) shared.push_back({0.5 * (*from + *(to - 1)), samples});
     from = to;
   }
   std::stable_sort(shared.begin(), shared.end(),
@@ -33,17 +33,17 @@ std::vector<Shared> shared_values(std::vector<double> const& ascending) {
 }  // namespace
 
 std::vector<double> fraction_levels(std::span<double const> fractions) {
-  constexpr std::size_t most = 7;
+  constexpr std::size_t max_levels = 7;
   // Levels closer together would part differences that do not matter.
-  constexpr double least_apart = 5e-3;
+  constexpr double min_distance = 5e-3;
   std::vector<double> ascending(fractions.begin(), fractions.end());
   std::sort(ascending.begin(), ascending.end());
   std::vector<double> levels{0.0, 1.0};
   for (auto const& [value, samples] : shared_values(ascending)) {
     bool const apart = std::all_of(levels.begin(), levels.end(), [value = value](double level) {
-      return std::abs(level - value) > least_apart;
+      return std::abs(level - value) > min_distance;
     });
-    if (apart && levels.size() < most) levels.push_back(value);
+    if (apart && levels.size() < max_levels) levels.push_back(value);
   }
   std::sort(levels.begin(), levels.end());
   bool const all_above = levels.size() > 2 && ascending.front() > levels[1] - same_within;

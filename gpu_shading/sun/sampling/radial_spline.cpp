@@ -31,9 +31,9 @@ MatrixXd linear_terms(std::vector<glm::dvec3> const& nodes) {
 
 // Whether a linear function is determined, and not only just, by its values at the nodes.
 bool determine_linear(MatrixXd const& terms) {
-  constexpr double least_pivot = 1e-3;
+  constexpr double min_pivot = 1e-3;
   Eigen::ColPivHouseholderQR<MatrixXd> decomposed(terms);
-  decomposed.setThreshold(least_pivot);
+  decomposed.setThreshold(min_pivot);
   return decomposed.rank() == terms.cols();
 }
 
@@ -46,12 +46,12 @@ bool is_limit(double value) {
 // Moves the values at limits beyond them, one after another, each to where the others predict it.
 // Each move lowers the energy.
 void release(MatrixXd const& inverse, Eigen::Ref<Eigen::VectorXd> values) {
-  constexpr int most_sweeps = 50;
+  constexpr int max_sweeps = 50;
   constexpr double small = 1e-3;
   Eigen::VectorXd const given = values;
   Eigen::VectorXd weights = inverse * values;  // of the radial functions
   double largest = 1.0;
-  for (int sweep = 0; sweep < most_sweeps && largest > small; ++sweep) {
+  for (int sweep = 0; sweep < max_sweeps && largest > small; ++sweep) {
     largest = 0.0;
     for (Index i = 0; i < given.size(); ++i) {
       if (!is_limit(given(i))) continue;
@@ -72,13 +72,13 @@ RadialFunctions::RadialFunctions(RadialKernel kernel, std::vector<glm::dvec3> no
                                  MatrixXd coefficients)
     : kernel_(kernel), nodes_(std::move(nodes)), coefficients_(std::move(coefficients)) {}
 
-Eigen::VectorXd RadialFunctions::at(glm::dvec3 const& place) const {
+Eigen::VectorXd RadialFunctions::at(glm::dvec3 const& position) const {
   auto const n = static_cast<Index>(nodes_.size());
   Eigen::VectorXd row(coefficients_.rows());
   for (Index i = 0; i < n; ++i)
-    row(i) = radial(kernel_, place, nodes_[static_cast<std::size_t>(i)]);
+    row(i) = radial(kernel_, position, nodes_[static_cast<std::size_t>(i)]);
   row(n) = 1.0;
-  for (int axis = 0; n + axis + 1 < row.size(); ++axis) row(n + axis + 1) = place[axis];
+  for (int axis = 0; n + axis + 1 < row.size(); ++axis) row(n + axis + 1) = position[axis];
   return coefficients_.transpose() * row;
 }
 

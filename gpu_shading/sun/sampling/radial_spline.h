@@ -12,7 +12,8 @@ enum class RadialKernel {
   // -r^1.75 and a constant: a norm between those of a membrane and of thin-plate splines. It
   // overshoots less at kinks than smoother ones, and stays closer to the values beyond the nodes.
   rough,
-  // r^3 and a linear function: a smoother norm, for what has no kinks. It is `rough` where the
+  // r^3 and a linear function: a smoother norm, for functions without kinks. It is `rough` where
+  // the
   // nodes do not determine a linear function.
   smooth,
 };
@@ -23,7 +24,7 @@ class RadialFunctions {
   RadialFunctions(RadialKernel kernel, std::vector<glm::dvec3> nodes, Eigen::MatrixXd coefficients);
 
   // The value of each function.
-  Eigen::VectorXd at(glm::dvec3 const& place) const;
+  Eigen::VectorXd at(glm::dvec3 const& position) const;
 
  private:
   RadialKernel kernel_;

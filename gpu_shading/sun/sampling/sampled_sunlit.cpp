@@ -56,7 +56,7 @@ std::size_t usual_directions(Sampling::Density density) {
   return 320;
 }
 
-std::size_t most_directions(Sampling::Density density) { return usual_directions(density) * 2; }
+std::size_t max_directions(Sampling::Density density) { return usual_directions(density) * 2; }
 
 double error_goal(Sampling::Density density) {
   constexpr double of_medium = 4e-3;
@@ -71,8 +71,8 @@ class SampleRounds::Implementation {
     if (sampling.paper_grid) {
       directions_ = directions_at(papers_grid(sampling.density, latitude), latitude);
     } else {
-      std::size_t const most = usual_directions(sampling.density) * 6 / 10;
-      directions_ = directions_at(spread_on_arcs(latitude, most), latitude);
+      std::size_t const max_count = usual_directions(sampling.density) * 6 / 10;
+      directions_ = directions_at(spread_on_arcs(latitude, max_count), latitude);
     }
     if (directions_.empty()) refine();
   }
@@ -109,10 +109,10 @@ class SampleRounds::Implementation {
                                     [&](double error) { return error >= wanted; });
     if (refined_ == last || !needed) return false;
     ++refined_;
-    auto const most =
-        usual ? usual_directions(sampling_.density) : most_directions(sampling_.density);
+    auto const max_count =
+        usual ? usual_directions(sampling_.density) : max_directions(sampling_.density);
     auto const count =
-        (most - table_.directions().size()) / static_cast<std::size_t>(last - refined_ + 1);
+        (max_count - table_.directions().size()) / static_cast<std::size_t>(last - refined_ + 1);
     directions_ = directions_at(disagreement.further_directions(count, wanted), latitude_);
     return true;
   }
@@ -238,7 +238,7 @@ std::vector<double> const& SampledSunlit::expected_errors() const {
 bool in_suns_range(SunDirection direction, double latitude) {
   constexpr double margin = 0.1 * degree;
   double const declination = to_hour_direction(direction, latitude).declination;
-  return direction.altitude >= 0.0 && std::abs(declination) <= most_declination + margin;
+  return direction.altitude >= 0.0 && std::abs(declination) <= max_declination + margin;
 }
 
 }  // namespace gpu_shading

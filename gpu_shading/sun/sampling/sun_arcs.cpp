@@ -19,16 +19,16 @@ constexpr double from_horizon = 0.04 * pi / 180.0;
 
 // Declinations at which the sun rises.
 struct Range {
-  double least;
-  double most;
+  double low;
+  double high;
 };
 
 Range lit_declinations(double latitude) {
   // The part of the arc above the horizon then has room for two directions.
   constexpr double margin = 0.2 * pi / 180.0;
   double const reach = pi / 2.0 - std::abs(latitude) - margin;
-  if (latitude >= 0.0) return {std::max(-most_declination, -reach), most_declination};
-  return {-most_declination, std::min(most_declination, reach)};
+  if (latitude >= 0.0) return {std::max(-max_declination, -reach), max_declination};
+  return {-max_declination, std::min(max_declination, reach)};
 }
 
 // In steps. Every other arc is offset by half a step. The others miss noon by a fifth, before and
@@ -57,25 +57,25 @@ void add_arc(double declination, double latitude, double step, double shift,
 }
 
 std::vector<HourDirection> spread(double latitude, int arcs, double elongated) {
-  auto const [least, most] = lit_declinations(latitude);
-  double const apart = (most - least) / (arcs - 1);
+  auto const [low, high] = lit_declinations(latitude);
+  double const apart = (high - low) / (arcs - 1);
   std::vector<HourDirection> directions;
   for (int arc = 0; arc < arcs; ++arc) {
-    add_arc(least + arc * apart, latitude, elongated * apart, shift_of(arc), directions);
+    add_arc(low + arc * apart, latitude, elongated * apart, shift_of(arc), directions);
   }
   return directions;
 }
 
 }  // namespace
 
-std::vector<HourDirection> spread_on_arcs(double latitude, std::size_t most) {
+std::vector<HourDirection> spread_on_arcs(double latitude, std::size_t max_count) {
   std::vector<HourDirection> best;
-  constexpr int most_arcs = 60;
-  for (int arcs = 3; arcs <= most_arcs; ++arcs) {
+  constexpr int max_arcs = 60;
+  for (int arcs = 3; arcs <= max_arcs; ++arcs) {
     // Steps along the arcs compensate for the whole number of arcs.
     for (double const slack : {0.92, 0.96, 1.0, 1.04, 1.08}) {
       auto directions = spread(latitude, arcs, elongation * slack);
-      if (directions.size() <= most && directions.size() > best.size()) best = directions;
+      if (directions.size() <= max_count && directions.size() > best.size()) best = directions;
     }
   }
   return best;

@@ -8,12 +8,12 @@
 namespace gpu_shading {
 
 // Obliquity of the ecliptic, slightly rounded up, so that no declination exceeds it. Radians.
-constexpr double most_declination = 0.409454;  // 23.46 degrees
+constexpr double max_declination = 0.409454;  // 23.46 degrees
 
-// At most `most` directions above the horizon, spread about evenly between the solstices: on arcs
-// of equal declination, at equal steps of the hour angle from sunrise to sunset, with every other
-// arc offset by half a step (except at its ends).
-std::vector<HourDirection> spread_on_arcs(double latitude, std::size_t most);
+// At most `max_count` directions above the horizon, spread about evenly between the solstices: on
+// arcs of equal declination, at equal steps of the hour angle from sunrise to sunset, with every
+// other arc offset by half a step (except at its ends).
+std::vector<HourDirection> spread_on_arcs(double latitude, std::size_t max_count);
 
 // The directions of the paper's grid: every 14th day of a year of sun_of_day, from the first day,
 // at multiples of an azimuth step (radians) from noon.

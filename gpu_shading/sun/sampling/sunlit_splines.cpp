@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
 #include <tuple>
 
 #include "platform/parallel.h"
 #include "sun/sampling/fraction_levels.h"
-#include "sun/sampling/shadow_fall.h"
 
 namespace gpu_shading {
 namespace {
@@ -23,7 +23,7 @@ std::tuple<long, long, long> rounded(glm::dvec3 const& normal) {
           std::lround(steps * normal.z)};
 }
 
-glm::dvec3 place_of(glm::dvec3 const& towards_sun, std::optional<glm::dvec3> const& normal) {
+glm::dvec3 position_of(glm::dvec3 const& towards_sun, std::optional<glm::dvec3> const& normal) {
   return normal ? glm::dvec3(shadow_fall(*normal, towards_sun), 0.0) : towards_sun;
 }
 
@@ -45,17 +45,17 @@ struct Kind {
 
   Kind(RadialKernel kernel, std::optional<glm::dvec3> over, std::vector<glm::dvec3> const& suns,
        MatrixXd const& values)
-      : normal(over), splines(kernel, places_of(suns, over)) {
+      : normal(over), splines(kernel, positions_of(suns, over)) {
     released = splines.release_limits(values);
     missed = missed_by(splines, released);
   }
 
-  static std::vector<glm::dvec3> places_of(std::vector<glm::dvec3> const& suns,
-                                           std::optional<glm::dvec3> const& normal) {
-    std::vector<glm::dvec3> places;
-    places.reserve(suns.size());
-    for (auto const& sun : suns) places.push_back(place_of(sun, normal));
-    return places;
+  static std::vector<glm::dvec3> positions_of(std::vector<glm::dvec3> const& suns,
+                                              std::optional<glm::dvec3> const& normal) {
+    std::vector<glm::dvec3> positions;
+    positions.reserve(suns.size());
+    for (auto const& sun : suns) positions.push_back(position_of(sun, normal));
+    return positions;
   }
 };
 
@@ -99,11 +99,22 @@ MatrixXd weights_of(std::vector<Kind> const& kinds, std::vector<Index> const& be
 
 }  // namespace
 
+glm::dvec2 shadow_fall(glm::dvec3 const& normal, glm::dvec3 const& towards_sun) {
+  // A horizontal plane has any number of horizontal lines: use the one to the east.
+  constexpr double level = 1e-3;
+  glm::dvec3 const along = std::hypot(normal.x, normal.y) > level
+                               ? glm::normalize(glm::dvec3(-normal.y, normal.x, 0.0))
+                               : glm::dvec3(1.0, 0.0, 0.0);
+  double const cosine = std::max(glm::dot(normal, towards_sun), min_cosine);
+  return {std::asinh(glm::dot(along, towards_sun) / cosine),
+          std::asinh(glm::dot(glm::cross(normal, along), towards_sun) / cosine)};
+}
+
 SunlitSplines::SunlitSplines(SunlitTable const& table, Purpose purpose)
     : purpose_(purpose),
       receivers_count_(table.receivers()),
       receivers_(table.columns().size()),
-      least_(table.columns().size(), 0.0) {
+      lowest_level_(table.columns().size(), 0.0) {
   std::map<std::pair<std::tuple<long, long, long>, std::vector<bool>>, std::vector<std::size_t>>
       alike;
   for (std::size_t i = 0; i < receivers_.size(); ++i) {
@@ -121,7 +132,7 @@ SunlitSplines::SunlitSplines(SunlitTable const& table, Purpose purpose)
                  [&](std::size_t i) { groups_[i] = make_group(table, columns[i]); });
   for (auto const& group : groups_) {
     for (auto const& layer : group.layers) {
-      if (layer.lowest) least_[layer.column] = layer.from;
+      if (layer.lowest) lowest_level_[layer.column] = layer.from;
     }
   }
 }
@@ -185,14 +196,14 @@ void SunlitSplines::fit(Group& group, glm::dvec3 const& normal, std::vector<glm:
 VectorXd SunlitSplines::answers_of(Group const& group, glm::dvec3 const& sun) {
   VectorXd answers(static_cast<Index>(group.layers.size()));
   for (auto const& [splines, layers] : group.answering) {
-    answers(layers) = splines.functions.at(place_of(sun, splines.normal));
+    answers(layers) = splines.functions.at(position_of(sun, splines.normal));
   }
   return limited(answers);
 }
 
 std::vector<double> SunlitSplines::at(SunDirection direction) const {
   auto const sun = to_vector(direction);
-  std::vector<double> fractions = least_;
+  std::vector<double> fractions = lowest_level_;
   for (auto const& group : groups_) {
     VectorXd const answers = answers_of(group, sun);
     for (std::size_t i = 0; i < group.layers.size(); ++i) {
@@ -203,25 +214,25 @@ std::vector<double> SunlitSplines::at(SunDirection direction) const {
   return fractions;
 }
 
-std::vector<float> SunlitSplines::doubts(SunDirection direction) const {
+std::vector<float> SunlitSplines::uncertainty(SunDirection direction) const {
   auto const sun = to_vector(direction);
-  std::vector<float> doubts(receivers_count_, 0.0F);
+  std::vector<float> uncertainty(receivers_count_, 0.0F);
   for (auto const& group : groups_) {
     VectorXd const answers = answers_of(group, sun);
     VectorXd differences = VectorXd::Zero(answers.size());
     for (std::size_t k = 0; k < group.all.size(); ++k) {
       auto const& [normal, functions] = group.all[k];
-      VectorXd const others = limited(functions.at(place_of(sun, normal)));
+      VectorXd const others = limited(functions.at(position_of(sun, normal)));
       differences.array() += group.weights.row(static_cast<Index>(k)).transpose().array() *
                              (others - answers).array().abs();
     }
     for (std::size_t i = 0; i < group.layers.size(); ++i) {
       auto const& layer = group.layers[i];
-      doubts[receivers_[layer.column]] +=
+      uncertainty[receivers_[layer.column]] +=
           static_cast<float>(layer.height * differences(static_cast<Index>(i)));
     }
   }
-  return doubts;
+  return uncertainty;
 }
 
 Misses SunlitSplines::misses(SunlitTable const& table) const {

@@ -2,15 +2,27 @@
 
 #include <Eigen/Dense>
 #include <cstddef>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
 
-#include "sun/sampling/interpolant.h"
 #include "sun/sampling/radial_spline.h"
 #include "sun/sampling/sunlit_table.h"
 
 namespace gpu_shading {
+
+// The position on a receiver's plane of the shadow of a point one metre in front of it: the
+// distance along the plane's horizontal line and the distance across it, each as its inverse
+// hyperbolic sine, in metres.
+//
+// Behind horizontal slats, the sunlit fraction depends on the second value alone, behind vertical
+// ones on the first, and linearly while shadows are short. At grazing incidence, shadows grow
+// without bound, which the inverse hyperbolic sine reduces to a few metres.
+//
+// `normal`, pointing outside, and `towards_sun` are unit vectors; the cosine of the angle between
+// them is limited to min_cosine or more.
+glm::dvec2 shadow_fall(glm::dvec3 const& normal, glm::dvec3 const& towards_sun);
 
 // By receiver and sampled direction: the error of predicting a receiver's fraction from its other
 // samples; 0 if the sun does not face it.
@@ -22,7 +34,7 @@ using Misses = std::vector<std::vector<double>>;
 // serves all receivers that face the same way.
 class SunlitSplines : public Interpolant {
  public:
-  // Splines that only answer take less memory, and have no doubts.
+  // Splines that only answer take less memory, and have no uncertainty.
   enum class Purpose { answers, refinement };
   SunlitSplines(SunlitTable const& table, Purpose purpose);
 
@@ -32,7 +44,7 @@ class SunlitSplines : public Interpolant {
 
   // By receiver: by how much the splines that do not answer differ from the answer there. Those
   // that predict samples better count more. 0 without Purpose::refinement.
-  std::vector<float> doubts(SunDirection direction) const;
+  std::vector<float> uncertainty(SunDirection direction) const;
 
  private:
   struct Layer {
@@ -55,7 +67,7 @@ class SunlitSplines : public Interpolant {
     std::vector<Answering> answering;  // each layer once
     Eigen::MatrixXd missed;            // by sample and layer, of the splines that answer
     std::vector<Splines> all;          // each kind, for all layers; empty without refinement
-    Eigen::MatrixXd weights;           // of the kinds' doubts, by kind and layer
+    Eigen::MatrixXd weights;           // of the kinds' uncertainty, by kind and layer
   };
 
   Group make_group(SunlitTable const& table, std::vector<std::size_t> const& columns) const;
@@ -67,7 +79,7 @@ class SunlitSplines : public Interpolant {
   Purpose purpose_;
   std::size_t receivers_count_;
   std::vector<std::size_t> receivers_;  // by column
-  std::vector<double> least_;           // the lowest level, by column
+  std::vector<double> lowest_level_;    // the lowest level, by column
   std::vector<Group> groups_;
 };
 

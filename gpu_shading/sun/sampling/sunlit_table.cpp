@@ -15,16 +15,16 @@ SunlitTable::SunlitTable(std::vector<glm::dvec3> receivers) {
 }
 
 bool SunlitTable::faces(std::size_t receiver, glm::dvec3 const& sun) const {
-  return glm::dot(receivers_[receiver].normal, sun) > least_cosine;
+  return glm::dot(receivers_[receiver].normal, sun) > min_cosine;
 }
 
 SunlitTable::Column& SunlitTable::column_of(std::size_t receiver, Powers const& powers) {
   if (powers.empty()) return columns_[receiver];
-  auto const [place, added] = scheduled_.try_emplace({receiver, powers}, columns_.size());
+  auto const [position, added] = scheduled_.try_emplace({receiver, powers}, columns_.size());
   if (added) {
     columns_.push_back({receiver, powers, std::vector<double>(directions_.size(), 0.0)});
   }
-  return columns_[place->second];
+  return columns_[position->second];
 }
 
 void SunlitTable::add(std::span<SunDirection const> directions,

@@ -15,10 +15,10 @@ namespace gpu_shading {
 
 // When the sun is less than a tenth of a degree above a receiver's plane, its fraction is a
 // quotient of two negligible values.
-constexpr double least_cosine = 0.002;
+constexpr double min_cosine = 0.002;
 
-// Sunlit fractions at sampled directions, in columns: for each receiver, one column for what passes
-// unscheduled shades alone, and one for each combination of scheduled shades that occurs.
+// Sunlit fractions at sampled directions, in columns: for each receiver, one for the beam that
+// passes no scheduled shade, and one for each combination of scheduled shades that occurs.
 class SunlitTable {
  public:
   using Column = SampledFractions;
@@ -61,6 +61,18 @@ class SunlitTable {
   std::vector<std::vector<bool>> lit_;  // by receiver and direction
   std::vector<Column> columns_;         // the unscheduled first, by receiver
   std::map<std::pair<std::size_t, Powers>, std::size_t> scheduled_;  // the others
+};
+
+// Interpolation between the samples of a table.
+class Interpolant {
+ public:
+  Interpolant() = default;
+  Interpolant(Interpolant const&) = delete;
+  Interpolant& operator=(Interpolant const&) = delete;
+  virtual ~Interpolant() = default;
+
+  // Values by column of the table, which may be outside 0 .. 1; 0 if nothing is known.
+  virtual std::vector<double> at(SunDirection direction) const = 0;
 };
 
 }  // namespace gpu_shading

@@ -7,7 +7,7 @@ endif()
 
 install(TARGETS opengl32 windows_launcher gpu_shading_program RUNTIME DESTINATION . COMPONENT windows)
 install(FILES scripts/packaging/windows/patch_energyplus.cmd DESTINATION . COMPONENT windows)
-install(FILES energyplus_patch/docs/windows.md DESTINATION . RENAME README.md COMPONENT windows)
+install(FILES energyplus_patch/docs/guides/windows.md DESTINATION . RENAME README.md COMPONENT windows)
 # Of the libraries that are compiled in.
 install(FILES LICENSE DESTINATION licences RENAME gpu_shading COMPONENT windows)
 foreach(package libboost-dev libcli11-dev libeigen3-dev libfmt-dev libgeographiclib-dev libglm-dev libjs-three libtbb-dev

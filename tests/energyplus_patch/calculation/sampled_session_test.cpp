@@ -8,6 +8,7 @@
 #include "gpu_shading/sun_position.h"
 #include "model/idf/model_file.h"
 #include "platform/process.h"
+#include "scene/sky_grid.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -41,10 +42,10 @@ struct Sampled {
     wall = session.add(surface_of("WALL", {0, 0, 0}, {3, 0, 0}, {0, 0, 3}));
     floor = session.add(surface_of("FLOOR", {0, -3, -1}, {3, 0, 0}, {0, 3, 0}));
     session.add(surface_of("PLATE", {0, -1, 3}, {3, 0, 0}, {0, 1, 0}));
-    session.start(said.messages(),
-                  {[](std::string const&) { return std::pair(0.0, 1.0); },
-                   [this](std::string const&, Moment) { return share; }},
-                  [] { return latitude; });
+    session.start({said.messages(),
+                   {[](std::string const&) { return std::pair(0.0, 1.0); },
+                    [this](std::string const&, Moment) { return share; }},
+                   [] { return latitude; }});
   }
 
   static Model model(std::optional<Sampling> const& sampling, std::filesystem::path const& cache,
@@ -62,7 +63,7 @@ struct Sampled {
     return made;
   }
 
-  float at(SurfaceId receiver, double declination, double hour_angle) {
+  double at(SurfaceId receiver, double declination, double hour_angle) {
     session.set_time({12, 1});
     session.set_sun(
         to_direction(HourDirection{declination * degree, hour_angle * degree}, latitude));
@@ -178,8 +179,8 @@ TEST(SampledSession, InteriorsAreSampledAndGetNoMoreThanTheirWindow) {
       room.push_back(session.add(surface_of("FLOOR", {x, -9, 0}, {0, 20, 0}, {4, 0, 0})));
     }
     Said said;
-    session.start(said.messages(), {}, [] { return Sampled::latitude; });
-    std::vector<std::vector<float>> all;
+    session.start({said.messages(), {}, [] { return Sampled::latitude; }});
+    std::vector<std::vector<double>> all;
     for (int hour = -4; hour <= 4; ++hour) {
       session.set_time({12, 1});
       session.set_sun(to_direction(HourDirection{0.2, (15.0 * hour + 2.0) * Sampled::degree},

@@ -73,12 +73,12 @@ TEST(Session, NoMoreBackSurfacesAreLitThanEnergyPlusHasRoomFor) {
   }
   ASSERT_NEAR(x, 3.0, 1e-9);
   Said said;
-  session.start(said.messages(), {});
+  session.start({said.messages(), {}});
   session.set_sun(zenith);
   auto const areas = session.interior_areas(skylight, floor);
   ASSERT_EQ(areas.size(), strips);
   for (std::size_t i = 0; i < strips; ++i) {
-    bool const kept = i >= strips - Session::max_back_surfaces;
+    bool const kept = i >= strips - max_back_surfaces;
     EXPECT_NEAR(areas[i], kept ? 0.05 + 0.1 / 29.0 * static_cast<double>(i) : 0.0, 2e-3) << i;
   }
 }
@@ -91,7 +91,7 @@ TEST(Session, ShadingSurfaceNobodyAsksAfterCostsNothing) {
   auto const named = session.add(surface_of("NAMED", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
   session.add(surface_of("ROOF", rectangle({0, 0, 2}, {1, 0, 0}, {0, 2, 0})));
   Said said;
-  session.start(said.messages(), {});
+  session.start({said.messages(), {}});
   session.set_sun({0.0, std::asin(0.5)});
   EXPECT_NEAR(session.projected_sunlit_area(plate), 4.0 * 0.5, 1e-6);
   session.set_sun(zenith);
@@ -117,14 +117,14 @@ TEST(Session, CoordinatesAreNumbersOnEarth) {
 TEST(Session, AnswersInAForkedProcessAsBefore) {
   auto model = model_of("Schedule:Constant,LEAVES,,0.5;");
   model.shading.shading_surfaces["TREE"] = {"Shading:Site:Detailed", "LEAVES"};
-  model.options.device.kind = DeviceChoice::Kind::cpu;
+  model.options.device.device = DeviceId{};
   Schedules const schedules{[](std::string const&) { return std::pair(0.0, 1.0); },
                             [](std::string const&, Moment) { return 0.5; }};
   constexpr int strips = 40;
   // Answers of all strips, above which the tree covers some.
   auto const ask = [&](Session& session, double altitude) {
     session.set_sun({0.3, altitude});
-    std::vector<float> areas;
+    std::vector<double> areas;
     for (SurfaceId id = 1; id <= strips; ++id) areas.push_back(session.projected_sunlit_area(id));
     return areas;
   };
@@ -135,7 +135,7 @@ TEST(Session, AnswersInAForkedProcessAsBefore) {
     for (int i = 0; i < strips; ++i) {
       session->add(surface_of("STRIP", rectangle({i, 0, 0}, {0.9, 0, 0}, {0, 1, 0})));
     }
-    session->start(said.messages(), schedules, {});
+    session->start({said.messages(), schedules, {}});
     session->set_time({12, 1});
     return session;
   };
@@ -165,7 +165,7 @@ TEST(Session, SimplifiedSurfacesCastAndReceiveAsTheyAreWritten) {
   auto const slat = session.add(surface_of("SLAT", {{{0, 0, 1}, {1, 0, 1}, {1, 0.004, 1}}, {}}));
   auto const copy = session.add_mirrored(slat);
   Said said;
-  session.start(said.messages(), {});
+  session.start({said.messages(), {}});
   session.set_sun(zenith);
   EXPECT_NEAR(session.projected_sunlit_area(floor), 0.016, 2e-5);
   // EnergyPlus divides by its own area.
@@ -185,7 +185,7 @@ TEST(Session, PlaceholdersHaveIdsButShadeNothing) {
   EXPECT_TRUE(session.is_placeholder(pole) && session.is_placeholder(copy));
   EXPECT_EQ(session.surface(copy).name, "Mir-GPU SHADING PLACEHOLDER 1");
   Said said;
-  session.start(said.messages(), {});
+  session.start({said.messages(), {}});
   session.set_sun(zenith);
   EXPECT_NEAR(session.projected_sunlit_area(floor), 4.0, 1e-6);
   // Unshaded, on the side of the sun.
@@ -201,7 +201,7 @@ TEST(Session, MirroredCopiesThatNobodyAsksAfterAreUnshaded) {
   auto const copy = session.add_mirrored(low);
   session.add(surface_of("HIGH", rectangle({0, 0, 1}, {2, 0, 0}, {0, 2, 0})));
   Said said;
-  session.start(said.messages(), {});
+  session.start({said.messages(), {}});
   session.set_sun(zenith);
   EXPECT_NEAR(session.projected_sunlit_area(copy), 4.0, 1e-6);
   EXPECT_EQ(session.surface(copy).name, "Mir-LOW");
@@ -212,7 +212,7 @@ TEST(Session, SameDirectionIsRenderedOnce) {
   auto const floor = session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
   session.add(surface_of("PLATE", rectangle({0, 0, 1}, {1, 0, 0}, {0, 2, 0})));
   Said said;
-  session.start(said.messages(), {});
+  session.start({said.messages(), {}});
   for (int day = 0; day < 5; ++day) {
     session.set_sun(zenith);
     EXPECT_NEAR(session.projected_sunlit_area(floor), 2.0, 5e-3);
@@ -234,7 +234,7 @@ struct WithDay {
           session.add(surface_of("FLOOR", rectangle({x, 0, 0}, {0, 9, 0}, {10, 0, 0}))));
     }
     session.add(surface_of("PLATE", rectangle({0, 0, 4}, {1, 0, 0}, {0, 1, 0})));
-    session.start(said.messages(), {}, std::move(site));
+    session.start({said.messages(), {}, std::move(site)});
   }
 
   Scene scene() const {
@@ -244,11 +244,11 @@ struct WithDay {
   }
 
   // At so many quarters of an hour past noon, as EnergyPlus hands it over.
-  std::vector<float> at(int quarters) {
+  std::vector<double> at(int quarters) {
     auto const sun = to_direction(HourDirection{0.1, quarters * std::numbers::pi / 48.0}, latitude);
     session.set_sun({static_cast<float>(sun.azimuth), static_cast<float>(sun.altitude)});
-    std::vector<float> areas{session.projected_sunlit_area(skylight)};
-    for (float const area : session.interior_areas(skylight, floor)) areas.push_back(area);
+    std::vector<double> areas{session.projected_sunlit_area(skylight)};
+    for (double const area : session.interior_areas(skylight, floor)) areas.push_back(area);
     return areas;
   }
 
@@ -312,7 +312,7 @@ TEST(Session, GrazingSunIsTakenAsItIsHandedOver) {
     auto const wall = session.add(surface_of(
         "WALL", rectangle({}, {std::sin(heading), std::cos(heading), 0.0}, {0.0, 0.0, 1.0})));
     Said said;
-    session.start(said.messages(), {}, [] { return WithDay::latitude; });
+    session.start({said.messages(), {}, [] { return WithDay::latitude; }});
     for (int step = -3; step < 0; ++step) {
       session.set_sun(at(step));
       session.projected_sunlit_area(wall);
@@ -336,7 +336,7 @@ TEST(Session, TheSkyIsRenderedInOneGo) {
     sky.session.set_sun({static_cast<float>(azimuth), static_cast<float>(altitude)});
     auto const expected = renderer.projected_sunlit_areas(SunDirection{azimuth, altitude},
                                                           std::span(&sky.skylight, 1));
-    EXPECT_FLOAT_EQ(sky.session.projected_sunlit_area(sky.skylight),
+    EXPECT_FLOAT_EQ(static_cast<float>(sky.session.projected_sunlit_area(sky.skylight)),
                     static_cast<float>(expected.front().projected_area));
   }
   EXPECT_EQ(sky.directions(), "144");
@@ -353,7 +353,7 @@ TEST(Session, ReportHoldsEveryAnswerAndPictures) {
       session.add(surface_of("FLOOR, \"A\"", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
   session.add(surface_of("PLATE", rectangle({0, 0, 1}, {1, 0, 0}, {0, 2, 0})));
   Said said;
-  session.start(said.messages(), {});
+  session.start({said.messages(), {}});
   session.set_sun(zenith);
   session.projected_sunlit_area(floor);
   session.finish();
@@ -374,8 +374,9 @@ struct Deployed {
       : session(model(report, cache)) {
     floor = session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
     session.add(surface_of("PLATE", rectangle({0, 0, 1}, {1, 0, 0}, {0, 2, 0})));
-    session.start(said.messages(), {[](std::string const&) { return std::pair(0.0, 1.0); },
-                                    [this](std::string const&, Moment) { return share; }});
+    session.start({said.messages(),
+                   {[](std::string const&) { return std::pair(0.0, 1.0); },
+                    [this](std::string const&, Moment) { return share; }}});
   }
 
   static Model model(std::filesystem::path const& report, std::filesystem::path const& cache) {
@@ -453,7 +454,7 @@ TEST(Session, ReportSaysWhenItHasTooManyPictures) {
   }
   session.add(surface_of("PLATE", rectangle({0, 0, 1}, {0.5, 0, 0}, {0, 9, 0})));
   Said said;
-  session.start(said.messages(), {});
+  session.start({said.messages(), {}});
   session.set_sun(zenith);
   for (auto const strip : strips) session.projected_sunlit_area(strip);
   session.finish();
@@ -492,9 +493,9 @@ struct WithCache {
       floor.push_back(session.add(surface_of("FLOOR", rectangle({x, 0, 0}, {0, 1, 0}, {1, 0, 0}))));
     }
     session.add(surface_of("PLATE", rectangle({0, 0, plate_height}, {1, 0, 0}, {0, 1, 0})));
-    session.start(said.messages(),
-                  {[](std::string const&) { return std::pair(0.0, 1.0); },
-                   [transmittance](std::string const&, Moment) { return transmittance; }});
+    session.start({said.messages(),
+                   {[](std::string const&) { return std::pair(0.0, 1.0); },
+                    [transmittance](std::string const&, Moment) { return transmittance; }}});
     session.set_time({1, 1});
     session.set_sun(zenith);
   }
@@ -505,7 +506,7 @@ struct WithCache {
     return made;
   }
 
-  std::vector<float> ask() {
+  std::vector<double> ask() {
     auto answers = session.interior_areas(skylight, floor);
     answers.push_back(session.projected_sunlit_area(skylight));
     return answers;
@@ -563,9 +564,9 @@ TEST(Session, CachedInteriorsAreNotRenderedAgain) {
   std::ifstream in(file, std::ios::binary);
   std::string const text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   auto const known = decode(std::as_bytes(std::span(text)), scene);
-  AnswerSet odd;
+  SceneAnswers odd;
   odd.states = known.states;
-  known.answers.for_each([&](Answers::Direction const& direction) {
+  known.answers.for_each([&](AnswerStore::Direction const& direction) {
     for (auto const& [question, answers] : direction.interior) {
       std::vector<Sunlit> changed(answers.size());
       for (auto& answer : changed) answer.projected_area = 0.125;
@@ -603,8 +604,9 @@ TEST(Session, AScheduleThatIsOverriddenLeavesTheCachesApart) {
     Session session(WithCache::model(folder.path()));
     auto const floor = session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 1, 0})));
     session.add(surface_of("PLATE", rectangle({0, 0, 1}, {1, 0, 0}, {0, 1, 0})));
-    session.start(said.messages(), {[](std::string const&) { return std::pair(0.5, 0.5); },
-                                    [&now](std::string const&, Moment) { return now; }});
+    session.start({said.messages(),
+                   {[](std::string const&) { return std::pair(0.5, 0.5); },
+                    [&now](std::string const&, Moment) { return now; }}});
     session.set_sun(zenith);
     for (double const value : {0.5, 0.25}) {
       now = value;
@@ -624,20 +626,20 @@ TEST(Session, ReportThatCannotBeWrittenIsSaidAtTheStart) {
   Session session(std::move(model));
   session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
   Said said;
-  EXPECT_THROW(session.start(said.messages(), {}), Error);
+  EXPECT_THROW(session.start({said.messages(), {}}), Error);
 }
 
 TEST(Session, WithoutAGpuTheCpuComputesUnlessAGpuIsRequired) {
   Said said;
   Session session(model_of(""));
   session.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
-  session.start(said.messages(), {});
+  session.start({said.messages(), {}});
   if (said.remarks.empty()) GTEST_SKIP() << "a GPU renders here";
   EXPECT_TRUE(said.warnings.empty());
   EXPECT_NE(said.remarks[0].find("no GPU available; computing on the CPU, "), std::string::npos);
   Session strict(model_of("", Mode::require));
   strict.add(surface_of("FLOOR", rectangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0})));
-  EXPECT_THROW(strict.start(said.messages(), {}), DeviceError);
+  EXPECT_THROW(strict.start({said.messages()}), DeviceError);
 }
 
 TEST(Session, TasksAreDoneInPlaceOfShading) {
@@ -666,7 +668,7 @@ TEST(Session, QuestionsBeforeTheStartAndOfNoSurfaceAreErrors) {
   EXPECT_THROW(session.projected_sunlit_area(0), Error);
   EXPECT_THROW(session.interior_areas(0, {}), Error);
   Said said;
-  session.start(said.messages(), {});
+  session.start({said.messages(), {}});
   EXPECT_THROW(session.projected_sunlit_area(7), Error);
 }
 

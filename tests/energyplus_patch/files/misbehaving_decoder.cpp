@@ -76,52 +76,52 @@ std::map<std::string, std::function<bool(Request const&)>> const tried{
 };
 
 // Gives an answer, good or bad.
-std::map<std::string, std::function<void(Answer&)>> const done{
-    {"crash", [](Answer&) { raise(SIGSEGV); }},
-    {"abort", [](Answer&) { std::abort(); }},
-    {"spin", [](Answer&) { spin(); }},
+std::map<std::string, std::function<void(DecodedMessage&)>> const done{
+    {"crash", [](DecodedMessage&) { raise(SIGSEGV); }},
+    {"abort", [](DecodedMessage&) { std::abort(); }},
+    {"spin", [](DecodedMessage&) { spin(); }},
     {"sleep",
-     [](Answer&) {
+     [](DecodedMessage&) {
        while (true) sleep(1000);
      }},
-    {"fill memory", [](Answer&) { fill_memory(); }},
-    {"say nothing", [](Answer&) { stop(); }},
+    {"fill memory", [](DecodedMessage&) { fill_memory(); }},
+    {"say nothing", [](DecodedMessage&) { stop(); }},
     {"wrong mark",
-     [](Answer&) {
+     [](DecodedMessage&) {
        write_raw({1, 0, 1});
        stop();
      }},
     {"wrong status",
-     [](Answer&) {
-       write_raw({answer_mark, 2, 1});
+     [](DecodedMessage&) {
+       write_raw({message_mark, 2, 1});
        stop();
      }},
     {"endless reason",
-     [](Answer&) {
-       write_raw({answer_mark, 1, ~0U});
+     [](DecodedMessage&) {
+       write_raw({message_mark, 1, ~0U});
        stop();
      }},
-    {"reason of two lines", [](Answer&) { throw std::runtime_error("one\nline\x1b[2J"); }},
-    {"too large", [](Answer& answer) { answer.put(std::uint32_t{1000}); }},
+    {"reason of two lines", [](DecodedMessage&) { throw std::runtime_error("one\nline\x1b[2J"); }},
+    {"too large", [](DecodedMessage& answer) { answer.put(std::uint32_t{1000}); }},
     {"end early",
-     [](Answer& answer) {
+     [](DecodedMessage& answer) {
        answer.put(std::uint32_t{7});
        answer.flush();
        stop();
      }},
     {"crash at the end",
-     [](Answer& answer) {
+     [](DecodedMessage& answer) {
        answer.put(std::uint32_t{7});
        answer.put(std::uint32_t{8});
        answer.flush();
        raise(SIGSEGV);
      }},
     {"say more",
-     [](Answer& answer) {
+     [](DecodedMessage& answer) {
        for (std::uint32_t i = 0; i < 3; ++i) answer.put(std::uint32_t{7});
      }},
     {"be good",
-     [](Answer& answer) {
+     [](DecodedMessage& answer) {
        answer.put(std::uint32_t{7});
        answer.put(std::uint32_t{8});
      }},
@@ -130,7 +130,7 @@ std::map<std::string, std::function<void(Answer&)>> const done{
 }  // namespace
 
 int main() {
-  _exit(run_decoder(false, [](Request const& request, Answer& answer) {
+  _exit(run_decoder(false, [](Request const& request, DecodedMessage& answer) {
     if (auto const found = done.find(request.operation); found != done.end()) {
       found->second(answer);
     } else {

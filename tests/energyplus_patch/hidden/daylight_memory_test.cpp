@@ -192,10 +192,10 @@ TEST(DaylightMemory, AlwaysComputesWhatIsAddedToSums) {
   }
 }
 
-using Answers = RecurringAnswers<1>;
+using Sequence = SequenceCache<1>;
 
 // The answer to each question is the question; returns how many were known.
-int ask(Answers& answers, std::vector<std::uint64_t> const& questions) {
+int ask(Sequence& answers, std::vector<std::uint64_t> const& questions) {
   answers.restart();
   int known = 0;
   for (auto const question : questions) {
@@ -209,9 +209,9 @@ int ask(Answers& answers, std::vector<std::uint64_t> const& questions) {
   return known;
 }
 
-TEST(RecurringAnswers, AreFoundInTheirOrder) {
+TEST(SequenceCache, AreFoundInTheirOrder) {
   std::size_t room = 100;
-  Answers answers(room);
+  Sequence answers(room);
   EXPECT_EQ(ask(answers, {1, 2, 3, 2, 1}), 0);
   EXPECT_EQ(ask(answers, {1, 2, 3, 2, 1}), 5);
   EXPECT_EQ(ask(answers, {1, 2, 9, 3, 2, 1}), 5);  // one more in between
@@ -221,20 +221,20 @@ TEST(RecurringAnswers, AreFoundInTheirOrder) {
   EXPECT_EQ(room, 94U);
 }
 
-TEST(RecurringAnswers, AreForgottenIfTheyAreOfNoUse) {
+TEST(SequenceCache, AreForgottenIfTheyAreOfNoUse) {
   std::size_t room = 100;
-  Answers answers(room);
+  Sequence answers(room);
   EXPECT_EQ(ask(answers, {1, 2, 3}), 0);
   EXPECT_EQ(ask(answers, {4, 5, 6}), 0);
   EXPECT_EQ(ask(answers, {4, 5, 6}), 0);
   EXPECT_EQ(ask(answers, {4, 5, 6}), 3);
 }
 
-TEST(RecurringAnswers, ShareTheirRoom) {
+TEST(SequenceCache, ShareTheirRoom) {
   std::size_t room = 4;
   {
-    Answers few(room);
-    Answers many(room);
+    Sequence few(room);
+    Sequence many(room);
     ask(few, {1, 2});
     ask(many, {1, 2, 3});
     EXPECT_EQ(ask(many, {1, 2, 3}), 2);

@@ -31,8 +31,12 @@ Ring const upright{{10, 5, 0}, {-10, 5, 0}, {-10, 5, 9}, {10, 5, 9}};
 
 void make_transparent(Model& model, double transmittance) {
   auto& shade = model.shades.by_surface["WALL"];
-  shade.transmittance = std::make_shared<Transmittance const>(Transmittance::constant(0.05));
-  shade.visible = std::make_shared<Transmittance const>(Transmittance::constant(transmittance));
+  auto const constant = [](double value) -> FilterFactor {
+    return AngularTransmittance{
+        std::make_shared<Transmittance const>(Transmittance::constant(value))};
+  };
+  shade.solar = constant(0.05);
+  shade.visible = constant(transmittance);
 }
 
 struct Hidden {

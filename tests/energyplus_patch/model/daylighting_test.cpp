@@ -1,7 +1,6 @@
-#include "model/daylighting.h"
-
 #include <gtest/gtest.h>
 
+#include "model/energyplus_rays.h"
 #include "model/idf/model_file.h"
 
 namespace gpu_shading::energyplus {

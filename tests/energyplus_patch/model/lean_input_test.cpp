@@ -10,7 +10,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "model/idf/model_file.h"
-#include "model/simplified_surfaces.h"
+#include "model/shading_outlines.h"
 
 namespace gpu_shading::energyplus {
 namespace {

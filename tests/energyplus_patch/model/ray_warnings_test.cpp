@@ -1,7 +1,6 @@
-#include "model/ray_warnings.h"
-
 #include <gmock/gmock.h>
 
+#include "model/energyplus_rays.h"
 #include "model/idf/model_file.h"
 
 namespace gpu_shading::energyplus {
@@ -24,14 +23,14 @@ std::vector<std::string> warnings(std::string const& idf) {
 }
 
 TEST(RayWarnings, OneForEachUserAndTypeOfShade) {
-  auto const opaque = " as opaque, but for their Transmittance Schedules";
+  auto const opaque = " as opaque, except for their Transmittance Schedules";
   EXPECT_THAT(
       warnings(shades + "Daylighting:Controls,Lamp;Building,B,,,,,FullExteriorWithReflections;"
                         "Construction:ComplexFenestrationState,Blind;"),
-      ElementsAre("rays of daylighting (Daylighting:Controls Lamp) take the surfaces of "
+      ElementsAre("rays of daylighting (Daylighting:Controls Lamp) treat the surfaces of "
                   "GPUShading:TransparentShade Canopy" +
                       std::string(opaque),
-                  "rays of daylighting (Daylighting:Controls Lamp) take the surfaces of "
+                  "rays of daylighting (Daylighting:Controls Lamp) treat the surfaces of "
                   "GPUShading:PerforatedScreen Veil" +
                       std::string(opaque),
                   "rays of daylighting (Daylighting:Controls Lamp) do not see "
@@ -39,18 +38,18 @@ TEST(RayWarnings, OneForEachUserAndTypeOfShade) {
                   "rays of daylighting (Daylighting:Controls Lamp) do not see "
                   "GPUShading:SiteContext Town",
                   "rays of complex fenestration (Construction:ComplexFenestrationState Blind) "
-                  "take the surfaces of GPUShading:TransparentShade Canopy" +
+                  "treat the surfaces of GPUShading:TransparentShade Canopy" +
                       std::string(opaque),
                   "rays of complex fenestration (Construction:ComplexFenestrationState Blind) "
-                  "take the surfaces of GPUShading:PerforatedScreen Veil" +
+                  "treat the surfaces of GPUShading:PerforatedScreen Veil" +
                       std::string(opaque),
                   "rays of complex fenestration (Construction:ComplexFenestrationState Blind) "
                   "do not see GPUShading:Geometry Tree",
                   "rays of complex fenestration (Construction:ComplexFenestrationState Blind) "
                   "do not see GPUShading:SiteContext Town",
-                  "rays of solar reflections (Building, Solar Distribution) take the surfaces "
+                  "rays of solar reflections (Building, Solar Distribution) treat the surfaces "
                   "of GPUShading:TransparentShade Canopy as opaque",
-                  "rays of solar reflections (Building, Solar Distribution) take the surfaces "
+                  "rays of solar reflections (Building, Solar Distribution) treat the surfaces "
                   "of GPUShading:PerforatedScreen Veil as opaque",
                   "rays of solar reflections (Building, Solar Distribution) do not see "
                   "GPUShading:Geometry Tree",
@@ -69,10 +68,11 @@ TEST(RayWarnings, AnsweredDaylightingNamesOnlyWhatStaysInTheInput) {
   auto const objects = read_idf(shades + "Daylighting:Controls,Lamp;");
   auto const input = read_shading_input(objects);
   EXPECT_THAT(warn_of_rays(objects, input, {.daylighting = Surfaces{}}), IsEmpty());
-  EXPECT_THAT(warn_of_rays(objects, input, {.daylighting = Surfaces{"CANOPY", "SCREEN"}}),
-              ElementsAre("rays of daylighting (Daylighting:Controls Lamp) take surfaces that stay "
-                          "in EnergyPlus's input as opaque, but for their Transmittance Schedules: "
-                          "CANOPY, SCREEN"));
+  EXPECT_THAT(
+      warn_of_rays(objects, input, {.daylighting = Surfaces{"CANOPY", "SCREEN"}}),
+      ElementsAre("rays of daylighting (Daylighting:Controls Lamp) treat surfaces that stay "
+                  "in EnergyPlus's input as opaque, except for their Transmittance Schedules: "
+                  "CANOPY, SCREEN"));
 }
 
 TEST(RayWarnings, AnsweredReflectionsDoTheSame) {
@@ -80,7 +80,7 @@ TEST(RayWarnings, AnsweredReflectionsDoTheSame) {
   auto const input = read_shading_input(objects);
   EXPECT_THAT(warn_of_rays(objects, input, {.reflections = Surfaces{}}), IsEmpty());
   EXPECT_THAT(warn_of_rays(objects, input, {.reflections = Surfaces{"CANOPY"}}),
-              ElementsAre("rays of solar reflections (Building, Solar Distribution) take surfaces "
+              ElementsAre("rays of solar reflections (Building, Solar Distribution) treat surfaces "
                           "that stay in EnergyPlus's input as opaque: CANOPY"));
 }
 

@@ -8,7 +8,6 @@
 
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
-#include "scene/build_id.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -19,13 +18,14 @@ struct Everything {
   Transmittance transmittance = Transmittance::table({0, 40, 80, 90}, {0.8, 0.7, 0.3, 0.0});
   Perforation perforation{Hole::Slotted, Arrangement::Straight, 0.004, 0.02, 0.03, 0.01};
   Sheet sheet{0.002, SheetPlane::centre, 3, ScreenDetail::automatic};
+  PerforatedSheet placed;
   std::vector<std::uint16_t> texels{0, 65535, 0, 65535, 0, 0};
   double tile_width = 0.2;
   double tile_height = 0.3;
   int columns = 2;
   std::optional<double> threshold = 0.5;
   RendererOptions options;
-  DeviceInfo device{.index = 0,
+  DeviceInfo device{.id = numbered_device(0),
                     .renderer = "renderer",
                     .vendor = "vendor",
                     .version = "version",
@@ -43,11 +43,12 @@ struct Everything {
   }
 
   Hash hash() {
-    surfaces[0].transmittance = std::make_shared<Transmittance>(transmittance);
-    surfaces[1].screen = std::make_shared<PerforatedScreen>(HolePattern(perforation), sheet);
+    surfaces[0].filter.set(AngularTransmittance{std::make_shared<Transmittance>(transmittance)});
+    placed.screen = std::make_shared<PerforatedScreen>(HolePattern(perforation), sheet);
+    surfaces[1].filter.set(placed);
     auto const rows = static_cast<int>(texels.size()) / columns;
-    surfaces[2].screen = std::make_shared<PerforatedScreen>(
-        OpacityTile(tile_width, tile_height, columns, rows, texels, threshold), sheet);
+    surfaces[2].filter.set(PerforatedSheet{std::make_shared<PerforatedScreen>(
+        OpacityTile(tile_width, tile_height, columns, rows, texels, threshold), sheet)});
     Scene scene;
     for (auto const& surface : surfaces) scene.add(surface);
     rule.roles.resize(surfaces.size());
@@ -75,11 +76,11 @@ TEST(SceneHash, AnyInputThatAnAnswerDependsOnChangesIt) {
          holes.pop_back();
        }},
       {"casting", [](Everything& e) { e.surfaces[0].casting = Casting::turned_away; }},
-      {"schedule", [](Everything& e) { e.surfaces[0].schedule = 0; }},
-      {"deployment", [](Everything& e) { e.surfaces[1].deployment = 0; }},
-      {"origin u", [](Everything& e) { e.surfaces[1].placement.origin_u = 0.1; }},
-      {"origin v", [](Everything& e) { e.surfaces[1].placement.origin_v = 0.1; }},
-      {"rotation", [](Everything& e) { e.surfaces[1].placement.rotation = 0.1; }},
+      {"schedule", [](Everything& e) { e.surfaces[0].filter.schedule = 0; }},
+      {"deployment", [](Everything& e) { e.placed.deployment = 0; }},
+      {"origin u", [](Everything& e) { e.placed.placement.origin_u = 0.1; }},
+      {"origin v", [](Everything& e) { e.placed.placement.origin_v = 0.1; }},
+      {"rotation", [](Everything& e) { e.placed.placement.rotation = 0.1; }},
       {"surfaces' order",
        [](Everything& e) {
          e.surfaces[0].polygon.outline[0].x = -1;
@@ -142,7 +143,7 @@ TEST(SceneHash, ScreenThatIsGoneOrSharedCounts) {
   Everything without;
   with.hash();
   without.hash();
-  without.surfaces[1].screen.reset();
+  without.surfaces[1].filter.remove<PerforatedSheet>();
   Scene scenes[2];
   for (int i = 0; i < 2; ++i) {
     for (auto const& surface : (i == 0 ? with : without).surfaces) scenes[i].add(surface);
@@ -155,7 +156,7 @@ TEST(SceneHash, NamesAndWhoSharesAndTheDevicesNumberDoNot) {
   auto const hash = Everything().hash();
   Everything other;
   for (auto& surface : other.surfaces) surface.name += " renamed";
-  other.device.index = 3;
+  other.device.id.number = 3;
   EXPECT_EQ(other.hash(), hash);
 }
 
@@ -167,8 +168,8 @@ TEST(SceneHash, SharedOrEqualIsTheSame) {
     auto const first = std::make_shared<Transmittance>(everything.transmittance);
     for (int i = 0; i < 2; ++i) {
       Surface surface;
-      surface.transmittance =
-          shared ? first : std::make_shared<Transmittance>(everything.transmittance);
+      surface.filter.set(AngularTransmittance{
+          shared ? first : std::make_shared<Transmittance>(everything.transmittance)});
       scene.add(surface);
     }
     return hash_scene(scene, {everything.options, everything.device, {}});

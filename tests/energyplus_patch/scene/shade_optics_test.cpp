@@ -41,6 +41,15 @@ Surface applied(ShadeOptics const& optics, std::string const& name) {
   return surface;
 }
 
+double transmittance(ShadeOptics const& optics, std::string const& name) {
+  constexpr double angle = 0.3;
+  return (*applied(optics, name).filter.find<AngularTransmittance>()->model)(angle);
+}
+
+PerforatedSheet sheet(ShadeOptics const& optics, std::string const& name) {
+  return *applied(optics, name).filter.find<PerforatedSheet>();
+}
+
 constexpr char const* surfaces =
     "Shading:Site:Detailed,Never,Zero;Shading:Site:Detailed,Half,Half;Shading:Site:Detailed,Open,"
     "One;"
@@ -57,12 +66,12 @@ TEST(ShadeOptics, ConstantSchedulesBecomeNumbersAndVaryingOnesFactors) {
   auto given = values();
   ShadeOptics optics(model, given.schedules());
   EXPECT_FALSE(optics.update({1, 1}));
-  EXPECT_FALSE(applied(optics, "NEVER").transmittance);
-  EXPECT_EQ(applied(optics, "NEVER").schedule, -1);
-  EXPECT_NEAR((*applied(optics, "HALF").transmittance)(0.3), 0.5, 1e-12);
+  EXPECT_FALSE(applied(optics, "NEVER").filter.find<AngularTransmittance>());
+  EXPECT_EQ(applied(optics, "NEVER").filter.schedule, -1);
+  EXPECT_NEAR(transmittance(optics, "HALF"), 0.5, 1e-12);
   EXPECT_EQ(applied(optics, "OPEN").casting, Casting::never);
-  EXPECT_EQ(applied(optics, "LEAVES").schedule, 0);
-  EXPECT_EQ(applied(optics, "MORE LEAVES").schedule, 0);
+  EXPECT_EQ(applied(optics, "LEAVES").filter.schedule, 0);
+  EXPECT_EQ(applied(optics, "MORE LEAVES").filter.schedule, 0);
   EXPECT_EQ(applied(optics, "PLAIN").casting, Casting::always);
   EXPECT_EQ(optics.factors(), std::vector<double>{0.3});
 }
@@ -72,12 +81,12 @@ TEST(ShadeOptics, ScheduleTimesTransparentShade) {
       model_of(std::string(surfaces) + "GPUShading:TransparentShade,S,*,Constant,0.8;");
   auto given = values();
   ShadeOptics optics(model, given.schedules());
-  EXPECT_FALSE(applied(optics, "NEVER").transmittance);
-  EXPECT_NEAR((*applied(optics, "HALF").transmittance)(0.3), 0.4, 1e-12);
-  EXPECT_NEAR((*applied(optics, "OPEN").transmittance)(0.3), 0.8, 1e-12);
-  EXPECT_NEAR((*applied(optics, "LEAVES").transmittance)(0.3), 0.8, 1e-12);
-  EXPECT_EQ(applied(optics, "LEAVES").schedule, 0);
-  EXPECT_NEAR((*applied(optics, "PLAIN").transmittance)(0.3), 0.8, 1e-12);
+  EXPECT_FALSE(applied(optics, "NEVER").filter.find<AngularTransmittance>());
+  EXPECT_NEAR(transmittance(optics, "HALF"), 0.4, 1e-12);
+  EXPECT_NEAR(transmittance(optics, "OPEN"), 0.8, 1e-12);
+  EXPECT_NEAR(transmittance(optics, "LEAVES"), 0.8, 1e-12);
+  EXPECT_EQ(applied(optics, "LEAVES").filter.schedule, 0);
+  EXPECT_NEAR(transmittance(optics, "PLAIN"), 0.8, 1e-12);
 }
 
 TEST(ShadeOptics, OverriddenConstantIsFollowedFromThenOn) {
@@ -86,7 +95,7 @@ TEST(ShadeOptics, OverriddenConstantIsFollowedFromThenOn) {
   ShadeOptics optics(model, given.schedules());
   given.now["ZERO"] = 0.25;
   EXPECT_TRUE(optics.update({5, 2}));
-  EXPECT_EQ(applied(optics, "NEVER").schedule, 1);
+  EXPECT_EQ(applied(optics, "NEVER").filter.schedule, 1);
   EXPECT_EQ(optics.factors(), (std::vector<double>{0.3, 0.25}));
   given.now["ZERO"] = 0.0;
   EXPECT_FALSE(optics.update({5, 3}));
@@ -108,19 +117,19 @@ TEST(ShadeOptics, ScreensAndTheirDeployments) {
   given.now["SAILS"] = 0.4;
   given.now["OTHER"] = 1.0;
   ShadeOptics optics(model, given.schedules());
-  EXPECT_EQ(applied(optics, "PLAIN").screen->pattern()->perforation().size, 0.005);
-  EXPECT_EQ(applied(optics, "PLAIN").placement.origin_u, 0.25);
-  EXPECT_EQ(applied(optics, "PLAIN").deployment, -1);
-  EXPECT_EQ(applied(optics, "LEAVES").screen, applied(optics, "MORE LEAVES").screen);
-  EXPECT_EQ(applied(optics, "LEAVES").schedule, 0);
-  EXPECT_EQ(applied(optics, "LEAVES").deployment, applied(optics, "HALF").deployment);
-  EXPECT_NEAR((*applied(optics, "HALF").transmittance)(0.3), 0.5, 1e-12);
+  EXPECT_EQ(sheet(optics, "PLAIN").screen->pattern()->perforation().size, 0.005);
+  EXPECT_EQ(sheet(optics, "PLAIN").placement.origin_u, 0.25);
+  EXPECT_EQ(sheet(optics, "PLAIN").deployment, -1);
+  EXPECT_EQ(sheet(optics, "LEAVES").screen, sheet(optics, "MORE LEAVES").screen);
+  EXPECT_EQ(applied(optics, "LEAVES").filter.schedule, 0);
+  EXPECT_EQ(sheet(optics, "LEAVES").deployment, sheet(optics, "HALF").deployment);
+  EXPECT_NEAR(transmittance(optics, "HALF"), 0.5, 1e-12);
   // Its schedule lets all through, its screen does not.
   EXPECT_EQ(applied(optics, "OPEN").casting, Casting::always);
-  EXPECT_FALSE(applied(optics, "NEVER").screen);
+  EXPECT_FALSE(applied(optics, "NEVER").filter.find<PerforatedSheet>());
 
   auto const share = [&](std::string const& name) {
-    return optics.deployments().at(static_cast<std::size_t>(applied(optics, name).deployment));
+    return optics.deployments().at(static_cast<std::size_t>(sheet(optics, name).deployment));
   };
   EXPECT_EQ(share("LEAVES"), 0.9) << "before the first moment";
   EXPECT_FALSE(optics.update({5, 2}));
@@ -134,8 +143,8 @@ TEST(ShadeOptics, NothingPassesAScreenWhoseScheduleIsZero) {
   auto const model = model_of(surfaces + screen("A", "Never"));
   auto given = values();
   ShadeOptics const optics(model, given.schedules());
-  EXPECT_FALSE(applied(optics, "NEVER").screen);
-  EXPECT_FALSE(applied(optics, "NEVER").transmittance);
+  EXPECT_FALSE(applied(optics, "NEVER").filter.find<PerforatedSheet>());
+  EXPECT_FALSE(applied(optics, "NEVER").filter.find<AngularTransmittance>());
   EXPECT_EQ(applied(optics, "NEVER").casting, Casting::always);
 }
 
@@ -146,7 +155,7 @@ TEST(ShadeOptics, ScreenOfASurfaceWithoutAreaIsLeftOut) {
   Surface surface;
   surface.name = "PLAIN";
   optics.apply(surface);
-  EXPECT_FALSE(surface.screen);
+  EXPECT_FALSE(surface.filter.find<PerforatedSheet>());
   EXPECT_EQ(describe_optics(model, surface), "opaque");
 }
 

@@ -1,10 +1,9 @@
-#include "antialias/repeat.h"
-
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "antialias/antialias.h"
 #include "support/random_scene.h"
 #include "support/shapes.h"
 

@@ -28,7 +28,7 @@ using Spoil = std::function<void(ReceiverView const&, ViewSums&)>;
 class FakeGpu : public ViewBackend {
  public:
   FakeGpu(BackendInput const& input, Spoil spoil) : cpu_(input), spoil_(std::move(spoil)) {
-    info_.index = 0;
+    info_.id = numbered_device(0);
     info_.renderer = "Fake GPU";
     info_.version = "1.0";
     info_.max_resolution = 32768;
@@ -123,7 +123,7 @@ void expect_equal(std::vector<Sunlit> const& a, std::vector<Sunlit> const& b) {
 
 // A room whose window has casters of a kind before it.
 struct ShadedRoom : Room {
-  explicit ShadedRoom(CasterKind kind) {
+  explicit ShadedRoom(CasterKind const& kind) {
     Surface shade{"shade", south_facing(1.4, -0.3, 0.5, 1.1, 1.2)};
     finish(shade, kind, 0);
     scene.add(shade);
@@ -148,7 +148,7 @@ class EachKind : public testing::TestWithParam<std::tuple<CasterKind, bool>> {
   Asked asked() const { return {std::get<0>(GetParam()), std::get<1>(GetParam())}; }
 };
 INSTANTIATE_TEST_SUITE_P(Of, EachKind,
-                         testing::Combine(testing::ValuesIn(caster_kinds), testing::Bool()));
+                         testing::Combine(testing::ValuesIn(caster_kinds()), testing::Bool()));
 
 TEST_P(EachKind, OfWrongAnswersIsCaughtAndAnsweredByTheCpu) {
   Rig rig(ShadedRoom(asked().kind).scene);
@@ -166,7 +166,7 @@ TEST_P(EachKind, OfWrongAnswersIsCaughtAndAnsweredByTheCpu) {
               0U)
         << warnings[0];
     EXPECT_EQ(warnings[0].find('\n'), std::string::npos);
-    EXPECT_EQ(checked->device().index, -1);
+    EXPECT_TRUE(checked->device().id.is_cpu());
   }
 }
 
@@ -197,16 +197,16 @@ TEST_P(EachKind, OfADeviceThatDrawsNothingIsCaught) {
 
 // A kind of view that comes late is checked when it comes; what was found right before stays.
 TEST(CheckedBackend, ChecksEachKindWhenItComes) {
-  Rig rig(ShadedRoom(CasterKind::scheduled).scene);
+  Rig rig(ShadedRoom(caster_kind("scheduled")).scene);
   std::vector<std::string> warnings;
   auto const checked = rig.checked(
       [](ReceiverView const& view, ViewSums& sums) {
         if (view.through) scale(sums, 0.9);
       },
       [&](std::string const& line) { warnings.push_back(line); });
-  for (int i = 0; i < 10; ++i) ask(rig, *checked, {CasterKind::scheduled, false});
+  for (int i = 0; i < 10; ++i) ask(rig, *checked, {caster_kind("scheduled"), false});
   EXPECT_TRUE(warnings.empty());
-  ask(rig, *checked, {CasterKind::scheduled, true});
+  ask(rig, *checked, {caster_kind("scheduled"), true});
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("an interior behind transmittance schedules"), std::string::npos)
       << warnings[0];
@@ -215,7 +215,7 @@ TEST(CheckedBackend, ChecksEachKindWhenItComes) {
 // Wrong in one view of many: views are chosen all over the batch, and all of the batch is answered
 // again.
 TEST(CheckedBackend, LooksAllOverABatch) {
-  Rig rig(ShadedRoom(CasterKind::opaque).scene);
+  Rig rig(ShadedRoom(caster_kind("opaque")).scene);
   CpuBackend cpu(rig.input());
   std::vector<SunDirection> many;
   many.reserve(400);
@@ -231,7 +231,7 @@ TEST(CheckedBackend, LooksAllOverABatch) {
 }
 
 TEST(CheckedBackend, StopsCountingTwiceSoon) {
-  Rig rig(ShadedRoom(CasterKind::opaque).scene);
+  Rig rig(ShadedRoom(caster_kind("opaque")).scene);
   std::size_t wrong_from = 0;
   std::size_t answered = 0;
   auto const checked = rig.checked(
@@ -245,7 +245,7 @@ TEST(CheckedBackend, StopsCountingTwiceSoon) {
 }
 
 TEST(CheckedBackend, ThrowsWithoutAWayToWarn) {
-  Rig rig(ShadedRoom(CasterKind::opaque).scene);
+  Rig rig(ShadedRoom(caster_kind("opaque")).scene);
   auto const checked =
       rig.checked([](ReceiverView const&, ViewSums& sums) { scale(sums, 0.5); }, {});
   EXPECT_THROW(rig.areas(*checked, suns), DeviceError);
@@ -256,7 +256,7 @@ TEST(CheckedBackend, ToleratesWhatRoundingMoves) {
   for (int const resolution : {64, 512, 2048}) {
     // Edges of window and shade: about 7 sides of the tile.
     double const edges = 7.0 * resolution;
-    Rig rig(ShadedRoom(CasterKind::opaque).scene, resolution);
+    Rig rig(ShadedRoom(caster_kind("opaque")).scene, resolution);
     for (double const part : {0.5, 2.0}) {
       bool caught = false;
       auto const checked = rig.checked(

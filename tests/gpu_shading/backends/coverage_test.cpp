@@ -216,7 +216,7 @@ TEST(Coverage, IsTheSameOnAnyNumberOfThreads) {
     casters.push_back(
         scene.add({"louvre", parallelogram({-0.2, -0.1, i / 150.0}, {3.4, 0, 0},
                                            {0, -0.005, i % 10 == 0 ? 0.02 : 0.002})}));
-    shades.push_back({0.1F + 0.003F * static_cast<float>(i % 7), Shades::unscheduled});
+    shades.push_back({0.1F + 0.003F * static_cast<float>(i % 7), Shade::unscheduled});
     scheduled.push_back({shades.back().transmittance, i % 5 - 1});
   }
   Coverage const coverage(triangulate_all(scene));

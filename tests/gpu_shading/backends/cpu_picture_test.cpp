@@ -216,7 +216,7 @@ TEST(CpuPictureRaster, ScreensBehindASurfaceDimNothing) {
     scene.add({"ground", level(0, 0, 0, 4, 4)});
     scene.add({"roof", level(0, 0, 2, 4, 2)});
     Surface screen{"screen", level(0, 0, 1, 2, 4)};
-    screen.screen = quarter_open();
+    screen.filter.set(PerforatedSheet{quarter_open()});
     scene.add(std::move(screen));
     return scene;
   }());
@@ -244,14 +244,14 @@ TEST(CpuPictureRaster, ShadesMultiply) {
     scene.add({"glass", level(0, 0, 1, 2, 4)});
     scene.add({"wood", level(0, 0, 2, 4, 1)});
     Surface screen{"screen", level(0, 2, 3, 4, 2)};
-    screen.screen = quarter_open();
+    screen.filter.set(PerforatedSheet{quarter_open()});
     scene.add(std::move(screen));
     return scene;
   }());
   PictureGrid grid = from_above(4.0, 4.0, 400, 400);
   grid.view.cut = glm::dvec4(up, -clearance);
   ShadedReceiver const shaded{
-      0, up, {1, 2, 3}, {{0.5F, Shades::unscheduled}, {}, {1.0F, Shades::unscheduled}}};
+      0, up, {1, 2, 3}, {{0.5F, Shade::unscheduled}, {}, {1.0F, Shade::unscheduled}}};
   auto const luminance = pictured.raster.luminance(grid, shaded);
   auto const mean = [&](int first_column, int first_row) {
     double sum = 0.0;

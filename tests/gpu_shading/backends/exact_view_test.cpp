@@ -7,9 +7,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
 
+#include "backends/exact/convex_view.h"
+#include "backends/exact/swept_view.h"
 #include "gpu_shading/transmittance.h"
 #include "scene/casters.h"
 #include "support/exact.h"
@@ -42,13 +45,38 @@ class ExactQuestions {
         most_steps);
   }
 
+  // By intersections, and by a sweep; false if the first cannot answer.
+  bool agree(SunDirection sun, SurfaceId receiver, std::vector<SurfaceId> const& interiors = {}) {
+    constexpr double same = 1e-12;
+    PlaneFrame const frame = plane_frame(scene_[receiver].polygon).value();
+    InView const in_view = casters_.in_view(scene_, receiver, frame, to_vector(sun));
+    ExactQuestion const question{receiver,           frame,    to_vector(sun), in_view.casters,
+                                 !interiors.empty(), interiors};
+    Projection const projection(frame, to_vector(sun));
+    auto const convex = convex_sums(scene_, transmission_, question, projection);
+    if (!convex) return false;
+    auto const swept = swept_sums(scene_, transmission_, question, projection, unlimited);
+    if (!swept || convex->size() != swept->size()) {
+      ADD_FAILURE() << "the sweep has another number of parts";
+      return true;
+    }
+    for (std::size_t i = 0; i < swept->size(); ++i) {
+      EXPECT_NEAR((*convex)[i].unscheduled, (*swept)[i].unscheduled, same) << i;
+      std::map<std::vector<std::pair<int, int>>, double> differences;
+      for (auto const& [powers, sum] : (*convex)[i].scheduled) differences[powers] += sum;
+      for (auto const& [powers, sum] : (*swept)[i].scheduled) differences[powers] -= sum;
+      for (auto const& [powers, difference] : differences) EXPECT_NEAR(difference, 0.0, same) << i;
+    }
+    return true;
+  }
+
   // With schedules by their factors, in parts of the receiver.
   double total(LuminanceSums const& sums) const {
     double total = sums.unscheduled;
     for (auto const& part : sums.scheduled) {
       double product = part.sum;
       for (auto const& [number, power] : part.powers) {
-        int const schedule = transmission_.shades().schedules()[static_cast<std::size_t>(number)];
+        int const schedule = transmission_.schedules()[static_cast<std::size_t>(number)];
         product *= std::pow(schedule_factors.at(static_cast<std::size_t>(schedule)), power);
       }
       total += product;
@@ -69,10 +97,11 @@ Scene with_shades(Scene const& opaque, std::uint32_t seed) {
     Surface surface = opaque[id];
     std::uint32_t const kind = (seed + 3 * id) % 5;
     if (id > 0 && (kind == 1 || kind == 2)) {
-      surface.transmittance =
-          std::make_shared<Transmittance const>(Transmittance::polynomial_in_cosine({0.1, 0.7}));
+      surface.filter.set(AngularTransmittance{
+          std::make_shared<Transmittance const>(Transmittance::polynomial_in_cosine({0.1, 0.7}))});
     }
-    if (id > 0 && kind >= 2 && kind <= 3) surface.schedule = static_cast<int>((seed + id) % 3);
+    if (id > 0 && kind >= 2 && kind <= 3)
+      surface.filter.schedule = static_cast<int>((seed + id) % 3);
     scene.add(surface);
   }
   return scene;
@@ -114,7 +143,7 @@ TEST(ExactView, OfInteriorSurfacesAgreesWithPolygonClipping) {
   SurfaceId const table = room.scene.add({"table", level(1, 1, 0.7, 1.5, 1)});
   room.surfaces.insert(room.surfaces.begin(), table);
   Surface blind{"blind", south_facing(1.2, -0.3, 1.0, 0.9, 1.0)};
-  blind.schedule = 1;
+  blind.filter.schedule = 1;
   room.scene.add(blind);
   room.scene.add({"fin", parallelogram({1.1, -1.0, 0}, {0, 1, 0}, {0, 0, 3})});
   ExactQuestions ask(room.scene);
@@ -132,6 +161,47 @@ TEST(ExactView, OfInteriorSurfacesAgreesWithPolygonClipping) {
       }
     }
   }
+}
+
+TEST(ExactView, IsTheSameByIntersectionsAsByASweep) {
+  int intersected = 0;
+  for (std::uint32_t seed = 1; seed <= 1500; ++seed) {
+    RandomScene const random = random_scene(seed);
+    Scene const scene = with_shades(random.scene, seed);
+    if (ExactQuestions(scene).agree(random.sun, 0)) ++intersected;
+    ASSERT_FALSE(testing::Test::HasFailure()) << seed;
+  }
+  EXPECT_GT(intersected, 150);
+}
+
+// A window in a wall with a hole, a table before the back wall, and shades that overlap.
+TEST(ExactView, OfARoomIsTheSameByIntersectionsAsByASweep) {
+  Room room;
+  Polygon east{{{4.0001, 0, 0}, {4.0001, 5, 0}, {4.0001, 5, 3}, {4.0001, 0, 3}},
+               {{{4.0001, 1, 1}, {4.0001, 2, 1}, {4.0001, 2, 2}, {4.0001, 1, 2}}}};
+  room.surfaces.back() = room.scene.add({"wall with a hole", east});
+  room.surfaces.push_back(
+      room.scene.add({"in the hole", parallelogram({4.0001, 1, 1}, {0, 1, 0}, {0, 0, 1})}));
+  room.surfaces.push_back(room.scene.add({"table", level(1, 1, 0.7, 1.5, 1)}));
+  for (int i = 0; i < 3; ++i) {
+    Surface blind{"blind", south_facing(0.8 + 0.4 * i, -0.3 - 0.1 * i, 1.0, 0.9, 1.0)};
+    if (i > 0) blind.schedule = i % 2;
+    room.scene.add(blind);
+  }
+  room.scene.add({"holed",
+                  {{{1, -1, 1}, {3, -1, 1}, {3, -1, 3}, {1, -1, 3}},
+                   {{{1.5, -1, 1.5}, {2.5, -1, 1.5}, {2.5, -1, 2.5}, {1.5, -1, 2.5}}}}});
+  ExactQuestions ask(room.scene);
+  int asked = 0;
+  int intersected = 0;
+  for (double azimuth = 110; azimuth < 250; azimuth += 3) {
+    for (double altitude = 3; altitude < 80; altitude += 5) {
+      ++asked;
+      if (ask.agree(sun_at(azimuth, altitude), room.window, room.surfaces)) ++intersected;
+      ASSERT_FALSE(testing::Test::HasFailure()) << azimuth << ", " << altitude;
+    }
+  }
+  EXPECT_GT(intersected, asked / 2);
 }
 
 // In two boxes that pass through one another, each is nearest somewhere.

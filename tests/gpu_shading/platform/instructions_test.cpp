@@ -25,7 +25,7 @@ TEST(Instructions, DISABLED_PrintAnswers) {
     Scene scene;
     for (SurfaceId id = 0; id < random.scene.size(); ++id) {
       Surface surface = random.scene[id];
-      if (seed % 2 == 0 && id % 2 == 1) surface.screen = mesh;
+      if (seed % 2 == 0 && id % 2 == 1) surface.filter.set(PerforatedSheet{mesh});
       scene.add(surface);
     }
     Renderer renderer = renderer_of(scene, 300, on_cpu);

@@ -177,13 +177,13 @@ class Reference {
 
   static double transmittance(Surface const& surface, long double cosine,
                               std::span<double const> factors) {
-    if (!surface.transmittance && surface.schedule < 0) return 0.0;
+    if (!surface.filter.transmits()) return 0.0;
     double passed = 1.0;
-    if (surface.transmittance) {
-      passed =
-          (*surface.transmittance)(std::acos(std::min(1.0, std::abs(static_cast<double>(cosine)))));
+    if (auto const* const shade = surface.filter.find<AngularTransmittance>()) {
+      passed = (*shade->model)(std::acos(std::min(1.0, std::abs(static_cast<double>(cosine)))));
     }
-    if (surface.schedule >= 0) passed *= factors[static_cast<std::size_t>(surface.schedule)];
+    if (surface.filter.schedule >= 0)
+      passed *= factors[static_cast<std::size_t>(surface.filter.schedule)];
     return passed;
   }
 
@@ -225,10 +225,12 @@ Scene mixed_scene(std::uint32_t seed, Random& random) {
         for (glm::dvec3& vertex : hole) vertex += by;
       }
       std::size_t const kind = random.below(8);
-      if (kind < 3) surface.transmittance = constant(random.between(0.1, 0.95));
-      if (kind == 3) surface.transmittance = std::make_shared<Transmittance const>(two_panes());
-      if (kind == 2 || kind == 4) surface.schedule = static_cast<int>(random.below(2));
-      if (kind == 5 && random.below(4) == 0) surface.schedule = 2;
+      if (kind < 3) surface.filter.set(AngularTransmittance{constant(random.between(0.1, 0.95))});
+      if (kind == 3)
+        surface.filter.set(
+            AngularTransmittance{std::make_shared<Transmittance const>(two_panes())});
+      if (kind == 2 || kind == 4) surface.filter.schedule = static_cast<int>(random.below(2));
+      if (kind == 5 && random.below(4) == 0) surface.filter.schedule = 2;
       if (random.below(8) == 0) surface.casting = Casting::turned_away;
       if (random.below(10) == 0) surface.casting = Casting::never;
       scene.add(std::move(surface));
@@ -306,7 +308,7 @@ Scene many_panes(int count, glm::dvec3 const& about, Random& random) {
                             random.between(-10, 10));
     Surface pane{"pane",
                  parallelogram(about + corner, random.direction(), 0.7 * random.direction())};
-    if (i % 8 != 0) pane.transmittance = constant(0.9);
+    if (i % 8 != 0) pane.filter.set(AngularTransmittance{constant(0.9)});
     scene.add(std::move(pane));
   }
   return scene;
@@ -356,8 +358,10 @@ TEST(Rays, HaveTheRenderersSunlitFractionAsTheirMean) {
     for (SurfaceId id = 0; id < given.scene.size(); ++id) {
       Surface surface = given.scene[id];
       std::size_t const kind = random.below(5);
-      if (kind == 1) surface.transmittance = std::make_shared<Transmittance const>(two_panes());
-      if (kind == 2) surface.schedule = static_cast<int>(random.below(2));
+      if (kind == 1)
+        surface.filter.set(
+            AngularTransmittance{std::make_shared<Transmittance const>(two_panes())});
+      if (kind == 2) surface.filter.schedule = static_cast<int>(random.below(2));
       if (kind == 3) surface.casting = Casting::turned_away;
       scene.add(std::move(surface));
     }
@@ -419,7 +423,8 @@ TEST(Rays, MeetASurfaceOnceAtTheEdgesWithinIt) {
   Polygon holed = south_facing(0, 0, 0, 2, 2);
   holed.holes = {south_facing(0.5, 0, 0.5, 0.5, 1).outline};
   for (Polygon const& polygon : {l, twisted, holed}) {
-    RayScene const rays(one_wall({"sheet", polygon, Casting::always, constant(0.5)}));
+    RayScene const rays(
+        one_wall({"sheet", polygon, Casting::always, {{AngularTransmittance{constant(0.5)}}}}));
     for (int i = 1; i < 400; ++i) {
       double const x = i / 200.0;
       for (Ray const& ray :
@@ -433,7 +438,8 @@ TEST(Rays, MeetASurfaceOnceAtTheEdgesWithinIt) {
       }
     }
   }
-  RayScene const rays(one_wall({"sheet", holed, Casting::always, constant(0.5)}));
+  RayScene const rays(
+      one_wall({"sheet", holed, Casting::always, {{AngularTransmittance{constant(0.5)}}}}));
   EXPECT_EQ(rays.transmittance(northwards(0.75, 1.0)), 1.0);
   EXPECT_EQ(rays.transmittance(northwards(0.75, 0.25)), 0.5);
 }
@@ -483,7 +489,10 @@ TEST(Rays, TakeTheFacesThatTheyAreToldTo) {
 TEST(Rays, FollowTheShadingRuleAndPassExcludedSurfacesOver) {
   Scene scene;
   for (int i = 0; i < 3; ++i) {
-    scene.add({"sheet", south_facing(0, i, 0, 2, 2), Casting::always, constant(0.5)});
+    scene.add({"sheet",
+               south_facing(0, i, 0, 2, 2),
+               Casting::always,
+               {{AngularTransmittance{constant(0.5)}}}});
   }
   ShadingRule rule{std::vector<ShadingRule::Role>(3), 1, {1}};
   for (SurfaceId id = 0; id < 3; ++id) rule.roles[id].wall = id;
@@ -499,9 +508,11 @@ TEST(Rays, FollowTheShadingRuleAndPassExcludedSurfacesOver) {
 
 TEST(Rays, FollowTransmittancesByAngleAndSchedules) {
   Scene scene;
-  scene.add({"glass", south_facing(0, 0, 0, 9, 9), Casting::always,
-             std::make_shared<Transmittance const>(two_panes())});
-  scene.add({"tree", south_facing(0, 1, 0, 9, 9), Casting::always, nullptr, 1});
+  scene.add({"glass",
+             south_facing(0, 0, 0, 9, 9),
+             Casting::always,
+             {{AngularTransmittance{std::make_shared<Transmittance const>(two_panes())}}}});
+  scene.add({"tree", south_facing(0, 1, 0, 9, 9), Casting::always, {{}, 1}});
   RayScene const rays(scene);
   double const glass = two_panes()(std::numbers::pi / 3.0);
   Ray const through{{-5, -4, 1}, {std::sqrt(3.0), 1, 0}};  // 60 degrees from the normal
@@ -518,9 +529,12 @@ TEST(Rays, FollowTransmittancesByAngleAndSchedules) {
 TEST(Rays, NameTheSurfacesOnTheirWayUpToAnOpaqueOne) {
   Scene scene;
   scene.add({"far", south_facing(0, 3, 0, 9, 9)});
-  scene.add({"glass", south_facing(0, 0, 0, 9, 9), Casting::always,
-             std::make_shared<Transmittance const>(Transmittance::constant(0.5))});
-  scene.add({"tree", south_facing(0, 1, 0, 9, 9), Casting::always, nullptr, 1});
+  scene.add({"glass",
+             south_facing(0, 0, 0, 9, 9),
+             Casting::always,
+             {{AngularTransmittance{
+                 std::make_shared<Transmittance const>(Transmittance::constant(0.5))}}}});
+  scene.add({"tree", south_facing(0, 1, 0, 9, 9), Casting::always, {{}, 1}});
   scene.add({"near", south_facing(0, 2, 0, 9, 9)});
   RayScene const rays(scene);
   auto const met = rays.layers(northwards(1, 1), {.factors = factors});

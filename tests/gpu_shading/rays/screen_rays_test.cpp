@@ -32,7 +32,7 @@ std::shared_ptr<PerforatedScreen const> screen_of(Sheet const& sheet,
 
 Surface sheet_surface(Polygon polygon, std::shared_ptr<PerforatedScreen const> screen) {
   Surface surface{"sheet", std::move(polygon)};
-  surface.screen = std::move(screen);
+  surface.filter.set(PerforatedSheet{std::move(screen)});
   return surface;
 }
 
@@ -70,10 +70,11 @@ TEST(ScreenRays, PassTheClosedFormOfTheirDirection) {
 }
 
 TEST(ScreenRays, CountDeploymentsSchedulesAndTransmittances) {
-  Surface surface = sheet_surface(level(-2, -2, 1, 4, 4), screen_of({.thickness = 0.0}));
-  surface.deployment = 1;
-  surface.schedule = 0;
-  surface.transmittance = std::make_shared<Transmittance const>(Transmittance::constant(0.8));
+  Surface surface{"sheet", level(-2, -2, 1, 4, 4)};
+  surface.filter.set(PerforatedSheet{screen_of({.thickness = 0.0}), {}, 1});
+  surface.filter.schedule = 0;
+  surface.filter.set(
+      AngularTransmittance{std::make_shared<Transmittance const>(Transmittance::constant(0.8))});
   RayScene const rays(scene_of(surface));
   double const open = round_holes(6 * mm, 9 * mm).open_fraction();
   Ray const ray{{0, 0, 0}, {0, 0, 1}};
@@ -85,7 +86,7 @@ TEST(ScreenRays, CountDeploymentsSchedulesAndTransmittances) {
   EXPECT_FALSE(rays.nearest_opaque(ray, conditions));
   Ray const beyond_cut_off{{0, 0, 0}, {1.9, 0, 1}};
   Surface thick = surface;
-  thick.screen = screen_of({.thickness = 4 * mm});
+  thick.filter.set(PerforatedSheet{screen_of({.thickness = 4 * mm}), {}, 1});
   auto const hit = RayScene(scene_of(thick)).nearest_opaque(beyond_cut_off);
   ASSERT_TRUE(hit);
   EXPECT_NEAR(hit->distance, std::hypot(1.9, 1.0), 1e-9);
@@ -196,9 +197,8 @@ TEST(ScreenRays, HaveTheRenderersSunlitFractionAsTheirMean) {
   scene.add({"receiver", level(0, 0, 0, 1.5, 1)});
   Polygon sheet = level(-0.5, -0.5, 0.6, 3, 2);
   sheet.holes = {level(0.2, 0.3, 0.6, 0.4, 0.3).outline};
-  Surface surface = sheet_surface(sheet, screen);
-  surface.deployment = 0;
-  surface.placement.rotation = 0.3;
+  Surface surface{"sheet", sheet};
+  surface.filter.set(PerforatedSheet{screen, {.rotation = 0.3}, 0});
   scene.add(surface);
   Renderer renderer = renderer_of(scene, 1024, on_cpu);
   std::array const deployments{0.8};

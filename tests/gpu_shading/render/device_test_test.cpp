@@ -64,7 +64,7 @@ TEST(DeviceTest, JudgesByTheLargestError) {
 
 TEST(DeviceTest, TellsWhyADeviceCannotBeTested) {
   DeviceInfo missing;
-  missing.index = 77;
+  missing.id = numbered_device(77);
   DeviceTest const test = test_device(missing);
   EXPECT_FALSE(test.right());
   EXPECT_NE(test.failure, "");

@@ -102,8 +102,8 @@ TEST(CastersInView, ReachAsFarAsTheirSheets) {
     Scene scene;
     scene.add({"window", window});
     Surface sheet{"sheet", horizontal(0, -1, 2.05, 2, 1)};
-    sheet.screen = std::make_shared<PerforatedScreen const>(
-        HolePattern({.size = 0.005, .pitch = 0.008}), Sheet{.thickness = thickness});
+    sheet.filter.set(PerforatedSheet{std::make_shared<PerforatedScreen const>(
+        HolePattern({.size = 0.005, .pitch = 0.008}), Sheet{.thickness = thickness})});
     scene.add(sheet);
     // The sun is a little below the polygon as seen from the window's upper edge.
     EXPECT_EQ(in_view_of_first(scene, {3.14159, 0.03}).size(), thickness > 0.0 ? 1U : 0U);

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
-#include "routes/opengl/queries/triangle_polygons.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -78,8 +77,8 @@ struct Box {
 // Openings that touch the outline give what is drawn further vertices, or take corners away. The
 // list does not say which openings are in walls that EnergyPlus itself has made.
 bool are_same(std::vector<Polygon> const& drawn, Polygon const& named) {
-  constexpr double least_cosine = 0.9;
-  if (drawn.empty() || glm::dot(normal(drawn.front()), normal(named)) < least_cosine) return false;
+  constexpr double min_cosine = 0.9;
+  if (drawn.empty() || glm::dot(normal(drawn.front()), normal(named)) < min_cosine) return false;
   Box of_drawn;
   double drawn_area = 0.0;
   for (auto const& part : drawn) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gpu_shading/scene.h"
-#include "routes/opengl/queries/boundary_answers.h"
+#include "routes/opengl/queries/triangle_polygons.h"
 
 namespace gpu_shading::energyplus {
 

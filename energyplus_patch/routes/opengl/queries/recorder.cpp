@@ -18,9 +18,27 @@ int to_count(double area, double pixel_area) {
   return count < most ? static_cast<int>(count) : most;
 }
 
+glm::dvec3 row(std::array<float, 16> const& matrix, std::size_t index) {
+  constexpr std::size_t column = 4;
+  return {matrix.at(index), matrix.at(column + index), matrix.at(2 * column + index)};
+}
+
 }  // namespace
 
-Recorder::Recorder(std::unique_ptr<BoundaryAnswers> answers) : answers_(std::move(answers)) {}
+std::optional<MatrixView> MatrixView::of(std::array<float, 16> const& matrix) {
+  constexpr double extent = 2.0;  // of what is seen, in OpenGL's coordinates
+  auto const across = glm::length(row(matrix, 0));
+  auto const up = glm::length(row(matrix, 1));
+  // The depth grows away from the sun.
+  auto const away = row(matrix, 2);
+  auto const depth = glm::length(away);
+  bool const usable = std::isfinite(across) && std::isfinite(up) && std::isfinite(depth) &&
+                      across > 0.0 && up > 0.0 && depth > 0.0;
+  if (!usable || glm::length(row(matrix, 3)) > 0.0) return std::nullopt;
+  return MatrixView{-away / depth, extent / across, extent / up};
+}
+
+Recorder::Recorder(std::shared_ptr<DrawnModel> model) : model_(std::move(model)) {}
 
 void Recorder::set_vertices(std::span<float const> xyz) {
   constexpr std::size_t axes = 3;
@@ -104,7 +122,7 @@ void Recorder::learn_surfaces(std::optional<DrawnRange> window) {
   }
   if (at > vertices_.size()) throw Error("EnergyPlus draws more vertices than it has passed");
   fill(static_cast<std::uint32_t>(vertices_.size()));
-  answers_->set_model(vertices_, surfaces_);
+  model_->set_model(vertices_, surfaces_);
 }
 
 std::size_t Recorder::surface_at(DrawnRange range) const {
@@ -150,7 +168,7 @@ void Recorder::answer_interiors(Scene const& scene, std::size_t window) {
     queries.push_back(query);
     interiors.push_back(surface_at(question.surface));
   }
-  auto const areas = answers_->interior_areas(scene.view->towards_sun, window, interiors);
+  auto const areas = model_->interior_areas(scene.view->towards_sun, window, interiors);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     questions_[queries[i]].count = to_count(areas[i], scene.pixel_area);
   }
@@ -169,7 +187,7 @@ int Recorder::result(Query query) {
   bool const known = knows_surfaces_of(*scene) && (!window || knows(*window));
   if (!known) learn_surfaces(window);
   if (!window) {
-    auto const area = answers_->sunlit_area(scene->view->towards_sun, surface_at(question.surface));
+    auto const area = model_->sunlit_area(scene->view->towards_sun, surface_at(question.surface));
     question.count = to_count(area, scene->pixel_area);
   } else {
     auto const place = surface_at(*window);

@@ -10,10 +10,20 @@
 #include <span>
 #include <vector>
 
-#include "routes/opengl/queries/boundary_answers.h"
-#include "routes/opengl/queries/matrix_view.h"
+#include "routes/opengl/queries/drawn_model.h"
 
 namespace gpu_shading::energyplus {
+
+// The view of Penumbra's matrix, from the sun to a surface's bounding rectangle in parallel
+// projection.
+struct MatrixView {
+  glm::dvec3 towards_sun;  // unit vector
+  double width = 0.0;      // of the viewport, m
+  double height = 0.0;
+
+  // From OpenGL's matrix, by columns. Empty unless it is one of a parallel projection.
+  static std::optional<MatrixView> of(std::array<float, 16> const& matrix);
+};
 
 // Understands what Penumbra draws. Nothing is rasterised: it takes down the model, the views and
 // the occlusion queries, and computes the count of a query when its result is wanted.
@@ -27,7 +37,7 @@ class Recorder {
  public:
   using Query = std::uint32_t;  // from 1
 
-  explicit Recorder(std::unique_ptr<BoundaryAnswers> answers);
+  explicit Recorder(std::shared_ptr<DrawnModel> model);
 
   void set_vertices(std::span<float const> xyz);  // glBufferData
   void set_viewport(int width, int height);
@@ -64,7 +74,7 @@ class Recorder {
   std::optional<DrawnRange> hidden(Scene const& scene) const;
   void answer_interiors(Scene const& scene, std::size_t window);
 
-  std::unique_ptr<BoundaryAnswers> answers_;
+  std::shared_ptr<DrawnModel> model_;
   std::vector<glm::vec3> vertices_;
   std::vector<DrawnRange> surfaces_;  // by their first vertex
   std::map<Query, Question> questions_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -7,6 +8,15 @@
 #include "gpu_shading/polygon.h"
 
 namespace gpu_shading::energyplus {
+
+// Vertices that are drawn together: the triangles of one surface.
+struct DrawnRange {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+
+  std::uint32_t end() const { return first + count; }
+  auto operator<=>(DrawnRange const&) const = default;
+};
 
 // The polygons that triangles were made of: their outlines and holes, and more than one if the
 // triangles are not connected. Vertices are compared exactly; triangles run counterclockwise as

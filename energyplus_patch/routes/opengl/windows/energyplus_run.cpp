@@ -8,10 +8,6 @@
 #include <vector>
 
 #include "gpu_shading/error.h"
-#include "model/idf/model_file.h"
-#include "model/options/command_line.h"
-#include "model/options/options.h"
-#include "platform/console.h"
 #include "platform/error_line.h"
 #include "platform/process.h"
 #include "routes/hosted_run.h"
@@ -28,28 +24,24 @@ constexpr char const* energyplus_library = "energyplusapi.dll";
 constexpr char const* official_program = "energyplus-official.exe";
 constexpr int not_wanted = -1;
 
-// `arguments`: our flags are taken out.
-int run(std::vector<std::string>& arguments) {
-  auto choices = take_flags(arguments);
-  auto const environment = read_environment();
-  if (!choices.any() && !environment.mode) return not_wanted;
-  choices.fill_from(environment);
-  apply_to_process(choices);
+int run(RunSetup& setup) {
+  if (!setup.wanted) {
+    if (setup.line.help) std::fputs(help_hint, stdout);
+    return not_wanted;
+  }
   auto const library = own_folder() / energyplus_library;
-  auto const line = read_command_line(arguments);
-  if (line.help) std::fputs(std::string(flags_help()).c_str(), stdout);
+  auto const& line = setup.line;
+  if (line.help) std::fputs(options_help().c_str(), stdout);
   if (line.preprocessed) {
     throw Error("-m: an EPMacro model cannot be rendered on Windows; create its IDF first");
   }
-  bool const readable = line.model && std::filesystem::exists(*line.model) &&
-                        (is_idf(*line.model) || is_epjson(*line.model));
-  if (!readable) return run_hosted(library, arguments, {});
+  if (!setup.has_model()) return run_hosted(library, setup.arguments, {});
+  auto& choices = setup.choices;
   choices.folder = std::filesystem::absolute(*line.model).parent_path();
   choices.file = find_side_file(*line.model, choices);
   auto const method = choices.method.value_or(Method::automatic);
-  if (method == Method::scheduled) return run_scheduled(library, choices, arguments);
-  return run_by_opengl(library, own_folder() / official_program, line, arguments,
-                       read_hosted(*line.model, choices));
+  if (method == Method::scheduled) return run_scheduled(library, setup);
+  return run_by_opengl(library, own_folder() / official_program, setup);
 }
 
 }  // namespace
@@ -66,7 +58,8 @@ extern "C" __declspec(dllexport) int gpu_shading_energyplus(int count,
   try {
     folder = own_folder();
     words.assign(arguments, arguments + count);
-    return run(words);
+    RunSetup setup(words);
+    return run(setup);
   } catch (std::exception const& error) {
     auto const why = error_line(error);
     std::fprintf(stderr, "gpu_shading: error: %s\n", why.c_str());

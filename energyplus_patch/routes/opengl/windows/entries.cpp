@@ -2,7 +2,8 @@
 
 #include <windows.h>
 
-#include "routes/opengl/windows/system_opengl.h"
+#include <string>
+
 #include "routes/opengl/windows/wgl_functions.h"
 
 namespace gpu_shading::energyplus {
@@ -16,6 +17,18 @@ long long nothing() { return 0; }
 bool in_energyplus() {
   static bool const is = GetModuleHandleA("energyplusapi.dll") != nullptr;
   return is;
+}
+
+HMODULE load() {
+  std::wstring path(MAX_PATH, L'\0');
+  path.resize(GetSystemDirectoryW(path.data(), static_cast<UINT>(path.size())));
+  return LoadLibraryW((path + L"\\opengl32.dll").c_str());
+}
+
+// A function of Windows's own opengl32.dll; null if it has none of that name.
+void* system_function(char const* name) {
+  static HMODULE const library = load();
+  return library == nullptr ? nullptr : reinterpret_cast<void*>(GetProcAddress(library, name));
 }
 
 }  // namespace

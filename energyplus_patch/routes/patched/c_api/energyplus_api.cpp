@@ -6,7 +6,6 @@
 #include <dlfcn.h>
 #include <link.h>
 
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -17,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "gpu_shading_energyplus.h"
 #include "platform/c_interface.h"
 
 namespace {
@@ -100,13 +100,12 @@ class Runs {
   void install() {
     if (own_folder.empty()) fail("the folder of libenergyplusapi is not known");
     Module const module(own_folder / patch_library);
-    constexpr int cannot_patch = 2;
     int const status = module.install((own_folder / official_library).c_str());
-    if (status == cannot_patch) {
+    if (status == gpu_shading_cannot_patch) {
       fail(std::string(module.message()) + "; run " + (own_folder / "energyplus").string() +
            ", which passes sunlit fractions as schedules");
     }
-    if (status != 0) fail(module.message());
+    if (status != gpu_shading_done) fail(module.message());
     module_ = module;
   }
 
@@ -125,8 +124,7 @@ Runs& runs() {
 void refuse(char const* why, std::vector<char const*> const& words) {
   std::fprintf(stderr, "gpu_shading: error: %s\n", why);
   if (words.empty()) return;
-  std::array<char, 1> ignored{};
-  guarded(ignored.data(), ignored.size(), [&] {
+  failure_of([&] {
     Module const module(own_folder / patch_library);
     module.report_refusal((own_folder / official_library).c_str(), why,
                           static_cast<int>(words.size()) - 1, words.data() + 1);
@@ -139,13 +137,12 @@ template <typename Function, typename Words, typename... Arguments>
 int run(char const* name, Words const& words, Arguments&&... arguments) {
   Function* original = nullptr;
   Module const* module = nullptr;
-  std::array<char, 4096> message{};
-  int const refused = guarded(message.data(), message.size(), [&] {
+  auto const refused = failure_of([&] {
     original = find<Function>(RTLD_NEXT, name);
     module = runs().begin();
   });
-  if (refused != 0) {
-    refuse(message.data(), words());
+  if (!refused.empty()) {
+    refuse(refused.c_str(), words());
     return EXIT_FAILURE;
   }
   if (module == nullptr) return original(std::forward<Arguments>(arguments)...);

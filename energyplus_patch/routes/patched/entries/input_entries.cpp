@@ -7,12 +7,11 @@
 #include <string>
 #include <system_error>
 
-#include "model/idf/model_file.h"
 #include "platform/console.h"
 #include "platform/error_line.h"
-#include "platform/naming.h"
 #include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
+#include "routes/run_setup.h"
 
 namespace gpu_shading::energyplus {
 
@@ -122,10 +121,9 @@ std::string read_file(Path const& path, std::ios_base::openmode mode) {
   auto text = original_read_file(path, mode);
   if (!is_model()) return text;
   return guarded([&] {
-    auto const parsed = parse_idf(text);
-    auto const find = [&](Names const& names) { return find_mentions(parsed, names); };
-    auto objects = naming(path.string(), [&] { return read_idf(parsed); });
-    return rewrite_idf(text, parsed, take_model(std::move(objects), path, find));
+    return rewrite_idf_model(text, path, [&](auto objects, MentionFinder const& find) {
+      return take_model(std::move(objects), path, find);
+    });
   });
 }
 
@@ -135,9 +133,9 @@ nlohmann::json read_json(Path const& path, std::ios_base::openmode mode) {
   auto json = original_read_json(path, mode);
   if (!is_model()) return json;
   return guarded([&] {
-    auto const find = [&](Names const& names) { return find_mentions(json, names); };
-    auto objects = naming(path.string(), [&] { return read_epjson(json); });
-    rewrite_epjson(json, take_model(std::move(objects), path, find));
+    rewrite_epjson_model(json, path, [&](auto objects, MentionFinder const& find) {
+      return take_model(std::move(objects), path, find);
+    });
     return std::move(json);
   });
 }

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <array>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -12,9 +11,6 @@
 #include "gpu_shading/error.h"
 #include "gpu_shading/renderer.h"
 #include "gpu_shading_energyplus.h"
-#include "model/idf/model_file.h"
-#include "model/options/command_line.h"
-#include "model/options/options.h"
 #include "platform/c_interface.h"
 #include "platform/error_line.h"
 #include "platform/process.h"
@@ -35,14 +31,16 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-// What a host hands over, over the environment. Throws Error.
-Choices given_choices(int count, char const* const* options) {
-  std::vector<std::string> arguments(options, options + count);
-  auto choices = take_flags(arguments);
-  if (!arguments.empty()) throw Error(fmt::format("{}: no such flag", arguments.front()));
-  choices.fill_from(read_environment());
-  apply_to_process(choices);
-  return choices;
+// The options of a host, and EnergyPlus's arguments. Throws Error.
+RunSetup read_setup(int count, char const* const* options, std::vector<std::string> arguments) {
+  std::vector<std::string> flags(options, options + count);
+  RunSetup given(flags);
+  if (!given.arguments.empty())
+    throw Error(fmt::format("{}: no such flag", given.arguments.front()));
+  apply_to_process(given.choices);
+  given.arguments = std::move(arguments);
+  given.line = read_command_line(given.arguments);
+  return given;
 }
 
 // The reason why a library's shading cannot be redirected; another method may work.
@@ -147,7 +145,7 @@ void install(char const* library, Choices choices, By by) {
 void try_device(Choices const& choices) {
   constexpr int every_device_draws = 16384;
   bool const required = choices.mode == Mode::require;
-  bool const chosen = choices.device && choices.device->kind == DeviceChoice::Kind::index;
+  bool const chosen = choices.device && choices.device->device && !choices.device->device->is_cpu();
   bool const large = choices.resolution.value_or(1) > every_device_draws;
   if (choices.mode == Mode::off || (!required && !chosen && !large)) return;
   Options options;
@@ -175,38 +173,52 @@ void redirect_opengl(char const* library) {
 }
 
 // Throws CannotPatch where the library or the model does not allow this method.
-int run_opengl(char const* library, Choices const& choices,
-               std::vector<std::string> const& arguments) {
+int run_opengl(char const* library, RunSetup const& setup) {
   SharedLibrary const loaded(library);  // stays loaded
-  auto const line = read_command_line(arguments);
-  if (line.preprocessed) {
+  if (setup.line.preprocessed) {
     throw CannotPatch(
         "-m: an EPMacro model cannot be answered through OpenGL; create its IDF first");
   }
-  bool const readable = line.model && std::filesystem::exists(*line.model) &&
-                        (is_idf(*line.model) || is_epjson(*line.model));
-  if (!readable) return run_hosted(library, arguments, {});
+  if (!setup.has_model()) return run_hosted(library, setup.arguments, {});
   redirect_opengl(library);
-  auto read = read_hosted(*line.model, choices);
-  return run_by_opengl(library, own_folder() / "energyplus", line, arguments, std::move(read));
+  return run_by_opengl(library, own_folder() / "energyplus", setup);
 }
 
 thread_local std::string message;
 
-int install_with(char const* library, int count, char const* const* options, By by) {
+// Calls `action`, which returns a status; no exception leaves this function.
+template <typename Action>
+int with_status(Action const& action) {
+  message.clear();
   try {
-    auto choices = given_choices(count, options);
-    try_device(choices);
-    install(library, std::move(choices), by);
-    message.clear();
-    return 0;
+    return action();
   } catch (CannotPatch const& error) {
     message = error_line(error);
-    return 2;
+    return gpu_shading_cannot_patch;
   } catch (std::exception const& error) {
-    message = gpu_shading::energyplus::error_line(error);
-    return 1;
+    message = error_line(error);
+    return gpu_shading_failed;
   }
+}
+
+int install_with(char const* library, int count, char const* const* options, By by) {
+  return with_status([&] {
+    auto setup = read_setup(count, options, {});
+    try_device(setup.choices);
+    install(library, std::move(setup.choices), by);
+    return gpu_shading_done;
+  });
+}
+
+// `run`: run_scheduled() or run_opengl().
+template <typename RunLibrary>
+int run_with(char const* library, int count, char const* const* options,
+             std::vector<std::string> arguments, RunLibrary const& run) {
+  return with_status([&] {
+    auto const setup = read_setup(count, options, std::move(arguments));
+    try_device(setup.choices);
+    return run(library, setup);
+  });
 }
 
 }  // namespace
@@ -226,42 +238,21 @@ extern "C" EXPORTED int gpu_shading_install_from_environment(char const* energyp
 extern "C" EXPORTED int gpu_shading_run_scheduled(char const* energyplus_library, int count,
                                                   char const* const* options, int argc,
                                                   char const* const* argv) {
-  using gpu_shading::energyplus::message;
-  try {
-    message.clear();
-    auto const choices = gpu_shading::energyplus::given_choices(count, options);
-    gpu_shading::energyplus::try_device(choices);
-    return gpu_shading::energyplus::run_scheduled(energyplus_library, choices, {argv, argv + argc});
-  } catch (std::exception const& error) {
-    message = gpu_shading::energyplus::error_line(error);
-    return gpu_shading::energyplus::not_run;
-  }
+  using namespace gpu_shading::energyplus;
+  return run_with(energyplus_library, count, options, {argv, argv + argc}, run_scheduled);
 }
 
 extern "C" EXPORTED int gpu_shading_run_opengl(char const* energyplus_library, int count,
                                                char const* const* options, int argc,
                                                char const* const* argv) {
-  using gpu_shading::energyplus::message;
-  constexpr int cannot_patch = -2;
-  try {
-    message.clear();
-    auto const choices = gpu_shading::energyplus::given_choices(count, options);
-    gpu_shading::energyplus::try_device(choices);
-    return gpu_shading::energyplus::run_opengl(energyplus_library, choices, {argv, argv + argc});
-  } catch (gpu_shading::energyplus::CannotPatch const& error) {
-    message = gpu_shading::energyplus::error_line(error);
-    return cannot_patch;
-  } catch (std::exception const& error) {
-    message = gpu_shading::energyplus::error_line(error);
-    return gpu_shading::energyplus::not_run;
-  }
+  using namespace gpu_shading::energyplus;
+  return run_with(energyplus_library, count, options, {argv, argv + argc}, run_opengl);
 }
 
 extern "C" EXPORTED void gpu_shading_report_refusal(char const* energyplus_library, char const* why,
                                                     int argc, char const* const* argv) {
   using namespace gpu_shading::energyplus;
-  std::array<char, 1> ignored{};
-  guarded(ignored.data(), ignored.size(), [&] {
+  failure_of([&] {
     report_refusal({argv, argv + argc}, std::filesystem::path(energyplus_library).parent_path(),
                    why, {});
   });

@@ -81,8 +81,7 @@ unsigned get_number_of_surfaces(PenumbraObject* self) {
 // Needed if light reflected by shading surfaces is modelled, or if an output shows the copies.
 void add_mirrored_surfaces(Session& session, Messages const& messages) {
   auto const& ids = installation().surface_ids;
-  auto const& input = session.input();
-  if (!(input.reflections || input.mirrored_shown()) || session.shading_surfaces().empty()) return;
+  if (!session.wants_mirrored() || session.shading_surfaces().empty()) return;
   if (!ids || !hand_over_mirrored_surfaces(*this_run().state, session, *ids)) {
     messages.warning(
         "this EnergyPlus does not let mirrored shading surfaces be handed over: their sunlit "
@@ -97,13 +96,10 @@ void set_model(PenumbraObject* self) {
   State& state = *this_run().state;
   auto const messages = messages_of(this_run());
   add_mirrored_surfaces(session, messages);
-  auto schedules = installed.schedules.of(state);
-  if (auto& task = installed.task) {
-    task->finish(perform_task(task->task(), session.complete(std::move(schedules)), messages));
-    throw TaskDone();
-  }
-  session.start(messages, std::move(schedules),
-                [&] { return installed.functions.latitude(state); });
+  begin(session,
+        {messages, installed.schedules.of(state),
+         [&installed, &state] { return installed.functions.latitude(state); }},
+        installed.task ? &*installed.task : nullptr);
 }
 
 void set_sun_position(PenumbraObject* self, float azimuth, float altitude) {
@@ -114,7 +110,7 @@ void set_sun_position(PenumbraObject* self, float azimuth, float altitude) {
 void submit_pssa(PenumbraObject* /*self*/) {}
 
 float retrieve_pssa(PenumbraObject* self, unsigned id) {
-  return self->session->projected_sunlit_area(id);
+  return static_cast<float>(self->session->projected_sunlit_area(id));
 }
 
 InteriorAreas calculate_interior_pssas(PenumbraObject* self, std::vector<unsigned> const& windows,
@@ -122,7 +118,9 @@ InteriorAreas calculate_interior_pssas(PenumbraObject* self, std::vector<unsigne
   InteriorAreas areas;
   if (windows.size() != 1) throw Error("EnergyPlus asks for interior areas of several windows");
   auto const answers = self->session->interior_areas(windows.front(), interiors);
-  for (std::size_t i = 0; i < interiors.size(); ++i) areas[interiors[i]] += answers[i];
+  for (std::size_t i = 0; i < interiors.size(); ++i) {
+    areas[interiors[i]] += static_cast<float>(answers[i]);
+  }
   return areas;
 }
 

@@ -13,7 +13,7 @@
 #include "calculation/session.h"
 #include "routes/patched/memory/surface_ids.h"
 #include "routes/patched/symbols/energyplus_functions.h"
-#include "tasks/asked_task.h"
+#include "tasks/task_file.h"
 
 namespace gpu_shading::energyplus {
 

@@ -1,11 +1,20 @@
+#include <gpu_shading_answers.h>
 #include <penumbra/penumbra.h>
+#include <penumbra/simulation.h>
+#include <penumbra/surface.h>
 
+#include <exception>
+#include <memory>
+#include <numeric>
 #include <string>
+#include <string_view>
 #include <utility>
-
-#include "routes/penumbra/drop_in/penumbra_implementation.h"
+#include <vector>
 
 namespace Penumbra {
+
+namespace answers = gpu_shading::answers;
+
 namespace {
 
 constexpr unsigned int default_size = 512;
@@ -30,6 +39,104 @@ std::string area_line(std::string const& surface, float area) {
 }
 
 }  // namespace
+
+struct SurfaceContent {
+  answers::PlainSurface surface;
+};
+
+Surface::Surface() : content(std::make_shared<SurfaceContent>()) {}
+
+Surface::Surface(Polygon const& polygon, std::string const& name)
+    : content(std::make_shared<SurfaceContent>(SurfaceContent{{name, polygon, {}}})) {}
+
+Surface::Surface(Surface const& surface) = default;
+
+Surface& Surface::operator=(Surface const& surface) = default;
+
+Surface::~Surface() = default;
+
+void Surface::add_hole(Polygon const& hole) { content->surface.holes.push_back(hole); }
+
+class PenumbraImplementation {
+ public:
+  PenumbraImplementation(unsigned int size, std::shared_ptr<Courierr::Courierr> logger);
+
+  // Calls `action`; an exception of gpu_shading becomes one of Penumbra's.
+  template <typename Action>
+  auto guarded(Action const& action) -> decltype(action()) {
+    try {
+      return action();
+    } catch (PenumbraException const&) {
+      throw;
+    } catch (std::exception const& error) {
+      throw PenumbraException(error.what(), *logger);
+    }
+  }
+
+  void renew();  // without surfaces
+  unsigned int add(Surface const& surface);
+  void set_model();
+  void check(std::vector<unsigned int> const& surfaces, std::string_view what = "Surface") const;
+  std::vector<unsigned int> all() const;
+
+  unsigned int size;
+  std::shared_ptr<Courierr::Courierr> logger;
+  std::unique_ptr<answers::Calculation> calculation;
+  Simulation simulation;
+  std::vector<std::string> names;  // of surfaces
+  bool started = false;            // set_model() was called
+  float azimuth = 0.0f;
+  float altitude = 0.0f;
+};
+
+PenumbraImplementation::PenumbraImplementation(unsigned int pixels,
+                                               std::shared_ptr<Courierr::Courierr> to)
+    : size(pixels), logger(std::move(to)) {
+  renew();
+}
+
+void PenumbraImplementation::renew() {
+  names.clear();
+  started = false;
+  calculation = guarded([this] {
+    return std::make_unique<answers::Calculation>(
+        size, answers::Log{[this](const std::string& line) { logger->warning(line); },
+                           [this](const std::string& line) { logger->info(line); }});
+  });
+}
+
+unsigned int PenumbraImplementation::add(Surface const& surface) {
+  auto content = surface.content->surface;
+  if (content.name.empty()) content.name = "Surface " + std::to_string(names.size());
+  names.push_back(content.name);
+  return guarded([&] { return calculation->add(std::move(content)); });
+}
+
+void PenumbraImplementation::set_model() {
+  if (names.empty()) {
+    logger->warning("There are no surfaces: add_surface() must come before set_model().");
+    return;
+  }
+  guarded([this] {
+    calculation->start({simulation.latitude, simulation.schedule, simulation.schedule_range,
+                        simulation.schedule_value, simulation.initialization});
+    calculation->set_sun(azimuth, altitude);
+  });
+  started = true;
+}
+
+void PenumbraImplementation::check(std::vector<unsigned int> const& surfaces,
+                                   std::string_view what) const {
+  for (auto const surface : surfaces) {
+    if (surface >= names.size()) throw SurfaceException(surface, what, *logger);
+  }
+}
+
+std::vector<unsigned int> PenumbraImplementation::all() const {
+  std::vector<unsigned int> surfaces(names.size());
+  std::iota(surfaces.begin(), surfaces.end(), 0u);
+  return surfaces;
+}
 
 Penumbra::Penumbra(unsigned int size, std::shared_ptr<Courierr::Courierr> const& logger)
     : penumbra(std::make_unique<PenumbraImplementation>(size, logger)) {}
@@ -161,6 +268,23 @@ void Penumbra::finish() {
   } catch (std::exception const& error) {
     penumbra->logger->warning(error.what());
   }
+}
+
+std::vector<std::string> take_options(std::vector<std::string> const& arguments) {
+  return answers::take_options(arguments);
+}
+
+std::string options_help() { return answers::options_help(); }
+
+bool is_wanted() { return answers::is_wanted(); }
+
+std::string read_idf(std::string const& text, std::string const& path, std::string const& version) {
+  return answers::read_model(text, answers::Format::idf, path, version);
+}
+
+std::string read_epjson(std::string const& text, std::string const& path,
+                        std::string const& version) {
+  return answers::read_model(text, answers::Format::epjson, path, version);
 }
 
 }  // namespace Penumbra

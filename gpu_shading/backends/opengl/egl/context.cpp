@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "backends/opengl/egl/error.h"
+#include "backends/opengl/egl/display.h"
 
 namespace gpu_shading::egl {
 namespace {
@@ -82,7 +82,7 @@ Context::Context(Display const& display, bool debug) : display_(display.handle) 
   context_ = create(display_, find_config(display_, display.label), debug);
   if (context_ == EGL_NO_CONTEXT) {
     fail(display.label, "eglCreateContext(OpenGL 4.5 core)",
-         "the device needs OpenGL 4.5; update its driver or choose the device 'software'");
+         "the device needs OpenGL 4.5; update its driver or choose the device 'cpu'");
   }
 }
 

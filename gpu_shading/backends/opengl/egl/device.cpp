@@ -60,7 +60,7 @@ std::optional<Device> DeviceWalk::next() {
       // it.
       if (display.surfaceless_platform && is_known(device.info.renderer)) continue;
       device.info.software = display.software || is_software_renderer(device.info.renderer);
-      device.info.index = static_cast<int>(renderers_.size());
+      device.info.id = numbered_device(static_cast<int>(renderers_.size()));
       renderers_.push_back(device.info.renderer);
       return device;
     } catch (DeviceError const& error) {
@@ -74,13 +74,11 @@ std::optional<Device> open(DeviceChoice const& choice) {
   DeviceWalk walk(choice.debug);
   int count = 0;
   while (std::optional<Device> device = walk.next()) {
-    bool const wanted = choice.kind == DeviceChoice::Kind::index
-                            ? device->info.index == choice.index
-                            : !device->info.software;
+    bool const wanted = choice.device ? device->info.id == *choice.device : !device->info.software;
     if (wanted) return device;
     ++count;
   }
-  if (choice.kind == DeviceChoice::Kind::index) fail_to_open(choice.index, count, walk.failures());
+  if (choice.device) fail_to_open(choice.device->number, count, walk.failures());
   return std::nullopt;
 }
 

@@ -16,7 +16,7 @@ struct Device {
 };
 
 // Opens devices one after the other, each with a context, so that no more are opened than needed.
-// Order and indices are those of list_devices().
+// Order and numbers are those of list_devices().
 class DeviceWalk {
  public:
   explicit DeviceWalk(bool debug = false);
@@ -36,8 +36,8 @@ class DeviceWalk {
   std::vector<std::string> renderers_;
 };
 
-// The device of an index in list_devices(), or else the first GPU; nothing if there is none. Throws
-// DeviceError, with the reason, if there is no device of that index.
+// The chosen device, or else the first GPU; nothing if there is none. Throws DeviceError, with the
+// reason, if there is no device of that number.
 std::optional<Device> open(DeviceChoice const& choice);
 
 }  // namespace gpu_shading::egl

@@ -92,7 +92,7 @@ void Framebuffer::check_complete() const {
   if (status != GL_FRAMEBUFFER_COMPLETE) {
     throw DeviceError(fmt::format(
         "the driver cannot draw to an offscreen target of {} x {} pixels (status {:#06x}); lower "
-        "the resolution or choose the device 'software'",
+        "the resolution or choose the device 'cpu'",
         width_, height_, status));
   }
 }

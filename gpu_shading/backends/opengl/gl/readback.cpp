@@ -1,21 +1,46 @@
 #include "backends/opengl/gl/readback.h"
 
+#include <epoxy/gl.h>
+
+#include "backends/opengl/gl/check.h"
 #include "backends/opengl/gl/draw.h"
+#include "gpu_shading/error.h"
 
 namespace gpu_shading::gl {
 
-Readback::Readback(LayeredTexture const& texture, Way way) : texture_(texture) {
-  if (way == Way::ahead) {
-    buffer_ = Buffer::create();
-    ahead_ = buffer_.set_shared_size(bytes(texture, way));
-  } else {
-    asked_.resize(bytes(texture, way));
+Fence Fence::here() {
+  Fence fence;
+  fence.sync_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  glFlush();
+  return fence;
+}
+
+Fence::~Fence() {
+  if (sync_ != nullptr) glDeleteSync(static_cast<GLsync>(sync_));
+}
+
+void Fence::wait() const {
+  constexpr GLuint64 a_second = 1'000'000'000;
+  for (;;) {
+    GLenum const found = glClientWaitSync(static_cast<GLsync>(sync_), 0, a_second);
+    if (found == GL_ALREADY_SIGNALED || found == GL_CONDITION_SATISFIED) return;
+    check("waiting for the device");
+    if (found == GL_WAIT_FAILED) throw DeviceError("the device did not finish drawing");
   }
 }
 
-std::size_t Readback::bytes(LayeredTexture const& texture, Way way) {
+Readback::Readback(LayeredTexture const& texture, Mode mode) : texture_(texture) {
+  if (mode == Mode::ahead) {
+    buffer_ = Buffer::create();
+    ahead_ = buffer_.set_shared_size(bytes(texture, mode));
+  } else {
+    asked_.resize(bytes(texture, mode));
+  }
+}
+
+std::size_t Readback::bytes(LayeredTexture const& texture, Mode mode) {
   return texture.layer_size() *
-         (way == Way::ahead ? static_cast<std::size_t>(texture.layers()) : 1);
+         (mode == Mode::ahead ? static_cast<std::size_t>(texture.layers()) : 1);
 }
 
 void Readback::start(int layers) {

@@ -9,7 +9,7 @@
 namespace gpu_shading {
 namespace {
 
-class Module : public GlModule {
+class Module : public DeviceModule {
  public:
   std::vector<DeviceInfo> list_devices(std::vector<std::string>& failures) const override {
     egl::DeviceWalk walk;
@@ -37,7 +37,7 @@ class Module : public GlModule {
 }  // namespace
 }  // namespace gpu_shading
 
-extern "C" [[gnu::visibility("default")]] gpu_shading::GlModule const* gpu_shading_gl_module() {
+extern "C" [[gnu::visibility("default")]] gpu_shading::DeviceModule const* gpu_shading_gl_module() {
   static gpu_shading::Module const module;
   return &module;
 }

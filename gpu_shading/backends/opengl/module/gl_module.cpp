@@ -52,14 +52,14 @@ void require_address_space() {
       limit.rlim_cur / mib, left));
 }
 
-GlModule const& load() {
+DeviceModule const& load() {
   require_address_space();
   std::error_code error;
   auto const beside = code_folder / library;
   bool const is_beside = !code_folder.empty() && std::filesystem::exists(beside, error);
   void* const handle = dlopen(is_beside ? beside.c_str() : library, RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) throw DeviceError(fmt::format("no OpenGL: {}", dlerror()));
-  using Entry = GlModule const*();
+  using Entry = DeviceModule const*();
   auto* const entry = reinterpret_cast<Entry*>(dlsym(handle, "gpu_shading_gl_module"));
   if (entry == nullptr) throw DeviceError(fmt::format("no OpenGL: {}", dlerror()));
   return *entry();
@@ -67,8 +67,8 @@ GlModule const& load() {
 
 }  // namespace
 
-GlModule const& gl_module() {
-  static GlModule const& loaded = load();
+DeviceModule const& gl_module() {
+  static DeviceModule const& loaded = load();
   // Drivers have threads and connections, which a forked process does not get.
   static pid_t const process = getpid();
   if (getpid() != process) {

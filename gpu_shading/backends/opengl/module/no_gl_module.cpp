@@ -3,7 +3,7 @@
 
 namespace gpu_shading {
 
-GlModule const& gl_module() {
+DeviceModule const& gl_module() {
   throw DeviceError("no OpenGL: shading is computed on the CPU alone on Windows");
 }
 

@@ -9,8 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "backends/opengl/gl/buffer.h"
 #include "backends/opengl/gl/draw.h"
-#include "backends/opengl/raster/sheet_block.h"
+#include "backends/opengl/gl/vertex_array.h"
 #include "filters/perforation/sheet_in_beam.h"
 #include "filters/transmission.h"
 #include "view/range.h"
@@ -128,5 +129,8 @@ class DrawList {
   std::vector<ScreenDraw> screen_draws_;
   SheetBlocks sheets_;
 };
+
+// Adds views as an array's instance data; `views` holds ViewRecords.
+void add_view_records(gl::VertexArray& array, gl::Buffer const& views);
 
 }  // namespace gpu_shading

@@ -5,8 +5,8 @@
 #include "backends/opengl/gl/check.h"
 #include "backends/opengl/gl/draw.h"
 #include "backends/opengl/gl/limits.h"
+#include "backends/opengl/raster/draw_list.h"
 #include "backends/opengl/raster/split_double.h"
-#include "backends/opengl/raster/view_records.h"
 #include "gpu_shading/error.h"
 #include "shaders/sources.h"
 
@@ -153,7 +153,7 @@ void Geometry::use_shades() const {
   if (shade_program_.empty()) {
     throw DeviceError(
         "the device has no storage buffers in its vertex stage, which transparent shades need; "
-        "choose another (gpu_shading devices), or software");
+        "choose another (gpu_shading devices), or cpu");
   }
   gl::cut_at_plane(true);
   shade_program_.use();

@@ -29,7 +29,7 @@ Bounds bounds_of(GlSettings const& settings, DeviceInfo const& device) {
   bounds.target = (device.software ? 1 : 32) * mib;
   bounds.all_targets = (device.software ? 64 : 512) * mib;
   bounds.layers = limits.layers_in_vertex_stage ? limits.max_layers : 1;
-  if (settings.most_layers > 0) bounds.layers = std::min(bounds.layers, settings.most_layers);
+  if (settings.max_layers > 0) bounds.layers = std::min(bounds.layers, settings.max_layers);
   return bounds;
 }
 
@@ -107,13 +107,13 @@ void GlBackend::measure(Tile const& tile) {
 }
 
 std::optional<ScheduleKeys> GlBackend::keys(ReceiverView const& view) const {
-  Shades const& shades = transmission_.shades();
   std::vector<int> passed;
   for (SurfaceId const caster : view.casters) {
-    if (shades.schedule(caster) != Shades::unscheduled) passed.push_back(shades.schedule(caster));
+    int const schedule = transmission_.schedule(caster);
+    if (schedule != Shade::unscheduled) passed.push_back(schedule);
   }
   if (passed.empty()) return std::nullopt;
-  auto keys = ScheduleKeys::make(passed, static_cast<int>(shades.schedules().size()));
+  auto keys = ScheduleKeys::make(passed, static_cast<int>(transmission_.schedules().size()));
   if (!keys) {
     std::sort(passed.begin(), passed.end());
     auto const distinct = std::unique(passed.begin(), passed.end()) - passed.begin();
@@ -148,9 +148,9 @@ void GlBackend::gather_casters(DrawList& list, int layer, ReceiverView const& vi
                     geometry.scene_origin(), numbers);
   std::size_t const begin = list.begin_surfaces();
   for (SurfaceId const id : view.casters) {
-    if (!transmission_.shades().dims(id)) continue;
+    if (!transmission_.is_flat(id)) continue;
     list.add_triangles(geometry.triangles(id));
-    if (tables == nullptr || !transmission_.shades().transmits(id)) continue;
+    if (tables == nullptr || !transmission_.transmits(id)) continue;
     std::size_t const place = tables->first_shade + id;
     if (!list.knows_shade(place)) {
       list.set_shade(place, transmission_.shade(id, view.towards_sun));

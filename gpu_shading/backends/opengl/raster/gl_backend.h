@@ -19,7 +19,7 @@ namespace gpu_shading {
 // How a device is used.
 struct GlSettings {
   std::optional<LuminanceSum> sum = std::nullopt;  // empty: whichever is faster on the device
-  int most_layers = 0;  // views drawn at once, at most; 0: as many as the device's bounds allow
+  int max_layers = 0;  // views drawn at once, at most; 0: as many as the device's bounds allow
 };
 
 // Draws views with OpenGL on an EGL device, many at once. The caller's context is restored after

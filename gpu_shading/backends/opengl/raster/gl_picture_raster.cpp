@@ -133,7 +133,7 @@ std::vector<float> GlPictureRaster::luminance(PictureGrid const& grid,
     list.set_shade(tables.first_shade + shaded.casters[i], shaded.shades[i]);
   }
   std::uint32_t const view = add_view(list, geometry, grid);
-  Range const plain = add_surfaces(list, geometry, transmission_.plain_among(shaded.casters));
+  Range const plain = add_surfaces(list, geometry, transmission_.flat_among(shaded.casters));
   Range const screens = geometry.screens().add_to(
       list, tables, view, transmission_.screens_among(shaded.casters), grid.pixel_area());
   list.set_sheets(geometry.screens().sheets(list, transmission_));

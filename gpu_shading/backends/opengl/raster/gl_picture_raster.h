@@ -22,7 +22,7 @@ class GlPictureRaster : public PictureRaster {
   GlPictureRaster(GlPictureRaster&&) = delete;
   GlPictureRaster& operator=(GlPictureRaster&&) = delete;
 
-  int most_pixels() const override { return device_.info.max_resolution; }
+  int max_pixels() const override { return device_.info.max_resolution; }
   std::vector<std::uint32_t> nearest(PictureGrid const& grid,
                                      std::span<SurfaceId const> surfaces) override;
   std::vector<float> through_screens(PictureGrid const& grid, glm::dvec3 const& towards_sun,

@@ -71,7 +71,7 @@ class ByCompute : public Reduction {
 class ByReadback : public Reduction {
  public:
   explicit ByReadback(gl::LayeredTexture const& texture)
-      : pixels_(texture, gl::Readback::Way::when_asked) {}
+      : pixels_(texture, gl::Readback::Mode::when_asked) {}
 
   void start(int layers) override { pixels_.start(layers); }
   double sum(int layer) override { return sum_of(pixels_.layer<float>(layer)); }

@@ -38,9 +38,9 @@ class Summing {
   std::size_t extra_bytes(int side) const;
 
   // Read-back of whole pixels.
-  gl::Readback::Way way() const {
-    return how_ == LuminanceSum::readback ? gl::Readback::Way::when_asked
-                                          : gl::Readback::Way::ahead;
+  gl::Readback::Mode mode() const {
+    return how_ == LuminanceSum::readback ? gl::Readback::Mode::when_asked
+                                          : gl::Readback::Mode::ahead;
   }
 
  private:

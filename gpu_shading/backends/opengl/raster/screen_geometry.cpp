@@ -11,9 +11,8 @@
 #include "backends/opengl/gl/check.h"
 #include "backends/opengl/gl/draw.h"
 #include "backends/opengl/gl/limits.h"
-#include "backends/opengl/raster/sheet_block.h"
+#include "backends/opengl/raster/draw_list.h"
 #include "backends/opengl/raster/split_double.h"
-#include "backends/opengl/raster/view_records.h"
 #include "filters/perforation/sheet_in_beam.h"
 #include "gpu_shading/error.h"
 #include "shaders/sources.h"
@@ -61,19 +60,20 @@ gl::ValueTexture make_texture(OpacityTile const& tile, TextureCells const& cells
 
 ScreenGeometry::ScreenGeometry(Screens const& screens, glm::dvec3 const& scene_origin,
                                gl::Buffer const& views)
-    : most_texels_(std::min(largest_texture, gl::query_limits().max_texture_size)) {
-  if (screens.entries().empty()) return;
+    : screens_(screens),
+      max_texels_(std::min(largest_texture, gl::query_limits().max_texture_size)) {
+  if (screens_.entries().empty()) return;
   if (gl::query_limits().vertex_storage_blocks < 1) {
     throw DeviceError(
         "the device has no storage buffers in its vertex stage, which perforated screens need; "
-        "choose another (gpu_shading devices), or software");
+        "choose another (gpu_shading devices), or cpu");
   }
   vertices_ = gl::Buffer::create();
   draw_indices_ = gl::Buffer::create();
   sheets_ = gl::Buffer::create();
   regions_ = gl::Buffer::create();
-  add_quadrilaterals(screens, scene_origin);
-  add_looks(screens);
+  add_quadrilaterals(scene_origin);
+  add_looks();
   quadrilaterals_ = gl::VertexArray::create();
   quadrilaterals_.set_vertices(vertices_, sizeof(Vertex));
   using Of = gl::VertexArray::Of;
@@ -86,11 +86,11 @@ ScreenGeometry::ScreenGeometry(Screens const& screens, glm::dvec3 const& scene_o
   gl::check("uploading screens");
 }
 
-void ScreenGeometry::add_quadrilaterals(Screens const& screens, glm::dvec3 const& scene_origin) {
+void ScreenGeometry::add_quadrilaterals(glm::dvec3 const& scene_origin) {
   std::vector<Vertex> vertices;
-  for (std::size_t screen = 0; screen < screens.entries().size(); ++screen) {
+  for (std::size_t screen = 0; screen < screens_.entries().size(); ++screen) {
     std::size_t const first = indices_.size();
-    for (Screens::Quadrilateral const& part : screens.entries()[screen].parts) {
+    for (Screens::Quadrilateral const& part : screens_.entries()[screen].parts) {
       for (std::size_t i = 0; i < part.corners.size(); ++i) {
         indices_.push_back(static_cast<std::uint32_t>(vertices.size()));
         vertices.push_back({SplitDouble(part.corners[i] - scene_origin), glm::vec2(part.places[i]),
@@ -102,24 +102,23 @@ void ScreenGeometry::add_quadrilaterals(Screens const& screens, glm::dvec3 const
   vertices_.set(std::span<Vertex const>(vertices));
 }
 
-void ScreenGeometry::add_looks(Screens const& screens) {
+void ScreenGeometry::add_looks() {
   std::map<PerforatedScreen const*, int> textures;
-  for (Screens::Entry const& entry : screens.entries()) {
+  for (Screens::Entry const& entry : screens_.entries()) {
     PerforatedScreen const& screen = *entry.screen;
-    Look look{entry.screen, entry.normal};
+    int& texture = texture_of_.emplace_back(-1);
     if (screen.tile()) {
       auto const [place, added] = textures.try_emplace(&screen, static_cast<int>(textures_.size()));
       if (added) {
         textures_.push_back(
-            make_texture(*screen.tile(), texture_cells(*screen.tile(), most_texels_)));
+            make_texture(*screen.tile(), texture_cells(*screen.tile(), max_texels_)));
       }
-      look.texture = place->second;
+      texture = place->second;
       link_program(of_texture);
       link_program(of_regions);
     } else {
       link_program(of_pattern);
     }
-    looks_.push_back(std::move(look));
   }
 }
 
@@ -132,20 +131,19 @@ void ScreenGeometry::link_program(int program) {
       gl::Program::link("screens", shaders::screen_vert, shaders::screen_geom, fragment.c_str());
 }
 
-ScreenLook ScreenGeometry::look_of(Look const& look, bool by_effect) const {
-  if (look.texture < 0) return {of_pattern, look.texture};
-  return {by_effect && varies(*look.screen) ? of_regions : of_texture, look.texture};
+ScreenLook ScreenGeometry::look_of(int number, bool by_effect) const {
+  int const texture = texture_of_[static_cast<std::size_t>(number)];
+  if (texture < 0) return {of_pattern, texture};
+  return {by_effect && varies(*screens_[number].screen) ? of_regions : of_texture, texture};
 }
 
 Range ScreenGeometry::add_to(DrawList& list, DirectionTables& tables, std::uint32_t view,
                              std::span<int const> numbers, double pixel_area) const {
   std::map<ScreenLook, std::vector<int>> by_look;
   for (int const number : numbers) {
-    Look const& look = looks_[static_cast<std::size_t>(number)];
-    bool const by_effect =
-        may_see_effect(*look.screen, look.normal, tables.screens.towards_sun, pixel_area);
+    bool const by_effect = may_see_effect(screens_[number], tables.screens.towards_sun, pixel_area);
     tables.screens.add(number, by_effect);
-    by_look[look_of(look, by_effect)].push_back(number);
+    by_look[look_of(number, by_effect)].push_back(number);
   }
   std::size_t const first = list.screen_draws().size();
   for (auto const& [look, some] : by_look) {
@@ -164,7 +162,7 @@ SheetBlocks ScreenGeometry::sheets(DrawList const& list, Transmission const& tra
   for (DirectionTables const& direction : list.directions()) {
     std::vector<SheetInBeam> const sheets = transmission.sheets(direction.screens);
     for (std::size_t screen = 0; screen < sheets.size(); ++screen) {
-      add_block(blocks, sheets[screen], *looks_[screen].screen, most_texels_);
+      add_block(blocks, sheets[screen], *screens_.entries()[screen].screen, max_texels_);
     }
   }
   return blocks;

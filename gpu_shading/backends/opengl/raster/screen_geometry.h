@@ -21,11 +21,11 @@ namespace gpu_shading {
 // them.
 class ScreenGeometry {
  public:
-  // `views`: records of the views, which must outlive it. Throws DeviceError if the device cannot
-  // draw screens.
+  // `views`: records of the views. It and the screens must outlive this object. Throws DeviceError
+  // if the device cannot draw screens.
   ScreenGeometry(Screens const& screens, glm::dvec3 const& scene_origin, gl::Buffer const& views);
 
-  std::size_t count() const { return looks_.size(); }
+  std::size_t count() const { return texture_of_.size(); }
 
   // Adds screens, by index, as draws of one view of a list with the tables of its direction.
   // `pixel_area`: m2 normal to the beam.
@@ -42,21 +42,17 @@ class ScreenGeometry {
   void draw_all() const { draw({0, draws_.size()}); }
 
  private:
-  void add_quadrilaterals(Screens const& screens, glm::dvec3 const& scene_origin);
-  void add_looks(Screens const& screens);
+  void add_quadrilaterals(glm::dvec3 const& scene_origin);
+  void add_looks();
   void link_program(int program);
 
-  int most_texels_ = 0;  // a side of a texture
   std::vector<std::uint32_t> indices_;
   std::vector<Range> ranges_;  // of the indices, by screen
-  struct Look {
-    std::shared_ptr<PerforatedScreen const> screen;
-    glm::dvec3 normal{0.0};
-    int texture = -1;  // none
-  };
-  ScreenLook look_of(Look const& look, bool by_effect) const;
+  ScreenLook look_of(int number, bool by_effect) const;
 
-  std::vector<Look> looks_;  // by screen
+  Screens const& screens_;
+  int max_texels_ = 0;           // a side of a texture
+  std::vector<int> texture_of_;  // by screen; -1: none
   std::vector<gl::ValueTexture> textures_;
   std::vector<ScreenDraw> draws_;        // as uploaded
   std::array<gl::Program, 3> programs_;  // by ScreenLook::program

@@ -9,7 +9,7 @@ namespace gpu_shading {
 namespace {
 
 // Limit of the collected lists; a single view may take more.
-constexpr std::size_t most_bytes = std::size_t{16} << 20U;
+constexpr std::size_t max_bytes = std::size_t{16} << 20U;
 
 }  // namespace
 
@@ -24,9 +24,9 @@ std::size_t Submissions::add(Kind kind, int side, std::size_t parts, Gather cons
     gather(batch.list, static_cast<int>(batch.answers.size()));
   }
   batch.answers.push_back(answer);
-  if (batch.answers.size() == static_cast<std::size_t>(targets_.most_layers(kind, side))) {
+  if (batch.answers.size() == static_cast<std::size_t>(targets_.max_layers(kind, side))) {
     submit(group, batch);
-  } else if (batch.list.bytes() > most_bytes / 16) {
+  } else if (batch.list.bytes() > max_bytes / 16) {
     submit_largest();
   }
   return views_.size() - 1;
@@ -40,11 +40,11 @@ void Submissions::submit_largest() {
     all += bytes;
     if (bytes > largest->second.list.bytes()) largest = entry;
   }
-  if (all > most_bytes) submit(largest->first, largest->second);
+  if (all > max_bytes) submit(largest->first, largest->second);
 }
 
 void Submissions::submit(Group const& group, Batch& batch) {
-  while (in_flight_.size() >= most_in_flight_) collect();
+  while (in_flight_.size() >= max_in_flight_) collect();
   auto const layers = static_cast<int>(batch.answers.size());
   Target* target = targets_.take(group.first, group.second, layers);
   while (target == nullptr) {

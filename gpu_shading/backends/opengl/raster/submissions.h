@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "backends/opengl/gl/fence.h"
+#include "backends/opengl/gl/readback.h"
 #include "backends/opengl/raster/draw_list.h"
 #include "backends/opengl/raster/geometry.h"
-#include "backends/opengl/raster/luminance_by_key.h"
+#include "backends/opengl/raster/schedule_keys.h"
 #include "backends/opengl/raster/target_pool.h"
 #include "filters/transmission.h"
 #include "gpu_shading/renderer.h"
@@ -29,7 +29,7 @@ class Submissions {
               LuminanceSum how, RendererStatistics& statistics)
       : geometry_(geometry),
         transmission_(transmission),
-        most_in_flight_(bounds.in_flight),
+        max_in_flight_(bounds.in_flight),
         targets_(bounds, how),
         statistics_(statistics) {}
 
@@ -64,7 +64,7 @@ class Submissions {
 
   Geometry& geometry_;
   Transmission const& transmission_;
-  std::size_t most_in_flight_;
+  std::size_t max_in_flight_;
   TargetPool targets_;
   RendererStatistics& statistics_;
   std::map<Group, Batch> gathered_;

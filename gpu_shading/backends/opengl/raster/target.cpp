@@ -14,7 +14,7 @@
 namespace gpu_shading {
 namespace {
 
-using Way = gl::Readback::Way;
+using Mode = gl::Readback::Mode;
 
 constexpr glm::vec4 dark{0.0F};
 constexpr glm::vec4 lit{1.0F};
@@ -75,7 +75,7 @@ class StencilTarget : public Target {
   StencilTarget(int side, int layers)
       : texture_(gl::LayeredTexture::create(gl::Pixel::stencil, side, layers)),
         layers_(gl::Framebuffer::of_layers({&texture_})),
-        pixels_(texture_, Way::when_asked) {}
+        pixels_(texture_, Mode::when_asked) {}
 
   void draw(Geometry& geometry, int layers) override {
     layers_.bind();
@@ -134,10 +134,10 @@ class SummedTarget : public Target {
 
 class ScheduledTarget : public Target {
  public:
-  ScheduledTarget(int side, int layers, Way way)
+  ScheduledTarget(int side, int layers, Mode mode)
       : texture_(gl::LayeredTexture::create(gl::Pixel::reals, side, layers)),
         layers_(gl::Framebuffer::of_layers({&texture_})),
-        pixels_(texture_, way) {}
+        pixels_(texture_, mode) {}
 
   void draw(Geometry& geometry, int layers) override {
     draw_luminance(geometry, layers_, lit_without_key, gl::Blend::multiply_and_add);
@@ -161,11 +161,11 @@ class ScheduledTarget : public Target {
 // same depth, the first is used.
 class Identities {
  public:
-  Identities(int side, int layers, Way way)
+  Identities(int side, int layers, Mode mode)
       : texture_(gl::LayeredTexture::create(gl::Pixel::identity, side, layers)),
         depth_(gl::LayeredTexture::create(gl::Pixel::depth, side, layers)),
         layers_(gl::Framebuffer::of_layers({&texture_, &depth_})),
-        pixels_(texture_, way) {}
+        pixels_(texture_, mode) {}
 
   // Behind windows, except where casters close them, if these are wanted too.
   void draw(Geometry& geometry, int layers, bool casters) {
@@ -198,7 +198,7 @@ class Identities {
 
 class InteriorTarget : public Target {
  public:
-  InteriorTarget(int side, int layers, Way way) : identities_(side, layers, way) {}
+  InteriorTarget(int side, int layers, Mode mode) : identities_(side, layers, mode) {}
 
   void draw(Geometry& geometry, int layers) override { identities_.draw(geometry, layers, true); }
 
@@ -216,8 +216,8 @@ class InteriorTarget : public Target {
 
 class ShadedInteriorTarget : public Target {
  public:
-  ShadedInteriorTarget(int side, int layers, Way way)
-      : luminance_(side, layers, way), identities_(side, layers, way) {}
+  ShadedInteriorTarget(int side, int layers, Mode mode)
+      : luminance_(side, layers, mode), identities_(side, layers, mode) {}
 
   void draw(Geometry& geometry, int layers) override {
     luminance_.draw(geometry, layers);
@@ -258,21 +258,21 @@ std::size_t pixel_bytes(Kind kind) {
 }  // namespace
 
 std::unique_ptr<Target> make_target(Kind kind, int side, int layers, Summing& summing) {
-  Way const way = summing.way();
+  Mode const mode = summing.mode();
   switch (kind) {
     case Kind::unscheduled:
       return std::make_unique<SummedTarget>(
           gl::LayeredTexture::create(gl::Pixel::real, side, layers), summing, draw_unscheduled);
     case Kind::scheduled:
-      return std::make_unique<ScheduledTarget>(side, layers, way);
+      return std::make_unique<ScheduledTarget>(side, layers, mode);
     case Kind::interior:
-      return std::make_unique<InteriorTarget>(side, layers, way);
+      return std::make_unique<InteriorTarget>(side, layers, mode);
     case Kind::shaded_interior:
-      return std::make_unique<ShadedInteriorTarget>(side, layers, way);
+      return std::make_unique<ShadedInteriorTarget>(side, layers, mode);
     case Kind::opaque:
       break;
   }
-  if (way == Way::when_asked) return std::make_unique<StencilTarget>(side, layers);
+  if (mode == Mode::when_asked) return std::make_unique<StencilTarget>(side, layers);
   return std::make_unique<SummedTarget>(gl::LayeredTexture::create(gl::Pixel::unit, side, layers),
                                         summing, draw_lit);
 }
@@ -289,7 +289,7 @@ std::size_t layer_bytes(Kind kind, int side, Summing const& summing) {
     case Kind::shaded_interior:
       break;
   }
-  return summing.way() == Way::ahead ? 2 * bytes : bytes;
+  return summing.mode() == Mode::ahead ? 2 * bytes : bytes;
 }
 
 }  // namespace gpu_shading

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "backends/opengl/raster/geometry.h"
-#include "backends/opengl/raster/luminance_by_key.h"
 #include "backends/opengl/raster/reduction.h"
+#include "backends/opengl/raster/schedule_keys.h"
 
 namespace gpu_shading {
 

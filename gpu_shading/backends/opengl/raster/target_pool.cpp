@@ -4,7 +4,7 @@
 
 namespace gpu_shading {
 
-int TargetPool::most_layers(Kind kind, int side) const {
+int TargetPool::max_layers(Kind kind, int side) const {
   std::size_t const fit = bounds_.target / layer_bytes(kind, side, summing_);
   return static_cast<int>(
       std::clamp<std::size_t>(fit, 1, static_cast<std::size_t>(bounds_.layers)));

@@ -25,7 +25,7 @@ class TargetPool {
   TargetPool(Bounds const& bounds, LuminanceSum how) : bounds_(bounds), summing_(how) {}
 
   // Number of views of this kind that may be drawn at once.
-  int most_layers(Kind kind, int side) const;
+  int max_layers(Kind kind, int side) const;
 
   // A target to draw to, which is taken until it is given back; empty if the targets in use leave
   // no memory.

@@ -4,7 +4,7 @@
 
 #include "gpu_shading/renderer.h"
 #include "model/extensions/extension_fields.h"
-#include "model/extensions/field_text.h"
+#include "model/extensions/field.h"
 #include "model/idf/extension_objects.h"
 #include "model/idf/fields.h"
 #include "model/idf/model_file.h"
@@ -66,8 +66,8 @@ TEST(Extensions, ValuesAreOfTheTypesOfTheirFields) {
 }
 
 TEST(Extensions, DictionaryAndLibraryHaveTheSameLimits) {
-  EXPECT_EQ(extension::settings::error.minimum->value, RendererOptions::least_error);
-  EXPECT_EQ(extension::settings::error.maximum->value, RendererOptions::most_error);
+  EXPECT_EQ(extension::settings::error.minimum->value, RendererOptions::min_error);
+  EXPECT_EQ(extension::settings::error.maximum->value, RendererOptions::max_error);
   EXPECT_EQ(parse_number(std::string(extension::settings::error.blank)), Options::default_error);
   EXPECT_EQ(parse_number(std::string(extension::perforated_screen::opacity_threshold.blank)),
             ScreenTexture{}.threshold);

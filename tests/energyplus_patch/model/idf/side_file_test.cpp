@@ -1,7 +1,5 @@
 // A side file is read as a whole, or refused: none of its objects is dropped in silence.
 
-#include "model/idf/side_file.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -9,6 +7,7 @@
 #include <fstream>
 
 #include "gpu_shading/error.h"
+#include "model/idf/extension_objects.h"
 #include "model/idf/model_file.h"
 #include "platform/process.h"
 

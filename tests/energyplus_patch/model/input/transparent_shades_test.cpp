@@ -35,8 +35,12 @@ TransparentShades read(std::string const& shades) {
   return read_transparent_shades(objects, read_shading_input(objects), testing::TempDir());
 }
 
+std::shared_ptr<Transmittance const> model_of(FilterFactor const& factor) {
+  return std::get<AngularTransmittance>(factor).model;
+}
+
 double tau(TransparentShades const& shades, std::string const& surface, double angle) {
-  return (*shades.by_surface.at(surface).transmittance)(angle * degree);
+  return (*model_of(shades.by_surface.at(surface).solar))(angle * degree);
 }
 
 std::string refusal(std::string const& shade) {
@@ -101,7 +105,7 @@ TEST(TransparentShades, ConstructionsHaveVisibleTransmittance) {
   auto const visible = [](std::string const& construction, double angle, std::string const& more) {
     auto const shades =
         read(more + "GPUShading:TransparentShade,S,Pane 1,Construction," + construction + ";");
-    return (*shades.by_surface.at("PANE 1").visible)(angle * degree);
+    return (*model_of(shades.by_surface.at("PANE 1").visible))(angle * degree);
   };
   std::string const tinted =
       "WindowMaterial:Glazing,Tinted,SpectralAverage,,0.006,0.3,0.05,0.05,0.8,0.08,0.08,0,0.84,"
@@ -119,7 +123,8 @@ TEST(TransparentShades, ConstructionsHaveVisibleTransmittance) {
   }
   // Other models have one transmittance.
   auto const shades = read("GPUShading:TransparentShade,S,Pane 1,Constant,0.4;");
-  EXPECT_EQ(shades.by_surface.at("PANE 1").visible, shades.by_surface.at("PANE 1").transmittance);
+  EXPECT_EQ(model_of(shades.by_surface.at("PANE 1").visible),
+            model_of(shades.by_surface.at("PANE 1").solar));
 }
 
 TEST(TransparentShades, PatternNamesSeveralSurfaces) {

@@ -8,6 +8,7 @@
 
 #include "gpu_shading/error.h"
 #include "model/idf/model_file.h"
+#include "model/options/option_table.h"
 #include "support/refusal.h"
 
 namespace gpu_shading::energyplus {
@@ -36,7 +37,7 @@ TEST(Options, OurFlagsAreTakenAndEnergyPlusKeepsItsOwn) {
   EXPECT_EQ(choices.mode, Mode::automatic);
   EXPECT_EQ(choices.update, (Update{true}));
   ASSERT_TRUE(choices.device);
-  EXPECT_EQ(choices.device->index, 3);
+  EXPECT_EQ(choices.device->device, numbered_device(3));
 }
 
 TEST(Options, OnAndOffInOtherWords) {
@@ -60,7 +61,7 @@ TEST(Options, QuietNeedsNoValueAndThreadsDo) {
   EXPECT_EQ(take(to_flags(choices)).quiet, true);
   for (auto const* const bad : {"0", "-1", "1.5", "many", ""}) {
     EXPECT_THAT(refusal({fmt::format("--gpu-shading-threads={}", bad)}),
-                HasSubstr("expected a whole number from 1"));
+                HasSubstr("expected an integer from 1 to 4096"));
   }
 }
 
@@ -90,16 +91,40 @@ TEST(Options, BadValuesAreNamedWithWhatWasExpected) {
 }
 
 TEST(Options, SamplingIsNamed) {
-  auto const fine = take({"--gpu-shading-update", "sampled:Paper-Fine"}).update;
+  auto const fine = take({"--gpu-shading-update", "sampled:Fine"}).update;
   ASSERT_TRUE(fine);
   EXPECT_TRUE(fine->every_timestep);
-  EXPECT_EQ(fine->sampling, (Sampling{Sampling::Density::fine, true}));
-  for (auto const* const name : {"idf", "timestep", "sampled:medium", "sampled:paper-coarse"}) {
+  EXPECT_EQ(fine->sampling, (Sampling{Sampling::Density::fine, false}));
+  for (auto const* const name : {"idf", "timestep", "sampled:medium", "sampled:coarse"}) {
     auto const flag = fmt::format("--gpu-shading-update={}", name);
     EXPECT_THAT(to_flags(take({flag})), ElementsAre(flag));
   }
   EXPECT_THAT(refusal({"--gpu-shading-update=sampled"}), HasSubstr("is \"sampled\""));
-  EXPECT_THAT(refusal({"--gpu-shading-update=sampled:better"}), HasSubstr("paper-medium"));
+  EXPECT_THAT(refusal({"--gpu-shading-update=sampled:better"}), HasSubstr("or sampled:coarse"));
+  EXPECT_THAT(refusal({"--gpu-shading-update=sampled:paper-medium"}), HasSubstr("expected idf"));
+}
+
+// Every row stores its value somewhere of its own, and finds it again.
+TEST(Options, RowsAreWrittenAsTheyAreRead) {
+  std::vector<std::string> all;
+  for (auto const& row : option_rows()) {
+    auto const value = row.value.words.empty() ? "/some/path" : std::string(row.value.words.back());
+    auto const number = row.value.kind == FieldKind::integer ? "7" : "0.01";
+    bool const is_number =
+        row.value.kind == FieldKind::integer || row.value.kind == FieldKind::real;
+    auto const flag = fmt::format("{}={}", row.flag(), is_number ? number : value);
+    auto const choices = take({flag});
+    EXPECT_THAT(to_flags(choices), ElementsAre(flag));
+    EXPECT_EQ(choices.any(), row.audience <= Audience::experts) << flag;
+    Choices filled;
+    filled.fill_from(choices);
+    EXPECT_THAT(to_flags(filled), ElementsAre(flag));
+    if (auto const variable = row.variable(); !variable.empty()) {
+      setenv(variable.c_str(), flag.substr(flag.find('=') + 1).c_str(), 1);
+      EXPECT_THAT(to_flags(read_environment()), ElementsAre(flag));
+      unsetenv(variable.c_str());
+    }
+  }
 }
 
 TEST(Options, FlagsAreWrittenAsTheyAreRead) {
@@ -110,8 +135,7 @@ TEST(Options, FlagsAreWrittenAsTheyAreRead) {
       "--gpu-shading-file=/a b/c.idf", "--gpu-shading-report=/r\n--gpu-shading=off",
       "--gpu-shading-cache=/c",        "--gpu-shading-assets=any"};
   EXPECT_EQ(to_flags(take(flags)), flags);
-  EXPECT_THAT(to_flags(take({"--gpu-shading-device=software"})),
-              ElementsAre("--gpu-shading-device=cpu"));
+  EXPECT_THAT(refusal({"--gpu-shading-device=software"}), HasSubstr("expected auto, cpu or"));
   EXPECT_THAT(to_flags(take({"--gpu-shading-cache=off"})), ElementsAre("--gpu-shading-cache=off"));
 }
 
@@ -182,8 +206,7 @@ TEST(Options, CacheIsOffUnlessAFolderIsNamedAndOffOverridesTheEnvironment) {
 TEST(Options, SettingsNameTheirField) {
   EXPECT_EQ(refusal_of([] { read_settings(read_idf("GPUShading:Settings,,hourly;")); }),
             "GPUShading:Settings: Update Frequency is \"hourly\", expected idf, timestep, "
-            "sampled:fine, sampled:medium, sampled:coarse, sampled:paper-fine, "
-            "sampled:paper-medium or sampled:paper-coarse");
+            "sampled:fine, sampled:medium or sampled:coarse");
   auto objects = read_idf("GPUShading:Settings,64,,,0.002;");
   objects[0].file = "model.idf";
   EXPECT_EQ(refusal_of([&] { read_settings(objects); }),

@@ -1,5 +1,3 @@
-#include "model/site/imported_geometry.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 #include "gpu_shading/local_axes.h"
 #include "model/idf/model_file.h"
 #include "model/model_reader.h"
+#include "model/site/surroundings.h"
 #include "model/site/texture_axes.h"
 #include "surroundings_test.h"
 

@@ -8,7 +8,6 @@
 #include <glm/trigonometric.hpp>
 
 #include "model/idf/model_file.h"
-#include "model/site/calendar_date.h"
 #include "platform/process.h"
 #include "support/refusal.h"
 

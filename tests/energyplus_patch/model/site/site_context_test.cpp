@@ -1,12 +1,10 @@
-#include "model/site/site_context.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "gpu_shading/error.h"
 #include "model/idf/model_file.h"
 #include "model/model_reader.h"
-#include "model/site/own_building.h"
+#include "model/site/surroundings.h"
 #include "surroundings_test.h"
 
 namespace gpu_shading::energyplus {

@@ -15,11 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "routes/opengl/queries/matrix_view.h"
+#include "calculation/plain_scene.h"
 #include "routes/opengl/queries/named_surfaces.h"
 #include "routes/opengl/queries/recorder.h"
-#include "routes/opengl/queries/rendered_model.h"
-#include "routes/opengl/queries/triangle_polygons.h"
 #include "support/refusal.h"
 
 namespace gpu_shading::energyplus {
@@ -145,34 +143,58 @@ class Penumbra {
 
 // Takes down what it is asked.
 struct Asked {
-  std::vector<DrawnRange> surfaces;
+  std::vector<std::size_t> corners;  // of the surfaces
   std::vector<glm::dvec3> suns;
-  std::vector<std::size_t> receivers;
+  std::vector<SurfaceId> receivers;
 };
 
-class FixedAnswers : public BoundaryAnswers {
+class FixedAnswers : public ShadingCalculation {
  public:
-  explicit FixedAnswers(Asked& asked) : asked_(asked) {}
+  explicit FixedAnswers(Asked& asked) : asked_(asked) { asked_.corners.clear(); }
 
-  void set_model(std::span<glm::vec3 const> /*vertices*/,
-                 std::span<DrawnRange const> surfaces) override {
-    asked_.surfaces.assign(surfaces.begin(), surfaces.end());
+  SurfaceId add(Surface surface) override {
+    asked_.corners.push_back(surface.polygon.outline.size());
+    return static_cast<SurfaceId>(size() - 1);
   }
-  double sunlit_area(glm::dvec3 const& towards_sun, std::size_t surface) override {
-    asked_.suns.push_back(towards_sun);
-    asked_.receivers.push_back(surface);
+  std::size_t size() const override { return asked_.corners.size(); }
+  bool wants_mirrored() const override { return false; }
+  SurfaceId add_mirrored(SurfaceId original) override { return original; }
+  void start(Simulation /*simulation*/) override {}
+  void set_time(Moment /*moment*/) override {}
+  void set_sun(SunDirection sun) override { asked_.suns.push_back(to_vector(sun)); }
+  double projected_sunlit_area(SurfaceId receiver) override {
+    asked_.receivers.push_back(receiver);
     return 0.25;
   }
-  std::vector<double> interior_areas(glm::dvec3 const& /*towards_sun*/, std::size_t window,
-                                     std::vector<std::size_t> const& interiors) override {
+  std::vector<double> projected_sunlit_areas(std::span<SurfaceId const> receivers) override {
+    std::vector<double> areas;
+    for (auto const receiver : receivers) areas.push_back(projected_sunlit_area(receiver));
+    return areas;
+  }
+  std::vector<double> interior_areas(SurfaceId window,
+                                     std::vector<SurfaceId> const& interiors) override {
     asked_.receivers.push_back(window);
     asked_.receivers.insert(asked_.receivers.end(), interiors.begin(), interiors.end());
     return std::vector<double>(interiors.size(), 0.125);
   }
+  double daylight_transmittance(Ray const& /*ray*/, int /*hour*/) override { return 1.0; }
+  void begin_daylighting() override {}
+  std::string vendor() override { return {}; }
+  void finish() override {}
 
  private:
   Asked& asked_;
 };
+
+std::shared_ptr<DrawnModel> fixed_model(Asked& asked) {
+  return std::make_shared<DrawnModel>([&] { return std::make_unique<FixedAnswers>(asked); });
+}
+
+std::shared_ptr<DrawnModel> plain_model() {
+  RendererOptions options;
+  options.device.device = DeviceId{};
+  return std::make_shared<DrawnModel>([options] { return std::make_unique<PlainScene>(options); });
+}
 
 TEST(TrianglePolygons, OutlineAndHoleOfAFrame) {
   // Between the squares of 3 m and of 1 m, both about (1.5, 1.5).
@@ -262,7 +284,7 @@ TEST(NamedSurfaces, OneThatIsNotListedIsRefused) {
 
 TEST(Recorder, ReadsDirectionsFromMatrices) {
   Asked asked;
-  Recorder recorder(std::make_unique<FixedAnswers>(asked));
+  Recorder recorder(fixed_model(asked));
   Penumbra penumbra({rectangle({0, 0, 0}, 1, 1)}, 512, recorder);
   for (float const azimuth : {0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F}) {
     for (float const altitude : {0.01F, 0.5F, 1.0F, 1.5F}) {
@@ -277,7 +299,7 @@ TEST(Recorder, ReadsDirectionsFromMatrices) {
 
 TEST(Recorder, AnswersWithAreaOfPixels) {
   Asked asked;
-  Recorder recorder(std::make_unique<FixedAnswers>(asked));
+  Recorder recorder(fixed_model(asked));
   Penumbra penumbra({rectangle({0, 0, 0}, 1, 1)}, 512, recorder);
   penumbra.set_sun(2.0F, 0.7F);
   penumbra.submit();
@@ -287,49 +309,47 @@ TEST(Recorder, AnswersWithAreaOfPixels) {
 
 TEST(Recorder, SurfacesOfOneSunHaveOneDirection) {
   Asked asked;
-  Recorder recorder(std::make_unique<FixedAnswers>(asked));
+  Recorder recorder(fixed_model(asked));
   Penumbra penumbra({rectangle({0, 0, 0}, 1, 1), rectangle({40, 30, 7}, 3, 0.1F),
                      rectangle({-20, 9, 1}, 0.01F, 20)},
                     512, recorder);
   penumbra.set_sun(2.0F, 0.7F);
   penumbra.submit();
   for (std::size_t i = 0; i < 3; ++i) penumbra.retrieve(i);
-  ASSERT_EQ(asked.suns.size(), 3U);
-  EXPECT_EQ(asked.suns[0], asked.suns[1]);
-  EXPECT_EQ(asked.suns[0], asked.suns[2]);
+  EXPECT_EQ(asked.suns.size(), 1U);
   EXPECT_THAT(asked.receivers, ElementsAre(0, 1, 2));
 }
 
 // EnergyPlus passes internal mass as an empty polygon.
 TEST(Recorder, SurfacesWithoutVerticesAreNotAskedAbout) {
   Asked asked;
-  Recorder recorder(std::make_unique<FixedAnswers>(asked));
+  Recorder recorder(fixed_model(asked));
   Penumbra penumbra({rectangle({0, 0, 0}, 1, 1), {}, {}, rectangle({2, 0, 0}, 1, 1)}, 512,
                     recorder);
   penumbra.set_sun(2.0F, 0.7F);
   penumbra.submit();
   for (std::size_t i = 0; i < 4; ++i) penumbra.retrieve(i);
   EXPECT_THAT(asked.receivers, ElementsAre(0, 1));
-  EXPECT_THAT(asked.surfaces, ElementsAre(DrawnRange{0, 6}, DrawnRange{6, 6}));
+  EXPECT_THAT(asked.corners, ElementsAre(4, 4));
 }
 
 // What no query has drawn may cast shadows all the same.
 TEST(Recorder, UnknownSurfacesAreTakenByTriangle) {
   Asked asked;
-  Recorder recorder(std::make_unique<FixedAnswers>(asked));
+  Recorder recorder(fixed_model(asked));
   Penumbra penumbra({rectangle({0, 0, 0}, 1, 1), rectangle({2, 0, 0}, 1, 1)}, 512, recorder);
   penumbra.set_sun(2.0F, 0.7F);
   penumbra.submit(1);
   penumbra.retrieve(1);
-  EXPECT_THAT(asked.surfaces, ElementsAre(DrawnRange{0, 3}, DrawnRange{3, 3}, DrawnRange{6, 6}));
+  EXPECT_THAT(asked.corners, ElementsAre(3, 3, 4));
   penumbra.submit(0);
   penumbra.retrieve(0);
-  EXPECT_THAT(asked.surfaces, ElementsAre(DrawnRange{0, 6}, DrawnRange{6, 6}));
+  EXPECT_THAT(asked.corners, ElementsAre(4, 4));
 }
 
 TEST(Recorder, FindsTheWindowOfInteriorQuestions) {
   Asked asked;
-  Recorder recorder(std::make_unique<FixedAnswers>(asked));
+  Recorder recorder(fixed_model(asked));
   Penumbra penumbra({rectangle({0, 0, 0}, 9, 9), rectangle({1, 1, 3}, 1, 1),
                      rectangle({0, 0, 1}, 2, 2), rectangle({3, 3, 1}, 2, 2)},
                     512, recorder);
@@ -344,16 +364,14 @@ TEST(Recorder, FindsTheWindowOfInteriorQuestions) {
 
 TEST(Recorder, RefusesAQueryThatWasNotMade) {
   Asked asked;
-  Recorder recorder(std::make_unique<FixedAnswers>(asked));
+  Recorder recorder(fixed_model(asked));
   EXPECT_EQ(refusal_of([&] { recorder.result(7); }),
             "EnergyPlus asks for a query that it did not make");
 }
 
 // A square of 1 m under one that covers its southern half as the sun stands at the zenith.
-TEST(RenderedModel, HalfCoveredSquare) {
-  RendererOptions options;
-  options.device.kind = DeviceChoice::Kind::cpu;
-  Recorder recorder(std::make_unique<RenderedModel>(options));
+TEST(PlainScene, HalfCoveredSquare) {
+  Recorder recorder(plain_model());
   Penumbra penumbra({rectangle({0, 0, 0}, 1, 1), rectangle({-1, -0.5F, 2}, 3, 1)}, 512, recorder);
   penumbra.set_sun(0.0F, quarter_turn - 1e-4F);
   penumbra.submit();
@@ -366,10 +384,8 @@ TEST(RenderedModel, HalfCoveredSquare) {
 }
 
 // As OpenGL draws them: whichever way the triangles turn.
-TEST(RenderedModel, SurfacesHaveTwoSides) {
-  RendererOptions options;
-  options.device.kind = DeviceChoice::Kind::cpu;
-  Recorder recorder(std::make_unique<RenderedModel>(options));
+TEST(PlainScene, SurfacesHaveTwoSides) {
+  Recorder recorder(plain_model());
   Penumbra penumbra({rectangle({0, 0, 0}, 1, 1), rectangle({-1, -0.5F, -2}, 3, 1)}, 512, recorder);
   penumbra.set_sun(0.0F, -quarter_turn + 1e-4F);
   penumbra.submit();
@@ -379,20 +395,18 @@ TEST(RenderedModel, SurfacesHaveTwoSides) {
 
 TEST(Recorder, KnowsAWindowThatWasNotAskedAbout) {
   Asked asked;
-  Recorder recorder(std::make_unique<FixedAnswers>(asked));
+  Recorder recorder(fixed_model(asked));
   Penumbra penumbra(
       {rectangle({0, 0, 0}, 2, 4), rectangle({1.5F, 1, 3}, 1, 1), rectangle({2, 0, 0}, 2, 4)}, 512,
       recorder);
   penumbra.set_sun(0.0F, 1.0F);
   auto const interiors = penumbra.interiors(1, {0, 2});
   EXPECT_NEAR(interiors[1], 0.125, 1e-5);
-  EXPECT_THAT(asked.surfaces, ElementsAre(DrawnRange{0, 6}, DrawnRange{6, 6}, DrawnRange{12, 6}));
+  EXPECT_THAT(asked.corners, ElementsAre(4, 4, 4));
 }
 
-TEST(RenderedModel, FloorBehindASkylight) {
-  RendererOptions options;
-  options.device.kind = DeviceChoice::Kind::cpu;
-  Recorder recorder(std::make_unique<RenderedModel>(options));
+TEST(PlainScene, FloorBehindASkylight) {
+  Recorder recorder(plain_model());
   Penumbra penumbra(
       {rectangle({0, 0, 0}, 2, 4), rectangle({2, 0, 0}, 2, 4), rectangle({1.5F, 1, 3}, 1, 1)}, 1024,
       recorder);

@@ -156,20 +156,6 @@ TEST(SunlitFractions, ScheduleFileIsOfALeapYear) {
   EXPECT_EQ(lines[1 + 60 * 48 + 24], "0,0");
 }
 
-TEST(SunlitFractions, ImportedFileHasTheYearsDays) {
-  std::ostringstream out;
-  write_imported_file(table_of(3, 1), out);
-  auto const lines = lines_of(out.str());
-  ASSERT_EQ(lines.size(), 1U + 365U * 48U);
-  EXPECT_EQ(lines[0], "Surface Name,WALL,WINDOW,");
-  EXPECT_EQ(lines[1], " 01/01 00:30,0.00000000,0.00000000,");
-  EXPECT_EQ(lines[1 + 59 * 48 + 23], " 03/01 12:00,0.25000000,1.00000000,");
-  EXPECT_THAT(lines.back(), HasSubstr(" 12/31 24:00,"));
-  std::ostringstream leap;
-  write_imported_file(table_of(2, 29), leap);
-  EXPECT_EQ(lines_of(leap.str()).size(), 1U + 366U * 48U);
-}
-
 std::string shown(bool terminal, Progress::Clock::duration patience) {
   std::FILE* const file = std::tmpfile();
   {

@@ -12,7 +12,6 @@
 #include "platform/process.h"
 #include "scene/digest.h"
 #include "tasks/samples/sample_set.h"
-#include "tasks/samples/sample_tables.h"
 #include "tasks/samples/take_samples.h"
 
 namespace gpu_shading::energyplus {

@@ -28,9 +28,10 @@ std::shared_ptr<PerforatedScreen const> mesh() {
 
 void finish(Surface& surface, Finish how, std::uint32_t which) {
   if (how == Finish::mixed) how = static_cast<Finish>(which % 4);
-  if (how == Finish::shaded) surface.transmittance = half();
-  if (how == Finish::scheduled) surface.schedule = static_cast<int>(which % 3);
-  if (how == Finish::screened && surface.polygon.outline.size() == 4) surface.screen = mesh();
+  if (how == Finish::shaded) surface.filter.set(AngularTransmittance{half()});
+  if (how == Finish::scheduled) surface.filter.schedule = static_cast<int>(which % 3);
+  if (how == Finish::screened && surface.polygon.outline.size() == 4)
+    surface.filter.set(PerforatedSheet{mesh()});
 }
 
 // Random scenes on one site, each with its own casters around its receiver.
@@ -60,9 +61,9 @@ struct Site {
 std::vector<SunDirection> const suns{sun_at(100, 15), sun_at(150, 40), sun_at(200, 65),
                                      sun_at(240, 30), sun_at(290, 50), sun_at(30, 25)};
 
-Renderer renderer_with(Scene const& scene, int most_layers, std::optional<LuminanceSum> sum,
+Renderer renderer_with(Scene const& scene, int max_layers, std::optional<LuminanceSum> sum,
                        std::optional<int> resolution) {
-  return gl_renderer(scene, resolution, {.sum = sum, .most_layers = most_layers});
+  return gl_renderer(scene, resolution, {.sum = sum, .max_layers = max_layers});
 }
 
 void expect_equal(Sunlit const& a, Sunlit const& b) {
@@ -162,10 +163,10 @@ TEST(Batches, TwoThousandReceiversInOneCall) {
     Surface canopy{"canopy", level(x - 0.5, y - 0.5, 0.5, 0.5 + shaded, 2)};
     double passes = 0.0;
     if (i % 3 == 1) {
-      canopy.transmittance = half();
+      canopy.filter.set(AngularTransmittance{half()});
       passes = 0.5;
     } else if (i % 3 == 2) {
-      canopy.schedule = 0;
+      canopy.filter.schedule = 0;
       passes = factors[0];
     }
     scene.add(canopy);
@@ -226,7 +227,7 @@ TEST(Batches, OfCountedViewsAreEqualToTheBitToOneAtATime) {
 TEST(Batches, OfMoreViewsThanAreWaitedForAtATime) {
   Scene scene;
   scene.add({"window", south_facing(0, 0, 0, 3, 2)});
-  scene.add({"shade", level(-1, -2, 2.1, 5, 2), Casting::always, half()});
+  scene.add({"shade", level(-1, -2, 2.1, 5, 2), Casting::always, {{AngularTransmittance{half()}}}});
   Renderer together = renderer_with(scene, 0, std::nullopt, 8);
   Renderer apart = renderer_with(scene, 1, std::nullopt, 8);
   constexpr int questions = 17'000;

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <deque>
 
-#include "backends/checked/view_comparison.h"
+#include "backends/checked/checked_backend.h"
 #include "backends/cpu/cpu_backend.h"
 #include "backends/open_backend.h"
 #include "geometry/triangulation.h"
@@ -63,7 +63,7 @@ class Both : public ViewBackend {
 };
 
 class CheckedDevice : public testing::TestWithParam<CasterKind> {};
-INSTANTIATE_TEST_SUITE_P(Of, CheckedDevice, testing::ValuesIn(caster_kinds));
+INSTANTIATE_TEST_SUITE_P(Of, CheckedDevice, testing::ValuesIn(caster_kinds()));
 
 TEST_P(CheckedDevice, DiffersByMuchLessThanTheTolerance) {
   Room room;
@@ -119,7 +119,7 @@ TEST_P(CheckedDevice, IsNotComplainedAbout) {
     sunlit(renderer, lot.sun, lot.receiver);
     renderer.interior_sunlit_areas(lot.sun, lot.receiver, lot.casters);
   }
-  EXPECT_EQ(renderer.device().index, 0);
+  EXPECT_EQ(renderer.device().id, numbered_device(0));
   EXPECT_GT(renderer.statistics().count_seconds, 0.0);  // they were compared
 }
 

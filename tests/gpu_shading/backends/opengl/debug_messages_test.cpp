@@ -39,7 +39,7 @@ TEST(DebugMessages, OfUndefinedBehaviourAreErrors) {
 }
 
 TEST(DebugMessages, AreNotLoggedInOrdinaryContexts) {
-  auto const device = egl::open({DeviceChoice::Kind::index, 0});
+  auto const device = egl::open({numbered_device(0)});
   ASSERT_TRUE(device);
   egl::Current const current = device->context.make_current();
   glEnable(GL_TEXTURE_3D);

@@ -30,12 +30,18 @@ std::string message_of(RendererOptions const& options) {
   return "";
 }
 
+std::vector<DeviceInfo> opengl_devices(std::vector<std::string>* failures = nullptr) {
+  auto devices = list_devices(failures);
+  std::erase_if(devices, [](DeviceInfo const& device) { return device.id.is_cpu(); });
+  return devices;
+}
+
 TEST(Devices, AreNumberedFromZeroAndSayWhatTheyAre) {
   std::vector<std::string> failures;
-  auto const devices = list_devices(&failures);
+  auto const devices = opengl_devices(&failures);
   ASSERT_FALSE(devices.empty()) << testing::PrintToString(failures);
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    EXPECT_EQ(devices[i].index, static_cast<int>(i));
+    EXPECT_EQ(devices[i].id, numbered_device(static_cast<int>(i)));
     EXPECT_FALSE(devices[i].renderer.empty());
     EXPECT_FALSE(devices[i].version.empty());
     EXPECT_GE(devices[i].max_resolution, 4096);
@@ -51,32 +57,33 @@ TEST(Devices, AreNumberedFromZeroAndSayWhatTheyAre) {
 TEST(Devices, NeedNoDisplay) {
   // What a user over ssh may have: a display that is not there.
   setenv("DISPLAY", ":987", 1);
-  EXPECT_FALSE(list_devices().empty());
+  EXPECT_FALSE(opengl_devices().empty());
   unsetenv("DISPLAY");
-  EXPECT_FALSE(list_devices().empty());
+  EXPECT_FALSE(opengl_devices().empty());
 }
 
-TEST(Devices, EachByItsIndex) {
+TEST(Devices, EachByItsId) {
   for (DeviceInfo const& info : list_devices()) {
-    Renderer const renderer(some_scene(), {{DeviceChoice::Kind::index, info.index}});
+    Renderer const renderer(some_scene(), {parse_device_choice(device_name(info.id))});
     EXPECT_EQ(renderer.device().renderer, info.renderer);
-    EXPECT_EQ(renderer.device().index, info.index);
+    EXPECT_EQ(renderer.device().id, info.id);
   }
 }
 
-TEST(Devices, AnIndexTooHighIsNamedWithHowManyThereAre) {
-  auto const found = list_devices().size();
-  RendererOptions const options{{DeviceChoice::Kind::index, 77}};
+TEST(Devices, ANumberTooHighIsNamedWithHowManyThereAre) {
+  auto const found = opengl_devices().size();
+  RendererOptions const options{{numbered_device(77)}};
   EXPECT_THROW(Renderer(some_scene(), options), DeviceError);
   std::string const message = message_of(options);
   EXPECT_NE(message.find("77"), std::string::npos) << message;
   EXPECT_NE(message.find(std::to_string(found)), std::string::npos) << message;
 }
 
-TEST(Devices, TheCpuIsNoneOfThem) {
-  Renderer const renderer(some_scene(), {{DeviceChoice::Kind::cpu}});
+TEST(Devices, TheCpuIsTheLast) {
+  EXPECT_TRUE(list_devices().back().id.is_cpu());
+  Renderer const renderer(some_scene(), {{DeviceId{}}});
   EXPECT_TRUE(renderer.device().software);
-  EXPECT_EQ(renderer.device().index, -1);
+  EXPECT_EQ(renderer.device().id, list_devices().back().id);
   EXPECT_GE(renderer.device().threads, 1);
   EXPECT_EQ(describe(renderer.device()), describe(cpu_device()));
   EXPECT_EQ(describe(renderer.device()).find("CPU ("), 0U);
@@ -87,7 +94,7 @@ TEST(Devices, AGpuComesBeforeTheCpu) {
   auto const gpu = std::find_if(devices.begin(), devices.end(),
                                 [](DeviceInfo const& device) { return !device.software; });
   Renderer const renderer(some_scene(), {});
-  EXPECT_EQ(renderer.device().index, gpu == devices.end() ? -1 : gpu->index);
+  EXPECT_EQ(renderer.device().id, gpu == devices.end() ? DeviceId{} : gpu->id);
 }
 
 TEST(Resolution, OutOfRangeIsNamedWithTheRange) {

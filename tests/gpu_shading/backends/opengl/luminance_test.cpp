@@ -14,7 +14,7 @@
 
 #include "each_backend.h"
 #include "gpu_shading/error.h"
-#include "gpu_shading/fraction_colour.h"
+#include "gpu_shading/image.h"
 #include "gpu_shading/transmittance.h"
 #include "support/exact.h"
 #include "support/gl_renderer.h"
@@ -91,8 +91,10 @@ TEST_P(Luminance, OverlappingShadesMultiply) {
     scene.add({"receiver", level(0, 0, 0, 1, 1)});
     double product = 1.0;
     for (std::size_t i = 0; i < stacked; ++i) {
-      scene.add({"shade", level(-5, -5, 0.3 + 0.1 * static_cast<double>(i), 11, 11),
-                 Casting::always, constant(taus[i])});
+      scene.add({"shade",
+                 level(-5, -5, 0.3 + 0.1 * static_cast<double>(i), 11, 11),
+                 Casting::always,
+                 {{AngularTransmittance{constant(taus[i])}}}});
       product *= taus[i];
     }
     Renderer renderer = renderer_of(scene);
@@ -111,8 +113,10 @@ Scene stack(std::size_t shades) {
     glm::dvec3 const a(0.8 * std::cos(turn), 0.8 * std::sin(turn), 0.05 * n);
     glm::dvec3 const b(-0.7 * std::sin(turn), 0.7 * std::cos(turn), 0.1);
     glm::dvec3 const centre(0.4 + 0.05 * n, 0.5 - 0.04 * n, 0.2 + 0.07 * n);
-    scene.add({"shade", parallelogram(centre - 0.5 * (a + b), a, b), Casting::always,
-               i % 2 == 0 ? constant(taus[i]) : glass()});
+    scene.add({"shade",
+               parallelogram(centre - 0.5 * (a + b), a, b),
+               Casting::always,
+               {{AngularTransmittance{i % 2 == 0 ? constant(taus[i]) : glass()}}}});
   }
   return scene;
 }
@@ -148,7 +152,7 @@ TEST_P(Luminance, TheOrderOfShadesDoesNotMatter) {
 TEST_P(Luminance, BothFacesTransmitAlike) {
   Scene up;
   up.add({"receiver", level(0, 0, 0, 1, 1)});
-  up.add({"shade", level(0, 0, 0.3, 1, 1), Casting::always, glass()});
+  up.add({"shade", level(0, 0, 0.3, 1, 1), Casting::always, {{AngularTransmittance{glass()}}}});
   Scene down;
   down.add(up[0]);
   Surface turned = up[1];
@@ -166,8 +170,8 @@ TEST_P(Luminance, OpaqueAndTransparentTogether) {
     Scene scene;
     for (SurfaceId id = 0; id < random.scene.size(); ++id) {
       Surface surface = random.scene[id];
-      if (id % 3 == 1) surface.transmittance = glass();
-      if (id % 3 == 2) surface.transmittance = constant(0.1 * id);
+      if (id % 3 == 1) surface.filter.set(AngularTransmittance{glass()});
+      if (id % 3 == 2) surface.filter.set(AngularTransmittance{constant(0.1 * id)});
       scene.add(surface);
     }
     Renderer renderer = renderer_of(scene);
@@ -186,7 +190,7 @@ TEST(Luminance, OfOpaqueShadesIsTheirCount) {
       Scene scene;
       for (SurfaceId id = 0; id < random.scene.size(); ++id) {
         Surface surface = random.scene[id];
-        surface.transmittance = constant(0.0);
+        surface.filter.set(AngularTransmittance{constant(0.0)});
         scene.add(surface);
       }
       Renderer counting = renderer_of(random.scene, 512, how);
@@ -211,7 +215,7 @@ TEST(Luminance, CountedIsAsDrawn) {
     Scene scene;
     for (SurfaceId id = 0; id < random.scene.size(); ++id) {
       Surface surface = random.scene[id];
-      if (id % 3 != 0) surface.transmittance = constant(0.5);
+      if (id % 3 != 0) surface.filter.set(AngularTransmittance{constant(0.5)});
       scene.add(surface);
     }
     Renderer drawing = renderer_of(scene, 512, by_opengl);
@@ -236,7 +240,7 @@ TEST(Luminance, CountedIsNearlyExact) {
     Scene scene;
     for (SurfaceId id = 0; id < random.scene.size(); ++id) {
       Surface surface = random.scene[id];
-      if (id % 3 != 0) surface.transmittance = constant(id % 3 == 1 ? 0.5 : 0.8);
+      if (id % 3 != 0) surface.filter.set(AngularTransmittance{constant(id % 3 == 1 ? 0.5 : 0.8)});
       scene.add(surface);
     }
     Renderer counting = renderer_of(scene, 512, on_cpu);
@@ -271,8 +275,8 @@ TEST(Luminance, ManyReceiversInOneCall) {
     double const x = 3.0 * i;
     receivers.push_back(scene.add({"receiver", level(x, 0, 0, 1, 1)}));
     Surface canopy{"canopy", level(x + 0.1 + 0.004 * i, 0.2, 0.5, 1, 1)};
-    if (i % 4 == 1) canopy.transmittance = glass();
-    if (i % 4 == 2) canopy.schedule = i % 5;
+    if (i % 4 == 1) canopy.filter.set(AngularTransmittance{glass()});
+    if (i % 4 == 2) canopy.filter.schedule = i % 5;
     if (i % 4 != 3) scene.add(canopy);
   }
   for (LuminanceSum const how : {LuminanceSum::compute, LuminanceSum::readback}) {
@@ -306,7 +310,10 @@ TEST_P(Luminance, ThinRingOfWallUnderAGlassOverhang) {
   wall.holes = {south_facing(0.00025, 0, 0.00025, 2.9995, 2.9995).outline};
   Scene scene;
   scene.add({"wall", wall});
-  scene.add({"overhang", level(0.7, -0.8, 3, 1.9, 0.8), Casting::always, glass()});
+  scene.add({"overhang",
+             level(0.7, -0.8, 3, 1.9, 0.8),
+             Casting::always,
+             {{AngularTransmittance{glass()}}}});
   Renderer renderer = renderer_of(scene);
   SunDirection const sun = sun_at(170, 45);
   EXPECT_NEAR(sunlit(renderer, sun, 0).projected_area / exact::projected_area(scene, sun, 0),
@@ -327,7 +334,7 @@ Scene canopy(int panes_around, int panes_along) {
     glm::dvec3 const depth(0, 12.0 / panes_along, 0);
     for (int i = 0; i < panes_around; ++i) {
       Surface pane{"pane", parallelogram(rib(i, y), rib(i + 1, y) - rib(i, y), depth)};
-      if ((i + along) % 7 != 0) pane.transmittance = glass();
+      if ((i + along) % 7 != 0) pane.filter.set(AngularTransmittance{glass()});
       scene.add(pane);
     }
   }
@@ -348,7 +355,7 @@ Scene with_schedules(Scene const& scene, std::vector<int> const& schedules) {
   Scene scheduled;
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     Surface surface = scene[id];
-    if (id > 0) surface.schedule = schedules[(id - 1) % schedules.size()];
+    if (id > 0) surface.filter.schedule = schedules[(id - 1) % schedules.size()];
     scheduled.add(surface);
   }
   return scheduled;
@@ -359,9 +366,10 @@ Scene at_factors(Scene const& scene, std::vector<double> const& factors) {
   Scene fixed;
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     Surface surface = scene[id];
-    if (surface.schedule >= 0) {
-      surface.transmittance = constant(factors[static_cast<std::size_t>(surface.schedule)]);
-      surface.schedule = -1;
+    if (surface.filter.schedule >= 0) {
+      surface.filter.set(AngularTransmittance{
+          constant(factors[static_cast<std::size_t>(surface.filter.schedule)])});
+      surface.filter.schedule = -1;
     }
     fixed.add(surface);
   }
@@ -408,7 +416,7 @@ TEST_P(Schedules, PartsNameEachCombinationOnce) {
   Scene scene;
   scene.add({"receiver", level(0, 0, 0, 1, 1)});
   auto const shade = [&](double x, double z, int schedule) {
-    scene.add({"shade", level(x, -1, z, 3, 3), Casting::always, nullptr, schedule});
+    scene.add({"shade", level(x, -1, z, 3, 3), Casting::always, {{}, schedule}});
   };
   shade(0.5, 0.1, 3);
   shade(0.75, 0.2, 3);
@@ -434,7 +442,7 @@ TEST_P(Schedules, ManyShadesOfOneAndManyOfTheirOwn) {
     constexpr int sheets = 60;
     for (int i = 0; i < sheets; ++i) {
       scene.add(
-          {"sheet", level(-1, -1, 0.1 + 0.01 * i, 3, 3), Casting::always, nullptr, shared ? 0 : i});
+          {"sheet", level(-1, -1, 0.1 + 0.01 * i, 3, 3), Casting::always, {{}, shared ? 0 : i}});
     }
     Renderer renderer = renderer_of(scene, 64);
     Sunlit const answer = sunlit(renderer, {}, 0);
@@ -447,7 +455,7 @@ TEST(Schedules, TooManyToTellApartIsAnErrorThatNamesTheReceiver) {
   Scene scene;
   scene.add({"the terrace", level(0, 0, 0, 1, 1)});
   for (int i = 0; i < 73; ++i) {
-    scene.add({"sheet", level(-1, -1, 0.1 + 0.01 * i, 3, 3), Casting::always, nullptr, i});
+    scene.add({"sheet", level(-1, -1, 0.1 + 0.01 * i, 3, 3), Casting::always, {{}, i}});
   }
   Renderer renderer = renderer_of(scene, 64, by_opengl);
   try {
@@ -464,8 +472,10 @@ TEST(Schedules, TheCpuTellsAnyNumberApart) {
   scene.add({"receiver", level(0, 0, 0, 1, 1)});
   constexpr int sheets = 200;
   for (int i = 0; i < sheets; ++i) {
-    scene.add({"sheet", level(-1 + 2.0 / sheets * (i + 1), -1, 0.1 + 0.01 * i, 3, 3),
-               Casting::always, nullptr, i});
+    scene.add({"sheet",
+               level(-1 + 2.0 / sheets * (i + 1), -1, 0.1 + 0.01 * i, 3, 3),
+               Casting::always,
+               {{}, i}});
   }
   Renderer renderer = renderer_of(scene, 400, on_cpu);
   Sunlit const answer = sunlit(renderer, {}, 0);
@@ -495,8 +505,8 @@ TEST(Schedules, CountedAreAsDrawn) {
     Scene scene;
     for (SurfaceId id = 0; id < random.scene.size(); ++id) {
       Surface surface = random.scene[id];
-      if (id > 0 && id % 4 != 0) surface.schedule = static_cast<int>(id % 3);
-      if (id % 2 == 1) surface.transmittance = constant(0.5);
+      if (id > 0 && id % 4 != 0) surface.filter.schedule = static_cast<int>(id % 3);
+      if (id % 2 == 1) surface.filter.set(AngularTransmittance{constant(0.5)});
       scene.add(surface);
     }
     Renderer drawing = renderer_of(scene, 512, by_opengl);
@@ -519,9 +529,14 @@ TEST(Schedules, CountedAreAsDrawn) {
 // With a glass overhang and a screen before the window.
 struct ShadedRoom : Room {
   explicit ShadedRoom(bool scheduled) {
-    scene.add({"overhang", level(0.5, -0.5, 2.6, 3, 0.5), Casting::always, glass()});
-    scene.add({"screen", south_facing(1.4, -0.3, 0.5, 1.1, 1.2), Casting::always, nullptr,
-               scheduled ? 2 : -1});
+    scene.add({"overhang",
+               level(0.5, -0.5, 2.6, 3, 0.5),
+               Casting::always,
+               {{AngularTransmittance{glass()}}}});
+    scene.add({"screen",
+               south_facing(1.4, -0.3, 0.5, 1.1, 1.2),
+               Casting::always,
+               {{}, scheduled ? 2 : -1}});
   }
 };
 
@@ -551,8 +566,9 @@ TEST(Luminance, InteriorBehindShadesIsCountedAsDrawn) {
     ShadedRoom room(scheduled);
     HolePattern const holes({.hole = Hole::Square, .size = 0.05, .pitch = 0.08});
     Surface sheet{"sheet", south_facing(1, -0.2, 0.8, 0.6, 1.6)};
-    sheet.screen = std::make_shared<PerforatedScreen const>(holes, Sheet{.thickness = 0.01});
-    sheet.schedule = scheduled ? 1 : -1;
+    sheet.filter.set(
+        PerforatedSheet{std::make_shared<PerforatedScreen const>(holes, Sheet{.thickness = 0.01})});
+    sheet.filter.schedule = scheduled ? 1 : -1;
     room.scene.add(sheet);
     Renderer drawing = renderer_of(room.scene, 512, by_opengl);
     Renderer counting = renderer_of(room.scene, 512, on_cpu);
@@ -583,9 +599,9 @@ TEST_P(Luminance, InteriorOfOpaqueShadesIsTheirCount) {
   Scene summed;
   for (SurfaceId id = 0; id < room.scene.size(); ++id) {
     Surface surface = room.scene[id];
-    surface.transmittance = nullptr;
+    surface.filter.remove<AngularTransmittance>();
     counted.add(surface);
-    if (id > room.surfaces.back()) surface.transmittance = constant(0.0);
+    if (id > room.surfaces.back()) surface.filter.set(AngularTransmittance{constant(0.0)});
     summed.add(surface);
   }
   Renderer counting = renderer_of(counted);
@@ -601,8 +617,9 @@ TEST_P(Luminance, InteriorOfOpaqueShadesIsTheirCount) {
 TEST_P(Luminance, SunViewIsColouredByWhatIsLetThrough) {
   Scene scene;
   scene.add({"terrace", level(0, 0, 0, 4, 4)});
-  scene.add({"shade", level(0, -1, 1, 2, 6), Casting::always, constant(0.6)});
-  scene.add({"scheduled", level(-1, 2, 2, 6, 3), Casting::always, nullptr, 1});
+  scene.add(
+      {"shade", level(0, -1, 1, 2, 6), Casting::always, {{AngularTransmittance{constant(0.6)}}}});
+  scene.add({"scheduled", level(-1, 2, 2, 6, 3), Casting::always, {{}, 1}});
   Renderer renderer = renderer_of(scene);
   std::vector<double> const factors{0, 0.5};
   Image const image = renderer.sun_view({}, 0, 200, factors);

@@ -54,10 +54,10 @@ Scene scene_of(RandomScene const& random, Casters casters) {
   Scene scene;
   for (SurfaceId id = 0; id < random.scene.size(); ++id) {
     Surface surface = random.scene[id];
-    if (id % 2 == 1 && casters == Casters::glass) surface.transmittance = glass;
+    if (id % 2 == 1 && casters == Casters::glass) surface.filter.set(AngularTransmittance{glass});
     // Screens have no holes of their own.
     if (id % 2 == 1 && casters == Casters::perforated && surface.polygon.holes.empty()) {
-      surface.screen = sheet;
+      surface.filter.set(PerforatedSheet{sheet});
     }
     scene.add(std::move(surface));
   }

@@ -8,7 +8,7 @@
 
 #include "each_backend.h"
 #include "gpu_shading/error.h"
-#include "gpu_shading/fraction_colour.h"
+#include "gpu_shading/image.h"
 #include "gpu_shading/transmittance.h"
 #include "support/shapes.h"
 
@@ -41,7 +41,7 @@ struct Case {
     Surface sheet;
     sheet.name = "sheet";
     sheet.polygon = level(1, 1, 1, 2, 2);
-    sheet.transmittance = std::move(transmittance);
+    if (transmittance) sheet.filter.set(AngularTransmittance{std::move(transmittance)});
     scene.add(std::move(sheet));
   }
 };

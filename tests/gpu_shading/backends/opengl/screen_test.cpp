@@ -14,7 +14,7 @@
 
 #include "backends/open_backend.h"
 #include "each_backend.h"
-#include "gpu_shading/fraction_colour.h"
+#include "gpu_shading/image.h"
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
 #include "render/renderer_with_backend.h"
@@ -68,8 +68,7 @@ Screen sheet_of(OpacityTile tile, double thickness, ScreenDetail detail = Screen
 
 Surface screened(std::string name, Polygon polygon, Screen screen, ScreenPlacement placement = {}) {
   Surface surface{std::move(name), std::move(polygon)};
-  surface.screen = std::move(screen);
-  surface.placement = placement;
+  surface.filter.set(PerforatedSheet{std::move(screen), placement});
   return surface;
 }
 
@@ -377,8 +376,8 @@ TEST_P(Screened, MixesWithAllOtherCasters) {
   // Glass before it and glass behind it.
   Scene glazed = mixed.scene;
   auto const glass = std::make_shared<Transmittance const>(Transmittance::constant(0.5));
-  glazed.add({"above", mixed.sheet(0.4), Casting::always, glass});
-  glazed.add({"below", mixed.sheet(0.2), Casting::always, glass});
+  glazed.add({"above", mixed.sheet(0.4), Casting::always, {{AngularTransmittance{glass}}}});
+  glazed.add({"below", mixed.sheet(0.2), Casting::always, {{AngularTransmittance{glass}}}});
   Renderer through_glass = renderer_of(glazed, 1024);
   EXPECT_NEAR(passed(through_glass, mixed.sun), quarter / 4, 1e-4);
   // A second screen, hole over hole, and displaced by a hole.
@@ -452,8 +451,9 @@ TEST(CountedScreens, AreAsDrawn) {
     Scene scene;
     for (SurfaceId id = 0; id < random.scene.size(); ++id) {
       Surface surface = random.scene[id];
-      if (id % 4 != 0) surface.screen = screens[(seed + 5 * id) % screens.size()];
-      if (id % 4 == 2) surface.deployment = 0;
+      PerforatedSheet sheet{screens[(seed + 5 * id) % screens.size()]};
+      if (id % 4 == 2) sheet.deployment = 0;
+      if (id % 4 != 0) surface.filter.set(sheet);
       scene.add(surface);
     }
     double const whole =
@@ -496,7 +496,7 @@ TEST(TwoScreens, OfHolesSmallerThanPixelsAreRightByOpenGl) {
 TEST_P(Screened, WithAScheduleIsKeptApart) {
   Mixed mixed;
   Surface scheduled = screened("screen", mixed.sheet(0.3), sheet_of(mixed.holes, 1 * mm));
-  scheduled.schedule = 0;
+  scheduled.filter.schedule = 0;
   mixed.scene.add(scheduled);
   Renderer renderer = renderer_of(mixed.scene, 1024);
   Sunlit const got = sunlit(renderer, mixed.sun, 0);
@@ -509,7 +509,9 @@ TEST_P(Screened, WithAScheduleIsKeptApart) {
 TEST_P(Screened, ThatSlidesAwayLetsTheRestPass) {
   Mixed mixed;
   Surface sliding = screened("screen", mixed.sheet(0.3), sheet_of(mixed.holes, 1 * mm));
-  sliding.deployment = 1;
+  PerforatedSheet sheet = *sliding.filter.find<PerforatedSheet>();
+  sheet.deployment = 1;
+  sliding.filter.set(sheet);
   mixed.scene.add(sliding);
   Renderer renderer = renderer_of(mixed.scene, 1024);
   EXPECT_NEAR(passed(renderer, mixed.sun), 0.25, 3e-4);

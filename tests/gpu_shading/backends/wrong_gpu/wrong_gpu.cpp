@@ -13,7 +13,7 @@ namespace {
 
 DeviceInfo wrong_gpu() {
   DeviceInfo info;
-  info.index = 0;
+  info.id = numbered_device(0);
   info.renderer = "Wrong GPU";
   info.vendor = "Nobody";
   info.version = "4.5 (wrong driver 0.1)";
@@ -56,14 +56,15 @@ class WrongBackend : public ViewBackend {
   std::vector<bool> wrong_;  // by view of the batch
 };
 
-class Module : public GlModule {
+class Module : public DeviceModule {
  public:
   std::vector<DeviceInfo> list_devices(std::vector<std::string>& /*failures*/) const override {
     return {wrong_gpu()};
   }
   std::unique_ptr<ViewBackend> open(BackendInput const& input,
                                     DeviceChoice const& device) const override {
-    if (device.index > 0) throw DeviceError("there is one device");
+    if (device.device.value_or(wrong_gpu().id) != wrong_gpu().id)
+      throw DeviceError("there is one device");
     return std::make_unique<WrongBackend>(input);
   }
   std::unique_ptr<PictureRaster> open_for_pictures(PictureScene const& scene,
@@ -75,7 +76,7 @@ class Module : public GlModule {
 }  // namespace
 }  // namespace gpu_shading
 
-extern "C" [[gnu::visibility("default")]] gpu_shading::GlModule const* gpu_shading_gl_module() {
+extern "C" [[gnu::visibility("default")]] gpu_shading::DeviceModule const* gpu_shading_gl_module() {
   static gpu_shading::Module const module;
   return &module;
 }

@@ -34,7 +34,7 @@ SheetInBeam sheet_of(Perforation const& holes, glm::dvec2 const& way) {
   HolePattern const pattern(holes);
   SheetInBeam sheet;
   sheet.tile = {pattern.width(), pattern.height()};
-  sheet.way = way;
+  sheet.ray_offset = way;
   sheet.half_hole = static_cast<float>(holes.size / 2.0);
   sheet.half_slot = static_cast<float>(std::max(0.0, holes.length - holes.size) / 2.0);
   sheet.staggered = holes.arrangement != Arrangement::Straight;
@@ -89,7 +89,7 @@ TEST(RowProfile, IsTheSameForManyRaysAtOnce) {
   RowProfile const profile(sheet);
   glm::dvec2 const first(-3.21, 7.65);
   glm::dvec2 const step(-33.3 * mm, 4.1 * mm);
-  RowProfile::Ways passed{};
+  RowProfile::Passed passed{};
   profile.find(first, step, passed);
   for (std::size_t i = 0; i < passed.size(); ++i) {
     EXPECT_EQ(passed[i], profile.at(first + static_cast<double>(i) * step)) << i;
@@ -114,12 +114,12 @@ TEST(RowProfile, TakesThePlaceOfTheEffectiveTransmittance) {
     float const weight = pixel > 2 * mm ? 1.0F : 0.5F;
     SheetRays const rays(screen, sheet, pixel, true);
     EXPECT_FALSE(rays.everywhere().has_value());
-    SheetRays::Ways passed{};
-    rays.whole_ways({0.0, 3 * mm}, {10 * mm, 0.0}, ~std::uint64_t{0}, passed);
+    SheetRays::Passed passed{};
+    rays.whole_paths({0.0, 3 * mm}, {10 * mm, 0.0}, ~std::uint64_t{0}, passed);
     // Beside holes, in line with them one way.
     float const beside = weight * profile.at({0.0, 3 * mm});
     EXPECT_NEAR(passed[0], beside, 1e-6F);
-    EXPECT_NEAR(rays.part_of_way({0.0, 3 * mm}, 0.0, 1.0), beside, 1e-6F);
+    EXPECT_NEAR(rays.part_of_path({0.0, 3 * mm}, 0.0, 1.0), beside, 1e-6F);
     EXPECT_NEAR(beside, weight * 0.24F, 2e-3F);  // 0.4 of the column, less the mean of 0.16
   }
 }

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "filters/perforation/sheet_layers.h"
+#include "filters/perforation/sheet_in_beam.h"
 #include "gpu_shading/perforated_screen.h"
 #include "support/layered_transmittance.h"
 #include "support/millimetre.h"

@@ -25,11 +25,11 @@ TEST_P(SheetRule, HoldsForSingleRays) {
   for (SheetCase const& one : sheet_cases()) {
     Surface const surface = sheet_of(one, GetParam());
     SheetInBeam const sheet = in_beam(one, surface);
-    EXPECT_NEAR(sheet.way.x, one.way.x, 1e-6) << one.name;
-    EXPECT_NEAR(sheet.way.y, one.way.y, 1e-6) << one.name;
-    SheetRays const rays(*surface.screen, sheet, 1e-4, false);
+    EXPECT_NEAR(sheet.ray_offset.x, one.way.x, 1e-6) << one.name;
+    EXPECT_NEAR(sheet.ray_offset.y, one.way.y, 1e-6) << one.name;
+    SheetRays const rays(*surface.filter.find<PerforatedSheet>()->screen, sheet, 1e-4, false);
     EXPECT_FALSE(rays.everywhere().has_value()) << one.name;
-    EXPECT_EQ(rays.part_of_way(one.place, 0.0, 1.0), static_cast<float>(one.passed)) << one.name;
+    EXPECT_EQ(rays.part_of_path(one.place, 0.0, 1.0), static_cast<float>(one.passed)) << one.name;
   }
 }
 
@@ -38,10 +38,10 @@ TEST_P(SheetRule, HoldsForManyRaysAtOnce) {
   for (SheetCase const& one : sheet_cases()) {
     Surface const surface = sheet_of(one, GetParam());
     SheetInBeam const sheet = in_beam(one, surface);
-    SheetRays const rays(*surface.screen, sheet, 1e-4, false);
+    SheetRays const rays(*surface.filter.find<PerforatedSheet>()->screen, sheet, 1e-4, false);
     HolePattern const holes(one.holes);
-    SheetRays::Ways passed{};
-    rays.whole_ways(one.place, {holes.width(), -holes.height()}, ~std::uint64_t{0}, passed);
+    SheetRays::Passed passed{};
+    rays.whole_paths(one.place, {holes.width(), -holes.height()}, ~std::uint64_t{0}, passed);
     for (float const ray : passed) EXPECT_EQ(ray, static_cast<float>(one.passed)) << one.name;
   }
 }

@@ -1,4 +1,3 @@
-#include "gpu_shading/angular_csv.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "gpu_shading/sun_direction.h"
-#include "sun/sampling/shadow_fall.h"
+#include "sun/sampling/sunlit_splines.h"
 
 namespace gpu_shading {
 namespace {

@@ -50,7 +50,7 @@ TEST(SampledSunlit, KeepsToTheBudgetAndAboveTheHorizon) {
       auto const source = fraction_source(sides, [](SunDirection sun) { return sun.altitude / 2; });
       SampledSunlit const sampled({density, false}, latitude * degree, sides, source);
       auto const& directions = sampled.directions();
-      EXPECT_LE(directions.size(), most_directions(density)) << latitude;
+      EXPECT_LE(directions.size(), max_directions(density)) << latitude;
       EXPECT_GE(directions.size(), usual_directions(density) - 2) << latitude;
       std::set<std::pair<double, double>> distinct;
       for (auto const sun : directions) {
@@ -131,8 +131,8 @@ TEST(SampledSunlit, TakesTwiceAsManyIfAReceiverNeedsThem) {
   for (auto const density : {medium, coarse}) {
     SampledSunlit const sampled({density, false}, 42 * degree, sides,
                                 fraction_source(sides, noise));
-    EXPECT_LE(sampled.directions().size(), most_directions(density));
-    EXPECT_GE(sampled.directions().size(), most_directions(density) - 6);
+    EXPECT_LE(sampled.directions().size(), max_directions(density));
+    EXPECT_GE(sampled.directions().size(), max_directions(density) - 6);
   }
 }
 

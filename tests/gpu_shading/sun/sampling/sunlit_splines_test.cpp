@@ -103,7 +103,7 @@ TEST(SunlitSplines, DoubtWhereTheyAreWrong) {
   for (auto const hour : spread_on_arcs(latitude, 3000)) {
     auto const direction = to_direction(hour, latitude);
     double const wrong = std::abs(splines.at(direction).front() - edge(to_vector(direction)));
-    (wrong > 0.01 ? where_wrong : where_right).push_back(splines.doubts(direction).front());
+    (wrong > 0.01 ? where_wrong : where_right).push_back(splines.uncertainty(direction).front());
   }
   ASSERT_GT(where_wrong.size(), 50U);
   EXPECT_GT(mean(where_wrong), 5.0 * mean(where_right));

@@ -1,0 +1,100 @@
+#include "answers/answer_store.h"
+
+#include <utility>
+
+namespace gpu_shading::energyplus {
+namespace {
+
+std::size_t bytes_of(std::vector<ScheduledPart> const& parts) {
+  std::size_t bytes = 0;
+  for (auto const& part : parts) {
+    bytes += sizeof part + part.powers.size() * sizeof part.powers.front();
+  }
+  return bytes;
+}
+
+}  // namespace
+
+bool AnswerLimits::allow(Sunlit const& answer, double area) const {
+  // Answers are rounded to single precision.
+  constexpr double rounding = 1e-5;
+  auto const most = area * (1.0 + rounding) + rounding * rounding;
+  auto const allows = [&](double part) { return part >= 0.0 && part <= most; };
+  double sum = answer.projected_area;
+  if (!allows(sum)) return false;
+  for (auto const& part : answer.scheduled) {
+    sum += part.projected_area;
+    if (!allows(part.projected_area) || !allows(sum)) return false;
+    for (auto const& [schedule, power] : part.powers) {
+      if (schedule < 0 || static_cast<std::size_t>(schedule) >= schedules || power < 1)
+        return false;
+    }
+  }
+  return true;
+}
+
+Sunlit AnswerStore::Direction::sunlit(ReceiverNumber receiver) const {
+  Sunlit answer;
+  answer.projected_area = projected_area[receiver];
+  auto const parts = scheduled.find(receiver);
+  if (parts != scheduled.end()) answer.scheduled = parts->second;
+  return answer;
+}
+
+double AnswerStore::Direction::area(ReceiverNumber receiver,
+                                    std::span<double const> factors) const {
+  double const unscheduled = projected_area[receiver];
+  auto const parts = scheduled.find(receiver);
+  return parts == scheduled.end() ? unscheduled
+                                  : unscheduled + through_schedules(parts->second, factors);
+}
+
+bool AnswerStore::make_room() {
+  if (bytes_ + sizeof(Direction) <= max_bytes_) return false;
+  directions_.clear();
+  bytes_ = 0;
+  return true;
+}
+
+AnswerStore::Direction& AnswerStore::at(SunDirection sun, std::uint32_t state) {
+  auto const [found, added] = directions_.try_emplace({sun, state});
+  auto& direction = found->second;
+  if (added) {
+    direction.sun = sun;
+    direction.state = state;
+    bytes_ += sizeof(Direction);
+  }
+  return direction;
+}
+
+AnswerStore::Direction const* AnswerStore::find(SunDirection sun, std::uint32_t state) const {
+  auto const found = directions_.find({sun, state});
+  return found == directions_.end() ? nullptr : &found->second;
+}
+
+void AnswerStore::keep(Direction& direction, ReceiverNumber receiver, Sunlit answer) {
+  auto& areas = direction.projected_area;
+  if (receiver >= areas.size()) {
+    auto const before = areas.capacity();
+    areas.resize(receiver + std::size_t{1}, std::numeric_limits<float>::quiet_NaN());
+    bytes_ += (areas.capacity() - before) * sizeof areas.front();
+  }
+  areas[receiver] = static_cast<float>(answer.projected_area);
+  if (answer.scheduled.empty()) return;
+  bytes_ += bytes_of(answer.scheduled);
+  direction.scheduled[receiver] = std::move(answer.scheduled);
+}
+
+void AnswerStore::copy(Direction const& from, ReceiverNumber known, Direction& direction,
+                       ReceiverNumber receiver) {
+  keep(direction, receiver, from.sunlit(known));
+}
+
+std::vector<Sunlit> const& AnswerStore::keep_interior(Direction& direction,
+                                                      std::uint64_t window_and_list,
+                                                      std::vector<Sunlit> answers) {
+  for (auto const& answer : answers) bytes_ += sizeof answer + bytes_of(answer.scheduled);
+  return direction.interior[window_and_list] = std::move(answers);
+}
+
+}  // namespace gpu_shading::energyplus

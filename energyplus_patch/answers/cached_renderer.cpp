@@ -1,0 +1,286 @@
+#include "answers/cached_renderer.h"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "gpu_shading/error.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+// A larger batch is no faster.
+constexpr std::size_t max_views = std::size_t{1} << 16U;
+
+// As many of the directions ahead as are worth one batch with so many views of each.
+std::span<SunDirection const> first_of(std::span<SunDirection const> ahead, std::size_t views) {
+  return ahead.first(std::min(ahead.size(), max_views / std::max(views, std::size_t{1})));
+}
+
+std::vector<SunDirection> suns_of(std::vector<AnswerStore::Direction*> const& directions) {
+  std::vector<SunDirection> suns;
+  suns.reserve(directions.size());
+  for (auto const* direction : directions) suns.push_back(direction->sun);
+  return suns;
+}
+
+}  // namespace
+
+InteriorKey::InteriorKey(InteriorQuestion asked)
+    : question(std::move(asked)),
+      hash(XXH3_64bits_withSeed(question.interiors.data(),
+                                question.interiors.size() * sizeof(SurfaceId), question.window)) {}
+
+CachedRenderer::Counts& CachedRenderer::Counts::operator+=(Counts const& other) {
+  directions += other.directions;
+  recalled += other.recalled;
+  rendering += other.rendering;
+  return *this;
+}
+
+CachedRenderer::CachedRenderer(Renderer renderer, std::optional<DiskCache> cache,
+                               std::span<SurfaceId const> receivers)
+    : renderer_(std::move(renderer)), cache_(std::move(cache)), numbers_(renderer_.scene().size()) {
+  for (auto const receiver : receivers) number_of(receiver);
+}
+
+ReceiverNumber CachedRenderer::number_of(SurfaceId receiver) {
+  auto& number = numbers_[receiver];
+  if (!number) {
+    number = static_cast<ReceiverNumber>(known_.receivers.size());
+    known_.receivers.push_back(receiver);
+  }
+  return *number;
+}
+
+std::vector<SurfaceId> const& CachedRenderer::receivers_with(SurfaceId receiver) {
+  number_of(receiver);
+  return known_.receivers;
+}
+
+void CachedRenderer::deploy(std::vector<double> const& shares) {
+  auto const state = known_.states.number_of(shares);
+  if (state == state_ && deployed_) return;
+  state_ = state;
+  deployed_ = true;
+  renderer_.set_deployments(shares);
+}
+
+// Directions that are held across this call are lost.
+void CachedRenderer::make_room() {
+  if (known_.answers.make_room()) last_ = nullptr;
+}
+
+// Most questions are about the direction of the one before: only the first of them looks it up.
+AnswerStore::Direction& CachedRenderer::direction_at(SunDirection sun) {
+  if (last_ == nullptr || last_->state != state_ || !(last_->sun == sun)) {
+    make_room();
+    last_ = &known_.answers.at(sun, state_);
+  }
+  return *last_;
+}
+
+void CachedRenderer::recall(Direction& direction) {
+  if (cache_) cache_->recall(known_, direction);
+}
+
+double CachedRenderer::area(SurfaceId receiver, AskedSun const& asked,
+                            std::span<double const> factors) {
+  auto const number = number_of(receiver);
+  auto& direction = direction_at(asked.sun);
+  if (!direction.knows(number)) recall(direction);
+  if (!direction.knows(number)) {
+    Directions directions;
+    for (auto const sun : first_of(asked.ahead, known_.receivers.size())) {
+      auto& next = known_.answers.at(sun, state_);
+      recall(next);
+      directions.push_back(&next);
+    }
+    directions.push_back(&direction);
+    std::vector<ReceiverNumber> all(known_.receivers.size());
+    std::iota(all.begin(), all.end(), ReceiverNumber{0});
+    render(directions, all);
+  }
+  if (!direction.asked && !direction.recalled) ++directions_;
+  direction.asked = true;
+  return direction.area(number, factors);
+}
+
+std::vector<std::vector<Sunlit>> CachedRenderer::at(std::span<SunDirection const> suns,
+                                                    std::span<SurfaceId const> receivers) {
+  make_room();
+  std::vector<ReceiverNumber> numbers;
+  for (auto const receiver : receivers) numbers.push_back(number_of(receiver));
+  Directions directions;
+  for (auto const sun : suns) {
+    auto& direction = known_.answers.at(sun, state_);
+    bool const lacks_any = std::any_of(numbers.begin(), numbers.end(),
+                                       [&](auto number) { return !direction.knows(number); });
+    if (lacks_any) recall(direction);
+    direction.sampled = true;
+    directions.push_back(&direction);
+  }
+  directions_ += render(directions, numbers);
+  std::vector<std::vector<Sunlit>> rows;
+  for (auto const* direction : directions) {
+    auto& row = rows.emplace_back();
+    for (auto const number : numbers) row.push_back(direction->sunlit(number));
+  }
+  return rows;
+}
+
+// Renders the directions and the receivers of which something is unknown. Returns the number of
+// directions.
+std::size_t CachedRenderer::render(Directions const& directions,
+                                   std::span<ReceiverNumber const> receivers) {
+  Directions unknown;
+  std::vector<bool> lacking(receivers.size(), false);
+  for (auto* const direction : directions) {
+    bool lacks_any = false;
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+      if (direction->knows(receivers[i])) continue;
+      lacking[i] = true;
+      lacks_any = true;
+    }
+    if (lacks_any) unknown.push_back(direction);
+  }
+  if (unknown.empty()) return 0;
+  to_store_ = true;
+  std::vector<ReceiverNumber> wanted;
+  std::vector<SurfaceId> surfaces;
+  for (std::size_t i = 0; i < receivers.size(); ++i) {
+    if (!lacking[i]) continue;
+    wanted.push_back(receivers[i]);
+    surfaces.push_back(known_.receivers[receivers[i]]);
+  }
+  auto rendered = renderer_.projected_sunlit_areas(suns_of(unknown), surfaces);
+  for (std::size_t i = 0; i < unknown.size(); ++i) {
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      known_.answers.keep(*unknown[i], wanted[k], std::move(rendered[i][k]));
+    }
+  }
+  return unknown.size();
+}
+
+// nullptr: unknown.
+std::vector<Sunlit> const* CachedRenderer::find_interior(Direction& direction, std::uint64_t hash) {
+  auto const known = direction.interior.find(hash);
+  if (known != direction.interior.end()) return &known->second;
+  return cache_ ? cache_->recall_interior(known_, direction, hash) : nullptr;
+}
+
+std::vector<Sunlit> const& CachedRenderer::interior(InteriorKey const& key, AskedSun const& asked) {
+  auto const window = key.question.window;
+  auto& last = interiors_.try_emplace(window, key).first->second;
+  if (last.hash != key.hash) last = key;
+  auto& direction = direction_at(asked.sun);
+  if (auto const* const known = find_interior(direction, key.hash)) return *known;
+  std::vector<InteriorKey const*> questions{&key};
+  for (auto const& [other, asked_last] : interiors_) {
+    if (other != window) questions.push_back(&asked_last);
+  }
+  Directions unknown;
+  for (auto const sun : first_of(asked.ahead, questions.size())) {
+    auto& next = known_.answers.at(sun, state_);
+    if (find_interior(next, key.hash) == nullptr) unknown.push_back(&next);
+  }
+  unknown.push_back(&direction);
+  return *render_interiors(unknown, questions).back();
+}
+
+std::vector<std::vector<Sunlit>> CachedRenderer::interior_at(std::span<SunDirection const> suns,
+                                                             InteriorKey const& key) {
+  make_room();
+  std::vector<std::vector<Sunlit> const*> found;
+  Directions unknown;
+  for (auto const sun : suns) {
+    auto& direction = known_.answers.at(sun, state_);
+    found.push_back(find_interior(direction, key.hash));
+    if (found.back() == nullptr) unknown.push_back(&direction);
+  }
+  auto const rendered = render_interiors(unknown, {&key});
+  auto next = rendered.begin();
+  std::vector<std::vector<Sunlit>> rows;
+  rows.reserve(found.size());
+  for (auto const* row : found) rows.push_back(row == nullptr ? **next++ : *row);
+  return rows;
+}
+
+// Renders the first question, which is unknown at all of these directions, and with it those of the
+// others that are unknown at one. Returns the answers to the first.
+std::vector<std::vector<Sunlit> const*> CachedRenderer::render_interiors(
+    Directions const& directions, std::vector<InteriorKey const*> const& questions) {
+  if (directions.empty()) return {};
+  to_store_ = true;
+  std::vector<std::uint64_t> hashes;
+  std::vector<InteriorQuestion> wanted;
+  for (auto const* key : questions) {
+    bool const unknown =
+        key == questions.front() ||
+        std::any_of(directions.begin(), directions.end(), [&](Direction* direction) {
+          return find_interior(*direction, key->hash) == nullptr;
+        });
+    if (!unknown) continue;
+    hashes.push_back(key->hash);
+    wanted.push_back(key->question);
+  }
+  auto rendered = renderer_.interior_sunlit_areas(suns_of(directions), wanted);
+  std::vector<std::vector<Sunlit> const*> first;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    auto& direction = *directions[i];
+    first.push_back(&known_.answers.keep_interior(direction, hashes[0], std::move(rendered[i][0])));
+    for (std::size_t k = 1; k < hashes.size(); ++k) {
+      if (direction.interior.contains(hashes[k])) continue;
+      known_.answers.keep_interior(direction, hashes[k], std::move(rendered[i][k]));
+    }
+  }
+  return first;
+}
+
+void CachedRenderer::store() {
+  if (!cache_ || !to_store_) return;
+  to_store_ = false;
+  cache_->store(known_);
+}
+
+CachedRenderer::Counts CachedRenderer::counts() const {
+  return {directions_, cache_ ? cache_->directions_recalled() : 0, renderer_.statistics()};
+}
+
+RendererOptions watched_options(Options const& options, Messages const& messages) {
+  auto watched = renderer_options(options);
+  if (options.mode != Mode::require) watched.warn = messages.warning;
+  return watched;
+}
+
+CachedRenderer open_renderer(SceneAssembly const& scene, std::span<SurfaceId const> receivers,
+                             DeviceChoice const& device, Messages const& messages) {
+  auto const& options = scene.model().options;
+  auto rendering = watched_options(options, messages);
+  rendering.device = device;
+  Renderer renderer(scene.scene(), rendering);
+  std::optional<DiskCache> cache;
+  if (options.cache) {
+    auto const hash = scene.hash(renderer.scene(), renderer.device());
+    AnswerLimits limits{{}, scene.optics().factor_names().size()};
+    for (SurfaceId id = 0; id < renderer.scene().size(); ++id) {
+      limits.areas.push_back(area(renderer.scene()[id].polygon));
+    }
+    cache.emplace(*options.cache, hash, std::move(limits), messages.remark);
+  }
+  CachedRenderer answers(std::move(renderer), std::move(cache), receivers);
+  answers.deploy(scene.optics().deployments());
+  return answers;
+}
+
+void write_cache(CachedRenderer& answers, Messages const& messages) {
+  try {
+    answers.store();
+  } catch (Error const& error) {
+    messages.warning(error.what());
+  }
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "answers/disk_cache.h"
+#include "gpu_shading/renderer.h"
+#include "platform/messages.h"
+#include "scene/scene_assembly.h"
+
+namespace gpu_shading::energyplus {
+
+// A direction of the sun that answers are wanted for, and the directions expected after it.
+struct AskedSun {
+  SunDirection sun;
+  std::span<SunDirection const> ahead;
+};
+
+// A window and its interior surfaces, and a hash of both that answers are kept by.
+struct InteriorKey {
+  explicit InteriorKey(InteriorQuestion asked);
+
+  InteriorQuestion question;
+  std::uint64_t hash;
+};
+
+// Answers of one scene. Each is kept from an earlier question, recalled from the cache of earlier
+// runs, or rendered; then it is kept, with its projected area in single precision. Functions throw
+// gpu_shading::Error.
+class CachedRenderer {
+ public:
+  struct Counts {
+    std::size_t directions = 0;  // rendered: samples, and of others those that were asked for
+    std::size_t recalled = 0;    // directions that the cache gave something for
+    RendererStatistics rendering;
+
+    Counts& operator+=(Counts const& other);
+  };
+
+  // `receivers` are rendered together at the first question, others from the first question about
+  // them on. `cache`: of this scene.
+  CachedRenderer(Renderer renderer, std::optional<DiskCache> cache,
+                 std::span<SurfaceId const> receivers);
+
+  // Sets the shares of screens in place (Renderer::set_deployments).
+  void deploy(std::vector<double> const& shares);
+  std::uint32_t state() const { return state_; }  // number of these shares
+
+  // Projected sunlit area of a receiver (m2 normal to the beam), with factors[schedule]. What is
+  // unknown is rendered for all receivers, and for the directions ahead in the same batch.
+  double area(SurfaceId receiver, AskedSun const& asked, std::span<double const> factors);
+
+  // Areas that the sun lights inside through a window, in the order of the question's surfaces.
+  // Unknown ones are rendered for all windows asked about before, and for the directions ahead.
+  // Valid until the next call.
+  std::vector<Sunlit> const& interior(InteriorKey const& key, AskedSun const& asked);
+
+  // For samples: answers by direction, in order.
+  std::vector<std::vector<Sunlit>> at(std::span<SunDirection const> suns,
+                                      std::span<SurfaceId const> receivers);
+  std::vector<std::vector<Sunlit>> interior_at(std::span<SunDirection const> suns,
+                                               InteriorKey const& key);
+
+  // The receivers so far, after this one was added to them. Valid until the next call.
+  std::vector<SurfaceId> const& receivers_with(SurfaceId receiver);
+
+  // Adds what was rendered since to the cache, where there is one.
+  void store();
+
+  SceneAnswers const& known() const { return known_; }
+  Renderer& renderer() { return renderer_; }
+  Renderer const& renderer() const { return renderer_; }
+  bool has_cache() const { return cache_.has_value(); }
+  Counts counts() const;
+
+ private:
+  using Direction = AnswerStore::Direction;
+  using Directions = std::vector<Direction*>;
+
+  ReceiverNumber number_of(SurfaceId receiver);
+  void make_room();
+  Direction& direction_at(SunDirection sun);
+  void recall(Direction& direction);
+  std::size_t render(Directions const& directions, std::span<ReceiverNumber const> receivers);
+  std::vector<Sunlit> const* find_interior(Direction& direction, std::uint64_t hash);
+  std::vector<std::vector<Sunlit> const*> render_interiors(
+      Directions const& directions, std::vector<InteriorKey const*> const& questions);
+
+  Renderer renderer_;
+  std::optional<DiskCache> cache_;
+  SceneAnswers known_;
+  std::uint32_t state_ = 0;
+  bool deployed_ = false;
+  Direction* last_ = nullptr;                             // asked about last
+  std::vector<std::optional<ReceiverNumber>> numbers_;    // of receivers, by surface
+  std::unordered_map<SurfaceId, InteriorKey> interiors_;  // asked about last, by window
+  std::size_t directions_ = 0;                            // Counts::directions
+  bool to_store_ = false;
+};
+
+// renderer_options() with the renderer's warnings. If a GPU is required, they are errors.
+RendererOptions watched_options(Options const& options, Messages const& messages);
+
+// Opens a device, and the cache that the model's options name, for the scene as it is now.
+// `receivers`: see CachedRenderer. Throws Error.
+CachedRenderer open_renderer(SceneAssembly const& scene, std::span<SurfaceId const> receivers,
+                             DeviceChoice const& device, Messages const& messages);
+
+// Adds answers to their cache; warns if that cannot be written.
+void write_cache(CachedRenderer& answers, Messages const& messages);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,78 @@
+#include "programs/gpu_shading/commands.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "gpu_shading/error.h"
+#include "model/options/option_table.h"
+#include "platform/console.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+bool contains(OptionNames const& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string help_of(OptionNames const& names, bool all) {
+  if (!all) return "Options of shading: gpu_shading help options";
+  std::string text = "Options of shading:\n";
+  for (auto const& row : option_rows()) {
+    if (row.audience <= Audience::experts && contains(names, row.name)) text += help_of(row);
+  }
+  return text;
+}
+
+}  // namespace
+
+Command::Command(Program const& program, std::string const& name, std::string const& description,
+                 OptionNames options)
+    : app_(program.app.add_subcommand(name, description)),
+      program_(program),
+      options_(std::move(options)) {
+  app_->set_help_all_flag("--help-all", "Print this help with the options of shading");
+  app_->footer(help_of(options_, program.help_all));
+}
+
+std::shared_ptr<ModelRun> Command::add_model(std::string const& weather) const {
+  auto run = std::make_shared<ModelRun>();
+  run->choices = program_.choices;
+  app_->add_option_function<std::string>(
+          "model", [run](std::string const& text) { run->model = text; }, "IDF or epJSON file")
+      ->required();
+  app_->add_option_function<std::string>(
+      "-w,--weather",
+      [run](std::string const& text) {
+        if (!std::filesystem::exists(text)) throw Error(fmt::format("-w {}: no such file", text));
+        run->weather = text;
+      },
+      weather);
+  return run;
+}
+
+void Command::refuse_ignored_flags() const {
+  for (auto const& row : option_rows()) {
+    if (row.audience > Audience::experts || contains(options_, row.name)) continue;
+    if (!row.text(program_.flags, row.value)) continue;
+    throw Error(fmt::format("{0}: not an option of gpu_shading {1}; see gpu_shading {1} --help-all",
+                            row.flag(), app_->get_name()));
+  }
+}
+
+void Command::run(std::function<void()> const& action) const {
+  app_->callback([command = *this, action] {
+    command.refuse_ignored_flags();
+    action();
+  });
+}
+
+OptionNames model_options(std::initializer_list<std::string_view> more) {
+  OptionNames names{"",        "error", "resolution", "device", "file",
+                    "threads", "quiet", "lean",       "method", "assets"};
+  names.insert(names.end(), more);
+  return names;
+}
+
+}  // namespace gpu_shading::energyplus

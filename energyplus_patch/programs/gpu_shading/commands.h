@@ -1,0 +1,67 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "programs/gpu_shading/model_run.h"
+
+namespace gpu_shading::energyplus {
+
+// The program's command line.
+struct Program {
+  CLI::App& app;
+  Choices flags;    // of the user
+  Choices choices;  // the flags, then the environment
+  bool help_all = false;
+};
+
+// Names of options of shading (OptionRow::name).
+using OptionNames = std::vector<std::string_view>;
+
+// A subcommand that is being added to the program.
+class Command {
+ public:
+  // `options`: those of shading that it uses. Its help lists them for --help-all; run() refuses
+  // the flags of others.
+  Command(Program const& program, std::string const& name, std::string const& description,
+          OptionNames options);
+
+  CLI::App* operator->() const { return app_; }
+
+  // Adds the arguments that name a model and its weather file. The result is complete when the
+  // command runs.
+  std::shared_ptr<ModelRun> add_model(
+      std::string const& weather = "Weather file (default: one that comes with EnergyPlus)") const;
+
+  void run(std::function<void()> const& action) const;
+
+ private:
+  void refuse_ignored_flags() const;
+
+  CLI::App* app_;
+  Program const& program_;
+  OptionNames options_;
+};
+
+// Options of shading that commands on a model use, and others.
+OptionNames model_options(std::initializer_list<std::string_view> more = {});
+
+// `right`: set to whether all tested devices are.
+void add_devices(Program const& program, bool& right);
+void add_check(Program const& program);
+void add_view(Program const& program);
+void add_map(Program const& program);
+void add_screen(Program const& program);
+void add_sample(Program const& program);
+// For `sample --sky`: renders the sunlit fraction of every receiver for each patch of three
+// divisions of the sky, and writes sky.csv and sky_view.csv, with view factors to the sky.
+void sample_sky(ModelRun const& run, std::filesystem::path const& folder);
+void add_export(Program const& program);
+
+}  // namespace gpu_shading::energyplus

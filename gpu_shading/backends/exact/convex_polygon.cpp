@@ -1,0 +1,119 @@
+#include "backends/exact/convex_polygon.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace gpu_shading {
+namespace {
+
+double cross(glm::dvec2 const& a, glm::dvec2 const& b) { return a.x * b.y - a.y * b.x; }
+
+void set_bounds(ConvexPolygon& polygon) {
+  polygon.low = polygon.high = polygon.vertices[0];
+  for (glm::dvec2 const& vertex : polygon.ring()) {
+    polygon.low = glm::min(polygon.low, vertex);
+    polygon.high = glm::max(polygon.high, vertex);
+  }
+}
+
+}  // namespace
+
+double ConvexPolygon::area() const {
+  double twice = 0.0;
+  for (std::size_t i = 2; i < count; ++i) {
+    twice += cross(vertices[i - 1] - vertices[0], vertices[i] - vertices[0]);
+  }
+  return 0.5 * twice;
+}
+
+bool ConvexPolygon::take(std::span<glm::dvec2 const> ring) {
+  // By which a corner may turn the other way, of the squares of its sides: rounding.
+  constexpr double straight = 1e-13;
+  if (ring.size() < 3 || ring.size() > most_of_ring) return false;
+  std::copy(ring.begin(), ring.end(), vertices.begin());
+  count = ring.size();
+  if (area() < 0.0) std::reverse(vertices.begin(), vertices.begin() + static_cast<long>(count));
+  glm::dvec2 before = vertices[0] - vertices[count - 1];
+  int turns = 0;  // of an edge to the other side: twice in a ring that goes around once
+  bool rising = before.y > 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    glm::dvec2 const edge = vertices[i + 1 < count ? i + 1 : 0] - vertices[i];
+    double const scale = glm::dot(before, before) + glm::dot(edge, edge);
+    if (cross(before, edge) < -straight * scale) return false;
+    bool const rises = edge.y > 0.0;
+    if (rises != rising) ++turns;
+    rising = rises;
+    before = edge;
+  }
+  set_bounds(*this);
+  return turns <= 2;
+}
+
+bool ConvexPolygon::is_clear_of(std::span<glm::dvec2 const> ring) const {
+  bool left = true;
+  bool right = true;
+  bool below = true;
+  bool above = true;
+  for (glm::dvec2 const& vertex : ring) {
+    left = left && vertex.x <= low.x;
+    right = right && vertex.x >= high.x;
+    below = below && vertex.y <= low.y;
+    above = above && vertex.y >= high.y;
+  }
+  return left || right || below || above;
+}
+
+bool ConvexPolygon::contains(ConvexPolygon const& other) const {
+  constexpr double rounding = 1e-12;
+  for (std::size_t i = 0; i < count; ++i) {
+    glm::dvec2 const edge = vertices[i + 1 < count ? i + 1 : 0] - vertices[i];
+    for (glm::dvec2 const& vertex : other.ring()) {
+      if (cross(edge, vertex - vertices[i]) < -rounding * glm::length(edge)) return false;
+    }
+  }
+  return true;
+}
+
+Meeting intersect(ConvexPolygon const& polygon, ConvexPolygon const& other, ConvexPolygon& common) {
+  if (polygon.count + other.count > ConvexPolygon::most) return Meeting::too_many;
+  if (!polygon.may_meet(other)) return Meeting::apart;
+  ConvexPolygon cut;
+  std::array<double, ConvexPolygon::most> beyond;  // NOLINT: set before use
+  ConvexPolygon const* from = &polygon;
+  // Each cut goes where the one before it is not; the last to `common`, or is copied there.
+  for (std::size_t k = 0; k < other.count; ++k) {
+    glm::dvec2 const start = other.vertices[k];
+    glm::dvec2 const edge = other.vertices[k + 1 < other.count ? k + 1 : 0] - start;
+    bool any_inside = false;
+    bool any_outside = false;
+    for (std::size_t i = 0; i < from->count; ++i) {
+      beyond[i] = cross(edge, from->vertices[i] - start);
+      any_inside = any_inside || beyond[i] > 0.0;
+      any_outside = any_outside || beyond[i] < 0.0;
+    }
+    if (!any_inside) return Meeting::apart;
+    if (!any_outside) continue;
+    ConvexPolygon& to = from == &common ? cut : common;
+    to.count = 0;
+    std::size_t last = from->count - 1;
+    for (std::size_t i = 0; i < from->count; last = i++) {
+      if ((beyond[i] > 0.0) != (beyond[last] > 0.0)) {
+        double const share = beyond[last] / (beyond[last] - beyond[i]);
+        to.vertices[to.count++] =
+            from->vertices[last] + share * (from->vertices[i] - from->vertices[last]);
+      }
+      if (beyond[i] > 0.0) to.vertices[to.count++] = from->vertices[i];
+    }
+    from = &to;
+  }
+  bool const whole = from == &polygon;
+  if (from != &common) {
+    std::copy_n(from->vertices.begin(), from->count, common.vertices.begin());
+    common.count = from->count;
+  }
+  set_bounds(common);
+  return whole ? Meeting::within : Meeting::across;
+}
+
+}  // namespace gpu_shading
