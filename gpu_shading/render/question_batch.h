@@ -15,15 +15,14 @@
 
 namespace gpu_shading {
 
-// A question: the sunlit area of a receiver at one sun direction, or of the surfaces behind a
-// window.
+// The sunlit area of a receiver at one sun direction, or of the surfaces behind a window.
 struct Question {
   SurfaceId receiver = 0;
   glm::dvec3 towards_sun{0.0};
-  bool through = false;  // the receiver is a window, and these surfaces are wanted:
+  bool through = false;  // the receiver is a window, and `interiors` are asked for
   std::span<SurfaceId const> interiors;
-  std::span<Sunlit>
-      answers;  // the receiver's answer, or one for each of `interiors`; zero when asked
+  // The receiver's answer, or one for each of `interiors`; zero before.
+  std::span<Sunlit> answers;
 };
 
 // Answers questions: finds the casters in view, has views rasterised, and computes areas from their

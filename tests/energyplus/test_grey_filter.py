@@ -60,6 +60,9 @@ def build():
     sources = Path(folder).resolve() / "sources"
     subprocess.run(["git", "checkout-index", "--all", "--force", f"--prefix={sources}/"], cwd=energyplus.REPOSITORY,
                    check=True)
+    for path, _, new in changes():
+        if new:
+            (sources / path).unlink(missing_ok=True)
     subprocess.run(["git", "apply", PATCH], cwd=sources, check=True, env=os.environ | {"GIT_DIR": os.devnull})
     build = sources / "build"
     environment = os.environ | {"CCACHE_BASEDIR": str(sources), "CCACHE_NOHASHDIR": "1"}

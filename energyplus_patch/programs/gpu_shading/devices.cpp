@@ -64,14 +64,11 @@ void list_devices() {
   for (auto const& device : find_devices()) {
     auto const name = device_name(device.id);
     if (device.id.is_cpu()) {
-      print("{}  {}
-", name, describe(device));
+      print("{}  {}\n", name, describe(device));
     } else {
-      print(
-          "{}  {}  [{}; {}]  {}, tiles up to {} x {}
-          ", name, device.renderer, device.vendor,
-          device.version,
-          device.software ? "software" : "GPU", device.max_resolution, device.max_resolution);
+      print("{}  {}  [{}; {}]  {}, tiles up to {} x {}\n", name, device.renderer, device.vendor,
+            device.version, device.software ? "software" : "GPU", device.max_resolution,
+            device.max_resolution);
     }
   }
 }

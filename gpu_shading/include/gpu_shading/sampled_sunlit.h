@@ -45,8 +45,8 @@ using SunlitSource =
 struct SampledFractions {
   std::size_t receiver;
   std::vector<std::pair<int, int>> powers;  // as in ScheduledPart; empty: unscheduled
-  std::vector<double>
-      fractions;  // by direction; 0 .. 1, and 0 if the receiver faces away from the sun
+  // By direction; 0 .. 1, and 0 if the receiver faces away from the sun.
+  std::vector<double> fractions;
 };
 
 // The sampled directions, round by round: the answers of one round determine the directions of the
