@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gpu_shading/error.h"
-#include "platform/disk.h"
+#include "platform/files.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -3,6 +3,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <numeric>
 #include <utility>
 
@@ -32,6 +33,41 @@ InteriorKey::InteriorKey(InteriorQuestion asked)
     : question(std::move(asked)),
       hash(XXH3_64bits_withSeed(question.interiors.data(),
                                 question.interiors.size() * sizeof(SurfaceId), question.window)) {}
+
+AskedWindow::AskedWindow(Scene const& scene, SurfaceId window)
+    : normal_(normal(scene[window].polygon)) {}
+
+std::uint64_t AskedWindow::sides(glm::dvec3 const& towards_sun) const {
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < listed_.size(); ++i) {
+    if (glm::dot(listed_[i].normal, towards_sun) > 0.0) bits |= std::uint64_t{1} << i;
+  }
+  return bits;
+}
+
+void AskedWindow::ask(Scene const& scene, InteriorKey const& key, glm::dvec3 const& towards_sun) {
+  constexpr std::size_t most_surfaces = 64;
+  constexpr std::size_t most_lists = 16;
+  for (auto const surface : key.question.interiors) {
+    bool const known = std::any_of(listed_.begin(), listed_.end(),
+                                   [&](Listed const& one) { return one.surface == surface; });
+    if (known || listed_.size() == most_surfaces) continue;
+    listed_.push_back({surface, normal(scene[surface].polygon)});
+    for (Asked& asked : asked_) asked.sides = sides(asked.towards_sun);
+  }
+  auto const now = sides(towards_sun);
+  std::erase_if(asked_, [&](Asked const& asked) { return asked.sides == now; });
+  if (asked_.size() == most_lists) asked_.erase(asked_.begin());
+  asked_.push_back({key, towards_sun, now});
+}
+
+InteriorKey const* AskedWindow::foresee(glm::dvec3 const& towards_sun) const {
+  if (glm::dot(normal_, towards_sun) <= 0.0) return nullptr;
+  auto const now = sides(towards_sun);
+  auto const asked = std::find_if(asked_.begin(), asked_.end(),
+                                  [&](Asked const& one) { return one.sides == now; });
+  return asked == asked_.end() ? nullptr : &asked->key;
+}
 
 CachedRenderer::Counts& CachedRenderer::Counts::operator+=(Counts const& other) {
   directions += other.directions;
@@ -99,10 +135,18 @@ double CachedRenderer::area(SurfaceId receiver, AskedSun const& asked,
       directions.push_back(&next);
     }
     directions.push_back(&direction);
-    std::vector<ReceiverNumber> all(known_.receivers.size());
-    std::iota(all.begin(), all.end(), ReceiverNumber{0});
-    render(directions, all);
+    // EnergyPlus asks about some receivers never, which shows at the sky's patches.
+    std::vector<ReceiverNumber> wanted(known_.receivers.size());
+    std::iota(wanted.begin(), wanted.end(), ReceiverNumber{0});
+    if (!asked_.empty()) {
+      std::erase_if(wanted, [&](auto other) {
+        return other != number && (other >= asked_.size() || !asked_[other]);
+      });
+    }
+    render(directions, wanted);
   }
+  if (number >= asked_.size()) asked_.resize(known_.receivers.size(), false);
+  asked_[number] = true;
   if (!direction.asked && !direction.recalled) ++directions_;
   direction.asked = true;
   return direction.area(number, factors);
@@ -172,22 +216,39 @@ std::vector<Sunlit> const* CachedRenderer::find_interior(Direction& direction, s
 }
 
 std::vector<Sunlit> const& CachedRenderer::interior(InteriorKey const& key, AskedSun const& asked) {
+  auto const& scene = renderer_.scene();
   auto const window = key.question.window;
-  auto& last = interiors_.try_emplace(window, key).first->second;
-  if (last.hash != key.hash) last = key;
   auto& direction = direction_at(asked.sun);
   if (auto const* const known = find_interior(direction, key.hash)) return *known;
-  std::vector<InteriorKey const*> questions{&key};
-  for (auto const& [other, asked_last] : interiors_) {
-    if (other != window) questions.push_back(&asked_last);
+  windows_.try_emplace(window, scene, window).first->second.ask(scene, key, to_vector(asked.sun));
+  // Questions by the directions at which they are unknown: of most windows, these are the same.
+  std::vector<std::pair<Directions, std::vector<InteriorKey const*>>> batches;
+  std::vector<std::pair<Direction*, glm::dvec3>> ahead{{&direction, to_vector(asked.sun)}};
+  for (auto const sun : first_of(asked.ahead, windows_.size())) {
+    ahead.emplace_back(&known_.answers.at(sun, state_), to_vector(sun));
   }
-  Directions unknown;
-  for (auto const sun : first_of(asked.ahead, questions.size())) {
-    auto& next = known_.answers.at(sun, state_);
-    if (find_interior(next, key.hash) == nullptr) unknown.push_back(&next);
+  for (auto const& [other, asked_window] : windows_) {
+    std::vector<std::pair<InteriorKey const*, Directions>> foreseen;
+    for (auto const& [next, towards_sun] : ahead) {
+      auto const* const question = asked_window.foresee(towards_sun);
+      if (question == nullptr || find_interior(*next, question->hash) != nullptr) continue;
+      if (foreseen.empty() || foreseen.back().first != question) foreseen.push_back({question, {}});
+      foreseen.back().second.push_back(next);
+    }
+    for (auto& [question, directions] : foreseen) {
+      auto const batch = std::find_if(batches.begin(), batches.end(),
+                                      [&](auto const& known) { return known.first == directions; });
+      if (batch != batches.end()) {
+        batch->second.push_back(question);
+      } else {
+        batches.push_back({std::move(directions), {question}});
+      }
+    }
   }
-  unknown.push_back(&direction);
-  return *render_interiors(unknown, questions).back();
+  for (auto const& [directions, questions] : batches) render_interiors(directions, questions);
+  if (auto const* const known = find_interior(direction, key.hash)) return *known;
+  render_interiors({&direction}, {&key});
+  return *find_interior(direction, key.hash);
 }
 
 std::vector<std::vector<Sunlit>> CachedRenderer::interior_at(std::span<SunDirection const> suns,
@@ -200,43 +261,29 @@ std::vector<std::vector<Sunlit>> CachedRenderer::interior_at(std::span<SunDirect
     found.push_back(find_interior(direction, key.hash));
     if (found.back() == nullptr) unknown.push_back(&direction);
   }
-  auto const rendered = render_interiors(unknown, {&key});
-  auto next = rendered.begin();
+  render_interiors(unknown, {&key});
+  auto next = unknown.begin();
   std::vector<std::vector<Sunlit>> rows;
   rows.reserve(found.size());
-  for (auto const* row : found) rows.push_back(row == nullptr ? **next++ : *row);
+  for (auto const* row : found) {
+    rows.push_back(row == nullptr ? *find_interior(**next++, key.hash) : *row);
+  }
   return rows;
 }
 
-// Renders the first question, which is unknown at all of these directions, and with it those of the
-// others that are unknown at one. Returns the answers to the first.
-std::vector<std::vector<Sunlit> const*> CachedRenderer::render_interiors(
-    Directions const& directions, std::vector<InteriorKey const*> const& questions) {
-  if (directions.empty()) return {};
+void CachedRenderer::render_interiors(Directions const& directions,
+                                      std::vector<InteriorKey const*> const& questions) {
+  if (directions.empty()) return;
   to_store_ = true;
-  std::vector<std::uint64_t> hashes;
   std::vector<InteriorQuestion> wanted;
-  for (auto const* key : questions) {
-    bool const unknown =
-        key == questions.front() ||
-        std::any_of(directions.begin(), directions.end(), [&](Direction* direction) {
-          return find_interior(*direction, key->hash) == nullptr;
-        });
-    if (!unknown) continue;
-    hashes.push_back(key->hash);
-    wanted.push_back(key->question);
-  }
+  wanted.reserve(questions.size());
+  for (auto const* key : questions) wanted.push_back(key->question);
   auto rendered = renderer_.interior_sunlit_areas(suns_of(directions), wanted);
-  std::vector<std::vector<Sunlit> const*> first;
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    auto& direction = *directions[i];
-    first.push_back(&known_.answers.keep_interior(direction, hashes[0], std::move(rendered[i][0])));
-    for (std::size_t k = 1; k < hashes.size(); ++k) {
-      if (direction.interior.contains(hashes[k])) continue;
-      known_.answers.keep_interior(direction, hashes[k], std::move(rendered[i][k]));
+    for (std::size_t k = 0; k < questions.size(); ++k) {
+      known_.answers.keep_interior(*directions[i], questions[k]->hash, std::move(rendered[i][k]));
     }
   }
-  return first;
 }
 
 void CachedRenderer::store() {

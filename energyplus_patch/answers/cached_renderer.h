@@ -27,6 +27,36 @@ struct InteriorKey {
   std::uint64_t hash;
 };
 
+// What EnergyPlus asked about one window so far. It lists the surfaces whose inside faces the sun,
+// so the list changes when the sun passes the plane of one of them.
+class AskedWindow {
+ public:
+  explicit AskedWindow(Scene const& scene, SurfaceId window);
+
+  void ask(Scene const& scene, InteriorKey const& key, glm::dvec3 const& towards_sun);
+  // What it will probably ask at a direction: what it asked last with the sun on the same sides of
+  // all surfaces. nullptr where it did not, and where the sun is behind the window.
+  InteriorKey const* foresee(glm::dvec3 const& towards_sun) const;
+
+ private:
+  struct Asked {
+    InteriorKey key;
+    glm::dvec3 towards_sun;
+    std::uint64_t sides;
+  };
+  struct Listed {
+    SurfaceId surface;
+    glm::dvec3 normal;
+  };
+
+  // A bit for each of the first surfaces: whether the sun is in front of it.
+  std::uint64_t sides(glm::dvec3 const& towards_sun) const;
+
+  glm::dvec3 normal_;
+  std::vector<Listed> listed_;
+  std::vector<Asked> asked_;  // the last at the end
+};
+
 // Answers of one scene. Each is kept from an earlier question, recalled from the cache of earlier
 // runs, or rendered; then it is kept, with its projected area in single precision. Functions throw
 // gpu_shading::Error.
@@ -50,11 +80,13 @@ class CachedRenderer {
   std::uint32_t state() const { return state_; }  // number of these shares
 
   // Projected sunlit area of a receiver (m2 normal to the beam), with factors[schedule]. What is
-  // unknown is rendered for all receivers, and for the directions ahead in the same batch.
+  // unknown is rendered for the directions ahead in the same batch, at first for all receivers,
+  // then for those that were asked about.
   double area(SurfaceId receiver, AskedSun const& asked, std::span<double const> factors);
 
   // Areas that the sun lights inside through a window, in the order of the question's surfaces.
-  // Unknown ones are rendered for all windows asked about before, and for the directions ahead.
+  // Unknown ones are rendered with what will probably be asked about all windows at the directions
+  // ahead.
   // Valid until the next call.
   std::vector<Sunlit> const& interior(InteriorKey const& key, AskedSun const& asked);
 
@@ -86,18 +118,20 @@ class CachedRenderer {
   void recall(Direction& direction);
   std::size_t render(Directions const& directions, std::span<ReceiverNumber const> receivers);
   std::vector<Sunlit> const* find_interior(Direction& direction, std::uint64_t hash);
-  std::vector<std::vector<Sunlit> const*> render_interiors(
-      Directions const& directions, std::vector<InteriorKey const*> const& questions);
+  // Renders these, which are unknown, and keeps their answers.
+  void render_interiors(Directions const& directions,
+                        std::vector<InteriorKey const*> const& questions);
 
   Renderer renderer_;
   std::optional<DiskCache> cache_;
   SceneAnswers known_;
   std::uint32_t state_ = 0;
   bool deployed_ = false;
-  Direction* last_ = nullptr;                             // asked about last
-  std::vector<std::optional<ReceiverNumber>> numbers_;    // of receivers, by surface
-  std::unordered_map<SurfaceId, InteriorKey> interiors_;  // asked about last, by window
-  std::size_t directions_ = 0;                            // Counts::directions
+  Direction* last_ = nullptr;                           // asked about last
+  std::vector<std::optional<ReceiverNumber>> numbers_;  // of receivers, by surface
+  std::vector<bool> asked_;                             // by receiver's number
+  std::unordered_map<SurfaceId, AskedWindow> windows_;
+  std::size_t directions_ = 0;  // Counts::directions
   bool to_store_ = false;
 };
 

@@ -78,7 +78,7 @@ double DecodingProcess::next_double() {
 }
 
 std::string DecodingProcess::next_text() {
-  auto const length = next<std::uint32_t>(0, decoding::longest_name);
+  auto const length = next<std::uint32_t>(0, decoding::max_name_bytes);
   std::string text(length, '\0');
   read(text.data(), text.size());
   return in_one_line(std::move(text));

@@ -21,7 +21,7 @@
 #include <string_view>
 
 #include "files/decoding/decoded_message.h"
-#include "files/decoding/server.h"
+#include "files/decoding/decoder.h"
 #include "files/sibling_file.h"
 #include "gpu_shading/error.h"
 #include "platform/file_descriptor.h"
@@ -176,7 +176,7 @@ class Server {
 
   // Why it ended.
   std::string reason() {
-    std::array<char, decoding::longest_message> text{};
+    std::array<char, decoding::max_message_bytes> text{};
     int const status = end();
     // What the system says if a library is missing.
     auto const length = pread(errors_.get(), text.data(), text.size(), 0);
@@ -192,7 +192,7 @@ class Server {
   bool ask(std::vector<std::string> const& words, int input, int output) const {
     std::string bytes;
     for (auto const& word : words) bytes.append(word).push_back('\0');
-    if (bytes.size() > decoding::longest_request) throw Error("its name is too long");
+    if (bytes.size() > decoding::max_request_bytes) throw Error("its name is too long");
     std::array<int, 2> const descriptors{input, output};
     alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof descriptors)> control{};
     iovec part{bytes.data(), bytes.size()};

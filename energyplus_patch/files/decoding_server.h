@@ -26,7 +26,7 @@ class DecodingDeadline {
 
 // Starts decoding a file, from `input` to `output`, in a process of its own, a child of this one,
 // whose number is returned. `program` is one beside this module or program; it is started once for
-// each thread (files/decoding/server.h). Throws Error with the reason in one line.
+// each thread (files/decoding/decoder.h). Throws Error with the reason in one line.
 pid_t start_decoding(char const* program, std::vector<std::string> const& words, int input,
                      int output, DecodingDeadline const& deadline);
 

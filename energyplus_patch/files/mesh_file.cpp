@@ -54,9 +54,9 @@ Mesh next_part(DecodingProcess& decoding, std::size_t& vertices_left, std::size_
 }
 
 std::vector<Mesh> all_parts(DecodingProcess& decoding) {
-  auto vertices_left = decoding::most_vertices;
-  auto triangles_left = decoding::most_triangles;
-  auto const parts = decoding.next<std::uint64_t>(0, decoding::most_parts);
+  auto vertices_left = decoding::max_vertices;
+  auto triangles_left = decoding::max_triangles;
+  auto const parts = decoding.next<std::uint64_t>(0, decoding::max_parts);
   std::vector<Mesh> read;
   for (std::uint64_t i = 0; i < parts; ++i) {
     read.push_back(next_part(decoding, vertices_left, triangles_left));

@@ -1,8 +1,7 @@
 #include <fmt/format.h>
 
-#include "files/elevation_file.h"
+#include "files/image_file.h"
 #include "files/mesh_file.h"
-#include "files/texture_file.h"
 #include "gpu_shading/error.h"
 #include "platform/files.h"
 

@@ -11,10 +11,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "files/image_file.h"
-#include "files/labelled_image.h"
 #include "files/picture_plugin/sheet_layout.h"
-#include "files/picture_sheet.h"
+#include "files/pictures.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/image.h"
 #include "platform/text.h"
@@ -213,7 +211,7 @@ std::string encode_sheet(std::string const& name, PictureSheet const& sheet) {
   }
   SheetLayout const layout(width, height, sheet.scale);
   int const count = static_cast<int>(pictures.size());
-  int const columns = std::min(count, SheetLayout::most_columns);
+  int const columns = std::min(count, SheetLayout::max_columns);
   int const rows = (count + columns - 1) / columns;
   Picture on(name, layout.sheet_width(columns), layout.sheet_height(rows));
   on.fill(0, 0, layout.sheet_width(columns), layout.sheet_height(rows), {0xff, 0xff, 0xff});

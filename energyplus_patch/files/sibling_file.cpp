@@ -10,6 +10,7 @@
 #include "platform/process.h"
 
 namespace gpu_shading::energyplus {
+
 namespace {
 
 // Empty if it is not known.

@@ -1,10 +1,14 @@
+#include <fmt/format.h>
 #include <io.h>
 #include <windows.h>
 
 #include <cerrno>
+#include <fstream>
+#include <string_view>
 #include <system_error>
 
-#include "platform/disk.h"
+#include "gpu_shading/error.h"
+#include "platform/files.h"
 
 namespace gpu_shading::energyplus {
 
@@ -36,6 +40,22 @@ int replace_file(std::filesystem::path const& file, std::filesystem::path const&
   }
   if (MoveFileExW(file.c_str(), replaced.c_str(), flags) != 0) return 0;
   return std::system_category().default_error_condition(static_cast<int>(GetLastError())).value();
+}
+
+std::string read_text_file(std::filesystem::path const& path) {
+  auto const refuse = [&](std::string_view why) {
+    throw Error(fmt::format("{}: {}", path.string(), why));
+  };
+  require_file(path);
+  std::error_code failure;
+  auto const bytes = std::filesystem::file_size(path, failure);
+  if (failure) refuse(failure.message());
+  if (bytes > most_text_bytes) refuse("is larger than 1 GiB");
+  std::string text(bytes, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(text.data(), static_cast<std::streamsize>(bytes));
+  if (!file) refuse("cannot be read");
+  return text;
 }
 
 }  // namespace gpu_shading::energyplus

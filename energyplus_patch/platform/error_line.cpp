@@ -10,7 +10,7 @@
 #include <new>
 
 #include "platform/ending_signals.h"
-#include "platform/memory_use.h"
+#include "platform/process.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {

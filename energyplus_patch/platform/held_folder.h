@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <system_error>
 
 #include "platform/ending_signals.h"
 
@@ -27,7 +28,12 @@ class HeldFolder {
   static constexpr char const* lock_name = ".lock";
 
  private:
-  bool make(std::filesystem::path const& parent, std::string_view prefix);
+  // By platform: makes the folder at path_ and holds it. Returns false if there is one already, or
+  // another process has deleted it meanwhile.
+  bool make(std::filesystem::path const& parent);
+  // By platform: deletes a folder with our name if no process holds it.
+  static void delete_if_abandoned(std::filesystem::path const& path);
+  [[noreturn]] static void fail(std::filesystem::path const& parent, std::error_code const& why);
 
   std::filesystem::path path_;
   std::optional<FolderAtSignals> at_signals_;

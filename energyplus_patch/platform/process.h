@@ -69,4 +69,7 @@ int run_process(std::vector<std::string> const& command,
 // What run_process() returned, in words: "exit status 1", "ended by signal 9 (Killed)".
 std::string describe_status(int status);
 
+// That memory has run out, how much is in use and how much may be, as far as the system says.
+std::string describe_lack_of_memory();
+
 }  // namespace gpu_shading::energyplus

@@ -141,4 +141,6 @@ void Interrupted::raise() const {
   std::raise(signal_);
 }
 
+std::string describe_lack_of_memory() { return "out of memory"; }
+
 }  // namespace gpu_shading::energyplus

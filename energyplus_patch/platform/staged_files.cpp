@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
-#include "platform/disk.h"
+#include "platform/files.h"
 #include "platform/held_folder.h"
 
 namespace gpu_shading::energyplus {

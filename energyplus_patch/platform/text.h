@@ -50,4 +50,15 @@ std::string csv_quoted(std::string_view text);
 // The same, in quotes only if necessary.
 std::string csv_field(std::string_view text);
 
+// "; did you mean WORD?" for the word that `text` is most probably a mistyping of: the one that the
+// fewest inserted, deleted, replaced or swapped letters make of it. Empty where none is near.
+std::string did_you_mean(std::string_view text, std::vector<std::string> const& words);
+
+// The text with what is not UTF-8, as names in IDF files may be, replaced by U+FFFD.
+std::string valid_utf8(std::string const& text);
+
+// Text for HTML, XML and SVG, between tags or in double quotes: valid UTF-8, with & < > " as
+// entities, and ? for control characters, which XML does not allow.
+std::string markup_text(std::string const& text);
+
 }  // namespace gpu_shading::energyplus

@@ -9,10 +9,9 @@
 #include <glm/trigonometric.hpp>
 #include <tuple>
 
-#include "files/image_file.h"
+#include "files/pictures.h"
 #include "gpu_shading/error.h"
 #include "model/options/report_folder.h"
-#include "platform/file_names.h"
 #include "platform/files.h"
 #include "platform/naming.h"
 #include "platform/text.h"

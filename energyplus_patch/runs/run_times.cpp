@@ -20,7 +20,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180.0;
 
 // See sun_is_up().
-constexpr double least_cosine = 1e-5;
+constexpr double min_cosine = 1e-5;
 
 double number(std::string const& text) {
   auto const value = parse_number(text);
@@ -86,12 +86,12 @@ double schedule_value(RunTimes const& run, RunTime const& time, std::string cons
                     1.0);
 }
 
-bool sun_is_up(SunDirection sun) { return to_vector(sun).z >= least_cosine; }
+bool sun_is_up(SunDirection sun) { return to_vector(sun).z >= min_cosine; }
 
 double sunlit_fraction(double projected_area, glm::dvec3 const& area, glm::dvec3 const& sun) {
   double const whole = glm::length(area);
   double const facing = glm::dot(area, sun);
-  if (whole <= 0.0 || facing < least_cosine * whole) return 0.0;
+  if (whole <= 0.0 || facing < min_cosine * whole) return 0.0;
   return std::clamp(projected_area / facing, 0.0, 1.0);
 }
 

@@ -12,7 +12,7 @@ namespace gpu_shading::energyplus {
 namespace {
 
 constexpr int hours_of_a_day = 24;
-constexpr int most_steps = 60;  // per hour, EnergyPlus's own limit
+constexpr int max_steps = 60;  // per hour, EnergyPlus's own limit
 
 double to_number(std::string const& text) {
   auto const value = parse_number(text);
@@ -78,7 +78,7 @@ class Reader {
     int const start = to_whole(words[6], 0, minutes);
     int const step = to_whole(words[7], 0, minutes) - start;
     if (step <= 0) throw Error("eplusout.eso: has a timestep that ends before it starts");
-    read_.steps_per_hour = std::min(minutes / step, most_steps);
+    read_.steps_per_hour = std::min(minutes / step, max_steps);
     int const month = to_whole(words[2], 1, 12);
     int const day = to_whole(words[3], 1, 31);
     int const hour = to_whole(words[5], 1, hours_of_a_day);

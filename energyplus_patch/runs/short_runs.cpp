@@ -15,7 +15,7 @@
 #include "platform/process.h"
 #include "platform/text.h"
 #include "runs/named_files.h"
-#include "runs/stop_reasons.h"
+#include "runs/refused_run.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -7,8 +7,7 @@
 #include <optional>
 
 #include "answers/cached_renderer.h"
-#include "files/image_file.h"
-#include "files/labelled_image.h"
+#include "files/pictures.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/scene_view.h"
 #include "platform/staged_files.h"

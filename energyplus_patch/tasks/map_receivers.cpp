@@ -11,7 +11,6 @@
 #include "gpu_shading/error.h"
 #include "gpu_shading/rays.h"
 #include "gpu_shading/sun_direction.h"
-#include "platform/nearest_word.h"
 #include "platform/progress.h"
 #include "platform/text.h"
 #include "reports/map_grid.h"

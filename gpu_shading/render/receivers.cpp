@@ -45,8 +45,8 @@ Receiver& Receivers::find(SurfaceId id) {
 
 std::vector<std::uint32_t> const* Receivers::in_sector(SurfaceId id,
                                                        glm::dvec3 const& towards_sun) {
-  // A run with shadows of every twentieth day asks about fewer: it would not pay.
-  constexpr std::size_t few = 500;
+  // A sector is found in the time of a few searches, and is asked about at other days again.
+  constexpr std::size_t few = 100;
   Receiver& receiver = find(id);
   if (++receiver.times <= few) return nullptr;
   PlaneFrame const& frame = *receiver.frame;

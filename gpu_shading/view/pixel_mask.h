@@ -11,9 +11,11 @@
 namespace gpu_shading {
 
 // Calls use(row, rows, spans) for some rows after another, from `first_row` to `end_row`
-// (exclusive), of which an area covers columns up to `columns`.
+// (exclusive), where an area covers columns up to `columns`. Inlined, because a call for each span
+// shows in the time of views behind shades.
 template <typename Use>
-void each_rows_of_spans(ConvexArea const& area, int columns, int first_row, int end_row, Use use) {
+[[gnu::always_inline]] inline void each_rows_of_spans(ConvexArea const& area, int columns,
+                                                      int first_row, int end_row, Use use) {
   RowSpans spans;
   int const end = std::min(area.end_row, end_row);
   for (int row = std::max(area.first_row, first_row); row < end; row += RowSpans::most) {
@@ -25,7 +27,8 @@ void each_rows_of_spans(ConvexArea const& area, int columns, int first_row, int 
 
 // Calls use(row, first, length) for the columns of each of these rows.
 template <typename Use>
-void each_span(ConvexArea const& area, int columns, int first_row, int end_row, Use use) {
+[[gnu::always_inline]] inline void each_span(ConvexArea const& area, int columns, int first_row,
+                                             int end_row, Use use) {
   each_rows_of_spans(area, columns, first_row, end_row,
                      [&](int row, int rows, RowSpans const& spans) {
                        for (int i = 0; i < rows; ++i) {

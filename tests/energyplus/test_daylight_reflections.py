@@ -226,7 +226,7 @@ def test_where_energyplus_is_not_as_expected_light_is_only_dimmed(room, run):
         pytest.skip(f"{library} is missing: run scripts/build")
     awning = room + shade("Awning", AWNING) + reflectance("Awning", 0.8)
     answer = run(awning, "answer", "--gpu-shading", "--gpu-shading-lean=on", environment={"LD_PRELOAD": str(library)})
-    warnings = re.findall(r"gpu_shading: this EnergyPlus keeps its (\S+)", answer.text("eplusout.err"))
+    warnings = re.findall(r"gpu_shading: EnergyPlus's (\S+) [a-z ]*unexpected layout", answer.text("eplusout.err"))
     assert warnings == ["solar", "daylighting"]
     found, bare = factors(answer), factors(run(room, "bare"))
     assert (found <= bare).all() and (found < bare).any()

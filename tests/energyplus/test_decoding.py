@@ -16,7 +16,7 @@ SECONDS, BYTES = 60, 4 << 30
 
 
 class Decoder:
-    """A decoding program that waits for requests, as energyplus_patch/files/decoding/server.h has them."""
+    """A decoding program that waits for requests, as energyplus_patch/files/decoding/decoder.h has them."""
 
     def __init__(self, program):
         self.link, other = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)

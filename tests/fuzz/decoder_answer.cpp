@@ -5,9 +5,8 @@
 #include <string>
 
 #include "files/decoding/decoded_message.h"
-#include "files/elevation_file.h"
+#include "files/image_file.h"
 #include "files/mesh_file.h"
-#include "files/texture_file.h"
 #include "fuzz.h"
 
 namespace {

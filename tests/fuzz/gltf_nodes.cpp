@@ -1,7 +1,6 @@
 // What is checked of glTF before Assimp opens it.
 
-#include "files/mesh_decoder/gltf_nodes.h"
-
+#include "files/mesh_decoder/scene_parts.h"
 #include "fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {

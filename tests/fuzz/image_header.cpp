@@ -1,6 +1,5 @@
 // What is read of an image before OpenImageIO opens it.
 
-#include "files/image_decoder/bmp_header.h"
 #include "files/image_decoder/image_format.h"
 #include "fuzz.h"
 

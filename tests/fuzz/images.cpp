@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "files/texture_file.h"
+#include "files/image_file.h"
 #include "fuzz.h"
 
 // The first byte chooses the ending of the file's name, and whether every format is read.

@@ -4,7 +4,7 @@
 
 #include "files/image_decoder/elevations.h"
 #include "files/image_decoder/images.h"
-#include "files/image_decoder/small_tiff.h"
+#include "files/image_decoder/tiff.h"
 #include "fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {

@@ -8,19 +8,19 @@
 namespace gpu_shading::decoding {
 namespace {
 
-constexpr std::size_t most_waiting = std::size_t{1} << 16U;
+constexpr std::size_t max_waiting = std::size_t{1} << 16U;
 
 }  // namespace
 
 void DecodedMessage::put_text(std::string_view text) {
-  text = text.substr(0, longest_name);
+  text = text.substr(0, max_name_bytes);
   put(static_cast<std::uint32_t>(text.size()));
   write(text.data(), text.size());
 }
 
 bool DecodedMessage::fail(std::string_view why) {
   if (begun_) return false;
-  why = why.substr(0, longest_message);
+  why = why.substr(0, max_message_bytes);
   begin(Status::failed);
   auto const length = static_cast<std::uint32_t>(why.size());
   write(&length, sizeof length);
@@ -32,15 +32,15 @@ bool DecodedMessage::fail(std::string_view why) {
 void DecodedMessage::begin(Status status) {
   if (begun_) return;
   begun_ = true;
-  waiting_.reserve(most_waiting);
+  waiting_.reserve(max_waiting);
   write(&message_mark, sizeof message_mark);
   write(&status, sizeof status);
 }
 
 void DecodedMessage::write(void const* bytes, std::size_t count) {
   auto const* const from = static_cast<char const*>(bytes);
-  if (waiting_.size() + count > most_waiting) flush();
-  if (count > most_waiting) {
+  if (waiting_.size() + count > max_waiting) flush();
+  if (count > max_waiting) {
     send(from, count);
   } else {
     waiting_.insert(waiting_.end(), from, from + count);

@@ -15,8 +15,8 @@ inline constexpr std::uint32_t message_mark = 0x31445347;  // "GSD1"
 
 enum class Status : std::uint32_t { done = 0, failed = 1 };
 
-inline constexpr std::size_t longest_message = 400;
-inline constexpr std::size_t longest_name = 4096;  // of a mesh or a material; longer ones are cut
+inline constexpr std::size_t max_message_bytes = 400;
+inline constexpr std::size_t max_name_bytes = 4096;  // of a mesh or a material; longer ones are cut
 
 class DecodedMessage {
  public:

@@ -8,23 +8,101 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
-#include "files/decoding/fail.h"
-#include "files/image_decoder/gdal_metadata.h"
-#include "files/image_decoder/tiff_file.h"
-#include "files/image_decoder/tiff_samples.h"
+#include "files/decoding/decoder.h"
+#include "files/image_decoder/tiff.h"
 
 namespace gpu_shading::decoding {
 namespace {
+
+// What GDAL's tag GDAL_METADATA (42112) says of the first channel: its value is
+// scale * stored + offset, in the unit.
+struct GdalMetadata {
+  double scale = 1.0;
+  double offset = 0.0;
+  std::string unit;  // as written; "": not stated
+};
+
+constexpr std::string_view blanks = " \t\r\n";
+
+std::string_view trimmed(std::string_view text) {
+  auto const first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+// The value of an attribute, as in <Item name="SCALE" sample="0" role="scale">.
+std::optional<std::string_view> attribute(std::string_view tag, std::string_view name) {
+  std::size_t at = tag.find_first_of(blanks);
+  while (at != std::string_view::npos) {
+    auto const equals = tag.find('=', at);
+    if (equals == std::string_view::npos) break;
+    auto const quote = tag.find_first_of("\"'", equals);
+    if (quote == std::string_view::npos) break;
+    auto const end = tag.find(tag[quote], quote + 1);
+    if (end == std::string_view::npos) break;
+    if (trimmed(tag.substr(at, equals - at)) == name) {
+      return tag.substr(quote + 1, end - quote - 1);
+    }
+    at = end + 1;
+  }
+  return std::nullopt;
+}
+
+// A number and nothing else but blanks: "-9999", "nan", "-inf". Throws std::runtime_error with the
+// name of the field.
+double parse_gdal_number(std::string const& field, std::string_view text) {
+  auto number = trimmed(text);
+  // from_chars does not accept a plus sign.
+  if (number.starts_with('+')) number.remove_prefix(1);
+  double value = 0.0;
+  auto const* const end = number.data() + number.size();
+  auto const [stop, error] = std::from_chars(number.data(), end, value);
+  if (number.empty() || error != std::errc{} || stop != end) {
+    constexpr std::size_t max_shown = 40;
+    fail("its " + field + " is \"" + std::string(text.substr(0, max_shown)) +
+         "\", expected a number");
+  }
+  return value;
+}
+
+double finite(std::string const& field, std::string_view text) {
+  double const value = parse_gdal_number(field, text);
+  if (!std::isfinite(value)) fail("its " + field + " is not finite");
+  return value;
+}
+
+// Parses XML as GDAL writes it. Throws std::runtime_error if SCALE or OFFSET is not a finite number
+// or SCALE is 0.
+GdalMetadata parse_gdal_metadata(std::string_view xml) {
+  GdalMetadata metadata;
+  constexpr std::string_view start = "<Item";
+  for (auto at = xml.find(start); at != std::string_view::npos; at = xml.find(start, at + 1)) {
+    auto const end = xml.find('>', at);
+    if (end == std::string_view::npos) fail("its GDAL_METADATA is cut off");
+    auto const tag = xml.substr(at, end - at);
+    auto const role = attribute(tag, "role");
+    if (!role || attribute(tag, "sample") != "0") continue;
+    auto const text = xml.substr(end + 1, xml.find('<', end) - end - 1);
+    if (role == "scale") metadata.scale = finite("GDAL SCALE", text);
+    if (role == "offset") metadata.offset = finite("GDAL OFFSET", text);
+    if (role == "unittype") metadata.unit = trimmed(text);
+  }
+  if (metadata.scale == 0.0) fail("its GDAL SCALE is 0, expected a number other than 0");
+  return metadata;
+}
 
 struct FreeKeys {
   void operator()(GTIF* keys) const { GTIFFree(keys); }
@@ -134,8 +212,8 @@ void check_unit(std::string const& unit) {
   }
   constexpr std::array<std::string_view, 6> metres{"", "m", "metre", "metres", "meter", "meters"};
   if (std::find(metres.begin(), metres.end(), lower) != metres.end()) return;
-  constexpr std::size_t most_shown = 40;
-  fail("its elevations are in \"" + unit.substr(0, most_shown) + "\", expected metres");
+  constexpr std::size_t max_shown = 40;
+  fail("its elevations are in \"" + unit.substr(0, max_shown) + "\", expected metres");
 }
 
 // GDAL_NODATA, in the precision of the numbers that are compared with it; NaN if it is missing.
@@ -155,7 +233,7 @@ Elevations read_elevations(char const* path) {
   auto const& header = result.header;
   Header const file(path);
   result.header = read_header(file);
-  if (std::int64_t{header.columns} * header.rows > most_elevations) return result;
+  if (std::int64_t{header.columns} * header.rows > max_elevations) return result;
   auto const metadata = parse_gdal_metadata(file.text(42112));
   check_unit(metadata.unit);
   auto samples = read_samples(file.file());

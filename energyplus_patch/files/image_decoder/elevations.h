@@ -16,7 +16,7 @@ struct ElevationHeader {
   double step_y = 0.0;  // step to the next row; negative if the first row is the northernmost
 };
 
-inline constexpr std::int32_t most_elevations = 1'000'000;
+inline constexpr std::int32_t max_elevations = 1'000'000;
 
 struct Elevations {
   ElevationHeader header;

@@ -13,10 +13,9 @@
 #include <string_view>
 #include <utility>
 
-#include "files/decoding/fail.h"
-#include "files/image_decoder/bmp_header.h"
+#include "files/decoding/decoder.h"
 #include "files/image_decoder/image_format.h"
-#include "files/image_decoder/small_tiff.h"
+#include "files/image_decoder/tiff.h"
 
 namespace gpu_shading::decoding {
 namespace {

@@ -22,8 +22,8 @@ struct ImageFile {
   bool any = false;            // in any format
 };
 
-inline constexpr std::int64_t most_texels_per_side = 16384;
-inline constexpr std::int64_t most_texels = most_texels_per_side * most_texels_per_side;
+inline constexpr std::int64_t max_texels_per_side = 16384;
+inline constexpr std::int64_t max_texels = max_texels_per_side * max_texels_per_side;
 // Images of so many are decoded as soon as their header is wanted: a start of the program takes
 // longer.
 inline constexpr std::int64_t few_texels = std::int64_t{1} << 22U;

@@ -38,7 +38,7 @@ void decode(Request const& request, DecodedMessage& answer) {
   OIIO::attribute("threads", 1);
   OIIO::attribute("exr_threads", -1);
   if (request.operation == "image" || request.operation == "small image") {
-    auto const most = request.operation == "image" ? most_texels : few_texels;
+    auto const most = request.operation == "image" ? max_texels : few_texels;
     auto const [header, opacity] = read_image({input_path, request.name, request.any}, most);
     put(answer, header);
     answer.put(std::uint64_t{opacity.size()});

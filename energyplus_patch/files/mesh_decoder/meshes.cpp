@@ -12,8 +12,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "files/decoding/fail.h"
-#include "files/mesh_decoder/gltf_nodes.h"
+#include "files/decoding/decoder.h"
 #include "files/mesh_decoder/neighbour_files.h"
 #include "files/mesh_decoder/scene_parts.h"
 
@@ -41,7 +40,7 @@ void keep_restricted_formats(Assimp::Importer& importer) {
   }
 }
 
-float largest_coordinate(aiScene const& scene) {
+float max_coordinate(aiScene const& scene) {
   float largest = 0.0F;
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
     auto const& mesh = *scene.mMeshes[i];
@@ -72,7 +71,7 @@ void scale(aiScene const& scene, int exponent) {
 // caps of thin tubes, so that they are made larger before and smaller after.
 aiScene const* triangulate(Assimp::Importer& importer) {
   constexpr int large = 40;
-  auto const largest = largest_coordinate(*importer.GetScene());
+  auto const largest = max_coordinate(*importer.GetScene());
   auto const exponent = largest > 0.0F ? large - std::ilogb(largest) : 0;
   scale(*importer.GetScene(), exponent);
   auto const* scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);

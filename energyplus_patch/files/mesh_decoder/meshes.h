@@ -25,12 +25,12 @@ struct MeshFile {
 };
 
 // Of all parts of a file together. A file with more is refused.
-inline constexpr std::size_t most_vertices = 20'000'000;
-inline constexpr std::size_t most_triangles = 20'000'000;
-inline constexpr std::size_t most_parts = 1'000'000;
+inline constexpr std::size_t max_vertices = 20'000'000;
+inline constexpr std::size_t max_triangles = 20'000'000;
+inline constexpr std::size_t max_parts = 1'000'000;
 // Of one face: the time to cut it into triangles grows with the cube of that.
-inline constexpr unsigned most_corners = 1000;
-inline constexpr std::size_t deepest_node = 1000;
+inline constexpr unsigned max_corners = 1000;
+inline constexpr std::size_t max_depth = 1000;
 
 // Reads OBJ and other formats that state no axes unchanged, and COLLADA and glTF with y up and in
 // metres, whatever the file states. Polygons are converted to triangles; points and lines are left

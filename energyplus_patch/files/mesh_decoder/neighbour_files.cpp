@@ -10,7 +10,7 @@
 namespace gpu_shading::decoding {
 namespace {
 
-constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30U;
+constexpr std::uintmax_t max_bytes = std::uintmax_t{1} << 30U;
 
 std::filesystem::path resolved(std::filesystem::path const& path) {
   std::error_code failure;
@@ -56,7 +56,7 @@ Assimp::IOStream* NeighbourFiles::Open(char const* name, char const* mode) {
   if (!std::filesystem::is_regular_file(path, failure)) return nullptr;
   auto const size = std::filesystem::file_size(path, failure);
   if (failure) return nullptr;
-  if (size > most_bytes) {
+  if (size > max_bytes) {
     refusal_ = path.string() + " is larger than 1 GiB";
     return nullptr;
   }

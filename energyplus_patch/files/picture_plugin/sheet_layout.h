@@ -7,12 +7,12 @@ namespace gpu_shading {
 // Lengths in a sheet of pictures in proportion to the largest of them, so that all sizes look
 // alike; pixels. Each picture has a cell, below the line of its caption; the scale is at the right.
 struct SheetLayout {
-  static constexpr int most_columns = 4;
+  static constexpr int max_columns = 4;
   static constexpr int scale_colours = 256;
-  static constexpr int least_bar = scale_colours / 8;
+  static constexpr int min_bar = scale_colours / 8;
 
-  SheetLayout(int largest_width, int largest_height, bool scale)
-      : width(std::max(1, largest_width)), height(std::max(1, largest_height)) {
+  SheetLayout(int max_width, int max_height, bool scale)
+      : width(std::max(1, max_width)), height(std::max(1, max_height)) {
     constexpr int least = 11;
     constexpr int lines = 28;
     text = std::max(least, std::max(width, height) / lines);
@@ -22,7 +22,7 @@ struct SheetLayout {
     cell_height = height + caption + margin;
     scale_width = scale ? 7 * text : 0;
     // Where a bar and its numbers have room.
-    scale_height = scale ? caption + 2 * text + margin + least_bar : 0;
+    scale_height = scale ? caption + 2 * text + margin + min_bar : 0;
   }
 
   int sheet_width(int columns) const { return columns * cell_width + scale_width; }
@@ -33,7 +33,7 @@ struct SheetLayout {
   int bar_top() const { return caption + text; }
   int bar_height(int rows) const {
     int const below = std::max(cell_height, scale_height);
-    return std::max(least_bar, std::min(sheet_height(rows), below) - bar_top() - margin - text);
+    return std::max(min_bar, std::min(sheet_height(rows), below) - bar_top() - margin - text);
   }
 
   int width;  // of the largest picture

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "files/texture_file.h"
+#include "files/image_file.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/scene.h"

@@ -11,7 +11,6 @@
 #include "model/extensions/field.h"
 #include "model/options/option_table.h"
 #include "platform/console.h"
-#include "platform/nearest_word.h"
 #include "platform/process.h"
 #include "platform/text.h"
 

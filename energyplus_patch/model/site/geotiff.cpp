@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "files/elevation_file.h"
+#include "files/image_file.h"
 #include "gpu_shading/error.h"
 #include "model/site/terrain_file.h"
 #include "platform/files.h"

@@ -12,7 +12,6 @@
 #include "platform/console.h"
 #include "platform/ending_signals.h"
 #include "platform/error_line.h"
-#include "platform/nearest_word.h"
 #include "platform/process.h"
 #include "platform/text.h"
 #include "programs/gpu_shading/commands.h"

@@ -11,7 +11,7 @@
 #include "model/model_reader.h"
 #include "model/site/weather_header.h"
 #include "platform/console.h"
-#include "platform/file_names.h"
+#include "platform/files.h"
 #include "platform/process.h"
 #include "platform/text.h"
 #include "programs/gpu_shading/commands.h"

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <utility>
 
-#include "files/labelled_image.h"
+#include "files/pictures.h"
 #include "gpu_shading/image.h"
 #include "gpu_shading/sun_direction.h"
 #include "programs/gpu_shading/map_canvas.h"

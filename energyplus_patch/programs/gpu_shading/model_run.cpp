@@ -10,7 +10,7 @@
 #include "platform/files.h"
 #include "platform/process.h"
 #include "runs/installation.h"
-#include "runs/stop_reasons.h"
+#include "runs/refused_run.h"
 #include "tasks/task_file.h"
 
 namespace gpu_shading::energyplus {

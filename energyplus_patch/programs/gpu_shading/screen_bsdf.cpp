@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "platform/markup_text.h"
+#include "platform/text.h"
 #include "programs/gpu_shading/screen_files.h"
 
 namespace gpu_shading::energyplus {

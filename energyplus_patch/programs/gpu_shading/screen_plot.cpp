@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "gpu_shading/image.h"
-#include "platform/markup_text.h"
+#include "platform/text.h"
 #include "programs/gpu_shading/screen_files.h"
 
 namespace gpu_shading::energyplus {

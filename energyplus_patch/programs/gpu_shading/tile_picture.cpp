@@ -8,8 +8,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "files/image_file.h"
-#include "files/picture_sheet.h"
+#include "files/pictures.h"
 #include "gpu_shading/error.h"
 #include "platform/console.h"
 #include "platform/files.h"

@@ -7,7 +7,7 @@
 #include <regex>
 #include <utility>
 
-#include "files/picture_sheet.h"
+#include "files/pictures.h"
 #include "gpu_shading/error.h"
 #include "model/idf/model_file.h"
 #include "model/site/site_clock.h"

@@ -14,7 +14,7 @@
 #include <string_view>
 
 #include "gpu_shading/image.h"
-#include "platform/markup_text.h"
+#include "platform/text.h"
 #include "reports/page/page_parts.h"
 
 namespace gpu_shading::energyplus {

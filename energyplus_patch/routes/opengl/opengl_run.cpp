@@ -22,7 +22,7 @@
 #include "routes/opengl/opengl_functions.h"
 #include "routes/opengl/schedule_clock.h"
 #include "routes/schedules/rendered_fractions.h"
-#include "runs/drawn_surfaces.h"
+#include "runs/drawing.h"
 #include "runs/installation.h"
 
 namespace gpu_shading::energyplus {

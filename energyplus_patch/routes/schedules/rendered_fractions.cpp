@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "platform/progress.h"
-#include "runs/drawn_surfaces.h"
+#include "runs/drawing.h"
 
 namespace gpu_shading::energyplus {
 namespace {

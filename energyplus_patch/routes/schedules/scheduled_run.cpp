@@ -17,7 +17,7 @@
 #include "platform/text.h"
 #include "routes/hosted_run.h"
 #include "routes/schedules/rendered_fractions.h"
-#include "runs/drawn_surfaces.h"
+#include "runs/drawing.h"
 #include "runs/installation.h"
 
 namespace gpu_shading::energyplus {

@@ -1,11 +1,10 @@
-#include "files/texture_file.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "files/image_file.h"
 #include "support/refusal.h"
 #include "test_images.h"
 

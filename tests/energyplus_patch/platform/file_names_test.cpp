@@ -1,8 +1,8 @@
 // Surfaces may have any name; their pictures need names of files that do not meet.
 
-#include "platform/file_names.h"
-
 #include <gtest/gtest.h>
+
+#include "platform/files.h"
 
 namespace gpu_shading::energyplus {
 namespace {

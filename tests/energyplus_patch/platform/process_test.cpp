@@ -13,7 +13,6 @@
 
 #include "platform/ending_signals.h"
 #include "platform/files.h"
-#include "platform/folder_deletion.h"
 
 namespace gpu_shading::energyplus {
 namespace {

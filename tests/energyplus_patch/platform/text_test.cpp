@@ -7,9 +7,6 @@
 #include <regex>
 #include <string>
 
-#include "platform/markup_text.h"
-#include "platform/nearest_word.h"
-
 namespace gpu_shading::energyplus {
 namespace {
 

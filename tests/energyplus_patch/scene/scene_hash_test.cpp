@@ -8,7 +8,6 @@
 
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
-#include "scene/scene_hash.h"
 
 namespace gpu_shading::energyplus {
 namespace {

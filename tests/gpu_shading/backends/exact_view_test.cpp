@@ -185,7 +185,7 @@ TEST(ExactView, OfARoomIsTheSameByIntersectionsAsByASweep) {
   room.surfaces.push_back(room.scene.add({"table", level(1, 1, 0.7, 1.5, 1)}));
   for (int i = 0; i < 3; ++i) {
     Surface blind{"blind", south_facing(0.8 + 0.4 * i, -0.3 - 0.1 * i, 1.0, 0.9, 1.0)};
-    if (i > 0) blind.schedule = i % 2;
+    if (i > 0) blind.filter.schedule = i % 2;
     room.scene.add(blind);
   }
   room.scene.add({"holed",

@@ -1,5 +1,6 @@
 #include "routes/patched/binary/entry_patch.h"
 
+#include <Zydis/Zydis.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -13,10 +14,48 @@
 #include <limits>
 
 #include "gpu_shading/error.h"
-#include "routes/patched/binary/relocated_code.h"
 
 namespace gpu_shading::energyplus {
 namespace {
+
+// The first instructions of a function, to be run elsewhere: at least `length` bytes of whole
+// instructions from `code`. Empty, with the reason in `problem`, if one of them cannot be relocated
+// (a relative jump or call) or decoded.
+struct RelocatedCode {
+  std::vector<std::uint8_t> bytes;
+  // Offsets in `bytes` of 32-bit displacements relative to the instruction pointer. Each must be
+  // reduced by the distance that the code is moved.
+  std::vector<std::size_t> displacements;
+};
+
+std::optional<RelocatedCode> take_instructions(std::byte const* code, std::size_t available,
+                                               std::size_t length, std::string& problem) {
+  ZydisDecoder decoder;
+  ZydisDecoderInit(&decoder, ZYDIS_MACHINE_MODE_LONG_64, ZYDIS_STACK_WIDTH_64);
+  RelocatedCode taken;
+  while (taken.bytes.size() < length) {
+    std::size_t const at = taken.bytes.size();
+    ZydisDecodedInstruction instruction;
+    ZydisDecodedOperand operands[ZYDIS_MAX_OPERAND_COUNT];
+    if (!ZYAN_SUCCESS(
+            ZydisDecoderDecodeFull(&decoder, code + at, available - at, &instruction, operands))) {
+      problem = fmt::format("no instruction at byte {}", at);
+      return std::nullopt;
+    }
+    if ((instruction.attributes & ZYDIS_ATTRIB_IS_RELATIVE) != 0) {
+      bool const memory = instruction.raw.disp.size == 32;
+      bool const immediate = instruction.raw.imm[0].is_relative;
+      if (!memory || immediate) {
+        problem = fmt::format("a relative jump at byte {}", at);
+        return std::nullopt;
+      }
+      taken.displacements.push_back(at + instruction.raw.disp.offset);
+    }
+    auto const* bytes = reinterpret_cast<std::uint8_t const*>(code + at);
+    taken.bytes.insert(taken.bytes.end(), bytes, bytes + instruction.length);
+  }
+  return taken;
+}
 
 // jmp [rip+0], followed by the absolute address: no register is touched.
 constexpr std::size_t jump_size = 14;

@@ -9,14 +9,14 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-constexpr std::size_t most_thunks = 64;  // of each kind; the assembly below has as many
+constexpr std::size_t max_thunks = 64;  // of each kind; the assembly below has as many
 
 }  // namespace
 
 extern "C" {
 __attribute__((visibility("hidden"))) extern std::byte const gpu_shading_integer_thunks[];
 __attribute__((visibility("hidden"))) extern std::byte const gpu_shading_real_thunks[];
-__attribute__((visibility("hidden"), used)) std::array<void*, 2 * most_thunks>
+__attribute__((visibility("hidden"), used)) std::array<void*, 2 * max_thunks>
     gpu_shading_thunk_targets{};
 }
 
@@ -54,73 +54,29 @@ asm(R"(
   .cfi_def_cfa_register %rbp
   and $-16, %rsp
   sub $400, %rsp
-  movaps %xmm0, 64(%rsp)
-  movaps %xmm1, 80(%rsp)
-  movaps %xmm2, 96(%rsp)
-  movaps %xmm3, 112(%rsp)
-  movaps %xmm4, 128(%rsp)
-  movaps %xmm5, 144(%rsp)
-  movaps %xmm6, 160(%rsp)
-  movaps %xmm7, 176(%rsp)
-  movaps %xmm8, 192(%rsp)
-  movaps %xmm9, 208(%rsp)
-  movaps %xmm10, 224(%rsp)
-  movaps %xmm11, 240(%rsp)
-  movaps %xmm12, 256(%rsp)
-  movaps %xmm13, 272(%rsp)
-  movaps %xmm14, 288(%rsp)
-  movaps %xmm15, 304(%rsp)
-  mov %rax, 320(%rsp)
-  mov %rcx, 328(%rsp)
-  mov %rdx, 336(%rsp)
-  mov %rsi, 344(%rsp)
-  mov %rdi, 352(%rsp)
-  mov %r8, 360(%rsp)
-  mov %r9, 368(%rsp)
-  mov %r10, 376(%rsp)
-  mov %r11, 384(%rsp)
-  mov 24(%rbp), %r10
-  mov %r10, 0(%rsp)
-  mov 32(%rbp), %r10
-  mov %r10, 8(%rsp)
-  mov 40(%rbp), %r10
-  mov %r10, 16(%rsp)
-  mov 48(%rbp), %r10
-  mov %r10, 24(%rsp)
-  mov 56(%rbp), %r10
-  mov %r10, 32(%rsp)
-  mov 64(%rbp), %r10
-  mov %r10, 40(%rsp)
-  mov 72(%rbp), %r10
-  mov %r10, 48(%rsp)
-  mov 80(%rbp), %r10
-  mov %r10, 56(%rsp)
+  .irp n, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15
+  movaps %xmm\n, 64+16*\n(%rsp)
+  .endr
+  .set gpu_shading_place, 320
+  .irp register, rax, rcx, rdx, rsi, rdi, r8, r9, r10, r11
+  mov %\register, gpu_shading_place(%rsp)
+  .set gpu_shading_place, gpu_shading_place + 8
+  .endr
+  .irp n, 0, 1, 2, 3, 4, 5, 6, 7
+  mov 24+8*\n(%rbp), %r10
+  mov %r10, 8*\n(%rsp)
+  .endr
   mov 8(%rbp), %r11
   lea gpu_shading_thunk_targets(%rip), %r10
   call *(%r10,%r11,8)
-  movaps 80(%rsp), %xmm1
-  movaps 96(%rsp), %xmm2
-  movaps 112(%rsp), %xmm3
-  movaps 128(%rsp), %xmm4
-  movaps 144(%rsp), %xmm5
-  movaps 160(%rsp), %xmm6
-  movaps 176(%rsp), %xmm7
-  movaps 192(%rsp), %xmm8
-  movaps 208(%rsp), %xmm9
-  movaps 224(%rsp), %xmm10
-  movaps 240(%rsp), %xmm11
-  movaps 256(%rsp), %xmm12
-  movaps 272(%rsp), %xmm13
-  movaps 288(%rsp), %xmm14
-  movaps 304(%rsp), %xmm15
-  mov 328(%rsp), %rcx
-  mov 336(%rsp), %rdx
-  mov 344(%rsp), %rsi
-  mov 352(%rsp), %rdi
-  mov 360(%rsp), %r8
-  mov 368(%rsp), %r9
-  mov 376(%rsp), %r10
-  mov 384(%rsp), %r11
+  .irp n, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15
+  movaps 64+16*\n(%rsp), %xmm\n
+  .endr
+  .set gpu_shading_place, 328
+  .irp register, rcx, rdx, rsi, rdi, r8, r9, r10, r11
+  mov gpu_shading_place(%rsp), %\register
+  .set gpu_shading_place, gpu_shading_place + 8
+  .endr
   .endm
 
   .macro GPU_SHADING_THUNK_RETURN
@@ -153,8 +109,8 @@ void* preserve_registers(void* function, Result result) {
   static std::array<std::atomic<std::size_t>, 2> used{};
   auto const kind = static_cast<std::size_t>(result == Result::real);
   auto const number = used[kind]++;
-  if (number >= most_thunks) throw Error("too many redirected functions");
-  gpu_shading_thunk_targets[kind * most_thunks + number] = function;
+  if (number >= max_thunks) throw Error("too many redirected functions");
+  gpu_shading_thunk_targets[kind * max_thunks + number] = function;
   auto const* const start = kind == 0 ? gpu_shading_integer_thunks : gpu_shading_real_thunks;
   return const_cast<std::byte*>(start + number * thunk_size);
 }

@@ -3,10 +3,9 @@
 #include <optional>
 #include <utility>
 
-#include "routes/patched/entries/daylight_memory_entries.h"
-#include "routes/patched/entries/daylight_reflection_entries.h"
 #include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
+#include "routes/patched/memory/daylight_reflections.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -1,9 +1,6 @@
-#include "routes/patched/entries/daylight_memory_entries.h"
-
 #include <atomic>
 
 #include "routes/patched/binary/preserving_thunk.h"
-#include "routes/patched/entries/daylight_reflection_entries.h"
 #include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
 

@@ -1,11 +1,8 @@
-#include "routes/patched/entries/daylight_reflection_entries.h"
-
 #include <optional>
 
-#include "routes/patched/entries/daylight_memory_entries.h"
 #include "routes/patched/entries/entries.h"
-#include "routes/patched/entries/reflection_entries.h"
 #include "routes/patched/entries/run.h"
+#include "routes/patched/memory/daylight_reflections.h"
 #include "routes/patched/memory/safe_read.h"
 
 namespace gpu_shading::energyplus {
@@ -34,9 +31,9 @@ void warn() {
   answering().failed = true;  // it may be in use
   messages_of(this_run())
       .warning(
-          "this EnergyPlus keeps its daylighting in another way than expected: what is not in its "
-          "input (lean input, Geometry, SiteContext) dims light on its way to windows, but neither "
-          "reflects it nor dims it on its way to what reflects it");
+          "EnergyPlus's daylighting has an unexpected layout in memory: hidden casters (lean input, "
+          "Geometry, SiteContext) dim light on its way to windows, but neither reflect it nor dim it "
+          "on its way to reflecting surfaces");
 }
 
 // Whether `action` could be done.

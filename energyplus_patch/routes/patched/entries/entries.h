@@ -1,11 +1,16 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "hidden/daylight_memory.h"
 #include "routes/patched/binary/entry_patch.h"
 #include "routes/patched/symbols/energyplus_symbols.h"
 
 namespace gpu_shading::energyplus {
+
+class SolarReflections;
+class DaylightReflections;
 
 // A function of the table of symbols that is redirected to ours.
 struct Entry {
@@ -45,5 +50,37 @@ std::vector<Entry> reflection_entries();
 std::vector<Entry> daylight_reflection_entries();
 // Those of daylighting that compute again what is known: DaylightMemory.
 std::vector<Entry> daylight_memory_entries();
+
+// The functions of GLFW 3 by which EnergyPlus's pixel counting gets an OpenGL context, and the
+// functions of OpenGL: those of opengl_function(). The library exports them all.
+std::vector<EntryPatch> glfw_entries();
+
+// Computes reflections in this thread's run; nullptr if EnergyPlus alone does.
+SolarReflections* solar_reflections(State& state);
+
+// The same for daylighting.
+DaylightReflections* daylight_reflections(State& state);
+
+// EnergyPlus begins its solar reflections anew.
+void forget_daylight_reflections();
+
+// The memory of this thread's run; nullptr if EnergyPlus's daylighting is left alone.
+DaylightMemory* daylight_memory();
+
+// EnergyPlus begins to compute daylight factors.
+void begin_daylight_memory(State& state);
+
+// While EnergyPlus integrates over the sky that a window sees at an hour.
+class SkyIntegral {
+ public:
+  SkyIntegral(int hour, int window);
+  SkyIntegral(SkyIntegral const&) = delete;
+  SkyIntegral& operator=(SkyIntegral const&) = delete;
+  ~SkyIntegral();
+
+ private:
+  DaylightMemory* before_;
+  std::optional<DaylightMemory::SkyOfWindow> sky_;
+};
 
 }  // namespace gpu_shading::energyplus

@@ -1,10 +1,9 @@
-#include "routes/patched/entries/glfw_entries.h"
-
 #include <algorithm>
 #include <memory>
 #include <string_view>
 
 #include "routes/opengl/opengl_functions.h"
+#include "routes/patched/entries/entries.h"
 
 // In place of GLFW's functions of the same names, for windows that are never shown.
 

@@ -21,7 +21,6 @@
 #include "routes/patched/binary/entry_patch.h"
 #include "routes/patched/binary/symbol_table.h"
 #include "routes/patched/entries/entries.h"
-#include "routes/patched/entries/glfw_entries.h"
 #include "routes/patched/entries/run.h"
 #include "routes/patched/symbols/loaded_library.h"
 #include "routes/schedules/scheduled_run.h"

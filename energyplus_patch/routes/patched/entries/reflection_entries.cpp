@@ -1,11 +1,7 @@
-#include "routes/patched/entries/reflection_entries.h"
-
 #include <optional>
 
-#include "routes/patched/entries/daylight_reflection_entries.h"
 #include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
-#include "routes/patched/entries/unwanted_messages.h"
 #include "routes/patched/memory/reflection_memory.h"
 #include "routes/patched/memory/solar_reflections.h"
 
@@ -33,9 +29,10 @@ void warn() {
   reflections().active.reset();
   messages_of(this_run())
       .warning(
-          "this EnergyPlus keeps its solar reflections in another way than expected: they do not "
-          "count what is not in its input (lean input, Geometry, SiteContext); with "
-          "--gpu-shading-lean=off, shading surfaces count as opaque");
+          "EnergyPlus's solar reflections have an unexpected layout in memory: they do not count "
+          "hidden casters (lean input, Geometry, SiteContext); with --gpu-shading-lean=off, "
+          "shading "
+          "surfaces count as opaque");
 }
 
 void init(State& state) {

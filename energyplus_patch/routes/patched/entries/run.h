@@ -2,16 +2,17 @@
 
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "calculation/session.h"
 #include "routes/patched/memory/surface_ids.h"
-#include "routes/patched/symbols/energyplus.h"
-#include "routes/patched/symbols/schedule_functions.h"
+#include "routes/patched/symbols/energyplus_functions.h"
 #include "tasks/task_file.h"
 
 namespace gpu_shading::energyplus {
@@ -69,6 +70,16 @@ struct Guarded<function> {
   static Result call(Arguments... arguments) {
     return guarded([&] { return function(arguments...); });
   }
+};
+
+// While it lives, this thread's EnergyPlus does not write errors and warnings for which the
+// function returns true, nor the lines that continue them. One at a time.
+class UnwantedMessages {
+ public:
+  explicit UnwantedMessages(std::function<bool(std::string_view message)> unwanted);
+  ~UnwantedMessages();
+  UnwantedMessages(UnwantedMessages const&) = delete;
+  UnwantedMessages& operator=(UnwantedMessages const&) = delete;
 };
 
 }  // namespace gpu_shading::energyplus

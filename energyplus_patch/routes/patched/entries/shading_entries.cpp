@@ -1,9 +1,7 @@
 #include <string_view>
 
-#include "routes/patched/entries/daylight_memory_entries.h"
 #include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
-#include "routes/patched/entries/unwanted_messages.h"
 
 namespace gpu_shading::energyplus {
 namespace {

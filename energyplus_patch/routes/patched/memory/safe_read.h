@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "routes/patched/symbols/energyplus_types.h"
+#include "routes/patched/symbols/energyplus_symbols.h"
 
 // Checked reads of EnergyPlus's memory: any address may be invalid.
 namespace gpu_shading::energyplus {

@@ -8,7 +8,7 @@
 
 #include "platform/c_interface.h"
 #include "routes/patched/binary/entry_patch.h"
-#include "routes/patched/entries/glfw_entries.h"
+#include "routes/patched/entries/entries.h"
 
 // `inside`: an address in that library. Returns 0, or 1 with a message.
 extern "C" EXPORTED int redirect_opengl_of(void const* inside) {

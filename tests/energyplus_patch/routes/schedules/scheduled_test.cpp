@@ -12,7 +12,6 @@
 #include "platform/progress.h"
 #include "routes/schedules/sunlit_fractions.h"
 #include "runs/drawing.h"
-#include "runs/drawn_surfaces.h"
 #include "runs/run_times.h"
 
 namespace gpu_shading::energyplus {

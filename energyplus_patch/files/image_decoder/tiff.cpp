@@ -1,21 +1,59 @@
-#include "files/image_decoder/tiff_samples.h"
+#include "files/image_decoder/tiff.h"
 
+#include <geotiff.h>
 #include <tiffio.h>
+#include <xtiffio.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstdarg>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 
-#include "files/decoding/fail.h"
-#include "files/image_decoder/tiff_file.h"
+#include "files/decoding/decoder.h"
 
 namespace gpu_shading::decoding {
+namespace {
+
+struct FreeOptions {
+  void operator()(TIFFOpenOptions* options) const { TIFFOpenOptionsFree(options); }
+};
+
+int keep_error(TIFF* /*file*/, void* message, char const* /*module*/, char const* format,
+               va_list arguments) {
+  std::array<char, 256> text{};
+  std::vsnprintf(text.data(), text.size(), format, arguments);
+  *static_cast<std::string*>(message) = text.data();
+  return 1;
+}
+
+int keep_quiet(TIFF* /*file*/, void* /*data*/, char const* /*module*/, char const* /*format*/,
+               va_list /*arguments*/) {
+  return 1;
+}
+
+}  // namespace
+
+void TiffFile::Close::operator()(TIFF* file) const { XTIFFClose(file); }
+
+TiffFile::TiffFile(char const* path) : error_(std::make_unique<std::string>()) {
+  XTIFFInitialize();
+  std::unique_ptr<TIFFOpenOptions, FreeOptions> const options(TIFFOpenOptionsAlloc());
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_error, error_.get());
+  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), keep_quiet, nullptr);
+  file_.reset(TIFFOpenExt(path, "r", options.get()));
+  if (!file_) throw std::runtime_error(error_->empty() ? "is not a TIFF" : *error_);
+}
+
 namespace {
 
 static_assert(std::endian::native == std::endian::little);
@@ -126,8 +164,8 @@ class Pieces {
         row_bytes_(tiled_ ? TIFFTileRowSize64(file.get()) : TIFFScanlineSize64(file.get())),
         bytes_(tiled_ ? TIFFTileSize64(file.get()) : TIFFStripSize64(file.get())) {
     if (!tiled_) piece_rows_ = std::min(piece_rows_, rows_);
-    constexpr std::uint64_t most_bytes = std::uint64_t{64} << 20U;
-    if (bytes_ == 0 || bytes_ > most_bytes || piece_columns_ == 0 || piece_rows_ == 0) {
+    constexpr std::uint64_t max_bytes = std::uint64_t{64} << 20U;
+    if (bytes_ == 0 || bytes_ > max_bytes || piece_columns_ == 0 || piece_rows_ == 0) {
       fail("its " + name() + "s are of " + std::to_string(bytes_) +
            " bytes, expected at most 64 MiB");
     }
@@ -194,6 +232,48 @@ class Pieces {
 TiffSamples read_samples(TiffFile const& file) {
   Encoding const encoding(file);
   return {.values = Pieces(file).read(encoding), .single_precision = encoding.single_precision()};
+}
+
+namespace {
+
+// Ends what TIFFRGBAImageBegin() began.
+struct End {
+  void operator()(TIFFRGBAImage* image) const { TIFFRGBAImageEnd(image); }
+};
+
+}  // namespace
+
+std::optional<SmallTiff> read_small_tiff(char const* path, bool with_texels) {
+  constexpr std::uint16_t full = 8;
+  TiffFile const file(path);
+  std::uint16_t bits = 1;
+  TIFFGetFieldDefaulted(file.get(), TIFFTAG_BITSPERSAMPLE, &bits);
+  if (bits >= full) return std::nullopt;
+  constexpr std::uint32_t most = 1U << 30U;
+  SmallTiff small;
+  std::uint16_t orientation = ORIENTATION_TOPLEFT;
+  TIFFGetFieldDefaulted(file.get(), TIFFTAG_ORIENTATION, &orientation);
+  small.orientation = orientation;
+  if (TIFFGetField(file.get(), TIFFTAG_IMAGEWIDTH, &small.width) == 0 ||
+      TIFFGetField(file.get(), TIFFTAG_IMAGELENGTH, &small.height) == 0 || small.width == 0 ||
+      small.height == 0 || small.width > most || small.height > most) {
+    throw std::runtime_error("its size is out of range");
+  }
+  TIFFRGBAImage image{};
+  std::array<char, 1024> why{};
+  constexpr int stop_on_error = 1;
+  if (TIFFRGBAImageBegin(&image, file.get(), stop_on_error, why.data()) == 0) {
+    throw std::runtime_error(why.data());
+  }
+  std::unique_ptr<TIFFRGBAImage, End> const open(&image);
+  small.alpha = image.alpha != 0;
+  if (!with_texels) return small;
+  small.texels.resize(std::size_t{small.width} * small.height);
+  image.req_orientation = image.orientation;  // rows and columns as they are stored
+  if (TIFFRGBAImageGet(&image, small.texels.data(), small.width, small.height) == 0) {
+    throw std::runtime_error(file.error().empty() ? "it is damaged" : file.error());
+  }
+  return small;
 }
 
 }  // namespace gpu_shading::decoding
