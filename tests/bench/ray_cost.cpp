@@ -144,8 +144,8 @@ void print_table() {
       "scene                    number       a ray     nearest       batch     mean    hits\n");
   Surface const opaque;
   Surface glass;
-  glass.transmittance =
-      std::make_shared<Transmittance const>(Transmittance::polynomial_in_cosine({0.0, 1.1, -0.4}));
+  glass.filter.set(AngularTransmittance{std::make_shared<Transmittance const>(
+      Transmittance::polynomial_in_cosine({0.0, 1.1, -0.4}))});
   Surface sheet;
   sheet.filter.set(PerforatedSheet{std::make_shared<PerforatedScreen const>(
       HolePattern({.size = 6e-3, .pitch = 9e-3}), Sheet{.thickness = 1e-3})});
