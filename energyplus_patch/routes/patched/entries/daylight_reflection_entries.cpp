@@ -31,9 +31,9 @@ void warn() {
   answering().failed = true;  // it may be in use
   messages_of(this_run())
       .warning(
-          "EnergyPlus's daylighting has an unexpected layout in memory: hidden casters (lean input, "
-          "Geometry, SiteContext) dim light on its way to windows, but neither reflect it nor dim it "
-          "on its way to reflecting surfaces");
+          "EnergyPlus's daylighting has an unexpected layout in memory: hidden casters (lean "
+          "input, Geometry, SiteContext) dim light on its way to windows, but neither reflect it "
+          "nor dim it on its way to reflecting surfaces");
 }
 
 // Whether `action` could be done.
