@@ -235,13 +235,14 @@ std::vector<Sunlit> const& CachedRenderer::interior(InteriorKey const& key, Aske
       if (foreseen.empty() || foreseen.back().first != question) foreseen.push_back({question, {}});
       foreseen.back().second.push_back(next);
     }
-    for (auto& [question, directions] : foreseen) {
-      auto const batch = std::find_if(batches.begin(), batches.end(),
-                                      [&](auto const& known) { return known.first == directions; });
+    for (auto& each : foreseen) {
+      auto const batch = std::find_if(batches.begin(), batches.end(), [&](auto const& known) {
+        return known.first == each.second;
+      });
       if (batch != batches.end()) {
-        batch->second.push_back(question);
+        batch->second.push_back(each.first);
       } else {
-        batches.push_back({std::move(directions), {question}});
+        batches.emplace_back(std::move(each.second), std::vector{each.first});
       }
     }
   }

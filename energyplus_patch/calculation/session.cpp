@@ -219,7 +219,7 @@ void Session::finish() {
     return;  // the run ended before the first question
   describe_answers(*answers_, scene_.model().options, messages_);
   write_cache(answers_->rendered(), messages_);
-  write_reports();
+  if (!failed_) write_reports();
 }
 
 void Session::write_reports() {

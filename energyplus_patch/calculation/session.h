@@ -82,7 +82,10 @@ class Session : public ShadingCalculation {
 
   std::string vendor() override;
 
-  // Also writes the report.
+  // An answer could not be given, so the run ends, and its report would be of a part of it.
+  void fail() { failed_ = true; }
+
+  // Also writes the report, unless the run has failed.
   void finish() override;
 
  private:
@@ -97,6 +100,7 @@ class Session : public ShadingCalculation {
   std::vector<std::variant<SurfaceId, Surface>> added_;
   Messages messages_;
   Moment moment_;
+  bool failed_ = false;
   static constexpr std::size_t hours = 24;
   std::array<std::optional<glm::dvec3>, hours> first_suns_;
   std::optional<SunQuestions> answers_;  // once started

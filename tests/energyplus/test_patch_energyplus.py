@@ -292,12 +292,14 @@ def test_runs_where_it_is_installed(prefix, build, tmp_path):
     share = tmp_path / "share"
     (share / "shading_runs").mkdir(parents=True)
     for name in ("patch_energyplus", "shading_runs/__init__.py", "shading_runs/arguments.py",
-                 "shading_runs/errors.py", "shading_runs/output_folder.py", "shading_runs/self_check.py"):
+                 "shading_runs/errors.py", "shading_runs/output_folder.py", "shading_runs/self_check.py",
+                 "shading_runs/version.py"):
         shutil.copy2(SCRIPT.parent / name, share / name)
     (share / "lib").mkdir()
     for path in (build / "energyplus_patch").iterdir():
         shutil.copy2(path, share / "lib")
     (share / "VERSION").write_text("1.2.3\n")
+    (share / "ENERGYPLUS_RELEASE").write_text(f"{energyplus_release()}\n")
     done = subprocess.run([share / "patch_energyplus", prefix, tmp_path / "patched"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
 

@@ -7,6 +7,12 @@ import pytest
 from shading_runs import energyplus, input_file, results
 
 
+@pytest.fixture(autouse=True)
+def a_gpu_is_looked_for(monkeypatch):
+    """With a driver named, also on a machine that shows no GPU."""
+    monkeypatch.setenv("GALLIUM_DRIVER", "llvmpipe")
+
+
 @pytest.fixture(scope="module")
 def on_wrong_gpu(patched, tmp_path_factory):
     """A patched EnergyPlus whose OpenGL module plays a GPU with a broken driver."""

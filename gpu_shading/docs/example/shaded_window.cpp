@@ -51,7 +51,8 @@ int main(int count, char** arguments) try {
   // 0.7 at normal incidence, 0 at grazing incidence.
   auto const glass =
       std::make_shared<Transmittance const>(Transmittance::polynomial_in_cosine({0.0, 1.1, -0.4}));
-  Surface const shade{"pane", pane, Casting::always, glass};
+  Surface shade{"pane", pane};
+  shade.filter.set(AngularTransmittance{glass});
   std::cout << "overhang " << sunlit_fraction({"overhang", overhang}, sun) << '\n'
             << "glass " << sunlit_fraction(shade, sun) << '\n'
             << "ray " << transmittance_of_ray(shade, sun) << '\n';

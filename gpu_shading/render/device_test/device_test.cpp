@@ -114,10 +114,12 @@ DeviceTest test_device(DeviceInfo const& device) {
   DeviceTest test{device, {}, {}};
   try {
     for (ClosedForm const& form : closed_forms()) {
-      // Without the check by which the CPU takes over.
-      Renderer renderer = RendererWithBackend::make(form.scene, {}, [&](BackendInput const& input) {
-        return open_backend(input, {device.id});
-      });
+      // Without views that need no device, and without the check by which the CPU takes over.
+      RendererOptions options;
+      options.samples_only = true;
+      Renderer renderer = RendererWithBackend::make(
+          form.scene, options,
+          [&](BackendInput const& input) { return open_backend(input, {device.id}); });
       Batch const batch = batch_of(form);
       // The first answers, which count, also compile programs.
       double const error = error_of(form, batch, renderer);

@@ -52,6 +52,7 @@ void end_run(std::exception_ptr const& thrown) {
     why = error_line(error);
     print_line("error: " + why);
     if (installed.task) installed.task->fail(why);
+    if (auto* const session = this_run().session; session != nullptr) session->fail();
   }
   installed.functions.fatal(*this_run().state, "gpu_shading: " + why);
 }
