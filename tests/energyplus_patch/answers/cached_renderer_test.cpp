@@ -53,8 +53,11 @@ TEST(AskedWindow, ForeseesTheListByTheSidesOfTheSun) {
 TEST(CachedRenderer, InteriorsAreAsAskedForOneByOne) {
   House const house;
   CachedRenderer answers(renderer_of(house.scene), std::nullopt, {});
-  std::vector<SunDirection> day;
-  for (int hour = 0; hour < 12; ++hour) day.push_back(sun(95 + 14.5 * hour, 20 + hour));
+  std::vector<SunDirection> day(12);
+  for (std::size_t hour = 0; hour < day.size(); ++hour) {
+    auto const hours = static_cast<double>(hour);
+    day[hour] = sun(95 + 14.5 * hours, 20 + hours);
+  }
   for (int time = 0; time < 2; ++time) {
     for (std::size_t i = 0; i < day.size(); ++i) {
       auto const side = day[i].azimuth < 3.14159 ? house.west : house.east;

@@ -15,7 +15,10 @@ struct DrawnRange {
   std::uint32_t count = 0;
 
   std::uint32_t end() const { return first + count; }
-  auto operator<=>(DrawnRange const&) const = default;
+  bool operator==(DrawnRange const&) const = default;
+  bool operator<(DrawnRange const& other) const {
+    return first != other.first ? first < other.first : count < other.count;
+  }
 };
 
 // The polygons that triangles were made of: their outlines and holes, and more than one if the

@@ -195,6 +195,7 @@ std::vector<Checked> check(SymbolTable const& symbols, std::vector<EntryPatch> c
 
 std::vector<std::string_view> names_of(std::vector<EntryPatch> const& entries) {
   std::vector<std::string_view> names;
+  names.reserve(entries.size());
   for (auto const& entry : entries) names.emplace_back(entry.name);
   return names;
 }
