@@ -4,10 +4,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "geometry/convex_area.h"
+
 namespace gpu_shading {
 namespace {
-
-double cross(glm::dvec2 const& a, glm::dvec2 const& b) { return a.x * b.y - a.y * b.x; }
 
 void set_bounds(ConvexPolygon& polygon) {
   polygon.low = polygon.high = polygon.vertices[0];
