@@ -60,11 +60,15 @@ def test_the_run_goes_on_by_the_cpu_with_one_warning(shade):
     assert sunlit == expected
 
 
-def test_the_run_ends_if_a_gpu_is_required(shade):
-    run = shade("--gpu-shading=require")
+@pytest.mark.parametrize("method", ["patched", "opengl"])
+def test_the_run_ends_if_a_gpu_is_required(method, shade, tmp_path):
+    run = shade("--gpu-shading=require", f"--gpu-shading-method={method}",
+                f"--gpu-shading-report={tmp_path / 'report'}")
     assert not run.completed
     assert "Wrong GPU (4.5 (wrong driver 0.1)) computes wrong answers" in run.errors
     assert "continuing" not in run.errors
+    # A report would be of a part of the run.
+    assert list((tmp_path / "report").iterdir()) == []
 
 
 def test_a_picture_is_drawn_by_the_cpu_with_a_warning(on_wrong_gpu, courtyard, tmp_path):
