@@ -51,6 +51,18 @@ def test_devices_are_tested_side_by_side(program):
     assert all(": right" in line for line in verdicts.splitlines())
 
 
+@pytest.mark.parametrize("command", [["check"], ["view", "--sun", "200,35", "-o", "sun.png"],
+                                     ["map", "-w", "WEATHER", "-o", "maps"]])
+def test_commands_that_render_refuse_off(command, program, courtyard, weather, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    words = [weather if word == "WEATHER" else word for word in command]
+    done = program(words[0], courtyard, *words[1:], "--gpu-shading=off")
+    assert done.returncode == 1
+    assert done.stderr == ("gpu_shading: error: --gpu-shading (or GPU_SHADING) is off, but this command renders: "
+                           "expected auto or require\n")
+    assert list(tmp_path.glob("sun*")) == [] and not (tmp_path / "maps" / "maps.csv").exists()
+
+
 def test_check_prints_what_each_surface_will_be(program, courtyard):
     done = program("check", courtyard)
     assert done.returncode == 0, done.stderr
