@@ -26,7 +26,6 @@
 #include "platform/ending_signals.h"
 #include "platform/error_line.h"
 #include "platform/files.h"
-#include "platform/naming.h"
 #include "platform/process.h"
 #include "platform/text.h"
 #include "programs/energyplus/expansion_folder.h"
@@ -87,12 +86,16 @@ class NoOutputFolder : public Error {
 // EnergyPlus itself would name these on standard output, or end with a library's message.
 void check_files(CommandLine const& line) {
   if (!line.runs) return;
-  if (line.weather) naming("-w", [&] { require_file(*line.weather); });
+  try {
+    if (line.weather) require_file(*line.weather);
+  } catch (Error const& error) {
+    throw Error(fmt::format("-w {}", error.what()));
+  }
   std::error_code failure;
   std::filesystem::create_directories(line.output_folder, failure);
   if (!failure) failure = {find_access(line.output_folder), std::generic_category()};
   if (failure) {
-    throw NoOutputFolder(fmt::format("-d: {}: cannot be written to ({})",
+    throw NoOutputFolder(fmt::format("-d {}: cannot be written to ({})",
                                      line.output_folder.string(), failure.message()));
   }
 }
