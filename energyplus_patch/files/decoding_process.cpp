@@ -8,7 +8,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -16,7 +15,6 @@
 #include <thread>
 
 #include "files/decoding/decoded_message.h"
-#include "files/decoding_server.h"
 #include "gpu_shading/error.h"
 #include "platform/text.h"
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <cstdint>
 
 #include "gpu_shading/error.h"
 #include "platform/staged_files.h"

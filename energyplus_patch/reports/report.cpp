@@ -10,7 +10,6 @@
 #include <tuple>
 
 #include "files/pictures.h"
-#include "gpu_shading/error.h"
 #include "model/options/report_folder.h"
 #include "platform/files.h"
 #include "platform/naming.h"

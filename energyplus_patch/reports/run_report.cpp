@@ -7,7 +7,6 @@
 #include <cmath>
 #include <fstream>
 #include <glm/trigonometric.hpp>
-#include <string_view>
 #include <unordered_map>
 #include <utility>
 

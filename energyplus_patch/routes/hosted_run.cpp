@@ -3,10 +3,7 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdio>
-#include <exception>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "platform/c_interface.h"

@@ -1,7 +1,6 @@
 #include "files/image_decoder/tiff.h"
 
 #include <geotiff.h>
-#include <tiffio.h>
 #include <xtiffio.h>
 
 #include <algorithm>
@@ -10,14 +9,11 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstddef>
-#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <span>
 #include <stdexcept>
-#include <string>
 
 #include "files/decoding/decoder.h"
 

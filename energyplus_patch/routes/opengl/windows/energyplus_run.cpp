@@ -4,7 +4,6 @@
 #include <exception>
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "gpu_shading/error.h"

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <utility>
 
-#include "gpu_shading/error.h"
 #include "routes/opengl/opengl_functions.h"
 
 // WGL, by which GLFW makes a context.
