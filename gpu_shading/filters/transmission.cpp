@@ -37,6 +37,10 @@ bool Transmission::any_schedule(std::span<SurfaceId const> casters) const {
                      [&](SurfaceId id) { return schedule(id) != Shade::unscheduled; });
 }
 
+bool Transmission::any_body(std::span<SurfaceId const> casters) const {
+  return any_screen(casters);
+}
+
 bool Transmission::any_screen(std::span<SurfaceId const> casters) const {
   return std::any_of(casters.begin(), casters.end(),
                      [&](SurfaceId id) { return screens_.number(id) != Screens::none; });

@@ -38,6 +38,8 @@ class Transmission {
 
   bool any_transmits(std::span<SurfaceId const> casters) const;
   bool any_schedule(std::span<SurfaceId const> casters) const;
+  // Whether one of them is not flat only.
+  bool any_body(std::span<SurfaceId const> casters) const;
   bool any_screen(std::span<SurfaceId const> casters) const;
   // The kinds of some casters: "transparent shades", "perforated screens and transmittance
   // schedules". Casters with equal descriptions are rendered in the same way.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
+#include "model/idf/model_file.h"
 #include "platform/files.h"
 #include "platform/naming.h"
 #include "platform/text.h"
@@ -219,7 +220,7 @@ BuildingFile read_buildings(std::filesystem::path const& path, HeightRule const&
     try {
       read_root(Json::parse(text, refuse_deep), heights, coordinates, file);
     } catch (Json::exception const& error) {
-      throw Error(fmt::format("is not GeoJSON: {}", error.what()));
+      throw Error(fmt::format("is not GeoJSON: {}", reason_of(error)));
     }
     return file;
   });

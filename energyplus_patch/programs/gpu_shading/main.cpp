@@ -106,6 +106,7 @@ int run(std::vector<std::string> arguments) {
   add_sample(program);
   add_export(program);
   add_docs(program);
+  add_example(program);
   add_help(program);
   add_version(app);
   app.footer(help_all ? options_help(true) : "Options of shading: gpu_shading help options");

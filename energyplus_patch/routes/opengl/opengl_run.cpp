@@ -133,7 +133,7 @@ HostedModel prepare_hosted(HostedText read, EnergyPlusCall call, Path const& fol
   if (renders) remove_schedules(*editor, model);
   hosted.path = place_model(*editor, original, folder / "model");
   if (!renders) return hosted;
-  check_supported(model.shading, read_version(own_folder()));
+  check_supported(model.shading, model.file, read_version(own_folder()));
   if (auto const& warning = model.simplified.warning; !warning.empty()) {
     print_line("warning: " + warning);
     hosted.messages.warnings.push_back(warning);

@@ -87,7 +87,7 @@ Rewrite take_model(std::vector<InputObject> objects, std::filesystem::path const
   auto model = understand(std::move(objects), path, run.choices, {find_mentions, daylight_rays});
   auto rewrite = rewrite_for(model);
   if (model.options.mode != Mode::off) {
-    check_supported(model.shading, version);
+    check_supported(model.shading, model.file, version);
     // Now, because EnergyPlus may stop at such a surface.
     if (auto const& warning = model.simplified.warning; !warning.empty()) {
       print_line("warning: " + warning);

@@ -96,7 +96,7 @@ std::vector<std::uint32_t> GlPictureRaster::nearest(PictureGrid const& grid,
   return target.read_identity();
 }
 
-std::vector<float> GlPictureRaster::through_screens(PictureGrid const& grid,
+std::vector<float> GlPictureRaster::through_bodies(PictureGrid const& grid,
                                                     glm::dvec3 const& towards_sun,
                                                     std::span<SurfaceId const> surfaces) {
   egl::Current const current = device_.context.make_current();
