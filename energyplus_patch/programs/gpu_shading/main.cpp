@@ -102,6 +102,7 @@ int run(std::vector<std::string> arguments) {
   add_check(program);
   add_view(program);
   add_map(program);
+  add_mask(program);
   add_screen(program);
   add_sample(program);
   add_export(program);

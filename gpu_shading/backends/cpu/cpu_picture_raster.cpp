@@ -241,7 +241,9 @@ std::vector<float> CpuPictureRaster::luminance(PictureGrid const& grid,
   }
   std::vector<int> const numbers = transmission_.screens_among(shaded.casters);
   std::vector<SheetInBeam> const in_beam = sheets(grid, shaded.towards_sun, numbers);
-  CastersInView const casters{flat, shades, {{&transmission_.screens(), in_beam, numbers}}};
+  std::vector<CrownInBeam> const crowns =
+      transmission_.crowns_among(shaded.casters, shaded.towards_sun);
+  CastersInView const casters{flat, shades, {{&transmission_.screens(), in_beam, numbers}, crowns}};
   std::vector<float> seen(grid.pixels());
   in_rows(grid, [&](Rows const& rows) {
     int const side = side_of(grid);
