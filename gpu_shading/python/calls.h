@@ -38,7 +38,7 @@ struct SurfaceRecord {
   std::size_t const* ring_sizes;  // vertices of each ring
   std::size_t rings;              // 1 or more
   int casting;                    // of Casting
-  FilterObject const* filter;     // a flat one, or null
+  FilterObject const* filter;     // or null
   int schedule;                   // or -1
   ScreenObject const* screen;     // or null
   double origin_u;
@@ -99,6 +99,10 @@ GPU_SHADING_CALL int gpu_shading_transmittance_simple_glazing(double u_factor, d
                                                               FilterObject** made);
 GPU_SHADING_CALL int gpu_shading_transmittance_at(FilterObject const* object, double const* angles,
                                                   std::size_t count, double* results);
+// By the numbers of CrownShape and LeafAngles. A surface's deployment is then its share of leaves.
+GPU_SHADING_CALL int gpu_shading_filter_crown(int shape, double height, double leaf_density,
+                                              int leaf_angles, double wood_density,
+                                              FilterObject** made);
 GPU_SHADING_CALL void gpu_shading_filter_release(FilterObject* object);
 
 // Lengths: size, length, pitch, row pitch.
