@@ -60,6 +60,11 @@ PageStyle style_of(Surface const& surface) {
       style.passes = std::round(look.passes * percents) / percents;
       break;
     }
+    case FilterLook::Kind::foliage:
+      style.kind = PageStyle::Kind::foliage;
+      // Of one of the two faces that a ray meets, to whole percents.
+      style.passes = std::round(100.0 * std::sqrt(look.passes)) / 100.0;
+      break;
     case FilterLook::Kind::holes:
       style.kind = PageStyle::Kind::screen;
       style.passes = look.passes;
@@ -146,7 +151,15 @@ void add_surfaces(RunPage& page, SceneAssembly const& assembly, RunRecord const&
   for (auto const id : assembly.shown()) {
     auto const& surface = scene[id];
     if (added[id] || surface.casting == Casting::never || area(surface.polygon) <= 0.0) continue;
-    page.surfaces.push_back({surface.name, surface.polygon, styles.number_of(surface)});
+    auto const style = styles.number_of(surface);
+    if (auto const* const crown = surface.filter.find<Crown>()) {
+      constexpr int sides = 8;
+      for (auto& face : crown_faces(surface.polygon, *crown, sides)) {
+        page.surfaces.push_back({surface.name, std::move(face), style});
+      }
+      continue;
+    }
+    page.surfaces.push_back({surface.name, surface.polygon, style});
   }
   page.styles = styles.all();
 }
