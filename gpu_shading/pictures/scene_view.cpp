@@ -44,10 +44,12 @@ struct Samples {
 };
 
 // The mean of a pixel's samples. colour_of(number, sample) is that of a surface, and
-// share_through(number, x, y) the share that those behind it show; edges of surfaces are dark.
-template <typename ColourOf, typename ShareThrough>
+// share_through(number, x, y) the share that those behind it show; edges of surfaces are dark by
+// edge_share(samples, sample, x, y).
+template <typename ColourOf, typename ShareThrough, typename EdgeShare>
 Colour pixel_colour(Samples const& seen, ColourOf const& colour_of,
-                    ShareThrough const& share_through, int column, int row) {
+                    ShareThrough const& share_through, EdgeShare const& edge_share, int column,
+                    int row) {
   constexpr double edge = 0.45;
   Colour sum(0.0);
   for (int y = samples * row; y < samples * (row + 1); ++y) {
@@ -58,7 +60,7 @@ Colour pixel_colour(Samples const& seen, ColourOf const& colour_of,
         colour =
             glm::mix(colour, colour_of(seen.behind[at], at), share_through(seen.front[at], x, y));
       }
-      sum += seen.is_edge(at) ? edge * colour : colour;
+      sum += seen.is_edge(at) ? glm::mix(1.0, edge, edge_share(seen, at, x, y)) * colour : colour;
     }
   }
   return sum / static_cast<double>(samples * samples);
@@ -167,7 +169,8 @@ class SceneView::Implementation {
     return make_image(grid.width / samples, grid.height / samples, [&](int column, int row) {
       return pixel_colour(
           seen, [&](std::uint32_t number, std::size_t) { return by_number[number]; },
-          [](std::uint32_t, int, int) { return through; }, column, row);
+          [](std::uint32_t, int, int) { return through; },
+          [](Samples const&, std::size_t, int, int) { return 1.0; }, column, row);
     });
   }
 
@@ -215,8 +218,13 @@ class SceneView::Implementation {
       auto const sample = static_cast<std::size_t>(y) * seen.columns + static_cast<std::size_t>(x);
       return look(number - 1, sample).passes;
     };
+    // Edges behind a crown are as faint as what is there.
+    auto const edge_share = [&](Samples const& all, std::size_t sample, int x, int y) {
+      std::uint32_t const number = all.front[sample];
+      return number > 0 && is_crown(number - 1) ? share(number, x, y) : 1.0;
+    };
     return make_image(grid.width / samples, grid.height / samples, [&](int column, int row) {
-      return pixel_colour(seen, colour, share, column, row);
+      return pixel_colour(seen, colour, share, edge_share, column, row);
     });
   }
 
