@@ -7,7 +7,6 @@
 #include <variant>
 
 #include "answers/cache_folder.h"
-#include "answers/cached_renderer.h"
 #include "gpu_shading/error.h"
 #include "model/extensions/extension_fields.h"
 #include "reports/remarks.h"
@@ -17,19 +16,6 @@
 
 namespace gpu_shading::energyplus {
 namespace {
-
-// For tasks that render: the answers of a device that was checked.
-CachedRenderer open_for_task(SceneAssembly& scene, std::vector<SurfaceId> const& receivers,
-                             Messages const& messages) {
-  auto const& options = scene.model().options;
-  if (options.cache) prepare_cache_folder(*options.cache);
-  auto answers = open_renderer(scene, receivers, options.device, messages);
-  check_device(answers.renderer().device(), options, messages);
-  describe_scene(scene, messages);
-  scene.optics().update({});
-  answers.deploy(scene.optics().deployments());
-  return answers;
-}
 
 // Each position of a screen, and each share of leaves, would need samples of its own.
 void refuse_changing_bodies(SceneAssembly const& scene) {
@@ -64,6 +50,18 @@ SampledScene sampled_scene(SamplesTask const& task, SceneAssembly const& scene,
 }
 
 }  // namespace
+
+CachedRenderer open_for_task(SceneAssembly& scene, std::vector<SurfaceId> const& receivers,
+                             Messages const& messages) {
+  auto const& options = scene.model().options;
+  if (options.cache) prepare_cache_folder(*options.cache);
+  auto answers = open_renderer(scene, receivers, options.device, messages);
+  check_device(answers.renderer().device(), options, messages);
+  describe_scene(scene, messages);
+  scene.optics().update({});
+  answers.deploy(scene.optics().deployments());
+  return answers;
+}
 
 std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages const& messages) {
   auto const& options = scene.model().options;

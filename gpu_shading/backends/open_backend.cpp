@@ -105,15 +105,6 @@ DeviceModule const& module_of(DeviceId const& device) {
   return found->get();
 }
 
-// Null if the module cannot be loaded here.
-DeviceModule const* try_load(NamedModule const& module) {
-  try {
-    return &module.get();
-  } catch (DeviceError const&) {
-    return nullptr;
-  }
-}
-
 // Opens the chosen device by open(module), or else that of the first module that opens one.
 template <typename Open>
 auto open_device(DeviceChoice const& choice, Warn const& warn, Open open) {
@@ -121,9 +112,8 @@ auto open_device(DeviceChoice const& choice, Warn const& warn, Open open) {
   decltype(open(module_of({}))) opened;
   for (NamedModule const& named : device_modules()) {
     if (!named.may_have_device()) continue;
-    DeviceModule const* const module = try_load(named);
     try {
-      if (module != nullptr) opened = open(*module);
+      opened = open(named.get());
     } catch (DeviceError const& error) {
       if (warn) warn(fmt::format("the GPU cannot be used: {}", error.what()));
     }

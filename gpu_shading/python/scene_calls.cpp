@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "python/guard.h"
-#include "python/objects.h"
 
 namespace gpu_shading::python {
 namespace {
@@ -28,11 +27,12 @@ Polygon polygon_of(SurfaceRecord const& record) {
 
 }  // namespace
 
-int gpu_shading_scene_new(SceneObject** made) {
+GPU_SHADING_CALL int gpu_shading_scene_new(SceneObject** made) {
   return guarded([&] { *made = new SceneObject; });
 }
 
-int gpu_shading_scene_add(SceneObject* scene, SurfaceRecord const* surface) {
+// Keeps what it needs of the transmittance and the screen.
+GPU_SHADING_CALL int gpu_shading_scene_add(SceneObject* scene, SurfaceRecord const* surface) {
   return guarded([&] {
     Surface added;
     added.name = surface->name;
@@ -53,8 +53,11 @@ int gpu_shading_scene_add(SceneObject* scene, SurfaceRecord const* surface) {
   });
 }
 
-int gpu_shading_scene_set_rule(SceneObject* scene, std::uint32_t const* roles, std::size_t surfaces,
-                               std::uint8_t const* zone_shades, std::size_t zones) {
+// Roles: wall, zone, shades and target of each surface; zone_shades: zones x zones.
+GPU_SHADING_CALL int gpu_shading_scene_set_rule(SceneObject* scene, std::uint32_t const* roles,
+                                                std::size_t surfaces,
+                                                std::uint8_t const* zone_shades,
+                                                std::size_t zones) {
   return guarded([&] {
     ShadingRule rule;
     for (std::size_t i = 0; i < surfaces; ++i) {
@@ -70,7 +73,8 @@ int gpu_shading_scene_set_rule(SceneObject* scene, std::uint32_t const* roles, s
   });
 }
 
-int gpu_shading_scene_areas(SceneObject const* scene, double* results) {
+// Net area (m2) times unit normal of each surface: surfaces x 3.
+GPU_SHADING_CALL int gpu_shading_scene_areas(SceneObject const* scene, double* results) {
   return guarded([&] {
     for (SurfaceId id = 0; id < scene->scene.size(); ++id) {
       auto const& polygon = scene->scene[id].polygon;
@@ -80,6 +84,6 @@ int gpu_shading_scene_areas(SceneObject const* scene, double* results) {
   });
 }
 
-void gpu_shading_scene_release(SceneObject* scene) { release(scene); }
+GPU_SHADING_CALL void gpu_shading_scene_release(SceneObject* scene) { release(scene); }
 
 }  // namespace gpu_shading::python

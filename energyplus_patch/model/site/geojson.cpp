@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
+#include "model/idf/model_file.h"
 #include "platform/files.h"
 #include "platform/naming.h"
 #include "platform/text.h"
@@ -38,8 +39,8 @@ MapCoordinates stated_coordinates(Json const& root) {
 }
 
 bool refuse_deep(int depth, Json::parse_event_t /*event*/, Json const& /*parsed*/) {
-  constexpr int most = 100;
-  if (depth > most) throw Error(fmt::format("is nested more than {} deep", most));
+  constexpr int max_depth = 100;
+  if (depth > max_depth) throw Error(fmt::format("is nested more than {} deep", max_depth));
   return true;
 }
 
@@ -123,7 +124,7 @@ MapCoordinates read_features(
       read_root(root, used, use);
       return used;
     } catch (Json::exception const& error) {
-      throw Error(fmt::format("is not GeoJSON: {}", error.what()));
+      throw Error(fmt::format("is not GeoJSON: {}", reason_of(error)));
     }
   });
 }

@@ -57,6 +57,7 @@ void add_devices(Program const& program, bool& right);
 void add_check(Program const& program);
 void add_view(Program const& program);
 void add_map(Program const& program);
+void add_mask(Program const& program);
 void add_screen(Program const& program);
 void add_sample(Program const& program);
 // For `sample --sky`: renders the sunlit fraction of every receiver for each patch of three
@@ -64,5 +65,6 @@ void add_sample(Program const& program);
 void sample_sky(ModelRun const& run, std::filesystem::path const& folder);
 void add_export(Program const& program);
 void add_docs(Program const& program);
+void add_example(Program const& program);
 
 }  // namespace gpu_shading::energyplus

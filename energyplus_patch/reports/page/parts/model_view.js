@@ -254,6 +254,12 @@ class ModelView {
   }
 
   pick(event) {
+    const number = this.numberAt(event);
+    if (number < content.receiverCount) this.onChoose(number);
+  }
+
+  // Of the surface under the pointer, if there is one.
+  numberAt(event) {
     const box = this.canvas.getBoundingClientRect();
     const at = new THREE.Vector2(2 * (event.clientX - box.left) / box.width - 1,
       1 - 2 * (event.clientY - box.top) / box.height);
@@ -261,9 +267,7 @@ class ModelView {
     caster.setFromCamera(at, this.camera);
     const meshes = this.casters.visible ? this.solid : this.solid.slice(0, 1);
     const [hit] = caster.intersectObjects(meshes);
-    if (!hit) return;
-    const number = hit.object.userData.owners[hit.faceIndex];
-    if (number < content.receiverCount) this.onChoose(number);
+    return hit && hit.object.userData.owners[hit.faceIndex];
   }
 
   showHour(day, hour) {

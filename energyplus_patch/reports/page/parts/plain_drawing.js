@@ -114,11 +114,15 @@ class PlainDrawing {
   }
 
   pick(event) {
+    const number = this.numberAt(event);
+    if (number < content.receiverCount) this.onChoose(number);
+  }
+
+  numberAt(event) {
     const box = this.canvas.getBoundingClientRect();
     const context = this.canvas.getContext("2d");
     const x = (event.clientX - box.left) * devicePixelRatio;
     const y = (event.clientY - box.top) * devicePixelRatio;
-    const hit = (this.drawn || []).filter(({path}) => context.isPointInPath(path, x, y, "evenodd")).pop();
-    if (hit && hit.number < content.receiverCount) this.onChoose(hit.number);
+    return (this.drawn || []).filter(({path}) => context.isPointInPath(path, x, y, "evenodd")).pop()?.number;
   }
 }
