@@ -81,8 +81,9 @@ std::vector<MeshRow> meshes_of(Scene const& scene, Model const& model) {
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     auto const& surface = scene[id];
     auto const type = model.surroundings.types.find(surface.name);
-    if (type == model.surroundings.types.end() || type->second != extension::geometry::type)
+    if (type == model.surroundings.types.end() || type->second == extension::site_context::type) {
       continue;
+    }
     auto const size = area(surface.polygon);
     if (size <= 0.0) continue;
     auto const [row, added] = known.try_emplace(surface.name, rows.size());
@@ -160,7 +161,7 @@ Listing list_surfaces(Scene const& scene, Model const& model, std::vector<bool> 
   for (auto const& mesh : meshes_of(scene, model)) {
     auto const& surface = scene[mesh.first];
     listing.surfaces.push_back(
-        {surface.name, kind_of(surface.name, model.shading), mesh.area, false,
+        {surface.name, model.surroundings.types.at(surface.name), mesh.area, false,
          describe_optics(model, surface, model.surroundings.texture_of(mesh.first))});
   }
   return listing;
