@@ -177,8 +177,8 @@ std::string text_of(Listing const& listing) {
 }
 
 // The same as one JSON document (docs/reference/files.md).
-std::string json_text_of(Listing const& listing) {
-  Json json{{"format", "gpu_shading check 1"}, {"remarks", listing.remarks}};
+std::string json_text_of(Listing const& listing, std::string const& scene) {
+  Json json{{"format", "gpu_shading check 1"}, {"scene", scene}, {"remarks", listing.remarks}};
   json["rule"] = Json::array();
   std::istringstream rule(listing.rule);
   for (std::string line; std::getline(rule, line);) json["rule"].push_back(line);
@@ -208,7 +208,9 @@ std::string perform(ListingTask const& task, SceneAssembly& scene, Messages cons
     return task.json ? scene_document(scene) : list_vertices(scene.surfaces(), scene.model());
   }
   auto const listing = list_surfaces(scene.surfaces(), scene.model(), scene.receives());
-  return task.json ? json_text_of(listing) : text_of(listing);
+  if (!task.json) return text_of(listing);
+  scene.optics().update({});
+  return json_text_of(listing, to_text(scene.hash(scene.scene(), {})));
 }
 
 }  // namespace gpu_shading::energyplus
