@@ -334,3 +334,25 @@ def test_an_index_page_of_somebody_else_is_left_alone(patched, box, weather, tmp
     assert done.returncode == 1
     assert "index.html is not of an earlier report" in done.stderr
     assert (tmp_path / "report" / "index.html").read_text() == "<html>mine</html>"
+
+
+def test_maps_in_the_same_command(patched, box, weather, tmp_path):
+    (tmp_path / "box.idf").write_text(box)
+    done = energyplus.run(patched, tmp_path / "box.idf", weather, tmp_path / "out",
+                          ["-D", "--gpu-shading", f"--gpu-shading-report={tmp_path / 'report'}", "--gpu-shading-maps"])
+    assert done.completed, done.why()
+    rows = rows_of(tmp_path / "report" / "maps" / "maps.csv")
+    content = content_of(tmp_path / "report" / "index.html")
+    names = [content["names"][one["receiver"]] for one in content["maps"]["list"]]
+    assert sorted(names) == sorted(row["receiver"] for row in rows) and len(names) > 4
+
+
+@pytest.mark.parametrize("arguments, why", [
+    (["-w"], "--gpu-shading-maps: expected --gpu-shading-report with it"),
+    (["--gpu-shading-report=report"], "--gpu-shading-maps: expected a weather file, -w, with it")])
+def test_maps_need_a_report_and_weather(patched, box, weather, tmp_path, arguments, why):
+    (tmp_path / "box.idf").write_text(box)
+    given = ["-w", weather] if arguments == ["-w"] else arguments
+    done = subprocess.run([patched, "--gpu-shading", "--gpu-shading-maps", *given, "-D", "-d", tmp_path / "out",
+                           tmp_path / "box.idf"], capture_output=True, text=True, cwd=tmp_path)
+    assert done.returncode == 1 and why in done.stderr

@@ -26,6 +26,7 @@
 #include "platform/ending_signals.h"
 #include "platform/error_line.h"
 #include "platform/files.h"
+#include "platform/naming.h"
 #include "platform/process.h"
 #include "platform/text.h"
 #include "programs/energyplus/expansion_folder.h"
@@ -154,6 +155,34 @@ void check_conversion(RunSetup const& setup) {
   }
 }
 
+// Into the report's folder, for its page.
+void draw_maps(RunSetup const& setup) {
+  auto const& choices = setup.choices;
+  if (!choices.maps.value_or(false)) return;
+  naming("--gpu-shading-maps", [&] {
+    if (!choices.report) throw Error("expected --gpu-shading-report with it");
+    if (!setup.line.weather) throw Error("expected a weather file, -w, with it");
+    std::vector<std::string> command{(own_folder() / "gpu_shading").string(),
+                                     "map",
+                                     setup.line.model->string(),
+                                     "-w",
+                                     setup.line.weather->string(),
+                                     "-o",
+                                     (*choices.report / "maps").string()};
+    Choices own;
+    own.file = choices.file;
+    own.threads = choices.threads;
+    own.quiet = choices.quiet;
+    own.assets = choices.assets;
+    for (auto const& flag : to_flags(own)) command.push_back(flag);
+    TemporaryFolder const folder;
+    auto const log = folder.path() / "log.txt";
+    if (run_process(command, {}, log) != EXIT_SUCCESS) {
+      throw Error(last_error(log).value_or("gpu_shading map failed"));
+    }
+  });
+}
+
 // `argv`-style view of strings.
 class Words {
  public:
@@ -270,6 +299,7 @@ int launch(RunSetup& setup, char** argv) {
   if (line.model) {
     check_conversion(setup);
     check_model(setup);
+    draw_maps(setup);
     // A preprocessor (-x) passes another file to EnergyPlus, but files in the folder of the user's
     // model still apply.
     choices.folder = std::filesystem::absolute(*line.model).parent_path();
