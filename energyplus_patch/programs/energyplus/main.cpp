@@ -105,9 +105,9 @@ void check_files(CommandLine const& line) {
 std::string find_extension(Path const& model) {
   std::ifstream file(model);
   for (std::string line; std::getline(file, line);) {
-    auto const begin = std::ranges::search(line, extension_prefix, [](unsigned char a, char b) {
-                         return std::tolower(a) == std::tolower(b);
-                       }).begin();
+    auto const begin =
+        std::search(line.begin(), line.end(), extension_prefix.begin(), extension_prefix.end(),
+                    [](unsigned char a, char b) { return std::tolower(a) == std::tolower(b); });
     auto const before = trimmed({line.begin(), begin});
     bool const opens = before.empty() || before.ends_with(';') || before.ends_with('"');
     if (begin == line.end() || !opens) continue;
