@@ -54,6 +54,7 @@ struct Choices {
   std::optional<DeviceChoice> device = std::nullopt;
   std::optional<std::filesystem::path> file = std::nullopt;
   std::optional<std::filesystem::path> report = std::nullopt;
+  std::optional<bool> maps = std::nullopt;
   std::optional<std::filesystem::path> cache = std::nullopt;  // empty: off
   // The folder where relative file names in the model start, set by the launcher; empty: the
   // model's folder.
