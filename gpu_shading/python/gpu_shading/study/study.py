@@ -31,17 +31,17 @@ class Study:
 
     `folder`: where the table and what is kept go. A study that is run again with the same folder does what is missing.
     `workers`: processes on this machine, as many as cores if None; or the address of a Dask `scheduler`; or a
-    `jobqueue`: {"kind": "slurm", "workers": 20, and arguments of dask-jobqueue's cluster}. `outputs`: output variables
-    for the table, over the run period. `keep`: "tables", "sql", "all" or "nothing" of each run. `limit`: seconds, after
-    which a run is stopped. `tries`: how often a run that fails is tried. `task`: "run", or "sample" to sample each
-    model as gpu_shading.sample does, with a `mode`, and in `shards` where there are fewer models than workers.
+    `client` of Dask; or a `jobqueue`: {"kind": "slurm", "workers": 20, and arguments of dask-jobqueue's cluster}.
+    `outputs`: output variables for the table, over the run period. `keep`: "tables", "sql", "all" or "nothing" of each
+    run. `limit`: seconds, after which a run is stopped. `tries`: how often a run that fails is tried. `task`: "run", or
+    "sample" to sample each model as gpu_shading.sample does, with a `mode`, the work of each split into `shards`.
     """
 
     def __init__(self, plan: _programs.Name | Iterable[Case], folder: _programs.Name, *, workers: int | None = None,
                  scheduler: str | None = None, jobqueue: Mapping[str, Any] | None = None,
                  outputs: Sequence[str] | None = None, keep: Sequence[str] | None = None, limit: float | None = None,
                  tries: int | None = None, task: str | None = None, mode: str | None = None,
-                 shards: int | None = None) -> None:
+                 shards: int | None = None, client: Any = None) -> None:
         self.folder = Path(folder).absolute()
         given: Mapping[str, Any] = {}
         source = "study"
@@ -50,7 +50,7 @@ class Study:
             cases, given, source = list(read.cases), read.settings, str(plan)
         else:
             cases = list(plan)
-        self.workers, self.scheduler = workers, scheduler
+        self.client, self.workers, self.scheduler = client, workers, scheduler
         self.jobqueue: dict[str, Any] = {**given.get("jobqueue", {}), **(jobqueue or {})}
         if not jobqueue and "kind" not in self.jobqueue:
             self.jobqueue = {}
@@ -115,6 +115,9 @@ class Study:
 
     @contextlib.contextmanager
     def _client(self) -> Any:
+        if self.client is not None:
+            yield self.client
+            return
         client = open_client(self.workers, self.scheduler, self.jobqueue, self.tries)
         try:
             say(f"workers of {client.scheduler.address}; dashboard {client.dashboard_link}")
