@@ -81,8 +81,9 @@ std::vector<MeshRow> meshes_of(Scene const& scene, Model const& model) {
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     auto const& surface = scene[id];
     auto const type = model.surroundings.types.find(surface.name);
-    if (type == model.surroundings.types.end() || type->second != extension::geometry::type)
+    if (type == model.surroundings.types.end() || type->second == extension::site_context::type) {
       continue;
+    }
     auto const size = area(surface.polygon);
     if (size <= 0.0) continue;
     auto const [row, added] = known.try_emplace(surface.name, rows.size());
@@ -142,8 +143,10 @@ std::vector<std::string> remarks_of(Model const& model) {
   for (auto const* warning : {&model.simplified.warning, &model.transform_warning}) {
     if (!warning->empty()) remarks.push_back(*warning);
   }
-  remarks.insert(remarks.end(), model.surroundings.remarks.begin(),
-                 model.surroundings.remarks.end());
+  for (auto const& lines : {model.shades.warnings, model.screens.warnings(),
+                            model.surroundings.remarks, model.remarks}) {
+    remarks.insert(remarks.end(), lines.begin(), lines.end());
+  }
   return remarks;
 }
 
@@ -158,7 +161,7 @@ Listing list_surfaces(Scene const& scene, Model const& model, std::vector<bool> 
   for (auto const& mesh : meshes_of(scene, model)) {
     auto const& surface = scene[mesh.first];
     listing.surfaces.push_back(
-        {surface.name, kind_of(surface.name, model.shading), mesh.area, false,
+        {surface.name, model.surroundings.types.at(surface.name), mesh.area, false,
          describe_optics(model, surface, model.surroundings.texture_of(mesh.first))});
   }
   return listing;

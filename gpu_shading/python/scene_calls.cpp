@@ -1,7 +1,8 @@
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "python/guard.h"
-#include "python/objects.h"
 
 namespace gpu_shading::python {
 namespace {
@@ -26,17 +27,22 @@ Polygon polygon_of(SurfaceRecord const& record) {
 
 }  // namespace
 
-int gpu_shading_scene_new(SceneObject** made) {
+GPU_SHADING_CALL int gpu_shading_scene_new(SceneObject** made) {
   return guarded([&] { *made = new SceneObject; });
 }
 
-int gpu_shading_scene_add(SceneObject* scene, SurfaceRecord const* surface) {
+// Keeps what it needs of the transmittance and the screen.
+GPU_SHADING_CALL int gpu_shading_scene_add(SceneObject* scene, SurfaceRecord const* surface) {
   return guarded([&] {
     Surface added;
     added.name = surface->name;
     added.polygon = polygon_of(*surface);
     added.casting = enumerator(surface->casting, Casting::never, "casting");
-    if (surface->filter != nullptr) added.filter.set(surface->filter->factor);
+    if (surface->filter != nullptr) {
+      FilterFactor factor = surface->filter->factor;
+      if (auto* const crown = std::get_if<Crown>(&factor)) crown->deployment = surface->deployment;
+      added.filter.set(std::move(factor));
+    }
     if (surface->screen != nullptr) {
       added.filter.set(PerforatedSheet{surface->screen->screen,
                                        {surface->origin_u, surface->origin_v, surface->rotation},
@@ -47,8 +53,11 @@ int gpu_shading_scene_add(SceneObject* scene, SurfaceRecord const* surface) {
   });
 }
 
-int gpu_shading_scene_set_rule(SceneObject* scene, std::uint32_t const* roles, std::size_t surfaces,
-                               std::uint8_t const* zone_shades, std::size_t zones) {
+// Roles: wall, zone, shades and target of each surface; zone_shades: zones x zones.
+GPU_SHADING_CALL int gpu_shading_scene_set_rule(SceneObject* scene, std::uint32_t const* roles,
+                                                std::size_t surfaces,
+                                                std::uint8_t const* zone_shades,
+                                                std::size_t zones) {
   return guarded([&] {
     ShadingRule rule;
     for (std::size_t i = 0; i < surfaces; ++i) {
@@ -64,7 +73,8 @@ int gpu_shading_scene_set_rule(SceneObject* scene, std::uint32_t const* roles, s
   });
 }
 
-int gpu_shading_scene_areas(SceneObject const* scene, double* results) {
+// Net area (m2) times unit normal of each surface: surfaces x 3.
+GPU_SHADING_CALL int gpu_shading_scene_areas(SceneObject const* scene, double* results) {
   return guarded([&] {
     for (SurfaceId id = 0; id < scene->scene.size(); ++id) {
       auto const& polygon = scene->scene[id].polygon;
@@ -74,6 +84,6 @@ int gpu_shading_scene_areas(SceneObject const* scene, double* results) {
   });
 }
 
-void gpu_shading_scene_release(SceneObject* scene) { release(scene); }
+GPU_SHADING_CALL void gpu_shading_scene_release(SceneObject* scene) { release(scene); }
 
 }  // namespace gpu_shading::python

@@ -16,6 +16,7 @@ except ImportError as _error:
 
 from gpu_shading._library import __version__, limit_threads
 from gpu_shading._programs import prefix
+from gpu_shading.crown import Crown
 from gpu_shading.errors import DeviceError, Error, InvalidInput, RunError
 from gpu_shading.model import check
 from gpu_shading.optics import Screen, Transmittance
@@ -28,7 +29,7 @@ from gpu_shading.scene import Scene, Surface
 from gpu_shading.study import Case, Study
 
 __all__ = [
-    "Case", "DeviceError", "Error", "Hits", "InvalidInput", "Rays", "Renderer", "Rule", "Run", "RunError", "Scene",
-    "Screen", "Study", "Surface", "Transmittance", "__version__", "check", "limit_threads", "prefix",
+    "Case", "Crown", "DeviceError", "Error", "Hits", "InvalidInput", "Rays", "Renderer", "Rule", "Run", "RunError",
+    "Scene", "Screen", "Study", "Surface", "Transmittance", "__version__", "check", "limit_threads", "prefix",
     "read_samples", "run", "sample", "write_samples",
 ]
