@@ -26,7 +26,7 @@ def installed(patched, tmp_path_factory):
 
 
 def test_it_is_complete(installed):
-    commands = {"gpu_shading", "patch_energyplus", "compare_shading", "compare_sampling", "sample_models"}
+    commands = {"gpu_shading", "patch_energyplus", "compare_shading", "compare_sampling"}
     assert {path.name for path in (installed / "bin").iterdir()} == commands
     for path in [*(installed / "bin").iterdir(), *installed.glob("share/bash-completion/completions/*")]:
         assert path.exists(), f"{path} leads nowhere"

@@ -73,7 +73,7 @@ def find_field(text: str) -> Field:
 
 
 def read(path: Path) -> Idf | EpJson:
-    text = path.read_text(encoding="utf-8", errors="surrogateescape")
+    text = path.read_bytes().decode("utf-8", "surrogateescape")  # with its ends of lines
     try:
         return EpJson(text) if path.suffix.lower() == ".epjson" else Idf(text)
     except ValueError as error:
@@ -154,7 +154,7 @@ class Idf:
         return ours
 
     def write(self, path: Path) -> None:
-        path.write_text(self.text, encoding="utf-8", errors="surrogateescape")
+        path.write_bytes(self.text.encode("utf-8", "surrogateescape"))
 
     def _replace(self, edits: list[tuple[int, int, str]]) -> None:
         for start, end, value in sorted(edits, reverse=True):

@@ -14,7 +14,7 @@ from typing import Any
 from gpu_shading import _programs
 from gpu_shading.errors import InvalidInput
 
-_OPTIONS = ("error", "resolution", "update", "device", "threads", "lean", "method", "assets", "cache")
+OPTIONS = ("error", "resolution", "update", "device", "threads", "lean", "method", "assets", "cache")
 _JOBQUEUES = ("slurm", "pbs", "lsf")
 
 
@@ -44,7 +44,7 @@ class Case:
 class Plan:
     cases: tuple[Case, ...]
     settings: Mapping[str, Any] = field(default_factory=dict)
-    """outputs, keep, limit, tries, jobqueue: arguments of Study."""
+    """Arguments of Study."""
 
 
 class _Table:
@@ -84,8 +84,8 @@ class _Table:
     def options(self) -> dict[str, Any]:
         options = self.table("options")
         for name, value in options.items():
-            if name not in _OPTIONS:
-                raise self.refuse(f"options.{name}", value, f"one of the options {', '.join(_OPTIONS)}")
+            if name not in OPTIONS:
+                raise self.refuse(f"options.{name}", value, f"one of the options {', '.join(OPTIONS)}")
         return options
 
     def done(self, known: str) -> None:
@@ -125,10 +125,11 @@ def _read_toml(path: Path) -> Plan:
         raise InvalidInput(f"{path}: weather: missing, expected weather files")
     common, arguments = top.options(), tuple(top.texts("arguments"))
     settings = {key: value for key, value in {
+        "task": top.text("task"), "mode": top.text("mode"), "shards": top.number("shards", 1),
         "outputs": tuple(top.texts("outputs")), "keep": tuple(top.texts("keep")), "limit": top.number("limit", 1),
-        "tries": top.number("tries", 1), "jobqueue": top.table("jobqueue")}.items() if value not in (None, (), {})}
+        "tries": top.number("tries", 1), "jobqueue": top.table("jobqueue")}.items() if value not in (None, "", (), {})}
     written = top.take("variant", "tables [[variant]]", lambda value: isinstance(value, list), [{}])
-    top.done("models, weather, options, arguments, outputs, keep, limit, tries, jobqueue, variant")
+    top.done("models, weather, task, mode, shards, options, arguments, outputs, keep, limit, tries, jobqueue, variant")
     variants = [_variant(path, f"variant {number}", values, common, arguments, len(written) > 1)
                 for number, values in enumerate(written, 1)]
     return Plan(tuple(replace(variant, model=model, weather=weather)
@@ -184,7 +185,7 @@ def _read_csv(path: Path) -> Plan:
         rows = csv.DictReader(lines)
         for name in rows.fieldnames or []:
             known = name in ("model", "weather", "variant", "extensions", "arguments") or (
-                name.startswith("option:") and name[7:] in _OPTIONS) or name.startswith("set:")
+                name.startswith("option:") and name[7:] in OPTIONS) or name.startswith("set:")
             if not known:
                 raise InvalidInput(f"{path}: column {name!r}: expected model, weather, variant, extensions, arguments, "
                                    "option:NAME or set:Class/Object Name/Field")

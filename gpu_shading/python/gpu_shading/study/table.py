@@ -19,7 +19,7 @@ FIRST = ("run", "model", "variant", "weather", "status", "message", "scene", "di
 LAST = ("messages",)
 _TEXTS = {"run", "model", "variant", "weather", "status", "message", "scene", "inputs", "gpu_shading", "energyplus",
           "messages", "host"}
-_WHOLE = {"directions rendered", "directions from the cache", "attempts"}
+_WHOLE = {"directions rendered", "receivers", "directions from the cache", "attempts"}
 
 Row = Mapping[str, Any]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import hashlib
 import json
 import os
 import secrets
@@ -23,7 +24,7 @@ from gpu_shading.errors import RunError
 from gpu_shading.study import models, results
 
 RECORD = "record.json"
-_CHECKED = ("error", "resolution", "device", "threads", "lean", "method", "assets")  # options of gpu_shading check
+_TAKEN = ("error", "resolution", "device", "threads", "lean", "method", "assets", "file")  # by gpu_shading check
 _KEPT = {"tables": ("eplustbl.*", "eplusout.err", "eplusout.eio"), "sql": ("eplusout.sql",), "all": ("*",),
          "nothing": ()}
 KEEP = tuple(_KEPT)
@@ -63,6 +64,10 @@ class Outcome:
     times: dict[str, Any] = field(default_factory=dict)
 
 
+def digest(values: Any) -> str:
+    return hashlib.sha256(json.dumps(values).encode(errors="surrogatepass")).hexdigest()[:16]
+
+
 def write_whole(path: Path, content: str) -> None:
     """The file has all of the content, or is as before."""
     staged = path.with_name(f".{path.name}.{secrets.token_hex(4)}")
@@ -76,17 +81,23 @@ def write_whole(path: Path, content: str) -> None:
         staged.unlink(missing_ok=True)
 
 
+def write_record(folder: Path, outcome: Outcome) -> None:
+    write_whole(folder / RECORD, json.dumps({"values": outcome.values, "times": outcome.times}, indent=1) + "\n")
+
+
 def end_with_parent() -> None:
     """In a child before its program starts: the kernel kills it when its parent ends, however that ends."""
     set_parent_death_signal = 1
     ctypes.CDLL(None).prctl(set_parent_death_signal, signal.SIGKILL)
 
 
-def _run(command: list[str], folder: Path, limit: float | None) -> tuple[int, str, bool]:
-    """(exit status, standard error, whether the limit was reached)"""
+def _run(command: list[str], folder: Path, limit: float | None,
+         output: Path = Path(os.devnull)) -> tuple[int, str, bool]:
+    """(exit status, standard error, whether the limit was reached); standard output goes into a file."""
     variables = {key: value for key, value in os.environ.items() if not key.startswith("GPU_SHADING")}
-    with subprocess.Popen(command, cwd=folder, env=variables, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                          stderr=subprocess.PIPE, start_new_session=True, preexec_fn=end_with_parent) as process:
+    with open(output, "wb") as out, subprocess.Popen(
+            command, cwd=folder, env=variables, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.PIPE,
+            start_new_session=True, preexec_fn=end_with_parent) as process:
         hung = False
         try:
             errors = process.communicate(timeout=limit)[1]
@@ -101,7 +112,7 @@ def _run(command: list[str], folder: Path, limit: float | None) -> tuple[int, st
 
 
 @contextlib.contextmanager
-def _work_folder(job: Job) -> Any:
+def work_folder(job: Job) -> Any:
     folder = Path(job.folder) / "work" / f"{job.id}-{secrets.token_hex(4)}"
     folder.mkdir(parents=True)
     try:
@@ -110,9 +121,15 @@ def _work_folder(job: Job) -> Any:
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def _write_model(job: Job, folder: Path, outputs: bool) -> list[str]:
-    """The job's copy of its model, as folder/name; returns flags that it needs."""
+def _write_model(job: Job, folder: Path, outputs: bool) -> tuple[Path, list[str]]:
+    """The model with the job's changes, and output for the table if asked for, and the flags that it needs."""
     original = Path(job.model)
+    flags = [f"--gpu-shading-{name}={value}" for name, value in job.options.items()]
+    side_file = Path(job.extensions or original.with_suffix(".gpu-shading.idf"))
+    if side_file.is_file():
+        flags.append(f"--gpu-shading-file={side_file}")
+    if not (outputs or job.fields or job.remove or job.objects):
+        return original, flags
     model = models.read(original)
     for type_, pattern in job.remove:
         model.remove(type_, pattern)
@@ -127,14 +144,24 @@ def _write_model(job: Job, folder: Path, outputs: bool) -> list[str]:
             model.add("Output:Table:SummaryReports", report="AllSummary")
         for name in (results.TRANSMITTED, *job.outputs):
             model.add("Output:Variable", key_value="*", variable_name=name, reporting_frequency="RunPeriod")
-    flags = [f"--gpu-shading-{name}={value}" for name, value in job.options.items()]
     if model.anchor(original.parent):
         flags.append("--gpu-shading-assets=any")
     model.write(folder / original.name)
-    side_file = job.extensions or original.with_suffix(".gpu-shading.idf")
-    if Path(side_file).is_file():
-        flags.append(f"--gpu-shading-file={side_file}")
-    return flags
+    return folder / original.name, flags
+
+
+def run_program(job: Job, folder: Path, words: list[str], output: Path) -> tuple[str, str]:
+    """Runs the gpu_shading program on the job's model. Returns what went wrong, "" if nothing did, and the last line
+    of standard error."""
+    model, flags = _write_model(job, folder, outputs=False)
+    flags = [flag for flag in flags if flag.partition("=")[0].removeprefix("--gpu-shading-") in _TAKEN]
+    status, errors, hung = _run([str(_programs.prefix() / "gpu_shading"), words[0], str(model), "-w", job.weather,
+                                 *words[1:], *flags], folder, job.limit, output)
+    lines = errors.strip().splitlines() or [""]
+    if hung:
+        return f"stopped after the limit of {job.limit:g} s, in gpu_shading {words[0]}", lines[-1]
+    message = "" if status == 0 else _without(_programs.last_message(errors, "gpu_shading", status), folder)
+    return message, lines[-1]
 
 
 def scene_of(job: Job) -> Outcome:
@@ -143,21 +170,11 @@ def scene_of(job: Job) -> Outcome:
     if kept.is_file():
         return Outcome(values={"scene": kept.read_text(encoding="ascii").strip()})
     try:
-        with _work_folder(job) as folder:
-            flags = [flag for flag in _write_model(job, folder, outputs=False)
-                     if flag.partition("=")[0].removeprefix("--gpu-shading-") in (*_CHECKED, "file")]
+        with work_folder(job) as folder:
             document = folder / "check.json"
-            with open(document, "wb") as out:
-                done = subprocess.run([_programs.prefix() / "gpu_shading", "check", "--json", *flags,
-                                       folder / Path(job.model).name, "-w", job.weather], stdout=out,
-                                      stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, timeout=job.limit, cwd=folder,
-                                      preexec_fn=end_with_parent)
-            if done.returncode != 0:
-                message = _programs.last_message(done.stderr.decode(errors="replace"), "gpu_shading", done.returncode)
-                return Outcome(_without(message, folder))
+            if error := run_program(job, folder, ["check", "--json"], document)[0]:
+                return Outcome(error)
             scene = str(json.loads(document.read_bytes())["scene"])
-    except subprocess.TimeoutExpired:
-        return Outcome(f"stopped after the limit of {job.limit:g} s, before its shading calculation")
     except (OSError, RunError, ValueError) as error:
         return Outcome(str(error))
     kept.parent.mkdir(exist_ok=True)
@@ -170,7 +187,7 @@ def run(job: Job, scene: str, shading: str | None, is_first: bool) -> Outcome:
     the runs that share its shading, which the first of them writes."""
     began = time.monotonic()
     try:
-        with _work_folder(job) as folder:
+        with work_folder(job) as folder:
             outcome = _run_in(job, folder, scene, shading, is_first)
             if not outcome.error:
                 outcome.times = {"seconds": round(time.monotonic() - began, 3), "host": socket.gethostname()}
@@ -181,7 +198,7 @@ def run(job: Job, scene: str, shading: str | None, is_first: bool) -> Outcome:
 
 
 def _run_in(job: Job, folder: Path, scene: str, shading: str | None, is_first: bool) -> Outcome:
-    flags = _write_model(job, folder, outputs=True)
+    model, flags = _write_model(job, folder, outputs=True)
     out = folder / "out"
     out.mkdir()
     if shading is not None:
@@ -192,7 +209,7 @@ def _run_in(job: Job, folder: Path, scene: str, shading: str | None, is_first: b
     if "threads" not in job.options:
         flags.append("--gpu-shading-threads=1")
     status, errors, hung = _run([str(_programs.prefix() / "energyplus"), "--gpu-shading", *flags, *job.arguments, "-w",
-                                 job.weather, "-d", str(out), str(folder / Path(job.model).name)], folder, job.limit)
+                                 job.weather, "-d", str(out), str(model)], folder, job.limit)
     report = _text(out / "eplusout.err")
     if hung:
         return Outcome(_without(f"stopped after the limit of {job.limit:g} s: {results.last_lines(report)}", folder))
@@ -212,7 +229,7 @@ def _publish(job: Job, folder: Path, outcome: Outcome, shading: str | None) -> N
     kept.mkdir()
     for path in {path for pattern in patterns for path in (folder / "out").glob(pattern)}:
         path.rename(kept / path.name)
-    write_whole(kept / RECORD, json.dumps({"values": outcome.values, "times": outcome.times}, indent=1) + "\n")
+    write_record(kept, outcome)
     if shading is not None and (folder / "cache").is_dir():
         _rename_new(folder / "cache", Path(shading))
     _rename_new(kept, Path(job.folder) / "runs" / job.id)
