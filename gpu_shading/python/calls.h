@@ -124,6 +124,9 @@ GPU_SHADING_CALL int gpu_shading_scene_set_rule(SceneObject* scene, std::uint32_
                                                 std::uint8_t const* zone_shades, std::size_t zones);
 // Net area (m2) times unit normal of each surface: surfaces x 3.
 GPU_SHADING_CALL int gpu_shading_scene_areas(SceneObject const* scene, double* results);
+// The corners of a surface's triangles: triangles x 3 x 3; nullptr: only their number.
+GPU_SHADING_CALL int gpu_shading_scene_triangles(SceneObject const* scene, std::size_t surface,
+                                                 double* corners, std::size_t* triangles);
 GPU_SHADING_CALL void gpu_shading_scene_release(SceneObject* scene);
 
 // Device: as parse_device_choice() reads it. Resolution 0: by the error. The scene is copied.

@@ -1,5 +1,6 @@
 #include <vector>
 
+#include "geometry/triangulation.h"
 #include "python/guard.h"
 #include "python/objects.h"
 
@@ -70,6 +71,18 @@ int gpu_shading_scene_areas(SceneObject const* scene, double* results) {
       auto const& polygon = scene->scene[id].polygon;
       auto const vector = area(polygon) * normal(polygon);
       for (int axis = 0; axis < 3; ++axis) *results++ = vector[axis];
+    }
+  });
+}
+
+int gpu_shading_scene_triangles(SceneObject const* scene, std::size_t surface, double* corners,
+                                std::size_t* triangles) {
+  return guarded([&] {
+    auto const mesh = triangulate(scene->scene[static_cast<SurfaceId>(surface)].polygon);
+    *triangles = mesh.indices.size() / 3;
+    if (corners == nullptr) return;
+    for (auto const index : mesh.indices) {
+      for (int axis = 0; axis < 3; ++axis) *corners++ = mesh.vertices[index][axis];
     }
   });
 }
