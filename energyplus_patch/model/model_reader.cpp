@@ -9,8 +9,6 @@
 #include "model/energyplus_rays.h"
 #include "model/geometry_rules.h"
 #include "model/idf/extension_objects.h"
-#include "model/idf/model_file.h"
-#include "model/shading_outlines.h"
 #include "model/site/site_clock.h"
 #include "model/site/texture_axes.h"
 #include "platform/text.h"

@@ -66,10 +66,10 @@ void RunRecord::set_sun(SunDirection sun) {
 
 void RunRecord::note(SurfaceId receiver, double projected_area) {
   if (step_ == nullptr || !columns_[receiver]) return;
-  double const most = glm::dot(areas_[receiver], towards_sun_);
-  if (most <= 0.0) return;
+  double const unshaded = glm::dot(areas_[receiver], towards_sun_);
+  if (unshaded <= 0.0) return;
   step_->fractions[*columns_[receiver]] =
-      static_cast<float>(std::clamp(projected_area / most, 0.0, 1.0));
+      static_cast<float>(std::clamp(projected_area / unshaded, 0.0, 1.0));
 }
 
 void RunRecord::end() {

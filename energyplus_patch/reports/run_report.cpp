@@ -25,6 +25,7 @@
 #include "reports/map_folder.h"
 #include "reports/map_grid.h"
 #include "reports/page/run_page.h"
+#include "reports/report.h"
 #include "reports/sky_mask.h"
 
 namespace gpu_shading::energyplus {
@@ -45,12 +46,6 @@ std::vector<RunRecord::Day const*> chosen_days(RunRecord const& record) {
   std::vector<RunRecord::Day const*> days;
   for (std::size_t i = 0; i < all.size(); i += stride) days.push_back(&all[i]);
   return days;
-}
-
-double degrees_clockwise(double radians) {
-  constexpr double circle = 360.0;
-  double const degrees = glm::degrees(radians);
-  return degrees < 0.0 ? degrees + circle : degrees;
 }
 
 PageStyle style_of(Surface const& surface) {
@@ -92,8 +87,8 @@ class PageStyles {
     auto const style = style_of(surface);
     auto const found = std::find(styles_.begin(), styles_.end(), style);
     if (found != styles_.end()) return static_cast<std::size_t>(found - styles_.begin());
-    constexpr std::size_t most = 1000;
-    if (styles_.size() == most) return 1;
+    constexpr std::size_t max_styles = 1000;
+    if (styles_.size() == max_styles) return 1;
     styles_.push_back(style);
     return styles_.size() - 1;
   }

@@ -142,8 +142,10 @@ std::vector<std::string> remarks_of(Model const& model) {
   for (auto const* warning : {&model.simplified.warning, &model.transform_warning}) {
     if (!warning->empty()) remarks.push_back(*warning);
   }
-  remarks.insert(remarks.end(), model.surroundings.remarks.begin(),
-                 model.surroundings.remarks.end());
+  for (auto const& lines : {model.shades.warnings, model.screens.warnings(),
+                            model.surroundings.remarks, model.remarks}) {
+    remarks.insert(remarks.end(), lines.begin(), lines.end());
+  }
   return remarks;
 }
 

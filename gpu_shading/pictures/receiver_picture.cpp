@@ -60,7 +60,7 @@ std::vector<Colour> draw_surroundings(PictureRaster& raster, Scene const& scene,
     colours.push_back(by_number[number]);
   }
   if (!screened) return colours;
-  std::vector<float> const passed = raster.through_screens(grid, shaded.towards_sun, others);
+  std::vector<float> const passed = raster.through_bodies(grid, shaded.towards_sun, others);
   for (std::size_t i = 0; i < colours.size(); ++i) colours[i] *= static_cast<double>(passed[i]);
   return colours;
 }

@@ -14,7 +14,6 @@
 #include "geometry/bvh.h"
 #include "geometry/triangulation.h"
 #include "gpu_shading/error.h"
-#include "gpu_shading/image.h"
 #include "pictures/colours.h"
 #include "pictures/picture_frame.h"
 #include "pictures/shadow_map.h"

@@ -175,7 +175,7 @@ def test_the_page_has_the_numbers_of_the_tables(run, on_desktop):
     assert seen["moment"].startswith(f"1 March, {int(third['hour']):02}:00")
     assert f"{float(third['sun azimuth [deg]']):.1f}\u00b0" in seen["moment"]
     assert seen["chosen"] == HOSTILE
-    assert seen["numbers"][0] in (f"{100 * float(third[HOSTILE]):.0f} %", "turned away from the sun")
+    assert seen["numbers"][0] in (f"{100 * float(third[HOSTILE]):.0f} %", "faces away from the sun")
     assert seen["fields"] == len(rows_of(report / "run_hours.csv"))
     columns = ("receiver", "area [m2]", "azimuth [deg]", "tilt [deg]", "mean sunlit fraction", "beam [kWh/m2]",
                "beam [kWh]")

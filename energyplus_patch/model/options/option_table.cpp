@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "model/extensions/extension_fields.h"
-#include "model/extensions/field.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {

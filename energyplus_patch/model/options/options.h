@@ -81,7 +81,7 @@ struct Choices {
 };
 
 // Removes our flags from `arguments` (both "--flag=value" and "--flag value", except for switches,
-// whose value needs the equals sign). Throws Error for an unknown flag of ours or an invalid value.
+// whose value needs the equals sign). Throws Error for an unknown --gpu flag or an invalid value.
 Choices take_flags(std::vector<std::string>& arguments);
 
 // The inverse of take_flags().

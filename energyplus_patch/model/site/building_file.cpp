@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
+#include "model/idf/model_file.h"
 #include "platform/files.h"
 #include "platform/naming.h"
 #include "platform/text.h"
@@ -47,7 +48,7 @@ std::string name_of(Json const& feature) {
 }
 
 // Limit of heights, m: more means a damaged file, or another unit.
-constexpr double most = 10'000.0;
+constexpr double max_height = 10'000.0;
 
 // The value of a property, as a number or as text: "12", "12.5 m".
 std::optional<double> measure(Json const& properties, std::string const& name,
@@ -60,9 +61,9 @@ std::optional<double> measure(Json const& properties, std::string const& name,
   if (value.is_string() && number.ends_with('m')) number.pop_back();
   while (number.ends_with(' ')) number.pop_back();
   auto const parsed = parse_number(number);
-  if (!parsed || !(std::abs(*parsed) <= most)) {
+  if (!parsed || !(std::abs(*parsed) <= max_height)) {
     throw Error(fmt::format("{} is {}, expected {} of at most {:.0f}", name, in_quotes(text),
-                            expected, most));
+                            expected, max_height));
   }
   return parsed;
 }
@@ -74,9 +75,9 @@ double height_of(Json const& properties, HeightRule const& rule) {
     auto const levels = measure(properties, rule.levels, "a number of levels");
     if (levels) height = *levels * rule.storey;
     source = rule.levels;
-    if (height && *height > most) {
+    if (height && *height > max_height) {
       throw Error(fmt::format("{} is {} of {} m each, expected a height of at most {:.0f} m",
-                              source, *levels, rule.storey, most));
+                              source, *levels, rule.storey, max_height));
     }
   }
   if (!height && !rule.otherwise) {
@@ -190,8 +191,8 @@ MapCoordinates stated_coordinates(Json const& root) {
 }
 
 bool refuse_deep(int depth, Json::parse_event_t /*event*/, Json const& /*parsed*/) {
-  constexpr int most = 100;
-  if (depth > most) throw Error(fmt::format("is nested more than {} deep", most));
+  constexpr int max_depth = 100;
+  if (depth > max_depth) throw Error(fmt::format("is nested more than {} deep", max_depth));
   return true;
 }
 
@@ -219,7 +220,7 @@ BuildingFile read_buildings(std::filesystem::path const& path, HeightRule const&
     try {
       read_root(Json::parse(text, refuse_deep), heights, coordinates, file);
     } catch (Json::exception const& error) {
-      throw Error(fmt::format("is not GeoJSON: {}", error.what()));
+      throw Error(fmt::format("is not GeoJSON: {}", reason_of(error)));
     }
     return file;
   });

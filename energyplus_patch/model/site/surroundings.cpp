@@ -11,7 +11,6 @@
 
 #include "gpu_shading/footprint.h"
 #include "model/extensions/extension_fields.h"
-#include "model/site/site_origin.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -65,5 +65,6 @@ void add_sample(Program const& program);
 void sample_sky(ModelRun const& run, std::filesystem::path const& folder);
 void add_export(Program const& program);
 void add_docs(Program const& program);
+void add_example(Program const& program);
 
 }  // namespace gpu_shading::energyplus

@@ -59,7 +59,7 @@ void add_help(Program const& program) {
       "help", "Print the options of shading (help options), or the help of a command");
   auto const topic = std::make_shared<std::string>();
   auto const table = std::make_shared<bool>(false);
-  command->add_option("topic", *topic, "options, or a command")->required();
+  command->add_option("topic", *topic, "options, or a command")->required()->type_name("TOPIC");
   command->add_flag("--markdown", *table, "Print all options as the table of the manual");
   command->set_help_all_flag("--help-all", "With the options for special cases");
   command->callback([topic, table, all = program.help_all] {
@@ -107,6 +107,7 @@ int run(std::vector<std::string> arguments) {
   add_sample(program);
   add_export(program);
   add_docs(program);
+  add_example(program);
   add_help(program);
   add_version(app);
   app.footer(help_all ? options_help(true) : "Options of shading: gpu_shading help options");

@@ -184,9 +184,9 @@ std::vector<std::uint32_t> CpuPictureRaster::nearest(PictureGrid const& grid,
   return seen;
 }
 
-std::vector<float> CpuPictureRaster::through_screens(PictureGrid const& grid,
-                                                     glm::dvec3 const& towards_sun,
-                                                     std::span<SurfaceId const> surfaces) {
+std::vector<float> CpuPictureRaster::through_bodies(PictureGrid const& grid,
+                                                    glm::dvec3 const& towards_sun,
+                                                    std::span<SurfaceId const> surfaces) {
   Screens const& screens = transmission_.screens();
   std::vector<int> numbers(screens.entries().size());
   std::iota(numbers.begin(), numbers.end(), 0);
@@ -241,7 +241,9 @@ std::vector<float> CpuPictureRaster::luminance(PictureGrid const& grid,
   }
   std::vector<int> const numbers = transmission_.screens_among(shaded.casters);
   std::vector<SheetInBeam> const in_beam = sheets(grid, shaded.towards_sun, numbers);
-  CastersInView const casters{flat, shades, {&transmission_.screens(), in_beam, numbers}};
+  std::vector<CrownInBeam> const crowns =
+      transmission_.crowns_among(shaded.casters, shaded.towards_sun);
+  CastersInView const casters{flat, shades, {{&transmission_.screens(), in_beam, numbers}, crowns}};
   std::vector<float> seen(grid.pixels());
   in_rows(grid, [&](Rows const& rows) {
     int const side = side_of(grid);

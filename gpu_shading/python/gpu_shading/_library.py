@@ -1,4 +1,4 @@
-"""The functions of libgpu_shading_python.so (gpu_shading/python/calls.h). Python's other threads run meanwhile."""
+"""The functions of libgpu_shading_python.so (gpu_shading/python/*_calls.cpp). Python's other threads run meanwhile."""
 
 from __future__ import annotations
 

@@ -3,7 +3,6 @@
 import os
 import sys
 
-from energyplus_gpu_shading import examples
 from energyplus_gpu_shading.installation import SCRIPTS, official, prefix
 
 
@@ -12,12 +11,8 @@ def _become(program, *arguments):
 
 
 def run_energyplus():
-    """EnergyPlus, with --gpu-shading. Asked for the version, it says that of both. `example NAME` copies a model."""
+    """EnergyPlus, with --gpu-shading. Asked for the version, it says that of both."""
     arguments = sys.argv[1:]
-    if arguments[:1] == ["example"] and len(arguments) <= 2:
-        copied = examples.copy("".join(arguments[1:]), SCRIPTS / "idf_examples", official())
-        print(*sorted(copied.iterdir()), sep="\n")
-        return
     if {"-v", "--version"} & set(arguments) and not any(word.startswith("--gpu-shading") for word in arguments):
         arguments.append("--gpu-shading")
     _become(prefix() / "energyplus", *arguments)

@@ -20,10 +20,10 @@ function addPairs(list, pairs) {
 function addKeys() {
   const kinds = new Set(view.surfaces.map((surface) => content.styles[surface.style].kind));
   const mapped = Boolean(part("colouring").value);
-  const keys = mapped ? [] : [["Turned away from the sun", css(theme().turnedAway)]];
-  if (view instanceof ModelView && !mapped) keys.unshift(["Dark: shaded at this hour", css(scaleColour(1).map((value) => 0.6 * value))]);
-  if (kinds.has("opaque")) keys.push([mapped ? "Casts shadows only, or has no map" : "Casts shadows only", css(theme().caster)]);
-  if (kinds.has("glass")) keys.push(["Glass or fabric", `#${theme().glass.toString(16)}80`]);
+  const keys = mapped ? [] : [["faces away from the sun", css(theme().turnedAway)]];
+  if (view instanceof ModelView && !mapped) keys.unshift(["dark: shaded at this hour", css(scaleColour(1).map((value) => 0.6 * value))]);
+  if (kinds.has("opaque")) keys.push([mapped ? "casts shadows only, or has no map" : "casts shadows only", css(theme().caster)]);
+  if (kinds.has("glass")) keys.push(["transmits", `#${theme().glass.toString(16)}80`]);
   part("keys").replaceChildren(...keys.map(([text, colour]) => {
     const item = document.createElement("li");
     const box = document.createElement("span");
@@ -68,7 +68,7 @@ function showReceiver() {
   const map = content.maps.list.find((one) => one.receiver === receiver);
   const pairs = [["Area", `${numberText(area, 3)} m\u00b2`], ["Faces", facingText(receiver)],
     ["Tilt", `${numberText(tilt, 1)}\u00b0`], ["Mean sunlit fraction", numberText(mean, 4)],
-    ["Beam per m\u00b2", `${numberText(beam, 1)} kWh`], ["Total beam", `${numberText(total, 1)} kWh`]];
+    ["Beam per m\u00b2", `${numberText(beam, 1)} kWh/m\u00b2`], ["Total beam", `${numberText(total, 1)} kWh`]];
   const sky = skyOf(receiver);
   if (sky) pairs.push(["Sky view factor", `${numberText(sky.view, 3)} of ${numberText(sky.unshaded, 3)}`]);
   for (const [, title, unit, i] of map ? MAP_KINDS : []) {

@@ -87,7 +87,7 @@ Rewrite take_model(std::vector<InputObject> objects, Path const& path,
       {find_mentions, installed.serves(Need::daylight_rays), installed.serves(Need::reflections),
        installed.serves(Need::daylight_reflections)});
   if (run.model->options.mode != Mode::off) {
-    check_supported(run.model->shading, installation().version);
+    check_supported(run.model->shading, run.model->file, installation().version);
     // Now, because EnergyPlus may stop at such a surface.
     if (auto const& warning = run.model->simplified.warning; !warning.empty()) {
       messages_of(run).warning(warning);
