@@ -2,6 +2,7 @@
 #include <variant>
 #include <vector>
 
+#include "geometry/triangulation.h"
 #include "python/guard.h"
 
 namespace gpu_shading::python {
@@ -80,6 +81,19 @@ GPU_SHADING_CALL int gpu_shading_scene_areas(SceneObject const* scene, double* r
       auto const& polygon = scene->scene[id].polygon;
       auto const vector = area(polygon) * normal(polygon);
       for (int axis = 0; axis < 3; ++axis) *results++ = vector[axis];
+    }
+  });
+}
+
+// The corners of a surface's triangles: triangles x 3 x 3; nullptr: only their number.
+GPU_SHADING_CALL int gpu_shading_scene_triangles(SceneObject const* scene, std::size_t surface,
+                                                 double* corners, std::size_t* triangles) {
+  return guarded([&] {
+    auto const mesh = triangulate(scene->scene[static_cast<SurfaceId>(surface)].polygon);
+    *triangles = mesh.indices.size() / 3;
+    if (corners == nullptr) return;
+    for (auto const index : mesh.indices) {
+      for (int axis = 0; axis < 3; ++axis) *corners++ = mesh.vertices[index][axis];
     }
   });
 }

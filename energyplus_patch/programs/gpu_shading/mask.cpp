@@ -19,6 +19,7 @@
 #include "programs/gpu_shading/commands.h"
 #include "programs/gpu_shading/listed_folder.h"
 #include "programs/gpu_shading/mask_files.h"
+#include "reports/report.h"
 #include "runs/installation.h"
 #include "runs/short_runs.h"
 #include "tasks/task_file.h"
@@ -108,8 +109,7 @@ std::vector<MaskSummary> summarise(std::vector<ReceiverMask> const& masks, SkyGr
     auto const normal = glm::normalize(mask.receiver.area);
     auto title = mask.receiver.name;
     if (mask.point) title += fmt::format(", point {}", ++points[title]);
-    constexpr double circle = 360.0;
-    double const azimuth = std::fmod(glm::degrees(std::atan2(normal.x, normal.y)) + circle, circle);
+    double const azimuth = degrees_clockwise(std::atan2(normal.x, normal.y));
     constexpr double vertical = 1e-6;
     summaries.push_back({title, names.add(title, ""),
                          std::hypot(normal.x, normal.y) > vertical ? azimuth : 0.0,

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <numbers>
 #include <ostream>
 
 #include "model/site/site_clock.h"
 #include "platform/text.h"
 #include "programs/gpu_shading/mask_files.h"
+#include "reports/report.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -26,11 +26,6 @@ std::string fields(std::array<Value, shade_kinds> const& values) {
   std::string text;
   for (auto const value : values) text += fmt::format(",{:.4f}", value);
   return text;
-}
-
-double degrees_clockwise(double azimuth) {
-  constexpr double circle = 360.0;
-  return std::fmod(glm::degrees(azimuth) + circle, circle);
 }
 
 }  // namespace

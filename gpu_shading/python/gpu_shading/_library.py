@@ -57,6 +57,7 @@ _CALLS: dict[str, list[Any]] = {
     "scene_add": [c_void_p, POINTER(SurfaceRecord)],
     "scene_set_rule": [c_void_p, c_void_p, c_size_t, c_void_p, c_size_t],
     "scene_areas": [c_void_p, c_void_p],
+    "scene_triangles": [c_void_p, c_size_t, c_void_p, POINTER(c_size_t)],
     "renderer_new": [c_void_p, c_char_p, c_int, c_double, _MADE],
     "renderer_device": [c_void_p],
     "renderer_warnings": [c_void_p],

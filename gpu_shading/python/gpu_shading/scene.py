@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Iterable, Mapping, Sequence
-from ctypes import byref
+from collections.abc import Iterable, Mapping
+from ctypes import byref, c_size_t
 from dataclasses import dataclass, fields
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,11 +16,15 @@ from gpu_shading import _library, _pickles
 from gpu_shading._arrays import FARTHEST, Floats, number, numbers, pointer, ring, whole, within
 from gpu_shading.crown import Crown, LeafAngles, Shape
 from gpu_shading.errors import InvalidInput
+from gpu_shading.meshes import faces_of, to_pyvista, to_trimesh
 from gpu_shading.model import Contents, read
 from gpu_shading.optics import FlatFilter, Screen, Transmittance, choice
 from gpu_shading.rays import Faces, Rays, RayScreens, make_rays
-from gpu_shading.renderer import Renderer, Values, schedule_table
+from gpu_shading.renderer import Receivers, Renderer, Values, schedule_table
 from gpu_shading.rule import Rule
+
+if TYPE_CHECKING:
+    import xarray
 
 Casts = Literal["always", "turned away", "never"]
 
@@ -202,12 +206,43 @@ class Scene:
                 return index
         raise InvalidInput(f"{name}: no surface of that name")
 
-    def sunlit(self, directions: ArrayLike, *, receivers: Sequence[int] | None = None, factors: Values | None = None,
-               deployments: Values | None = None, device: str = "auto") -> Floats:
+    @overload
+    def sunlit(self, directions: ArrayLike, *, receivers: Receivers | None = None, factors: Values | None = None,
+               deployments: Values | None = None, device: str = "auto", labelled: Literal[False] = False,
+               progress: bool = False) -> Floats: ...
+
+    @overload
+    def sunlit(self, directions: ArrayLike, *, receivers: Receivers | None = None, factors: Values | None = None,
+               deployments: Values | None = None, device: str = "auto", labelled: Literal[True],
+               progress: bool = False) -> xarray.DataArray: ...
+
+    def sunlit(self, directions: ArrayLike, *, receivers: Receivers | None = None, factors: Values | None = None,
+               deployments: Values | None = None, device: str = "auto", labelled: bool = False,
+               progress: bool = False) -> Floats | xarray.DataArray:
         """Sunlit fractions, 0 to 1: the sunlit area over the area, each part weighted by what the shades in front of
         it let pass; 0 where the sun is behind the receiver. See Renderer.sunlit, which answers."""
-        return self.renderer(device=device).sunlit(
-            directions, receivers=receivers, factors=factors, deployments=deployments)
+        renderer = self.renderer(device=device)
+        if labelled:
+            return renderer.sunlit(directions, receivers=receivers, factors=factors, deployments=deployments,
+                                   labelled=True, progress=progress)
+        return renderer.sunlit(directions, receivers=receivers, factors=factors, deployments=deployments,
+                               progress=progress)
+
+    def add_mesh(self, mesh: Any, *, name: str, **surface: Any) -> list[int]:
+        """Adds the faces of a trimesh.Trimesh, a PyVista PolyData, or of any object with `vertices` and `faces`, and
+        returns their indices. All have one name; more arguments as `add` has. In metres."""
+        return [self.add(corners, name=name, **surface) for corners in faces_of(mesh)]
+
+    def to_pyvista(self, values: Mapping[str, ArrayLike] | None = None) -> Any:
+        """The surfaces as a PyVista PolyData for drawing in 3D: a polygon each, or triangles of one with holes.
+        `values`: arrays by name with a value for each surface, such as sunlit fractions, which its cells get; they have
+        its index as "surface"."""
+        return to_pyvista([list(self._triangles(index)) if surface.holes else [surface.vertices]
+                           for index, surface in enumerate(self._surfaces)], values or {})
+
+    def to_trimesh(self) -> Any:
+        """The surfaces as a trimesh.Trimesh of triangles; `face_attributes["surface"]` has their indices."""
+        return to_trimesh([self._triangles(index) for index in range(len(self._surfaces))])
 
     def renderer(self, *, device: str = "auto", error: float | None = None,
                  resolution: int | None = None) -> Renderer:
@@ -223,7 +258,8 @@ class Scene:
         pixels = 0 if resolution is None else whole(resolution, "resolution", 1, _MAX_PIXELS)
         handle = _library.Handle("renderer", "renderer_new", self.native(), device.encode(errors="replace"), pixels,
                                  number(error, "error"))
-        return Renderer(handle, self._area_vectors(), self.receivers, self.factor_table, self.deployment_shares)
+        return Renderer(handle, self._area_vectors(), self.receivers, self.names, self.factor_table,
+                        self.deployment_shares)
 
     def rays(self, *, faces: Faces = "as casting", screens: RayScreens = "effective") -> Rays:
         """What answers for single rays through this scene as it is now. `faces` that stop rays: "as casting", by what
@@ -278,6 +314,14 @@ class Scene:
             rotation=np.radians(surface.screen_rotation),
             deployment=self.deployments.index(surface.deployment) if surface.deployment is not None else -1)
         _library.call("scene_add", scene, byref(record))
+
+    def _triangles(self, index: int) -> Floats:
+        """Of a surface: triangles x 3 x 3."""
+        count = c_size_t()
+        _library.call("scene_triangles", self.native(), index, None, byref(count))
+        corners = np.empty((count.value, 3, 3))
+        _library.call("scene_triangles", self.native(), index, pointer(corners), byref(count))
+        return corners
 
     def _area_vectors(self) -> Floats:
         vectors = np.empty((len(self._surfaces), 3))
