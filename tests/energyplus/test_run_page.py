@@ -188,7 +188,8 @@ def test_the_page_has_the_numbers_of_the_tables(run, on_desktop):
 
 
 def test_the_page_opens_on_the_largest_window(run, on_desktop):
-    windows = [row for row in rows_of(run[1] / "run_receivers.csv") if "WINDOW" in row["receiver"] or row["receiver"] == HOSTILE]
+    windows = [row for row in rows_of(run[1] / "run_receivers.csv")
+               if "WINDOW" in row["receiver"] or row["receiver"] == HOSTILE]
     largest = max(windows, key=lambda row: float(row["area [m2]"]))
     assert on_desktop["opened"] == {"chosen": largest["receiver"], "area": pytest.approx(float(largest["area [m2]"]))}
     assert on_desktop["under"]
@@ -216,8 +217,9 @@ def test_the_sky_of_a_receiver(run, on_desktop):
     content = content_of(report / "index.html")
     receiver = content["names"].index(HOSTILE)
     [sky] = [one for one in content["skies"]["list"] if one["receiver"] == receiver]
-    done = subprocess.run([energyplus.patched_prefix() / "gpu_shading", "mask", done_model(run), "--receiver", "*LIBRARY*",
-                           "-o", report.parent / "masks"], capture_output=True, text=True)
+    program = energyplus.patched_prefix() / "gpu_shading"
+    done = subprocess.run([program, "mask", done_model(run), "--receiver", "*LIBRARY*", "-o", report.parent / "masks"],
+                          capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     [mask] = rows_of(report.parent / "masks" / "masks.csv")
     assert sky["unshaded"] == 0.5
