@@ -196,7 +196,7 @@ TEST(LeanInput, AnsweredReflectionsLeaveOutAllButMirrors) {
 TEST(LeanInput, TheRestOfTheTextIsKept) {
   std::string const kept = "! note\nZone,A; ! last\n" + shade("Stays");
   std::string const gone = shade("Goes") + "ShadingProperty:Reflectance,goes,0.3;\n";
-  Rewrite rewrite{"PixelCounting", "", {"GOES"}, make_placeholders({}, {})};
+  Rewrite rewrite{"PixelCounting", "", {"GOES"}, {}, make_placeholders({}, {})};
   auto const text = rewrite_idf("ShadowCalculation,PixelCounting,Periodic;" + kept + gone, rewrite);
   EXPECT_THAT(text, HasSubstr(kept));
   EXPECT_THAT(text, Not(HasSubstr("oes,")));
@@ -207,7 +207,7 @@ TEST(LeanInput, EpJsonIsRewrittenAlike) {
   auto model = nlohmann::json::parse(R"({"Zone": {"A": {}},
     "Shading:Site:Detailed": {"Stays": {}, "Goes": {}}, "Shading:Zone:Detailed": {"Goes": {}},
     "ShadingProperty:Reflectance": {"R 1": {"shading_surface_name": "goes"}}})");
-  rewrite_epjson(model, {"PixelCounting", "", {"GOES"}, make_placeholders({"Half"}, {})});
+  rewrite_epjson(model, {"PixelCounting", "", {"GOES"}, {}, make_placeholders({"Half"}, {})});
   EXPECT_FALSE(model.contains("ShadingProperty:Reflectance"));
   EXPECT_FALSE(model.contains("Shading:Zone:Detailed"));
   auto const& site = model.at("Shading:Site:Detailed");
