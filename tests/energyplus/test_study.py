@@ -278,6 +278,14 @@ def test_fields_of_lists_and_epjson_are_replaced(gs):
     assert epjson.data["Shading:Building:Detailed"]["Louvre 1"]["vertices"] == [{}, {"vertex_y_coordinate": 9}]
 
 
+def test_names_of_models_tell_them_apart(gs):
+    from gpu_shading.study.plan import model_names
+
+    names = model_names(["/city/hall.idf", "/city/b2/in.idf", "/city/b2/in.epJSON"])
+    assert list(names.values()) == ["hall", "in.idf", "in.epJSON"]
+    assert list(model_names(["/a/x/in.idf", "/a/y/in.idf", "/a/y/in.idf"]).values()) == ["x/in", "y/in"]
+
+
 def test_a_queue_is_asked_for_what_the_plan_says(gs):
     pytest.importorskip("dask_jobqueue", reason="dask-jobqueue is missing: run scripts/setup")
     from gpu_shading.study.engine import open_jobqueue

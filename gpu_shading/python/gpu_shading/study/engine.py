@@ -109,7 +109,9 @@ class Engine:
         """And whether it killed its worker again and again."""
         if future.status == "finished":
             return future.result(), False
-        error = future.exception() if future.status == "error" else None
+        if future.status != "error":
+            raise RunError(f"Dask's scheduler is gone (a task is {future.status}); the same command resumes")
+        error = future.exception()
         if type(error).__name__ == "KilledWorker":
             return Outcome(f"its worker died {self._tries} times"), True
-        return Outcome(f"{type(error).__name__}: {error}" if error else f"the task was {future.status}"), False
+        return Outcome(f"{type(error).__name__}: {error}"), False

@@ -41,7 +41,8 @@ def make_jobs(cases: Sequence[Case], source: str, folder: Path, outputs: tuple[s
                     raise InvalidInput(f"{words!r}: {model} has no such object")
         except InvalidInput as error:
             raise InvalidInput(f"{source}: {name}: {error}") from None
-        options = {key: str(value) for key, value in case.options.items()}
+        options = {key: os.path.abspath(value) if key == "cache" else str(value)
+                   for key, value in case.options.items()}
         scene_id = digest([
             versions, _digest_of(model), _digest_of(extensions or model.with_suffix(".gpu-shading.idf")),
             [_digest_of(model.parent / file) for file in _files(model)], sorted(options.items()),

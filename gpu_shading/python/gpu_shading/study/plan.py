@@ -6,6 +6,7 @@ import csv
 import glob
 import importlib
 import os
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -216,16 +217,14 @@ def check_jobqueue(kind: str) -> str:
 def model_names(models: Iterable[_programs.Name]) -> dict[Path, str]:
     """A short name for each: the file's without its extension, with as many folders as tell it from the others."""
     paths = list(dict.fromkeys(Path(os.path.abspath(model)) for model in models))
+    bare = Counter(path.with_suffix("") for path in paths)
+    # An IDF and an epJSON may have all else in common.
+    last = {path: path.name if bare[path.with_suffix("")] > 1 else path.stem for path in paths}
     names: dict[Path, str] = {}
     left, length = paths, 1
     while left:
-        trial = {path: "/".join([*path.parts[-length:-1], path.stem]) for path in left}
-        count: dict[str, int] = {}
-        for name in trial.values():
-            count[name] = count.get(name, 0) + 1
-        alone = {path: name for path, name in trial.items() if count[name] == 1 or length >= len(path.parts)}
-        names |= alone
-        left, length = [path for path in left if path not in alone], length + 1
-    # An IDF and an epJSON may have all else in common.
-    same = {name for name in names.values() if list(names.values()).count(name) > 1}
-    return {path: f"{name}{path.suffix}" if name in same else name for path, name in names.items()}
+        trial = {path: "/".join([*path.parts[-length:-1], last[path]]) for path in left}
+        times = Counter(trial.values())
+        names |= {path: name for path, name in trial.items() if times[name] == 1}
+        left, length = [path for path in left if path not in names], length + 1
+    return names
