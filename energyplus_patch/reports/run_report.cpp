@@ -63,6 +63,11 @@ PageStyle style_of(Surface const& surface) {
       style.passes = std::round(look.passes * percents) / percents;
       break;
     }
+    case FilterLook::Kind::foliage:
+      style.kind = PageStyle::Kind::foliage;
+      // Of one of the two faces that a ray meets, to whole percents.
+      style.passes = std::round(100.0 * std::sqrt(look.passes)) / 100.0;
+      break;
     case FilterLook::Kind::holes:
       style.kind = PageStyle::Kind::screen;
       style.passes = look.passes;
@@ -199,7 +204,15 @@ void add_surfaces(RunPage& page, SceneAssembly const& assembly, RunRecord const&
   for (auto const id : drawn_casters(assembly, scene, record)) {
     auto const& surface = scene[id];
     if (added[id] || area(surface.polygon) <= 0.0) continue;
-    page.surfaces.push_back({surface.name, surface.polygon, styles.number_of(surface)});
+    auto const style = styles.number_of(surface);
+    if (auto const* const crown = surface.filter.find<Crown>()) {
+      constexpr int sides = 8;
+      for (auto& face : crown_faces(surface.polygon, *crown, sides)) {
+        page.surfaces.push_back({surface.name, std::move(face), style});
+      }
+      continue;
+    }
+    page.surfaces.push_back({surface.name, surface.polygon, style});
   }
   page.styles = styles.all();
 }
@@ -214,8 +227,7 @@ RunPage page_of(SceneAssembly const& assembly, DeviceInfo const& device, RunReco
       {record.of_design_days() ? "Design days simulated" : "Days simulated",
        std::to_string(record.simulated())},
       {"Receivers", std::to_string(page.receivers.size())},
-      {"Other surfaces drawn",
-       std::to_string(page.surfaces.size() - page.receivers.size())},
+      {"Other surfaces drawn", std::to_string(page.surfaces.size() - page.receivers.size())},
       {"Shading computed on", gpu_shading::describe(device)},
   };
   if (days.size() < record.days().size()) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -16,15 +17,20 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-// Each position of a screen would need samples of its own.
-void refuse_moving_screens(ShadeOptics const& optics) {
+// Each position of a screen, and each share of leaves, would need samples of its own.
+void refuse_changing_bodies(SceneAssembly const& scene) {
+  auto const& optics = scene.optics();
+  auto const& leaves = scene.model().surroundings.leaf_schedules;
   for (auto const& name : optics.deployment_names()) {
     auto const [least, most] = optics.schedules().range(name);
     if (least < most) {
-      throw Error(fmt::format(
-          "{}: {} {}: has values from {} to {}, expected a constant value for samples",
-          extension::perforated_screen::type,
-          extension::perforated_screen::deployment_schedule_name.title, name, least, most));
+      bool const of_leaves = std::find(leaves.begin(), leaves.end(), name) != leaves.end();
+      throw Error(
+          fmt::format("{}: {} {}: has values from {} to {}, expected a constant value for samples",
+                      of_leaves ? extension::tree::type : extension::perforated_screen::type,
+                      of_leaves ? extension::tree::leaf_schedule_name.title
+                                : extension::perforated_screen::deployment_schedule_name.title,
+                      name, least, most));
     }
   }
 }
@@ -59,7 +65,7 @@ CachedRenderer open_for_task(SceneAssembly& scene, std::vector<SurfaceId> const&
 
 std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages const& messages) {
   auto const& options = scene.model().options;
-  refuse_moving_screens(scene.optics());
+  refuse_changing_bodies(scene);
   // All that a run asks for, because the samples depend on it.
   auto answers = open_for_task(scene, scene.receivers(), messages);
   auto const& device = answers.renderer().device();

@@ -1,3 +1,6 @@
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "geometry/triangulation.h"
 #include "python/guard.h"
@@ -36,7 +39,11 @@ GPU_SHADING_CALL int gpu_shading_scene_add(SceneObject* scene, SurfaceRecord con
     added.name = surface->name;
     added.polygon = polygon_of(*surface);
     added.casting = enumerator(surface->casting, Casting::never, "casting");
-    if (surface->filter != nullptr) added.filter.set(surface->filter->factor);
+    if (surface->filter != nullptr) {
+      FilterFactor factor = surface->filter->factor;
+      if (auto* const crown = std::get_if<Crown>(&factor)) crown->deployment = surface->deployment;
+      added.filter.set(std::move(factor));
+    }
     if (surface->screen != nullptr) {
       added.filter.set(PerforatedSheet{surface->screen->screen,
                                        {surface->origin_u, surface->origin_v, surface->rotation},

@@ -85,6 +85,7 @@ void translate_help(CLI::App const& app, std::vector<std::string>& arguments) {
 }
 
 int run(std::vector<std::string> arguments) {
+  auto given = arguments;
   auto const flags = take_flags(arguments);
   auto choices = flags;
   choices.fill_from(read_environment());
@@ -106,12 +107,18 @@ int run(std::vector<std::string> arguments) {
   add_screen(program);
   add_sample(program);
   add_export(program);
+  add_study(program);
   add_docs(program);
   add_example(program);
   add_help(program);
   add_version(app);
   app.footer(help_all ? options_help(true) : "Options of shading: gpu_shading help options");
   translate_help(app, arguments);
+  if (!arguments.empty() && arguments.front() == "study") {
+    if (given.front() == "help") run_study({"--help"});
+    given.erase(std::find(given.begin(), given.end(), "study"));
+    run_study(given);
+  }
   refuse_mistyped_subcommand(app, arguments);
   // CLI11 expects them in reverse order.
   std::reverse(arguments.begin(), arguments.end());

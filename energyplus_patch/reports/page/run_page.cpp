@@ -134,7 +134,7 @@ Json geometry_of(RunPage const& page) {
 }
 
 Json to_json(PageStyle const& style) {
-  constexpr std::array<char const*, 4> kinds{"receiver", "opaque", "glass", "screen"};
+  constexpr std::array<char const*, 5> kinds{"receiver", "opaque", "glass", "screen", "foliage"};
   return {{"kind", kinds.at(static_cast<std::size_t>(style.kind))},
           {"passes", style.passes},
           {"hole", style.hole},

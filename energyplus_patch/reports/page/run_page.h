@@ -15,7 +15,7 @@ namespace gpu_shading::energyplus {
 
 // How surfaces of one kind look.
 struct PageStyle {
-  enum class Kind { receiver, opaque, glass, screen };
+  enum class Kind { receiver, opaque, glass, screen, foliage };
 
   Kind kind = Kind::opaque;
   double passes = 0.0;  // of the beam at normal incidence, 0 .. 1

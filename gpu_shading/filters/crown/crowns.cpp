@@ -37,35 +37,6 @@ void check(std::string_view field, double value, double least, double most) {
       fmt::format("{} of a crown is {:.9g}, expected {:.9g} to {:.9g}", field, value, least, most));
 }
 
-Crowns::Entry make_entry(SurfaceId id, Polygon const& polygon, Crown const& crown) {
-  constexpr double tallest = 1e4;    // m
-  constexpr double densest = 1e3;    // m2/m3
-  constexpr double thinnest = 1e-3;  // m
-  check("height", crown.height, thinnest, tallest);
-  check("leaf area density", crown.leaf_density, 0.0, densest);
-  check("wood area density", crown.wood_density, 0.0, densest);
-  Ring const ring = without_repeats(polygon.outline);
-  constexpr double rounding = 1e-6;
-  auto const is_rectangle = [&] {
-    if (ring.size() != 4 || !polygon.holes.empty() || is_degenerate(ring, newell(ring)))
-      return false;
-    glm::dvec3 const a = ring[1] - ring[0];
-    glm::dvec3 const b = ring[2] - ring[1];
-    double const size = glm::length(a) + glm::length(b);
-    return glm::distance(ring[3] - ring[0], b) <= rounding * size &&
-           std::abs(glm::dot(a, b)) <= rounding * glm::length(a) * glm::length(b);
-  };
-  if (!is_rectangle()) throw Error("a crown needs a rectangle without holes for its plan");
-  glm::dvec3 const normal = glm::normalize(newell(ring));
-  Crowns::Entry entry{
-      crown,
-      id,
-      0.5 * (ring[0] + ring[2]) + 0.5 * crown.height * normal,
-      {0.5 * (ring[1] - ring[0]), 0.5 * (ring[2] - ring[1]), 0.5 * crown.height * normal},
-      solid_of(crown.shape)};
-  return entry;
-}
-
 // A crown's box in the pixels of a view, and its rays.
 class CrownRays {
  public:
@@ -217,6 +188,34 @@ double Crowns::Entry::extinction(glm::dvec3 const& towards_sun,
          leaf_projection(LeafAngles::spherical, cosine) * crown.wood_density;
 }
 
+Crowns::Entry Crowns::entry_of(SurfaceId id, Polygon const& polygon, Crown const& crown) {
+  constexpr double tallest = 1e4;    // m
+  constexpr double densest = 1e3;    // m2/m3
+  constexpr double thinnest = 1e-3;  // m
+  check("height", crown.height, thinnest, tallest);
+  check("leaf area density", crown.leaf_density, 0.0, densest);
+  check("wood area density", crown.wood_density, 0.0, densest);
+  Ring const ring = without_repeats(polygon.outline);
+  constexpr double rounding = 1e-6;
+  auto const is_rectangle = [&] {
+    if (ring.size() != 4 || !polygon.holes.empty() || is_degenerate(ring, newell(ring)))
+      return false;
+    glm::dvec3 const a = ring[1] - ring[0];
+    glm::dvec3 const b = ring[2] - ring[1];
+    double const size = glm::length(a) + glm::length(b);
+    return glm::distance(ring[3] - ring[0], b) <= rounding * size &&
+           std::abs(glm::dot(a, b)) <= rounding * glm::length(a) * glm::length(b);
+  };
+  if (!is_rectangle()) throw Error("a crown needs a rectangle without holes for its plan");
+  glm::dvec3 const normal = glm::normalize(newell(ring));
+  Entry entry{crown,
+              id,
+              0.5 * (ring[0] + ring[2]) + 0.5 * crown.height * normal,
+              {0.5 * (ring[1] - ring[0]), 0.5 * (ring[2] - ring[1]), 0.5 * crown.height * normal},
+              solid_of(crown.shape)};
+  return entry;
+}
+
 Crowns::Crowns(Scene const& scene) {
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     auto const* const crown = scene[id].filter.find<Crown>();
@@ -224,7 +223,7 @@ Crowns::Crowns(Scene const& scene) {
     if (numbers_.empty()) numbers_.assign(scene.size(), none);
     numbers_[id] = static_cast<int>(entries_.size());
     try {
-      entries_.push_back(make_entry(id, scene[id].polygon, *crown));
+      entries_.push_back(entry_of(id, scene[id].polygon, *crown));
     } catch (Error const& error) {
       throw Error(fmt::format("surface '{}': {}", scene[id].name, error.what()));
     }

@@ -50,7 +50,8 @@ class Crowns {
     double extinction(glm::dvec3 const& towards_sun, std::span<double const> deployments) const;
   };
 
-  // Throws Error if the polygon of a crown is no rectangle, or one of its numbers out of range.
+  // Throw Error if the polygon of a crown is no rectangle, or one of its numbers out of range.
+  static Entry entry_of(SurfaceId id, Polygon const& polygon, Crown const& crown);
   explicit Crowns(Scene const& scene);
 
   static constexpr int none = -1;

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <vector>
+
+#include "gpu_shading/polygon.h"
+
 namespace gpu_shading {
 
 // The half ellipsoid is flat at its base.
@@ -29,5 +33,9 @@ struct Crown {
 // is that of the beam's angle to the crown's axis. Spherical 0.5; for other leaves, Ross's integral
 // over their angles, within 1e-6.
 double leaf_projection(LeafAngles angles, double cosine);
+
+// The outside of a crown, for pictures: faces inscribed in it, with this many around it. Throws
+// Error as a renderer does.
+std::vector<Polygon> crown_faces(Polygon const& plan, Crown const& crown, int sides);
 
 }  // namespace gpu_shading

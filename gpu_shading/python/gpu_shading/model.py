@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gpu_shading import _html, _programs
+from gpu_shading.crown import Crown
 from gpu_shading.errors import RunError
 from gpu_shading.optics import Screen, Transmittance
 
@@ -63,7 +64,8 @@ def read(model: _programs.Name, weather: _programs.Name | None = None) -> Conten
          "receives": surface["receives"], "casts": surface["casts"],
          "transmittance": item(shades, surface["transmittance"]), "screen": item(screens, surface["screen"]),
          "screen_origin": tuple(surface["origin"]), "screen_rotation": surface["rotation"],
-         "schedule": item(schedules, surface["schedule"]), "deployment": item(deployments, surface["deployment"])}
+         "schedule": item(schedules, surface["schedule"]), "deployment": item(deployments, surface["deployment"]),
+         "crown": Crown(**surface["crown"]) if surface["crown"] else None}
         for surface in document["surfaces"]]
     rule, zones = document["rule"], document["rule"]["zones"]
     return Contents(document["error"], document["resolution"], schedules, deployments, surfaces,
