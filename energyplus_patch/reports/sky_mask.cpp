@@ -24,6 +24,7 @@ constexpr std::size_t rays_in_batch = 65536;
 
 ShadeKind kind_of_caster(std::string const& type, std::string const& name) {
   if (type == extension::geometry::type) return ShadeKind::geometry;
+  if (type == extension::tree::type) return ShadeKind::trees;
   return name.ends_with(":TERRAIN") ? ShadeKind::terrain : ShadeKind::neighbours;
 }
 
@@ -51,8 +52,8 @@ void add_ray(BeamShare& share, std::vector<RayLayer> const& layers,
 }  // namespace
 
 std::string_view name_of(ShadeKind kind) {
-  constexpr std::array<std::string_view, shade_kinds> names{"building", "shades", "geometry",
-                                                            "neighbours", "terrain"};
+  constexpr std::array<std::string_view, shade_kinds> names{"building", "shades",     "geometry",
+                                                            "trees",    "neighbours", "terrain"};
   return names.at(static_cast<std::size_t>(kind));
 }
 

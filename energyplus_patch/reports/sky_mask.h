@@ -15,15 +15,15 @@
 namespace gpu_shading::energyplus {
 
 // What may shade a receiver.
-enum class ShadeKind { building, shades, geometry, neighbours, terrain };
-inline constexpr std::size_t shade_kinds = 5;
+enum class ShadeKind { building, shades, geometry, trees, neighbours, terrain };
+inline constexpr std::size_t shade_kinds = 6;
 
-// "building", "shades", "geometry", "neighbours", "terrain"
+// "building", "shades", "geometry", "trees", "neighbours", "terrain"
 std::string_view name_of(ShadeKind kind);
 
 // By surface of a scene: walls, roofs and reveals are the building; Shading:Building and
-// Shading:Zone are shades; GPUShading:Geometry is geometry; Shading:Site and the buildings of
-// GPUShading:SiteContext are neighbours, and its terrain is terrain.
+// Shading:Zone are shades; GPUShading:Geometry is geometry; GPUShading:Tree are trees; Shading:Site
+// and the buildings of GPUShading:SiteContext are neighbours, and its terrain is terrain.
 std::vector<ShadeKind> kinds_of(SceneAssembly const& assembly, Scene const& scene);
 
 // The beam from one direction.

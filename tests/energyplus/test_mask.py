@@ -15,7 +15,7 @@ from PIL import Image
 from shading_runs import energyplus, input_file
 
 SUNLIT = "Surface Outside Face Sunlit Fraction"
-KINDS = ("building", "shades", "geometry", "neighbours", "terrain")
+KINDS = ("building", "shades", "geometry", "trees", "neighbours", "terrain")
 
 
 def call(*arguments):
@@ -130,6 +130,17 @@ def test_hours_are_marked_by_the_chosen_beam(courtyard, weather, tmp_path):
         [noon] = {row["beam [W/m2]"] for row in rows if row["month"] == str(month) and row["hour"] == "12"}
         assert float(noon) == pytest.approx(sum(near) / len(near), rel=0.1)
     assert json.loads((tmp_path / "weather" / "masks.json").read_text())["marked"].endswith("EPW)")
+
+
+def test_trees_are_a_kind(tmp_path):
+    tree = "GPUShading:Tree,Linden,3,-6,0,9,4,1;\n"
+    (tmp_path / "room.idf").write_text(screened_room.model(objects=tree))
+    folder = draw(tmp_path / "room.idf", tmp_path / "masks", "--receiver", "Window", "--step", "5")
+    [row] = rows_of(folder / "masks.csv")
+    assert 0.005 < float(row["trees"]) < 0.2
+    assert sum(float(row[kind]) for kind in KINDS if kind != "trees") < 0.001
+    south = [hour for hour in rows_of(folder / "hours.csv") if hour["month"] == "12" and hour["hour"] == "12"]
+    assert float(south[0]["trees"]) > 0.05
 
 
 @pytest.mark.parametrize("projection", ["stereographic", "equidistant", "cylindrical"])

@@ -34,6 +34,8 @@ glm::dvec3 colour_of(ShadeKind kind) {
       return {86.0, 180.0, 233.0};
     case ShadeKind::geometry:
       return {204.0, 121.0, 167.0};
+    case ShadeKind::trees:
+      return {0.0, 158.0, 115.0};
     case ShadeKind::neighbours:
       return {213.0, 94.0, 0.0};
     case ShadeKind::terrain:
@@ -50,6 +52,8 @@ std::string_view description_of(ShadeKind kind) {
       return "Shades";
     case ShadeKind::geometry:
       return "Imported geometry";
+    case ShadeKind::trees:
+      return "Trees";
     case ShadeKind::neighbours:
       return "Neighbours and site shades";
     case ShadeKind::terrain:

@@ -20,7 +20,7 @@ from gpu_shading._arrays import Floats
 from gpu_shading.errors import InvalidInput
 
 Projection = Literal["stereographic", "equidistant", "cylindrical"]
-Kinds = ("building", "shades", "geometry", "neighbours", "terrain")
+Kinds = ("building", "shades", "geometry", "trees", "neighbours", "terrain")
 
 
 @dataclass(frozen=True, repr=False)

@@ -2,7 +2,7 @@
 
 // Okabe and Ito (2008), as gpu_shading mask has them: [what it says, colour].
 const SHADE_KINDS = {building: ["the building itself", [120, 124, 130]], shades: ["shades", [86, 180, 233]],
-  geometry: ["imported geometry", [204, 121, 167]], neighbours: ["neighbours and site shades", [213, 94, 0]],
+  geometry: ["imported geometry", [204, 121, 167]], trees: ["trees", [0, 158, 115]], neighbours: ["neighbours and site shades", [213, 94, 0]],
   terrain: ["terrain", [150, 110, 60]]};
 const CLEAR_SKY = [240, 247, 255];
 const BEHIND = [214, 216, 219];
