@@ -30,6 +30,7 @@ class Transmission {
   // Deployed fractions of screens, 1 beyond the end.
   void set_deployments(std::vector<double> shares) { deployments_ = std::move(shares); }
 
+  bool all_opaque() const { return all_opaque_; }
   bool transmits(SurfaceId id) const { return entries_[id].transmits; }
   // BeamFilter::is_flat().
   bool is_flat(SurfaceId id) const { return entries_[id].is_flat; }
@@ -64,6 +65,7 @@ class Transmission {
   };
 
   std::vector<Entry> entries_;
+  bool all_opaque_ = true;
   std::vector<int> schedules_;
   Screens screens_;
   std::vector<double> deployments_;
