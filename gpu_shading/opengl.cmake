@@ -17,6 +17,7 @@ add_library(gpu_shading_opengl STATIC
   backends/opengl/gl/readback.cpp
   backends/opengl/gl/texture.cpp
   backends/opengl/gl/vertex_array.cpp
+  backends/opengl/raster/crown_geometry.cpp
   backends/opengl/raster/draw_list.cpp
   backends/opengl/raster/geometry.cpp
   backends/opengl/raster/gl_backend.cpp
@@ -36,6 +37,7 @@ target_link_libraries(gpu_shading_opengl
   PRIVATE project_options PkgConfig::EPOXY fmt::fmt ${CMAKE_DL_LIBS})
 precompile(gpu_shading_opengl)
 add_library(gpu_shading_gl MODULE backends/opengl/module/gl_entry.cpp)
+target_include_directories(gpu_shading_gl PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 target_link_libraries(gpu_shading_gl PRIVATE project_options gpu_shading_opengl)
 set(exports ${CMAKE_CURRENT_SOURCE_DIR}/backends/opengl/module/exports.map)
 target_link_options(gpu_shading_gl PRIVATE -Wl,--version-script=${exports} -Wl,--as-needed

@@ -31,6 +31,7 @@ class PlainScene : public ShadingCalculation {
   double daylight_transmittance(Ray const& /*ray*/, int /*hour*/) override { return 1.0; }
   void begin_daylighting() override {}
   std::string vendor() override;
+  void fail() override {}
   void finish() override {}
 
  private:

@@ -82,8 +82,7 @@ class Session : public ShadingCalculation {
 
   std::string vendor() override;
 
-  // An answer could not be given, so the run ends, and its report would be of a part of it.
-  void fail() { failed_ = true; }
+  void fail() override { failed_ = true; }
 
   // Also writes the report, unless the run has failed.
   void finish() override;

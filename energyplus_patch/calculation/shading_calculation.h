@@ -67,9 +67,22 @@ class ShadingCalculation {
   // GL_VENDOR of the device; "" for the CPU.
   virtual std::string vendor() = 0;
 
+  // An answer could not be given, so the run ends, and its report would be of a part of it.
+  virtual void fail() = 0;
+
   // Called at the end of the run: reports what was rendered.
   virtual void finish() = 0;
 };
+
+// From x, y, z of every vertex, one vertex after another, as EnergyPlus hands them over.
+inline Ring to_ring(std::vector<float> const& xyz) {
+  Ring ring;
+  ring.reserve(xyz.size() / 3);
+  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
+    ring.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
+  }
+  return ring;
+}
 
 // EnergyPlus's WindowComplexManager has room for this many lit back surfaces per window.
 inline constexpr std::size_t max_back_surfaces = 20;

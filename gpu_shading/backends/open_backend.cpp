@@ -19,13 +19,25 @@
 namespace gpu_shading {
 namespace {
 
-// A device draws small holes of perforated sheets by their effective transmittance, which ignores
-// how the holes of two sheets meet. Views where a ray may pass two sheets are left to the CPU,
-// which draws holes of any size there.
-class SheetPairsOnCpu : public ViewBackend {
+// Whether a ray of a view may pass two sheets with small holes. A device draws these by their
+// effective transmittance, which ignores how the holes of two sheets meet; the CPU draws holes of
+// any size.
+bool passes_two_sheets(ReceiverView const& view, Transmission const& transmission) {
+  std::vector<int> const numbers = transmission.screens_among(view.casters);
+  if (numbers.size() < 2) return false;
+  bool const small_holes = std::any_of(numbers.begin(), numbers.end(), [&](int number) {
+    Screens::Entry const& entry = transmission.screens()[number];
+    return may_see_effect(entry, view.towards_sun, view.pixel_area());
+  });
+  return small_holes && any_overlap(transmission.screens(), numbers,
+                                    view_in_front(*view.frame, view.tile->map, view.towards_sun));
+}
+
+// Leaves some views to the CPU.
+class SomeViewsOnCpu : public ViewBackend {
  public:
-  SheetPairsOnCpu(std::unique_ptr<ViewBackend> device, std::unique_ptr<ViewBackend> cpu,
-                  Transmission const& transmission);
+  SomeViewsOnCpu(std::unique_ptr<ViewBackend> device, std::unique_ptr<ViewBackend> cpu,
+                 Transmission const& transmission);
 
   DeviceInfo const& device() const override { return device_->device(); }
   bool samples_pixels() const override { return device_->samples_pixels(); }
@@ -35,35 +47,25 @@ class SheetPairsOnCpu : public ViewBackend {
   void forget() override;
 
  private:
-  bool passes_two(ReceiverView const& view) const;
-
   std::unique_ptr<ViewBackend> device_;
   std::unique_ptr<ViewBackend> cpu_;
   Transmission const& transmission_;
+  bool is_for_cpu(ReceiverView const& view) const {
+    return view.transmits && passes_two_sheets(view, transmission_);
+  }
+
   std::vector<char> on_cpu_;  // of each view of this batch
 };
 
-SheetPairsOnCpu::SheetPairsOnCpu(std::unique_ptr<ViewBackend> device,
-                                 std::unique_ptr<ViewBackend> cpu, Transmission const& transmission)
+SomeViewsOnCpu::SomeViewsOnCpu(std::unique_ptr<ViewBackend> device,
+                               std::unique_ptr<ViewBackend> cpu, Transmission const& transmission)
     : device_(std::move(device)), cpu_(std::move(cpu)), transmission_(transmission) {}
 
-bool SheetPairsOnCpu::passes_two(ReceiverView const& view) const {
-  if (!view.transmits) return false;
-  std::vector<int> const numbers = transmission_.screens_among(view.casters);
-  if (numbers.size() < 2) return false;
-  bool const small_holes = std::any_of(numbers.begin(), numbers.end(), [&](int number) {
-    Screens::Entry const& entry = transmission_.screens()[number];
-    return may_see_effect(entry, view.towards_sun, view.pixel_area());
-  });
-  return small_holes && any_overlap(transmission_.screens(), numbers,
-                                    view_in_front(*view.frame, view.tile->map, view.towards_sun));
-}
-
-void SheetPairsOnCpu::add(std::vector<ReceiverView> views) {
+void SomeViewsOnCpu::add(std::vector<ReceiverView> views) {
   std::size_t const first = on_cpu_.size();
   on_cpu_.resize(first + views.size());
   for_each_index(views.size(),
-                 [&](std::size_t i) { on_cpu_[first + i] = passes_two(views[i]) ? 1 : 0; });
+                 [&](std::size_t i) { on_cpu_[first + i] = is_for_cpu(views[i]) ? 1 : 0; });
   std::vector<ReceiverView> for_cpu;
   std::vector<ReceiverView> for_device;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -73,7 +75,7 @@ void SheetPairsOnCpu::add(std::vector<ReceiverView> views) {
   cpu_->add(std::move(for_cpu));
 }
 
-std::vector<ViewSums> SheetPairsOnCpu::finish() {
+std::vector<ViewSums> SomeViewsOnCpu::finish() {
   std::vector<ViewSums> by_cpu = cpu_->finish();
   std::vector<ViewSums> by_device = device_->finish();
   std::vector<ViewSums> sums;
@@ -87,7 +89,7 @@ std::vector<ViewSums> SheetPairsOnCpu::finish() {
   return sums;
 }
 
-void SheetPairsOnCpu::forget() {
+void SomeViewsOnCpu::forget() {
   on_cpu_.clear();
   device_->forget();
   cpu_->forget();
@@ -103,15 +105,6 @@ DeviceModule const& module_of(DeviceId const& device) {
   return found->get();
 }
 
-// Null if the module cannot be loaded here.
-DeviceModule const* try_load(NamedModule const& module) {
-  try {
-    return &module.get();
-  } catch (DeviceError const&) {
-    return nullptr;
-  }
-}
-
 // Opens the chosen device by open(module), or else that of the first module that opens one.
 template <typename Open>
 auto open_device(DeviceChoice const& choice, Warn const& warn, Open open) {
@@ -119,9 +112,8 @@ auto open_device(DeviceChoice const& choice, Warn const& warn, Open open) {
   decltype(open(module_of({}))) opened;
   for (NamedModule const& named : device_modules()) {
     if (!named.may_have_device()) continue;
-    DeviceModule const* const module = try_load(named);
     try {
-      if (module != nullptr) opened = open(*module);
+      opened = open(named.get());
     } catch (DeviceError const& error) {
       if (warn) warn(fmt::format("the GPU cannot be used: {}", error.what()));
     }
@@ -145,8 +137,8 @@ std::unique_ptr<ViewBackend> open_checked_backend(BackendInput const& input,
   auto checked = std::make_unique<CheckedBackend>(std::move(opened),
                                                   std::make_unique<CpuBackend>(input), input, warn);
   if (input.transmission.screens().entries().size() < 2) return checked;
-  return std::make_unique<SheetPairsOnCpu>(std::move(checked), std::make_unique<CpuBackend>(input),
-                                           input.transmission);
+  return std::make_unique<SomeViewsOnCpu>(std::move(checked), std::make_unique<CpuBackend>(input),
+                                          input.transmission);
 }
 
 std::unique_ptr<PictureRaster> open_picture_raster(PictureScene const& scene,

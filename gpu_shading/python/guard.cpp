@@ -26,15 +26,18 @@ Running::~Running() {
 
 bool is_closed() { return closing; }
 
-char const* gpu_shading_message() { return message().c_str(); }
+// From the last function on this thread that failed, or that says that it leaves text here.
+GPU_SHADING_CALL char const* gpu_shading_message() { return message().c_str(); }
 
-char const* gpu_shading_version() { return GPU_SHADING_VERSION; }
+GPU_SHADING_CALL char const* gpu_shading_version() { return GPU_SHADING_VERSION; }
 
-int gpu_shading_limit_threads(int count) {
+GPU_SHADING_CALL int gpu_shading_limit_threads(int count) {
   return guarded([&] { limit_threads(count); });
 }
 
-void gpu_shading_close() {
+// Waits until no function runs on any thread; from now on they return `closed`. A process that ends
+// meanwhile would destroy what they use. A single call of gpu_shading_rays_... stops early.
+GPU_SHADING_CALL void gpu_shading_close() {
   closing = true;
   for (int left = running; left != 0; left = running) running.wait(left);
 }

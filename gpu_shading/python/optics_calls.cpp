@@ -2,11 +2,9 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "python/guard.h"
-#include "python/objects.h"
 
 namespace gpu_shading::python {
 namespace {
@@ -35,12 +33,13 @@ double tau_of_pattern(HolePattern const& pattern, double thickness, double theta
 
 }  // namespace
 
-int gpu_shading_transmittance_constant(double value, FilterObject** made) {
+GPU_SHADING_CALL int gpu_shading_transmittance_constant(double value, FilterObject** made) {
   return make_transmittance(made, [&] { return Transmittance::constant(value); });
 }
 
-int gpu_shading_transmittance_polynomial(double const* coefficients, std::size_t count,
-                                         int in_cosine, FilterObject** made) {
+GPU_SHADING_CALL int gpu_shading_transmittance_polynomial(double const* coefficients,
+                                                          std::size_t count, int in_cosine,
+                                                          FilterObject** made) {
   return make_transmittance(made, [&] {
     std::vector<double> values(coefficients, coefficients + count);
     return in_cosine != 0 ? Transmittance::polynomial_in_cosine(std::move(values))
@@ -48,15 +47,17 @@ int gpu_shading_transmittance_polynomial(double const* coefficients, std::size_t
   });
 }
 
-int gpu_shading_transmittance_table(double const* angles, double const* values, std::size_t count,
-                                    FilterObject** made) {
+// Angles in degrees.
+GPU_SHADING_CALL int gpu_shading_transmittance_table(double const* angles, double const* values,
+                                                     std::size_t count, FilterObject** made) {
   return make_transmittance(made, [&] {
     return Transmittance::table({angles, angles + count}, {values, values + count});
   });
 }
 
-int gpu_shading_transmittance_glazing(double const* layers, std::size_t count,
-                                      FilterObject** made) {
+// Layers: transmittance, front and back reflectance of each.
+GPU_SHADING_CALL int gpu_shading_transmittance_glazing(double const* layers, std::size_t count,
+                                                       FilterObject** made) {
   return make_transmittance(made, [&] {
     std::vector<GlassLayer> panes;
     for (std::size_t i = 0; i < count; ++i) {
@@ -66,24 +67,26 @@ int gpu_shading_transmittance_glazing(double const* layers, std::size_t count,
   });
 }
 
-int gpu_shading_transmittance_simple_glazing(double u_factor, double shgc, FilterObject** made) {
+GPU_SHADING_CALL int gpu_shading_transmittance_simple_glazing(double u_factor, double shgc,
+                                                              FilterObject** made) {
   return make_transmittance(made, [&] {
     return Transmittance::glazing(SimpleGlazing{u_factor, shgc});
   });
 }
 
-int gpu_shading_transmittance_at(FilterObject const* object, double const* angles,
-                                 std::size_t count, double* results) {
+GPU_SHADING_CALL int gpu_shading_transmittance_at(FilterObject const* object, double const* angles,
+                                                  std::size_t count, double* results) {
   return guarded([&] {
     std::transform(angles, angles + count, results,
                    *std::get<AngularTransmittance>(object->factor).model);
   });
 }
 
-void gpu_shading_filter_release(FilterObject* object) { release(object); }
+GPU_SHADING_CALL void gpu_shading_filter_release(FilterObject* object) { release(object); }
 
-int gpu_shading_screen_pattern(int hole, int arrangement, double const* lengths,
-                               SheetRecord const* sheet, ScreenObject** made) {
+// Lengths: size, length, pitch, row pitch.
+GPU_SHADING_CALL int gpu_shading_screen_pattern(int hole, int arrangement, double const* lengths,
+                                                SheetRecord const* sheet, ScreenObject** made) {
   return guarded([&] {
     Perforation const perforation{enumerator(hole, Hole::Hexagonal, "hole"),
                                   enumerator(arrangement, Arrangement::Staggered60, "arrangement"),
@@ -96,9 +99,10 @@ int gpu_shading_screen_pattern(int hole, int arrangement, double const* lengths,
   });
 }
 
-int gpu_shading_screen_tile(double width, double height, int columns, int rows,
-                            std::uint16_t const* opacity, double threshold,
-                            SheetRecord const* sheet, ScreenObject** made) {
+// Opacity: rows x columns of 0 .. 65535; a threshold that is not a number: none.
+GPU_SHADING_CALL int gpu_shading_screen_tile(double width, double height, int columns, int rows,
+                                             std::uint16_t const* opacity, double threshold,
+                                             SheetRecord const* sheet, ScreenObject** made) {
   return guarded([&] {
     auto const texels = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     std::optional<double> const limit =
@@ -110,7 +114,8 @@ int gpu_shading_screen_tile(double width, double height, int columns, int rows,
   });
 }
 
-int gpu_shading_screen_sizes(ScreenObject const* object, double* sizes) {
+// Open fraction, size of a hole, width of a web.
+GPU_SHADING_CALL int gpu_shading_screen_sizes(ScreenObject const* object, double* sizes) {
   return guarded([&] {
     auto const& screen = *object->screen;
     sizes[0] = screen.open_fraction();
@@ -119,8 +124,10 @@ int gpu_shading_screen_sizes(ScreenObject const* object, double* sizes) {
   });
 }
 
-int gpu_shading_screen_tau(ScreenObject const* object, double const* thetas, double const* phis,
-                           std::size_t count, double* results) {
+// Patterns in closed form, tiles by ScreenTransmittance.
+GPU_SHADING_CALL int gpu_shading_screen_tau(ScreenObject const* object, double const* thetas,
+                                            double const* phis, std::size_t count,
+                                            double* results) {
   return guarded([&] {
     auto const& screen = *object->screen;
     for (std::size_t i = 0; i < count; ++i) {
@@ -131,6 +138,6 @@ int gpu_shading_screen_tau(ScreenObject const* object, double const* thetas, dou
   });
 }
 
-void gpu_shading_screen_release(ScreenObject* object) { release(object); }
+GPU_SHADING_CALL void gpu_shading_screen_release(ScreenObject* object) { release(object); }
 
 }  // namespace gpu_shading::python

@@ -5,7 +5,6 @@
 
 #include "gpu_shading/rays.h"
 #include "python/guard.h"
-#include "python/objects.h"
 
 namespace gpu_shading::python {
 
@@ -59,7 +58,9 @@ RayLayer const* nearest(std::vector<RayLayer> const& layers, bool opaque) {
 
 }  // namespace
 
-int gpu_shading_rays_new(SceneObject const* scene, int faces, int screens, RaysObject** made) {
+// Faces: of RayFaces; screens: of ScreenDetail.
+GPU_SHADING_CALL int gpu_shading_rays_new(SceneObject const* scene, int faces, int screens,
+                                          RaysObject** made) {
   return guarded([&] {
     RayOptions options;
     options.faces = enumerator(faces, RayFaces::both, "faces");
@@ -68,8 +69,8 @@ int gpu_shading_rays_new(SceneObject const* scene, int faces, int screens, RaysO
   });
 }
 
-int gpu_shading_rays_transmittance(RaysObject const* object, RayRecord const* rays,
-                                   double* results) {
+GPU_SHADING_CALL int gpu_shading_rays_transmittance(RaysObject const* object, RayRecord const* rays,
+                                                    double* results) {
   return guarded([&] {
     auto const conditions = conditions_of(*rays);
     for_each_block(*rays, [&](std::vector<Ray> const& some, std::size_t first) {
@@ -78,8 +79,11 @@ int gpu_shading_rays_transmittance(RaysObject const* object, RayRecord const* ra
   });
 }
 
-int gpu_shading_rays_nearest(RaysObject const* object, RayRecord const* rays, int opaque,
-                             std::int64_t* surfaces, double* distances) {
+// Surface -1 and an infinite distance where nothing is met. `opaque`: only surfaces that let
+// nothing of the ray pass.
+GPU_SHADING_CALL int gpu_shading_rays_nearest(RaysObject const* object, RayRecord const* rays,
+                                              int opaque, std::int64_t* surfaces,
+                                              double* distances) {
   return guarded([&] {
     auto const conditions = conditions_of(*rays);
     for_each_block(*rays, [&](std::vector<Ray> const& some, std::size_t first) {
@@ -95,6 +99,6 @@ int gpu_shading_rays_nearest(RaysObject const* object, RayRecord const* rays, in
   });
 }
 
-void gpu_shading_rays_release(RaysObject* object) { release(object); }
+GPU_SHADING_CALL void gpu_shading_rays_release(RaysObject* object) { release(object); }
 
 }  // namespace gpu_shading::python

@@ -6,7 +6,6 @@
 
 #include "gpu_shading/renderer.h"
 #include "python/guard.h"
-#include "python/objects.h"
 
 namespace gpu_shading::python {
 
@@ -47,8 +46,9 @@ void require_rows(FactorTable const& table, std::size_t directions) {
 
 }  // namespace
 
-int gpu_shading_renderer_new(SceneObject const* scene, char const* device, int resolution,
-                             double error, RendererObject** made) {
+// Device: as parse_device_choice() reads it. Resolution 0: by the error. The scene is copied.
+GPU_SHADING_CALL int gpu_shading_renderer_new(SceneObject const* scene, char const* device,
+                                              int resolution, double error, RendererObject** made) {
   return guarded([&] {
     RendererOptions options;
     options.device = parse_device_choice(device);
@@ -58,28 +58,32 @@ int gpu_shading_renderer_new(SceneObject const* scene, char const* device, int r
   });
 }
 
-int gpu_shading_renderer_device(RendererObject const* renderer) {
+// Leaves the device's description in gpu_shading_message().
+GPU_SHADING_CALL int gpu_shading_renderer_device(RendererObject const* renderer) {
   return guarded([&] { message() = renderer->device; });
 }
 
-int gpu_shading_renderer_warnings(RendererObject* renderer) {
+// Leaves the warnings since the last call in gpu_shading_message(), one a line.
+GPU_SHADING_CALL int gpu_shading_renderer_warnings(RendererObject* renderer) {
   return guarded([&] {
     std::scoped_lock const lock(renderer->mutex);
     message() = std::exchange(renderer->warnings, {});
   });
 }
 
-int gpu_shading_renderer_set_deployments(RendererObject* renderer, double const* shares,
-                                         std::size_t count) {
+GPU_SHADING_CALL int gpu_shading_renderer_set_deployments(RendererObject* renderer,
+                                                          double const* shares, std::size_t count) {
   return guarded([&] {
     std::scoped_lock const lock(renderer->mutex);
     renderer->renderer.set_deployments({shares, shares + count});
   });
 }
 
-int gpu_shading_renderer_sunlit(RendererObject* renderer, double const* suns,
-                                std::size_t directions, std::uint32_t const* receivers,
-                                std::size_t count, FactorTable const* factors, double* results) {
+// Suns: azimuth and altitude of each; results: projected areas (m2), directions x receivers.
+GPU_SHADING_CALL int gpu_shading_renderer_sunlit(RendererObject* renderer, double const* suns,
+                                                 std::size_t directions,
+                                                 std::uint32_t const* receivers, std::size_t count,
+                                                 FactorTable const* factors, double* results) {
   return guarded([&] {
     require_rows(*factors, directions);
     std::scoped_lock const lock(renderer->mutex);
@@ -91,10 +95,12 @@ int gpu_shading_renderer_sunlit(RendererObject* renderer, double const* suns,
   });
 }
 
-int gpu_shading_renderer_interior(RendererObject* renderer, double const* suns,
-                                  std::size_t directions, std::uint32_t window,
-                                  std::uint32_t const* interiors, std::size_t count,
-                                  FactorTable const* factors, double* results) {
+// The same of interior surfaces behind one window.
+GPU_SHADING_CALL int gpu_shading_renderer_interior(RendererObject* renderer, double const* suns,
+                                                   std::size_t directions, std::uint32_t window,
+                                                   std::uint32_t const* interiors,
+                                                   std::size_t count, FactorTable const* factors,
+                                                   double* results) {
   return guarded([&] {
     require_rows(*factors, directions);
     std::vector<InteriorQuestion> const question{{window, {interiors, interiors + count}}};
@@ -107,6 +113,6 @@ int gpu_shading_renderer_interior(RendererObject* renderer, double const* suns,
   });
 }
 
-void gpu_shading_renderer_release(RendererObject* renderer) { release(renderer); }
+GPU_SHADING_CALL void gpu_shading_renderer_release(RendererObject* renderer) { release(renderer); }
 
 }  // namespace gpu_shading::python

@@ -1,7 +1,9 @@
+#include <utility>
+#include <variant>
 #include <vector>
 
+#include "geometry/triangulation.h"
 #include "python/guard.h"
-#include "python/objects.h"
 
 namespace gpu_shading::python {
 namespace {
@@ -26,17 +28,22 @@ Polygon polygon_of(SurfaceRecord const& record) {
 
 }  // namespace
 
-int gpu_shading_scene_new(SceneObject** made) {
+GPU_SHADING_CALL int gpu_shading_scene_new(SceneObject** made) {
   return guarded([&] { *made = new SceneObject; });
 }
 
-int gpu_shading_scene_add(SceneObject* scene, SurfaceRecord const* surface) {
+// Keeps what it needs of the transmittance and the screen.
+GPU_SHADING_CALL int gpu_shading_scene_add(SceneObject* scene, SurfaceRecord const* surface) {
   return guarded([&] {
     Surface added;
     added.name = surface->name;
     added.polygon = polygon_of(*surface);
     added.casting = enumerator(surface->casting, Casting::never, "casting");
-    if (surface->filter != nullptr) added.filter.set(surface->filter->factor);
+    if (surface->filter != nullptr) {
+      FilterFactor factor = surface->filter->factor;
+      if (auto* const crown = std::get_if<Crown>(&factor)) crown->deployment = surface->deployment;
+      added.filter.set(std::move(factor));
+    }
     if (surface->screen != nullptr) {
       added.filter.set(PerforatedSheet{surface->screen->screen,
                                        {surface->origin_u, surface->origin_v, surface->rotation},
@@ -47,8 +54,11 @@ int gpu_shading_scene_add(SceneObject* scene, SurfaceRecord const* surface) {
   });
 }
 
-int gpu_shading_scene_set_rule(SceneObject* scene, std::uint32_t const* roles, std::size_t surfaces,
-                               std::uint8_t const* zone_shades, std::size_t zones) {
+// Roles: wall, zone, shades and target of each surface; zone_shades: zones x zones.
+GPU_SHADING_CALL int gpu_shading_scene_set_rule(SceneObject* scene, std::uint32_t const* roles,
+                                                std::size_t surfaces,
+                                                std::uint8_t const* zone_shades,
+                                                std::size_t zones) {
   return guarded([&] {
     ShadingRule rule;
     for (std::size_t i = 0; i < surfaces; ++i) {
@@ -64,7 +74,8 @@ int gpu_shading_scene_set_rule(SceneObject* scene, std::uint32_t const* roles, s
   });
 }
 
-int gpu_shading_scene_areas(SceneObject const* scene, double* results) {
+// Net area (m2) times unit normal of each surface: surfaces x 3.
+GPU_SHADING_CALL int gpu_shading_scene_areas(SceneObject const* scene, double* results) {
   return guarded([&] {
     for (SurfaceId id = 0; id < scene->scene.size(); ++id) {
       auto const& polygon = scene->scene[id].polygon;
@@ -74,6 +85,19 @@ int gpu_shading_scene_areas(SceneObject const* scene, double* results) {
   });
 }
 
-void gpu_shading_scene_release(SceneObject* scene) { release(scene); }
+// The corners of a surface's triangles: triangles x 3 x 3; nullptr: only their number.
+GPU_SHADING_CALL int gpu_shading_scene_triangles(SceneObject const* scene, std::size_t surface,
+                                                 double* corners, std::size_t* triangles) {
+  return guarded([&] {
+    auto const mesh = triangulate(scene->scene[static_cast<SurfaceId>(surface)].polygon);
+    *triangles = mesh.indices.size() / 3;
+    if (corners == nullptr) return;
+    for (auto const index : mesh.indices) {
+      for (int axis = 0; axis < 3; ++axis) *corners++ = mesh.vertices[index][axis];
+    }
+  });
+}
+
+GPU_SHADING_CALL void gpu_shading_scene_release(SceneObject* scene) { release(scene); }
 
 }  // namespace gpu_shading::python

@@ -5,11 +5,11 @@
 #include <numeric>
 #include <utility>
 
-#include "filters/perforation/sheet_rays.h"
 #include "filters/transmission.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/rays.h"
 #include "platform/parallel.h"
+#include "rays/ray_bodies.h"
 #include "rays/ray_shapes.h"
 #include "rays/ray_tree.h"
 #include "scene/casters.h"
@@ -35,11 +35,6 @@ std::vector<SurfaceId> casters_of(Scene const& scene, RayOptions const& options)
   return casters;
 }
 
-double at_or_one(std::span<double const> values, int index) {
-  auto const place = static_cast<std::size_t>(index);
-  return place < values.size() ? values[place] : 1.0;
-}
-
 template <typename Result, typename Answer>
 void for_each_ray(std::span<Ray const> rays, std::span<Result> results, Answer const& answer) {
   if (results.size() != rays.size()) {
@@ -53,68 +48,6 @@ void for_each_ray(std::span<Ray const> rays, std::span<Result> results, Answer c
     for (std::size_t i = number * block; i < end; ++i) results[i] = answer(rays[i]);
   });
 }
-
-// Perforated sheets as rays meet them: between their two faces, as the renderer draws them. Numbers
-// are those of Screens.
-class RayScreens {
- public:
-  // Those of `casters`. Screens must outlive it.
-  RayScreens(Screens const& screens, std::span<SurfaceId const> casters, ScreenDetail detail)
-      : screens_(screens), detail_(detail) {
-    std::vector<Box> boxes(screens_.entries().size());
-    surfaces_.resize(boxes.size());
-    for (SurfaceId const id : casters) {
-      int const number = screens_.number(id);
-      if (number == Screens::none) continue;
-      auto const place = static_cast<std::size_t>(number);
-      boxes[place] = bounds_of(screens_[number]);
-      surfaces_[place] = id;
-      PerforatedScreen const& screen = *screens_[number].screen;
-      if (!by_holes(screen) && !screen.pattern()) screen.transmittance();
-    }
-    tree_ = RayTree(boxes);
-  }
-
-  // Calls met(surface, distance, transmittance) for the sheets that a ray meets no farther than at
-  // `limit`, which `met` may change, unless skips(surface).
-  template <typename Skips, typename Met>
-  void search(RayPath const& ray, double const& limit, std::span<double const> deployments,
-              Skips const& skips, Met const& met) const {
-    tree_.search(ray, limit, [&](std::uint32_t place) {
-      auto const number = static_cast<int>(tree_.order()[place]);
-      SurfaceId const surface = surfaces_[static_cast<std::size_t>(number)];
-      if (skips(surface)) return;
-      Screens::Entry const& entry = screens_[number];
-      auto const sheet = meet_sheet(entry, {ray.origin, ray.direction, ray.length, limit, on_plane},
-                                    by_holes(*entry.screen));
-      if (!sheet) return;
-      double const deployed = entry.deployment < 0 ? 1.0 : at_or_one(deployments, entry.deployment);
-      met(surface, sheet->distance, 1.0 - deployed * (1.0 - sheet->passed));
-    });
-  }
-
- private:
-  static Box bounds_of(Screens::Entry const& entry) {
-    Box box;
-    for (Screens::Quadrilateral const& part : entry.parts) {
-      for (glm::dvec3 const& corner : part.corners) {
-        box.include(corner + entry.inside * entry.normal);
-        box.include(corner + entry.outside * entry.normal);
-      }
-    }
-    return with_margin(box);
-  }
-
-  bool by_holes(PerforatedScreen const& screen) const {
-    return ScreenDetail::holes ==
-           (detail_ == ScreenDetail::automatic ? screen.sheet().detail : detail_);
-  }
-
-  Screens const& screens_;
-  ScreenDetail detail_;
-  std::vector<SurfaceId> surfaces_;  // by number
-  RayTree tree_;
-};
 
 }  // namespace
 
@@ -169,7 +102,7 @@ class RayScene::Implementation {
       : transmission_(scene),
         rule_(scene.rule()),
         lit_faces_(scene.size(), no_face),
-        screens_(transmission_.screens(), casters, options.screens) {
+        bodies_(transmission_, casters, options) {
     for (SurfaceId const id : casters) {
       Surface const& surface = scene[id];
       if (transmission_.is_flat(id)) shapes_.add(id, surface.polygon);
@@ -197,10 +130,10 @@ class RayScene::Implementation {
       if (skips(surface)) return;
       limit = std::min(limit, met(distance, surface, passed(surface, path, conditions)));
     });
-    screens_.search(path, limit, conditions.deployments, skips,
-                    [&](SurfaceId surface, double distance, double transmittance) {
-                      limit = std::min(limit, met(distance, surface, transmittance));
-                    });
+    bodies_.search(path, limit, conditions.deployments, skips,
+                   [&](SurfaceId surface, double distance, double transmittance) {
+                     limit = std::min(limit, met(distance, surface, transmittance));
+                   });
   }
 
   bool counts(SurfaceId surface, RayPath const& path, RayConditions const& conditions) const {
@@ -226,7 +159,7 @@ class RayScene::Implementation {
   ShadingRule rule_;
   std::vector<glm::dvec3> lit_faces_;  // by surface, the normal of a face that stops no rays
   RayShapes shapes_;
-  RayScreens screens_;
+  RayBodies bodies_;
 };
 
 RayScene::RayScene(Scene const& scene, RayOptions const& options)

@@ -103,7 +103,8 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   if (found.clear) return found;
   found.transmits = parts_.transmission.any_transmits(in_view.casters);
   bool const screened = parts_.transmission.any_screen(in_view.casters);
-  bool const may_be_exact = !parts_.samples_only && !screened && !in_view.warped;
+  bool const may_be_exact =
+      !parts_.samples_only && !in_view.warped && !parts_.transmission.any_body(in_view.casters);
   auto const exact = [&](double max_steps) {
     return exact_sums(parts_.scene, parts_.transmission,
                       {question.receiver, *seen.frame, question.towards_sun, in_view.casters,

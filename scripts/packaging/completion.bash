@@ -2,7 +2,7 @@
 _gpu_shading() {
   local word=${COMP_WORDS[COMP_CWORD]} program=$1 help subcommands='' subcommand='' known
   known=$("$program" --help 2>/dev/null)
-  if [ "${program##*/}" = energyplus ]; then known=$("$program" --gpu-shading --help 2>/dev/null); fi
+  if [[ ${program##*/} == energyplus* ]]; then known=$("$program" --gpu-shading --help 2>/dev/null); fi
   subcommands=$(sed -n '/^Subcommands:/,/^$/ s/^  \([a-z]\+\) .*/\1/p' <<<"$known")
   for known_word in $subcommands; do
     if [[ " ${COMP_WORDS[*]:1:COMP_CWORD-1} " == *" $known_word "* ]]; then subcommand=$known_word; fi
@@ -19,5 +19,5 @@ _gpu_shading() {
     mapfile -t COMPREPLY < <(compgen -W "$subcommands" -- "$word")
   fi
 }
-complete -o default -F _gpu_shading gpu_shading energyplus patch_energyplus compare_shading \
-  compare_sampling sample_models
+complete -o default -F _gpu_shading gpu_shading energyplus energyplus-gpu patch_energyplus compare_shading \
+  compare_sampling

@@ -15,9 +15,12 @@ from pathlib import Path
 
 import pytest
 from shading_runs import energyplus
+from test_documents import missing_lines, walked
 
 OUT = energyplus.REPOSITORY / "out"
 PAGE = energyplus.REPOSITORY / "energyplus_patch" / "docs" / "guides" / "installing.md"
+TUTORIAL = PAGE.parents[1] / "tutorials" / "south_office.md"
+MARK = "step of the reader done"
 CONTAINERFILE = energyplus.REPOSITORY / "scripts" / "packaging" / "Containerfile"
 USER = 1000
 PLACE = "/home/user"
@@ -137,12 +140,14 @@ def assert_answers_of_the_build(folder, patched, model, tmp_path):
     assert answers(folder) and answers(folder) == answers(tmp_path / "build")
 
 
-def follow(place, section):
-    """Runs the page's commands: apt-get as root, everything else as a user."""
+def follow(place, section, until=None):
+    """Runs the page's commands, to one that contains `until`: apt-get as root, everything else as a user."""
     before, began = size(place.root), time.monotonic()
     place.run("apt-get update -q")
     for line in commands(section):
         place.run(line.replace("apt-get install", "apt-get install -y"), 0 if line.startswith("apt-get") else USER)
+        if until and until in line:
+            break
     added = size(place.root) - before
     print(f"{section} in {place.root.name}: {time.monotonic() - began:.1f} s, {added} MB")
     assert added < MOST
@@ -159,6 +164,31 @@ def test_wheel(suite, bare, patched, model, tmp_path):
     assert_answers_of_the_build(place.root / PLACE[1:] / "out", patched, model, tmp_path)
 
 
+def test_tutorial_from_the_wheel(bare, tmp_path):
+    """The first tutorial word by word, from a bare Debian to the table by which one decides. Prints the time of each
+    step of a reader who types at once."""
+    place = bare("bookworm")
+    place.bring(package("wheel", WHEEL))
+    began = time.monotonic()
+    follow(place, "Wheel", until="pip install")
+    # What the page says to type instead of the export of who has the sources.
+    steps = walked(TUTORIAL)
+    assert steps[0][1].startswith("export PATH=") and ". shading/bin/activate" in TUTORIAL.read_text(encoding="utf-8")
+    steps[0][1] = ". shading/bin/activate\n"
+    text = "".join(f"{{\n{commands}\n}} 2>&1\necho; echo {MARK} $(date +%s.%N)\n" for _, commands, _ in steps)
+    (place.root / PLACE[1:] / "tutorial.sh").write_text(text)
+    outputs = re.split(rf"\n{MARK} ([\d.]+)\n", place.run(f"bash -eu {PLACE}/tutorial.sh", USER))
+    for (line, _, promised), output, ended in zip(steps, outputs[::2], outputs[1::2], strict=False):
+        assert not missing_lines(promised or "", output), f"line {line}: {output[-2000:]}"
+        print(f"{time.monotonic() - began - (time.time() - float(ended)):6.1f} s: line {line}: {output.strip()[-400:]}")
+    assert len(outputs) // 2 == len(steps) and "large      1610" in outputs[-3]
+    manual = place.run("shading/bin/gpu_shading docs", USER).strip()
+    assert "GPU shading" in (place.root / manual[1:]).read_text(encoding="utf-8")
+    minutes = (time.monotonic() - began) / 60
+    print(f"tutorial from the wheel: {minutes:.1f} min")
+    assert minutes < 15
+
+
 @pytest.mark.parametrize("suite", ["bookworm", "trixie"])
 def test_debian_package(suite, bare, patched, model, tmp_path):
     installed = package(f"deb/{suite}", DEBIAN)
@@ -166,6 +196,9 @@ def test_debian_package(suite, bare, patched, model, tmp_path):
     place.bring(installed, *model.iterdir())
     follow(place, "Debian package")
     assert_answers_of_the_build(place.root / PLACE[1:] / "out", patched, model, tmp_path)
+    manual = place.run("EnergyPlus-gpu/gpu_shading docs", USER).strip()
+    assert "GPU shading" in (place.root / manual[1:]).read_text(encoding="utf-8")
+    assert "courtyard/weather.epw" in place.run("EnergyPlus-gpu/energyplus-gpu example courtyard", USER)
     # Nothing is installed that another package would have to bring.
     assert "not found" not in place.run("ldd /usr/libexec/gpu_shading/gpu_shading /usr/libexec/gpu_shading/energyplus")
     place.run("apt-get remove -y energyplus-gpu-shading")

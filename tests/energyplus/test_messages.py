@@ -100,6 +100,91 @@ def test_json_that_is_no_model(call, patched, tmp_path, text, kind):
     assert run.returncode != 0 and message in run.stderr and "json.exception" not in run.stderr
 
 
+SCREEN = "GPUShading:PerforatedScreen, Sheet, {}, Round, , Staggered60, {}, , {}, , {};\n"
+
+
+def test_lengths_in_millimetres_are_questioned(call, box, model):
+    question = "lengths are in metres, is it in millimetres?"
+    model.write_text(box + SCREEN.format("Louvre 1", 6.35, 8.55, 0.00635))
+    done = call("check", "model.idf")
+    assert done.returncode == 0 and f"Hole Size is 6.35 m, more than 1 m: {question}" in done.stdout
+    model.write_text(box + SCREEN.format("Louvre 1", 0.00635, 0.00855, 6.35))
+    done = call("check", "model.idf")
+    assert done.returncode == 1 and done.stderr.endswith(f": {question}\n") and 'Thickness is "6.35"' in done.stderr
+
+
+@pytest.mark.parametrize("surface, reason", [
+    ("Louvr 1", "which no shading surface of the model matches; did you mean LOUVRE 1?"),
+    ("South Window", "which matches a window or door: expected a shading surface (Shading:...)"),
+    ("nor*h", "which matches a wall, floor or roof: expected a shading surface (Shading:...)"),
+])
+@pytest.mark.parametrize("text", [SCREEN, "GPUShading:TransparentShade, Sheet, {}, Constant, 0.5;\n"],
+                         ids=["screen", "shade"])
+def test_names_of_other_surfaces_are_explained(call, box, model, surface, reason, text):
+    model.write_text(box + text.format(surface, 0.005, 0.008, 0.001))
+    assert call("check", "model.idf").stderr.endswith(f'Sheet: Surface Name is "{surface}", {reason}\n')
+
+
+def test_unknown_fields_list_the_known(call, model, tmp_path):
+    (tmp_path / "side.epJSON").write_text('{"GPUShading:Settings": {"S": {"resolutoin": 64}}}')
+    done = call("check", "model.idf", "--gpu-shading-file", "side.epJSON")
+    assert done.stderr.endswith('"resolutoin": no such field; known: resolution, update_frequency, device, error; '
+                                'did you mean resolution?\n')
+
+
+@pytest.fixture
+def launch(patched, weather, tmp_path):
+    """EnergyPlus for a day, in the test's folder."""
+    def run(*arguments, flags=("--gpu-shading",)):
+        done = subprocess.run([patched, *flags, "-D", "-w", weather, "-d", "out", *arguments], capture_output=True,
+                              text=True, cwd=tmp_path)
+        assert "filesystem error" not in done.stderr and "json.exception" not in done.stderr
+        return done
+
+    return run
+
+
+@pytest.mark.parametrize("arguments, message", [
+    (("-w", "nothere.epw"), "-w nothere.epw: no such file"),
+    (("-d", "model.idf/out"), "-d model.idf/out: cannot be written to (Not a directory)"),
+    (("-d", "/proc/out"), "-d /proc/out: cannot be written to (No such file or directory)"),
+    (("-d", "model.idf"), "-d model.idf: cannot be written to (Not a directory)"),
+], ids="{0[0]}{0[1]}".format)
+def test_files_of_a_run_are_checked_first(launch, model, arguments, message):
+    done = launch(*arguments, model.name)
+    assert done.returncode == 1 and done.stderr == f"gpu_shading: error: {message}\n"
+
+
+@pytest.mark.parametrize("name, content, reason", [
+    ("model.epJSON", "IDF", "is not JSON: an IDF needs the ending .idf"),
+    ("model.epJSON", "{", "is not valid JSON: parse error at line 1, column 2"),
+    ("model2.idf", '{"Version": {}}', "is JSON: epJSON needs the ending .epJSON"),
+])
+def test_the_ending_of_a_model_is_explained(call, launch, box, tmp_path, name, content, reason):
+    (tmp_path / name).write_text(box if content == "IDF" else content)
+    for done in (call("check", name), launch(name)):
+        assert done.returncode == 1 and done.stderr.startswith(f"gpu_shading: error: {name}: {reason}")
+
+
+def test_a_model_of_another_version_is_named(call, launch, box, model):
+    model.write_text(re.sub(r"(Version,\s*)25.2", r"\g<1>24.1", box))
+    for done in (call("check", "model.idf"), launch("model.idf")):
+        assert done.stderr.startswith("gpu_shading: error: model.idf: Version: Version Identifier is 24.1, this ")
+
+
+@pytest.mark.parametrize("text, warned", [
+    ("GPUShading:Settings, , timestep;\n", "GPUShading:Settings"),
+    ("  gpushading:transparentshade, S, Louvre 1, Constant, 0.5;\n", "gpushading:transparentshade"),
+    ("! GPUShading:Settings, , timestep;\n", ""),
+], ids=["object", "lower case", "comment"])
+def test_extension_objects_without_the_flag_are_explained(launch, box, model, text, warned):
+    model.write_text(box + text)
+    done = launch("model.idf", flags=())
+    warning = (f"gpu_shading: warning: model.idf: {warned} needs --gpu-shading: EnergyPlus alone stops at it\n")
+    assert (warning in done.stderr) == bool(warned) and ("gpu_shading" in done.stderr) == bool(warned)
+    assert (done.returncode == 0) == (not warned)
+
+
 def test_coordinates_that_cannot_be_name_their_file(call, box, model, tmp_path):
     (tmp_path / "far.obj").write_text(TRIANGLE.replace("v 1 2 3", "v 1e30 2 3"))
     model.write_text(box + "GPUShading:Geometry,Tree,far.obj,m,Z;\n")

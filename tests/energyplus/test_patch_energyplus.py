@@ -255,10 +255,12 @@ def test_a_kill_leaves_the_former_prefix(step, prefix, build, tmp_path):
 
 
 def made_by_an_earlier_version(prefix, build, dest):
-    """It kept no list of what it made, and linked to EnergyPlus's dictionary, library and Python package."""
+    """It kept no list of what it made, linked to EnergyPlus's dictionary, library and Python package, and made no links
+    of ours."""
     assert patch(prefix, dest, "--build", build).returncode == 0
     (dest / output_folder.MARKER).unlink()
-    (dest / "libenergyplusapi-official.so").unlink()
+    for name in ("libenergyplusapi-official.so", "energyplus-gpu", "gpu_shading_share"):
+        (dest / name).unlink()
     shutil.rmtree(dest / "pyenergyplus")
     for name in ("Energy+.idd", "libenergyplusapi.so", "pyenergyplus"):
         (dest / name).unlink(missing_ok=True)

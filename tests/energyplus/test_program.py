@@ -3,6 +3,7 @@
 import os
 import re
 import resource
+import shutil
 import signal
 import subprocess
 import time
@@ -48,6 +49,18 @@ def test_devices_are_tested_side_by_side(program):
         assert len(values) == 2 * count
         assert max(values[::2]) < 4e-3
     assert all(": right" in line for line in verdicts.splitlines())
+
+
+@pytest.mark.parametrize("command", [["check"], ["view", "--sun", "200,35", "-o", "sun.png"],
+                                     ["map", "-w", "WEATHER", "-o", "maps"], ["mask", "-o", "masks"]])
+def test_commands_that_render_refuse_off(command, program, courtyard, weather, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    words = [weather if word == "WEATHER" else word for word in command]
+    done = program(words[0], courtyard, *words[1:], "--gpu-shading=off")
+    assert done.returncode == 1
+    assert done.stderr == ("gpu_shading: error: --gpu-shading (or GPU_SHADING) is off, but this command renders: "
+                           "expected auto or require\n")
+    assert list(tmp_path.glob("sun*")) == [] and not (tmp_path / "maps" / "maps.csv").exists()
 
 
 def test_check_prints_what_each_surface_will_be(program, courtyard):
@@ -260,7 +273,7 @@ def test_the_environment_is_for_all_commands(patched, tmp_path):
 
 
 def test_commands_list_their_own_options_and_with_help_all_those_of_shading(program):
-    for command in ("devices", "check", "view", "map", "screen", "sample", "export"):
+    for command in ("devices", "check", "view", "map", "mask", "screen", "sample", "export"):
         own, all_of_it = (program(command, flag).stdout for flag in ("--help", "--help-all"))
         assert "--gpu-shading" not in own.replace("--gpu-shading-device", "").replace("--gpu-shading-update", "")
         assert "gpu_shading help options" in own
@@ -286,15 +299,18 @@ def test_docs_opens_the_manual_where_there_is_a_desktop(patched, tmp_path, deskt
     browser.chmod(0o755)
     variables = {key: value for key, value in os.environ.items() if not key.endswith("DISPLAY")} | desktop
     variables |= {"XDG_DATA_DIRS": f"/nowhere:{tmp_path / 'share'}", "PATH": f"{browser.parent}:{os.environ['PATH']}"}
-    done = subprocess.run([patched.parent / "gpu_shading", "docs"], capture_output=True, text=True, env=variables)
+    program = shutil.copy(patched.parent / "gpu_shading", tmp_path)
+    done = subprocess.run([program, "docs"], capture_output=True, text=True, env=variables)
     assert (done.returncode, done.stdout) == (0, f"{page}\n"), done.stderr
     opened = tmp_path / "opened"
     assert opened.exists() == bool(desktop)
     assert not desktop or opened.read_text() == f"{page}\n"
 
 
-def test_docs_says_that_the_manual_is_not_installed(patched):
-    done = subprocess.run([patched.parent / "gpu_shading", "docs"], capture_output=True, text=True,
+def test_docs_says_that_the_manual_is_not_installed(patched, tmp_path):
+    # Elsewhere, because the sources may have the site in out/site.
+    program = shutil.copy(patched.parent / "gpu_shading", tmp_path)
+    done = subprocess.run([program, "docs"], capture_output=True, text=True,
                           env={**os.environ, "XDG_DATA_DIRS": "/nowhere"})
     assert done.returncode == 1
     assert done.stderr.startswith("gpu_shading: error: the manual is not installed: ")
@@ -309,7 +325,7 @@ def test_every_program_tells_its_version(program, patched):
     assert f"EnergyPlus, Version {energyplus_release()}" in with_official
     official = subprocess.run([patched, "--version"], capture_output=True, text=True).stdout
     assert "gpu_shading" not in official and energyplus_release() in official
-    for script in ("patch_energyplus", "compare_shading", "compare_sampling", "sample_models"):
+    for script in ("patch_energyplus", "compare_shading", "compare_sampling"):
         told = subprocess.run([ROOT / "scripts" / script, "--version"], capture_output=True, text=True).stdout
         assert told == f"{script} {version}\n"
 

@@ -111,11 +111,15 @@ def test_only_what_energyplus_overwrites_is_overwritten(stock, patched, box, wea
 
 def test_folder_that_cannot_be_made_is_a_warning(patched, box, weather, tmp_path):
     (tmp_path / "out").write_text("a file")
-    done = run(patched, tmp_path, ["--gpu-shading", "-d", "out/in", "-w", weather, refused_model(box, tmp_path)])
+    arguments = ["--gpu-shading", "-d", "out/in", "-w", weather, refused_model(box, tmp_path)]
+    done = run(patched, tmp_path, [*arguments, "--gpu-shading-error", "many"])
     assert done.returncode == 1
     error, warning = done.stderr.splitlines()
-    assert error.startswith("gpu_shading: error: ") and "Imported" in error
+    assert error.startswith("gpu_shading: error: ") and "many" in error
     assert warning == "gpu_shading: warning: out/in: cannot be created (Not a directory)"
+    # Where it is the error, it is said once.
+    done = run(patched, tmp_path, arguments)
+    assert done.stderr == "gpu_shading: error: -d out/in: cannot be written to (Not a directory)\n"
 
 
 @pytest.mark.parametrize("question", ["--help", "--version"])

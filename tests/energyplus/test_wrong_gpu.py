@@ -13,16 +13,22 @@ def a_gpu_is_looked_for(monkeypatch):
     monkeypatch.setenv("GALLIUM_DRIVER", "llvmpipe")
 
 
-@pytest.fixture(scope="module")
-def on_wrong_gpu(patched, tmp_path_factory):
-    """A patched EnergyPlus whose OpenGL module plays a GPU with a broken driver."""
-    module = energyplus.build_folder() / "tests" / "gpu_shading" / "backends" / "wrong_gpu" / "libgpu_shading_gl.so"
+def with_module(patched, folder, kind="."):
+    """A copy of a patched EnergyPlus with another OpenGL module."""
+    module = (energyplus.build_folder() / "tests" / "gpu_shading" / "backends" / "wrong_gpu" / kind
+              / "libgpu_shading_gl.so")
     if not module.is_file():
         pytest.skip(f"{module} is missing: run scripts/build with the tests")
-    prefix = tmp_path_factory.mktemp("wrong_gpu") / "EnergyPlus"
+    prefix = folder / "EnergyPlus"
     shutil.copytree(patched.parent, prefix, symlinks=True)
     shutil.copyfile(module, prefix / module.name)
     return prefix
+
+
+@pytest.fixture(scope="module")
+def on_wrong_gpu(patched, tmp_path_factory):
+    """A patched EnergyPlus whose OpenGL module plays a GPU with a broken driver."""
+    return with_module(patched, tmp_path_factory.mktemp("wrong_gpu"))
 
 
 @pytest.fixture
@@ -54,11 +60,15 @@ def test_the_run_goes_on_by_the_cpu_with_one_warning(shade):
     assert sunlit == expected
 
 
-def test_the_run_ends_if_a_gpu_is_required(shade):
-    run = shade("--gpu-shading=require")
+@pytest.mark.parametrize("method", ["patched", "opengl"])
+def test_the_run_ends_if_a_gpu_is_required(method, shade, tmp_path):
+    run = shade("--gpu-shading=require", f"--gpu-shading-method={method}",
+                f"--gpu-shading-report={tmp_path / 'report'}")
     assert not run.completed
     assert "Wrong GPU (4.5 (wrong driver 0.1)) computes wrong answers" in run.errors
     assert "continuing" not in run.errors
+    # A report would be of a part of the run.
+    assert list((tmp_path / "report").iterdir()) == []
 
 
 def test_a_picture_is_drawn_by_the_cpu_with_a_warning(on_wrong_gpu, courtyard, tmp_path):
@@ -75,3 +85,22 @@ def test_devices_are_tested(on_wrong_gpu):
     assert wrong.startswith("0  Wrong GPU (4.5 (wrong driver 0.1)): WRONG: opaque casters by 0.")
     assert "Update its driver" in wrong and "transparent" not in wrong
     assert cpu.startswith("cpu  CPU (") and cpu.endswith(": right")
+
+
+def test_a_module_of_another_build_is_not_used(patched, sampled_box, weather, tmp_path):
+    prefix = with_module(patched, tmp_path, "other_build")
+    why = (f"no OpenGL: {prefix / 'libgpu_shading_gl.so'} is from another build than this program; "
+           "install both from one package")
+    (tmp_path / "box.idf").write_text(sampled_box)
+    run = energyplus.run(prefix / "energyplus", tmp_path / "box.idf", weather, tmp_path / "run",
+                         ["--gpu-shading", "-D"])
+    assert run.completed, run.why()
+    assert run.device.startswith("CPU (")
+    assert run.errors.count(f"the GPU cannot be used: {why}") == 1
+    shown = subprocess.run([prefix / "gpu_shading", "devices"], capture_output=True, text=True)
+    assert shown.returncode == 0, shown.stderr
+    assert why in shown.stderr and shown.stdout.splitlines()[-1].startswith("cpu  CPU (")
+    chosen = subprocess.run([prefix / "gpu_shading", "view", tmp_path / "box.idf", "--sun", "200,35",
+                             "--gpu-shading-device=0", "-o", tmp_path / "sun.png"], capture_output=True, text=True)
+    assert chosen.returncode == 1
+    assert why in chosen.stderr and len(chosen.stderr.splitlines()) == 1

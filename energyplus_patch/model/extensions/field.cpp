@@ -19,7 +19,8 @@ std::string describe_range(FieldInfo const& field) {
                        high->value);
   }
   if (low && high) {
-    return fmt::format(" from {} to {}{}", low->value, high->open ? "below " : "", high->value);
+    return high->open ? fmt::format(" of at least {} and below {}", low->value, high->value)
+                      : fmt::format(" from {} to {}", low->value, high->value);
   }
   if (low) return fmt::format(" {} {}", low->open ? "above" : "of at least", low->value);
   if (high) return fmt::format(" {} {}", high->open ? "below" : "of at most", high->value);
@@ -53,6 +54,14 @@ bool accepts(FieldInfo const& field, std::string const& text) {
          (field.kind != FieldKind::integer || std::floor(*value) == *value);
 }
 
+// Whether a length would be right if it were in millimetres.
+bool looks_like_millimetres(FieldInfo const& field, std::string const& text) {
+  constexpr double per_metre = 1000.0;
+  auto const value = parse_number(text);
+  return is_number(field) && field.units == "m" && value && !within(field, *value) &&
+         within(field, *value / per_metre);
+}
+
 }  // namespace
 
 std::string expectation(FieldInfo const& field) {
@@ -70,7 +79,9 @@ std::string expectation(FieldInfo const& field) {
 void check(FieldInfo const& field, std::string const& text, std::string_view title) {
   if (accepts(field, text)) return;
   auto const found = trimmed(text).empty() ? "blank" : in_quotes(text);
-  throw Error(fmt::format("{} is {}, expected {}", title, found, expectation(field)));
+  throw Error(fmt::format(
+      "{} is {}, expected {}{}", title, found, expectation(field),
+      looks_like_millimetres(field, text) ? ": lengths are in metres, is it in millimetres?" : ""));
 }
 
 std::optional<std::size_t> word_index(FieldInfo const& field, std::string const& text) {

@@ -1,6 +1,7 @@
 #include "model/idf/extension_objects.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -23,12 +24,13 @@ namespace {
 constexpr std::string_view name_field = "name";
 
 ExtensionType const& find_extension_type(std::string_view type) {
-  std::string known;
+  std::vector<std::string> known;
   for (auto const& candidate : extension_types()) {
     if (same_name(candidate.type, type)) return candidate;
-    known += fmt::format("{} {}", known.empty() ? "" : ",", candidate.type);
+    known.emplace_back(candidate.type);
   }
-  throw Error(fmt::format("{}: no such object; known:{}", type, known));
+  throw Error(fmt::format("{}: no such object; known: {}{}", type, fmt::join(known, ", "),
+                          did_you_mean(type, known)));
 }
 
 bool is_named(ExtensionType const& type) { return type.fields.front()->key == name_field; }
@@ -92,10 +94,15 @@ std::vector<std::string> list_of(ExtensionType const& type, nlohmann::json const
 }
 
 FieldInfo const& find_field(ExtensionType const& type, std::string_view key) {
+  std::vector<std::string> known;
   for (auto const* const field : type.fields) {
-    if (field->key == key && key != name_field) return *field;
+    if (field->key == name_field) continue;
+    if (field->key == key) return *field;
+    known.emplace_back(field->key);
   }
-  throw Error(fmt::format("{}: no such field", in_quotes(key)));
+  if (type.list_field != nullptr) known.emplace_back(type.list);
+  throw Error(fmt::format("{}: no such field; known: {}{}", in_quotes(key), fmt::join(known, ", "),
+                          did_you_mean(key, known)));
 }
 
 InputObject from_epjson(ExtensionType const& type, std::string const& name,
@@ -151,6 +158,7 @@ std::string normalised(std::string text) {
 bool is_version(std::string_view type) { return same_name(type, "Version"); }
 
 std::vector<InputObject> read_idf_extensions(std::string_view text) {
+  refuse_json(text);
   auto objects = parse_idf(text);
   for (auto const& object : objects) {
     if (!is_extension(object.type) && !is_version(object.type)) foreign(object.type);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -85,6 +86,12 @@ InputObject from_epjson(ObjectType const& type, std::string const& name,
   return object;
 }
 
+// The first that is not white space.
+std::optional<char> first_character(std::string_view text) {
+  auto const at = text.find_first_not_of(" \t\r\n");
+  return at == std::string_view::npos ? std::nullopt : std::optional(text[at]);
+}
+
 bool goes(std::string_view type, std::string const& surface, Names const& left_out) {
   bool const is_surface = type.size() > 8 && same_name(type.substr(0, 8), "Shading:") &&
                           same_name(type.substr(type.rfind(':')), ":Detailed");
@@ -114,7 +121,10 @@ void take_out(nlohmann::json& model, Names const& left_out) {
 
 }  // namespace
 
-std::vector<InputObject> read_idf(std::string_view text) { return read_idf(parse_idf(text)); }
+std::vector<InputObject> read_idf(std::string_view text) {
+  refuse_json(text);
+  return read_idf(parse_idf(text));
+}
 
 std::vector<InputObject> read_idf(std::vector<IdfObject> const& parsed) {
   std::vector<InputObject> objects;
@@ -162,6 +172,17 @@ std::string text_of(nlohmann::json const& value) {
   return value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, replace);
 }
 
+void refuse_json(std::string_view text) {
+  if (first_character(text) == '{') throw Error("is JSON: epJSON needs the ending .epJSON");
+}
+
+std::string reason_of(nlohmann::json::exception const& error) {
+  // "[json.exception.parse_error.101] reason"
+  std::string_view const text = error.what();
+  constexpr std::string_view mark = "] ";
+  return std::string(text.substr(text.find(mark) + mark.size()));
+}
+
 nlohmann::json parse_epjson(std::string_view text) {
   constexpr int max_depth = 100;
   // Keys of extension objects at the depths of types, of names, and of fields and below.
@@ -189,7 +210,10 @@ nlohmann::json parse_epjson(std::string_view text) {
   try {
     return nlohmann::json::parse(text, watch);
   } catch (nlohmann::json::exception const& error) {
-    throw Error(error.what());
+    if (auto const first = first_character(text); first && *first != '{' && *first != '[') {
+      throw Error("is not JSON: an IDF needs the ending .idf");
+    }
+    throw Error(fmt::format("is not valid JSON: {}", reason_of(error)));
   }
 }
 
@@ -237,7 +261,7 @@ std::string rewrite_idf(std::string_view text, std::vector<IdfObject> const& par
     result += format_idf(shadow_calculation, {rewrite.shading_method, rewrite.update_frequency});
   }
   if (!rewrite.placeholders.empty()) result += '\n';
-  if (needs_sky_schedule(rewrite.placeholders)) result += sky_schedule_idf();
+  for (auto const& schedule : rewrite.schedules) result += schedule_idf(schedule);
   for (auto const& placeholder : rewrite.placeholders) {
     result += format_idf(placeholder_type, placeholder_fields(placeholder));
   }
@@ -253,7 +277,7 @@ void rewrite_epjson(nlohmann::json& model, Rewrite const& rewrite) {
   }
   for (auto const& type : extensions) model.erase(type);
   if (!rewrite.left_out.empty()) take_out(model, rewrite.left_out);
-  if (needs_sky_schedule(rewrite.placeholders)) add_sky_schedule(model);
+  for (auto const& schedule : rewrite.schedules) add_schedule(model, schedule);
   for (auto const& placeholder : rewrite.placeholders) {
     model[placeholder_type][placeholder.name] = placeholder_json(placeholder);
   }

@@ -22,6 +22,12 @@ std::vector<InputObject> read_epjson(nlohmann::json const& model);
 // A string's characters; other values as JSON.
 std::string text_of(nlohmann::json const& value);
 
+// What the library says of text that it cannot read, without the name of its exception.
+std::string reason_of(nlohmann::json::exception const& error);
+
+// Throws Error for JSON in the place of an IDF.
+void refuse_json(std::string_view text);
+
 // Parses epJSON. Throws Error where it is none, and where an extension object or one of its fields
 // is given twice, of which all but the last would be lost.
 nlohmann::json parse_epjson(std::string_view text);
@@ -39,6 +45,7 @@ struct Rewrite {
   std::string shading_method;    // PixelCounting or PolygonClipping
   std::string update_frequency;  // Periodic or Timestep; "" keeps the model's
   Names left_out = {};  // detailed shading surfaces, with their ShadingProperty:Reflectance
+  std::vector<std::string> schedules = {};     // of ours (own_schedules), added
   std::vector<Placeholder> placeholders = {};  // added
 };
 

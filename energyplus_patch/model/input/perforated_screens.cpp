@@ -170,10 +170,7 @@ void add_object(InputObject const& object, ShadingInput const& input,
         surface, SurfaceScreen{maker, upper(read(object, field::deployment_schedule_name))});
     if (!added) refuse(surface, place->second.maker->object());
   }
-  if (!found) {
-    throw Error(fmt::format("{} is {}, which no shading surface of the model matches",
-                            field::surface_name.title, in_quotes(pattern)));
-  }
+  if (!found) throw no_shading_surface(field::surface_name.title, pattern, input);
 }
 
 }  // namespace

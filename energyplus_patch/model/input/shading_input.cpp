@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <regex>
+#include <utility>
 #include <vector>
 
 #include "gpu_shading/error.h"
@@ -158,7 +159,27 @@ void read_output(InputObject const& object, ShadingInput& input, Named& named) {
 
 constexpr std::string_view mirrored_prefix = "Mir-";
 
+bool matches_key(std::string const& pattern, std::map<std::string, std::string> const& names) {
+  return std::any_of(names.begin(), names.end(),
+                     [&](auto const& entry) { return matches(pattern, entry.first); });
+}
+
 }  // namespace
+
+Error no_shading_surface(std::string_view field, std::string const& pattern,
+                         ShadingInput const& input) {
+  auto const refused = [&](std::string_view what) {
+    return Error(fmt::format("{} is {}, which {}", field, in_quotes(pattern), what));
+  };
+  for (auto const& [names, kind] :
+       {std::pair(&input.base_of, "window or door"), {&input.zone_of, "wall, floor or roof"}}) {
+    if (!matches_key(pattern, *names)) continue;
+    return refused(fmt::format("matches a {}: expected a shading surface (Shading:...)", kind));
+  }
+  std::vector<std::string> names;
+  for (auto const& [name, surface] : input.shading_surfaces) names.push_back(name);
+  return refused("no shading surface of the model matches" + did_you_mean(upper(pattern), names));
+}
 
 std::string mirrored_name(std::string const& shading_surface) {
   return std::string(mirrored_prefix) + shading_surface;
@@ -243,19 +264,18 @@ ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
   return input;
 }
 
-void check_supported(ShadingInput const& input, std::string_view version) {
+void check_supported(ShadingInput const& input, std::string_view file, std::string_view version) {
   if (!input.version.empty() && release(input.version) != release(version)) {
-    throw Error(
-        fmt::format("Version: Version Identifier is {}, this EnergyPlus is {}: bring the model up "
-                    "to date first "
-                    "(IDFVersionUpdater)",
-                    input.version, release(version)));
+    throw Error(fmt::format(
+        "{}: Version: Version Identifier is {}, this EnergyPlus is {}: bring the model up to date "
+        "first (IDFVersionUpdater)",
+        file, input.version, release(version)));
   }
   if (same_name(input.shading_method, "Scheduled") || same_name(input.shading_method, "Imported")) {
     throw Error(fmt::format(
-        "ShadowCalculation: Shading Calculation Method is {}: this model brings its own sunlit "
+        "{}: ShadowCalculation: Shading Calculation Method is {}: this model brings its own sunlit "
         "fractions, which --gpu-shading would replace; run it without the flag",
-        input.shading_method));
+        file, input.shading_method));
   }
 }
 

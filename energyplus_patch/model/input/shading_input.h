@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gpu_shading/error.h"
 #include "gpu_shading/scene.h"
 #include "model/idf/input_object.h"
 
@@ -84,6 +85,11 @@ struct ShadingInput {
   bool receives(std::string const& surface) const;
 };
 
+// For the field of an object whose name or pattern no shading surface matches: the error says what
+// the name is instead, or which one is near it.
+Error no_shading_surface(std::string_view field, std::string const& pattern,
+                         ShadingInput const& input);
+
 // EnergyPlus's name of the copy of a shading surface that faces the other way.
 std::string mirrored_name(std::string const& shading_surface);
 bool is_mirrored(std::string const& surface);
@@ -95,8 +101,8 @@ bool is_surface_output(InputObject const& object);
 ShadingInput read_shading_input(std::vector<InputObject> const& objects);
 
 // Throws Error for models that this module must not handle: those of another version, or with
-// user-defined sunlit fractions (Scheduled, Imported). `version` is EnergyPlus's own, e.g.
-// "9.6.0".
-void check_supported(ShadingInput const& input, std::string_view version);
+// user-defined sunlit fractions (Scheduled, Imported). `file` is the model's, for messages, and
+// `version` EnergyPlus's own, e.g. "9.6.0".
+void check_supported(ShadingInput const& input, std::string_view file, std::string_view version);
 
 }  // namespace gpu_shading::energyplus

@@ -144,10 +144,7 @@ void add_filter(std::string_view field, std::string const& pattern, TransparentS
                               surface, place->second.object));
     }
   }
-  if (!found) {
-    throw Error(fmt::format("{} is {}, which no shading surface of the model matches", field,
-                            in_quotes(pattern)));
-  }
+  if (!found) throw no_shading_surface(field, pattern, input);
 }
 
 }  // namespace gpu_shading::energyplus

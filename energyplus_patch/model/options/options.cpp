@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "gpu_shading/device.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/renderer.h"
 #include "model/extensions/extension_fields.h"
@@ -46,11 +45,11 @@ void expect_one_fineness(Choices const& choices, std::string_view resolution,
 }
 
 OptionRow const& row_of(std::string const& flag) {
+  auto const rows = option_rows();
+  auto const found = std::ranges::find(rows, flag, &OptionRow::flag);
+  if (found != rows.end()) return *found;
   std::vector<std::string> flags;
-  for (auto const& row : option_rows()) {
-    if (row.flag() == flag) return row;
-    flags.push_back(row.flag());
-  }
+  for (auto const& row : rows) flags.push_back(row.flag());
   auto const near = did_you_mean(flag, flags);
   throw Error(fmt::format("{}: no such flag{}", printable(flag),
                           near.empty() ? "; see energyplus --gpu-shading --help" : near));

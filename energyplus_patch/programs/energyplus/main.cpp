@@ -6,14 +6,18 @@
 #include <malloc.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "gpu_shading/error.h"
@@ -21,6 +25,8 @@
 #include "platform/console.h"
 #include "platform/ending_signals.h"
 #include "platform/error_line.h"
+#include "platform/files.h"
+#include "platform/naming.h"
 #include "platform/process.h"
 #include "platform/text.h"
 #include "programs/energyplus/expansion_folder.h"
@@ -73,6 +79,54 @@ constexpr char const* run_energyplus =
       fmt::format("{}: {}; {}", program.string(), std::strerror(errno), how_to_restore(program)));
 }
 
+// Such a run leaves no files.
+class NoOutputFolder : public Error {
+  using Error::Error;
+};
+
+// EnergyPlus itself would name these on standard output, or end with a library's message.
+void check_files(CommandLine const& line) {
+  if (!line.runs) return;
+  try {
+    if (line.weather) require_file(*line.weather);
+  } catch (Error const& error) {
+    throw Error(fmt::format("-w {}", error.what()));
+  }
+  std::error_code failure;
+  std::filesystem::create_directories(line.output_folder, failure);
+  if (!failure) failure = {find_access(line.output_folder), std::generic_category()};
+  if (failure) {
+    throw NoOutputFolder(fmt::format("-d {}: cannot be written to ({})",
+                                     line.output_folder.string(), failure.message()));
+  }
+}
+
+// The type of the first extension object of an IDF or epJSON file, or "".
+std::string find_extension(Path const& model) {
+  std::ifstream file(model);
+  for (std::string line; std::getline(file, line);) {
+    auto const begin =
+        std::search(line.begin(), line.end(), extension_prefix.begin(), extension_prefix.end(),
+                    [](unsigned char a, char b) { return std::tolower(a) == std::tolower(b); });
+    auto const before = trimmed({line.begin(), begin});
+    bool const opens = before.empty() || before.ends_with(';') || before.ends_with('"');
+    if (begin == line.end() || !opens) continue;
+    return {begin, std::find_if(begin, line.end(), [](unsigned char each) {
+              return each != ':' && std::isalnum(each) == 0;
+            })};
+  }
+  return {};
+}
+
+// Otherwise only EnergyPlus's .err file says why it stops.
+void warn_of_extensions(RunSetup const& setup) {
+  if (!setup.has_model()) return;
+  auto const type = find_extension(*setup.line.model);
+  if (type.empty()) return;
+  print_line(fmt::format("warning: {}: {} needs --gpu-shading: EnergyPlus alone stops at it",
+                         setup.line.model->string(), type));
+}
+
 // Errors in the model are reported before anything is written. What it chooses is added to the
 // user's choices, so that the module can check the device before EnergyPlus starts.
 void check_model(RunSetup& setup) {
@@ -80,7 +134,7 @@ void check_model(RunSetup& setup) {
   auto& choices = setup.choices;
   auto const model = read_model(*setup.line.model, choices);
   if (model.options.mode == Mode::off) return;
-  check_supported(model.shading, read_version(own_folder()));
+  check_supported(model.shading, model.file, read_version(own_folder()));
   prepare_folders(model.options, !choices.task);
   choices.device = model.options.device;
   choices.resolution = model.options.resolution;
@@ -99,6 +153,34 @@ void check_conversion(RunSetup const& setup) {
         fmt::format("{}: {} would be lost in the conversion: expected it in {}.gpu-shading.idf",
                     path.string(), object.type, path.stem().string()));
   }
+}
+
+// Into the report's folder, for its page.
+void draw_maps(RunSetup const& setup) {
+  auto const& choices = setup.choices;
+  if (!choices.maps.value_or(false)) return;
+  naming("--gpu-shading-maps", [&] {
+    if (!choices.report) throw Error("expected --gpu-shading-report with it");
+    if (!setup.line.weather) throw Error("expected a weather file, -w, with it");
+    std::vector<std::string> command{(own_folder() / "gpu_shading").string(),
+                                     "map",
+                                     setup.line.model->string(),
+                                     "-w",
+                                     setup.line.weather->string(),
+                                     "-o",
+                                     (*choices.report / "maps").string()};
+    Choices own;
+    own.file = choices.file;
+    own.threads = choices.threads;
+    own.quiet = choices.quiet;
+    own.assets = choices.assets;
+    for (auto const& flag : to_flags(own)) command.push_back(flag);
+    TemporaryFolder const folder;
+    auto const log = folder.path() / "log.txt";
+    if (run_process(command, {}, log) != EXIT_SUCCESS) {
+      throw Error(last_error(log).value_or("gpu_shading map failed"));
+    }
+  });
 }
 
 // `argv`-style view of strings.
@@ -165,6 +247,14 @@ int run_unpatched(Path const& energyplus, Module const& module,
   return run_scheduled(energyplus, module, arguments, flags);
 }
 
+// `energyplus example NAME` is `gpu_shading example NAME`. EnergyPlus takes no file without an
+// ending.
+void run_example(char** argv) {
+  auto const program = own_folder() / "gpu_shading";
+  execv(program.c_str(), argv);
+  throw Error(fmt::format("{}: {}", program.string(), std::strerror(errno)));
+}
+
 // The program's name and EnergyPlus's arguments.
 int run_shaded(char const* program, std::vector<std::string> arguments, Choices const& choices) {
   auto const energyplus = find_energyplus_library(own_folder());
@@ -192,8 +282,10 @@ int run_shaded(char const* program, std::vector<std::string> arguments, Choices 
 
 int launch(RunSetup& setup, char** argv) {
   auto const& line = setup.line;
+  if (!setup.arguments.empty() && setup.arguments.front() == "example") run_example(argv);
   if (!setup.wanted) {
     if (line.help) fmt::print("{}", help_hint);
+    warn_of_extensions(setup);
     std::fflush(stdout);
     run_official(argv);
   }
@@ -203,9 +295,11 @@ int launch(RunSetup& setup, char** argv) {
   mallopt(M_MXFAST, 0);
   if (line.version) fmt::print("gpu_shading {}\n", GPU_SHADING_VERSION);
   if (line.help) fmt::print("{}", options_help());
+  check_files(line);
   if (line.model) {
     check_conversion(setup);
     check_model(setup);
+    draw_maps(setup);
     // A preprocessor (-x) passes another file to EnergyPlus, but files in the folder of the user's
     // model still apply.
     choices.folder = std::filesystem::absolute(*line.model).parent_path();
@@ -241,7 +335,7 @@ int main(int argc, char** argv) {
     auto const why = error_line(error);
     std::fprintf(stderr, "gpu_shading: error: %s\n", why.c_str());
     // Without its arguments, it is not known where a run's files belong.
-    if (arguments) {
+    if (arguments && dynamic_cast<NoOutputFolder const*>(&error) == nullptr) {
       report_refusal(*arguments, folder, why, std::chrono::steady_clock::now() - start);
     }
     return EXIT_FAILURE;

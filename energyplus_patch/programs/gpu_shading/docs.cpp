@@ -1,39 +1,31 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <sstream>
-#include <string>
-#include <vector>
+#include <system_error>
 
 #include "gpu_shading/error.h"
 #include "platform/console.h"
 #include "platform/process.h"
 #include "programs/gpu_shading/commands.h"
+#include "programs/gpu_shading/share_folder.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
 using Path = std::filesystem::path;
 
-// Where programs keep their data: beside this one, then in the system's folders.
-std::vector<Path> data_folders() {
-  std::vector<Path> folders{own_folder().parent_path().parent_path() / "share"};
-  auto listed = get_variable("XDG_DATA_DIRS");
-  if (listed.empty()) listed = "/usr/local/share:/usr/share";
-  std::stringstream parts(listed);
-  for (std::string folder; std::getline(parts, folder, ':');) folders.emplace_back(folder);
-  return folders;
-}
-
 Path find_manual() {
-  for (auto const& folder : data_folders()) {
-    auto page = folder / "doc" / "energyplus-gpu-shading" / "html" / "index.html";
-    std::error_code error;
-    if (std::filesystem::is_regular_file(page, error)) return page;
+  for (auto const& share : share_folders()) {
+    auto const installed = share.parent_path() / "doc" / "energyplus-gpu-shading" / "html";
+    for (auto const& folder : {installed, share / "out" / "site"}) {
+      auto page = folder / "index.html";
+      std::error_code error;
+      if (std::filesystem::is_regular_file(page, error)) return page;
+    }
   }
   throw Error(
-      "the manual is not installed: install the Debian package, or run scripts/dev/build_site in "
-      "the sources");
+      "the manual is not installed: install the wheel or the Debian package, or run "
+      "scripts/dev/build_site in the sources");
 }
 
 bool has_desktop() {

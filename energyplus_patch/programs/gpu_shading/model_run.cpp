@@ -29,9 +29,9 @@ Path some_weather() {
   throw Error(fmt::format("{}: no weather file; name one with -w", folder.string()));
 }
 
-// The flags with which EnergyPlus is run here: rendering is on, while it runs.
+// The flags with which EnergyPlus is run here.
 std::vector<std::string> flags_of(Choices choices, Path const& task) {
-  if (choices.mode != Mode::require) choices.mode = Mode::automatic;
+  if (!choices.mode) choices.mode = Mode::automatic;
   if (choices.method == Method::scheduled) choices.method = Method::automatic;
   choices.task = task;
   return to_flags(choices);
@@ -63,6 +63,10 @@ void require_model(std::filesystem::path const& model) {
 TaskReply run_task(ModelRun const& run, Task const& task) {
   auto const& model = run.model;
   require_model(model);
+  if (run.choices.mode == Mode::off) {
+    throw Error(
+        "--gpu-shading (or GPU_SHADING) is off, but this command renders: expected auto or require");
+  }
   TemporaryFolder const folder;
   auto const request = folder.path() / "task";
   auto const reply = folder.path() / "reply";

@@ -9,7 +9,7 @@ void end_run(std::exception const& error) {
   if (dynamic_cast<TaskDone const*>(&error) != nullptr) throw TaskDone();
   auto const why = error_line(error);
   print_line("error: " + why);
-  fail_task(why);
+  fail_drawing(why);
   throw Error("gpu_shading: " + why);
 }
 

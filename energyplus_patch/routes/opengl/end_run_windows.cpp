@@ -13,7 +13,7 @@ void end_run(std::exception const& error) {
   if (dynamic_cast<TaskDone const*>(&error) != nullptr) ExitProcess(EXIT_SUCCESS);
   auto const why = error_line(error);
   std::fprintf(stderr, "gpu_shading: error: %s\n", why.c_str());
-  fail_task(why);
+  fail_drawing(why);
   std::fflush(stderr);
   ExitProcess(EXIT_FAILURE);
 }

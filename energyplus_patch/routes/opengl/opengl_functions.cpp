@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include "calculation/plain_scene.h"
@@ -182,7 +181,7 @@ void finish_drawing() {
   if (finished) finished->finish();
 }
 
-void fail_task(std::string const& why) {
+void fail_drawing(std::string const& why) {
   if (model_of_run()) model_of_run()->fail(why);
 }
 

@@ -14,8 +14,8 @@ void draw_with(DrawnModel::Input input);
 // EnergyPlus has ended: the calculation reports what it rendered. Throws Error.
 void finish_drawing();
 
-// Replies to the task that EnergyPlus is run for, if there is one, that it cannot be done.
-void fail_task(std::string const& why);
+// As DrawnModel::fail(), if there is a model.
+void fail_drawing(std::string const& why);
 
 // The model of a new context: that of draw_with(), or one that is known by its triangles alone.
 std::shared_ptr<DrawnModel> model_of_context();

@@ -37,10 +37,10 @@ struct HostedText {
   std::shared_ptr<AskedTask> task;  // that EnergyPlus is run for, if it is
 };
 
-// The same, as EnergyPlus is to be run with it.
+// The same, as EnergyPlus runs it.
 struct HostedModel {
   std::filesystem::path path;  // in a folder for this run
-  DrawnModel::Input input;     // without `named` where nothing is to be rendered
+  DrawnModel::Input input;     // without `named` where nothing is rendered
   RunMessages messages;
 };
 
@@ -133,7 +133,7 @@ HostedModel prepare_hosted(HostedText read, EnergyPlusCall call, Path const& fol
   if (renders) remove_schedules(*editor, model);
   hosted.path = place_model(*editor, original, folder / "model");
   if (!renders) return hosted;
-  check_supported(model.shading, read_version(own_folder()));
+  check_supported(model.shading, model.file, read_version(own_folder()));
   if (auto const& warning = model.simplified.warning; !warning.empty()) {
     print_line("warning: " + warning);
     hosted.messages.warnings.push_back(warning);

@@ -160,7 +160,7 @@ ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choi
   if (model.options.mode == Mode::off) {
     set_method(*editor, "PolygonClipping", "");
   } else {
-    check_supported(model.shading, read_version(call.program.parent_path()));
+    check_supported(model.shading, model.file, read_version(call.program.parent_path()));
     out.warn(describe_limits(model));
     SunlitFractions table;
     if (runs_periods(call, *editor)) table = render(call, std::move(model), out);

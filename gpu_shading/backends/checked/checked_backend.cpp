@@ -76,7 +76,7 @@ ViewDifference compare(ReceiverView const& view, ViewSums const& device, ViewSum
   if (worst.severity() > 1.0 || device.receiver_pixels == 0) return worst;
   for (SurfaceId const id : view.casters) edges += edges_of(scene[id].polygon, projection, side);
   for (SurfaceId const id : view.interiors) edges += edges_of(scene[id].polygon, projection, side);
-  if (transmission.any_screen(view.casters)) edges = all;
+  if (transmission.any_body(view.casters)) edges = all;
   double const within = tolerance(edges, reference.receiver_pixels);
   worst = {"sunlit fraction", 0.0, 0.0, within};
   for (std::size_t i = 0; i < reference.parts.size(); ++i) {

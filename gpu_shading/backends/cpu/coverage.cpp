@@ -39,7 +39,7 @@ bool any_transmits(std::span<Shade const> shades) {
 
 // Whether shades are of few transmittances, which ShadeCounts takes, and nothing else is in view.
 bool can_be_counted(CastersInView const& casters) {
-  if (casters.opaque() || !casters.screens.numbers.empty()) return false;
+  if (casters.opaque() || !casters.bodies.empty()) return false;
   if (any_scheduled(casters.shades)) return false;
   constexpr std::size_t most = 6;
   std::array<float, most> kinds{};
@@ -100,7 +100,7 @@ Sampled sampled(Tile const& tile, View const& view, CastersInView const& casters
   SampleUse const use = casters.opaque() ? SampleUse::coverage
                         : counting       ? SampleUse::counting
                                          : SampleUse::luminance;
-  return {sample_grid(tile, view, casters.screens, casters.repeats, use), counting};
+  return {sample_grid(tile, view, casters.bodies.screens, casters.repeats, use), counting};
 }
 
 // From samples to pixels of the tile, if `own` samples are the receiver's.
@@ -168,7 +168,7 @@ void Coverage::shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* pa
           shaded.multiply(area, shade.transmittance);
           if (shade.schedule != Shade::unscheduled) passed->pass(area, shade.schedule);
         });
-  shade_by_screens(shaded, mask, pixels, casters.screens);
+  casters.bodies.shade(shaded, mask, pixels);
 }
 
 void Coverage::darken(PixelMask& mask, int side, View const& pixels,
@@ -234,8 +234,7 @@ struct Coverage::Rows {
   }
 
   double luminance(std::uint64_t& own) const {
-    bool const darkening =
-        !any_transmits(casters.shades) && all_or_nothing(casters.screens, pixels);
+    bool const darkening = !any_transmits(casters.shades) && casters.bodies.all_or_nothing(pixels);
     return sum_rows(own, [&](PixelMask& mask, int first, int end, std::span<double> sums) {
       static thread_local LuminanceTile shaded;
       if (darkening) {

@@ -9,7 +9,7 @@
 #include "backends/cpu/passed_schedules.h"
 #include "backends/cpu/surface_pieces.h"
 #include "backends/interface/view_backend.h"
-#include "filters/perforation/screen_shading.h"
+#include "filters/bodies.h"
 #include "filters/transmission.h"
 #include "geometry/triangulation.h"
 #include "gpu_shading/scene.h"
@@ -22,15 +22,15 @@ namespace gpu_shading {
 
 // What is in front of a receiver at one direction of the sun.
 struct CastersInView {
-  std::span<SurfaceId const> surfaces;  // but those that are screens and nothing else
+  std::span<SurfaceId const> surfaces;  // that are flat
   std::span<Shade const> shades;        // of each surface; none where all are opaque
-  ScreensInView screens;
+  BodiesInView bodies;
   SampledRepeats repeats = {};  // of surfaces at equal distances
   // Where `surfaces` are only a sample: rasterises all of them, which are opaque.
   CrowdRaster const* crowd = nullptr;
   CrowdQuestion question = {};
 
-  bool opaque() const { return shades.empty() && screens.numbers.empty(); }
+  bool opaque() const { return shades.empty() && bodies.empty(); }
 };
 
 // Where a tile is sampled: where it is most accurate, or at the centres of its pixels, as OpenGL

@@ -90,20 +90,22 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
   Tile const& tile = *view.tile;
   std::vector<SurfaceId> flat;
   std::vector<Shade> shades;
+  std::vector<CrownInBeam> crowns;
   View const in_front = view_in_front(*view.frame, tile.map, view.towards_sun);
-  CastersInView casters{view.casters, {}, screens};
-  casters.screens.overlap = !view.at_pixels && screens.numbers.size() > 1 &&
-                            any_overlap(*screens.screens, screens.numbers, in_front);
-  casters.screens.every_hole =
-      casters.screens.overlap || (!view.at_pixels && tile.side > largest_by_effect);
-  casters.screens.by_rows = !view.at_pixels && !casters.screens.every_hole &&
-                            edges_cut_rows(tile, in_front, casters.screens);
+  CastersInView casters{view.casters, {}, {screens}};
+  ScreensInView& sheets = casters.bodies.screens;
+  sheets.overlap = !view.at_pixels && screens.numbers.size() > 1 &&
+                   any_overlap(*screens.screens, screens.numbers, in_front);
+  sheets.every_hole = sheets.overlap || (!view.at_pixels && tile.side > largest_by_effect);
+  sheets.by_rows = !view.at_pixels && !sheets.every_hole && edges_cut_rows(tile, in_front, sheets);
   if (view.transmits) {
     flat = transmission_.flat_among(view.casters);
     shades.reserve(flat.size());
     for (SurfaceId const id : flat) shades.push_back(transmission_.shade(id, view.towards_sun));
     casters.surfaces = flat;
     casters.shades = shades;
+    crowns = transmission_.crowns_among(view.casters, view.towards_sun);
+    casters.bodies.crowns = crowns;
   }
   if (view.crowd != nullptr) {
     casters.crowd = &*crowd_;

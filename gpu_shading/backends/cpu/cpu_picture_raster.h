@@ -20,8 +20,8 @@ class CpuPictureRaster : public PictureRaster {
   int max_pixels() const override;
   std::vector<std::uint32_t> nearest(PictureGrid const& grid,
                                      std::span<SurfaceId const> surfaces) override;
-  std::vector<float> through_screens(PictureGrid const& grid, glm::dvec3 const& towards_sun,
-                                     std::span<SurfaceId const> surfaces) override;
+  std::vector<float> through_bodies(PictureGrid const& grid, glm::dvec3 const& towards_sun,
+                                    std::span<SurfaceId const> surfaces) override;
   std::vector<float> luminance(PictureGrid const& grid, ShadedReceiver const& shaded) override;
 
  private:
@@ -39,6 +39,7 @@ class CpuPictureRaster : public PictureRaster {
 
   Transmission const& transmission_;
   Coverage coverage_;
+  std::size_t surfaces_;
 };
 
 }  // namespace gpu_shading

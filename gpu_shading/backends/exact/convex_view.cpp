@@ -8,8 +8,8 @@
 #include <memory>
 #include <utility>
 
-#include "backends/exact/convex_polygon.h"
 #include "backends/exact/depth.h"
+#include "geometry/convex_polygon.h"
 
 namespace gpu_shading {
 namespace {

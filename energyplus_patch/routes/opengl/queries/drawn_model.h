@@ -47,7 +47,7 @@ class DrawnModel {
   std::vector<double> interior_areas(glm::dvec3 const& towards_sun, std::size_t window,
                                      std::vector<std::size_t> const& interiors);
 
-  // Replies to the task, if there is one, that it cannot be done.
+  // As ShadingCalculation::fail(); replies to the task, if there is one, that it cannot be done.
   void fail(std::string const& why);
 
   // As ShadingCalculation::finish().

@@ -59,8 +59,8 @@ PointerTo<symbol::abort_energyplus> original_abort = nullptr;
 void warn_of_missing_surroundings(Run const& run) {
   if (run.model->surroundings.empty()) return;
   messages_of(run).warning(
-      "rendering is off: GPUShading:SiteContext and GPUShading:Geometry are ignored, so their "
-      "geometry casts no shadow");
+      "rendering is off: GPUShading:SiteContext, GPUShading:Geometry and GPUShading:Tree are "
+      "ignored, so their geometry casts no shadow");
 }
 
 // Shades that are opaque to polygon clipping because only our objects make them transparent.
@@ -87,7 +87,7 @@ Rewrite take_model(std::vector<InputObject> objects, Path const& path,
       {find_mentions, installed.serves(Need::daylight_rays), installed.serves(Need::reflections),
        installed.serves(Need::daylight_reflections)});
   if (run.model->options.mode != Mode::off) {
-    check_supported(run.model->shading, installation().version);
+    check_supported(run.model->shading, run.model->file, installation().version);
     // Now, because EnergyPlus may stop at such a surface.
     if (auto const& warning = run.model->simplified.warning; !warning.empty()) {
       messages_of(run).warning(warning);

@@ -26,15 +26,6 @@ static_assert(sizeof(PenumbraObject) == 8);
 
 namespace {
 
-Ring to_ring(Coordinates const& xyz) {
-  Ring ring;
-  ring.reserve(xyz.size() / 3);
-  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
-    ring.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
-  }
-  return ring;
-}
-
 void surface_construct(SurfaceObject* self, Coordinates const& outline, std::string const& name) {
   new (self) SurfaceObject{std::make_shared<Surface>(Surface{name, {to_ring(outline), {}}})};
 }

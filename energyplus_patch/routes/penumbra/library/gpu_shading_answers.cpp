@@ -34,15 +34,6 @@ SourceRun& source_run() {
   return run;
 }
 
-Ring ring_of(Coordinates const& xyz) {
-  Ring ring;
-  ring.reserve(xyz.size() / 3);
-  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
-    ring.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
-  }
-  return ring;
-}
-
 std::unique_ptr<ShadingCalculation> make_calculation(unsigned size, Log const& log) {
   if (auto const& model = source_run().model) return std::make_unique<Session>(*model);
   RendererOptions options;
@@ -96,7 +87,7 @@ Rewrite take_model(std::vector<InputObject> objects, std::filesystem::path const
   auto model = understand(std::move(objects), path, run.choices, {find_mentions, daylight_rays});
   auto rewrite = rewrite_for(model);
   if (model.options.mode != Mode::off) {
-    check_supported(model.shading, version);
+    check_supported(model.shading, model.file, version);
     // Now, because EnergyPlus may stop at such a surface.
     if (auto const& warning = model.simplified.warning; !warning.empty()) {
       print_line("warning: " + warning);
@@ -126,6 +117,17 @@ class Calculation::Implementation {
     rays_answered = model && model->daylighting_answered;
   }
 
+  // Calls use(calculation), which fails where that throws.
+  template <typename Use>
+  auto with(Use const& use) {
+    try {
+      return use(*shading);
+    } catch (...) {
+      shading->fail();
+      throw;
+    }
+  }
+
   Log log;
   std::unique_ptr<ShadingCalculation> shading;
   bool rays_answered = false;
@@ -137,8 +139,8 @@ Calculation::Calculation(unsigned size, Log log)
 Calculation::~Calculation() = default;
 
 unsigned Calculation::add(PlainSurface surface) {
-  Surface added{.name = std::move(surface.name), .polygon = {ring_of(surface.outline), {}}};
-  for (auto const& hole : surface.holes) added.polygon.holes.push_back(ring_of(hole));
+  Surface added{.name = std::move(surface.name), .polygon = {to_ring(surface.outline), {}}};
+  for (auto const& hole : surface.holes) added.polygon.holes.push_back(to_ring(hole));
   return implementation_->shading->add(std::move(added));
 }
 
@@ -155,25 +157,30 @@ void Calculation::start(Simulation const& simulation) {
 }
 
 void Calculation::set_time(int hour, int timestep) {
-  implementation_->shading->set_time(timestep > 0 ? Moment{hour, timestep} : Moment{});
+  implementation_->with([&](auto& shading) {
+    shading.set_time(timestep > 0 ? Moment{hour, timestep} : Moment{});
+  });
 }
 
 void Calculation::set_sun(double azimuth, double altitude) {
-  implementation_->shading->set_sun({azimuth, altitude});
+  implementation_->with([&](auto& shading) { shading.set_sun({azimuth, altitude}); });
 }
 
 float Calculation::sunlit_area(unsigned surface) {
-  return static_cast<float>(implementation_->shading->projected_sunlit_area(surface));
+  return implementation_->with(
+      [&](auto& shading) { return static_cast<float>(shading.projected_sunlit_area(surface)); });
 }
 
 std::vector<float> Calculation::sunlit_areas(std::vector<unsigned> const& surfaces) {
-  auto const areas = implementation_->shading->projected_sunlit_areas(surfaces);
+  auto const areas = implementation_->with(
+      [&](auto& shading) { return shading.projected_sunlit_areas(surfaces); });
   return {areas.begin(), areas.end()};
 }
 
 std::vector<float> Calculation::interior_areas(unsigned window,
                                                std::vector<unsigned> const& interiors) {
-  auto const areas = implementation_->shading->interior_areas(window, interiors);
+  auto const areas = implementation_->with(
+      [&](auto& shading) { return shading.interior_areas(window, interiors); });
   return {areas.begin(), areas.end()};
 }
 
@@ -181,8 +188,9 @@ double Calculation::ray_transmittance(DaylightRay const& ray) {
   constexpr double opaque_below = 1e-6;  // as EnergyPlus's shading surfaces are
   if (!implementation_->rays_answered) return 1.0;
   auto const& [origin, direction, hour] = ray;
-  double const share = implementation_->shading->daylight_transmittance(
-      {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}}, hour);
+  Ray const line{{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}};
+  double const share = implementation_->with(
+      [&](auto& shading) { return shading.daylight_transmittance(line, hour); });
   return share < opaque_below ? 0.0 : share;
 }
 

@@ -16,7 +16,11 @@
 namespace gpu_shading {
 namespace {
 
+#define GPU_SHADING_NAME_OF(symbol) #symbol
+#define GPU_SHADING_NAME(symbol) GPU_SHADING_NAME_OF(symbol)
+
 constexpr char const* library = "libgpu_shading_gl.so";
+constexpr char const* entry_name = GPU_SHADING_NAME(GPU_SHADING_GL_MODULE);
 
 // Empty if it is not known.
 std::filesystem::path folder_of_this_code() noexcept try {
@@ -59,9 +63,12 @@ DeviceModule const& load() {
   bool const is_beside = !code_folder.empty() && std::filesystem::exists(beside, error);
   void* const handle = dlopen(is_beside ? beside.c_str() : library, RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) throw DeviceError(fmt::format("no OpenGL: {}", dlerror()));
-  using Entry = DeviceModule const*();
-  auto* const entry = reinterpret_cast<Entry*>(dlsym(handle, "gpu_shading_gl_module"));
-  if (entry == nullptr) throw DeviceError(fmt::format("no OpenGL: {}", dlerror()));
+  auto* const entry = reinterpret_cast<decltype(&GPU_SHADING_GL_MODULE)>(dlsym(handle, entry_name));
+  if (entry == nullptr) {
+    throw DeviceError(fmt::format(
+        "no OpenGL: {} is from another build than this program; install both from one package",
+        is_beside ? beside.string() : library));
+  }
   return *entry();
 }
 

@@ -25,8 +25,8 @@ class GlPictureRaster : public PictureRaster {
   int max_pixels() const override { return device_.info.max_resolution; }
   std::vector<std::uint32_t> nearest(PictureGrid const& grid,
                                      std::span<SurfaceId const> surfaces) override;
-  std::vector<float> through_screens(PictureGrid const& grid, glm::dvec3 const& towards_sun,
-                                     std::span<SurfaceId const> surfaces) override;
+  std::vector<float> through_bodies(PictureGrid const& grid, glm::dvec3 const& towards_sun,
+                                    std::span<SurfaceId const> surfaces) override;
   std::vector<float> luminance(PictureGrid const& grid, ShadedReceiver const& shaded) override;
 
  private:

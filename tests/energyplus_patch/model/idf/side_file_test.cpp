@@ -117,7 +117,10 @@ TEST_F(SideFile, EpJson) {
   EXPECT_EQ(read("\xEF\xBB\xBF" + good, "a.epJSON").size(), 2U);
   EXPECT_THAT(refusal("[]", "a.epJSON"), HasSubstr("expected an object"));
   EXPECT_THAT(refusal(R"({"Zone": {}})", "a.epJSON"), HasSubstr("Zone: only"));
-  EXPECT_THAT(refusal("{", "a.epJSON"), HasSubstr("parse error"));
+  EXPECT_THAT(refusal("{", "a.epJSON"), HasSubstr("is not valid JSON: parse error"));
+  EXPECT_THAT(refusal("GPUShading:Settings;", "a.epJSON"),
+              HasSubstr("is not JSON: an IDF needs the ending .idf"));
+  EXPECT_THAT(refusal(good, "a.idf"), HasSubstr("is JSON: epJSON needs the ending .epJSON"));
 }
 
 std::string epjson_refusal(std::string const& text) {

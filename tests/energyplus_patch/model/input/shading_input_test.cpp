@@ -160,12 +160,36 @@ TEST(ShadingInput, WhatEnergyPlusMayAskFor) {
 }
 
 TEST(ShadingInput, OtherVersionsAndUserGivenFractionsAreRefused) {
-  EXPECT_NO_THROW(check_supported(read("Version,9.6;"), "9.6.0"));
-  EXPECT_NO_THROW(check_supported(read("Version,9.6.0;"), "9.6.0"));
-  EXPECT_THROW(check_supported(read("Version,24.2;"), "9.6.0"), Error);
-  EXPECT_THROW(check_supported(read("Version,8.9;"), "9.6.0"), Error);
-  EXPECT_THROW(check_supported(read("ShadowCalculation,scheduled;"), "9.6.0"), Error);
-  EXPECT_THROW(check_supported(read("ShadowCalculation,Imported;"), "9.6.0"), Error);
+  EXPECT_NO_THROW(check_supported(read("Version,9.6;"), "a.idf", "9.6.0"));
+  EXPECT_NO_THROW(check_supported(read("Version,9.6.0;"), "a.idf", "9.6.0"));
+  EXPECT_THAT(
+      refusal_of([] { check_supported(read("Version,24.2;"), "a.idf", "9.6.0"); }),
+      testing::StartsWith("a.idf: Version: Version Identifier is 24.2, this EnergyPlus is "));
+  EXPECT_THROW(check_supported(read("Version,8.9;"), "a.idf", "9.6.0"), Error);
+  EXPECT_THROW(check_supported(read("ShadowCalculation,scheduled;"), "a.idf", "9.6.0"), Error);
+  EXPECT_THROW(check_supported(read("ShadowCalculation,Imported;"), "a.idf", "9.6.0"), Error);
+}
+
+TEST(ShadingInput, NamesThatNoShadingSurfaceHasAreExplained) {
+  auto const input = read(
+      "BuildingSurface:Detailed,South Wall,Wall,C,Z,,Outdoors,,SunExposed,WindExposed;"
+      "FenestrationSurface:Detailed,South Window,Window,G,South Wall;"
+      "Shading:Building:Detailed,Screen;Shading:Building:Detailed,Tree;");
+  auto const said = [&](std::string const& pattern) {
+    return std::string(no_shading_surface("Surface Name", pattern, input).what());
+  };
+  EXPECT_EQ(
+      said("Scren"),
+      "Surface Name is \"Scren\", which no shading surface of the model matches; did you mean "
+      "SCREEN?");
+  EXPECT_EQ(said("Louvre"),
+            "Surface Name is \"Louvre\", which no shading surface of the model matches");
+  EXPECT_EQ(said("south window"),
+            "Surface Name is \"south window\", which matches a window or door: expected a shading "
+            "surface (Shading:...)");
+  EXPECT_EQ(said("*wall"),
+            "Surface Name is \"*wall\", which matches a wall, floor or roof: expected a shading "
+            "surface (Shading:...)");
 }
 
 }  // namespace

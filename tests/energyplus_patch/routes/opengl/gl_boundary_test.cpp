@@ -180,6 +180,7 @@ class FixedAnswers : public ShadingCalculation {
   double daylight_transmittance(Ray const& /*ray*/, int /*hour*/) override { return 1.0; }
   void begin_daylighting() override {}
   std::string vendor() override { return {}; }
+  void fail() override {}
   void finish() override {}
 
  private:

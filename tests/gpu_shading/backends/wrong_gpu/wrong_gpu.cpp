@@ -76,7 +76,7 @@ class Module : public DeviceModule {
 }  // namespace
 }  // namespace gpu_shading
 
-extern "C" [[gnu::visibility("default")]] gpu_shading::DeviceModule const* gpu_shading_gl_module() {
+extern "C" [[gnu::visibility("default")]] gpu_shading::DeviceModule const* GPU_SHADING_GL_MODULE() {
   static gpu_shading::Module const module;
   return &module;
 }

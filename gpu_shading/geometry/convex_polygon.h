@@ -10,7 +10,7 @@ namespace gpu_shading {
 
 // Counterclockwise, in a plane. Vertices beyond `count` have no value.
 struct ConvexPolygon {
-  static constexpr std::size_t most = 48;
+  static constexpr std::size_t max_vertices = 48;
 
   ConvexPolygon() {}  // NOLINT(modernize-use-equals-default): that would set all vertices to 0
   ConvexPolygon(ConvexPolygon const& other) { *this = other; }
@@ -23,7 +23,7 @@ struct ConvexPolygon {
   }
   ~ConvexPolygon() = default;
 
-  std::array<glm::dvec2, most> vertices;
+  std::array<glm::dvec2, max_vertices> vertices;
   std::size_t count = 0;
   glm::dvec2 low{0.0};
   glm::dvec2 high{0.0};
@@ -31,9 +31,9 @@ struct ConvexPolygon {
   std::span<glm::dvec2 const> ring() const { return {vertices.data(), count}; }
   double area() const;
 
-  // Takes a ring, of either direction. False if it is not convex, or has more than `most_of_ring`
+  // Takes a ring, of either direction. False if it is not convex, or has more than `max_ring`
   // vertices.
-  static constexpr std::size_t most_of_ring = 8;
+  static constexpr std::size_t max_ring = 8;
   bool take(std::span<glm::dvec2 const> ring);
 
   bool contains(ConvexPolygon const& other) const;

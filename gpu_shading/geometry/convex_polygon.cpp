@@ -1,6 +1,5 @@
-#include "backends/exact/convex_polygon.h"
+#include "geometry/convex_polygon.h"
 
-#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -30,7 +29,7 @@ double ConvexPolygon::area() const {
 bool ConvexPolygon::take(std::span<glm::dvec2 const> ring) {
   // By which a corner may turn the other way, of the squares of its sides: rounding.
   constexpr double straight = 1e-13;
-  if (ring.size() < 3 || ring.size() > most_of_ring) return false;
+  if (ring.size() < 3 || ring.size() > max_ring) return false;
   std::copy(ring.begin(), ring.end(), vertices.begin());
   count = ring.size();
   if (area() < 0.0) std::reverse(vertices.begin(), vertices.begin() + static_cast<long>(count));
@@ -76,10 +75,10 @@ bool ConvexPolygon::contains(ConvexPolygon const& other) const {
 }
 
 Meeting intersect(ConvexPolygon const& polygon, ConvexPolygon const& other, ConvexPolygon& common) {
-  if (polygon.count + other.count > ConvexPolygon::most) return Meeting::too_many;
+  if (polygon.count + other.count > ConvexPolygon::max_vertices) return Meeting::too_many;
   if (!polygon.may_meet(other)) return Meeting::apart;
   ConvexPolygon cut;
-  std::array<double, ConvexPolygon::most> beyond;  // NOLINT: set before use
+  std::array<double, ConvexPolygon::max_vertices> beyond;  // NOLINT: set before use
   ConvexPolygon const* from = &polygon;
   // Each cut goes where the one before it is not; the last to `common`, or is copied there.
   for (std::size_t k = 0; k < other.count; ++k) {
