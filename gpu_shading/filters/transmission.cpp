@@ -21,6 +21,7 @@ Transmission::Transmission(Scene const& scene)
     entry.transmits = filter.transmits();
     entry.is_flat = filter.is_flat();
     if (!entry.transmits) continue;
+    all_opaque_ = false;
     entry.filter = filter;
     entry.normal = normal(scene[id].polygon);
     if (filter.schedule < 0) continue;

@@ -32,6 +32,7 @@ class Transmission {
   // Deployed fractions of screens and shares of leaves, 1 beyond the end.
   void set_deployments(std::vector<double> shares) { deployments_ = std::move(shares); }
 
+  bool all_opaque() const { return all_opaque_; }
   bool transmits(SurfaceId id) const { return entries_[id].transmits; }
   // BeamFilter::is_flat().
   bool is_flat(SurfaceId id) const { return entries_[id].is_flat; }
@@ -72,6 +73,7 @@ class Transmission {
   };
 
   std::vector<Entry> entries_;
+  bool all_opaque_ = true;
   std::vector<int> schedules_;
   Screens screens_;
   Crowns crowns_;

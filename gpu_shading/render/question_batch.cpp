@@ -18,6 +18,9 @@ constexpr std::size_t max_viewed = 16384;
 // Number of questions whose casters are searched at a time, because the results take memory.
 constexpr std::size_t max_asked = 64;
 
+// Casters in view up to which each is looked at; of more, a sample, and the back end searches them.
+constexpr std::size_t few_casters = 4000;
+
 // Steps of an EdgeSweep that always take less time than samples.
 constexpr double few_steps = 300.0;
 
@@ -34,7 +37,11 @@ double sample_cost(Detail const& detail, int side, bool transmits, std::size_t i
 
 }  // namespace
 
-QuestionBatch::QuestionBatch(Parts const& parts) : parts_(parts) { parts_.backend.forget(); }
+QuestionBatch::QuestionBatch(Parts const& parts)
+    : parts_(parts),
+      may_be_crowd_(!parts.backend.samples_pixels() && parts.transmission.all_opaque()) {
+  parts_.backend.forget();
+}
 
 void QuestionBatch::ask(Question const& question) {
   for (SurfaceId const id : question.interiors) parts_.receivers.surface(id);
@@ -67,6 +74,26 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   Receiver const& seen = *asked.receiver;
   Found found;
   Casters const& casters = parts_.casters;
+  std::size_t const interiors = question.interiors.size();
+  auto const lay_out = [&](Detail& detail, bool screened) {
+    // Where one interior surface ends and the next begins, there is an edge too.
+    detail.across += static_cast<double>(std::min<std::size_t>(interiors, 6));
+    found.side = parts_.receivers.side_for(seen, detail, screened);
+    found.turn = best_turn(detail);
+  };
+  double const enough = parts_.receivers.size().enough();
+  if (may_be_crowd_) {
+    if (auto crowd = casters.crowd_in_view(parts_.scene, question.receiver, *seen.frame,
+                                           question.towards_sun, few_casters)) {
+      found.crowd_count = crowd->count();
+      Detail detail =
+          casters.detail(crowd->sample, *seen.frame, question.towards_sun, enough / crowd->each);
+      detail *= crowd->each;
+      lay_out(detail, false);
+      found.in_view.casters = std::move(crowd->sample);
+      return found;
+    }
+  }
   found.in_view =
       asked.in_sector != nullptr
           ? casters.in_view_of(*asked.in_sector, *seen.frame, question.towards_sun)
@@ -86,13 +113,8 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   };
   if (may_be_exact) found.exact = exact(few_steps);
   if (found.exact) return found;
-  Detail detail = casters.detail(in_view.casters, *seen.frame, question.towards_sun,
-                                 parts_.receivers.size().enough());
-  std::size_t const interiors = question.interiors.size();
-  // Where one interior surface ends and the next begins, there is an edge too.
-  detail.across += static_cast<double>(std::min<std::size_t>(interiors, 6));
-  found.side = parts_.receivers.side_for(seen, detail, screened);
-  found.turn = best_turn(detail);
+  Detail detail = casters.detail(in_view.casters, *seen.frame, question.towards_sun, enough);
+  lay_out(detail, screened);
   double const max_steps = sample_cost(detail, found.side, found.transmits, interiors);
   if (may_be_exact && max_steps > few_steps) found.exact = exact(max_steps);
   return found;
@@ -116,9 +138,15 @@ void QuestionBatch::enqueue(Asked const& asked, Found found, std::vector<Receive
   ReceiverView view{question.receiver,    &*seen.frame,     nullptr,
                     question.towards_sun, asked.cosine,     std::move(in_view.casters),
                     found.transmits,      question.through, question.interiors};
+  if (found.crowd_count > 0.0) {
+    view.crowd = &parts_.casters;
+    view.crowd_count = found.crowd_count;
+  }
   Tile& tile = parts_.receivers.tile(view.receiver, found.side, {found.turn});
   view.tile = &tile;
-  viewed_.push_back({asked, found.side, &tile, view.casters.size(), found.transmits});
+  std::size_t const casters_drawn =
+      view.crowd != nullptr ? static_cast<std::size_t>(view.crowd_count) : view.casters.size();
+  viewed_.push_back({asked, found.side, &tile, casters_drawn, found.transmits});
   views.push_back(std::move(view));
 }
 

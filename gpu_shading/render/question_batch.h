@@ -68,6 +68,7 @@ class QuestionBatch {
     InView in_view;
     bool clear = false;  // nothing shades the receiver
     bool transmits = false;
+    double crowd_count = 0.0;  // of casters, of which in_view has but a sample; 0: it has all
     std::optional<std::vector<LuminanceSums>> exact;  // where it costs less than samples
     // Of the tile, else.
     int side = 0;  // pixels
@@ -88,6 +89,7 @@ class QuestionBatch {
   void count(std::size_t casters, bool transmits);
 
   Parts parts_;
+  bool may_be_crowd_;
   std::vector<Asked> asked_;
   std::vector<Viewed> viewed_;
 };

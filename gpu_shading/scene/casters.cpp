@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "geometry/ring.h"
 #include "scene/shadow.h"
@@ -104,20 +105,54 @@ InView Casters::in_view(Scene const& scene, SurfaceId receiver, PlaneFrame const
                         glm::dvec3 const& towards_sun) const {
   InView found;
   Shadow shadow(frame, towards_sun);
-  std::optional<ShadingRule::Receiver> rule;
-  if (!scene.rule().empty()) rule.emplace(scene.rule(), receiver);
+  Counted const counted(*this, scene, receiver, towards_sun);
   tree_.search([&](glm::dvec3 const& centre,
                    glm::dvec3 const& reach) { return shadow.classify(centre, reach); },
                [&](std::uint32_t first, std::uint32_t count, Containment containment) {
                  for (std::uint32_t i = first; i < first + count; ++i) {
-                   Caster const& caster = casters_[i];
-                   if (caster.id == receiver || (rule && !rule->counts(caster.role))) continue;
                    bool const inside = containment == Containment::inside;
-                   add_if_in_view(caster, inside, frame, towards_sun, shadow, found);
+                   if (counted(i)) add_if_in_view(casters_[i], inside, frame, shadow, found);
                  }
                });
   sort_ids(found.casters, scene.size());
   return found;
+}
+
+std::optional<Crowd> Casters::crowd_in_view(Scene const& scene, SurfaceId receiver,
+                                            PlaneFrame const& frame, glm::dvec3 const& towards_sun,
+                                            std::size_t few) const {
+  constexpr std::size_t max_sample = 512;
+  if (casters_.size() <= few) return std::nullopt;
+  Shadow shadow(frame, towards_sun);
+  auto const& nodes = tree_.nodes();
+  // Nodes of one depth in the tree have equally many casters, give or take one.
+  std::vector<std::uint32_t> level{0};
+  std::size_t count = casters_.size();
+  while (level.size() < max_sample && count > few) {
+    std::vector<std::uint32_t> next;
+    count = 0;
+    for (std::uint32_t const parent : level) {
+      for (std::uint32_t node = nodes[parent].children; node < nodes[parent].children + 2; ++node) {
+        Bvh::Node const& child = nodes[node];
+        if (shadow.classify(child.centre, child.reach) == Containment::outside) continue;
+        next.push_back(node);
+        count += child.count;
+      }
+    }
+    level = std::move(next);
+  }
+  if (count <= few) return std::nullopt;
+  Counted const counted(*this, scene, receiver, towards_sun);
+  InView found;
+  for (std::uint32_t const node : level) {
+    std::uint32_t const middle = nodes[node].first + nodes[node].count / 2;
+    if (counted(middle)) add_if_in_view(casters_[middle], false, frame, shadow, found);
+  }
+  Crowd crowd{std::move(found.casters),
+              static_cast<double>(count) / static_cast<double>(level.size())};
+  if (crowd.count() <= static_cast<double>(few)) return std::nullopt;
+  std::sort(crowd.sample.begin(), crowd.sample.end());
+  return crowd;
 }
 
 std::optional<std::vector<std::uint32_t>> Casters::in_sector(Scene const& scene, SurfaceId receiver,
@@ -149,14 +184,15 @@ InView Casters::in_view_of(std::span<std::uint32_t const> positions, PlaneFrame 
   InView found;
   Shadow shadow(frame, towards_sun);
   for (std::uint32_t const position : positions) {
-    add_if_in_view(casters_[position], false, frame, towards_sun, shadow, found);
+    Caster const& caster = casters_[position];
+    if (caster.only_turned_away && glm::dot(caster.normal, towards_sun) > in_the_sun) continue;
+    add_if_in_view(caster, false, frame, shadow, found);
   }
   return found;
 }
 
 void Casters::add_if_in_view(Caster const& caster, bool inside, PlaneFrame const& frame,
-                             glm::dvec3 const& towards_sun, Shadow& shadow, InView& found) const {
-  if (caster.only_turned_away && glm::dot(caster.normal, towards_sun) > in_the_sun) return;
+                             Shadow& shadow, InView& found) const {
   if (!inside && !is_in_view(caster, frame, shadow)) return;
   found.casters.push_back(caster.id);
   found.warped = found.warped || caster.warped;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -39,6 +41,14 @@ struct InView {
   bool warped = false;             // one is not flat: its triangles cast more than its outline
 };
 
+// A sample of the casters that may shade a receiver at one sun direction, where they are many.
+struct Crowd {
+  std::vector<SurfaceId> sample;  // spread evenly over all of them, in the order of their ids
+  double each = 1.0;              // the number of casters for which one of these stands
+
+  double count() const { return each * static_cast<double>(sample.size()); }
+};
+
 // A rectangle of sun directions over a receiver, by the tangents of their angles to its normal
 // towards its u and its v axis.
 struct SunSector {
@@ -57,6 +67,44 @@ class Casters {
   // the rule allows it. `towards_sun` must be in front of the plane.
   InView in_view(Scene const& scene, SurfaceId receiver, PlaneFrame const& frame,
                  glm::dvec3 const& towards_sun) const;
+
+  // A sample of in_view() at a cost that hardly depends on their number; empty if they are no more
+  // than `few`.
+  std::optional<Crowd> crowd_in_view(Scene const& scene, SurfaceId receiver,
+                                     PlaneFrame const& frame, glm::dvec3 const& towards_sun,
+                                     std::size_t few) const;
+
+  // For searches by others: the tree, of the casters' boxes, and the caster at a position in it.
+  Bvh const& tree() const { return tree_; }
+  SurfaceId id(std::uint32_t position) const { return casters_[position].id; }
+  // Which casters count for a receiver at one sun direction, wherever they are.
+  class Counted {
+   public:
+    Counted(Casters const& casters, Scene const& scene, SurfaceId receiver,
+            glm::dvec3 const& towards_sun)
+        : casters_(casters), receiver_(receiver), towards_sun_(towards_sun) {
+      if (!scene.rule().empty()) rule_.emplace(scene.rule(), receiver);
+    }
+    // Whether some vertex is clearly in front of a receiver's plane.
+    bool is_in_front(std::uint32_t position, glm::dvec3 const& origin,
+                     glm::dvec3 const& normal) const {
+      auto const points = casters_.points(casters_.casters_[position]);
+      return std::any_of(points.begin(), points.end(), [&](glm::dvec3 const& point) {
+        return glm::dot(normal, point - origin) > coplanar;
+      });
+    }
+    bool operator()(std::uint32_t position) const {
+      Caster const& caster = casters_.casters_[position];
+      if (caster.id == receiver_ || (rule_ && !rule_->counts(caster.role))) return false;
+      return !caster.only_turned_away || glm::dot(caster.normal, towards_sun_) <= in_the_sun;
+    }
+
+   private:
+    Casters const& casters_;
+    SurfaceId receiver_;
+    glm::dvec3 towards_sun_;
+    std::optional<ShadingRule::Receiver> rule_;
+  };
 
   // Positions in the tree of casters among which are all that are in view from some sun direction
   // of a sector, in the order of their ids; empty where a search costs less than so many tests.
@@ -93,9 +141,9 @@ class Casters {
     return {holes_.data() + caster.first_hole, caster.holes};
   }
 
-  // Adds a caster if it is in view; with `inside`, it is.
-  void add_if_in_view(Caster const& caster, bool inside, PlaneFrame const& frame,
-                      glm::dvec3 const& towards_sun, Shadow& shadow, InView& found) const;
+  // Adds a caster that counts if it is in view; with `inside`, it is.
+  void add_if_in_view(Caster const& caster, bool inside, PlaneFrame const& frame, Shadow& shadow,
+                      InView& found) const;
   bool is_in_view(Caster const& caster, PlaneFrame const& frame, Shadow& shadow) const;
 
   // All in the tree's order, in which a search goes through them.

@@ -29,6 +29,12 @@ struct Detail {
   std::array<double, turns> in_step{};
 
   double total() const { return along + across; }
+  Detail& operator*=(double factor) {
+    along *= factor;
+    across *= factor;
+    for (double& part : in_step) part *= factor;
+    return *this;
+  }
 };
 
 // The turn with the least detail in step with a tile's samples; the first, unless another is much

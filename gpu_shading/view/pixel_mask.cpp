@@ -78,6 +78,25 @@ void PixelMask::start(int columns, int first_row, int end_row) {
   words_.assign(static_cast<std::size_t>(end_row - first_row) * stride_ + spare, 0);
 }
 
+bool PixelMask::any_lit(int first_row, int end_row, int first_column, int end_column) const {
+  constexpr std::uint64_t all = ~std::uint64_t{0};
+  int const last_column = end_column - 1;
+  std::uint64_t const from = all << static_cast<unsigned>(first_column % word_bits);
+  std::uint64_t const to = all >> static_cast<unsigned>(word_bits - 1 - last_column % word_bits);
+  int const first_word = first_column / word_bits;
+  int const last_word = last_column / word_bits;
+  std::uint64_t const* row = &words_[static_cast<std::size_t>(first_row - first_row_) * stride_];
+  for (int i = first_row; i < end_row; ++i, row += stride_) {
+    for (int word = first_word; word <= last_word; ++word) {
+      std::uint64_t lit = row[word];
+      if (word == first_word) lit &= from;
+      if (word == last_word) lit &= to;
+      if (lit != 0) return true;
+    }
+  }
+  return false;
+}
+
 template <bool light>
 void PixelMask::fill(ConvexArea const& area) {
   auto const fill_rows = [&](int row, int rows, RowSpans const& spans) {

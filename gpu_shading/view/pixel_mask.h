@@ -54,6 +54,13 @@ class PixelMask {
   void darken(ConvexArea const& area);
 
   std::uint64_t lit() const { return count_common(words(), words()); }
+  // Whether some pixel of a rectangle is lit; ends are exclusive. `first_row` and the rest must be
+  // within the mask.
+  bool any_lit(int first_row, int end_row, int first_column, int end_column) const;
+
+  int columns() const { return columns_; }
+  int first_row() const { return first_row_; }
+  int end_row() const { return end_row_; }
 
   // Row after row, each beginning with a new word; the lowest bit of a word is the leftmost pixel.
   std::span<std::uint64_t> words() { return {words_.data(), words_.size() - spare}; }

@@ -173,6 +173,7 @@ void Coverage::shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* pa
 
 void Coverage::darken(PixelMask& mask, int side, View const& pixels,
                       CastersInView const& casters) const {
+  if (casters.crowd != nullptr) return casters.crowd->darken(mask, side, pixels, casters.question);
   cover(mask, side, pixels, casters, {}, [](ConvexArea const&, Shade const&) {});
 }
 

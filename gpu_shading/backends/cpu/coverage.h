@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "antialias/antialias.h"
+#include "backends/cpu/crowd_raster.h"
 #include "backends/cpu/passed_schedules.h"
 #include "backends/cpu/surface_pieces.h"
 #include "backends/interface/view_backend.h"
@@ -25,6 +26,9 @@ struct CastersInView {
   std::span<Shade const> shades;        // of each surface; none where all are opaque
   BodiesInView bodies;
   SampledRepeats repeats = {};  // of surfaces at equal distances
+  // Where `surfaces` are only a sample: rasterises all of them, which are opaque.
+  CrowdRaster const* crowd = nullptr;
+  CrowdQuestion question = {};
 
   bool opaque() const { return shades.empty() && bodies.empty(); }
 };

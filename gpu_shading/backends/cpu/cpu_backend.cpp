@@ -61,7 +61,10 @@ void CpuBackend::add(std::vector<ReceiverView> views) {
   std::vector<ScreensAtDirection> directions;
   std::vector<ViewScreens> noted;
   noted.reserve(views.size());
-  for (ReceiverView const& view : views) noted.push_back(note_screens(view, directions));
+  for (ReceiverView const& view : views) {
+    noted.push_back(note_screens(view, directions));
+    if (view.crowd != nullptr && !crowd_) crowd_.emplace(scene_, *view.crowd, coverage_.pieces());
+  }
   std::vector<std::vector<SheetInBeam>> sheets(directions.size());
   for_each_index(sheets.size(),
                  [&](std::size_t i) { sheets[i] = transmission_.sheets(directions[i]); });
@@ -74,7 +77,8 @@ void CpuBackend::add(std::vector<ReceiverView> views) {
     if (!noted[i].numbers.empty()) {
       screens = {&transmission_.screens(), sheets[noted[i].direction], noted[i].numbers};
     }
-    bool const shared = few && (view.casters.size() >= worth_sharing || !screens.numbers.empty());
+    bool const shared = few && (view.crowd != nullptr || view.casters.size() >= worth_sharing ||
+                                !screens.numbers.empty());
     sums_[first + i] = sums_of(view, screens, shared ? available_threads() : 1);
   });
 }
@@ -102,6 +106,10 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
     casters.shades = shades;
     crowns = transmission_.crowns_among(view.casters, view.towards_sun);
     casters.bodies.crowns = crowns;
+  }
+  if (view.crowd != nullptr) {
+    casters.crowd = &*crowd_;
+    casters.question = {view.receiver, view.towards_sun};
   }
   if (!view.at_pixels) casters.repeats = repeats_among(scene_, casters.surfaces);
   Samples const samples = view.at_pixels ? Samples::pixels : Samples::fine;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,7 @@ class CpuBackend : public ViewBackend {
   DeviceInfo device_;
   Scene const& scene_;
   Coverage coverage_;
+  std::optional<CrowdRaster> crowd_;  // once there is one
   Transmission const& transmission_;
   RendererStatistics& statistics_;
   std::vector<ViewSums> sums_;

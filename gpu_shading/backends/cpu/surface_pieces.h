@@ -69,6 +69,13 @@ class SurfacePieces {
     }
   }
 
+  // The four corners of a surface that is one piece, the last two of them equal if it has three;
+  // none for others.
+  std::span<glm::dvec3 const> corners_of_only_piece(SurfaceId id) const {
+    if (ranges_[id].count != 1) return {};
+    return pieces_[ranges_[id].first].corners;
+  }
+
  private:
   // Corners are stored with each piece: read one after another, they come from memory faster than
   // by way of indices.

@@ -12,6 +12,7 @@
 #include "gpu_shading/device.h"
 #include "gpu_shading/renderer_statistics.h"
 #include "gpu_shading/scene.h"
+#include "scene/casters.h"
 #include "view/tile.h"
 
 namespace gpu_shading {
@@ -32,6 +33,10 @@ struct ReceiverView {
   // Sampled at the centres of the tile's pixels, even by a back end that has better samples: for
   // comparison with another.
   bool at_pixels = false;
+  // Where casters are many and the back end searches for them itself: all, and for the sample of
+  // them in `casters` how many there are about.
+  Casters const* crowd = nullptr;
+  double crowd_count = 0.0;
 
   // Area of a pixel normal to the beam, m2; on a bounding tile, of all that is seen through it.
   double pixel_area() const { return tile->map.pixel_area(tile->side) * cosine; }
@@ -77,7 +82,7 @@ class ViewBackend {
   virtual DeviceInfo const& device() const = 0;
 
   // Whether it samples views at the centres of their tiles' pixels, so that tiles should not alias
-  // with what repeats in a view.
+  // with what repeats in a view. Otherwise it also searches crowds of opaque casters itself.
   virtual bool samples_pixels() const { return true; }
 
   // Takes a batch of views, which may be started at once or later. Throws DeviceError if the device

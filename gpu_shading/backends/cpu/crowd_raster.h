@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "backends/cpu/surface_pieces.h"
+#include "gpu_shading/scene.h"
+#include "scene/casters.h"
+#include "view/pixel_mask.h"
+#include "view/view.h"
+
+namespace gpu_shading {
+
+// The question for which a crowd of casters is searched.
+struct CrowdQuestion {
+  SurfaceId receiver = 0;
+  glm::dvec3 towards_sun{0.0};
+};
+
+// Rasterises opaque casters where they are many, in one search of their tree. Corners are stored in
+// the tree's order, and projected for eight casters at once; nodes that meet no lit sample are
+// passed over.
+class CrowdRaster {
+ public:
+  // All must outlive it.
+  CrowdRaster(Scene const& scene, Casters const& casters, SurfacePieces const& pieces);
+
+  // Takes the samples that some caster covers from a mask. `pixels`: the view in front of the
+  // receiver, with x and y in pixels of a grid of up to `side` columns and rows.
+  void darken(PixelMask& mask, int side, View const& pixels, CrowdQuestion const& question) const;
+
+ private:
+  static constexpr std::size_t at_once = 8;
+
+  struct Search;
+
+  void darken_some(Search& search, std::uint32_t first, std::uint32_t count) const;
+  // Calls use(area) for the pieces of a caster that may shade the receiver.
+  template <typename Use>
+  void each_area(Search const& search, std::uint32_t position, Use use) const;
+
+  Scene const& scene_;
+  Casters const& casters_;
+  SurfacePieces const& pieces_;
+  std::vector<double> corners_[4][3];  // by axis, and by position in the tree
+  std::vector<std::uint8_t> several_;  // positions whose casters are more than one piece
+};
+
+}  // namespace gpu_shading

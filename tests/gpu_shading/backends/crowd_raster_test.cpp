@@ -1,0 +1,115 @@
+#include "backends/cpu/crowd_raster.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "backends/cpu/coverage.h"
+#include "geometry/triangulation.h"
+#include "support/random_scene.h"
+#include "support/shapes.h"
+
+namespace gpu_shading {
+namespace {
+
+// Leaves, triangles, angles of two pieces and crossing plates in front of a window, some of them
+// through its plane or on it, some of them cast only when turned away.
+Scene mixed_crowd(int count) {
+  Scene scene;
+  std::mt19937 generator{5};
+  auto const between = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(generator()) / std::mt19937::max();
+  };
+  scene.add({"window", south_facing(0, 0, 0, 3, 2)});
+  for (int i = 0; i < count; ++i) {
+    glm::dvec3 const corner(between(-1, 4), between(-2, 0.2), between(-1, 4));
+    double const size = between(0.02, 0.2);
+    glm::dvec3 const a(size, between(-size, size), 0.0);
+    glm::dvec3 const b(0.0, between(-size, size), size);
+    Surface surface{"caster", parallelogram(corner, a, b)};
+    if (i % 4 == 1) surface.polygon.outline.pop_back();
+    if (i % 4 == 2) {
+      surface.polygon.outline = {corner,
+                                 corner + a,
+                                 corner + a + 0.3 * b,
+                                 corner + 0.3 * a + 0.3 * b,
+                                 corner + 0.3 * a + b,
+                                 corner + b};
+    }
+    if (i % 8 == 3) surface.casting = Casting::turned_away;
+    if (i % 16 == 4) surface.polygon = south_facing(corner.x, -5e-5, corner.z, size, size);
+    scene.add(surface);
+  }
+  return scene;
+}
+
+// Every third caster counts.
+ShadingRule thirds(Scene const& scene) {
+  ShadingRule rule;
+  rule.zones = 2;
+  rule.zone_shades = {1, 0, 1, 1};
+  rule.roles.resize(scene.size());
+  for (std::size_t id = 0; id < scene.size(); ++id) {
+    rule.roles[id].wall = static_cast<std::uint32_t>(id);
+    rule.roles[id].zone = id % 3 == 0 ? 0 : 1;
+  }
+  return rule;
+}
+
+void expect_as_listed(Scene const& scene, char const* name) {
+  SCOPED_TRACE(name);
+  Casters const casters(scene);
+  Coverage const coverage(triangulate_all(scene));
+  CrowdRaster const crowd(scene, casters, coverage.pieces());
+  PlaneFrame const frame = *plane_frame(scene[0].polygon);
+  int partly_lit = 0;
+  for (int i = 0; i < 12; ++i) {
+    glm::dvec3 const towards_sun = to_vector(sun_at(100 + 14 * i, 4 + 6 * i));
+    if (glm::dot(frame.normal, towards_sun) <= 0.0) continue;
+    std::vector<SurfaceId> const listed = casters.in_view(scene, 0, frame, towards_sun).casters;
+    for (int const side : {16, 100, 512}) {
+      Tile const tile = make_tile(scene[0].polygon, frame, side, 4096);
+      View const view = view_in_front(frame, tile.map, towards_sun);
+      CastersInView in_view{listed, {}, {}};
+      double const expected = coverage.sums(tile, view, in_view, Samples::fine, 1).unscheduled;
+      in_view.crowd = &crowd;
+      in_view.question = {0, towards_sun};
+      for (int const threads : {1, 3}) {
+        EXPECT_EQ(coverage.sums(tile, view, in_view, Samples::fine, threads).unscheduled, expected)
+            << "direction " << i << ", side " << side;
+      }
+      partly_lit += expected > 0.0 && expected < static_cast<double>(tile.counted_pixels) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(partly_lit, 10);
+}
+
+TEST(CrowdRaster, CoversTheSamplesThatListedCastersCover) {
+  expect_as_listed(triangle_soup(400, 3), "triangles");
+  Scene scene = mixed_crowd(700);
+  expect_as_listed(scene, "mixed");
+  scene.set_rule(thirds(scene));
+  expect_as_listed(scene, "with a rule");
+  expect_as_listed(mixed_crowd(5), "few");
+}
+
+TEST(CrowdInView, SamplesTheCastersInView) {
+  Scene scene = mixed_crowd(20000);
+  scene.set_rule(thirds(scene));
+  Casters const casters(scene);
+  PlaneFrame const frame = *plane_frame(scene[0].polygon);
+  for (int i = 0; i < 10; ++i) {
+    glm::dvec3 const towards_sun = to_vector(sun_at(110 + 14 * i, 5 + 5 * i));
+    std::vector<SurfaceId> const all = casters.in_view(scene, 0, frame, towards_sun).casters;
+    auto const crowd = casters.crowd_in_view(scene, 0, frame, towards_sun, all.size() / 3);
+    ASSERT_TRUE(crowd) << i;
+    EXPECT_TRUE(std::includes(all.begin(), all.end(), crowd->sample.begin(), crowd->sample.end()));
+    EXPECT_NEAR(crowd->count(), static_cast<double>(all.size()),
+                0.3 * static_cast<double>(all.size()));
+    EXPECT_FALSE(casters.crowd_in_view(scene, 0, frame, towards_sun, 3 * all.size()));
+  }
+}
+
+}  // namespace
+}  // namespace gpu_shading
