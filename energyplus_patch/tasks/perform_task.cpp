@@ -26,12 +26,17 @@ CachedRenderer open_for_task(SceneAssembly& scene, std::vector<SurfaceId> const&
   check_device(answers.renderer().device(), options, messages);
   describe_scene(scene, messages);
   scene.optics().update({});
-  answers.deploy(scene.optics().deployments());
+  answers.deploy(scene.optics().deployments(), scene.positions());
   return answers;
 }
 
-// Each position of a screen would need samples of its own.
-void refuse_moving_screens(ShadeOptics const& optics) {
+// Each position of a screen or shade would need samples of its own.
+void refuse_moving_shades(SceneAssembly const& scene) {
+  if (auto const& shades = scene.model().moving_shades; !shades.empty()) {
+    throw Error(fmt::format("{}: samples cannot be taken of a model with moving shades",
+                            shades.front().where));
+  }
+  auto const& optics = scene.optics();
   for (auto const& name : optics.deployment_names()) {
     auto const [least, most] = optics.schedules().range(name);
     if (least < most) {
@@ -61,7 +66,7 @@ SampledScene sampled_scene(SamplesTask const& task, SceneAssembly const& scene,
 
 std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages const& messages) {
   auto const& options = scene.model().options;
-  refuse_moving_screens(scene.optics());
+  refuse_moving_shades(scene);
   // All that a run asks for, because the samples depend on it.
   auto answers = open_for_task(scene, scene.receivers(), messages);
   auto const& device = answers.renderer().device();
