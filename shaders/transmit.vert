@@ -20,6 +20,7 @@ layout(location = 10) in ivec4 numbers;  // layer; first key, -1 none; first sha
 struct Shade {
   float transmittance;  // 0 opaque
   int schedule;         // -1 none
+  float extinction;     // of a crown
 };
 layout(std430, binding = 0) readonly buffer Shades { Shade shades[]; };
 layout(std430, binding = 1) readonly buffer Keys { vec4 keys[]; };

@@ -8,7 +8,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -16,7 +15,6 @@
 #include <thread>
 
 #include "files/decoding/decoded_message.h"
-#include "files/decoding_server.h"
 #include "gpu_shading/error.h"
 #include "platform/text.h"
 
@@ -28,14 +26,14 @@ namespace {
 }
 
 // Opens a file that must be a regular one, of no more than a size.
-void open_input(FileDescriptor const& file, std::uint64_t most) {
+void open_input(FileDescriptor const& file, std::uint64_t max_bytes) {
   struct stat found {};
   if (!file.is_open()) fail_to_decode("cannot be opened");
   if (fstat(file.get(), &found) != 0) fail_to_decode("cannot be opened");
   if (!S_ISREG(found.st_mode)) throw Error("is not a file");
-  if (static_cast<std::uint64_t>(found.st_size) > most) {
+  if (static_cast<std::uint64_t>(found.st_size) > max_bytes) {
     constexpr unsigned mebibyte = 20;
-    throw Error(fmt::format("is larger than {} MiB", most >> mebibyte));
+    throw Error(fmt::format("is larger than {} MiB", max_bytes >> mebibyte));
   }
 }
 

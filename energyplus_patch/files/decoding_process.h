@@ -27,7 +27,7 @@ struct DecodingLimits {
 };
 
 // Reads a file by one of our decoding programs, in a process of its own (files/decoding/decoder.h),
-// and its answer, of which nothing is trusted. Every function throws Error with the reason in one
+// and its untrusted reply. Every function throws Error with the reason in one
 // line, to which the caller adds the file's name: also if the program crashes or reaches a limit.
 class DecodingProcess {
  public:
@@ -41,11 +41,11 @@ class DecodingProcess {
 
   // The next value. If it is not in the range, the program is wrong about its own answer.
   template <typename Value>
-  Value next(Value least, Value most) {
+  Value next(Value min, Value max) {
     static_assert(std::is_arithmetic_v<Value>);
     Value value{};
     read(&value, sizeof value);
-    if (!(value >= least && value <= most)) throw_invalid();
+    if (!(value >= min && value <= max)) throw_invalid();
     return value;
   }
 

@@ -15,8 +15,8 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-// `most`: the texels of an image that is read as a whole.
-TextureInfo read(char const* operation, std::int64_t most, std::filesystem::path const& path,
+// `max_texels`: the texels of an image that is read as a whole.
+TextureInfo read(char const* operation, std::int64_t max_texels, std::filesystem::path const& path,
                  Assets assets) {
   require_file(path);
   return naming(fmt::format("{}: cannot be read", path.string()), [&] {
@@ -28,7 +28,7 @@ TextureInfo read(char const* operation, std::int64_t most, std::filesystem::path
     info.channels = decoding.next<std::int32_t>(1, largest);
     info.alpha = decoding.next<std::int32_t>(0, 1) == 1;
     auto const all = std::int64_t{info.width} * info.height;
-    auto const expected = all > most ? 0 : static_cast<std::uint64_t>(all);
+    auto const expected = all > max_texels ? 0 : static_cast<std::uint64_t>(all);
     decoding.next<std::uint64_t>(expected, expected);
     info.opacity = decoding.next_all<std::uint16_t>(expected);
     decoding.finish();
@@ -61,10 +61,10 @@ decoding::Elevations read_elevations(std::filesystem::path const& path) {
   DecodingProcess decoding("gpu_shading_image_decoder", "elevations", path, Assets::restricted);
   decoding::Elevations result;
   auto& header = result.header;
-  constexpr auto most = std::numeric_limits<std::int32_t>::max();
-  header.columns = decoding.next<std::int32_t>(1, most);
-  header.rows = decoding.next<std::int32_t>(1, most);
-  header.epsg = decoding.next<std::int32_t>(0, most);
+  constexpr auto max_value = std::numeric_limits<std::int32_t>::max();
+  header.columns = decoding.next<std::int32_t>(1, max_value);
+  header.rows = decoding.next<std::int32_t>(1, max_value);
+  header.epsg = decoding.next<std::int32_t>(0, max_value);
   for (auto* const value : {&header.x, &header.y, &header.step_x, &header.step_y}) {
     *value = decoding.next_double();
     if (!std::isfinite(*value)) throw Error("the position of its cells is not finite");

@@ -9,7 +9,7 @@
 
 namespace gpu_shading::energyplus {
 
-// An image as it is to be seen: turned as its EXIF orientation says, and all of its display window.
+// An image as displayed: turned as its EXIF orientation says, and all of its display window.
 struct TextureInfo {
   int width = 0;  // texels
   int height = 0;

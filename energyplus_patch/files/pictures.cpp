@@ -14,7 +14,6 @@
 #include "files/picture_plugin/picture_plugin.h"
 #include "files/sibling_file.h"
 #include "gpu_shading/error.h"
-#include "gpu_shading/image.h"
 #include "gpu_shading/scene_view.h"
 #include "platform/text.h"
 

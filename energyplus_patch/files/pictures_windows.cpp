@@ -14,7 +14,6 @@
 #include "files/picture_plugin/sheet_layout.h"
 #include "files/pictures.h"
 #include "gpu_shading/error.h"
-#include "gpu_shading/image.h"
 #include "platform/text.h"
 #include "platform/wide_text.h"
 

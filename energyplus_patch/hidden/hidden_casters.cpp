@@ -83,22 +83,22 @@ bool HiddenCasters::set_hour(int hour) {
   return true;
 }
 
-std::vector<HiddenCasters::Way> HiddenCasters::ways(std::span<Ray const> rays) const {
+std::vector<HiddenCasters::RayPath> HiddenCasters::paths(std::span<Ray const> rays) const {
   std::vector<std::vector<RayLayer>> met(rays.size());
   hidden_->layers(rays, conditions(), met);
-  std::vector<Way> ways;
-  for (std::size_t i = 0; i < rays.size(); ++i) ways.push_back(way_of(rays[i], met[i]));
-  return ways;
+  std::vector<RayPath> paths;
+  for (std::size_t i = 0; i < rays.size(); ++i) paths.push_back(path_of(rays[i], met[i]));
+  return paths;
 }
 
-HiddenCasters::Way HiddenCasters::way(Ray const& ray) const {
-  return way_of(ray, hidden_->layers(ray, conditions()));
+HiddenCasters::RayPath HiddenCasters::path(Ray const& ray) const {
+  return path_of(ray, hidden_->layers(ray, conditions()));
 }
 
-HiddenCasters::Way HiddenCasters::way_of(Ray const& ray,
-                                         std::vector<RayLayer> const& layers) const {
-  Way way;
-  way.free = layers.empty();
+HiddenCasters::RayPath HiddenCasters::path_of(Ray const& ray,
+                                              std::vector<RayLayer> const& layers) const {
+  RayPath path;
+  path.free = layers.empty();
   auto const along = glm::normalize(ray.direction);
   for (auto const& met : layers) {
     Layer layer;
@@ -106,11 +106,11 @@ HiddenCasters::Way HiddenCasters::way_of(Ray const& ray,
     layer.at = ray.origin + met.distance * along;
     layer.normal = normal(surfaces_[met.surface].polygon);
     if (glm::dot(layer.normal, along) > 0.0) layer.normal = -layer.normal;
-    layer.reflectance = way.passed * reflectance(met.surface, met.transmittance);
-    way.passed *= met.transmittance;
-    if (layer.reflectance > 0.0) way.layers.push_back(layer);
+    layer.reflectance = path.passed * reflectance(met.surface, met.transmittance);
+    path.passed *= met.transmittance;
+    if (layer.reflectance > 0.0) path.layers.push_back(layer);
   }
-  return way;
+  return path;
 }
 
 double HiddenCasters::reflectance(SurfaceId id, double transmittance) const {

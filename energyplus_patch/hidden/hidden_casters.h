@@ -90,13 +90,13 @@ class HiddenCasters {
     glm::dvec3 normal{0.0};    // on the side that the ray meets
     double reflectance = 0.0;  // times the transmittance on the way back
   };
-  struct Way {
+  struct RayPath {
     std::vector<Layer> layers;  // that reflect, nearest first
     double passed = 1.0;        // of all casters
     bool free = true;           // it meets none
   };
-  std::vector<Way> ways(std::span<Ray const> rays) const;
-  Way way(Ray const& ray) const;
+  std::vector<RayPath> paths(std::span<Ray const> rays) const;
+  RayPath path(Ray const& ray) const;
 
   // Reads the schedules of an hour, 1 .. 24, at its first timestep. Returns whether they have other
   // values than before.
@@ -130,7 +130,7 @@ class HiddenCasters {
 
  private:
   RayConditions conditions() const { return shares_.conditions(); }
-  Way way_of(Ray const& ray, std::vector<RayLayer> const& layers) const;
+  RayPath path_of(Ray const& ray, std::vector<RayLayer> const& layers) const;
   double reflectance(SurfaceId surface, double transmittance) const;
 
   SceneAssembly const& scene_;

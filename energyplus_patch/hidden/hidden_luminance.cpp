@@ -34,25 +34,25 @@ std::size_t HiddenLuminance::Hash::operator()(std::array<double, 3> const& point
 void HiddenLuminance::renew() { casters_.renew(); }
 
 void HiddenLuminance::set_hour(int hour) {
-  if (casters_.set_hour(hour)) last_way_.reset();
+  if (casters_.set_hour(hour)) last_path_.reset();
 }
 
 // EnergyPlus asks for the same ray hour by hour.
-HiddenCasters::Way const& HiddenLuminance::way(Ray const& ray) {
-  bool const same = last_way_ && ray.origin == last_.origin && ray.direction == last_.direction &&
+HiddenCasters::RayPath const& HiddenLuminance::path(Ray const& ray) {
+  bool const same = last_path_ && ray.origin == last_.origin && ray.direction == last_.direction &&
                     ray.length == last_.length;
   if (!same) {
     last_ = ray;
-    last_way_ = casters_.way(ray);
+    last_path_ = casters_.path(ray);
   }
-  return *last_way_;
+  return *last_path_;
 }
 
-bool HiddenLuminance::meets(Ray const& ray) { return !way(ray).free; }
+bool HiddenLuminance::meets(Ray const& ray) { return !path(ray).free; }
 
 HiddenLuminance::View HiddenLuminance::view(Ray const& ray, int hour, glm::dvec3 const& to_sun) {
   set_hour(hour);
-  auto const& met = way(ray);
+  auto const& met = path(ray);
   View view;
   view.passed = met.passed;
   for (auto const& layer : met.layers) {
@@ -72,10 +72,10 @@ double HiddenLuminance::transmittance(Ray const& ray, int hour) {
 }
 
 std::optional<double> HiddenLuminance::sky_on_ground(glm::dvec3 const& point) {
-  constexpr std::size_t most = 1'000'000;
+  constexpr std::size_t max_skies = 1'000'000;
   set_hour(1);
   auto const version = casters_.sky_version();
-  if (version != skies_version_ || skies_.size() >= most) skies_.clear();
+  if (version != skies_version_ || skies_.size() >= max_skies) skies_.clear();
   skies_version_ = version;
   auto const [place, added] = skies_.try_emplace({point.x, point.y, point.z});
   if (added) place->second = seen_sky(point);

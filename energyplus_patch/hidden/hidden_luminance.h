@@ -52,7 +52,7 @@ class HiddenLuminance {
     std::size_t operator()(std::array<double, 3> const& point) const noexcept;
   };
   void set_hour(int hour);
-  HiddenCasters::Way const& way(Ray const& ray);
+  HiddenCasters::RayPath const& path(Ray const& ray);
   std::optional<double> seen_sky(glm::dvec3 const& point) const;
 
   HiddenCasters casters_;
@@ -60,7 +60,7 @@ class HiddenLuminance {
   std::unordered_map<std::array<double, 3>, std::optional<double>, Hash> skies_;
   unsigned skies_version_ = 0;
   Ray last_;
-  std::optional<HiddenCasters::Way> last_way_;
+  std::optional<HiddenCasters::RayPath> last_path_;
 };
 
 }  // namespace gpu_shading::energyplus

@@ -16,7 +16,7 @@ HiddenReflections::HiddenReflections(SceneAssembly const& scene)
 
 void HiddenReflections::set_rays(std::vector<ReflectionRay> rays) {
   rays_ = std::move(rays);
-  ways_.clear();
+  paths_.clear();
   moment_.reset();
 }
 
@@ -30,10 +30,10 @@ void HiddenReflections::trace(int hour) {
   if (moment_ == hour) return;
   moment_ = hour;
   bool const changed = casters_.set_hour(hour);
-  if (ways_.size() == rays_.size() && !changed) return;
+  if (paths_.size() == rays_.size() && !changed) return;
   std::vector<Ray> rays;
   for (auto const& ray : rays_) rays.push_back({ray.origin, ray.direction, ray.distance});
-  ways_ = casters_.ways(rays);
+  paths_ = casters_.paths(rays);
 }
 
 std::vector<ReflectedShare> const& HiddenReflections::beam(Sun const& sun) {
@@ -57,7 +57,7 @@ void HiddenReflections::keep(glm::dvec3 const& to_sun) {
   std::vector<Ray> from_dimmed;
   for (std::size_t i = 0; i < rays_.size(); ++i) {
     auto& kept = shares_[i].kept;
-    kept = ways_[i].passed * hidden_pass[i];
+    kept = paths_[i].passed * hidden_pass[i];
     if (rays_[i].meets != ReflectionRay::Meets::ground || kept >= 1.0) continue;
     if (kept > 0.0) {
       dimmed.push_back(i);
@@ -67,7 +67,7 @@ void HiddenReflections::keep(glm::dvec3 const& to_sun) {
   }
   auto const all_pass = casters_.transmittances_of_all(from_dimmed);
   for (std::size_t i = 0; i < dimmed.size(); ++i) {
-    shares_[dimmed[i]].ground = ways_[dimmed[i]].passed * all_pass[i];
+    shares_[dimmed[i]].ground = paths_[dimmed[i]].passed * all_pass[i];
   }
 }
 
@@ -81,7 +81,7 @@ void HiddenReflections::reflect(Sun const& sun) {
   std::vector<Facing> facing;
   std::vector<Ray> to_the_sun;
   for (std::size_t i = 0; i < rays_.size(); ++i) {
-    for (auto const& layer : ways_[i].layers) {
+    for (auto const& layer : paths_[i].layers) {
       double const cosine = glm::dot(layer.normal, sun.direction);
       if (cosine <= 0.0) continue;
       facing.push_back({i, &layer, cosine});
@@ -100,25 +100,26 @@ void HiddenReflections::reflect(Sun const& sun) {
 std::vector<ReflectedShare> const& HiddenReflections::sky() {
   trace(1);
   shares_.assign(rays_.size(), {});
-  for (std::size_t i = 0; i < rays_.size(); ++i) shares_[i] = sky_share(rays_[i], ways_[i]);
+  for (std::size_t i = 0; i < rays_.size(); ++i) shares_[i] = sky_share(rays_[i], paths_[i]);
   return shares_;
 }
 
-ReflectedShare HiddenReflections::sky_share(ReflectionRay const& ray, Way const& way) {
+ReflectedShare HiddenReflections::sky_share(ReflectionRay const& ray, RayPath const& path) {
   ReflectedShare share;
-  share.kept = way.passed;
-  for (auto const& layer : way.layers) share.shades += layer.reflectance * casters_.sky_view(layer);
-  if (ray.meets != ReflectionRay::Meets::ground || way.passed <= 0.0) return share;
+  share.kept = path.passed;
+  for (auto const& layer : path.layers)
+    share.shades += layer.reflectance * casters_.sky_view(layer);
+  if (ray.meets != ReflectionRay::Meets::ground || path.passed <= 0.0) return share;
 
   std::vector<Ray> upward;
   for (auto const& patch : sky_patches_from_ground()) upward.push_back({ray.hit, patch.direction});
   auto const hidden_pass = casters_.transmittances(upward);
   bool const free =
       std::all_of(hidden_pass.begin(), hidden_pass.end(), [](double p) { return p >= 1.0; });
-  if (free && way.passed >= 1.0) return share;
+  if (free && path.passed >= 1.0) return share;
   auto const all_pass = casters_.transmittances_of_all(upward);
   for (std::size_t i = 0; i < upward.size(); ++i) {
-    share.ground += way.passed * sky_patches_from_ground()[i].share * all_pass[i];
+    share.ground += path.passed * sky_patches_from_ground()[i].share * all_pass[i];
   }
   share.kept = 0.0;
   return share;

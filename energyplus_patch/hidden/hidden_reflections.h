@@ -78,17 +78,17 @@ class HiddenReflections {
 
  private:
   using Layer = HiddenCasters::Layer;
-  using Way = HiddenCasters::Way;
+  using RayPath = HiddenCasters::RayPath;
 
   void trace(int hour);
   void keep(glm::dvec3 const& to_sun);
   void reflect(Sun const& sun);
-  ReflectedShare sky_share(ReflectionRay const& ray, Way const& way);
+  ReflectedShare sky_share(ReflectionRay const& ray, RayPath const& path);
   bool lit(Layer const& layer, std::optional<glm::dvec3> const& to_sun);
 
   HiddenCasters casters_;
   std::vector<ReflectionRay> rays_;
-  std::vector<Way> ways_;  // by ray, once traced
+  std::vector<RayPath> paths_;  // by ray, once traced
   std::vector<ReflectedShare> shares_;
   std::optional<int> moment_;  // the hour of the ways
   std::map<HiddenCasters::Side, bool> lit_;

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "model/extensions/extension_fields.h"
 #include "platform/text.h"
@@ -71,12 +69,13 @@ std::vector<std::string> warn_of_rays(std::vector<InputObject> const& objects,
     std::string_view type;
     bool seen;
   };
-  constexpr std::array<Shade, 5> shades{{
+  constexpr std::array<Shade, 6> shades{{
       {extension::transparent_shade::type, true},
       {extension::perforated_screen::type, true},
       {extension::moving_shade::type, true},
       {extension::geometry::type, false},
       {extension::site_context::type, false},
+      {extension::tree::type, false},
   }};
   std::vector<std::string> warnings;
   for (auto const& user : users_of_rays(objects, input)) {

@@ -7,10 +7,9 @@
 
 #include "gpu_shading/error.h"
 #include "model/energyplus_rays.h"
+#include "model/extensions/extension_fields.h"
 #include "model/geometry_rules.h"
 #include "model/idf/extension_objects.h"
-#include "model/idf/model_file.h"
-#include "model/shading_outlines.h"
 #include "model/site/site_clock.h"
 #include "model/site/texture_axes.h"
 #include "platform/text.h"
@@ -21,6 +20,8 @@ namespace {
 // Shades and screens find them by name, like the model's own surfaces.
 void add_surroundings(Surroundings const& surroundings, ShadingInput& shading) {
   for (auto const& [name, type] : surroundings.types) {
+    // A crown cannot have another filter.
+    if (type == extension::tree::type && !shading.shading_surfaces.contains(name)) continue;
     auto const [entry, added] =
         shading.shading_surfaces.try_emplace(name, ShadingInput::ShadingSurface{.type = type});
     if (!added) {
@@ -191,6 +192,7 @@ Model read_model(std::filesystem::path const& path, Choices const& choices) {
 Rewrite rewrite_for(Model const& model) {
   return {model.options.mode == Mode::off ? "PolygonClipping" : "PixelCounting",
           model.options.update.every_timestep ? "Timestep" : "", model.lean.left_out,
+          own_schedules(model.lean.placeholders, model.surroundings.leaf_schedules),
           model.lean.placeholders};
 }
 

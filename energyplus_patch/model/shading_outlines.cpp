@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "gpu_shading/error.h"
-#include "model/geometry_rules.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {

@@ -56,7 +56,7 @@ std::string read_text_file(std::filesystem::path const& path) {
   if (!file.is_open() || fstat(file.get(), &found) != 0) refuse(std::strerror(errno));
   if (!S_ISREG(found.st_mode)) refuse("is not a file");
   auto const bytes = static_cast<std::uintmax_t>(found.st_size);
-  if (bytes > most_text_bytes) refuse("is larger than 1 GiB");
+  if (bytes > max_text_bytes) refuse("is larger than 1 GiB");
   std::string text(bytes, '\0');
   for (std::size_t done = 0; done < text.size();) {
     auto const count = read(file.get(), text.data() + done, text.size() - done);

@@ -50,7 +50,7 @@ std::string read_text_file(std::filesystem::path const& path) {
   std::error_code failure;
   auto const bytes = std::filesystem::file_size(path, failure);
   if (failure) refuse(failure.message());
-  if (bytes > most_text_bytes) refuse("is larger than 1 GiB");
+  if (bytes > max_text_bytes) refuse("is larger than 1 GiB");
   std::string text(bytes, '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(text.data(), static_cast<std::streamsize>(bytes));

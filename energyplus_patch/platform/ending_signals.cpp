@@ -10,11 +10,10 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <climits>
-#include <cstddef>
 #include <cstring>
-#include <string>
 #include <string_view>
 
 namespace gpu_shading::energyplus {

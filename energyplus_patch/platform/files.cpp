@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <cstdint>
 
 #include "gpu_shading/error.h"
 #include "platform/staged_files.h"
@@ -53,9 +52,9 @@ Character first_of(std::string_view text) {
     if ((byte(i) & 0xc0U) != 0x80) return {0, 0};
     code = (code << bits) | (byte(i) & 0x3fU);
   }
-  constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+  constexpr std::uint32_t min_code[] = {0, 0, 0x80, 0x800, 0x10000};
   bool const is_surrogate = code >= 0xd800 && code <= 0xdfff;
-  if (code < least[bytes] || is_surrogate || code > 0x10ffff) return {0, 0};
+  if (code < min_code[bytes] || is_surrogate || code > 0x10ffff) return {0, 0};
   return {code, bytes};
 }
 

@@ -16,7 +16,7 @@ void require_file(std::filesystem::path const& path);
 
 // The contents of a file. Throws Error like require_file(), "FILE: cannot be read" or "FILE: is
 // larger than 1 GiB".
-inline constexpr std::uintmax_t most_text_bytes = std::uintmax_t{1} << 30U;
+inline constexpr std::uintmax_t max_text_bytes = std::uintmax_t{1} << 30U;
 std::string read_text_file(std::filesystem::path const& path);
 
 // Replaces a file as a whole: see StagedFiles. Throws Error: "FILE: cannot be written (why)".

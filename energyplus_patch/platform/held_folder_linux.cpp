@@ -5,9 +5,7 @@
 
 #include <array>
 #include <cerrno>
-#include <system_error>
 
-#include "platform/ending_signals.h"
 #include "platform/file_descriptor.h"
 #include "platform/held_folder.h"
 

@@ -1,7 +1,6 @@
 #include <windows.h>
 
 #include <new>
-#include <system_error>
 
 #include "platform/held_folder.h"
 

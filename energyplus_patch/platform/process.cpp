@@ -234,11 +234,11 @@ std::string describe_lack_of_memory() {
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) {
     return fmt::format("out of memory, with {} MiB of addresses in use", used);
   }
-  constexpr int least = 300;  // of small models
+  constexpr int needed = 300;  // of small models
   return fmt::format(
       "out of memory: ulimit -v allows {} MiB of addresses, of which {} are in use; a small model "
       "needs {}",
-      limit.rlim_cur / mib, used, least);
+      limit.rlim_cur / mib, used, needed);
 }
 
 }  // namespace gpu_shading::energyplus

@@ -68,9 +68,9 @@ std::vector<std::string> arguments_of(int /*argc*/, char const* const* /*argv*/)
 void occupy_standard_descriptors() {}  // their numbers are given to no other file here
 
 std::filesystem::path own_folder() {
-  constexpr DWORD most = 32768;
-  std::wstring path(most, L'\0');
-  path.resize(GetModuleFileNameW(nullptr, path.data(), most));
+  constexpr DWORD max_length = 32768;
+  std::wstring path(max_length, L'\0');
+  path.resize(GetModuleFileNameW(nullptr, path.data(), max_length));
   return std::filesystem::path(path).parent_path();
 }
 

@@ -95,18 +95,18 @@ std::vector<std::string> comma_separated(std::string const& line) {
 }
 
 std::string printable(std::string_view text) {
-  constexpr std::size_t most = 80;
+  constexpr std::size_t max_length = 80;
   std::string line;
   for (std::size_t i = 0; i < text.size(); ++i) {
     // Not within a character of UTF-8.
-    if (line.size() >= most && !continues(text[i])) return line + "...";
+    if (line.size() >= max_length && !continues(text[i])) return line + "...";
     add_escaped(text, i, line);
   }
   return line;
 }
 
 std::string one_line(std::string_view message) {
-  constexpr std::size_t most = 2000;
+  constexpr std::size_t max_length = 2000;
   constexpr std::size_t start = 1200;
   std::string line;
   for (std::size_t i = 0; i < message.size(); ++i) {
@@ -119,9 +119,9 @@ std::string one_line(std::string_view message) {
       add_escaped(message, i, line);
     }
   }
-  if (line.size() <= most) return line;
+  if (line.size() <= max_length) return line;
   auto from = start;
-  auto to = line.size() - (most - start);
+  auto to = line.size() - (max_length - start);
   while (from > 0 && continues(line[from])) --from;
   while (to < line.size() && continues(line[to])) ++to;
   return line.substr(0, from) + " ... " + line.substr(to);

@@ -1,6 +1,5 @@
 #include <windows.h>
 
-#include <algorithm>
 #include <locale>
 
 // MinGW's std::filesystem::path gives text as UTF-8, but reads it by the C locale, which takes

@@ -5,7 +5,7 @@
 
 namespace gpu_shading::energyplus {
 
-// Text of ours is UTF-8, Windows's own is UTF-16. What is neither becomes U+FFFD.
+// We use UTF-8; Windows uses UTF-16. Invalid characters become U+FFFD.
 std::wstring to_wide(std::string_view text);
 std::string to_utf8(std::wstring_view text);
 

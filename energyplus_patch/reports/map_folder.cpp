@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
@@ -158,8 +157,8 @@ std::optional<MapFolder> read_map_folder(std::filesystem::path const& folder) {
 
 MapArray read_map_array(std::filesystem::path const& file) {
   require_file(file);
-  constexpr std::uintmax_t most = 2 * sizeof(float) * MapGrid::max_cells + 70000;
-  if (std::filesystem::file_size(file) > most) {
+  constexpr std::uintmax_t max_bytes = 2 * sizeof(float) * MapGrid::max_cells + 70000;
+  if (std::filesystem::file_size(file) > max_bytes) {
     throw Error(fmt::format("{}: is larger than a map", file.string()));
   }
   return naming(file.string(), [&] { return array_of(read_text_file(file)); });

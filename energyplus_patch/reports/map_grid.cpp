@@ -32,8 +32,8 @@ glm::dvec3 up_the_map(Polygon const& polygon, glm::dvec3 const& normal) {
 // The number of cells along a side.
 int count_of(double length, double spacing) {
   constexpr double rounding = 1e-6;  // single precision must not add a cell
-  constexpr double most = static_cast<double>(MapGrid::max_cells) + 1.0;
-  return static_cast<int>(std::clamp(std::ceil(length / spacing - rounding), 1.0, most));
+  constexpr double max_count = static_cast<double>(MapGrid::max_cells) + 1.0;
+  return static_cast<int>(std::clamp(std::ceil(length / spacing - rounding), 1.0, max_count));
 }
 
 // Keeps what lies on the positive side of a line along an axis (Sutherland and Hodgman 1974). Areas

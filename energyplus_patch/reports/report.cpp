@@ -10,7 +10,6 @@
 #include <tuple>
 
 #include "files/pictures.h"
-#include "gpu_shading/error.h"
 #include "model/options/report_folder.h"
 #include "platform/files.h"
 #include "platform/naming.h"
@@ -73,14 +72,9 @@ std::vector<Row> choose(std::vector<Row> const& rows) {
   return chosen;
 }
 
-double azimuth_degrees(SunDirection sun) {
-  double const degrees = glm::degrees(sun.azimuth);
-  return degrees < 0.0 ? degrees + 360.0 : degrees;
-}
-
 std::string stem_of(std::string const& surface, SunDirection sun, Deployments const& deployments,
                     std::uint32_t state) {
-  auto name = fmt::format("{}_{:05.1f}_{:04.1f}", surface, azimuth_degrees(sun),
+  auto name = fmt::format("{}_{:05.1f}_{:04.1f}", surface, degrees_clockwise(sun.azimuth),
                           glm::degrees(sun.altitude));
   auto const& values = deployments.states[state];
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -109,6 +103,11 @@ void write_table(std::ostream& csv, Stages const& stages) {
 auto const loaded = std::chrono::steady_clock::now();
 
 }  // namespace
+
+double degrees_clockwise(double radians) {
+  double const degrees = glm::degrees(radians);
+  return degrees < 0.0 ? degrees + 360.0 : degrees;
+}
 
 Stages stages_of(RendererStatistics const& statistics) {
   double const passed =
@@ -146,9 +145,9 @@ std::size_t write_report(std::filesystem::path const& folder, CachedRenderer& re
       auto const rows = collect(renderer, receiver, number, answers, factors);
       for (auto const& row : rows) {
         csv << fmt::format("{},{:.4f},{:.4f},{:.7g},{:.6f}{}\n",
-                           csv_quoted(renderer.scene()[receiver].name), azimuth_degrees(row.sun),
-                           glm::degrees(row.sun.altitude), row.projected_area, row.fraction,
-                           list(deployments.states[row.state]));
+                           csv_quoted(renderer.scene()[receiver].name),
+                           degrees_clockwise(row.sun.azimuth), glm::degrees(row.sun.altitude),
+                           row.projected_area, row.fraction, list(deployments.states[row.state]));
       }
       if (std::find(shown.begin(), shown.end(), receiver) == shown.end()) continue;
       auto const chosen = choose(rows);
@@ -175,8 +174,8 @@ std::size_t write_report(std::filesystem::path const& folder, CachedRenderer& re
       files.write(name, encode_image(name, drawing.sun_view(picture.sun, picture.receiver,
                                                             picture_size, factors)));
       drawn += fmt::format("{},{},{:.4f},{:.4f}{}\n", csv_quoted(name), csv_quoted(receiver),
-                           azimuth_degrees(picture.sun), glm::degrees(picture.sun.altitude),
-                           list(shares));
+                           degrees_clockwise(picture.sun.azimuth),
+                           glm::degrees(picture.sun.altitude), list(shares));
     }
     files.write(pictures_table, drawn);
     more(files);

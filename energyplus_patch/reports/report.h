@@ -11,6 +11,9 @@
 
 namespace gpu_shading::energyplus {
 
+// An azimuth in degrees, 0 .. 360, from radians of either sign.
+double degrees_clockwise(double radians);
+
 // Wall-clock seconds of a run by stage.
 using Stages = std::vector<std::pair<std::string, double>>;
 

@@ -21,6 +21,7 @@ RunRecord::RunRecord(std::vector<glm::dvec3> areas, std::vector<SurfaceId> recei
   for (std::size_t i = 0; i < receivers_.size(); ++i) columns_[receivers_[i]] = i;
   for (auto* const period : {&run_period_, &design_days_}) {
     period->beam.assign(receivers_.size(), 0.0);
+    period->months.assign(receivers_.size(), {});
   }
 }
 
@@ -65,15 +66,16 @@ void RunRecord::set_sun(SunDirection sun) {
 
 void RunRecord::note(SurfaceId receiver, double projected_area) {
   if (step_ == nullptr || !columns_[receiver]) return;
-  double const most = glm::dot(areas_[receiver], towards_sun_);
-  if (most <= 0.0) return;
+  double const unshaded = glm::dot(areas_[receiver], towards_sun_);
+  if (unshaded <= 0.0) return;
   step_->fractions[*columns_[receiver]] =
-      static_cast<float>(std::clamp(projected_area / most, 0.0, 1.0));
+      static_cast<float>(std::clamp(projected_area / unshaded, 0.0, 1.0));
 }
 
 void RunRecord::end() {
   end_day();
   day_.reset();
+  for (auto* const period : {&run_period_, &design_days_}) share_beam(*period);
 }
 
 void RunRecord::end_day() {
@@ -82,12 +84,15 @@ void RunRecord::end_day() {
   if (!day_->warm_up) {
     ++period().simulated;
     add_beam();
+    add_normal_beam();
   }
 }
 
 void RunRecord::add_beam() {
   constexpr double watt_hours = 1000.0;  // per kWh
   auto& beam = period().beam;
+  auto& months = period().months;
+  auto const month = static_cast<std::size_t>(day_->month) - 1;
   auto const steps = std::min(steps_.size(), beam_.size());
   for (std::size_t i = 0; i < steps; ++i) {
     if (!steps_[i].sun || beam_[i] <= 0.0) continue;
@@ -97,9 +102,31 @@ void RunRecord::add_beam() {
       float const fraction = steps_[i].fractions[k];
       if (fraction <= 0.0F) continue;
       auto const& area = areas_[receivers_[k]];
-      beam[k] += energy * fraction * glm::dot(area, towards_sun) / glm::length(area);
+      double const added = energy * fraction * glm::dot(area, towards_sun) / glm::length(area);
+      beam[k] += added;
+      if (month < months[k].size()) months[k].at(month) += added;
     }
   }
+}
+
+void RunRecord::add_normal_beam() {
+  auto& period = this->period();
+  auto const per_hour = static_cast<std::size_t>(day_->steps_per_hour);
+  for (std::size_t i = 0; i < std::min(beam_.size(), hours_of_day * per_hour); ++i) {
+    period.normal_beam.at(i / per_hour) += beam_[i] / day_->steps_per_hour;
+  }
+  ++period.beam_days;
+}
+
+// Gives the day whose answers held the mean beam of the days since.
+void RunRecord::share_beam(Period& period) {
+  if (period.beam_days > 0 && period.last < period.days.size()) {
+    for (auto& hour : period.days[period.last].hours) {
+      hour.beam = period.normal_beam.at(static_cast<std::size_t>(hour.hour) - 1) / period.beam_days;
+    }
+  }
+  period.normal_beam = {};
+  period.beam_days = 0;
 }
 
 bool RunRecord::is_faced(std::size_t receiver, std::size_t step) const {
@@ -140,7 +167,7 @@ void RunRecord::keep_day() {
   for (std::size_t hour = 0; hour < hours_of_day; ++hour) {
     auto const& step = steps_[(hour + 1) * per_hour - 1];
     if (step.sun && step.sun->altitude > 0.0) {
-      day.hours.push_back({static_cast<int>(hour + 1), *step.sun, step.fractions});
+      day.hours.push_back({static_cast<int>(hour + 1), *step.sun, step.fractions, 0.0});
     }
   }
   for (std::size_t i = 0; i < receivers_.size(); ++i) day.whole.push_back(whole_hours(i));
@@ -149,10 +176,13 @@ void RunRecord::keep_day() {
     return other.month == day.month && other.day == day.day;
   });
   if (found != period.days.end()) {
+    share_beam(period);
     *found = std::move(day);
+    period.last = static_cast<std::size_t>(found - period.days.begin());
     return;
   }
   if (period.offered++ % period.stride != 0) return;
+  share_beam(period);
   period.values += day.hours.size() * receivers_.size();
   period.days.push_back(std::move(day));
   while (period.values > max_values && period.days.size() > 1) {
@@ -165,6 +195,7 @@ void RunRecord::keep_day() {
     period.days = std::move(fewer);
     period.stride *= 2;
   }
+  period.last = period.days.size() - 1;
 }
 
 }  // namespace gpu_shading::energyplus

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <glm/vec3.hpp>
@@ -33,6 +34,9 @@ class RunRecord {
     int hour = 0;  // 1 .. 24
     SunDirection sun;
     std::vector<float> fractions;  // by receiver; negative where the sun is behind it
+    // Direct normal irradiance, W/m2: the mean over the days that were simulated with these
+    // answers.
+    double beam = 0.0;
   };
   // The hours during all of which the sun faces a receiver, and before and after them, as
   // scripts/compare_shading takes them (results.py): the others' hourly fractions count timesteps
@@ -70,6 +74,9 @@ class RunRecord {
   std::size_t simulated() const { return kept().simulated; }
   // By receiver, kWh/m2.
   std::vector<double> const& beam() const { return kept().beam; }
+  // The same of each month, January first.
+  using Months = std::array<double, 12>;
+  std::vector<Months> const& months() const { return kept().months; }
 
  private:
   struct Step {
@@ -83,12 +90,19 @@ class RunRecord {
     std::size_t offered = 0;
     std::size_t simulated = 0;
     std::vector<double> beam;
+    std::vector<Months> months;
+    std::size_t last = 0;  // among `days`: whose answers hold
+    // Of the days that these held for, by hour.
+    std::array<double, 24> normal_beam{};
+    int beam_days = 0;
   };
 
   Period& period() { return day_->kind == RunDay::Kind::run_period ? run_period_ : design_days_; }
   Period const& kept() const { return of_design_days() ? design_days_ : run_period_; }
   void end_day();
   void add_beam();
+  void add_normal_beam();
+  static void share_beam(Period& period);
   void keep_day();
   bool is_faced(std::size_t receiver, std::size_t step) const;
   WholeHours whole_hours(std::size_t receiver) const;

@@ -6,18 +6,27 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vec2.hpp>
+#include <numeric>
 #include <string_view>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
 #include "gpu_shading/error.h"
+#include "gpu_shading/rays.h"
+#include "model/extensions/extension_fields.h"
 #include "model/options/report_folder.h"
 #include "platform/naming.h"
 #include "platform/text.h"
 #include "reports/map_folder.h"
 #include "reports/map_grid.h"
 #include "reports/page/run_page.h"
+#include "reports/report.h"
+#include "reports/sky_mask.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -39,12 +48,6 @@ std::vector<RunRecord::Day const*> chosen_days(RunRecord const& record) {
   return days;
 }
 
-double degrees_clockwise(double radians) {
-  constexpr double circle = 360.0;
-  double const degrees = glm::degrees(radians);
-  return degrees < 0.0 ? degrees + circle : degrees;
-}
-
 PageStyle style_of(Surface const& surface) {
   constexpr std::array<char const*, 4> holes{"round", "square", "slotted", "hexagonal"};
   constexpr std::array<char const*, 3> arrangements{"straight", "staggered 45", "staggered 60"};
@@ -60,6 +63,11 @@ PageStyle style_of(Surface const& surface) {
       style.passes = std::round(look.passes * percents) / percents;
       break;
     }
+    case FilterLook::Kind::foliage:
+      style.kind = PageStyle::Kind::foliage;
+      // Of one of the two faces that a ray meets, to whole percents.
+      style.passes = std::round(100.0 * std::sqrt(look.passes)) / 100.0;
+      break;
     case FilterLook::Kind::holes:
       style.kind = PageStyle::Kind::screen;
       style.passes = look.passes;
@@ -84,8 +92,8 @@ class PageStyles {
     auto const style = style_of(surface);
     auto const found = std::find(styles_.begin(), styles_.end(), style);
     if (found != styles_.end()) return static_cast<std::size_t>(found - styles_.begin());
-    constexpr std::size_t most = 1000;
-    if (styles_.size() == most) return 1;
+    constexpr std::size_t max_styles = 1000;
+    if (styles_.size() == max_styles) return 1;
     styles_.push_back(style);
     return styles_.size() - 1;
   }
@@ -95,7 +103,8 @@ class PageStyles {
   std::vector<PageStyle> styles_;  // receivers', opaque casters', others
 };
 
-PageReceiver receiver_of(Surface const& surface, double beam) {
+PageReceiver receiver_of(Surface const& surface, double beam, RunRecord::Months const& months,
+                         bool window) {
   auto const facing = normal(surface.polygon);
   PageReceiver receiver;
   receiver.area = area(surface.polygon);
@@ -105,6 +114,8 @@ PageReceiver receiver_of(Surface const& surface, double beam) {
   }
   receiver.tilt = glm::degrees(std::acos(std::clamp(facing.z, -1.0, 1.0)));
   receiver.beam = beam;
+  receiver.months = months;
+  receiver.window = window;
   return receiver;
 }
 
@@ -122,8 +133,8 @@ void add_hours(RunPage& page, std::vector<RunRecord::Day const*> const& days) {
       sums[i].second += day->whole[i].count;
     }
     auto& added = page.days.emplace_back(PageDay{day->month, day->day, {}});
-    for (auto const& [hour, sun, fractions] : day->hours) {
-      added.hours.push_back({hour, sun});
+    for (auto const& [hour, sun, fractions, beam] : day->hours) {
+      added.hours.push_back({hour, sun, beam});
       for (float const fraction : fractions) page.percents.push_back(percent_of(fraction));
     }
   }
@@ -131,6 +142,51 @@ void add_hours(RunPage& page, std::vector<RunRecord::Day const*> const& days) {
     auto const [sum, count] = sums[i];
     if (count > 0) page.receivers[i].mean = sum / count;
   }
+}
+
+// The extent of the receivers in plan, or of all surfaces.
+struct Surrounds {
+  glm::dvec2 low{HUGE_VAL};
+  glm::dvec2 high{-HUGE_VAL};
+
+  void add(Polygon const& polygon) {
+    for (auto const& point : polygon.outline) {
+      low = glm::min(low, glm::dvec2(point));
+      high = glm::max(high, glm::dvec2(point));
+    }
+  }
+  bool has(Polygon const& polygon) const {
+    return std::all_of(
+        polygon.outline.begin(), polygon.outline.end(), [&](glm::dvec3 const& point) {
+          return point.x >= low.x && point.y >= low.y && point.x <= high.x && point.y <= high.y;
+        });
+  }
+};
+
+// What is drawn besides receivers: the model's shades, walls that take no part in shading, and the
+// neighbouring buildings near by.
+std::vector<SurfaceId> drawn_casters(SceneAssembly const& assembly, Scene const& scene,
+                                     RunRecord const& record) {
+  Surrounds near;
+  for (auto const id : record.receivers()) near.add(scene[id].polygon);
+  double const reach = 1.5 * std::max(glm::distance(near.low, near.high), 1.0);
+  near.low -= reach;
+  near.high += reach;
+  auto const& model = assembly.model();
+  auto ids = assembly.shown();
+  // Windows inside of the building show nothing.
+  std::erase_if(ids, [&](SurfaceId id) {
+    return scene[id].casting == Casting::never && model.shading.base_of.contains(scene[id].name);
+  });
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    auto const type = model.surroundings.types.find(scene[id].name);
+    if (type == model.surroundings.types.end()) continue;
+    bool const terrain = scene[id].name.ends_with(":TERRAIN");
+    if (type->second == extension::site_context::type && !terrain && near.has(scene[id].polygon)) {
+      ids.push_back(id);
+    }
+  }
+  return ids;
 }
 
 void add_surfaces(RunPage& page, SceneAssembly const& assembly, RunRecord const& record) {
@@ -141,12 +197,22 @@ void add_surfaces(RunPage& page, SceneAssembly const& assembly, RunRecord const&
     auto const id = record.receivers()[i];
     added[id] = true;
     page.surfaces.push_back({scene[id].name, scene[id].polygon, 0});
-    page.receivers.push_back(receiver_of(scene[id], record.beam()[i]));
+    page.receivers.push_back(
+        receiver_of(scene[id], record.beam()[i], record.months()[i],
+                    assembly.model().shading.base_of.contains(scene[id].name)));
   }
-  for (auto const id : assembly.shown()) {
+  for (auto const id : drawn_casters(assembly, scene, record)) {
     auto const& surface = scene[id];
-    if (added[id] || surface.casting == Casting::never || area(surface.polygon) <= 0.0) continue;
-    page.surfaces.push_back({surface.name, surface.polygon, styles.number_of(surface)});
+    if (added[id] || area(surface.polygon) <= 0.0) continue;
+    auto const style = styles.number_of(surface);
+    if (auto const* const crown = surface.filter.find<Crown>()) {
+      constexpr int sides = 8;
+      for (auto& face : crown_faces(surface.polygon, *crown, sides)) {
+        page.surfaces.push_back({surface.name, std::move(face), style});
+      }
+      continue;
+    }
+    page.surfaces.push_back({surface.name, surface.polygon, style});
   }
   page.styles = styles.all();
 }
@@ -161,8 +227,7 @@ RunPage page_of(SceneAssembly const& assembly, DeviceInfo const& device, RunReco
       {record.of_design_days() ? "Design days simulated" : "Days simulated",
        std::to_string(record.simulated())},
       {"Receivers", std::to_string(page.receivers.size())},
-      {"Surfaces that only cast shadows",
-       std::to_string(page.surfaces.size() - page.receivers.size())},
+      {"Other surfaces drawn", std::to_string(page.surfaces.size() - page.receivers.size())},
       {"Shading computed on", gpu_shading::describe(device)},
   };
   if (days.size() < record.days().size()) {
@@ -172,6 +237,57 @@ RunPage page_of(SceneAssembly const& assembly, DeviceInfo const& device, RunReco
                     days.size(), record.days().size()));
   }
   return page;
+}
+
+// Receivers with a mask: one byte for each cell of the sky.
+constexpr std::size_t max_skies = 300;
+
+std::uint8_t sky_code(BeamShare const& share) {
+  if (!share.faced) return RunPage::behind;
+  auto const most = std::max_element(share.stopped.begin(), share.stopped.end());
+  auto const level = std::lround((1.0F - share.sunlit) * (RunPage::sky_levels - 1));
+  return static_cast<std::uint8_t>(RunPage::sky_levels * (most - share.stopped.begin()) +
+                                   std::clamp(level, 0L, RunPage::sky_levels - 1L));
+}
+
+// Masks of the largest receivers, windows first.
+void add_skies(RunPage& page, SceneAssembly& assembly, RunRecord const& record) {
+  std::vector<std::size_t> order(page.receivers.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    auto const& [first, second] = std::tie(page.receivers[a], page.receivers[b]);
+    return std::pair(second.window, second.area) < std::pair(first.window, first.area);
+  });
+  if (order.size() > max_skies) order.resize(max_skies);
+  if (order.empty()) return;
+  assembly.optics().update({});
+  auto const scene = assembly.scene();
+  RayScene const rays(scene, {.screens = ScreenDetail::automatic});
+  auto const kinds = kinds_of(assembly, scene);
+  SkyGrid const grid(RunPage::sky_step);
+  auto const directions = grid.directions();
+  for (auto const number : order) {
+    auto const id = record.receivers()[number];
+    constexpr int rays_of_cell = 16;
+    auto const points = points_of(scene[id].polygon, rays_of_cell);
+    auto const shares = trace_shares(rays,
+                                     {.receiver = id,
+                                      .factors = assembly.optics().factors(),
+                                      .deployments = assembly.optics().deployments()},
+                                     kinds, points, directions);
+    auto const view = sky_view(grid, shares, points.normal);
+    auto& sky = page.skies.emplace_back(PageSky{number, view.view, view.unshaded, {}});
+    for (auto const& share : shares) sky.codes.push_back(sky_code(share));
+  }
+  for (std::size_t k = 0; k < shade_kinds; ++k) {
+    page.sky_kinds.emplace_back(name_of(static_cast<ShadeKind>(k)));
+  }
+  if (order.size() < page.receivers.size()) {
+    page.notes.push_back(
+        fmt::format("Shading masks of the {} largest receivers are shown, windows first; "
+                    "gpu_shading mask draws others.",
+                    order.size()));
+  }
 }
 
 // Sums over all maps of a page: one byte for each of the two values.
@@ -240,11 +356,29 @@ void write_facts(RunPage const& page, std::ostream& csv) {
   for (auto const& note : page.notes) csv << fmt::format("Note,{}\n", csv_field(note));
 }
 
+void write_months(RunPage const& page, std::ostream& csv) {
+  csv << "receiver,month,beam [kWh/m2]\n";
+  for (std::size_t i = 0; i < page.receivers.size(); ++i) {
+    int month = 0;
+    for (double const beam : page.receivers[i].months) {
+      csv << fmt::format("{},{},{:.1f}\n", csv_field(page.surfaces[i].name), ++month, beam);
+    }
+  }
+}
+
+void write_skies(RunPage const& page, std::ostream& csv) {
+  csv << "receiver,sky view factor,unshaded view factor\n";
+  for (auto const& sky : page.skies) {
+    csv << fmt::format("{},{:.3f},{:.3f}\n", csv_field(page.surfaces[sky.receiver].name), sky.view,
+                       sky.unshaded);
+  }
+}
+
 void write_receivers(RunPage const& page, std::ostream& csv) {
   csv << "receiver,area [m2],azimuth [deg],tilt [deg],mean sunlit fraction,beam [kWh/m2],"
          "beam [kWh]\n";
   for (std::size_t i = 0; i < page.receivers.size(); ++i) {
-    auto const& [area, azimuth, tilt, mean, beam] = page.receivers[i];
+    auto const& [area, azimuth, tilt, mean, beam, months, window] = page.receivers[i];
     csv << fmt::format("{},{:.3f},{:.1f},{:.1f},{},{:.1f},{:.1f}\n",
                        csv_field(page.surfaces[i].name), area, azimuth, tilt,
                        mean ? fmt::format("{:.4f}", *mean) : "", beam, beam * area);
@@ -253,15 +387,15 @@ void write_receivers(RunPage const& page, std::ostream& csv) {
 
 void write_hours(RunPage const& page, std::vector<RunRecord::Day const*> const& days,
                  std::ostream& csv) {
-  csv << "day,hour,sun azimuth [deg],sun altitude [deg]";
+  csv << "day,hour,sun azimuth [deg],sun altitude [deg],beam normal [W/m2]";
   for (std::size_t i = 0; i < page.receivers.size(); ++i) {
     csv << ',' << csv_field(page.surfaces[i].name);
   }
   csv << '\n';
   for (auto const* day : days) {
-    for (auto const& [hour, sun, fractions] : day->hours) {
-      csv << fmt::format("{:02}-{:02},{},{:.4f},{:.4f}", day->month, day->day, hour,
-                         degrees_clockwise(sun.azimuth), glm::degrees(sun.altitude));
+    for (auto const& [hour, sun, fractions, beam] : day->hours) {
+      csv << fmt::format("{:02}-{:02},{},{:.4f},{:.4f},{:.0f}", day->month, day->day, hour,
+                         degrees_clockwise(sun.azimuth), glm::degrees(sun.altitude), beam);
       for (float const fraction : fractions)
         csv << fmt::format(",{:.4f}", std::max(fraction, 0.0F));
       csv << '\n';
@@ -292,14 +426,17 @@ void prepare_page(std::filesystem::path const& folder) {
   });
 }
 
-void write_run(StagedFiles& files, std::filesystem::path const& folder,
-               SceneAssembly const& assembly, DeviceInfo const& device, RunRecord const& record) {
+void write_run(StagedFiles& files, std::filesystem::path const& folder, SceneAssembly& assembly,
+               DeviceInfo const& device, RunRecord const& record) {
   auto const days = chosen_days(record);
   auto page = page_of(assembly, device, record, days);
   add_maps(page, folder);
+  add_skies(page, assembly, record);
   simplify(page);
   files.write(facts_table, [&](std::ostream& csv) { write_facts(page, csv); });
   files.write(receivers_table, [&](std::ostream& csv) { write_receivers(page, csv); });
+  files.write(months_table, [&](std::ostream& csv) { write_months(page, csv); });
+  files.write(skies_table, [&](std::ostream& csv) { write_skies(page, csv); });
   files.write(hours_table, [&](std::ostream& csv) { write_hours(page, days, csv); });
   files.write(page_file, to_html(std::move(page)));
 }

@@ -16,12 +16,16 @@ namespace gpu_shading::energyplus {
 //                      faces it, blank if there are none, beam solar energy of the run (kWh/m2 and
 //                      kWh)
 //   run_hours.csv      month and day, hour at whose end the sun is there, its azimuth and altitude
-//                      (degrees), and the sunlit fraction of each receiver, 0 if it faces away
+//                      (degrees), direct normal irradiance (W/m2), the mean of the days that the
+//                      day stands for, and the sunlit fraction of each receiver, 0 if it faces away
+//   run_months.csv     receiver, month, beam solar energy (kWh/m2)
+//   run_sky.csv        receivers with a shading mask: view factor to the sky, and without shades
 //   run_facts.csv      the facts below the page's title
 // Maps that gpu_shading map has written into the report's folder, or its folder maps, are on the
-// page, too.
-void write_run(StagedFiles& files, std::filesystem::path const& folder,
-               SceneAssembly const& assembly, DeviceInfo const& device, RunRecord const& record);
+// page, too. Masks are of the schedules' lowest values and screens fully deployed, which the optics
+// then have.
+void write_run(StagedFiles& files, std::filesystem::path const& folder, SceneAssembly& assembly,
+               DeviceInfo const& device, RunRecord const& record);
 
 // Throws Error if the folder has an index.html that is not of this report, or one that cannot be
 // replaced.

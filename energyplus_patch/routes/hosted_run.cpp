@@ -3,10 +3,7 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdio>
-#include <exception>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "platform/c_interface.h"
@@ -53,7 +50,7 @@ struct Api {
   int (*holiday_index)(State) = nullptr;
 };
 
-// The run of this thread, for callbacks, which receive no data of ours.
+// The run of this thread, for callbacks, which receive none of our data.
 struct Hosted {
   Api const* api = nullptr;
   State state = nullptr;
@@ -66,7 +63,7 @@ Hosted& hosted() {
   return instance;
 }
 
-// EnergyPlus calls what follows: no exception of ours may pass through it.
+// EnergyPlus calls what follows: none of our exceptions may pass through it.
 template <typename Action>
 void print_failure(Action const& action) {
   auto const why = failure_of(action);

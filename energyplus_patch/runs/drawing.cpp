@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
 #include <string_view>
@@ -36,9 +35,9 @@ Ring onto(Plane const& plane, Ring const& ring) {
 // The reveals between a set-back window and the opening in its wall's plane, as seen from within
 // the opening.
 std::vector<Surface> reveals_of(DrawnSurface const& window, Ring const& opening) {
-  constexpr double least = 1e-3;
+  constexpr double min_depth = 1e-3;
   std::vector<Surface> reveals;
-  if (glm::distance(window.outline.front(), opening.front()) < least) return reveals;
+  if (glm::distance(window.outline.front(), opening.front()) < min_depth) return reveals;
   for (std::size_t i = 0; i < opening.size(); ++i) {
     auto const next = (i + 1) % opening.size();
     Surface reveal;

@@ -11,7 +11,7 @@ namespace gpu_shading::energyplus {
 // Why a run stopped, from the eplusout.err in its folder: "Severe: ...; Fatal: ...".
 std::string stop_reasons(std::filesystem::path const& folder);
 
-// The last error of ours in what a run has printed, without "gpu_shading: error: ".
+// Our last error in what a run has printed, without "gpu_shading: error: ".
 std::optional<std::string> last_error(std::filesystem::path const& log);
 
 // For programs that start EnergyPlus and read its files, not its standard error: writes

@@ -59,10 +59,11 @@ Dictionary read_dictionary(std::istream& eso, RunTimes& run) {
 }
 
 bool differ(RunTime const& a, RunTime const& b) {
-  constexpr double most = 0.01 * degree;
+  constexpr double max_difference = 0.01 * degree;
   if (std::max(a.sun.altitude, b.sun.altitude) <= 0.0) return false;
-  return std::abs(a.sun.altitude - b.sun.altitude) > most ||
-         std::abs(std::remainder(a.sun.azimuth - b.sun.azimuth, 2.0 * std::numbers::pi)) > most ||
+  return std::abs(a.sun.altitude - b.sun.altitude) > max_difference ||
+         std::abs(std::remainder(a.sun.azimuth - b.sun.azimuth, 2.0 * std::numbers::pi)) >
+             max_difference ||
          a.schedules != b.schedules;
 }
 
@@ -156,9 +157,9 @@ int read_first_year(std::istream& eio) {
     if (words.size() < 4 || words[0] != "Environment" || words[2] != "WeatherFileRunPeriod")
       continue;
     auto const year = parse_number(words[3].substr(words[3].rfind('/') + 1));
-    constexpr double least = 1583.0;  // EnergyPlus's own limits
-    constexpr double most = 9999.0;
-    if (year && *year >= least && *year <= most) return static_cast<int>(*year);
+    constexpr double min_year = 1583.0;  // EnergyPlus's own limits
+    constexpr double max_year = 9999.0;
+    if (year && *year >= min_year && *year <= max_year) return static_cast<int>(*year);
   }
   throw Error("eplusout.eio: has no run period with a year");
 }

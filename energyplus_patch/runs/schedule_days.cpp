@@ -20,10 +20,10 @@ double to_number(std::string const& text) {
   return *value;
 }
 
-int to_whole(std::string const& text, int least, int most) {
+int to_whole(std::string const& text, int min, int max) {
   double const value = to_number(text);
-  if (!(value >= least && value <= most)) {
-    throw Error(fmt::format("eplusout.eso: {} is not within {} and {}", text, least, most));
+  if (!(value >= min && value <= max)) {
+    throw Error(fmt::format("eplusout.eso: {} is not within {} and {}", text, min, max));
   }
   return static_cast<int>(std::lround(value));
 }

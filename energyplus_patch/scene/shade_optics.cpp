@@ -30,6 +30,7 @@ ShadeOptics::ShadeOptics(Model const& model, Schedules schedules)
     : model_(&model), schedules_(std::move(schedules)) {
   add_transmittance_schedules();
   add_deployments();
+  add_leaf_schedules();
 }
 
 void ShadeOptics::add_transmittance_schedules() {
@@ -55,9 +56,29 @@ void ShadeOptics::add_deployments() {
     if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) continue;
     auto const range = range_of(schedules_, name, screen.maker->where(),
                                 extension::perforated_screen::deployment_schedule_name.title);
-    deployment_names_.push_back(name);
-    deployments_.push_back(range.second);
+    add_deployment(name, range.second);
   }
+}
+
+void ShadeOptics::add_leaf_schedules() {
+  for (auto const& name : model_->surroundings.leaf_schedules) {
+    auto const range = range_of(schedules_, name, std::string(extension::tree::type),
+                                extension::tree::leaf_schedule_name.title);
+    add_deployment(name, range.second);
+  }
+}
+
+void ShadeOptics::add_deployment(std::string const& name, double most) {
+  auto const& known = deployment_names_;
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  deployment_names_.push_back(name);
+  deployments_.push_back(most);
+}
+
+int ShadeOptics::deployment_of(std::string const& schedule) const {
+  auto const& known = deployment_names_;
+  auto const found = std::find(known.begin(), known.end(), schedule);
+  return found == known.end() ? -1 : static_cast<int>(found - known.begin());
 }
 
 void ShadeOptics::make_factor(std::string const& name, Schedule& schedule) {
@@ -69,6 +90,15 @@ void ShadeOptics::make_factor(std::string const& name, Schedule& schedule) {
 
 void ShadeOptics::apply(Surface& surface, std::optional<TextureAxes> const& texture,
                         Radiation radiation) const {
+  if (auto const* const crown = surface.filter.find<Crown>()) {
+    Crown leaved = *crown;
+    if (leaved.deployment >= 0) {
+      auto const place = static_cast<std::size_t>(leaved.deployment);
+      leaved.deployment = deployment_of(model_->surroundings.leaf_schedules[place]);
+    }
+    surface.filter.set(leaved);
+    return;
+  }
   auto const shading = model_->shading.shading_surfaces.find(surface.name);
   if (shading == model_->shading.shading_surfaces.end()) return;
   auto const shade = model_->shades.by_surface.find(surface.name);
@@ -102,9 +132,7 @@ void ShadeOptics::apply_screen(Surface& surface, std::optional<TextureAxes> cons
   if (screen == nullptr) return;
   PerforatedSheet sheet{screen->maker->make(surface.polygon, texture),
                         screen->maker->placement(surface.polygon, texture)};
-  auto const& known = deployment_names_;
-  auto const found = std::find(known.begin(), known.end(), screen->deployment_schedule);
-  if (found != known.end()) sheet.deployment = static_cast<int>(found - known.begin());
+  sheet.deployment = deployment_of(screen->deployment_schedule);
   surface.filter.set(std::move(sheet));
 }
 
@@ -138,6 +166,13 @@ std::vector<double> ShadeOptics::deployments_at(Moment moment) const {
 
 std::string describe_optics(Model const& model, Surface const& surface,
                             std::optional<TextureAxes> const& texture) {
+  if (auto const* const crown = surface.filter.find<Crown>()) {
+    auto text = fmt::format("crown, {:.1f} m high, leaf area density {:.3g}, wood {:.3g} m2/m3",
+                            crown->height, crown->leaf_density, crown->wood_density);
+    if (crown->deployment < 0) return text;
+    auto const place = static_cast<std::size_t>(crown->deployment);
+    return text + fmt::format(", leaves by {}", model.surroundings.leaf_schedules[place]);
+  }
   auto const shading = model.shading.shading_surfaces.find(surface.name);
   if (shading == model.shading.shading_surfaces.end()) return "opaque";
   auto const shade = model.shades.by_surface.find(surface.name);

@@ -38,7 +38,7 @@ class ShadeOptics {
   std::vector<double> factors_at(Moment moment) const;
   std::vector<double> deployments_at(Moment moment) const;
 
-  // Whether a surface has a Transmittance or Deployment Schedule, even a constant one.
+  // Whether a surface has a Transmittance, Deployment or Leaf Schedule, even a constant one.
   bool has_schedules() const { return !by_name_.empty() || !deployment_names_.empty(); }
 
   Schedules const& schedules() const { return schedules_; }
@@ -57,6 +57,10 @@ class ShadeOptics {
 
   void add_transmittance_schedules();
   void add_deployments();
+  void add_leaf_schedules();
+  void add_deployment(std::string const& name, double most);
+  // Its position in deployments(); -1 if it is none of them.
+  int deployment_of(std::string const& schedule) const;
   void make_factor(std::string const& name, Schedule& schedule);
   void apply_screen(Surface& surface, std::optional<TextureAxes> const& texture) const;
 

@@ -65,10 +65,10 @@ void draw_line(Image& image, glm::dvec2 const& from, glm::dvec2 const& to, doubl
 }
 
 // 1, 2 or 5 times a power of ten, at most so long.
-double round_length(double most) {
-  double const power = std::pow(10.0, std::floor(std::log10(most)));
+double round_length(double max_length) {
+  double const power = std::pow(10.0, std::floor(std::log10(max_length)));
   for (double const times : {5.0, 2.0}) {
-    if (times * power <= most) return times * power;
+    if (times * power <= max_length) return times * power;
   }
   return power;
 }
@@ -140,8 +140,8 @@ std::vector<std::optional<double>> sunlit_fractions(Drawing const& drawing, SunD
   auto const areas = drawing.renderer.projected_sunlit_areas(sun, lit);
   for (std::size_t i = 0; i < lit.size(); ++i) {
     auto const& polygon = scene[lit[i]].polygon;
-    double const most = area(polygon) * glm::dot(normal(polygon), towards_sun);
-    fractions[lit[i]] = std::min(1.0, areas[i].at(drawing.factors) / most);
+    double const unshaded = area(polygon) * glm::dot(normal(polygon), towards_sun);
+    fractions[lit[i]] = std::min(1.0, areas[i].at(drawing.factors) / unshaded);
   }
   return fractions;
 }

@@ -81,8 +81,9 @@ std::vector<MeshRow> meshes_of(Scene const& scene, Model const& model) {
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     auto const& surface = scene[id];
     auto const type = model.surroundings.types.find(surface.name);
-    if (type == model.surroundings.types.end() || type->second != extension::geometry::type)
+    if (type == model.surroundings.types.end() || type->second == extension::site_context::type) {
       continue;
+    }
     auto const size = area(surface.polygon);
     if (size <= 0.0) continue;
     auto const [row, added] = known.try_emplace(surface.name, rows.size());
@@ -160,7 +161,7 @@ Listing list_surfaces(Scene const& scene, Model const& model, std::vector<bool> 
   for (auto const& mesh : meshes_of(scene, model)) {
     auto const& surface = scene[mesh.first];
     listing.surfaces.push_back(
-        {surface.name, kind_of(surface.name, model.shading), mesh.area, false,
+        {surface.name, model.surroundings.types.at(surface.name), mesh.area, false,
          describe_optics(model, surface, model.surroundings.texture_of(mesh.first))});
   }
   return listing;
@@ -176,8 +177,8 @@ std::string text_of(Listing const& listing) {
 }
 
 // The same as one JSON document (docs/reference/files.md).
-std::string json_text_of(Listing const& listing) {
-  Json json{{"format", "gpu_shading check 1"}, {"remarks", listing.remarks}};
+std::string json_text_of(Listing const& listing, std::string const& scene) {
+  Json json{{"format", "gpu_shading check 1"}, {"scene", scene}, {"remarks", listing.remarks}};
   json["rule"] = Json::array();
   std::istringstream rule(listing.rule);
   for (std::string line; std::getline(rule, line);) json["rule"].push_back(line);
@@ -207,7 +208,9 @@ std::string perform(ListingTask const& task, SceneAssembly& scene, Messages cons
     return task.json ? scene_document(scene) : list_vertices(scene.surfaces(), scene.model());
   }
   auto const listing = list_surfaces(scene.surfaces(), scene.model(), scene.receives());
-  return task.json ? json_text_of(listing) : text_of(listing);
+  if (!task.json) return text_of(listing);
+  scene.optics().update({});
+  return json_text_of(listing, to_text(scene.hash(scene.scene(), {})));
 }
 
 }  // namespace gpu_shading::energyplus

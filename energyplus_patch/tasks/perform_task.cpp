@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
 #include "answers/cache_folder.h"
-#include "answers/cached_renderer.h"
 #include "gpu_shading/error.h"
 #include "model/extensions/extension_fields.h"
 #include "reports/remarks.h"
@@ -17,33 +17,24 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-// For tasks that render: the answers of a device that was checked.
-CachedRenderer open_for_task(SceneAssembly& scene, std::vector<SurfaceId> const& receivers,
-                             Messages const& messages) {
-  auto const& options = scene.model().options;
-  if (options.cache) prepare_cache_folder(*options.cache);
-  auto answers = open_renderer(scene, receivers, options.device, messages);
-  check_device(answers.renderer().device(), options, messages);
-  describe_scene(scene, messages);
-  scene.optics().update({});
-  answers.deploy(scene.optics().deployments(), scene.positions());
-  return answers;
-}
-
-// Each position of a screen or shade would need samples of its own.
-void refuse_moving_shades(SceneAssembly const& scene) {
+// Each position of a screen, and each share of leaves, would need samples of its own.
+void refuse_changing_bodies(SceneAssembly const& scene) {
   if (auto const& shades = scene.model().moving_shades; !shades.empty()) {
     throw Error(fmt::format("{}: samples cannot be taken of a model with moving shades",
                             shades.front().where));
   }
   auto const& optics = scene.optics();
+  auto const& leaves = scene.model().surroundings.leaf_schedules;
   for (auto const& name : optics.deployment_names()) {
     auto const [least, most] = optics.schedules().range(name);
     if (least < most) {
-      throw Error(fmt::format(
-          "{}: {} {}: has values from {} to {}, expected a constant value for samples",
-          extension::perforated_screen::type,
-          extension::perforated_screen::deployment_schedule_name.title, name, least, most));
+      bool const of_leaves = std::find(leaves.begin(), leaves.end(), name) != leaves.end();
+      throw Error(
+          fmt::format("{}: {} {}: has values from {} to {}, expected a constant value for samples",
+                      of_leaves ? extension::tree::type : extension::perforated_screen::type,
+                      of_leaves ? extension::tree::leaf_schedule_name.title
+                                : extension::perforated_screen::deployment_schedule_name.title,
+                      name, least, most));
     }
   }
 }
@@ -64,9 +55,21 @@ SampledScene sampled_scene(SamplesTask const& task, SceneAssembly const& scene,
 
 }  // namespace
 
+CachedRenderer open_for_task(SceneAssembly& scene, std::vector<SurfaceId> const& receivers,
+                             Messages const& messages) {
+  auto const& options = scene.model().options;
+  if (options.cache) prepare_cache_folder(*options.cache);
+  auto answers = open_renderer(scene, receivers, options.device, messages);
+  check_device(answers.renderer().device(), options, messages);
+  describe_scene(scene, messages);
+  scene.optics().update({});
+  answers.deploy(scene.optics().deployments(), scene.positions());
+  return answers;
+}
+
 std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages const& messages) {
   auto const& options = scene.model().options;
-  refuse_moving_shades(scene);
+  refuse_changing_bodies(scene);
   // All that a run asks for, because the samples depend on it.
   auto answers = open_for_task(scene, scene.receivers(), messages);
   auto const& device = answers.renderer().device();

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "answers/cached_renderer.h"
 #include "calculation/session.h"
 #include "tasks/task_file.h"
 
@@ -13,6 +14,12 @@ std::string perform(ViewsTask const& task, SceneAssembly& scene, Messages const&
 std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages const& messages);
 std::string perform(MapTask const& task, SceneAssembly& scene, Messages const& messages);
 std::string perform(DirectionsTask const& task, SceneAssembly& scene, Messages const& messages);
+std::string perform(MaskTask const& task, SceneAssembly& scene, Messages const& messages);
+
+// For tasks that render: the answers of a device that was checked, with schedules at their lowest
+// value and screens fully deployed.
+CachedRenderer open_for_task(SceneAssembly& scene, std::vector<SurfaceId> const& receivers,
+                             Messages const& messages);
 
 // The scene that is rendered for a model, as JSON that the Python package reads: every surface with
 // its vertices, optics and part in the shading rule, in the order of the scene. Transmittances are

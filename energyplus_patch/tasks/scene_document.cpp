@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <glm/trigonometric.hpp>
 #include <iterator>
@@ -84,6 +85,16 @@ Document to_json(PerforatedScreen const& screen) {
   return json;
 }
 
+Document to_json(Crown const& crown) {
+  constexpr std::array shapes{"ellipsoid", "cone", "cylinder", "half ellipsoid"};
+  constexpr std::array angles{"spherical", "planophile", "erectophile"};
+  return {{"height", crown.height},
+          {"leaf_density", crown.leaf_density},
+          {"shape", shapes.at(static_cast<std::size_t>(crown.shape))},
+          {"leaf_angles", angles.at(static_cast<std::size_t>(crown.leaf_angles))},
+          {"wood_density", crown.wood_density}};
+}
+
 // Objects that surfaces share, each once, with its index.
 template <typename T>
 class Shared {
@@ -110,8 +121,10 @@ class SurfaceTexts {
     auto const* const shade = surface.filter.find<AngularTransmittance>();
     auto const* const found = surface.filter.find<PerforatedSheet>();
     PerforatedSheet const sheet = found != nullptr ? *found : PerforatedSheet{};
-    auto const written = static_cast<std::size_t>(shade != nullptr) + (found != nullptr ? 1 : 0);
-    if (written != surface.filter.factors.size()) {
+    auto const* const crown = surface.filter.find<Crown>();
+    auto const written =
+        std::ranges::count(std::array{shade != nullptr, found != nullptr, crown != nullptr}, true);
+    if (written != std::ssize(surface.filter.factors)) {
       throw Error(fmt::format("{}: a document of a scene has no field for its kind of filter",
                               surface.name));
     }
@@ -127,9 +140,11 @@ class SurfaceTexts {
     }
     write(
         "],\"transmittance\":{},\"schedule\":{},\"screen\":{},\"origin\":[{},{}],"
-        "\"rotation\":{},\"deployment\":{}}}",
+        "\"rotation\":{},\"deployment\":{},\"crown\":{}}}",
         transmittances_.add(shade != nullptr ? shade->model : nullptr), surface.filter.schedule,
-        screens_.add(sheet.screen), u, v, glm::degrees(rotation), sheet.deployment);
+        screens_.add(sheet.screen), u, v, glm::degrees(rotation),
+        crown != nullptr ? crown->deployment : sheet.deployment,
+        crown != nullptr ? text_of(to_json(*crown)) : "null");
   }
 
   std::string const& text() const { return text_; }

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "gpu_shading/polygon.h"
 #include "gpu_shading/sun_direction.h"
+#include "reports/sky_mask.h"
 #include "runs/run_times.h"
 #include "tasks/samples/take_samples.h"
 #include "tasks/view_list.h"
@@ -74,7 +77,30 @@ struct ReceiverFractions {
   std::vector<double> fractions;  // by direction, 0 .. 1; 0 if it is behind the receiver
 };
 
-using Task = std::variant<ListingTask, ViewsTask, SamplesTask, MapTask, DirectionsTask>;
+// What receivers see of the sky and of some positions of the sun, with schedules at their lowest
+// value and screens fully deployed, and the file that it is written to.
+struct MaskTask {
+  std::string receivers;  // a pattern of names; empty: all windows, or all receivers without any
+  int step = 0;           // of the sky's grid, degrees
+  int rays = 0;           // from a receiver in each direction
+  double spacing = 0.0;   // of a grid of points, m; 0: the receivers as a whole
+  std::vector<SunDirection> suns;
+  std::filesystem::path file;
+  int progress = -1;  // the file descriptor for progress; none if negative
+
+  bool operator==(MaskTask const&) const = default;
+};
+
+struct ReceiverMask {
+  SampledReceiver receiver;
+  std::optional<glm::dvec3> point;  // m; empty: of the whole receiver
+  std::vector<BeamShare> sky;       // by cell of SkyGrid(step)
+  // By sun. Sunlit fractions of whole receivers are rendered as EnergyPlus asks for them; what
+  // stops the beam is by rays.
+  std::vector<BeamShare> suns;
+};
+
+using Task = std::variant<ListingTask, ViewsTask, SamplesTask, MapTask, DirectionsTask, MaskTask>;
 
 // How it went.
 struct TaskReply {

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -62,23 +65,6 @@ Json to_json(SamplesTask const& task) {
           {"progress", task.progress}};
 }
 
-Json to_json(DirectionsTask const& task) {
-  Json directions = Json::array();
-  for (auto const& direction : task.directions) {
-    directions.push_back({direction.azimuth, direction.altitude});
-  }
-  return {
-      {"kind", "directions"}, {"directions", std::move(directions)}, {"file", task.file.string()}};
-}
-
-DirectionsTask to_directions_task(Json const& json) {
-  DirectionsTask task{{}, json.at("file").get<std::string>()};
-  for (auto const& direction : json.at("directions")) {
-    task.directions.push_back({direction.at(0), direction.at(1)});
-  }
-  return task;
-}
-
 Json to_json(MapTask const& task) {
   Json times = Json::array();
   for (auto const& [month, day, hour, timestep, sun, schedules, beam] : task.run.times) {
@@ -114,11 +100,53 @@ MapTask to_map_task(Json const& json) {
   return task;
 }
 
+Json directions_to_json(std::vector<SunDirection> const& directions) {
+  Json json = Json::array();
+  for (auto const& direction : directions) {
+    json.push_back({direction.azimuth, direction.altitude});
+  }
+  return json;
+}
+
+std::vector<SunDirection> directions_of(Json const& json) {
+  std::vector<SunDirection> directions;
+  for (auto const& direction : json) directions.push_back({direction.at(0), direction.at(1)});
+  return directions;
+}
+
+Json to_json(DirectionsTask const& task) {
+  return {{"kind", "directions"},
+          {"directions", directions_to_json(task.directions)},
+          {"file", task.file.string()}};
+}
+
+Json to_json(MaskTask const& task) {
+  return {{"kind", "masks"},
+          {"receivers", task.receivers},
+          {"step", task.step},
+          {"rays", task.rays},
+          {"spacing", task.spacing},
+          {"suns", directions_to_json(task.suns)},
+          {"file", task.file.string()},
+          {"progress", task.progress}};
+}
+
 Task to_task(Json const& json) {
   auto const kind = json.at("kind").get<std::string>();
   if (kind == "listing") return ListingTask{json.at("vertices"), json.at("json")};
   if (kind == "maps") return to_map_task(json);
-  if (kind == "directions") return to_directions_task(json);
+  if (kind == "directions") {
+    return DirectionsTask{directions_of(json.at("directions")), json.at("file").get<std::string>()};
+  }
+  if (kind == "masks") {
+    return MaskTask{json.at("receivers"),
+                    json.at("step"),
+                    json.at("rays"),
+                    json.at("spacing"),
+                    directions_of(json.at("suns")),
+                    json.at("file").get<std::string>(),
+                    json.at("progress")};
+  }
   if (kind == "samples") {
     return SamplesTask{json.at("asked"),
                        json.at("latitude"),
@@ -165,6 +193,31 @@ ReceiverMap map_of(Json const& json) {
   for (auto const& hole : json.at("holes")) map.polygon.holes.push_back(ring_of(hole));
   for (auto const& value : json.at("values")) map.values.push_back({value.at(0), value.at(1)});
   return map;
+}
+
+// Many: as bytes.
+Json shares_to_json(std::vector<BeamShare> const& shares) {
+  std::vector<std::uint8_t> bytes(shares.size() * sizeof(BeamShare));
+  std::memcpy(bytes.data(), shares.data(), bytes.size());
+  return Json::binary(std::move(bytes));
+}
+
+std::vector<BeamShare> shares_of(Json const& json) {
+  static_assert(std::is_trivially_copyable_v<BeamShare>);
+  auto const& bytes = json.get_binary();
+  std::vector<BeamShare> shares(bytes.size() / sizeof(BeamShare));
+  std::memcpy(shares.data(), bytes.data(), shares.size() * sizeof(BeamShare));
+  return shares;
+}
+
+ReceiverMask mask_of(Json const& json) {
+  ReceiverMask mask{{json.at("name"), ring_of(json.at("area")).front()},
+                    std::nullopt,
+                    shares_of(json.at("sky")),
+                    shares_of(json.at("suns"))};
+  auto const point = ring_of(json.at("point"));
+  if (!point.empty()) mask.point = point.front();
+  return mask;
 }
 
 }  // namespace
@@ -222,6 +275,26 @@ std::vector<ReceiverFractions> read_fractions(Path const& file) {
       receivers.push_back({{row.at(0), {row.at(1), row.at(2), row.at(3)}}, row.at(4)});
     }
     return receivers;
+  });
+}
+
+void write_masks(Path const& file, std::vector<ReceiverMask> const& masks) {
+  Json json = Json::array();
+  for (auto const& [receiver, point, sky, suns] : masks) {
+    json.push_back({{"name", receiver.name},
+                    {"area", ring_to_json({receiver.area})},
+                    {"point", ring_to_json(point ? Ring{*point} : Ring{})},
+                    {"sky", shares_to_json(sky)},
+                    {"suns", shares_to_json(suns)}});
+  }
+  write(file, json);
+}
+
+std::vector<ReceiverMask> read_masks(Path const& file) {
+  return read(file, [](Json const& json) {
+    std::vector<ReceiverMask> masks;
+    for (auto const& mask : json) masks.push_back(mask_of(mask));
+    return masks;
   });
 }
 

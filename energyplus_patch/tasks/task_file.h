@@ -33,6 +33,8 @@ std::vector<ReceiverMap> read_maps(std::filesystem::path const& file);
 void write_fractions(std::filesystem::path const& file,
                      std::vector<ReceiverFractions> const& receivers);
 std::vector<ReceiverFractions> read_fractions(std::filesystem::path const& file);
+void write_masks(std::filesystem::path const& file, std::vector<ReceiverMask> const& masks);
+std::vector<ReceiverMask> read_masks(std::filesystem::path const& file);
 
 // A task of the gpu_shading program that EnergyPlus is run for (--gpu-shading-task), and the reply
 // to it as it comes about.

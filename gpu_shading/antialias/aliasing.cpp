@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 namespace gpu_shading {

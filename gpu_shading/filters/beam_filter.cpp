@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "filters/crown/crown_filter.h"
 #include "filters/perforation/perforation_filter.h"
 #include "filters/transmittance/transmittance_filter.h"
 
@@ -42,7 +43,8 @@ BeamFilter::Faces BeamFilter::faces() const {
   Faces all;
   for (FilterFactor const& factor : factors) {
     Faces const faces = std::visit([](auto const& kind) { return faces_of(kind); }, factor);
-    all = {std::min(all.inside, faces.inside), std::max(all.outside, faces.outside)};
+    all = {std::min(all.inside, faces.inside), std::max(all.outside, faces.outside),
+           all.fills || faces.fills};
   }
   return all;
 }

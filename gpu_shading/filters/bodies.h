@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+
+#include "filters/crown/crowns.h"
 #include "filters/perforation/screen_shading.h"
 #include "view/pixel_mask.h"
 #include "view/pixel_rows.h"
@@ -10,8 +13,9 @@ namespace gpu_shading {
 // The casters in front of a receiver that are not flat, at one sun direction, by kind.
 struct BodiesInView {
   ScreensInView screens = {};
+  std::span<CrownInBeam const> crowns = {};
 
-  bool empty() const { return screens.numbers.empty(); }
+  bool empty() const { return screens.numbers.empty() && crowns.empty(); }
   // Whether they let the beam pass or not, and nothing between.
   bool all_or_nothing(View const& pixels) const;
   // Multiplies the luminance of a tile's sunlit pixels by their transmittance, on the CPU, and

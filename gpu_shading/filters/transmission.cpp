@@ -7,7 +7,8 @@
 
 namespace gpu_shading {
 
-Transmission::Transmission(Scene const& scene) : entries_(scene.size()), screens_(scene) {
+Transmission::Transmission(Scene const& scene)
+    : entries_(scene.size()), screens_(scene), crowns_(scene) {
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     int const schedule = scene[id].filter.schedule;
     if (schedule >= 0) schedules_.push_back(schedule);
@@ -38,7 +39,7 @@ bool Transmission::any_schedule(std::span<SurfaceId const> casters) const {
 }
 
 bool Transmission::any_body(std::span<SurfaceId const> casters) const {
-  return any_screen(casters);
+  return any_screen(casters) || any_crown(casters);
 }
 
 bool Transmission::any_screen(std::span<SurfaceId const> casters) const {
@@ -46,10 +47,20 @@ bool Transmission::any_screen(std::span<SurfaceId const> casters) const {
                      [&](SurfaceId id) { return screens_.number(id) != Screens::none; });
 }
 
+bool Transmission::any_crown(std::span<SurfaceId const> casters) const {
+  return std::any_of(casters.begin(), casters.end(),
+                     [&](SurfaceId id) { return crowns_.number(id) != Crowns::none; });
+}
+
 std::string Transmission::describe(std::span<SurfaceId const> casters) const {
-  bool const screens = any_screen(casters);
-  if (!any_schedule(casters)) return screens ? "perforated screens" : "transparent shades";
-  return screens ? "perforated screens and transmittance schedules" : "transmittance schedules";
+  std::string kinds;
+  auto const add = [&](bool any, char const* kind) {
+    if (any) kinds += (kinds.empty() ? "" : " and ") + std::string(kind);
+  };
+  add(any_screen(casters), "perforated screens");
+  add(any_crown(casters), "tree crowns");
+  add(any_schedule(casters), "transmittance schedules");
+  return kinds.empty() ? "transparent shades" : kinds;
 }
 
 std::vector<SurfaceId> Transmission::flat_among(std::span<SurfaceId const> casters) const {
@@ -65,6 +76,18 @@ std::vector<int> Transmission::screens_among(std::span<SurfaceId const> casters)
     if (screens_.number(id) != Screens::none) numbers.push_back(screens_.number(id));
   }
   return numbers;
+}
+
+std::vector<CrownInBeam> Transmission::crowns_among(std::span<SurfaceId const> casters,
+                                                    glm::dvec3 const& towards_sun) const {
+  std::vector<CrownInBeam> crowns;
+  for (SurfaceId const id : casters) {
+    int const number = crowns_.number(id);
+    if (number == Crowns::none) continue;
+    Crowns::Entry const& crown = crowns_[number];
+    crowns.push_back({&crown, towards_sun, crown.extinction(towards_sun, deployments_)});
+  }
+  return crowns;
 }
 
 double Transmission::transmittance(SurfaceId id, glm::dvec3 const& towards_sun) const {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "filters/crown/crowns.h"
 #include "filters/perforation/screens.h"
 #include "filters/perforation/sheet_in_beam.h"
 #include "gpu_shading/scene.h"
@@ -26,8 +27,9 @@ class Transmission {
   explicit Transmission(Scene const& scene);
 
   Screens const& screens() const { return screens_; }
+  Crowns const& crowns() const { return crowns_; }
 
-  // Deployed fractions of screens, 1 beyond the end.
+  // Deployed fractions of screens and shares of leaves, 1 beyond the end.
   void set_deployments(std::vector<double> shares) { deployments_ = std::move(shares); }
 
   bool transmits(SurfaceId id) const { return entries_[id].transmits; }
@@ -41,11 +43,15 @@ class Transmission {
   // Whether one of them is not flat only.
   bool any_body(std::span<SurfaceId const> casters) const;
   bool any_screen(std::span<SurfaceId const> casters) const;
+  bool any_crown(std::span<SurfaceId const> casters) const;
   // The kinds of some casters: "transparent shades", "perforated screens and transmittance
   // schedules". Casters with equal descriptions are rendered in the same way.
   std::string describe(std::span<SurfaceId const> casters) const;
   std::vector<SurfaceId> flat_among(std::span<SurfaceId const> casters) const;
   std::vector<int> screens_among(std::span<SurfaceId const> casters) const;
+
+  std::vector<CrownInBeam> crowns_among(std::span<SurfaceId const> casters,
+                                        glm::dvec3 const& towards_sun) const;
 
   // Of the flat factors, without schedule; 0 for an opaque surface. `towards_sun` of unit length.
   double transmittance(SurfaceId id, glm::dvec3 const& towards_sun) const;
@@ -68,6 +74,7 @@ class Transmission {
   std::vector<Entry> entries_;
   std::vector<int> schedules_;
   Screens screens_;
+  Crowns crowns_;
   std::vector<double> deployments_;
 };
 

@@ -1,6 +1,5 @@
 #include "geometry/convex_polygon.h"
 
-#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 

@@ -22,6 +22,7 @@ inline constexpr Colour ground(229.0, 233.0, 229.0);
 inline constexpr Colour sand(208.0, 200.0, 186.0);   // casts shadows only
 inline constexpr Colour slate(128.0, 138.0, 152.0);  // a receiver that faces away from the sun
 inline constexpr Colour bronze(156.0, 108.0, 62.0);  // a perforated screen
+inline constexpr Colour leaves(106.0, 142.0, 78.0);  // a crown
 inline constexpr Colour glass(120.0, 176.0, 200.0);  // a surface that transmits
 
 // Grey by a surface's tilt to the sun: light where it faces the sun, dark where it is edge-on.

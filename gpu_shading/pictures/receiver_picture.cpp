@@ -40,7 +40,7 @@ PictureGrid grid_around(Scene const& scene, ShadedReceiver const& shaded, glm::d
                    reach_of(scene, origin), size);
 }
 
-// The surroundings of the receiver; screens are drawn by their holes over the surfaces behind.
+// The surroundings of the receiver; screens and crowns are drawn over the surfaces behind.
 std::vector<Colour> draw_surroundings(PictureRaster& raster, Scene const& scene,
                                       ShadedReceiver const& shaded, PictureGrid const& grid) {
   std::vector<SurfaceId> others;
@@ -48,7 +48,8 @@ std::vector<Colour> draw_surroundings(PictureRaster& raster, Scene const& scene,
   bool screened = false;
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     by_number.push_back(tilt_grey(scene[id], shaded.towards_sun));
-    if (scene[id].filter.look().kind == FilterLook::Kind::holes) {
+    auto const kind = scene[id].filter.look().kind;
+    if (kind == FilterLook::Kind::holes || kind == FilterLook::Kind::foliage) {
       screened = true;
     } else if (id != shaded.receiver) {
       others.push_back(id);

@@ -14,7 +14,6 @@
 #include "geometry/bvh.h"
 #include "geometry/triangulation.h"
 #include "gpu_shading/error.h"
-#include "gpu_shading/image.h"
 #include "pictures/colours.h"
 #include "pictures/picture_frame.h"
 #include "pictures/shadow_map.h"
@@ -44,10 +43,12 @@ struct Samples {
 };
 
 // The mean of a pixel's samples. colour_of(number, sample) is that of a surface, and
-// share_through(number, x, y) the share that those behind it show; edges of surfaces are dark.
-template <typename ColourOf, typename ShareThrough>
+// share_through(number, x, y) the share that those behind it show; edges of surfaces are dark by
+// edge_share(samples, sample, x, y).
+template <typename ColourOf, typename ShareThrough, typename EdgeShare>
 Colour pixel_colour(Samples const& seen, ColourOf const& colour_of,
-                    ShareThrough const& share_through, int column, int row) {
+                    ShareThrough const& share_through, EdgeShare const& edge_share, int column,
+                    int row) {
   constexpr double edge = 0.45;
   Colour sum(0.0);
   for (int y = samples * row; y < samples * (row + 1); ++y) {
@@ -58,7 +59,7 @@ Colour pixel_colour(Samples const& seen, ColourOf const& colour_of,
         colour =
             glm::mix(colour, colour_of(seen.behind[at], at), share_through(seen.front[at], x, y));
       }
-      sum += seen.is_edge(at) ? edge * colour : colour;
+      sum += seen.is_edge(at) ? glm::mix(1.0, edge, edge_share(seen, at, x, y)) * colour : colour;
     }
   }
   return sum / static_cast<double>(samples * samples);
@@ -97,6 +98,45 @@ class SampledPositions {
   glm::dvec3 const& middle_;
 };
 
+// What a picture shows of a crown along a ray towards the eye.
+struct CrownLook {
+  glm::dvec3 facing;  // where the ray leaves it
+  double passes;      // of what is behind
+
+  // `position`: anywhere on the ray.
+  CrownLook(Crowns::Entry const& crown, glm::dvec3 const& towards_eye, glm::dvec3 const& position)
+      : facing(towards_eye), passes(1.0) {
+    glm::dvec3 const start = crown.in_cube(position - crown.centre);
+    glm::dvec3 const step = crown.in_cube(towards_eye);
+    RayPart const path = crown.solid.inside(start, step);
+    if (path.length() == 0.0) return;
+    passes = std::exp(-crown.extinction(towards_eye, {}) * path.length());
+    glm::dvec3 const end = start + path.end * step;
+    constexpr double flat = 1.0 - 1e-6;
+    glm::dvec3 slope(2.0 * end.x, 2.0 * end.y,
+                     2.0 * crown.solid.square * end.z + crown.solid.linear);
+    if (std::abs(end.z) > flat) slope = {0.0, 0.0, end.z};
+    glm::dvec3 outwards(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+      glm::dvec3 const& half = crown.half.at(static_cast<std::size_t>(axis));
+      outwards += slope[axis] / glm::dot(half, half) * half;
+    }
+    facing = glm::normalize(outwards);
+  }
+};
+
+Mesh body_mesh(Polygon const& plan, Crown const& crown) {
+  constexpr int sides = 32;
+  Mesh mesh;
+  for (Polygon const& face : crown_faces(plan, crown, sides)) {
+    Mesh const part = triangulate(face);
+    auto const base = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
+    for (std::uint32_t const index : part.indices) mesh.indices.push_back(base + index);
+  }
+  return mesh;
+}
+
 }  // namespace
 
 class SceneView::Implementation {
@@ -110,7 +150,10 @@ class SceneView::Implementation {
       has_holes_.push_back(scene_[id].filter.look().kind == FilterLook::Kind::holes);
     }
     find_middle();
-    std::vector<Mesh> const meshes = triangulate_all(scene_);
+    std::vector<Mesh> meshes = triangulate_all(scene_);
+    for (Crowns::Entry const& crown : transmission_.crowns().entries()) {
+      meshes[crown.surface] = body_mesh(scene_[crown.surface].polygon, crown.crown);
+    }
     raster_ = open_picture_raster({scene_, meshes, transmission_}, device);
   }
 
@@ -125,7 +168,8 @@ class SceneView::Implementation {
     return make_image(grid.width / samples, grid.height / samples, [&](int column, int row) {
       return pixel_colour(
           seen, [&](std::uint32_t number, std::size_t) { return by_number[number]; },
-          [](std::uint32_t, int, int) { return through; }, column, row);
+          [](std::uint32_t, int, int) { return through; },
+          [](Samples const&, std::size_t, int, int) { return 1.0; }, column, row);
     });
   }
 
@@ -142,6 +186,11 @@ class SceneView::Implementation {
     SampledPositions const positions(scene_, axes, frame, grid, middle_);
     auto const normals = normals_of_shown();
     constexpr double dark = 0.6;
+    auto const look = [&](SurfaceId id, std::size_t sample) {
+      Crowns::Entry const& crown = transmission_.crowns()[transmission_.crowns().number(id)];
+      return CrownLook(crown, axes.towards_sun,
+                       positions.on_plane(axes.towards_sun, crown.centre, sample));
+    };
     auto const colour = [&](std::uint32_t number, std::size_t sample) -> Colour {
       if (number == 0) {
         glm::dvec3 const up(0.0, 0.0, 1.0);
@@ -149,6 +198,11 @@ class SceneView::Implementation {
         return (dark + (1.0 - dark) * shadows.light_on_ground(position)) * ground;
       }
       SurfaceId const id = number - 1;
+      if (is_crown(id)) {
+        // Leaves within it are lit as well.
+        double const light = 0.5 + 0.5 * glm::dot(look(id, sample).facing, from_sun.towards_sun);
+        return (dark + (1.0 - dark) * light) * leaves;
+      }
       auto const facing =
           glm::dot(normals[id], axes.towards_sun) < 0.0 ? -normals[id] : normals[id];
       auto const fraction = id < fractions.size() ? fractions[id] : std::nullopt;
@@ -159,10 +213,17 @@ class SceneView::Implementation {
       return (dark + (1.0 - dark) * light) * unlit_colour(id, fraction, outside, facing);
     };
     auto const share = [&](std::uint32_t number, int x, int y) {
-      return share_through(number, x, y);
+      if (!is_crown(number - 1)) return share_through(number, x, y);
+      auto const sample = static_cast<std::size_t>(y) * seen.columns + static_cast<std::size_t>(x);
+      return look(number - 1, sample).passes;
+    };
+    // Edges behind a crown are as faint as what is there.
+    auto const edge_share = [&](Samples const& all, std::size_t sample, int x, int y) {
+      std::uint32_t const number = all.front[sample];
+      return number > 0 && is_crown(number - 1) ? share(number, x, y) : 1.0;
     };
     return make_image(grid.width / samples, grid.height / samples, [&](int column, int row) {
-      return pixel_colour(seen, colour, share, column, row);
+      return pixel_colour(seen, colour, share, edge_share, column, row);
     });
   }
 
@@ -174,6 +235,8 @@ class SceneView::Implementation {
   }
 
  private:
+  bool is_crown(SurfaceId id) const { return transmission_.crowns().number(id) != Crowns::none; }
+
   void check(int size) const {
     int const max_size = raster_->max_pixels() / samples;
     if (size < 1 || size > max_size) {
@@ -220,6 +283,9 @@ class SceneView::Implementation {
   void for_each_point(Action const& action) const {
     for (SurfaceId const id : shown_) {
       for (auto const& vertex : scene_[id].polygon.outline) action(id, vertex);
+      if (!is_crown(id)) continue;
+      auto const& crown = transmission_.crowns()[transmission_.crowns().number(id)];
+      for (auto const& corner : crown.corners()) action(id, corner);
     }
   }
 
@@ -255,6 +321,7 @@ class SceneView::Implementation {
           receives ? fraction_colour(*fractions[id]) : tilt_grey(scene_[id], towards_sun);
       // A grey screen before a grey wall would not be seen.
       if (has_holes_[id]) by_number[id + 1] *= bronze / brightest;
+      if (is_crown(id)) by_number[id + 1] = leaves;
     }
     return by_number;
   }

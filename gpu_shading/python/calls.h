@@ -49,7 +49,7 @@ struct SurfaceRecord {
   std::size_t const* ring_sizes;  // vertices of each ring
   std::size_t rings;              // 1 or more
   int casting;                    // of Casting
-  FilterObject const* filter;     // a flat one, or null
+  FilterObject const* filter;     // or null
   int schedule;                   // or -1
   ScreenObject const* screen;     // or null
   double origin_u;

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "python/guard.h"

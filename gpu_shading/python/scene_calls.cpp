@@ -1,5 +1,8 @@
+#include <utility>
+#include <variant>
 #include <vector>
 
+#include "geometry/triangulation.h"
 #include "python/guard.h"
 
 namespace gpu_shading::python {
@@ -36,7 +39,11 @@ GPU_SHADING_CALL int gpu_shading_scene_add(SceneObject* scene, SurfaceRecord con
     added.name = surface->name;
     added.polygon = polygon_of(*surface);
     added.casting = enumerator(surface->casting, Casting::never, "casting");
-    if (surface->filter != nullptr) added.filter.set(surface->filter->factor);
+    if (surface->filter != nullptr) {
+      FilterFactor factor = surface->filter->factor;
+      if (auto* const crown = std::get_if<Crown>(&factor)) crown->deployment = surface->deployment;
+      added.filter.set(std::move(factor));
+    }
     if (surface->screen != nullptr) {
       added.filter.set(PerforatedSheet{surface->screen->screen,
                                        {surface->origin_u, surface->origin_v, surface->rotation},
@@ -74,6 +81,19 @@ GPU_SHADING_CALL int gpu_shading_scene_areas(SceneObject const* scene, double* r
       auto const& polygon = scene->scene[id].polygon;
       auto const vector = area(polygon) * normal(polygon);
       for (int axis = 0; axis < 3; ++axis) *results++ = vector[axis];
+    }
+  });
+}
+
+// The corners of a surface's triangles: triangles x 3 x 3; nullptr: only their number.
+GPU_SHADING_CALL int gpu_shading_scene_triangles(SceneObject const* scene, std::size_t surface,
+                                                 double* corners, std::size_t* triangles) {
+  return guarded([&] {
+    auto const mesh = triangulate(scene->scene[static_cast<SurfaceId>(surface)].polygon);
+    *triangles = mesh.indices.size() / 3;
+    if (corners == nullptr) return;
+    for (auto const index : mesh.indices) {
+      for (int axis = 0; axis < 3; ++axis) *corners++ = mesh.vertices[index][axis];
     }
   });
 }

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "filters/crown/crowns.h"
 #include "filters/perforation/sheet_rays.h"
 #include "filters/transmission.h"
 #include "gpu_shading/rays.h"
@@ -79,13 +82,50 @@ class RayScreens {
   RayTree tree_;
 };
 
+class RayCrowns {
+ public:
+  RayCrowns(Crowns const& crowns, std::span<SurfaceId const> casters) : crowns_(crowns) {
+    std::vector<Box> boxes(crowns_.entries().size());
+    for (SurfaceId const id : casters) {
+      int const number = crowns_.number(id);
+      if (number == Crowns::none) continue;
+      Box& box = boxes[static_cast<std::size_t>(number)];
+      for (glm::dvec3 const& corner : crowns_[number].corners()) box.include(corner);
+      box = with_margin(box);
+    }
+    tree_ = RayTree(boxes);
+  }
+
+  // As RayScreens. The distance is that at which a ray enters a crown; the part of its path that
+  // counts ends where the ray does.
+  template <typename Skips, typename Met>
+  void search(RayPath const& ray, double const& limit, std::span<double const> deployments,
+              Skips const& skips, Met const& met) const {
+    tree_.search(ray, limit, [&](std::uint32_t place) {
+      Crowns::Entry const& crown = crowns_[static_cast<int>(tree_.order()[place])];
+      if (skips(crown.surface)) return;
+      RayPart part = crown.solid.inside(crown.in_cube(ray.origin - crown.centre),
+                                        crown.in_cube(ray.direction));
+      part = {std::max(part.begin, 0.0), std::min(part.end, ray.length)};
+      if (part.length() == 0.0 || part.begin > limit) return;
+      double const extinction = crown.extinction(ray.direction, deployments);
+      met(crown.surface, part.begin, std::exp(-extinction * part.length()));
+    });
+  }
+
+ private:
+  Crowns const& crowns_;
+  RayTree tree_;
+};
+
 // Casters that are not flat, of all kinds, as rays meet them.
 class RayBodies {
  public:
   // Those of `casters`. The transmission must outlive it.
   RayBodies(Transmission const& transmission, std::span<SurfaceId const> casters,
             RayOptions const& options)
-      : screens_(transmission.screens(), casters, options.screens) {}
+      : screens_(transmission.screens(), casters, options.screens),
+        crowns_(transmission.crowns(), casters) {}
 
   // Calls met(surface, distance, transmittance) for those that a ray meets no farther than at
   // `limit`, which `met` may change, unless skips(surface).
@@ -93,10 +133,12 @@ class RayBodies {
   void search(RayPath const& ray, double const& limit, std::span<double const> deployments,
               Skips const& skips, Met const& met) const {
     screens_.search(ray, limit, deployments, skips, met);
+    crowns_.search(ray, limit, deployments, skips, met);
   }
 
  private:
   RayScreens screens_;
+  RayCrowns crowns_;
 };
 
 }  // namespace gpu_shading

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <optional>
 #include <utility>
 
 #include "backends/open_backend.h"

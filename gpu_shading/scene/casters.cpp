@@ -182,6 +182,18 @@ bool Casters::is_in_view(Caster const& caster, PlaneFrame const& frame, Shadow& 
   shadow.clear();
   bool clearly_in_front = false;
   bool cut = false;
+  if (caster.faces.fills) {
+    for (glm::dvec3 const& vertex : ring) {
+      for (double const face : {caster.faces.inside, caster.faces.outside}) {
+        glm::dvec3 const corner = vertex + face * caster.normal;
+        double const height = height_above(frame, corner);
+        clearly_in_front = clearly_in_front || height > coplanar;
+        cut = cut || height <= clearance;
+        shadow.include(corner);
+      }
+    }
+    return clearly_in_front && (cut || shadow.overlaps());
+  }
   for (glm::dvec3 const& vertex : ring) {
     double const height = height_above(frame, vertex) + body;
     clearly_in_front = clearly_in_front || height > coplanar;

@@ -1,6 +1,5 @@
 #include "scene/turns.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <vector>

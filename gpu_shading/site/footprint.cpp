@@ -88,8 +88,8 @@ Plan checked_plan(Footprint const& footprint, LocalAxes const& here) {
   bg::correct(plan);
   auto failure = bg::no_failure;
   if (!bg::is_valid(plan, failure)) throw Error(reason(failure));
-  constexpr double least = 1e-3;  // m2
-  if (bg::area(plan) < least) throw Error("it has no area");
+  constexpr double min_area = 1e-3;  // m2
+  if (bg::area(plan) < min_area) throw Error("it has no area");
   return plan;
 }
 

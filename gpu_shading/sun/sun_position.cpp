@@ -1,6 +1,5 @@
 #include "gpu_shading/sun_position.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/vec3.hpp>

@@ -1,6 +1,5 @@
 #include "view/pixel_mask.h"
 
-#include <algorithm>
 #include <bit>
 
 #include "platform/instructions.h"

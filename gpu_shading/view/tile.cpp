@@ -1,8 +1,6 @@
 #include "view/tile.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 

@@ -1,6 +1,5 @@
 #include "view/tile_size.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace gpu_shading {

@@ -244,7 +244,8 @@ def model(screen="small", size=FULL):
 
 def main():
     parser = argparse.ArgumentParser(description="Writes the model of an academic building behind folded screens.")
-    parser.add_argument("--screen", choices=SCREENS, default="small")
+    parser.add_argument("--screen", choices=SCREENS, default="small",
+                        help="holes of 6.35 mm, of 25.4 mm, or a random gradient of holes (default: small)")
     parser.add_argument("--small", action="store_true", help="a small building of the same kind, quick to run")
     parser.add_argument("--image", metavar="FILE", help=f"write the gradient's image too; the model reads {IMAGE}")
     arguments = parser.parse_args()

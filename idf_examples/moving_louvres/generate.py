@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Writes the box of idf_examples/box_with_louvres with level louvres before its south window that turn.
 
-    generate.py [--louvres N] [--control fixed|block|track] [--position DEGREES] > moving_louvres.idf
+    generate.py [--louvres N] [--control none|fixed|block|track] [--position DEGREES] > moving_louvres.idf
 
-fixed: the louvres stand at a position; block: GPUShading:MovingShade with BlockBeam; track: with TrackSun. The louvres
-are as deep as their rows are apart, in 20 rows, each cut into pieces to give N in total.
+none: the louvres are level, without a GPUShading:MovingShade; fixed: they stand at a position; block: BlockBeam; track:
+TrackSun. The louvres are as deep as their rows are apart, in 20 rows, each cut into pieces to give N in total.
 """
 
 import argparse
@@ -38,6 +38,8 @@ def louvres(count):
 
 def moving_shade(control, position=0.0):
     """The object as text; the blank fields of an axis are its centre line's."""
+    if control == "none":
+        return ""
     head = "\nGPUShading:MovingShade,Louvres,Louvre *,Rotate,,,,,,,,0,80,5,"
     if control == "block":
         return head + ",BlockBeam,,South Window;\n"
@@ -66,7 +68,7 @@ def model(count=ROWS, control="block", position=0.0):
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--louvres", type=int, default=ROWS)
-    parser.add_argument("--control", choices=("fixed", "block", "track"), default="block")
+    parser.add_argument("--control", choices=("none", "fixed", "block", "track"), default="block")
     parser.add_argument("--position", type=float, default=0.0)
     chosen = parser.parse_args()
     sys.stdout.write(model(chosen.louvres, chosen.control, chosen.position))

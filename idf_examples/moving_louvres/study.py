@@ -18,6 +18,7 @@ from shading_runs import results  # noqa: E402
 WEATHER = "USA_CO_Golden-NREL.724666_TMY3.epw"
 # In words: control, position.
 VARIANTS = {
+    "level, no object": ("none", 0),
     "level": ("fixed", 0),
     "fixed at 20": ("fixed", 20),
     "fixed at 40": ("fixed", 40),

@@ -185,7 +185,8 @@ def write(folder, parts=("town", "hills", "sail"), triangles=800):
 
 def main():
     parser = argparse.ArgumentParser(description="Writes an office in a town at the foot of hills.")
-    parser.add_argument("-o", "--output", type=Path, default=Path("out/site_context"), metavar="DIR")
+    parser.add_argument("-o", "--output", type=Path, default=Path("out/site_context"), metavar="DIR",
+                        help="folder for the model and its files (default: out/site_context)")
     parser.add_argument("--without", default="", metavar="PARTS", help="of town, hills and sail, with commas between")
     parser.add_argument("--triangles", type=int, default=800, metavar="N", help="of the sail")
     arguments = parser.parse_args()

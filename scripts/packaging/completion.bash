@@ -20,4 +20,4 @@ _gpu_shading() {
   fi
 }
 complete -o default -F _gpu_shading gpu_shading energyplus energyplus-gpu patch_energyplus compare_shading \
-  compare_sampling sample_models
+  compare_sampling

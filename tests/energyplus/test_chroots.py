@@ -196,6 +196,9 @@ def test_debian_package(suite, bare, patched, model, tmp_path):
     place.bring(installed, *model.iterdir())
     follow(place, "Debian package")
     assert_answers_of_the_build(place.root / PLACE[1:] / "out", patched, model, tmp_path)
+    manual = place.run("EnergyPlus-gpu/gpu_shading docs", USER).strip()
+    assert "GPU shading" in (place.root / manual[1:]).read_text(encoding="utf-8")
+    assert "courtyard/weather.epw" in place.run("EnergyPlus-gpu/energyplus-gpu example courtyard", USER)
     # Nothing is installed that another package would have to bring.
     assert "not found" not in place.run("ldd /usr/libexec/gpu_shading/gpu_shading /usr/libexec/gpu_shading/energyplus")
     place.run("apt-get remove -y energyplus-gpu-shading")

@@ -26,12 +26,12 @@ def installed(patched, tmp_path_factory):
 
 
 def test_it_is_complete(installed):
-    commands = {"gpu_shading", "patch_energyplus", "compare_shading", "compare_sampling", "sample_models"}
+    commands = {"gpu_shading", "patch_energyplus", "compare_shading", "compare_sampling"}
     assert {path.name for path in (installed / "bin").iterdir()} == commands
     for path in [*(installed / "bin").iterdir(), *installed.glob("share/bash-completion/completions/*")]:
         assert path.exists(), f"{path} leads nowhere"
     pages = {path.stem for path in installed.glob("share/man/man1/*.1")}
-    subcommands = ("devices", "check", "view", "map", "sample", "export")
+    subcommands = ("devices", "check", "view", "map", "mask", "sample", "export", "study")
     assert pages >= commands | {f"gpu_shading-{name}" for name in subcommands}
     share = installed / "share" / "gpu_shading"
     examples = {path.name for path in (ROOT / "idf_examples").iterdir() if any(path.glob("*.idf"))}

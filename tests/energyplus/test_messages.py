@@ -145,10 +145,10 @@ def launch(patched, weather, tmp_path):
 
 
 @pytest.mark.parametrize("arguments, message", [
-    (("-w", "nothere.epw"), "-w: nothere.epw: no such file"),
-    (("-d", "model.idf/out"), "-d: model.idf/out: cannot be written to (Not a directory)"),
-    (("-d", "/proc/out"), "-d: /proc/out: cannot be written to (No such file or directory)"),
-    (("-d", "model.idf"), "-d: model.idf: cannot be written to (Not a directory)"),
+    (("-w", "nothere.epw"), "-w nothere.epw: no such file"),
+    (("-d", "model.idf/out"), "-d model.idf/out: cannot be written to (Not a directory)"),
+    (("-d", "/proc/out"), "-d /proc/out: cannot be written to (No such file or directory)"),
+    (("-d", "model.idf"), "-d model.idf: cannot be written to (Not a directory)"),
 ], ids="{0[0]}{0[1]}".format)
 def test_files_of_a_run_are_checked_first(launch, model, arguments, message):
     done = launch(*arguments, model.name)

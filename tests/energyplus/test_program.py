@@ -52,7 +52,7 @@ def test_devices_are_tested_side_by_side(program):
 
 
 @pytest.mark.parametrize("command", [["check"], ["view", "--sun", "200,35", "-o", "sun.png"],
-                                     ["map", "-w", "WEATHER", "-o", "maps"]])
+                                     ["map", "-w", "WEATHER", "-o", "maps"], ["mask", "-o", "masks"]])
 def test_commands_that_render_refuse_off(command, program, courtyard, weather, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     words = [weather if word == "WEATHER" else word for word in command]
@@ -273,7 +273,7 @@ def test_the_environment_is_for_all_commands(patched, tmp_path):
 
 
 def test_commands_list_their_own_options_and_with_help_all_those_of_shading(program):
-    for command in ("devices", "check", "view", "map", "screen", "sample", "export"):
+    for command in ("devices", "check", "view", "map", "mask", "screen", "sample", "export"):
         own, all_of_it = (program(command, flag).stdout for flag in ("--help", "--help-all"))
         assert "--gpu-shading" not in own.replace("--gpu-shading-device", "").replace("--gpu-shading-update", "")
         assert "gpu_shading help options" in own
@@ -325,7 +325,7 @@ def test_every_program_tells_its_version(program, patched):
     assert f"EnergyPlus, Version {energyplus_release()}" in with_official
     official = subprocess.run([patched, "--version"], capture_output=True, text=True).stdout
     assert "gpu_shading" not in official and energyplus_release() in official
-    for script in ("patch_energyplus", "compare_shading", "compare_sampling", "sample_models"):
+    for script in ("patch_energyplus", "compare_shading", "compare_sampling"):
         told = subprocess.run([ROOT / "scripts" / script, "--version"], capture_output=True, text=True).stdout
         assert told == f"{script} {version}\n"
 

@@ -119,7 +119,7 @@ def test_folder_that_cannot_be_made_is_a_warning(patched, box, weather, tmp_path
     assert warning == "gpu_shading: warning: out/in: cannot be created (Not a directory)"
     # Where it is the error, it is said once.
     done = run(patched, tmp_path, arguments)
-    assert done.stderr == "gpu_shading: error: -d: out/in: cannot be written to (Not a directory)\n"
+    assert done.stderr == "gpu_shading: error: -d out/in: cannot be written to (Not a directory)\n"
 
 
 @pytest.mark.parametrize("question", ["--help", "--version"])

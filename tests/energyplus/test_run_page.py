@@ -36,7 +36,10 @@ LOOK = """() => {
     const pixels = new Uint32Array(copy.getContext("2d").getImageData(0, 0, 300, 200).data.buffer);
     return [new Set(pixels).size, pixels.reduce((sum, pixel) => (sum * 31 + pixel) % 1000003, 7)];
   };
-  const seen = {width: innerWidth, wide: document.documentElement.scrollWidth,
+  const opened = {chosen: text("chosen-name"), area: content.receivers[state.receiver][0]};
+  const box = document.getElementById("view").getBoundingClientRect();
+  const under = view.numberAt({clientX: box.left + box.width / 2, clientY: box.top + box.height / 2});
+  const seen = {opened, under: content.names[under], width: innerWidth, wide: document.documentElement.scrollWidth,
     outside: outside.map((element) => element.outerHTML.slice(0, 200)), faults: faults(),
     drawn: view.constructor.name, begins: colours(), missing: text("view-missing"), notes: text("notes"),
     injected: document.querySelectorAll("img").length};
@@ -58,6 +61,20 @@ LOOK = """() => {
   seen.chosen = text("chosen-name");
   seen.numbers = [...document.querySelectorAll("#numbers dd")].map((value) => value.textContent);
   seen.fields = document.querySelectorAll("#carpet .field").length;
+  seen.beams = [...document.querySelectorAll("#beam-plot .field title")].map((title) => title.textContent);
+  const tab = (key) => document.querySelector("[role=tab][aria-selected=true]").dispatchEvent(
+    new KeyboardEvent("keydown", {key, bubbles: true}));
+  tab("ArrowRight");
+  seen.months = [...document.querySelectorAll("#months-plot .bar title")].map((title) => title.textContent);
+  tab("ArrowRight");
+  seen.suns = document.querySelectorAll("#sky-plot circle").length;
+  seen.skyKeys = [...document.querySelectorAll("#sky-keys li")].map((key) => key.textContent);
+  seen.cells = document.querySelectorAll("#sky-plot .sky-cell").length;
+  fire("projection", "cylindrical", "change");
+  seen.cylinder = document.querySelector("#sky-plot svg").getAttribute("viewBox");
+  seen.chart = chartText(document.querySelector("#sky-plot svg"));
+  tab("ArrowRight");
+  seen.panel = document.querySelector(".panel:not([hidden])").id;
   document.querySelector("#receivers thead th:nth-child(2) button").click();
   seen.rows = [...document.querySelectorAll("#receivers tbody tr")].map((row) =>
     [...row.cells].map((cell) => cell.textContent));
@@ -99,6 +116,10 @@ def page(run):
     return run[1] / "index.html"
 
 
+def done_model(run):
+    return run[0].folder.parent / "courtyard.idf"
+
+
 def rows_of(path):
     with open(path, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
@@ -130,7 +151,7 @@ def test_sunlit_fractions_are_those_of_energyplus(run):
     compared = 0
     for row in rows:
         month, day = map(int, row["day"].split("-"))
-        for receiver in list(row)[4:]:
+        for receiver in list(row)[5:]:
             value = theirs.values[SUNLIT, receiver][month, day, int(row["hour"]), 60]
             assert float(row[receiver]) == pytest.approx(value, abs=6e-5), (receiver, row["day"], row["hour"])
             compared += 0.01 < value < 0.99
@@ -154,7 +175,7 @@ def test_the_page_has_the_numbers_of_the_tables(run, on_desktop):
     assert seen["moment"].startswith(f"1 March, {int(third['hour']):02}:00")
     assert f"{float(third['sun azimuth [deg]']):.1f}\u00b0" in seen["moment"]
     assert seen["chosen"] == HOSTILE
-    assert seen["numbers"][0] in (f"{100 * float(third[HOSTILE]):.0f} %", "turned away from the sun")
+    assert seen["numbers"][0] in (f"{100 * float(third[HOSTILE]):.0f} %", "faces away from the sun")
     assert seen["fields"] == len(rows_of(report / "run_hours.csv"))
     columns = ("receiver", "area [m2]", "azimuth [deg]", "tilt [deg]", "mean sunlit fraction", "beam [kWh/m2]",
                "beam [kWh]")
@@ -166,10 +187,51 @@ def test_the_page_has_the_numbers_of_the_tables(run, on_desktop):
     assert seen["filtered"] == 2
 
 
+def test_the_page_opens_on_the_largest_window(run, on_desktop):
+    windows = [row for row in rows_of(run[1] / "run_receivers.csv") if "WINDOW" in row["receiver"] or row["receiver"] == HOSTILE]
+    largest = max(windows, key=lambda row: float(row["area [m2]"]))
+    assert on_desktop["opened"] == {"chosen": largest["receiver"], "area": pytest.approx(float(largest["area [m2]"]))}
+    assert on_desktop["under"]
+
+
+def test_beam_by_hour_and_month(run, on_desktop):
+    """The beams of a day's hours, times the days that it stands for, are EnergyPlus's beam of the receiver."""
+    done, report = run
+    theirs = outputs(done).values[INCIDENT, HOSTILE]
+    [march] = [float(row["beam [kWh/m2]"]) for row in rows_of(report / "run_months.csv")
+               if (row["receiver"], row["month"]) == (HOSTILE, "3")]
+    assert march == pytest.approx(sum(theirs.values()) / 4000, abs=0.051)
+    assert on_desktop["months"][2] == f"March: {march:.1f} kWh/m\u00b2"
+    assert sum(float(month.split(": ")[1].split()[0]) for month in on_desktop["months"]) == pytest.approx(march)
+    # 1 March stands for 20 days, 21 March for two.
+    beams = [text.split(": ") for text in on_desktop["beams"]]
+    assert len(beams) == on_desktop["fields"]
+    energy = sum({"1 March, ": 20, "21 March,": 2}[when[:9]] * float(beam.split()[0]) / 1000
+                 for when, beam in ((f"{day} ", beam) for day, beam in beams) if beam.endswith("m\u00b2"))
+    assert energy == pytest.approx(march, rel=0.05)
+
+
+def test_the_sky_of_a_receiver(run, on_desktop):
+    report = run[1]
+    content = content_of(report / "index.html")
+    receiver = content["names"].index(HOSTILE)
+    [sky] = [one for one in content["skies"]["list"] if one["receiver"] == receiver]
+    done = subprocess.run([energyplus.patched_prefix() / "gpu_shading", "mask", done_model(run), "--receiver", "*LIBRARY*",
+                           "-o", report.parent / "masks"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    [mask] = rows_of(report.parent / "masks" / "masks.csv")
+    assert sky["unshaded"] == 0.5
+    assert sky["view"] == pytest.approx(float(mask["sky view factor"]), abs=0.01)
+    assert on_desktop["cells"] > 100 and on_desktop["suns"] > 10
+    assert on_desktop["skyKeys"][0] == "clear sky" and "the building itself" in on_desktop["skyKeys"]
+    assert on_desktop["cylinder"] == "0 0 360 200" and on_desktop["panel"] == "panel-hours"
+    assert on_desktop["chart"].startswith("<svg") and "url(" not in on_desktop["chart"]
+
+
 def test_every_number_is_in_a_table(run, on_desktop):
     tables = [*run[1].glob("run_*.csv"), run[1] / "maps" / "maps.csv"]
     texts = on_desktop["texts"]
-    assert len(tables) == 4 and len(texts) > 150
+    assert len(tables) == 6 and len(texts) > 150
     assert not_in_tables(texts, tables) == []
     assert not_in_tables([*texts, "7.654321 kWh"], tables) == ["7.654321"]
 
@@ -272,3 +334,25 @@ def test_an_index_page_of_somebody_else_is_left_alone(patched, box, weather, tmp
     assert done.returncode == 1
     assert "index.html is not of an earlier report" in done.stderr
     assert (tmp_path / "report" / "index.html").read_text() == "<html>mine</html>"
+
+
+def test_maps_in_the_same_command(patched, box, weather, tmp_path):
+    (tmp_path / "box.idf").write_text(box)
+    done = energyplus.run(patched, tmp_path / "box.idf", weather, tmp_path / "out",
+                          ["-D", "--gpu-shading", f"--gpu-shading-report={tmp_path / 'report'}", "--gpu-shading-maps"])
+    assert done.completed, done.why()
+    rows = rows_of(tmp_path / "report" / "maps" / "maps.csv")
+    content = content_of(tmp_path / "report" / "index.html")
+    names = [content["names"][one["receiver"]] for one in content["maps"]["list"]]
+    assert sorted(names) == sorted(row["receiver"] for row in rows) and len(names) > 4
+
+
+@pytest.mark.parametrize("arguments, why", [
+    (["-w"], "--gpu-shading-maps: expected --gpu-shading-report with it"),
+    (["--gpu-shading-report=report"], "--gpu-shading-maps: expected a weather file, -w, with it")])
+def test_maps_need_a_report_and_weather(patched, box, weather, tmp_path, arguments, why):
+    (tmp_path / "box.idf").write_text(box)
+    given = ["-w", weather] if arguments == ["-w"] else arguments
+    done = subprocess.run([patched, "--gpu-shading", "--gpu-shading-maps", *given, "-D", "-d", tmp_path / "out",
+                           tmp_path / "box.idf"], capture_output=True, text=True, cwd=tmp_path)
+    assert done.returncode == 1 and why in done.stderr

@@ -3,7 +3,6 @@
 import csv
 import json
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -14,7 +13,6 @@ from pathlib import Path
 import pytest
 from shading_runs import energyplus, input_file, results
 
-DRIVER = energyplus.REPOSITORY / "scripts" / "sample_models"
 TABLES = ("samples.csv", "year.csv", "samples.json")
 MODEL_YEAR = 2017
 DAYS = ((3, 25), (6, 17), (11, 30))  # Saturdays, and a Thursday
@@ -179,14 +177,31 @@ def box_model(box, tmp_path):
     return path
 
 
-class Driver:
-    """scripts/sample_models, running in a process group of its own."""
+PLAN = """
+task = "sample"
+models = {models}
+weather = "{weather}"
+mode = "{mode}"
+shards = {shards}
+options = {{ resolution = 128 }}
+"""
 
-    def __init__(self, arguments):
-        environment = {key: value for key, value in os.environ.items() if key == "GPU_SHADING_BUILD" or
-                       not key.startswith("GPU_SHADING")}
-        self.process = subprocess.Popen([sys.executable, DRIVER, *map(str, arguments)], text=True, env=environment,
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
+
+class Driver:
+    """A study that samples, running in a process group of its own."""
+
+    def __init__(self, folder, models, weather, mode, shards):
+        plan = folder / "plan.toml"
+        plan.write_text(PLAN.format(models=[str(model) for model in models], weather=weather, mode=mode, shards=shards))
+        environment = {key: value for key, value in os.environ.items() if not key.startswith("GPU_SHADING")}
+        environment["PATH"] = f"{Path(sys.executable).parent}:{os.environ['PATH']}"
+        self.output = folder / "many"
+        self.process = subprocess.Popen([energyplus.patched_prefix() / "gpu_shading", "study", plan, "-o", self.output,
+                                         "--workers", "2"], text=True, env=environment, stdout=subprocess.PIPE,
+                                        stderr=subprocess.PIPE, start_new_session=True)
+
+    def rows(self):
+        return {row["model"]: row for row in rows_of(self.output / "runs.csv")}
 
     def kill(self):
         """The driver, its workers and what they run, at once."""
@@ -194,14 +209,16 @@ class Driver:
         self.process.communicate()
 
     def others(self):
-        """The processes of its group other than itself."""
+        """Its processes other than itself: those of its group, and what runs for its folder."""
         found = []
         for stat in Path("/proc").glob("[0-9]*/stat"):
             try:
                 state, _, group = stat.read_text().rpartition(")")[2].split()[:3]
+                words = (stat.parent / "cmdline").read_bytes().decode(errors="replace")
             except (FileNotFoundError, ProcessLookupError):
                 continue
-            if int(group) == self.process.pid and state != "Z" and stat.parent.name != str(self.process.pid):
+            ours = int(group) == self.process.pid or str(self.output.parent) in words
+            if ours and state != "Z" and stat.parent.name != str(self.process.pid):
                 found.append(int(stat.parent.name))
         return found
 
@@ -215,34 +232,33 @@ def test_shards_killed_and_resumed_are_as_one_go(patched, box_model, weather, tm
     flags = [RESOLUTION, "--mode", "coarse"]
     assert program([box_model, "-w", weather, "-o", tmp_path / "one", *flags]).returncode == 0
 
-    arguments = [box_model, "-w", weather, "-o", tmp_path / "many", "--shards", 4, "--workers", 2, "--mode", "coarse",
-                 "--", RESOLUTION]
-    folder = tmp_path / "many" / "box"
-    driver = Driver(arguments)
+    driver = Driver(tmp_path, [box_model], weather, "coarse", 4)
     limit = time.monotonic() + 60.0
-    while len(list(folder.glob("parts/round*.json"))) < 6:
+    while len(list(driver.output.glob("runs/*/parts/round*.json"))) < 6:
         assert driver.process.poll() is None and time.monotonic() < limit, driver.finish()
         time.sleep(0.02)
     driver.kill()
+    (folder,) = driver.output.glob("runs/*")
     kept = {path: path.stat().st_mtime_ns for path in folder.glob("parts/round*.json")}
     rounds = len(json.loads((tmp_path / "one" / "samples.json").read_text())["directions_by_round"])
     assert 6 <= len(kept) < 4 * rounds
     assert not (folder / "samples.csv").exists()
 
-    status, output, errors = Driver(arguments).finish()
+    driver = Driver(tmp_path, [box_model], weather, "coarse", 4)
+    status, _, errors = driver.finish()
     assert status == 0, errors
-    assert output.split() == [str(folder)]
     # Of what was there nothing was rendered again.
     assert {path: path.stat().st_mtime_ns for path in kept} == kept
     assert len(list(folder.glob("parts/round*.json"))) == 4 * rounds
+    about = json.loads((tmp_path / "one" / "samples.json").read_text())
+    assert driver.rows()["box"]["directions rendered"] == str(about["directions"])
     for name in TABLES:
         assert (folder / name).read_bytes() == (tmp_path / "one" / name).read_bytes(), name
 
 
 def test_workers_end_with_a_killed_driver(patched, box_model, weather, tmp_path):
     pytest.importorskip("distributed", reason="Dask is missing: run scripts/setup")
-    driver = Driver([box_model, "-w", weather, "-o", tmp_path / "out", "--shards", 4, "--workers", 2, "--mode", "fine",
-                     "--", RESOLUTION])
+    driver = Driver(tmp_path, [box_model], weather, "fine", 4)
     limit = time.monotonic() + 60.0
     while len(driver.others()) < 6:  # two workers, their programs and EnergyPlus
         assert driver.process.poll() is None and time.monotonic() < limit, driver.finish()
@@ -258,12 +274,12 @@ def test_workers_end_with_a_killed_driver(patched, box_model, weather, tmp_path)
 def test_driver_goes_on_with_other_models(patched, box_model, weather, tmp_path):
     pytest.importorskip("distributed", reason="Dask is missing: run scripts/setup")
     (tmp_path / "bad.idf").write_text("Version,24.1;\n")
-    status, output, errors = Driver([tmp_path / "bad.idf", box_model, "-w", weather, "-o", tmp_path / "out",
-                                     "--shards", 1, "--workers", 2, "--mode", "coarse"]).finish()
+    driver = Driver(tmp_path, [tmp_path / "bad.idf", box_model], weather, "coarse", 1)
+    status, _, errors = driver.finish()
     assert status == 1
-    assert output.split() == [str(tmp_path / "out" / "box")]
-    assert re.findall(r"sample_models: bad.*", errors) == [line for line in errors.splitlines() if "bad" in line]
-    assert errors.count("sample_models: bad") == 1
+    rows = driver.rows()
+    assert (rows["bad"]["status"], rows["box"]["status"]) == ("failed", "done")
+    assert rows["bad"]["message"] and errors.count(rows["bad"]["message"]) == 1
 
 
 def last_line(done):

@@ -39,7 +39,7 @@ def install(python, wheel, folder):
 @pytest.fixture(scope="module")
 def environment(wheel, tmp_path_factory):
     """The bin folder of an environment with the wheel alone."""
-    return install(sys.executable, f"{wheel}[compare,samples]", tmp_path_factory.mktemp("wheel") / "venv")
+    return install(sys.executable, f"{wheel}[compare,samples,study]", tmp_path_factory.mktemp("wheel") / "venv")
 
 
 def installed_only():
@@ -98,6 +98,15 @@ def test_it_reads_images_meshes_and_elevations(environment, patched, box, weathe
     rows = [[ELEVATION + (25.0 if 7 <= row <= 9 else 0.0) for _ in range(18)] for row in range(12, 0, -1)]
     write_geotiff(tmp_path / "hill.tif", rows, (484_400.0, 4_398_940.0), (20.0, 20.0), 32613)
     assert_answers_of_the_build(environment, patched, box + FORMATS, weather, tmp_path)
+
+
+def test_it_runs_studies(environment, box, weather, tmp_path):
+    (tmp_path / "in.idf").write_text(box)
+    (tmp_path / "plan.toml").write_text(f'models = "in.idf"\nweather = "{weather}"\narguments = "-D"\n')
+    done = subprocess.run([environment / "gpu_shading", "study", "plan.toml", "-o", "out", "--workers", "1"],
+                          cwd=tmp_path, env=installed_only(), capture_output=True, text=True)
+    assert done.returncode == 0 and "1 of 1 runs, 0 failed" in done.stderr, done.stderr
+    assert (tmp_path / "out" / "runs.parquet").is_file()
 
 
 def test_it_draws_what_the_build_draws(environment, patched, box, tmp_path):

@@ -92,7 +92,8 @@ def test_a_module_of_another_build_is_not_used(patched, sampled_box, weather, tm
     why = (f"no OpenGL: {prefix / 'libgpu_shading_gl.so'} is from another build than this program; "
            "install both from one package")
     (tmp_path / "box.idf").write_text(sampled_box)
-    run = energyplus.run(prefix / "energyplus", tmp_path / "box.idf", weather, tmp_path / "run", ["--gpu-shading", "-D"])
+    run = energyplus.run(prefix / "energyplus", tmp_path / "box.idf", weather, tmp_path / "run",
+                         ["--gpu-shading", "-D"])
     assert run.completed, run.why()
     assert run.device.startswith("CPU (")
     assert run.errors.count(f"the GPU cannot be used: {why}") == 1

@@ -31,13 +31,11 @@ def test_shell_scripts_print_their_comment(script, flag, tmp_path):
     assert done.stdout.splitlines() == comment and len(comment) > 1
 
 
-def test_sample_models_needs_no_dask_for_its_help(tmp_path):
-    """A copy without the Python of scripts/setup, by a Python without packages."""
-    shutil.copytree(SCRIPTS / "shading_runs", tmp_path / "scripts" / "shading_runs")
-    shutil.copy(SCRIPTS / "sample_models", tmp_path / "scripts")
-    shutil.copy(SCRIPTS.parent / "CMakeLists.txt", tmp_path)
-    done = subprocess.run([sys.executable, "-S", "-E", tmp_path / "scripts" / "sample_models", "--help"],
-                          capture_output=True, text=True, cwd=tmp_path, env={"PATH": os.environ["PATH"]})
+def test_the_help_of_studies_needs_no_package(tmp_path):
+    """By a Python without packages, and without a build."""
+    command = SCRIPTS.parent / "gpu_shading" / "python" / "gpu_shading" / "study" / "__main__.py"
+    done = subprocess.run([sys.executable, "-S", "-E", command, "--help"], capture_output=True, text=True, cwd=tmp_path,
+                          env={"PATH": os.environ["PATH"]})
     assert done.returncode == 0, done.stderr
-    assert "--shards" in done.stdout
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["CMakeLists.txt", "scripts"]
+    assert "--dry-run" in done.stdout
+    assert not list(tmp_path.iterdir())

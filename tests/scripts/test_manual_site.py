@@ -74,6 +74,11 @@ def test_anchors_are_those_of_the_repository_s_pages(site):
     assert 'id="check---json"' in text
 
 
+def test_words_in_the_code_of_tables_are_those_of_the_page_and_may_wrap(site):
+    text = (site / "energyplus_patch" / "docs" / "reference" / "options.html").read_text(encoding="utf-8")
+    assert "<code>--gpu-shading-device auto|<wbr>cpu|<wbr>N</code>" in text and "\\|" not in text
+
+
 def test_search_knows_every_object(site):
     entries = json.loads((site / "search" / "search_index.json").read_text(encoding="utf-8"))["docs"]
     text = " ".join(entry["text"] for entry in entries)

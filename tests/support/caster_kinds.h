@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <memory>
 #include <ostream>
 #include <string_view>
@@ -29,9 +32,10 @@ inline std::vector<CasterKind> const& caster_kinds() {
         std::make_shared<Transmittance const>(Transmittance::polynomial_in_cosine({0.1, 0.5}))};
     FilterFactor const mesh = PerforatedSheet{std::make_shared<PerforatedScreen const>(
         HolePattern({.size = 0.1, .pitch = 0.14}), Sheet{.thickness = 0.01})};
+    FilterFactor const crown = Crown{.height = 0.8, .leaf_density = 2.0};
     return std::vector<CasterKind>{
         {"opaque", {}},         {"transparent", {{glass}}},        {"screen", {{mesh}}},
-        {"scheduled", {{}, 0}}, {"scheduled screen", {{mesh}, 0}},
+        {"scheduled", {{}, 0}}, {"scheduled screen", {{mesh}, 0}}, {"crown", {{crown}}},
     };
   }();
   return kinds;
@@ -42,8 +46,26 @@ inline CasterKind const& caster_kind(std::string_view name) {
                        [&](CasterKind const& kind) { return kind.name == name; });
 }
 
+// The rectangle around an outline, along its first edge.
+inline Polygon rectangle_around(Ring const& ring) {
+  glm::dvec3 const up = normal({ring, {}});
+  glm::dvec3 const u = glm::normalize(ring[1] - ring[0]);
+  glm::dvec3 const v = glm::cross(up, u);
+  glm::dvec2 low(0.0);
+  glm::dvec2 high(0.0);
+  for (glm::dvec3 const& vertex : ring) {
+    glm::dvec2 const place(glm::dot(vertex - ring[0], u), glm::dot(vertex - ring[0], v));
+    low = glm::min(low, place);
+    high = glm::max(high, place);
+  }
+  return parallelogram(ring[0] + low.x * u + low.y * v, (high.x - low.x) * u, (high.y - low.y) * v);
+}
+
 // Makes a surface a caster of a kind.
 inline void finish(Surface& surface, CasterKind const& kind, int schedule) {
+  if (kind.filter.find<Crown>() != nullptr) {
+    surface.polygon = rectangle_around(surface.polygon.outline);
+  }
   surface.filter = kind.filter;
   if (kind.filter.schedule >= 0) surface.filter.schedule = schedule;
 }

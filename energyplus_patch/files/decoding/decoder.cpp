@@ -11,12 +11,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <filesystem>
 #include <fstream>
 #include <new>
 #include <optional>
@@ -83,8 +81,8 @@ std::string other_threads() {
 // would find it locked for ever; once all sleep, nobody wakes them. One that never sleeps is not
 // waited for.
 void wait_for_other_threads() {
-  constexpr int most = 1000;
-  for (int i = 0; i < most; ++i) {
+  constexpr int max_rounds = 1000;
+  for (int i = 0; i < max_rounds; ++i) {
     auto const before = other_threads();
     usleep(1000);
     auto const now = other_threads();

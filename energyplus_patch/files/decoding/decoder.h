@@ -2,10 +2,8 @@
 
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "files/decoding/decoded_message.h"
 #include "files/decoding/sandbox.h"

@@ -10,7 +10,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <limits>
@@ -118,8 +117,8 @@ class Header {
   int size(ttag_t tag) const {
     std::uint32_t value = 0;
     if (TIFFGetField(file_.get(), tag, &value) == 0) fail("its size is missing");
-    constexpr std::uint32_t most = 1U << 30U;
-    if (value == 0 || value > most) fail("its size is " + std::to_string(value) + " cells");
+    constexpr std::uint32_t max_cells = 1U << 30U;
+    if (value == 0 || value > max_cells) fail("its size is " + std::to_string(value) + " cells");
     return static_cast<int>(value);
   }
 
@@ -222,8 +221,8 @@ double no_data_of(Header const& file, bool single_precision) {
   if (text.empty()) return std::numeric_limits<double>::quiet_NaN();
   double const value = parse_gdal_number("GDAL_NODATA", text);
   if (!single_precision || !std::isfinite(value)) return value;
-  constexpr double most = std::numeric_limits<float>::max();
-  return static_cast<double>(static_cast<float>(std::clamp(value, -most, most)));
+  constexpr double max_float = std::numeric_limits<float>::max();
+  return static_cast<double>(static_cast<float>(std::clamp(value, -max_float, max_float)));
 }
 
 }  // namespace

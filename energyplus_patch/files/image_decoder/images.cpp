@@ -8,7 +8,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -72,7 +71,7 @@ constexpr std::array<Orientation, 8> orientations{{{false, false, false},
                                                    {true, true, true},
                                                    {true, false, true}}};
 
-// Where the texels of a file belong in the picture as it is to be seen.
+// Where the texels of a file belong in the picture as displayed.
 class Placement {
  public:
   Placement(Window const& data, Window const& display, int orientation)
@@ -111,10 +110,11 @@ class Placement {
 };
 
 ImageHeader header_of(Placement const& placement, int channels, bool alpha) {
-  constexpr std::int64_t most = std::int64_t{1} << 30U;
+  constexpr std::int64_t max_side = std::int64_t{1} << 30U;
   if (placement.width() < 1 || placement.height() < 1) fail("it has no texels");
-  return {static_cast<std::int32_t>(std::min(placement.width(), most)),
-          static_cast<std::int32_t>(std::min(placement.height(), most)), channels, alpha ? 1 : 0};
+  return {static_cast<std::int32_t>(std::min(placement.width(), max_side)),
+          static_cast<std::int32_t>(std::min(placement.height(), max_side)), channels,
+          alpha ? 1 : 0};
 }
 
 std::uint16_t opacity_of(float value) {
@@ -214,11 +214,11 @@ class OpenImage {
   int last() const { return first_ + static_cast<int>(count_); }
 
   void read_scanlines(std::vector<std::uint16_t>& result) {
-    int const most = std::min(spec_.height, pieces(spec_.width, 1));
+    int const max_rows = std::min(spec_.height, pieces(spec_.width, 1));
     std::vector<float> strip(static_cast<std::size_t>(spec_.width) *
-                             static_cast<std::size_t>(most) * count_);
-    for (int y = 0; y < spec_.height; y += most) {
-      int const rows = std::min(most, spec_.height - y);
+                             static_cast<std::size_t>(max_rows) * count_);
+    for (int y = 0; y < spec_.height; y += max_rows) {
+      int const rows = std::min(max_rows, spec_.height - y);
       if (!input_->read_scanlines(0, 0, spec_.y + y, spec_.y + y + rows, spec_.z, first_, last(),
                                   OIIO::TypeDesc::FLOAT, strip.data())) {
         fail(input_->geterror());
@@ -228,12 +228,12 @@ class OpenImage {
   }
 
   void read_tiles(std::vector<std::uint16_t>& result) {
-    int const most = spec_.tile_width * pieces(spec_.tile_width, spec_.tile_height);
+    int const max_columns = spec_.tile_width * pieces(spec_.tile_width, spec_.tile_height);
     std::vector<float> block;
     for (int y = 0; y < spec_.height; y += spec_.tile_height) {
       int const rows = std::min(spec_.tile_height, spec_.height - y);
-      for (int x = 0; x < spec_.width; x += most) {
-        int const columns = std::min(most, spec_.width - x);
+      for (int x = 0; x < spec_.width; x += max_columns) {
+        int const columns = std::min(max_columns, spec_.width - x);
         block.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) * count_);
         if (!input_->read_tiles(0, 0, spec_.x + x, spec_.x + x + columns, spec_.y + y,
                                 spec_.y + y + rows, spec_.z, spec_.z + 1, first_, last(),
@@ -272,11 +272,11 @@ ImageHeader header_of(SmallTiff const& small) {
 std::vector<std::uint16_t> opacity_of(SmallTiff const& small) {
   auto const placement = placement_of(small);
   std::vector<std::uint16_t> result(small.texels.size());
-  constexpr float most = 255.0F;
+  constexpr float full = 255.0F;
   auto const channel = [](std::uint32_t texel, unsigned number) {
     constexpr unsigned bits = 8;
     constexpr std::uint32_t mask = 0xFF;
-    return static_cast<float>(texel >> (number * bits) & mask) / most;
+    return static_cast<float>(texel >> (number * bits) & mask) / full;
   };
   constexpr unsigned alpha = 3;
   std::size_t next = 0;
@@ -295,10 +295,10 @@ std::vector<std::uint16_t> opacity_of(SmallTiff const& small) {
 
 }  // namespace
 
-Image read_image(ImageFile const& file, std::int64_t most) {
+Image read_image(ImageFile const& file, std::int64_t max_texels_wanted) {
   Image result;
   auto const is_small_enough = [&] {
-    return std::int64_t{result.header.width} * result.header.height <= most;
+    return std::int64_t{result.header.width} * result.header.height <= max_texels_wanted;
   };
   if (auto const small = small_tiff(file, false)) {
     result.header = header_of(*small);

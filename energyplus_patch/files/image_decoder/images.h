@@ -1,13 +1,12 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
 
 namespace gpu_shading::decoding {
 
-// Of the picture as it is to be seen: turned as its EXIF orientation says, and all of the display
+// Of the picture as displayed: turned as its EXIF orientation says, and all of the display
 // window.
 struct ImageHeader {
   std::int32_t width = 0;
@@ -30,13 +29,13 @@ inline constexpr std::int64_t few_texels = std::int64_t{1} << 22U;
 
 // Opacity: alpha, or luminance as stored if there is no alpha, 0 .. 65535 for 0 .. 1, clamped, with
 // rows from the BOTTOM; 0 in a display window beyond the data window. Empty if the image has more
-// than `most` texels.
+// than `max_texels_wanted` texels.
 struct Image {
   ImageHeader header;
   std::vector<std::uint16_t> opacity;
 };
 
 // Throws std::exception, also if a texel is not a number.
-Image read_image(ImageFile const& file, std::int64_t most);
+Image read_image(ImageFile const& file, std::int64_t max_texels_wanted);
 
 }  // namespace gpu_shading::decoding

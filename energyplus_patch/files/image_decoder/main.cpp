@@ -38,8 +38,9 @@ void decode(Request const& request, DecodedMessage& answer) {
   OIIO::attribute("threads", 1);
   OIIO::attribute("exr_threads", -1);
   if (request.operation == "image" || request.operation == "small image") {
-    auto const most = request.operation == "image" ? max_texels : few_texels;
-    auto const [header, opacity] = read_image({input_path, request.name, request.any}, most);
+    auto const max_texels_wanted = request.operation == "image" ? max_texels : few_texels;
+    auto const [header, opacity] =
+        read_image({input_path, request.name, request.any}, max_texels_wanted);
     put(answer, header);
     answer.put(std::uint64_t{opacity.size()});
     answer.put_all(opacity);

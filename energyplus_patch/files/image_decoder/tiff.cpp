@@ -1,7 +1,6 @@
 #include "files/image_decoder/tiff.h"
 
 #include <geotiff.h>
-#include <tiffio.h>
 #include <xtiffio.h>
 
 #include <algorithm>
@@ -10,14 +9,11 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstddef>
-#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <span>
 #include <stdexcept>
-#include <string>
 
 #include "files/decoding/decoder.h"
 
@@ -205,11 +201,11 @@ class Pieces {
 
   void decode(std::uint32_t i, std::uint64_t expected, std::vector<unsigned char>& bytes) const {
     auto* const tiff = file_.get();
-    auto const most = static_cast<tmsize_t>(bytes.size());
+    auto const capacity = static_cast<tmsize_t>(bytes.size());
     auto const got = TIFFGetStrileByteCount(tiff, i) == 0
                          ? 0
-                         : (tiled_ ? TIFFReadEncodedTile(tiff, i, bytes.data(), most)
-                                   : TIFFReadEncodedStrip(tiff, i, bytes.data(), most));
+                         : (tiled_ ? TIFFReadEncodedTile(tiff, i, bytes.data(), capacity)
+                                   : TIFFReadEncodedStrip(tiff, i, bytes.data(), capacity));
     if (got >= 0 && static_cast<std::uint64_t>(got) == expected) return;
     fail("is damaged: " + name() + " " + std::to_string(i + 1) + " of " + std::to_string(count_) +
          (got == 0 ? " is empty" : " cannot be decoded") +
@@ -249,14 +245,14 @@ std::optional<SmallTiff> read_small_tiff(char const* path, bool with_texels) {
   std::uint16_t bits = 1;
   TIFFGetFieldDefaulted(file.get(), TIFFTAG_BITSPERSAMPLE, &bits);
   if (bits >= full) return std::nullopt;
-  constexpr std::uint32_t most = 1U << 30U;
+  constexpr std::uint32_t max_side = 1U << 30U;
   SmallTiff small;
   std::uint16_t orientation = ORIENTATION_TOPLEFT;
   TIFFGetFieldDefaulted(file.get(), TIFFTAG_ORIENTATION, &orientation);
   small.orientation = orientation;
   if (TIFFGetField(file.get(), TIFFTAG_IMAGEWIDTH, &small.width) == 0 ||
       TIFFGetField(file.get(), TIFFTAG_IMAGELENGTH, &small.height) == 0 || small.width == 0 ||
-      small.height == 0 || small.width > most || small.height > most) {
+      small.height == 0 || small.width > max_side || small.height > max_side) {
     throw std::runtime_error("its size is out of range");
   }
   TIFFRGBAImage image{};

@@ -9,7 +9,6 @@
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
-#include <stdexcept>
 #include <string_view>
 
 #include "files/decoding/decoder.h"

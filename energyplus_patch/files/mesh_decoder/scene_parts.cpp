@@ -10,14 +10,11 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "files/decoding/decoder.h"
-#include "files/mesh_decoder/meshes.h"
 
 namespace gpu_shading::decoding {
 namespace {

@@ -98,8 +98,8 @@ void add_scale(ImageBuf& on, Layout const& layout, int columns, int rows,
     auto const shade = static_cast<std::size_t>((tall - 1 - y) * (shades - 1) / (tall - 1));
     std::array<float, 3> colour{};
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      constexpr float most = 255.0F;
-      colour.at(channel) = static_cast<float>(colours[3 * shade + channel]) / most;
+      constexpr float full = 255.0F;
+      colour.at(channel) = static_cast<float>(colours[3 * shade + channel]) / full;
     }
     OIIO::ROI const row(left, left + wide, top + y, top + y + 1, 0, 1, 0, 3);
     check(OIIO::ImageBufAlgo::fill(on, colour, row), on);

@@ -13,9 +13,9 @@ struct SheetLayout {
 
   SheetLayout(int max_width, int max_height, bool scale)
       : width(std::max(1, max_width)), height(std::max(1, max_height)) {
-    constexpr int least = 11;
+    constexpr int min_text = 11;
     constexpr int lines = 28;
-    text = std::max(least, std::max(width, height) / lines);
+    text = std::max(min_text, std::max(width, height) / lines);
     margin = text / 2;
     caption = 2 * text;
     cell_width = width + 2 * margin;

@@ -38,12 +38,12 @@ std::optional<Coordinates> read_coordinates(InputObject const& object,
 std::vector<std::string> lengths_beyond(InputObject const& object,
                                         std::initializer_list<LengthLimit> const& limits) {
   std::vector<std::string> lines;
-  for (auto const& [field, most] : limits) {
+  for (auto const& [field, max] : limits) {
     auto const value = parse_number(object[field.key]);
-    if (!value || *value <= most) continue;
+    if (!value || *value <= max) continue;
     lines.push_back(
         fmt::format("{}: {} is {} m, more than {} m: lengths are in metres, is it in millimetres?",
-                    object.title(), field.title, *value, most));
+                    object.title(), field.title, *value, max));
   }
   return lines;
 }

@@ -45,7 +45,7 @@ std::optional<Coordinates> read_coordinates(InputObject const& object,
 // A length in metres, and the largest value that does not look like millimetres.
 struct LengthLimit {
   FieldInfo const& field;
-  double most;
+  double max;
 };
 
 // Returns a line for each length above that value.

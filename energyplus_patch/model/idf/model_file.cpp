@@ -261,7 +261,7 @@ std::string rewrite_idf(std::string_view text, std::vector<IdfObject> const& par
     result += format_idf(shadow_calculation, {rewrite.shading_method, rewrite.update_frequency});
   }
   if (!rewrite.placeholders.empty()) result += '\n';
-  if (needs_sky_schedule(rewrite.placeholders)) result += sky_schedule_idf();
+  for (auto const& schedule : rewrite.schedules) result += schedule_idf(schedule);
   for (auto const& placeholder : rewrite.placeholders) {
     result += format_idf(placeholder_type, placeholder_fields(placeholder));
   }
@@ -277,7 +277,7 @@ void rewrite_epjson(nlohmann::json& model, Rewrite const& rewrite) {
   }
   for (auto const& type : extensions) model.erase(type);
   if (!rewrite.left_out.empty()) take_out(model, rewrite.left_out);
-  if (needs_sky_schedule(rewrite.placeholders)) add_sky_schedule(model);
+  for (auto const& schedule : rewrite.schedules) add_schedule(model, schedule);
   for (auto const& placeholder : rewrite.placeholders) {
     model[placeholder_type][placeholder.name] = placeholder_json(placeholder);
   }

@@ -45,6 +45,7 @@ struct Rewrite {
   std::string shading_method;    // PixelCounting or PolygonClipping
   std::string update_frequency;  // Periodic or Timestep; "" keeps the model's
   Names left_out = {};  // detailed shading surfaces, with their ShadingProperty:Reflectance
+  std::vector<std::string> schedules = {};     // of ours (own_schedules), added
   std::vector<Placeholder> placeholders = {};  // added
 };
 

@@ -10,8 +10,30 @@ namespace gpu_shading::energyplus {
 namespace {
 
 constexpr char const* sky_schedule = "GPU SHADING SKY";
-constexpr std::array sky_schedule_data{
-    "Through: 12/31", "For: AllDays", "Until: 12:00", "1", "Until: 24:00", "0"};
+
+struct OwnSchedule {
+  char const* name;
+  std::vector<char const*> data;
+};
+
+std::array<OwnSchedule, 3> const& schedules_of_ours() {
+  static std::array<OwnSchedule, 3> const schedules{{
+      {sky_schedule, {"Through: 12/31", "For: AllDays", "Until: 12:00", "1", "Until: 24:00", "0"}},
+      {"GPU SHADING NORTHERN LEAVES",
+       {"Through: 4/6", "For: AllDays", "Until: 24:00", "0", "Through: 10/27", "For: AllDays",
+        "Until: 24:00", "1", "Through: 12/31", "For: AllDays", "Until: 24:00", "0"}},
+      {"GPU SHADING SOUTHERN LEAVES",
+       {"Through: 4/27", "For: AllDays", "Until: 24:00", "1", "Through: 10/5", "For: AllDays",
+        "Until: 24:00", "0", "Through: 12/31", "For: AllDays", "Until: 24:00", "1"}},
+  }};
+  return schedules;
+}
+
+OwnSchedule const& schedule_of_ours(std::string const& name) {
+  auto const& schedules = schedules_of_ours();
+  return *std::find_if(schedules.begin(), schedules.end(),
+                       [&](OwnSchedule const& each) { return each.name == name; });
+}
 
 using Corner = std::array<double, 3>;
 
@@ -65,23 +87,33 @@ Placeholder make_sky_placeholder(Names const& taken) {
   return maker.made().front();
 }
 
-bool needs_sky_schedule(std::vector<Placeholder> const& placeholders) {
-  return std::any_of(placeholders.begin(), placeholders.end(),
-                     [](Placeholder const& each) { return each.schedule == sky_schedule; });
+std::string season_schedule(bool southern) { return schedules_of_ours().at(southern ? 2 : 1).name; }
+
+std::vector<std::string> own_schedules(std::vector<Placeholder> const& placeholders,
+                                       std::vector<std::string> const& leaf_schedules) {
+  std::vector<std::string> names;
+  for (auto const& each : schedules_of_ours()) {
+    bool const used =
+        std::any_of(placeholders.begin(), placeholders.end(),
+                    [&](Placeholder const& one) { return one.schedule == each.name; }) ||
+        std::find(leaf_schedules.begin(), leaf_schedules.end(), each.name) != leaf_schedules.end();
+    if (used) names.emplace_back(each.name);
+  }
+  return names;
 }
 
-std::string sky_schedule_idf() {
-  auto text = fmt::format("ScheduleTypeLimits,{};\nSchedule:Compact,{},{}", sky_schedule,
-                          sky_schedule, sky_schedule);
-  for (auto const* field : sky_schedule_data) text += fmt::format(",{}", field);
+std::string schedule_idf(std::string const& name) {
+  auto text = fmt::format("ScheduleTypeLimits,{};\nSchedule:Compact,{},{}", name, name, name);
+  for (auto const* field : schedule_of_ours(name).data) text += fmt::format(",{}", field);
   return text + ";\n";
 }
 
-void add_sky_schedule(nlohmann::json& model) {
-  model["ScheduleTypeLimits"][sky_schedule] = nlohmann::json::object();
-  auto& schedule = model["Schedule:Compact"][sky_schedule];
-  schedule["schedule_type_limits_name"] = sky_schedule;
-  for (auto const* field : sky_schedule_data) schedule["data"].push_back({{"field", field}});
+void add_schedule(nlohmann::json& model, std::string const& name) {
+  model["ScheduleTypeLimits"][name] = nlohmann::json::object();
+  auto& schedule = model["Schedule:Compact"][name];
+  schedule["schedule_type_limits_name"] = name;
+  for (auto const* field : schedule_of_ours(name).data)
+    schedule["data"].push_back({{"field", field}});
 }
 
 std::vector<std::string> placeholder_fields(Placeholder const& placeholder) {

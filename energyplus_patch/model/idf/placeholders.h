@@ -29,10 +29,16 @@ std::vector<Placeholder> make_placeholders(std::vector<std::string> const& sched
 // day, so that a model's own schedule will not do.)
 Placeholder make_sky_placeholder(Names const& taken);
 
-// Whether there is one, so that its schedule has to be added to the model.
-bool needs_sky_schedule(std::vector<Placeholder> const& placeholders);
-std::string sky_schedule_idf();
-void add_sky_schedule(nlohmann::json& model);
+// The schedule of the leaves of deciduous trees, of ours: from April 7 to October 27 (days 97 to
+// 300), as in SOLWEIG; in the south half a year later.
+std::string season_schedule(bool southern);
+
+// The names of the schedules of ours that placeholders or crowns use, and what adds them to a
+// model.
+std::vector<std::string> own_schedules(std::vector<Placeholder> const& placeholders,
+                                       std::vector<std::string> const& leaf_schedules);
+std::string schedule_idf(std::string const& name);
+void add_schedule(nlohmann::json& model, std::string const& name);
 
 // The fields of the Shading:Site:Detailed object: name, schedule, number of vertices, coordinates.
 std::vector<std::string> placeholder_fields(Placeholder const& placeholder);

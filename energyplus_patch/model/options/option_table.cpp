@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "model/extensions/extension_fields.h"
-#include "model/extensions/field.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {
@@ -167,6 +166,12 @@ std::span<OptionRow const> option_rows() {
            .default_text = "none",
            .meaning = "Write a page with the model in 3D and its sunlit fractions by day and hour, "
                       "pictures of what the sun sees, all answers and the time of each stage"}),
+      at<&Choices::maps>({.name = "maps",
+                          .value = switch_value,
+                          .meaning = "Map sunlit hours and beam energy before the run, as "
+                                     "`gpu_shading map` does, into the report, whose page shows "
+                                     "them",
+                          .bare = "on"}),
       at<&Choices::cache>(
           {.name = "cache",
            .value = path_or_off_value,

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "gpu_shading/device.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/renderer.h"
 #include "model/extensions/extension_fields.h"

@@ -54,6 +54,7 @@ struct Choices {
   std::optional<DeviceChoice> device = std::nullopt;
   std::optional<std::filesystem::path> file = std::nullopt;
   std::optional<std::filesystem::path> report = std::nullopt;
+  std::optional<bool> maps = std::nullopt;
   std::optional<std::filesystem::path> cache = std::nullopt;  // empty: off
   // The folder where relative file names in the model start, set by the launcher; empty: the
   // model's folder.
@@ -80,7 +81,7 @@ struct Choices {
 };
 
 // Removes our flags from `arguments` (both "--flag=value" and "--flag value", except for switches,
-// whose value needs the equals sign). Throws Error for an unknown flag of ours or an invalid value.
+// whose value needs the equals sign). Throws Error for an unknown --gpu flag or an invalid value.
 Choices take_flags(std::vector<std::string>& arguments);
 
 // The inverse of take_flags().

@@ -10,6 +10,8 @@ inline constexpr char const* pictures_table = "pictures.csv";
 inline constexpr char const* stages_table = "stages.csv";
 inline constexpr char const* facts_table = "run_facts.csv";
 inline constexpr char const* hours_table = "run_hours.csv";
+inline constexpr char const* months_table = "run_months.csv";
+inline constexpr char const* skies_table = "run_sky.csv";
 inline constexpr char const* receivers_table = "run_receivers.csv";
 
 // Creates the folder if it is missing. Throws Error, naming the option, if the report cannot be

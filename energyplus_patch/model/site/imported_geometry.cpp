@@ -188,9 +188,9 @@ class MeshFiles {
   };
 
   void begin_next() {
-    constexpr std::size_t most = 4;
+    constexpr std::size_t max_ahead = 4;
     constexpr std::uintmax_t small = std::uintmax_t{1} << 20U;
-    for (; next_ < order_.size() && next_ < taken_ + most; ++next_) {
+    for (; next_ < order_.size() && next_ < taken_ + max_ahead; ++next_) {
       auto const path = folder_.path / order_[next_];
       std::error_code failure;
       if (std::filesystem::file_size(path, failure) > small || failure) continue;

@@ -16,7 +16,6 @@
 #include "gpu_shading/sun_position.h"
 #include "model/idf/fields.h"
 #include "model/site/location_fields.h"
-#include "model/site/weather_header.h"
 #include "platform/naming.h"
 #include "platform/text.h"
 
@@ -24,6 +23,8 @@ namespace gpu_shading::energyplus {
 namespace {
 
 namespace chrono = std::chrono;
+
+constexpr double minutes_of_hour = 60.0;
 
 InputObject const* find(std::vector<InputObject> const& objects, std::string_view type) {
   auto const found = std::find_if(objects.begin(), objects.end(),
@@ -131,18 +132,29 @@ void check_location(std::vector<InputObject> const& objects) {
   });
 }
 
-SiteClock::SiteClock(std::vector<InputObject> const& objects,
-                     std::optional<std::filesystem::path> const& weather) {
+WeatherSite read_site(std::vector<InputObject> const& objects) {
   auto const* const location = find(objects, site_location::type);
   if (location == nullptr) {
     throw Error("Site:Location is missing; it is required for the sun's position");
   }
-  naming(location->where(), [&] {
-    constexpr double degrees_an_hour = 15.0;
-    latitude_ = glm::radians(read(*location, site_location::latitude));
-    hours_ahead_ = read(*location, site_location::longitude) / degrees_an_hour -
-                   read(*location, site_location::time_zone);
+  return naming(location->where(), [&] {
+    return WeatherSite{(*location)["name"], read(*location, site_location::latitude),
+                       read(*location, site_location::longitude),
+                       read(*location, site_location::time_zone),
+                       read(*location, site_location::elevation)};
   });
+}
+
+double hours_ahead(WeatherSite const& site) {
+  constexpr double degrees_an_hour = 15.0;
+  return site.longitude / degrees_an_hour - site.time_zone;
+}
+
+SiteClock::SiteClock(std::vector<InputObject> const& objects,
+                     std::optional<std::filesystem::path> const& weather) {
+  auto const site = read_site(objects);
+  latitude_ = glm::radians(site.latitude);
+  hours_ahead_ = hours_ahead(site);
   auto const* const period = find(objects, run_period::type);
   if (period != nullptr) {
     year_ = naming(period->where(), [&] { return year_of(*period); });
@@ -170,15 +182,19 @@ SunDirection SiteClock::sun(ClockTime time) const {
   auto const standard = time - chrono::hours(saves_daylight(time) ? 1 : 0);
   auto const midnight = chrono::floor<chrono::days>(standard);
   chrono::local_days const new_year(chrono::year_month_day(midnight).year() / chrono::January / 1);
-  auto const sun = sun_of_day(static_cast<int>((midnight - new_year).count()) + 1);
-  constexpr double minutes_of_hour = 60.0;
+  double const hours = static_cast<double>((standard - midnight).count()) / minutes_of_hour;
+  return sun_in_standard_time(latitude_, hours_ahead_,
+                              static_cast<int>((midnight - new_year).count()) + 1, hours);
+}
+
+SunDirection sun_in_standard_time(double latitude, double hours_ahead, int day, double hours) {
+  auto const sun = sun_of_day(day);
   constexpr double noon = 12.0;
   constexpr double half_turn = 12.0;
-  double const hours = static_cast<double>((standard - midnight).count()) / minutes_of_hour;
-  double const past_noon = hours + hours_ahead_ + sun.equation_of_time / minutes_of_hour - noon;
+  double const past_noon = hours + hours_ahead + sun.equation_of_time / minutes_of_hour - noon;
   double const turn = past_noon / half_turn * std::numbers::pi;
   return to_direction(HourDirection{sun.declination, std::remainder(turn, 2.0 * std::numbers::pi)},
-                      latitude_);
+                      latitude);
 }
 
 std::optional<chrono::weekday> weekday_of(std::string_view word) {

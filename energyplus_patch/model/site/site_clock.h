@@ -10,11 +10,15 @@
 
 #include "gpu_shading/sun_direction.h"
 #include "model/idf/input_object.h"
+#include "model/site/weather_header.h"
 
 namespace gpu_shading::energyplus {
 
 // Clock time at a model's site, to the minute.
 using ClockTime = std::chrono::local_time<std::chrono::minutes>;
+
+// The model's Site:Location. Throws Error if there is none, or for its fields.
+WeatherSite read_site(std::vector<InputObject> const& objects);
 
 // Throws Error if Site:Location has coordinates or a time zone outside of the dictionary's limits
 // or nan, which EnergyPlus accepts.
@@ -26,6 +30,13 @@ std::chrono::year_month_day date_in(std::string_view text, std::chrono::year yea
 
 // "Sunday" or its first three letters, in any case.
 std::optional<std::chrono::weekday> weekday_of(std::string_view word);
+
+// Mean solar time minus standard time, hours.
+double hours_ahead(WeatherSite const& site);
+
+// EnergyPlus's sun position on a day of the year, 1 .. 366, at an hour of standard time, which mean
+// solar time is ahead of by `hours_ahead`. Latitude in radians.
+SunDirection sun_in_standard_time(double latitude, double hours_ahead, int day, double hours);
 
 // A model's site and clock, from which EnergyPlus computes the sun's position.
 class SiteClock {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <limits>
 #include <utility>
 
@@ -22,17 +21,6 @@ namespace gpu_shading::energyplus {
 namespace {
 
 namespace field = extension::site_context;
-
-std::optional<MapCoordinates> read_map_coordinates(InputObject const& object,
-                                                   Field<std::string> const& coordinates) {
-  auto const text = read(object, coordinates);
-  if (text.empty()) return std::nullopt;
-  try {
-    return MapCoordinates::parse(text);
-  } catch (Error const& error) {
-    throw Error(fmt::format("{} is {}", coordinates.title, error.what()));
-  }
-}
 
 HeightRule read_heights(InputObject const& object) {
   HeightRule rule;
@@ -240,9 +228,20 @@ void stand_on_terrain(std::vector<Context> const& contexts, SiteOrigin& origin) 
 
 }  // namespace
 
-void read_site_contexts(std::vector<InputObject> const& objects,
-                        std::filesystem::path const& folder, SiteOrigin& origin,
-                        Surroundings& surroundings) {
+std::optional<MapCoordinates> read_map_coordinates(InputObject const& object,
+                                                   Field<std::string> const& coordinates) {
+  auto const text = read(object, coordinates);
+  if (text.empty()) return std::nullopt;
+  try {
+    return MapCoordinates::parse(text);
+  } catch (Error const& error) {
+    throw Error(fmt::format("{} is {}", coordinates.title, error.what()));
+  }
+}
+
+std::vector<TerrainGrid> read_site_contexts(std::vector<InputObject> const& objects,
+                                            std::filesystem::path const& folder, SiteOrigin& origin,
+                                            Surroundings& surroundings) {
   std::vector<Context> contexts;
   for (auto const& object : objects) {
     if (object.type != field::type) continue;
@@ -260,6 +259,11 @@ void read_site_contexts(std::vector<InputObject> const& objects,
     naming(fmt::format("{} {}", field::type, context.name),
            [&] { Builder(context, origin, surroundings).build(); });
   }
+  std::vector<TerrainGrid> terrains;
+  for (auto& context : contexts) {
+    if (context.terrain) terrains.push_back(std::move(*context.terrain));
+  }
+  return terrains;
 }
 
 }  // namespace gpu_shading::energyplus

@@ -9,7 +9,6 @@
 #include "model/idf/fields.h"
 #include "model/site/location_fields.h"
 #include "platform/naming.h"
-#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {

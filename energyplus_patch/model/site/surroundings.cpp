@@ -11,7 +11,6 @@
 
 #include "gpu_shading/footprint.h"
 #include "model/extensions/extension_fields.h"
-#include "model/site/site_origin.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -65,11 +64,14 @@ std::optional<TextureAxes> Surroundings::texture_of(SurfaceId surface) const {
 Surroundings read_surroundings(std::vector<InputObject> const& objects, AssetFolder const& folder) {
   Surroundings surroundings;
   std::optional<SiteOrigin> origin;
-  if (any_of_type(objects, extension::site_context::type) || needs_origin(objects)) {
+  std::vector<TerrainGrid> terrains;
+  if (any_of_type(objects, extension::site_context::type) || needs_origin(objects) ||
+      needs_origin_for_trees(objects)) {
     origin = find_site_origin(objects);
-    read_site_contexts(objects, folder.path, *origin, surroundings);
+    terrains = read_site_contexts(objects, folder.path, *origin, surroundings);
   }
   read_geometries(objects, folder, origin, surroundings);
+  read_trees(objects, folder.path, origin, terrains, surroundings);
   return surroundings;
 }
 

@@ -8,7 +8,10 @@
 #include <vector>
 
 #include "files/asset_folder.h"
+#include "gpu_shading/map_coordinates.h"
 #include "gpu_shading/scene.h"
+#include "gpu_shading/terrain.h"
+#include "model/extensions/field.h"
 #include "model/idf/input_object.h"
 #include "model/input/screen_maker.h"
 #include "model/input/shading_input.h"
@@ -29,12 +32,15 @@ struct ContextBuilding {
   double base = 0.0;  // z, m
 };
 
-// The casters of GPUShading:SiteContext and GPUShading:Geometry around a model, in world axes.
+// The casters of GPUShading:SiteContext, GPUShading:Geometry and GPUShading:Tree around a model, in
+// world axes.
 struct Surroundings {
   std::vector<OutsideCaster> casters;
   // The names of the casters, which several may share, and the types of their objects.
   std::map<std::string, std::string> types;
   std::vector<ContextBuilding> buildings;
+  // The shares of leaves that crowns have, by Crown::deployment: names of schedules, in upper case.
+  std::vector<std::string> leaf_schedules;
   std::vector<std::string> remarks;  // a summary of each object, one line each
   std::vector<std::string> warnings;
 
@@ -64,16 +70,30 @@ class Extent {
 };
 
 // Reads every such object and its files. `folder`: where relative file names start. Names are in
-// upper case: "CONTEXT:FEATURE", "CONTEXT:TERRAIN", "GEOMETRY:MATERIAL:MESH". Throws Error, naming
-// object, field and value, and for errors in files the feature or the position.
+// upper case: "CONTEXT:FEATURE", "CONTEXT:TERRAIN", "GEOMETRY:MATERIAL:MESH", "TREE:FEATURE".
+// Throws Error, naming object, field and value, and for errors in files the feature or the
+// position.
 Surroundings read_surroundings(std::vector<InputObject> const& objects, AssetFolder const& folder);
 
 // Reads every GPUShading:SiteContext, terrain first, because buildings stand on the terrain of the
-// same object. If the origin is to be at the terrain's elevation, that is determined here. Throws
-// Error.
-void read_site_contexts(std::vector<InputObject> const& objects,
-                        std::filesystem::path const& folder, SiteOrigin& origin,
-                        Surroundings& surroundings);
+// same object. If the origin is to be at the terrain's elevation, that is determined here. Returns
+// the terrains. Throws Error.
+std::vector<TerrainGrid> read_site_contexts(std::vector<InputObject> const& objects,
+                                            std::filesystem::path const& folder, SiteOrigin& origin,
+                                            Surroundings& surroundings);
+
+// Empty if the field is blank. Throws Error, naming field and value.
+std::optional<MapCoordinates> read_map_coordinates(InputObject const& object,
+                                                   Field<std::string> const& coordinates);
+
+// Whether a GPUShading:Tree has a file.
+bool needs_origin_for_trees(std::vector<InputObject> const& objects);
+
+// Reads every GPUShading:Tree: a caster for each crown, whose rectangle is its plan, and the sides
+// of its trunk. `origin`: for trees of files. Throws Error.
+void read_trees(std::vector<InputObject> const& objects, std::filesystem::path const& folder,
+                std::optional<SiteOrigin> const& origin, std::vector<TerrainGrid> const& terrains,
+                Surroundings& surroundings);
 
 // Whether a GPUShading:Geometry is placed by latitude and longitude.
 bool needs_origin(std::vector<InputObject> const& objects);

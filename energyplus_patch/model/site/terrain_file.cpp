@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -163,11 +162,11 @@ TerrainGrid read_grid(std::string_view text, MapCoordinates const& coordinates) 
 void check_cells(TerrainGrid const& grid) {
   bool const degrees = grid.coordinates.geographic();
   char const* const unit = degrees ? "degrees" : "m";
-  double const least = degrees ? 1e-8 : 1e-3;  // a millimetre
+  double const min_step = degrees ? 1e-8 : 1e-3;  // a millimetre
   // Negated so that NaN is refused.
-  if (!(grid.step_x >= least && grid.step_y >= least)) {
+  if (!(grid.step_x >= min_step && grid.step_y >= min_step)) {
     throw Error(fmt::format("its cells are {} x {} {}, expected at least {} each way", grid.step_x,
-                            grid.step_y, unit, least));
+                            grid.step_y, unit, min_step));
   }
   constexpr double turn = 360.0;
   double const across = grid.step_x * (grid.columns - 1);
@@ -178,15 +177,15 @@ void check_cells(TerrainGrid const& grid) {
 
 // Other elevations mean a damaged file, another unit, or NODATA that is not declared.
 void check_range(TerrainGrid const& grid) {
-  constexpr double least = -500.0;
-  constexpr double most = 9000.0;
+  constexpr double min_elevation = -500.0;
+  constexpr double max_elevation = 9000.0;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       double const value = grid.elevation(column, row);
-      if (std::isnan(value) || (value >= least && value <= most)) continue;
+      if (std::isnan(value) || (value >= min_elevation && value <= max_elevation)) continue;
       throw Error(fmt::format(
           "the elevation in row {} from the south, column {} is {} m, expected {} to {} or NODATA",
-          row + 1, column + 1, value, least, most));
+          row + 1, column + 1, value, min_elevation, max_elevation));
     }
   }
 }

@@ -42,13 +42,13 @@ class TileSizes {
     for (auto const& [w, h] : sizes_) {
       if (same(w, width) && same(h, height)) return;
     }
-    constexpr std::size_t most = 64;
+    constexpr std::size_t max_sizes = 64;
     sizes_.emplace_back(width, height);
-    if (sizes_.size() > most) {
+    if (sizes_.size() > max_sizes) {
       throw Error(
           fmt::format("the mesh's texture coordinates give tiles of more than {} sizes, from "
                       "{:.4g} x {:.4g} m to {:.4g} x {:.4g} m: give Tile Width and Tile Height",
-                      most, std::min_element(sizes_.begin(), sizes_.end())->first,
+                      max_sizes, std::min_element(sizes_.begin(), sizes_.end())->first,
                       std::min_element(sizes_.begin(), sizes_.end())->second,
                       std::max_element(sizes_.begin(), sizes_.end())->first,
                       std::max_element(sizes_.begin(), sizes_.end())->second));

@@ -41,11 +41,11 @@ std::vector<std::string> header_of(std::filesystem::path const& weather) {
   return lines;
 }
 
-double number(std::string const& text, std::string_view field, double most) {
+double number(std::string const& text, std::string_view field, double max_size) {
   auto const value = parse_number(text);
-  if (!value || !(std::abs(*value) <= most)) {
+  if (!value || !(std::abs(*value) <= max_size)) {
     throw Error(fmt::format("{} is {}, expected a number from {} to {}", field, in_quotes(text),
-                            -most, most));
+                            -max_size, max_size));
   }
   return *value;
 }

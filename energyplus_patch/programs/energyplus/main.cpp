@@ -87,12 +87,16 @@ class NoOutputFolder : public Error {
 // EnergyPlus itself would name these on standard output, or end with a library's message.
 void check_files(CommandLine const& line) {
   if (!line.runs) return;
-  if (line.weather) naming("-w", [&] { require_file(*line.weather); });
+  try {
+    if (line.weather) require_file(*line.weather);
+  } catch (Error const& error) {
+    throw Error(fmt::format("-w {}", error.what()));
+  }
   std::error_code failure;
   std::filesystem::create_directories(line.output_folder, failure);
   if (!failure) failure = {find_access(line.output_folder), std::generic_category()};
   if (failure) {
-    throw NoOutputFolder(fmt::format("-d: {}: cannot be written to ({})",
+    throw NoOutputFolder(fmt::format("-d {}: cannot be written to ({})",
                                      line.output_folder.string(), failure.message()));
   }
 }
@@ -101,9 +105,9 @@ void check_files(CommandLine const& line) {
 std::string find_extension(Path const& model) {
   std::ifstream file(model);
   for (std::string line; std::getline(file, line);) {
-    auto const begin = std::ranges::search(line, extension_prefix, [](unsigned char a, char b) {
-                         return std::tolower(a) == std::tolower(b);
-                       }).begin();
+    auto const begin =
+        std::search(line.begin(), line.end(), extension_prefix.begin(), extension_prefix.end(),
+                    [](unsigned char a, char b) { return std::tolower(a) == std::tolower(b); });
     auto const before = trimmed({line.begin(), begin});
     bool const opens = before.empty() || before.ends_with(';') || before.ends_with('"');
     if (begin == line.end() || !opens) continue;
@@ -149,6 +153,34 @@ void check_conversion(RunSetup const& setup) {
         fmt::format("{}: {} would be lost in the conversion: expected it in {}.gpu-shading.idf",
                     path.string(), object.type, path.stem().string()));
   }
+}
+
+// Into the report's folder, for its page.
+void draw_maps(RunSetup const& setup) {
+  auto const& choices = setup.choices;
+  if (!choices.maps.value_or(false)) return;
+  naming("--gpu-shading-maps", [&] {
+    if (!choices.report) throw Error("expected --gpu-shading-report with it");
+    if (!setup.line.weather) throw Error("expected a weather file, -w, with it");
+    std::vector<std::string> command{(own_folder() / "gpu_shading").string(),
+                                     "map",
+                                     setup.line.model->string(),
+                                     "-w",
+                                     setup.line.weather->string(),
+                                     "-o",
+                                     (*choices.report / "maps").string()};
+    Choices own;
+    own.file = choices.file;
+    own.threads = choices.threads;
+    own.quiet = choices.quiet;
+    own.assets = choices.assets;
+    for (auto const& flag : to_flags(own)) command.push_back(flag);
+    TemporaryFolder const folder;
+    auto const log = folder.path() / "log.txt";
+    if (run_process(command, {}, log) != EXIT_SUCCESS) {
+      throw Error(last_error(log).value_or("gpu_shading map failed"));
+    }
+  });
 }
 
 // `argv`-style view of strings.
@@ -267,6 +299,7 @@ int launch(RunSetup& setup, char** argv) {
   if (line.model) {
     check_conversion(setup);
     check_model(setup);
+    draw_maps(setup);
     // A preprocessor (-x) passes another file to EnergyPlus, but files in the folder of the user's
     // model still apply.
     choices.folder = std::filesystem::absolute(*line.model).parent_path();

@@ -17,9 +17,9 @@ constexpr int not_wanted = -1;
 using RunEnergyPlus = int(int count, char const* const* arguments);
 
 std::wstring own_folder() {
-  constexpr DWORD most = 32768;
-  std::wstring path(most, L'\0');
-  path.resize(GetModuleFileNameW(nullptr, path.data(), most));
+  constexpr DWORD max_length = 32768;
+  std::wstring path(max_length, L'\0');
+  path.resize(GetModuleFileNameW(nullptr, path.data(), max_length));
   return path.substr(0, path.find_last_of(L'\\') + 1);
 }
 

@@ -41,14 +41,17 @@ std::shared_ptr<ModelRun> Command::add_model(std::string const& weather) const {
   run->choices = program_.choices;
   app_->add_option_function<std::string>(
           "model", [run](std::string const& text) { run->model = text; }, "IDF or epJSON file")
-      ->required();
+      ->required()
+      ->type_name("FILE");
   app_->add_option_function<std::string>(
-      "-w,--weather",
-      [run](std::string const& text) {
-        if (!std::filesystem::exists(text)) throw Error(fmt::format("-w {}: no such file", text));
-        run->weather = text;
-      },
-      weather);
+          "-w,--weather",
+          [run](std::string const& text) {
+            if (!std::filesystem::exists(text))
+              throw Error(fmt::format("-w {}: no such file", text));
+            run->weather = text;
+          },
+          weather)
+      ->type_name("FILE");
   return run;
 }
 

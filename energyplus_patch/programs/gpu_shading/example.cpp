@@ -87,7 +87,9 @@ void add_example(Program const& program) {
       program, "example",
       "Copy an example model with its weather file into a new folder of the same name", {});
   auto const name = std::make_shared<std::string>();
-  command->add_option("name", *name, "courtyard, south_office or box_with_louvres")->required();
+  command->add_option("name", *name, "courtyard, south_office or box_with_louvres")
+      ->required()
+      ->type_name("NAME");
   command.run([name] { copy_example(*name); });
 }
 

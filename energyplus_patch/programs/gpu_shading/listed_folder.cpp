@@ -7,7 +7,6 @@
 
 #include "gpu_shading/error.h"
 #include "platform/files.h"
-#include "platform/text.h"
 #include "scene/digest.h"
 
 namespace gpu_shading::energyplus {

@@ -59,7 +59,7 @@ void add_help(Program const& program) {
       "help", "Print the options of shading (help options), or the help of a command");
   auto const topic = std::make_shared<std::string>();
   auto const table = std::make_shared<bool>(false);
-  command->add_option("topic", *topic, "options, or a command")->required();
+  command->add_option("topic", *topic, "options, or a command")->required()->type_name("TOPIC");
   command->add_flag("--markdown", *table, "Print all options as the table of the manual");
   command->set_help_all_flag("--help-all", "With the options for special cases");
   command->callback([topic, table, all = program.help_all] {
@@ -85,6 +85,7 @@ void translate_help(CLI::App const& app, std::vector<std::string>& arguments) {
 }
 
 int run(std::vector<std::string> arguments) {
+  auto given = arguments;
   auto const flags = take_flags(arguments);
   auto choices = flags;
   choices.fill_from(read_environment());
@@ -102,15 +103,22 @@ int run(std::vector<std::string> arguments) {
   add_check(program);
   add_view(program);
   add_map(program);
+  add_mask(program);
   add_screen(program);
   add_sample(program);
   add_export(program);
+  add_study(program);
   add_docs(program);
   add_example(program);
   add_help(program);
   add_version(app);
   app.footer(help_all ? options_help(true) : "Options of shading: gpu_shading help options");
   translate_help(app, arguments);
+  if (!arguments.empty() && arguments.front() == "study") {
+    if (given.front() == "help") run_study({"--help"});
+    given.erase(std::find(given.begin(), given.end(), "study"));
+    run_study(given);
+  }
   refuse_mistyped_subcommand(app, arguments);
   // CLI11 expects them in reverse order.
   std::reverse(arguments.begin(), arguments.end());

@@ -264,7 +264,8 @@ void add_map(Program const& program) {
   command
       ->add_option("-o,--output", order->folder,
                    "Folder for the maps: new, empty, or with earlier maps, which are replaced")
-      ->required();
+      ->required()
+      ->type_name("DIR");
   command.run([model, order] { draw_maps(*model, *order); });
 }
 

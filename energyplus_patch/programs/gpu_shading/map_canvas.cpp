@@ -31,6 +31,32 @@ void MapCanvas::fill(glm::ivec2 const& corner, glm::ivec2 const& size, glm::dvec
   }
 }
 
+void MapCanvas::area(std::vector<glm::dvec2> const& outline, glm::dvec3 const& colour) {
+  double low = image_.height;
+  double high = 0.0;
+  for (auto const& point : outline) {
+    low = std::min(low, point.y);
+    high = std::max(high, point.y);
+  }
+  std::vector<double> crossings;
+  for (int y = std::max(static_cast<int>(low), 0); y < std::min(high, double(image_.height)); ++y) {
+    double const middle = y + 0.5;
+    crossings.clear();
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      auto const& a = outline[i];
+      auto const& b = outline[(i + 1) % outline.size()];
+      if ((a.y > middle) == (b.y > middle)) continue;
+      crossings.push_back(a.x + (middle - a.y) / (b.y - a.y) * (b.x - a.x));
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t i = 1; i < crossings.size(); i += 2) {
+      for (auto x = std::lround(crossings[i - 1]); x < std::lround(crossings[i]); ++x) {
+        mix(static_cast<int>(x), y, colour, 1.0);
+      }
+    }
+  }
+}
+
 void MapCanvas::line(glm::dvec2 const& a, glm::dvec2 const& b, double width,
                      glm::dvec3 const& colour) {
   double const reach = width / 2.0 + 1.0;

@@ -2,6 +2,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "gpu_shading/image.h"
 
@@ -18,6 +19,9 @@ class MapCanvas {
   void mix(int x, int y, glm::dvec3 const& colour, double share);
 
   void fill(glm::ivec2 const& corner, glm::ivec2 const& size, glm::dvec3 const& colour);
+
+  // The pixels whose middles are inside of an outline, by the odd-even rule.
+  void area(std::vector<glm::dvec2> const& outline, glm::dvec3 const& colour);
 
   // With smooth edges.
   void line(glm::dvec2 const& a, glm::dvec2 const& b, double width, glm::dvec3 const& colour);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/trigonometric.hpp>
 #include <map>
 #include <memory>
@@ -285,14 +284,19 @@ void add_screen(Program const& program) {
   command
       ->add_option_function<std::string>(
           "model", [task](std::string const& text) { task->model = text; }, "IDF or epJSON file")
-      ->required();
-  command->add_option("name", task->name,
-                      "Name of a GPUShading:PerforatedScreen, or a pattern in which * stands for "
-                      "any characters (default: all)");
-  command->add_option_function<std::string>(
-      "-o,--output", [task](std::string const& text) { task->folder = text; },
-      "Folder for NAME_tau.csv (transmittance by angles), NAME_tau.svg (polar plot) "
-      "and NAME_tile.png (one tile of the sheet)");
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("name", task->name,
+                   "Name of a GPUShading:PerforatedScreen, or a pattern in which * stands for "
+                   "any characters (default: all)")
+      ->type_name("PATTERN");
+  command
+      ->add_option_function<std::string>(
+          "-o,--output", [task](std::string const& text) { task->folder = text; },
+          "Folder for NAME_tau.csv (transmittance by angles), NAME_tau.svg (polar plot) "
+          "and NAME_tile.png (one tile of the sheet)")
+      ->type_name("DIR");
   command
       ->add_option_function<std::string>(
           "--bsdf", [task](std::string const& text) { task->bsdf = text; },

@@ -55,13 +55,13 @@ std::string disc(double theta, std::string const& attributes) {
                      radius * theta / right_angle, attributes);
 }
 
-void write_cells(PerforatedScreen const& screen, double most, std::ostream& svg) {
+void write_cells(PerforatedScreen const& screen, double top_of_scale, std::ostream& svg) {
   auto const none = colour_of(0.0);
   svg << "<g shape-rendering=\"crispEdges\">\n"
       << disc(right_angle, fmt::format("fill=\"{}\"", none));
   for (int theta = theta_step; theta <= last_theta; theta += theta_step) {
     for (int phi = 0; phi < circle; phi += phi_step) {
-      auto const colour = colour_of(transmittance(screen, theta, phi) / most);
+      auto const colour = colour_of(transmittance(screen, theta, phi) / top_of_scale);
       if (colour == none) continue;
       double const high = theta == last_theta ? right_angle : theta + theta_step / 2.0;
       svg << cell(theta - theta_step / 2.0, high, phi - phi_step / 2.0, phi + phi_step / 2.0,
@@ -69,7 +69,7 @@ void write_cells(PerforatedScreen const& screen, double most, std::ostream& svg)
     }
   }
   svg << disc(theta_step / 2.0,
-              fmt::format("fill=\"{}\"", colour_of(transmittance(screen, 0.0, 0.0) / most)))
+              fmt::format("fill=\"{}\"", colour_of(transmittance(screen, 0.0, 0.0) / top_of_scale)))
       << "</g>\n";
 }
 
@@ -106,7 +106,7 @@ void write_axes(std::ostream& svg) {
   }
 }
 
-void write_scale(double most, std::ostream& svg) {
+void write_scale(double top_of_scale, std::ostream& svg) {
   constexpr double x = 655.0;
   constexpr double bar = 22.0;
   constexpr int stops = 16;
@@ -127,7 +127,7 @@ void write_scale(double most, std::ostream& svg) {
     double const fraction = static_cast<double>(i) / ticks;
     double const y = top + 2.0 * radius * (1.0 - fraction);
     svg << fmt::format("<path stroke=\"#333333\" d=\"M{} {}h5\"/>\n", x + bar, y)
-        << label(x + bar + 9.0, y + 5.0, "start", fmt::format("{:.3f}", most * fraction));
+        << label(x + bar + 9.0, y + 5.0, "start", fmt::format("{:.3f}", top_of_scale * fraction));
   }
 }
 
@@ -136,7 +136,7 @@ void write_scale(double most, std::ostream& svg) {
 void write_polar_plot(PerforatedScreen const& screen, std::string const& title,
                       std::string const& subtitle, std::ostream& svg) {
   double const open = screen.open_fraction();
-  double const most = open > 0.0 ? open : 1.0;
+  double const top_of_scale = open > 0.0 ? open : 1.0;
   auto const name = markup_text(title);
   svg << fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
@@ -149,9 +149,9 @@ void write_polar_plot(PerforatedScreen const& screen, std::string const& title,
       width, height, name, markup_text(subtitle));
   svg << "<g font-size=\"20\" font-weight=\"bold\">" << label(24.0, 36.0, "start", name) << "</g>\n"
       << "<g font-size=\"13\">" << label(24.0, 60.0, "start", markup_text(subtitle)) << "</g>\n";
-  write_cells(screen, most, svg);
+  write_cells(screen, top_of_scale, svg);
   write_axes(svg);
-  write_scale(most, svg);
+  write_scale(top_of_scale, svg);
   svg << "<g font-size=\"13\">"
       << label(24.0, height - 35.0, "start", "tau: fraction of the beam that passes.")
       << label(24.0, height - 16.0, "start",

@@ -225,8 +225,9 @@ void add_view(Program const& program) {
       model_options());
   auto const model = command.add_model();
   auto const arguments = std::make_shared<ViewArguments>();
-  command->add_option("--receiver", arguments->receiver, "Name of the receiver to draw");
-  auto* const when = command->add_option_group("sun");
+  command->add_option("--receiver", arguments->receiver, "Name of the receiver to draw")
+      ->type_name("NAME");
+  auto* const when = command->add_option_group("position of the sun");
   when->add_option("--at", arguments->at,
                    "Month, day and clock time at Site:Location, with daylight saving if the model "
                    "has it, as in \"06-21 15:00\"")
@@ -242,7 +243,8 @@ void add_view(Program const& program) {
       ->type_name("AZIMUTH,ALTITUDE");
   when->add_option("--list", arguments->list,
                    "A file that lists pictures to draw without captions, one per line: PICTURE "
-                   "AZIMUTH ALTITUDE [RECEIVER]");
+                   "AZIMUTH ALTITUDE [RECEIVER]")
+      ->type_name("FILE");
   when->require_option(0, 1);
   command
       ->add_option(
@@ -256,7 +258,8 @@ void add_view(Program const& program) {
       ->add_option("-o,--output", arguments->output,
                    "The picture, in the format of its file name extension; with --list, the folder "
                    "for all pictures")
-      ->required();
+      ->required()
+      ->type_name("FILE");
   constexpr int min_size = 16;
   constexpr int max_size = 8192;
   command

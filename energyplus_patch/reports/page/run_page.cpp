@@ -23,7 +23,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Vertices that a page may have: with three coordinates of two bytes, a third more as text.
-constexpr std::size_t max_vertices = 190000;
+constexpr std::size_t max_vertices = 150000;
 // More names than this of surfaces that only cast shadows are left out.
 constexpr std::size_t max_caster_names = 3000;
 constexpr std::size_t max_in_ring = 60000;
@@ -134,7 +134,7 @@ Json geometry_of(RunPage const& page) {
 }
 
 Json to_json(PageStyle const& style) {
-  constexpr std::array<char const*, 4> kinds{"receiver", "opaque", "glass", "screen"};
+  constexpr std::array<char const*, 5> kinds{"receiver", "opaque", "glass", "screen", "foliage"};
   return {{"kind", kinds.at(static_cast<std::size_t>(style.kind))},
           {"passes", style.passes},
           {"hole", style.hole},
@@ -152,21 +152,25 @@ Json to_json(PageReceiver const& receiver) {
   constexpr double thousandths = 1e3;
   constexpr double tenths = 10.0;
   constexpr double ten_thousandths = 1e4;
+  Json months = Json::array();
+  for (double const month : receiver.months) months.push_back(rounded(month, tenths));
   return {rounded(receiver.area, thousandths),
           rounded(receiver.azimuth, tenths),
           rounded(receiver.tilt, tenths),
           receiver.mean ? Json(rounded(*receiver.mean, ten_thousandths)) : Json(),
           rounded(receiver.beam, tenths),
-          rounded(receiver.beam * receiver.area, tenths)};
+          rounded(receiver.beam * receiver.area, tenths),
+          receiver.window ? 1 : 0,
+          months};
 }
 
 Json to_json(PageDay const& day) {
   Json hours = Json::array();
-  for (auto const& [hour, sun] : day.hours) {
+  for (auto const& [hour, sun, beam] : day.hours) {
     constexpr double digits = 1e4;
     double const azimuth = glm::degrees(sun.azimuth);
     hours.push_back({hour, rounded(azimuth < 0.0 ? azimuth + 360.0 : azimuth, digits),
-                     rounded(glm::degrees(sun.altitude), digits)});
+                     rounded(glm::degrees(sun.altitude), digits), std::lround(beam)});
   }
   return {{"month", day.month}, {"day", day.day}, {"hours", hours}};
 }
@@ -217,6 +221,22 @@ Json maps_of(RunPage const& page) {
           {"list", list}};
 }
 
+Json skies_of(RunPage const& page) {
+  Json list = Json::array();
+  for (auto const& [receiver, view, unshaded, codes] : page.skies) {
+    constexpr double thousandths = 1e3;
+    list.push_back({{"receiver", receiver},
+                    {"view", rounded(view, thousandths)},
+                    {"unshaded", rounded(unshaded, thousandths)},
+                    {"codes", base64(codes)}});
+  }
+  return {{"step", RunPage::sky_step},
+          {"levels", RunPage::sky_levels},
+          {"behind", RunPage::behind},
+          {"kinds", page.sky_kinds},
+          {"list", list}};
+}
+
 // From 0 to 1.
 Json colours() {
   Json list = Json::array();
@@ -235,6 +255,7 @@ Json content_of(RunPage const& page) {
   for (std::size_t i = 0; i < named; ++i) names.push_back(page.surfaces[i].name);
   Json content{{"title", page.title}, {"names", names}, {"geometry", geometry_of(page)}};
   content["maps"] = maps_of(page);
+  content["skies"] = skies_of(page);
   content["facts"] = page.facts;
   content["notes"] = page.notes;
   content["colours"] = colours();

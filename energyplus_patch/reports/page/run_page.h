@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -14,7 +15,7 @@ namespace gpu_shading::energyplus {
 
 // How surfaces of one kind look.
 struct PageStyle {
-  enum class Kind { receiver, opaque, glass, screen };
+  enum class Kind { receiver, opaque, glass, screen, foliage };
 
   Kind kind = Kind::opaque;
   double passes = 0.0;  // of the beam at normal incidence, 0 .. 1
@@ -43,12 +44,24 @@ struct PageReceiver {
   // Of the sunlit fraction on the page's days, over the hours during all of which the sun faces it;
   // empty if there are none.
   std::optional<double> mean = std::nullopt;
-  double beam = 0.0;  // of the run, kWh/m2
+  double beam = 0.0;                // of the run, kWh/m2
+  std::array<double, 12> months{};  // of it, January first
+  bool window = false;              // or a door
+};
+
+// What a receiver sees of the sky, in cells of SkyGrid(sky_step).
+struct PageSky {
+  std::size_t receiver = 0;  // index in RunPage::receivers
+  double view = 0.0;         // view factor
+  double unshaded = 0.0;
+  // By cell: sky_levels x the kind that stops most + what is stopped in all, 0 .. sky_levels - 1.
+  std::vector<std::uint8_t> codes;
 };
 
 struct PageHour {
   int hour = 0;  // at whose end the sun is here, 1 .. 24
   SunDirection sun;
+  double beam = 0.0;  // direct normal irradiance, W/m2: mean of the days that the day stands for
 };
 
 struct PageDay {
@@ -74,6 +87,9 @@ struct PageMap {
 // Everything on a page, which is one file that loads nothing.
 struct RunPage {
   static constexpr std::uint8_t turned_away = 254;  // instead of a percentage
+  static constexpr int sky_step = 6;                // degrees
+  static constexpr std::uint8_t sky_levels = 50;
+  static constexpr std::uint8_t behind = 255;  // instead of a code of the sky
 
   std::string title;
   std::vector<std::pair<std::string, std::string>> facts;  // what the run is, and what it says
@@ -84,7 +100,9 @@ struct RunPage {
   // Sunlit, percent: of each receiver at the first hour of the first day, then at the next.
   std::vector<std::uint8_t> percents;
   std::vector<PageMap> maps;
-  std::string maps_from;  // the days that they are about, MM-DD
+  std::vector<PageSky> skies;
+  std::vector<std::string> sky_kinds;  // of what stops the beam
+  std::string maps_from;               // the days that they are about, MM-DD
   std::string maps_to;
   std::vector<std::string> notes;  // what is left out
 };

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include "calculation/plain_scene.h"

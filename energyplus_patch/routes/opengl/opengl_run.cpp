@@ -37,10 +37,10 @@ struct HostedText {
   std::shared_ptr<AskedTask> task;  // that EnergyPlus is run for, if it is
 };
 
-// The same, as EnergyPlus is to be run with it.
+// The same, as EnergyPlus runs it.
 struct HostedModel {
   std::filesystem::path path;  // in a folder for this run
-  DrawnModel::Input input;     // without `named` where nothing is to be rendered
+  DrawnModel::Input input;     // without `named` where nothing is rendered
   RunMessages messages;
 };
 

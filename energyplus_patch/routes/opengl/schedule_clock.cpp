@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
-#include <utility>
 
 #include "gpu_shading/error.h"
 #include "gpu_shading/sun_position.h"

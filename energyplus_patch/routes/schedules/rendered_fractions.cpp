@@ -103,6 +103,7 @@ std::vector<std::string> shade_schedules(Model const& model) {
   for (auto const& [name, screen] : model.screens.by_surface) {
     names.insert(screen.deployment_schedule);
   }
+  names.insert(model.surroundings.leaf_schedules.begin(), model.surroundings.leaf_schedules.end());
   names.erase("");
   return {names.begin(), names.end()};
 }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "routes/run_setup.h"
-#include "routes/schedules/sunlit_fractions.h"
 
 namespace gpu_shading::energyplus {
 

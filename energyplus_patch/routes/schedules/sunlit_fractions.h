@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>

@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <iterator>
-#include <numbers>
 #include <numeric>
 #include <ostream>
 #include <utility>

@@ -86,6 +86,7 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
   Tile const& tile = *view.tile;
   std::vector<SurfaceId> flat;
   std::vector<Shade> shades;
+  std::vector<CrownInBeam> crowns;
   View const in_front = view_in_front(*view.frame, tile.map, view.towards_sun);
   CastersInView casters{view.casters, {}, {screens}};
   ScreensInView& sheets = casters.bodies.screens;
@@ -99,6 +100,8 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
     for (SurfaceId const id : flat) shades.push_back(transmission_.shade(id, view.towards_sun));
     casters.surfaces = flat;
     casters.shades = shades;
+    crowns = transmission_.crowns_among(view.casters, view.towards_sun);
+    casters.bodies.crowns = crowns;
   }
   if (!view.at_pixels) casters.repeats = repeats_among(scene_, casters.surfaces);
   Samples const samples = view.at_pixels ? Samples::pixels : Samples::fine;

@@ -137,10 +137,23 @@ struct ScreenExtent {
   }
 };
 
+// Where a crown may be seen.
+Rows rows_of(Crowns::Entry const& crown, View const& pixels, int height) {
+  double low = height;
+  double high = 0.0;
+  for (glm::dvec3 const& corner : crown.corners()) {
+    double const row = at(pixels.y, corner - pixels.origin);
+    low = std::min(low, row);
+    high = std::max(high, row);
+  }
+  return {static_cast<int>(std::max(0.0, std::floor(low))),
+          static_cast<int>(std::min<double>(height, std::ceil(high)))};
+}
+
 }  // namespace
 
 CpuPictureRaster::CpuPictureRaster(PictureScene const& scene)
-    : transmission_(scene.transmission), coverage_(scene.meshes) {}
+    : transmission_(scene.transmission), coverage_(scene.meshes), surfaces_(scene.scene.size()) {}
 
 int CpuPictureRaster::max_pixels() const { return cpu_device().max_resolution; }
 
@@ -192,6 +205,9 @@ std::vector<float> CpuPictureRaster::through_bodies(PictureGrid const& grid,
   std::iota(numbers.begin(), numbers.end(), 0);
   std::vector<SheetInBeam> const in_beam = sheets(grid, towards_sun, numbers);
   View const pixels = in_pixels(grid);
+  std::vector<SurfaceId> all_surfaces(surfaces_);
+  std::iota(all_surfaces.begin(), all_surfaces.end(), SurfaceId{0});
+  std::vector<CrownInBeam> const crowns = transmission_.crowns_among(all_surfaces, towards_sun);
   std::vector<ScreenExtent> extents;
   extents.reserve(numbers.size());
   for (int const number : numbers) extents.emplace_back(screens[number], pixels, grid.height);
@@ -225,6 +241,24 @@ std::vector<float> CpuPictureRaster::through_bodies(PictureGrid const& grid,
         }
       }
     }
+    for (CrownInBeam const& crown : crowns) {
+      Rows const extent = rows_of(*crown.crown, pixels, grid.height);
+      Rows const rows{std::max(all.first, extent.first), std::min(all.end, extent.end)};
+      if (rows.first >= rows.end) continue;
+      mask.start(side, rows.first, rows.end);
+      light_all(mask, side);
+      shaded.start(side, rows.first, rows.end);
+      shade_by_crowns(shaded, mask, pixels, {&crown, 1});
+      double const depth = at(pixels.z, crown.crown->centre - pixels.origin);
+      for (int row = rows.first; row < rows.end; ++row) {
+        std::span<float const> const by = shaded.row(row);
+        std::span<double const> const behind = nearest.depths(row);
+        std::span<float> const to = row_of(passed, grid, row);
+        for (std::size_t pixel = 0; pixel < to.size(); ++pixel) {
+          if (depth < behind[pixel]) to[pixel] *= by[pixel];
+        }
+      }
+    }
   });
   return passed;
 }
@@ -241,7 +275,9 @@ std::vector<float> CpuPictureRaster::luminance(PictureGrid const& grid,
   }
   std::vector<int> const numbers = transmission_.screens_among(shaded.casters);
   std::vector<SheetInBeam> const in_beam = sheets(grid, shaded.towards_sun, numbers);
-  CastersInView const casters{flat, shades, {{&transmission_.screens(), in_beam, numbers}}};
+  std::vector<CrownInBeam> const crowns =
+      transmission_.crowns_among(shaded.casters, shaded.towards_sun);
+  CastersInView const casters{flat, shades, {{&transmission_.screens(), in_beam, numbers}, crowns}};
   std::vector<float> seen(grid.pixels());
   in_rows(grid, [&](Rows const& rows) {
     int const side = side_of(grid);

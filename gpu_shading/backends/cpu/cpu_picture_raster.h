@@ -39,6 +39,7 @@ class CpuPictureRaster : public PictureRaster {
 
   Transmission const& transmission_;
   Coverage coverage_;
+  std::size_t surfaces_;
 };
 
 }  // namespace gpu_shading

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "gpu_shading/crown.h"
 #include "gpu_shading/hole_pattern.h"
 #include "gpu_shading/screen_placement.h"
 
@@ -38,11 +39,11 @@ struct PerforatedSheet {
   int deployment = -1;
 };
 
-using FilterFactor = std::variant<AngularTransmittance, PerforatedSheet>;
+using FilterFactor = std::variant<AngularTransmittance, PerforatedSheet, Crown>;
 
 // How a surface looks to people.
 struct FilterLook {
-  enum class Kind { opaque, glass, holes };
+  enum class Kind { opaque, glass, holes, foliage };
 
   Kind kind = Kind::opaque;
   double passes = 0.0;                              // of the beam at normal incidence, 0 .. 1
@@ -100,6 +101,9 @@ struct BeamFilter {
   struct Faces {
     double inside = 0.0;
     double outside = 0.0;
+    // It fills the space between, and a receiver's plane cuts through it. Other bodies are in front
+    // of the plane where their polygon or the middle of them is.
+    bool fills = false;
   };
   Faces faces() const;
 

@@ -6,7 +6,8 @@
 
 Units and axes everywhere: metres; x east, y north, z up; angles in degrees; azimuth clockwise from north, altitude from
 the horizon, angles of incidence from the normal. Scenes come from arrays, or from a model of EnergyPlus
-(Scene.from_energyplus). `check`, `run` and `sample` run EnergyPlus itself. Errors are subclasses of `Error`.
+(Scene.from_energyplus). `check`, `run`, `sample`, `view`, `map`, `mask` and `Study` run EnergyPlus itself. Errors are
+subclasses of `Error`.
 """
 
 try:
@@ -16,18 +17,22 @@ except ImportError as _error:
 
 from gpu_shading._library import __version__, limit_threads
 from gpu_shading._programs import prefix
+from gpu_shading.crown import Crown
+from gpu_shading.drawings import Drawings, Map, Mask, MaskHour, Picture, Sheet, map, mask, screen, view
 from gpu_shading.errors import DeviceError, Error, InvalidInput, RunError
 from gpu_shading.model import check
 from gpu_shading.optics import Screen, Transmittance
 from gpu_shading.rays import Hits, Rays
 from gpu_shading.renderer import Renderer
 from gpu_shading.rule import Rule
-from gpu_shading.runs import Run, run
+from gpu_shading.runs import Run, Summary, run
 from gpu_shading.samples import read_samples, sample, write_samples
 from gpu_shading.scene import Scene, Surface
+from gpu_shading.study import Case, Study
 
 __all__ = [
-    "DeviceError", "Error", "Hits", "InvalidInput", "Rays", "Renderer", "Rule", "Run", "RunError", "Scene", "Screen",
-    "Surface", "Transmittance", "__version__", "check", "limit_threads", "prefix", "read_samples", "run", "sample",
-    "write_samples",
+    "Case", "Crown", "DeviceError", "Drawings", "Error", "Hits", "InvalidInput", "Map", "Mask", "MaskHour", "Picture",
+    "Rays", "Renderer", "Rule", "Run", "RunError", "Scene", "Screen", "Sheet", "Study", "Summary", "Surface",
+    "Transmittance", "__version__", "check", "limit_threads", "map", "mask", "prefix", "read_samples", "run",
+    "sample", "screen", "view", "write_samples",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,18 +11,28 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gpu_shading import _programs
+from gpu_shading import _html, _programs
+from gpu_shading.crown import Crown
 from gpu_shading.errors import RunError
 from gpu_shading.optics import Screen, Transmittance
 
 _FORMATS = ("gpu_shading check 1", "gpu_shading scene 1")
 
 
-def check(model: _programs.Name, weather: _programs.Name | None = None) -> dict[str, Any]:
+class Check(dict[str, Any]):
+    """What check() returns: a dictionary that shows its surfaces in a notebook."""
+
+    def _repr_html_(self) -> str:
+        columns = ("name", "kind", "area", "receives", "casts")
+        return "".join(f"<p>{html.escape(line)}</p>" for line in self["remarks"]) + _html.table(
+            columns, ([surface[column] for column in columns] for surface in self["surfaces"]))
+
+
+def check(model: _programs.Name, weather: _programs.Name | None = None) -> Check:
     """How each surface of an IDF or epJSON file takes part in the shading calculation, as `gpu_shading check --json`
     tells it: "surfaces", each with "name", "kind", "area" (m2), "receives" and "casts", and "remarks" and "rule".
     EnergyPlus runs up to its shading calculation. An error of the model is a RunError."""
-    return _document(model, weather, [], _FORMATS[0])
+    return Check(_document(model, weather, [], _FORMATS[0]))
 
 
 @dataclass(frozen=True)
@@ -53,7 +64,8 @@ def read(model: _programs.Name, weather: _programs.Name | None = None) -> Conten
          "receives": surface["receives"], "casts": surface["casts"],
          "transmittance": item(shades, surface["transmittance"]), "screen": item(screens, surface["screen"]),
          "screen_origin": tuple(surface["origin"]), "screen_rotation": surface["rotation"],
-         "schedule": item(schedules, surface["schedule"]), "deployment": item(deployments, surface["deployment"])}
+         "schedule": item(schedules, surface["schedule"]), "deployment": item(deployments, surface["deployment"]),
+         "crown": Crown(**surface["crown"]) if surface["crown"] else None}
         for surface in document["surfaces"]]
     rule, zones = document["rule"], document["rule"]["zones"]
     return Contents(document["error"], document["resolution"], schedules, deployments, surfaces,

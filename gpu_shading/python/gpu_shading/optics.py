@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from ctypes import byref
 from typing import Any, Literal
@@ -24,6 +25,7 @@ _PLANES = ("centre", "outside", "inside")
 _DETAILS = ("automatic", "holes", "effective")
 _SOLID = 65535
 _MOST_TEXELS_A_SIDE = 16384
+_LARGE_HOLE = 0.5  # m; millimetres were probably meant
 
 
 def choice(value: str, among: Sequence[str], what: str) -> int:
@@ -123,6 +125,9 @@ class Screen:
         """
         lengths = {what: number(value, what) for value, what in (
             (size, "size"), (length, "length"), (pitch, "pitch"), (row_pitch, "row_pitch"))}
+        if lengths["size"] >= _LARGE_HOLE:
+            warnings.warn(f"Screen.pattern: holes of {lengths['size']:g} m at a pitch of {lengths['pitch']:g} m: "
+                          "lengths are in metres", UserWarning, stacklevel=2)
         sheet = _sheet(thickness, plane, None, detail)
         recipe = {"hole": hole, "arrangement": arrangement, **lengths, "thickness": sheet.thickness, "plane": plane,
                   "detail": detail}
@@ -182,6 +187,10 @@ class Screen:
         results = np.empty(angles[0].shape)
         _library.call("screen_tau", self.handle, pointer(thetas), pointer(phis), results.size, pointer(results))
         return results
+
+    def __repr__(self) -> str:
+        kind = self._recipe[1].get("hole", "image")
+        return f"<Screen: {kind}, {self.open_fraction:.1%} open, holes of {1000 * self.hole_size:.4g} mm>"
 
     @property
     def open_fraction(self) -> float:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
+import importlib
 import threading
 import time
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from ctypes import byref
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,7 +18,11 @@ from gpu_shading import _library
 from gpu_shading._arrays import Floats, indices, numbers, pointer, suns, unit_vectors
 from gpu_shading.errors import InvalidInput
 
+if TYPE_CHECKING:
+    import xarray
+
 Values = Mapping[str, float] | ArrayLike
+Receivers = Sequence[int] | Sequence[str] | Sequence[int | str]
 
 _MIN_COSINE = 1e-5  # EnergyPlus's: with less, the sun is behind a surface
 _MAX_DIRECTIONS = 1024  # in one call of the library, between which Python may stop
@@ -28,13 +35,14 @@ class Renderer:
     """Computes how much of a scene the sun reaches. Made by Scene.renderer. Threads may share one; it answers one
     question at a time, on all cores or on the GPU, and meanwhile other threads of Python run."""
 
-    def __init__(self, handle: _library.Handle, vectors: Floats, receivers: Sequence[int],
+    def __init__(self, handle: _library.Handle, vectors: Floats, receivers: Sequence[int], names: Sequence[str],
                  factor_table: Callable[[Values | None, int | None], Floats],
                  shares: Callable[[Values | None], Floats]) -> None:
         self._handle = handle
         self._lock = threading.Lock()  # of the deployments and the question that they are for
         self._vectors = vectors  # normals, as long as areas
         self._receivers = receivers
+        self._names = names
         self._factor_table = factor_table
         self._shares = shares
 
@@ -43,32 +51,48 @@ class Renderer:
         """What computes, such as "CPU (2 threads, AVX2)"."""
         return _library.text("renderer_device", self._handle)
 
-    def sunlit(self, directions: ArrayLike, *, receivers: Sequence[int] | None = None, factors: Values | None = None,
-               deployments: Values | None = None) -> Floats:
+    def __repr__(self) -> str:
+        return f"<Renderer: {len(self._receivers)} receivers, {self.device}>"
+
+    @overload
+    def sunlit(self, directions: ArrayLike, *, receivers: Receivers | None = None, factors: Values | None = None,
+               deployments: Values | None = None, labelled: Literal[False] = False,
+               progress: bool = False) -> Floats: ...
+
+    @overload
+    def sunlit(self, directions: ArrayLike, *, receivers: Receivers | None = None, factors: Values | None = None,
+               deployments: Values | None = None, labelled: Literal[True],
+               progress: bool = False) -> xarray.DataArray: ...
+
+    def sunlit(self, directions: ArrayLike, *, receivers: Receivers | None = None, factors: Values | None = None,
+               deployments: Values | None = None, labelled: bool = False,
+               progress: bool = False) -> Floats | xarray.DataArray:
         """Sunlit fractions, 0 to 1, of shape directions x receivers.
 
         `directions`: of shape (..., 2), azimuth clockwise from north and altitude from the horizon in degrees, or
-        (..., 3), vectors to the sun. `receivers`: indices of surfaces, without which all that receive are meant.
+        (..., 3), vectors to the sun. `receivers`: indices or names of surfaces, without which all that receive are
+        meant. `labelled`: an xarray DataArray with the names of receivers and the azimuths and altitudes of
+        directions. `progress`: a bar, by tqdm.
         `factors`: values of the scene's schedules, by name or in their order, or a row of them for each direction;
         needed if the scene has schedules. `deployments`: the deployed part of screens, by name or in order, 1 if not
         given. Many directions in one call are faster than one call each.
         """
         angles, shape = suns(directions)
         wanted = self._wanted(receivers)
-        areas = self._projected(angles, wanted, factors, deployments)
+        areas = self._ask("renderer_sunlit", angles, wanted, factors, deployments, progress=progress)
         vectors = self._vectors[wanted]
         facing = unit_vectors(angles) @ vectors.T
         lit = facing > _MIN_COSINE * np.linalg.norm(vectors, axis=1)
         fractions = np.divide(areas, facing, out=np.zeros_like(areas), where=lit)
-        limited: Floats = np.clip(fractions, 0.0, 1.0)
-        return limited.reshape(*shape, len(wanted))
+        limited: Floats = np.clip(fractions, 0.0, 1.0).reshape(*shape, len(wanted))
+        return self._labelled(limited, angles, shape, wanted) if labelled else limited
 
-    def projected_areas(self, directions: ArrayLike, *, receivers: Sequence[int] | None = None,
+    def projected_areas(self, directions: ArrayLike, *, receivers: Receivers | None = None,
                         factors: Values | None = None, deployments: Values | None = None) -> Floats:
         """The same as areas normal to the beam, m2, as EnergyPlus asks for them."""
         angles, shape = suns(directions)
         wanted = self._wanted(receivers)
-        return self._projected(angles, wanted, factors, deployments).reshape(*shape, len(wanted))
+        return self._ask("renderer_sunlit", angles, wanted, factors, deployments).reshape(*shape, len(wanted))
 
     def interior_areas(self, directions: ArrayLike, window: int, interiors: Sequence[int], *,
                        factors: Values | None = None, deployments: Values | None = None) -> Floats:
@@ -79,21 +103,45 @@ class Renderer:
         return self._ask("renderer_interior", angles, wanted, factors, deployments, through).reshape(
             *shape, len(wanted))
 
-    def _wanted(self, receivers: Sequence[int] | None) -> NDArray[np.uint32]:
-        return indices(self._receivers if receivers is None else receivers, len(self._vectors), "receivers")
+    def _wanted(self, receivers: Receivers | None) -> NDArray[np.uint32]:
+        if receivers is None:
+            return indices(self._receivers, len(self._vectors), "receivers")
+        if isinstance(receivers, str):
+            raise InvalidInput(f"receivers: {receivers!r}, expected a list")
+        if not isinstance(receivers, np.ndarray):
+            receivers = [self._index(one) if isinstance(one, str) else one for one in receivers]
+        return indices(receivers, len(self._vectors), "receivers")
 
-    def _projected(self, angles: Floats, wanted: NDArray[np.uint32], factors: Values | None,
-                   deployments: Values | None) -> Floats:
-        return self._ask("renderer_sunlit", angles, wanted, factors, deployments)
+    def _index(self, name: str) -> int:
+        for among in (self._receivers, range(len(self._names))):
+            for index in among:
+                if self._names[index].upper() == name.upper():
+                    return index
+        raise InvalidInput(f"receivers: {name}: no surface of that name")
+
+    def _labelled(self, fractions: Floats, angles: Floats, shape: tuple[int, ...],
+                  wanted: NDArray[np.uint32]) -> xarray.DataArray:
+        try:
+            xarray_ = importlib.import_module("xarray")
+        except ImportError:
+            raise ImportError("labelled answers need xarray: pip install xarray") from None
+        dims = [f"direction_{axis}" if len(shape) > 1 else "direction" for axis in range(len(shape))]
+        azimuth, altitude = (values.reshape(shape) for values in np.degrees(angles).T)
+        made: xarray.DataArray = xarray_.DataArray(
+            fractions, dims=[*dims, "receiver"], name="sunlit_fraction",
+            coords={"azimuth": (dims, np.remainder(azimuth, 360.0), {"units": "degree"}),
+                    "altitude": (dims, altitude, {"units": "degree"}),
+                    "receiver": [self._names[index] for index in wanted]})
+        return made
 
     def _ask(self, question: str, angles: Floats, wanted: NDArray[np.uint32],
-             factors: Values | None, deployments: Values | None, *window: int) -> Floats:
+             factors: Values | None, deployments: Values | None, *window: int, progress: bool = False) -> Floats:
         table = self._factor_table(factors, len(angles))
         shares = self._shares(deployments)
         results = np.empty((len(angles), len(wanted)))
         max_step = max(1, min(_MAX_DIRECTIONS, _MAX_ANSWERS // max(1, len(wanted))))
         first, step = 0, min(max_step, _FIRST_DIRECTIONS)
-        with self._lock:
+        with self._lock, _bar(len(angles) if progress else None) as advance:
             _library.call("renderer_set_deployments", self._handle, pointer(shares), len(shares))
             while first < len(angles) and len(wanted):
                 began = time.monotonic()
@@ -101,11 +149,26 @@ class Renderer:
                 _library.call(question, self._handle, pointer(part), len(part), *window, pointer(wanted), len(wanted),
                               byref(_library.FactorTable(pointer(rows), *rows.shape)), pointer(results[first:]))
                 first += step
+                advance(len(part))
                 step = min(max_step, 2 * step) if time.monotonic() - began < _LONG_CALL else max(1, step // 2)
             lines = _library.text("renderer_warnings", self._handle).splitlines()
         for line in lines:
             warnings.warn(line, RuntimeWarning, stacklevel=4)
         return results
+
+
+@contextlib.contextmanager
+def _bar(total: int | None) -> Iterator[Callable[[int], Any]]:
+    """What is called with the number of directions that were answered."""
+    if total is None:
+        yield lambda _: None
+        return
+    try:
+        tqdm = importlib.import_module("tqdm.auto").tqdm
+    except ImportError:
+        raise ImportError("progress needs tqdm: pip install tqdm") from None
+    with tqdm(total=total, unit="sun") as bar:
+        yield bar.update
 
 
 def schedule_table(values: Values | None, names: list[str], directions: int | None, what: str,

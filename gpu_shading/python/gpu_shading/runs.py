@@ -2,21 +2,48 @@
 
 from __future__ import annotations
 
+import contextlib
+import datetime
+import importlib
 import os
+import re
 import signal
+import sqlite3
 import subprocess
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from gpu_shading import _programs
+from gpu_shading import _html, _programs
 from gpu_shading._arrays import Floats
 from gpu_shading.errors import InvalidInput, RunError
 
 _FREQUENCIES = ("Each Call", "TimeStep", "Hourly", "Daily", "Monthly", "RunPeriod", "Annual")
+
+
+@dataclass(frozen=True)
+class Summary:
+    """How a run went."""
+
+    warnings: int
+    severe: int
+    seconds: float
+    """Elapsed time, as EnergyPlus reports it."""
+    messages: tuple[str, ...]
+    """What our module said."""
+    variables: tuple[str, ...]
+    """Output variables in eplusout.eso."""
+    site_energy: float | None
+    """Total Site Energy, kWh; None if the model does not ask for its tables in eplusout.sql."""
+
+    def _repr_html_(self) -> str:
+        rows: list[tuple[str, object]] = [("Warnings", self.warnings), ("Severe errors", self.severe),
+                                          ("Seconds", self.seconds), ("Site energy, kWh", self.site_energy)]
+        return _html.table(["", ""], [*rows, *(("", line) for line in self.messages)])
 
 
 @dataclass(frozen=True)
@@ -54,6 +81,104 @@ class Run:
             raise InvalidInput(f"{variable}: not in {self.folder / 'eplusout.eso'}: the model has no Output:Variable "
                                "for it")
         return {key: np.array(values) for key, values in found.items()}
+
+    def frame(self, variable: str | None = None, frequency: str = "Hourly") -> Any:
+        """A pandas DataFrame of output variables in the last environment of the run, from eplusout.sql, which a model
+        with Output:SQLite writes. Columns are (variable, key), or keys if one variable is chosen; the index is the end
+        of each interval in the site's standard time, with its time zone. `frequency`: "TimeStep", "Hourly", "Daily" or
+        "Monthly"."""
+        pandas_ = _needed("pandas", "frames")
+        told = {"TimeStep": "Zone Timestep", "Hourly": "Hourly", "Daily": "Daily", "Monthly": "Monthly"}
+        if frequency not in told:
+            raise InvalidInput(f"frequency: {frequency!r}, expected one of {', '.join(told)}")
+        rows = self._sql(
+            """SELECT t.Year, t.Month, t.Day, t.Hour, t.Minute, d.Name, d.KeyValue, r.Value FROM ReportData r
+               JOIN ReportDataDictionary d USING (ReportDataDictionaryIndex) JOIN Time t USING (TimeIndex)
+               WHERE d.ReportingFrequency = ? AND (t.WarmupFlag IS NULL OR t.WarmupFlag = 0)
+               AND t.EnvironmentPeriodIndex = (SELECT MAX(EnvironmentPeriodIndex) FROM Time)
+               ORDER BY r.TimeIndex""", told[frequency])
+        rows = [row for row in rows if variable is None or row[5].upper() == variable.upper()]
+        if not rows:
+            raise InvalidInput(f"{variable or 'variables'}: none at {frequency} in {self.folder / 'eplusout.sql'}: "
+                               "the model has no Output:Variable for it")
+        zone = datetime.timezone(datetime.timedelta(hours=self._time_zone()))
+        times = [_time(row, zone) for row in rows]
+        names = [row[6] if variable is not None else (row[5], row[6]) for row in rows]
+        columns: dict[Any, list[int]] = {}
+        for number, name in enumerate(names):
+            columns.setdefault(name, []).append(number)
+        table = pandas_.DataFrame({name: pandas_.Series([rows[i][7] for i in chosen], index=[times[i] for i in chosen])
+                                   for name, chosen in columns.items()})
+        if variable is None:
+            table.columns = pandas_.MultiIndex.from_tuples(table.columns, names=["variable", "key"])
+        table.index.name = "time"
+        return table
+
+    def summary(self) -> Summary:
+        """Warnings, errors, time, variables, and the site's energy if the tables are in eplusout.sql."""
+        end = _text(self.folder / "eplusout.end")
+        counts = re.search(r"(\d+) Warning; *(\d+) Severe", end)
+        spent = re.search(r"Elapsed Time=(\d+)hr *(\d+)min *([\d.]+)sec", end)
+        hours, minutes, seconds = (float(part) for part in spent.groups()) if spent else (0.0, 0.0, float("nan"))
+        return Summary(int(counts[1]) if counts else 0, int(counts[2]) if counts else 0,
+                       3600 * hours + 60 * minutes + seconds, self.messages, self._variables(), self._site_energy())
+
+    def _repr_html_(self) -> str:
+        return self.summary()._repr_html_()
+
+    def _variables(self) -> tuple[str, ...]:
+        found: dict[str, None] = {}
+        path = self.folder / "eplusout.eso"
+        if path.is_file():
+            with open(path, encoding="utf-8", errors="replace") as lines:
+                for line in lines:
+                    if line.startswith("End of Data Dictionary"):
+                        break
+                    parts = line.partition(" !")[0].split(",")
+                    if len(parts) >= 4:
+                        found[parts[3].rpartition(" [")[0]] = None
+        return tuple(found)
+
+    def _site_energy(self) -> float | None:
+        query = """SELECT Value, Units FROM TabularDataWithStrings WHERE TableName = 'Site and Source Energy'
+                   AND RowName = 'Total Site Energy' AND ColumnName = 'Total Energy'"""
+        try:
+            [(value, units)] = self._sql(query)
+        except (InvalidInput, ValueError):
+            return None
+        return float(value) / {"GJ": 0.0036, "kWh": 1.0, "MJ": 3.6}.get(units, float("nan"))
+
+    def _sql(self, query: str, *values: str) -> list[tuple[Any, ...]]:
+        path = self.folder / "eplusout.sql"
+        if not path.is_file():
+            raise InvalidInput(f"{path}: no such file: the model needs Output:SQLite")
+        with contextlib.closing(sqlite3.connect(f"{path.as_uri()}?mode=ro", uri=True)) as data:
+            try:
+                return data.execute(query, values).fetchall()
+            except sqlite3.DatabaseError as error:
+                raise InvalidInput(f"{path}: {error}") from None
+
+    def _time_zone(self) -> float:
+        """Hours ahead of universal time, from eplusout.eio."""
+        found = re.search(r"^ *Site:Location *,[^,\n]*,[^,\n]*,[^,\n]*,([^,\n]*)",
+                          _text(self.folder / "eplusout.eio"), re.MULTILINE)
+        if not found:
+            raise InvalidInput(f"{self.folder / 'eplusout.eio'}: has no Site:Location")
+        return float(found[1])
+
+
+def _needed(module: str, what: str) -> Any:
+    try:
+        return importlib.import_module(module)
+    except ImportError:
+        raise ImportError(f"{what} need {module}: pip install {module}") from None
+
+
+def _time(row: tuple[Any, ...], zone: datetime.tzinfo) -> datetime.datetime:
+    """The end of an interval, from year, month, day, hour and minute; 24:00 is midnight of the next day."""
+    year, month, day, hour, minute = row[:5]
+    begin = datetime.datetime(year or 2017, month or 1, day or 1, tzinfo=zone)
+    return begin + datetime.timedelta(hours=hour or 0, minutes=minute or 0)
 
 
 def run(model: _programs.Name, weather: _programs.Name, folder: _programs.Name | None = None, *,

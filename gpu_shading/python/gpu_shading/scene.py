@@ -4,22 +4,27 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Iterable, Mapping, Sequence
-from ctypes import byref
+from collections.abc import Iterable, Mapping
+from ctypes import byref, c_size_t
 from dataclasses import dataclass, fields
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gpu_shading import _library, _pickles
 from gpu_shading._arrays import FARTHEST, Floats, number, numbers, pointer, ring, whole, within
+from gpu_shading.crown import Crown, LeafAngles, Shape
 from gpu_shading.errors import InvalidInput
+from gpu_shading.meshes import faces_of, to_pyvista, to_trimesh
 from gpu_shading.model import Contents, read
 from gpu_shading.optics import FlatFilter, Screen, Transmittance, choice
 from gpu_shading.rays import Faces, Rays, RayScreens, make_rays
-from gpu_shading.renderer import Renderer, Values, schedule_table
+from gpu_shading.renderer import Receivers, Renderer, Values, schedule_table
 from gpu_shading.rule import Rule
+
+if TYPE_CHECKING:
+    import xarray
 
 Casts = Literal["always", "turned away", "never"]
 
@@ -39,6 +44,7 @@ class Surface:
     casts: Casts = "always"
     transmittance: FlatFilter | None = None
     screen: Screen | None = None
+    crown: Crown | None = None
     screen_origin: tuple[float, float] = (0.0, 0.0)
     screen_rotation: float = 0.0
     schedule: str | None = None
@@ -67,7 +73,7 @@ class Scene:
         self.schedules: list[str] = []
         """Names of transmittance schedules; their values are the `factors` of a question."""
         self.deployments: list[str] = []
-        """Names of schedules of what part of a screen is deployed."""
+        """Names of schedules of what part of a screen is deployed, and of a crown's share of leaves."""
         self._surfaces: list[Surface] = []
         self._rule: Rule | None = None
         self._native: _library.Handle | None = None
@@ -98,14 +104,16 @@ class Scene:
     def add(self, vertices: ArrayLike, *, name: str | None = None, holes: Iterable[ArrayLike] = (),
             receives: bool = False, casts: Casts = "always", transmittance: float | FlatFilter | None = None,
             screen: Screen | None = None, screen_origin: tuple[float, float] = (0.0, 0.0),
-            screen_rotation: float = 0.0, schedule: str | None = None, deployment: str | None = None) -> int:
+            screen_rotation: float = 0.0, schedule: str | None = None, deployment: str | None = None,
+            crown: Crown | None = None) -> int:
         """Adds a surface and returns its index.
 
         `casts`: "always", both faces; "turned away", only while it faces away from the sun, which is enough for each
         face of a closed body; or "never". It is opaque unless it has a transmittance (a constant, 0 to 1, or one by
         angle of incidence), a screen or a schedule, which multiply. A screen's tile begins at `screen_origin` (m),
         along axes at the second vertex, of which u leads to the third, and is turned by `screen_rotation` (degrees).
-        `schedule` names a factor that varies with time, `deployment` the part of the screen that is deployed.
+        `schedule` names a factor that varies with time, `deployment` the part of the screen that is deployed, or the
+        share of leaves of a `crown`, which has neither a transmittance nor a screen.
         """
         index = len(self._surfaces)
         what = f"surface {name or index}"
@@ -114,6 +122,10 @@ class Scene:
             transmittance = Transmittance.constant(number(transmittance, f"{what}: transmittance", 0.0, 1.0))
         if screen is not None and not isinstance(screen, Screen):
             raise InvalidInput(f"{what}: screen: expected a Screen")
+        if crown is not None and not isinstance(crown, Crown):
+            raise InvalidInput(f"{what}: crown: expected a Crown")
+        if crown is not None and (transmittance is not None or screen is not None):
+            raise InvalidInput(f"{what}: a crown has neither a transmittance nor a screen")
         origin = numbers(screen_origin, f"{what}: screen_origin")
         if origin.shape != (2,):
             raise InvalidInput(f"{what}: screen_origin: an array of shape {origin.shape}, expected two numbers")
@@ -124,7 +136,7 @@ class Scene:
         surface = Surface(
             name=str(index if name is None else name), vertices=_kept(ring(vertices, what)),
             holes=tuple(_kept(ring(hole, f"{what}: hole")) for hole in holes), receives=bool(receives), casts=casts,
-            transmittance=transmittance, screen=screen, screen_origin=(float(origin[0]), float(origin[1])),
+            transmittance=transmittance, screen=screen, crown=crown, screen_origin=(float(origin[0]), float(origin[1])),
             screen_rotation=number(screen_rotation, f"{what}: screen_rotation", -_MAX_TURN, _MAX_TURN),
             schedule=schedule, deployment=deployment)
         for known, wanted in ((self.schedules, schedule), (self.deployments, deployment)):
@@ -132,6 +144,32 @@ class Scene:
                 known.append(wanted)
         self._surfaces.append(surface)
         self._forget()
+        return index
+
+    def add_tree(self, foot: ArrayLike, height: float, crown_diameter: float, leaf_density: float, *,
+                 name: str | None = None, crown_base: float | None = None, shape: Shape = "ellipsoid",
+                 trunk_diameter: float = 0.3, leaf_angles: LeafAngles = "spherical", wood_density: float = 0.0,
+                 leaves: str | None = None) -> int:
+        """Adds a tree that stands at `foot` (x, y, z) and returns the index of its crown; see Crown. Lengths in metres;
+        the crown begins at `crown_base` above the foot, a quarter of the height unless it is given. The trunk is an
+        opaque hexagonal prism up to the middle of the crown; none if its diameter is 0. `leaves` names a schedule of
+        the share of leaves (`deployments` of a question)."""
+        what = f"tree {name or len(self._surfaces)}"
+        place = numbers(foot, f"{what}: foot")
+        if place.shape != (3,):
+            raise InvalidInput(f"{what}: foot: an array of shape {place.shape}, expected three numbers")
+        base = 0.25 * height if crown_base is None else number(crown_base, f"{what}: crown_base", 0.0, FARTHEST)
+        diameter = number(crown_diameter, f"{what}: crown_diameter", 0.0, FARTHEST)
+        crown = Crown(height - base, leaf_density, shape=shape, leaf_angles=leaf_angles, wood_density=wood_density)
+        plan = 0.5 * diameter * np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+        index = self.add(place + plan + [0.0, 0.0, base], name=name, crown=crown, deployment=leaves)
+        sides = 6
+        if number(trunk_diameter, f"{what}: trunk_diameter", 0.0, FARTHEST) > 0.0:
+            angles = np.linspace(0.0, 2.0 * np.pi, sides + 1)
+            ring = 0.5 * trunk_diameter * np.column_stack([np.cos(angles), np.sin(angles), 0.0 * angles])
+            up = np.array([0.0, 0.0, 0.5 * (base + height)])
+            for low, next_low in itertools.pairwise(place + ring):
+                self.add([low, next_low, next_low + up, low + up], name=name)
         return index
 
     @property
@@ -168,12 +206,43 @@ class Scene:
                 return index
         raise InvalidInput(f"{name}: no surface of that name")
 
-    def sunlit(self, directions: ArrayLike, *, receivers: Sequence[int] | None = None, factors: Values | None = None,
-               deployments: Values | None = None, device: str = "auto") -> Floats:
+    @overload
+    def sunlit(self, directions: ArrayLike, *, receivers: Receivers | None = None, factors: Values | None = None,
+               deployments: Values | None = None, device: str = "auto", labelled: Literal[False] = False,
+               progress: bool = False) -> Floats: ...
+
+    @overload
+    def sunlit(self, directions: ArrayLike, *, receivers: Receivers | None = None, factors: Values | None = None,
+               deployments: Values | None = None, device: str = "auto", labelled: Literal[True],
+               progress: bool = False) -> xarray.DataArray: ...
+
+    def sunlit(self, directions: ArrayLike, *, receivers: Receivers | None = None, factors: Values | None = None,
+               deployments: Values | None = None, device: str = "auto", labelled: bool = False,
+               progress: bool = False) -> Floats | xarray.DataArray:
         """Sunlit fractions, 0 to 1: the sunlit area over the area, each part weighted by what the shades in front of
         it let pass; 0 where the sun is behind the receiver. See Renderer.sunlit, which answers."""
-        return self.renderer(device=device).sunlit(
-            directions, receivers=receivers, factors=factors, deployments=deployments)
+        renderer = self.renderer(device=device)
+        if labelled:
+            return renderer.sunlit(directions, receivers=receivers, factors=factors, deployments=deployments,
+                                   labelled=True, progress=progress)
+        return renderer.sunlit(directions, receivers=receivers, factors=factors, deployments=deployments,
+                               progress=progress)
+
+    def add_mesh(self, mesh: Any, *, name: str, **surface: Any) -> list[int]:
+        """Adds the faces of a trimesh.Trimesh, a PyVista PolyData, or of any object with `vertices` and `faces`, and
+        returns their indices. All have one name; more arguments as `add` has. In metres."""
+        return [self.add(corners, name=name, **surface) for corners in faces_of(mesh)]
+
+    def to_pyvista(self, values: Mapping[str, ArrayLike] | None = None) -> Any:
+        """The surfaces as a PyVista PolyData for drawing in 3D: a polygon each, or triangles of one with holes.
+        `values`: arrays by name with a value for each surface, such as sunlit fractions, which its cells get; they have
+        its index as "surface"."""
+        return to_pyvista([list(self._triangles(index)) if surface.holes else [surface.vertices]
+                           for index, surface in enumerate(self._surfaces)], values or {})
+
+    def to_trimesh(self) -> Any:
+        """The surfaces as a trimesh.Trimesh of triangles; `face_attributes["surface"]` has their indices."""
+        return to_trimesh([self._triangles(index) for index in range(len(self._surfaces))])
 
     def renderer(self, *, device: str = "auto", error: float | None = None,
                  resolution: int | None = None) -> Renderer:
@@ -189,7 +258,8 @@ class Scene:
         pixels = 0 if resolution is None else whole(resolution, "resolution", 1, _MAX_PIXELS)
         handle = _library.Handle("renderer", "renderer_new", self.native(), device.encode(errors="replace"), pixels,
                                  number(error, "error"))
-        return Renderer(handle, self._area_vectors(), self.receivers, self.factor_table, self.deployment_shares)
+        return Renderer(handle, self._area_vectors(), self.receivers, self.names, self.factor_table,
+                        self.deployment_shares)
 
     def rays(self, *, faces: Faces = "as casting", screens: RayScreens = "effective") -> Rays:
         """What answers for single rays through this scene as it is now. `faces` that stop rays: "as casting", by what
@@ -233,16 +303,25 @@ class Scene:
     def _add_native(self, scene: _library.Handle, surface: Surface) -> None:
         rings = np.ascontiguousarray(np.concatenate([surface.vertices, *surface.holes]))
         sizes = np.array([len(surface.vertices), *map(len, surface.holes)], dtype=np.uintp)
+        filtered = surface.transmittance or surface.crown
         record = _library.SurfaceRecord(
             name=surface.name.encode(errors="replace"), vertices=pointer(rings), ring_sizes=pointer(sizes),
             rings=len(sizes), casting=_CASTS.index(surface.casts),
-            filter=surface.transmittance.handle.pointer if surface.transmittance else None,
+            filter=filtered.handle.pointer if filtered else None,
             schedule=self.schedules.index(surface.schedule) if surface.schedule is not None else -1,
             screen=surface.screen.handle.pointer if surface.screen else None,
             origin_u=surface.screen_origin[0], origin_v=surface.screen_origin[1],
             rotation=np.radians(surface.screen_rotation),
             deployment=self.deployments.index(surface.deployment) if surface.deployment is not None else -1)
         _library.call("scene_add", scene, byref(record))
+
+    def _triangles(self, index: int) -> Floats:
+        """Of a surface: triangles x 3 x 3."""
+        count = c_size_t()
+        _library.call("scene_triangles", self.native(), index, None, byref(count))
+        corners = np.empty((count.value, 3, 3))
+        _library.call("scene_triangles", self.native(), index, pointer(corners), byref(count))
+        return corners
 
     def _area_vectors(self) -> Floats:
         vectors = np.empty((len(self._surfaces), 3))

@@ -235,6 +235,30 @@ ClosedForm scheduled_blinds() {
   return made;
 }
 
+// Spheres of leaves before walls that take all of their shadows: the mean over the chords of a
+// disc, whatever the direction.
+ClosedForm crowns() {
+  ClosedForm made{"tree crowns", {}, {}, {}};
+  for (int i = 0; i < buildings; ++i) {
+    double const radius = 1.0 + 0.2 * i;
+    double const density = 0.3 + 0.2 * i;
+    Site const site(apart * i);
+    SurfaceId const wall = made.scene.add(
+        {"wall", site.facade(-6 * radius, 0, -9 * radius, 12 * radius, 14 * radius)});
+    Surface crown{"crown", site.level(-radius, -2.3 * radius, -radius, 2.0 * radius, 2.0 * radius)};
+    crown.filter.set(Crown{.height = 2.0 * radius, .leaf_density = density});
+    made.scene.add(crown);
+    double const k = density * radius;
+    double const stopped = std::numbers::pi * radius * radius *
+                           (1.0 - 2.0 * (1.0 - (1.0 + k) * std::exp(-k)) / (k * k));
+    each_sun([&](FacadeSun const& sun) {
+      double const whole = 12.0 * 14.0 * radius * radius * sun.cosine();
+      made.views.push_back({wall, sun.direction(), whole, {}, {whole - stopped}});
+    });
+  }
+  return made;
+}
+
 // A room, and a window in its facade.
 struct Room {
   double width = 4.0;
@@ -313,8 +337,10 @@ ClosedForm rooms(bool glazed) {
 }  // namespace
 
 std::vector<ClosedForm> closed_forms() {
-  return {overhangs_and_fins(), panes_before_windows(), perforated_sheets(), images(),
-          scheduled_blinds(),   rooms(false),           rooms(true)};
+  return {overhangs_and_fins(), panes_before_windows(),
+          perforated_sheets(),  images(),
+          scheduled_blinds(),   crowns(),
+          rooms(false),         rooms(true)};
 }
 
 }  // namespace gpu_shading

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "gpu_shading/sun_position.h"
 #include "sun/sampling/azimuth_splines.h"

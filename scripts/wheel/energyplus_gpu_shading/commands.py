@@ -3,7 +3,7 @@
 import os
 import sys
 
-from energyplus_gpu_shading.installation import SCRIPTS, official, prefix
+from energyplus_gpu_shading.installation import PACKAGE, SCRIPTS, official, prefix
 
 
 def _become(program, *arguments):
@@ -19,6 +19,9 @@ def run_energyplus():
 
 
 def run_gpu_shading():
+    if sys.argv[1:2] == ["study"]:
+        os.environ.setdefault("GPU_SHADING_PREFIX", str(prefix()))
+        _become(sys.executable, str(PACKAGE.parent / "gpu_shading" / "study" / "__main__.py"), *sys.argv[2:])
     _become(prefix() / "gpu_shading", *sys.argv[1:])
 
 

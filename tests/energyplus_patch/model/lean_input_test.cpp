@@ -141,11 +141,12 @@ TEST(LeanInput, OutlinesThatCannotBeReproducedStayEnergyPluss) {
 
 TEST(LeanInput, MovingScreensPutUpAPlaceholderForTheSky) {
   auto lean = plan(rules + shade("One"));
-  EXPECT_FALSE(needs_sky_schedule(lean.placeholders));
+  EXPECT_TRUE(own_schedules(lean.placeholders, {}).empty());
   add_sky_placeholder(lean, {});
   ASSERT_EQ(lean.placeholders.size(), 5U);
   EXPECT_EQ(lean.placeholders[4].name, "GPU SHADING PLACEHOLDER 5");
-  Rewrite const rewrite{"PixelCounting", "", {}, lean.placeholders};
+  Rewrite const rewrite{
+      "PixelCounting", "", {}, own_schedules(lean.placeholders, {}), lean.placeholders};
   auto const text = rewrite_idf("ShadowCalculation,PixelCounting,Periodic;", rewrite);
   auto const schedule = lean.placeholders[4].schedule;
   EXPECT_THAT(text, HasSubstr("Schedule:Compact," + schedule + ","));

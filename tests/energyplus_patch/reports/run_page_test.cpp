@@ -55,7 +55,11 @@ TEST(RunPage, OfALargeModelHasLessThanFiveMegabytes) {
   map.hours.assign(map.columns * map.rows, 3.0F);
   map.energy = map.hours;
   page.maps.push_back(map);
+  for (std::size_t i = 0; i < 300; ++i) {
+    page.skies.push_back({i, 0.25, 0.5, std::vector<std::uint8_t>(900, 57)});
+  }
   auto const html = to_html(std::move(page));
+  RecordProperty("bytes", static_cast<int>(html.size()));
   EXPECT_LT(html.size(), 5'000'000U);
   EXPECT_THAT(html, HasSubstr("The drawing is simplified: it has 45115 of 95000 casting surfaces"));
 }

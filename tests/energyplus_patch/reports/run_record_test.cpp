@@ -50,6 +50,9 @@ TEST(RunRecord, AddsTheBeamOfDaysWithoutWarmUp) {
   // Nothing can shade the roof: EnergyPlus does not ask about it.
   EXPECT_EQ(hours.front().fractions[2], 1.0F);
   EXPECT_NEAR(record.beam()[0], 0.8 * 0.5 * std::cos(60.0 * degree), 1e-6);
+  EXPECT_EQ(record.months()[0][2], record.beam()[0]);
+  EXPECT_EQ(record.months()[0][3], 0.0);
+  EXPECT_EQ(hours.front().beam, 400.0);  // the mean of both days
   EXPECT_EQ(record.beam()[1], 0.0);
   EXPECT_NEAR(record.beam()[2], 0.8 * std::sin(60.0 * degree), 1e-6);
 }

@@ -35,7 +35,8 @@ TEST(TaskFile, TasksComeBackAsTheyWere) {
               {4, {{6, 21, 12, 3, {1.0 / 3.0, 0.5}, {0.25}, 812.5}}, {"HEDGE"}},
               folder.path() / not_utf8,
               7},
-      DirectionsTask{{{1.0 / 3.0, 0.5}, {}}, folder.path() / not_utf8}};
+      DirectionsTask{{{1.0 / 3.0, 0.5}, {}}, folder.path() / not_utf8},
+      MaskTask{not_utf8, 2, 16, 0.1, {{1.0 / 3.0, 0.5}}, folder.path() / not_utf8, 7}};
   for (auto const& task : tasks) {
     write_request(file, {task, folder.path() / "reply"});
     auto const request = read_request(file);
@@ -53,6 +54,21 @@ TEST(TaskFile, RepliesComeBackAsTheyWere) {
     write_reply(file, reply);
     EXPECT_TRUE(find_reply(file) == reply);
   }
+}
+
+TEST(TaskFile, MasksComeBackAsTheyWere) {
+  TemporaryFolder const folder;
+  auto const file = folder.path() / "masks";
+  BeamShare const share{true, 1.0F / 3.0F, {0.25F, 0.0F, 0.125F}};
+  write_masks(file, {{{not_utf8, {0.1, 0.2, 0.3}}, std::nullopt, {share, {}}, {share}},
+                     {{"B", {1, 0, 0}}, glm::dvec3(1.0 / 3.0, 2, 3), {}, {}}});
+  auto const masks = read_masks(file);
+  ASSERT_EQ(masks.size(), 2U);
+  EXPECT_EQ(masks[0].receiver, (SampledReceiver{not_utf8, {0.1, 0.2, 0.3}}));
+  EXPECT_EQ(masks[0].sky, (std::vector<BeamShare>{share, {}}));
+  EXPECT_EQ(masks[0].suns, std::vector<BeamShare>{share});
+  EXPECT_FALSE(masks[0].point);
+  EXPECT_EQ(masks[1].point, glm::dvec3(1.0 / 3.0, 2, 3));
 }
 
 TEST(TaskFile, OtherFilesAreErrors) {

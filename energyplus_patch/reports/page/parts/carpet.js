@@ -1,4 +1,4 @@
-// A receiver's sunlit fraction by day (to the right) and hour (up).
+// A value of a receiver by day (to the right) and hour (up).
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -14,8 +14,9 @@ function hourRange() {
   return [Math.min(...hours), Math.max(...hours)];
 }
 
-// The SVG element; onGo(day, hour): a click on a field. `now`: the day and hour that are shown.
-function carpet(receiver, now, onGo) {
+// The SVG element; onGo(day, hour): a click on a field. `now`: the day and hour that are shown. `about`: what it shows;
+// `value`(day, hour): 0 .. 1, null behind the receiver; `text`(day, hour): in words.
+function carpet(now, onGo, {about, value, text}) {
   const left = 40;
   const width = 366;
   const row = 11;
@@ -25,20 +26,21 @@ function carpet(receiver, now, onGo) {
   const x = (day) => left + day * column;
   const y = (hour) => 4 + (last - hour) * row;
   const plot = svg("svg", {viewBox: `0 0 ${width} ${bottom + 20}`, role: "img",
-    "aria-label": `Sunlit fraction of ${content.names[receiver]} by day and hour`});
-  const pattern = svg("pattern", {id: "away-pattern", width: 5, height: 5, patternUnits: "userSpaceOnUse"});
+    "aria-label": about});
+  const name = `away-${about.replace(/\W/g, "").slice(0, 8)}`;
+  const pattern = svg("pattern", {id: name, class: "away-pattern", width: 5, height: 5, patternUnits: "userSpaceOnUse"});
   pattern.append(svg("path", {d: "M0 5 L5 0"}));
   // Filled once: on paper, each filling is a picture.
-  const away = svg("path", {class: "hatched"});
+  const away = svg("path", {fill: `url(#${name})`});
   plot.append(pattern, away);
   const hatched = [];
   content.days.forEach((day, d) => day.hours.forEach(([hour], h) => {
-    const percent = percentOf(receiver, d, h);
+    const share = value(d, h);
     const field = svg("rect", {x: x(d).toFixed(2), y: y(hour), width: column.toFixed(2), height: row,
-      class: percent === content.turnedAway ? "field away" : "field"});
-    if (percent !== content.turnedAway) field.setAttribute("fill", css(scaleColour(percent / 100)));
+      class: share === null ? "field away" : "field"});
+    if (share !== null) field.setAttribute("fill", css(scaleColour(share)));
     else hatched.push(`M${x(d).toFixed(2)} ${y(hour)}h${column.toFixed(2)}v${row}h${-column.toFixed(2)}z`);
-    field.append(svg("title", {}, `${dayText(day)}, ${hourText(hour)}: ${percentText(percent)}`));
+    field.append(svg("title", {}, `${dayText(day)}, ${hourText(hour)}: ${text(d, h)}`));
     field.addEventListener("click", () => onGo(d, h));
     plot.append(field);
   }));

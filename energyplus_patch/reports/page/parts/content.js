@@ -36,7 +36,7 @@ function percentOf(receiver, day, hour) {
   return content.percents[(content.firstHours[day] + hour) * content.receiverCount + receiver];
 }
 
-function percentText(percent) { return percent === content.turnedAway ? "turned away from the sun" : `${percent} %`; }
+function percentText(percent) { return percent === content.turnedAway ? "faces away from the sun" : `${percent} %`; }
 
 // null: there is none.
 function numberText(value, digits) {

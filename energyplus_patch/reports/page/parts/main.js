@@ -20,10 +20,11 @@ function addPairs(list, pairs) {
 function addKeys() {
   const kinds = new Set(view.surfaces.map((surface) => content.styles[surface.style].kind));
   const mapped = Boolean(part("colouring").value);
-  const keys = mapped ? [] : [["turned away from the sun", css(theme().turnedAway)]];
-  if (view instanceof ModelView && !mapped) keys.unshift(["darker: in shadow now", css(scaleColour(1).map((value) => 0.6 * value))]);
+  const keys = mapped ? [] : [["faces away from the sun", css(theme().turnedAway)]];
+  if (view instanceof ModelView && !mapped) keys.unshift(["dark: shaded at this hour", css(scaleColour(1).map((value) => 0.6 * value))]);
   if (kinds.has("opaque")) keys.push([mapped ? "casts shadows only, or has no map" : "casts shadows only", css(theme().caster)]);
   if (kinds.has("glass")) keys.push(["transmits", `#${theme().glass.toString(16)}80`]);
+  if (kinds.has("foliage")) keys.push(["tree crown", `#${theme().foliage.toString(16)}80`]);
   part("keys").replaceChildren(...keys.map(([text, colour]) => {
     const item = document.createElement("li");
     const box = document.createElement("span");
@@ -37,7 +38,7 @@ function addKeys() {
     const box = patternCanvas(content.styles.find((style) => style.kind === "screen"));
     box.className = "key";
     box.style.filter = isDark() && !printing ? "none" : "brightness(0.9)";
-    item.append(box, "screen, holes not to scale");
+    item.append(box, "Screen, holes not to scale");
     part("keys").append(item);
   }
 }
@@ -68,15 +69,105 @@ function showReceiver() {
   const map = content.maps.list.find((one) => one.receiver === receiver);
   const pairs = [["Area", `${numberText(area, 3)} m\u00b2`], ["Faces", facingText(receiver)],
     ["Tilt", `${numberText(tilt, 1)}\u00b0`], ["Mean sunlit fraction", numberText(mean, 4)],
-    ["Beam of the run", `${numberText(beam, 1)} kWh/m\u00b2`], ["Beam in all", `${numberText(total, 1)} kWh`]];
+    ["Beam per m\u00b2", `${numberText(beam, 1)} kWh/m\u00b2`], ["Total beam", `${numberText(total, 1)} kWh`]];
+  const sky = skyOf(receiver);
+  if (sky) pairs.push(["Sky view factor", `${numberText(sky.view, 3)} of ${numberText(sky.unshaded, 3)}`]);
   for (const [, title, unit, i] of map ? MAP_KINDS : []) {
     pairs.push([`${title}, ${mapDays()}`, `${numberText(map.means[i], 1)} ${unit}`]);
   }
   if (content.days.length > 0) {
     pairs.unshift(["Sunlit now", percentText(percentOf(receiver, state.day, state.hour))]);
-    part("carpet-plot").replaceChildren(carpet(receiver, [state.day, state.hour], go));
+    showCharts();
   }
   addPairs(part("numbers"), pairs);
+}
+
+// A chart is drawn when it is seen, and all on paper.
+function showCharts() {
+  const {receiver} = state;
+  const now = [state.day, state.hour];
+  const name = content.names[receiver];
+  const drawn = (panel) => printing || !part(`panel-${panel}`).hidden;
+  if (drawn("hours")) {
+    part("carpet-plot").replaceChildren(carpet(now, go, {about: `Sunlit fraction of ${name} by day and hour`,
+      value: (d, h) => percentOf(receiver, d, h) === content.turnedAway ? null : percentOf(receiver, d, h) / 100,
+      text: (d, h) => percentText(percentOf(receiver, d, h))}));
+    const most = mostBeam(receiver);
+    part("beam-scale").textContent = `blue 0, yellow ${most} W/m\u00b2`;
+    part("beam-plot").replaceChildren(carpet(now, go, {about: `Beam on ${name} by day and hour`,
+      value: (d, h) => beamOf(receiver, d, h) === null ? null : beamOf(receiver, d, h) / most,
+      text: (d, h) => beamOf(receiver, d, h) === null ? percentText(content.turnedAway)
+        : `${Math.round(beamOf(receiver, d, h))} W/m\u00b2`}));
+  }
+  if (drawn("months")) part("months-plot").replaceChildren(monthBars(receiver));
+  if (drawn("sky")) showSky(now);
+}
+
+function showSky(now) {
+  const known = Boolean(skyOf(state.receiver));
+  part("sky-caption").textContent = known
+    ? "What hides the sky from the receiver, and the sun at the hours of the page's days, by sunlit fraction."
+    : "This receiver has no mask on the page; gpu_shading mask draws one.";
+  part("sky-form").hidden = !known;
+  part("sky-plot").replaceChildren(...(known ? [skyMask(state.receiver, now, part("projection").value, go)] : []));
+  part("sky-keys").replaceChildren(...(known ? skyKeys(state.receiver) : []));
+}
+
+const PANELS = ["hours", "months", "sky"];
+
+function openPanel(panel) {
+  for (const one of PANELS) {
+    part(`panel-${one}`).hidden = one !== panel;
+    part(`tab-${one}`).setAttribute("aria-selected", String(one === panel));
+    part(`tab-${one}`).tabIndex = one === panel ? 0 : -1;
+  }
+  if (content.days.length > 0 && content.receiverCount > 0) showCharts();
+}
+
+function addPanels() {
+  PANELS.forEach((panel, i) => {
+    part(`tab-${panel}`).addEventListener("click", () => openPanel(panel));
+    part(`tab-${panel}`).addEventListener("keydown", (event) => {
+      const step = {ArrowRight: 1, ArrowLeft: -1}[event.key];
+      if (!step) return;
+      const next = PANELS[(i + step + PANELS.length) % PANELS.length];
+      openPanel(next);
+      part(`tab-${next}`).focus();
+    });
+  });
+  part("projection").addEventListener("change", showCharts);
+  part("save-chart").addEventListener("click", () => saveChart(document.querySelector(".panel:not([hidden]) svg")));
+  part("save-picture").addEventListener("click", () => savePicture(part("view")));
+  const animation = part("save-animation");
+  animation.hidden = !canRecord();
+  animation.addEventListener("click", () => {
+    animation.disabled = true;
+    saveAnimation(part("view"), () => { animation.disabled = false; });
+  });
+  openPanel("hours");
+}
+
+// A surface's name under the pointer, with a receiver's sunlit fraction.
+function addHover() {
+  const hover = part("hover");
+  let waiting = null;
+  const show = (event) => {
+    waiting = null;
+    const number = view.numberAt(event);
+    hover.hidden = number === undefined || !content.names[number];
+    if (hover.hidden) return;
+    const lit = number < content.receiverCount && content.days.length > 0
+      ? `: ${percentText(percentOf(number, state.day, state.hour))}` : "";
+    hover.textContent = content.names[number] + lit;
+    const box = part("stage").getBoundingClientRect();
+    hover.style.left = `${Math.min(event.clientX - box.left + 14, box.width - 150)}px`;
+    hover.style.top = `${event.clientY - box.top + 14}px`;
+  };
+  part("view").addEventListener("pointermove", (event) => {
+    if (event.buttons || waiting) return;
+    waiting = requestAnimationFrame(() => show(event));
+  });
+  part("view").addEventListener("pointerleave", () => { hover.hidden = true; });
 }
 
 function go(day, hour) {
@@ -138,18 +229,21 @@ function play() {
   part("play").textContent = playing ? "Stop" : "Play the day";
 }
 
-// The afternoon of the day nearest to the equinox, and a receiver that is partly shaded then.
+// The largest window, or the largest receiver without windows, in the afternoon of the day nearest to the equinox, or
+// before the sun goes behind it.
 function chooseBeginning() {
   const fromEquinox = (day) => Math.abs((day.month - 3) * 30 + day.day - 21);
   content.days.forEach((day, i) => {
     if (fromEquinox(day) < fromEquinox(content.days[state.day])) state.day = i;
   });
-  const {hours} = content.days[state.day];
-  state.hour = hours.reduce((best, [hour], i) => Math.abs(hour - 15) < Math.abs(hours[best][0] - 15) ? i : best, 0);
-  const fromHalf = (receiver) => Math.abs(percentOf(receiver, state.day, state.hour) - 50);
-  content.receivers.forEach((_, i) => {
-    if (fromHalf(i) < fromHalf(state.receiver)) state.receiver = i;
+  const rank = ([area, , , , , , window]) => window ? 1e9 + area : area;
+  content.receivers.forEach((receiver, i) => {
+    if (rank(receiver) > rank(content.receivers[state.receiver])) state.receiver = i;
   });
+  const {hours} = content.days[state.day];
+  const isBehind = (hour) => percentOf(state.receiver, state.day, hour) === content.turnedAway;
+  const away = (hour) => Math.abs(hours[hour][0] - 15) + (content.receiverCount > 0 && isBehind(hour) ? 24 : 0);
+  state.hour = hours.reduce((best, _, i) => away(i) < away(best) ? i : best, 0);
 }
 
 function addView() {
@@ -190,6 +284,7 @@ function print(begins) {
   printing = begins;
   refreshTheme();
   receiverTable.fill();
+  if (content.days.length > 0 && content.receiverCount > 0) showCharts();
   if (begins) view.copyTo?.(part("paper-view"));
 }
 
@@ -206,12 +301,14 @@ function begin() {
   addKeys();
   addControls();
   addColourings();
+  addPanels();
+  addHover();
   receiverTable = new ReceiverTable(part("receivers"), part("filter"), part("shown"), choose);
   if (content.days.length > 0) {
     chooseBeginning();
     showTime();
   } else {
-    part("controls").hidden = part("carpet").hidden = part("moment").hidden = true;
+    part("controls").hidden = part("charts").hidden = part("moment").hidden = true;
   }
   if (content.receiverCount > 0) choose(state.receiver);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", refreshTheme);

@@ -135,7 +135,7 @@ class ModelView {
     this.casters.add(this.edgesOf(opaque, this.casterEdges));
     this.sheets = [];
     content.styles.forEach((style, number) => {
-      if (style.kind === "glass" || style.kind === "screen") this.addSheets(style, number);
+      if (["glass", "screen", "foliage"].includes(style.kind)) this.addSheets(style, number);
     });
   }
 
@@ -157,7 +157,7 @@ class ModelView {
     raster.minFilter = raster.magFilter = THREE.NearestFilter;
     mesh.customDepthMaterial = depthMaterial(raster);
     this.sheets.push({style, material});
-    this.casters.add(this.edgesOf(those, this.casterEdges));
+    if (style.kind !== "foliage") this.casters.add(this.edgesOf(those, this.casterEdges));
   }
 
   edgesOf(numbers, material) {
@@ -254,6 +254,12 @@ class ModelView {
   }
 
   pick(event) {
+    const number = this.numberAt(event);
+    if (number < content.receiverCount) this.onChoose(number);
+  }
+
+  // Of the surface under the pointer, if there is one.
+  numberAt(event) {
     const box = this.canvas.getBoundingClientRect();
     const at = new THREE.Vector2(2 * (event.clientX - box.left) / box.width - 1,
       1 - 2 * (event.clientY - box.top) / box.height);
@@ -261,9 +267,7 @@ class ModelView {
     caster.setFromCamera(at, this.camera);
     const meshes = this.casters.visible ? this.solid : this.solid.slice(0, 1);
     const [hit] = caster.intersectObjects(meshes);
-    if (!hit) return;
-    const number = hit.object.userData.owners[hit.faceIndex];
-    if (number < content.receiverCount) this.onChoose(number);
+    return hit && hit.object.userData.owners[hit.faceIndex];
   }
 
   showHour(day, hour) {
@@ -356,7 +360,7 @@ class ModelView {
   }
 
   refreshTheme() {
-    const {caster, ground, edge, screen, glass} = theme();
+    const {caster, ground, edge} = theme();
     for (const number of this.numbersOf("opaque")) this.opaque.paint(number, caster, 1);
     for (let i = 0; i < this.groundTint.count; ++i) {
       this.groundTint.setXYZW(i, ground[0] / 255, ground[1] / 255, ground[2] / 255, 0);
@@ -364,7 +368,7 @@ class ModelView {
     this.groundTint.needsUpdate = true;
     this.edges.color.setHex(edge);
     this.casterEdges.color.setHex(edge);
-    for (const {style, material} of this.sheets) material.color.setHex(style.kind === "screen" ? screen : glass);
+    for (const {style, material} of this.sheets) material.color.setHex(theme()[style.kind]);
     this.paint();
     this.drawSky();
     this.choose(this.chosen);

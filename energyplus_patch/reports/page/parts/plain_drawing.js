@@ -63,7 +63,7 @@ class PlainDrawing {
         ring.forEach((point, i) => one.path[i === 0 ? "moveTo" : "lineTo"](...place(point)));
         one.path.closePath();
       }
-      context.globalAlpha = content.styles[one.style].kind === "glass" ? 0.4 : 1;
+      context.globalAlpha = ["glass", "foliage"].includes(content.styles[one.style].kind) ? 0.4 : 1;
       context.fillStyle = css(this.colourOf(one.number));
       context.strokeStyle = one.number === this.chosen ? `#${theme().choice.toString(16).padStart(6, "0")}` : "#30353b";
       context.lineWidth = one.number === this.chosen ? 3 : 1;
@@ -114,11 +114,15 @@ class PlainDrawing {
   }
 
   pick(event) {
+    const number = this.numberAt(event);
+    if (number < content.receiverCount) this.onChoose(number);
+  }
+
+  numberAt(event) {
     const box = this.canvas.getBoundingClientRect();
     const context = this.canvas.getContext("2d");
     const x = (event.clientX - box.left) * devicePixelRatio;
     const y = (event.clientY - box.top) * devicePixelRatio;
-    const hit = (this.drawn || []).filter(({path}) => context.isPointInPath(path, x, y, "evenodd")).pop();
-    if (hit && hit.number < content.receiverCount) this.onChoose(hit.number);
+    return (this.drawn || []).filter(({path}) => context.isPointInPath(path, x, y, "evenodd")).pop()?.number;
   }
 }

@@ -1,7 +1,7 @@
 // The table of all receivers: sorted, filtered, and a name chooses its receiver.
 
 const COLUMNS = [["Receiver", 0], ["Area, m\u00b2", 3], ["Azimuth, \u00b0", 1], ["Tilt, \u00b0", 1], ["Mean sunlit fraction", 4],
-  ["Beam, kWh/m\u00b2", 1], ["Beam, kWh", 1]];
+  ["Beam per m\u00b2, kWh", 1], ["Total beam, kWh", 1]];
 const MOST_ROWS = 500;
 const MOST_ROWS_ON_PAPER = 100;
 

@@ -14,8 +14,8 @@ namespace {
 int to_count(double area, double pixel_area) {
   auto const count = std::round(area / pixel_area);
   if (!(count > 0.0)) return 0;
-  constexpr int most = std::numeric_limits<int>::max();
-  return count < most ? static_cast<int>(count) : most;
+  constexpr int max_count = std::numeric_limits<int>::max();
+  return count < max_count ? static_cast<int>(count) : max_count;
 }
 
 glm::dvec3 row(std::array<float, 16> const& matrix, std::size_t index) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <glm/geometric.hpp>
-#include <iterator>
 #include <map>
 #include <utility>
 

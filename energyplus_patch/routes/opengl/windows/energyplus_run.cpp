@@ -4,7 +4,6 @@
 #include <exception>
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "gpu_shading/error.h"
@@ -15,7 +14,7 @@
 #include "routes/schedules/scheduled_run.h"
 #include "runs/refused_run.h"
 
-// Runs EnergyPlus in this process for energyplus.exe of ours, which has loaded this library.
+// Runs EnergyPlus in this process for our energyplus.exe, which has loaded this library.
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -48,7 +47,7 @@ int run(RunSetup& setup) {
 }  // namespace gpu_shading::energyplus
 
 // `arguments` are in UTF-8, without the program's name. Returns EnergyPlus's exit status, or -1
-// where no rendering is wanted: then EnergyPlus's own program is to be run.
+// where no rendering is wanted: the caller then runs EnergyPlus's own program.
 extern "C" __declspec(dllexport) int gpu_shading_energyplus(int count,
                                                             char const* const* arguments) {
   using namespace gpu_shading::energyplus;

@@ -13,8 +13,6 @@
 #include <fstream>
 #include <limits>
 
-#include "gpu_shading/error.h"
-
 namespace gpu_shading::energyplus {
 namespace {
 

@@ -1,5 +1,4 @@
 #include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
 #include <optional>
 #include <utility>
 

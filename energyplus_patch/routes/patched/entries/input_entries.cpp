@@ -59,8 +59,8 @@ PointerTo<symbol::abort_energyplus> original_abort = nullptr;
 void warn_of_missing_surroundings(Run const& run) {
   if (run.model->surroundings.empty()) return;
   messages_of(run).warning(
-      "rendering is off: GPUShading:SiteContext and GPUShading:Geometry are ignored, so their "
-      "geometry casts no shadow");
+      "rendering is off: GPUShading:SiteContext, GPUShading:Geometry and GPUShading:Tree are "
+      "ignored, so their geometry casts no shadow");
 }
 
 // Shades that are opaque to polygon clipping because only our objects make them transparent.

@@ -1,7 +1,6 @@
 #include "routes/patched/entries/run.h"
 
 #include <ostream>
-#include <string>
 #include <utility>
 
 #include "platform/console.h"

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -50,7 +49,7 @@ Messages messages_of(Run const& run);
 // than TaskDone is an error, printed and replied to a task.
 [[noreturn]] void end_run(std::exception_ptr const& thrown);
 
-// Calls `action`; an exception of ours ends EnergyPlus's run.
+// Calls `action`; our exceptions end EnergyPlus's run.
 template <typename Action>
 auto guarded(Action const& action) {
   std::exception_ptr thrown;

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <glm/geometric.hpp>
 #include <span>
 #include <string>
@@ -162,11 +161,11 @@ void find_counts(Layout& layout) {
   auto const array_of = [&](std::byte const* element, Member member) {
     return element + layout.arrays[member];
   };
-  auto const most =
+  auto const max_count =
       static_cast<std::int32_t>(read_array<glm::dvec3>(array_of(layout.first, points)).size);
   layout.point_count = find_integer(
       layout, layout.name + string_size, layout.arrays[points],
-      [&](std::byte const*, std::int32_t value) { return value >= 3 && value <= most; });
+      [&](std::byte const*, std::int32_t value) { return value >= 3 && value <= max_count; });
   auto const end_of = [&](Member member) { return layout.arrays[member] + sizeof(ArrayHeader); };
   layout.ray_count = find_integer(
       layout, end_of(points), layout.arrays[directions],

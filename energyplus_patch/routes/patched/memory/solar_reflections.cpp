@@ -106,9 +106,9 @@ void SolarReflections::add(std::vector<ReflectedShare> const& shares, DiffuseRes
     results.shades[at] += shades / count;
     if (ground <= 0.0) continue;
     // As in EnergyPlus, not more than an unobstructed ground.
-    double const most = 0.5 * (1.0 - receiver.normal.z);
+    double const max_ground = 0.5 * (1.0 - receiver.normal.z);
     results.ground[at] =
-        std::max(results.ground[at], std::min(most, results.ground[at] + ground / count));
+        std::max(results.ground[at], std::min(max_ground, results.ground[at] + ground / count));
   }
 }
 

@@ -46,7 +46,7 @@ class SurfaceLuminance {
     Illuminance const& horizontal;  // outdoors
   };
 
-  // What EnergyPlus is to be answered while a surface is measured: that its ray meets the surface,
+  // The answers that EnergyPlus gets while a surface is measured: that its ray meets the surface,
   // and that the surface's luminance by the sun is 1. With this second answer, a value in its
   // memory is to be set.
   struct Measured {

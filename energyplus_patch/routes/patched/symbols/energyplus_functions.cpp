@@ -8,10 +8,8 @@
 #include <cstring>
 #include <optional>
 #include <unordered_map>
-#include <utility>
 
 #include "gpu_shading/error.h"
-#include "routes/patched/symbols/energyplus_symbols.h"
 
 namespace gpu_shading::energyplus {
 

@@ -36,6 +36,8 @@ void DrawList::clear() {
   screen_indices_.clear();
   screen_draws_.clear();
   sheets_ = {};
+  crown_indices_.clear();
+  crown_draws_.clear();
 }
 
 void DrawList::add_tile(std::span<glm::vec2 const> triangles, int layer) {
@@ -72,7 +74,8 @@ DirectionTables& DrawList::tables(glm::dvec3 const& towards_sun, std::size_t sur
 }
 
 void DrawList::set_shade(std::size_t place, Shade const& shade) {
-  shades_[place] = {shade.transmittance, shade.schedule};
+  shades_[place].transmittance = shade.transmittance;
+  shades_[place].schedule = shade.schedule;
   known_shades_[place] = true;
 }
 
@@ -90,10 +93,18 @@ void DrawList::end_screens(std::size_t begin, ScreenLook look, std::uint32_t vie
   screen_draws_.push_back({look, {begin, screen_indices_.size() - begin}, view});
 }
 
+void DrawList::add_crown_draw(std::span<std::uint32_t const> indices, std::uint32_t view) {
+  if (indices.empty()) return;
+  Range const range{crown_indices_.size(), indices.size()};
+  crown_indices_.insert(crown_indices_.end(), indices.begin(), indices.end());
+  crown_draws_.push_back(command(range, view));
+}
+
 std::size_t DrawList::bytes() const {
   return bytes_of(tile_vertices_) + bytes_of(views_) + bytes_of(indices_) +
          bytes_of(caster_draws_) + bytes_of(interior_draws_) + bytes_of(shades_) + bytes_of(keys_) +
-         bytes_of(screen_indices_) + bytes_of(screen_draws_);
+         bytes_of(screen_indices_) + bytes_of(screen_draws_) + bytes_of(crown_indices_) +
+         bytes_of(crown_draws_);
 }
 
 void add_view_records(gl::VertexArray& array, gl::Buffer const& views) {

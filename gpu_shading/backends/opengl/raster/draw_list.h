@@ -40,6 +40,7 @@ struct TileVertex {
 struct ShadeRecord {
   float transmittance = 0.0F;
   std::int32_t schedule = -1;
+  float extinction = 0.0F;
 };
 
 // What screens must have in common to be drawn together.
@@ -91,6 +92,10 @@ class DrawList {
   std::span<DirectionTables const> directions() const { return directions_; }
   bool knows_shade(std::size_t place) const { return known_shades_[place]; }
   void set_shade(std::size_t place, Shade const& shade);
+  // Of a crown, per metre.
+  void set_extinction(std::size_t place, double extinction) {
+    shades_[place].extinction = static_cast<float>(extinction);
+  }
   // Returns the index of the first.
   std::int32_t add_keys(std::span<glm::vec4 const> keys);
 
@@ -98,6 +103,8 @@ class DrawList {
   std::size_t begin_screens() const { return screen_indices_.size(); }
   void add_quadrilaterals(std::span<std::uint32_t const> indices);
   void end_screens(std::size_t begin, ScreenLook look, std::uint32_t view);
+  void add_crown_draw(std::span<std::uint32_t const> indices, std::uint32_t view);
+
   // For all directions, in order. Required if there are screens.
   void set_sheets(SheetBlocks sheets) { sheets_ = std::move(sheets); }
 
@@ -111,6 +118,8 @@ class DrawList {
   std::span<std::uint32_t const> screen_indices() const { return screen_indices_; }
   std::span<ScreenDraw const> screen_draws() const { return screen_draws_; }
   SheetBlocks const& sheets() const { return sheets_; }
+  std::span<std::uint32_t const> crown_indices() const { return crown_indices_; }
+  std::span<gl::Command const> crown_draws() const { return crown_draws_; }
 
   // Memory of all this, without the screens' data at each direction.
   std::size_t bytes() const;
@@ -128,6 +137,8 @@ class DrawList {
   std::vector<std::uint32_t> screen_indices_;
   std::vector<ScreenDraw> screen_draws_;
   SheetBlocks sheets_;
+  std::vector<std::uint32_t> crown_indices_;
+  std::vector<gl::Command> crown_draws_;
 };
 
 // Adds views as an array's instance data; `views` holds ViewRecords.

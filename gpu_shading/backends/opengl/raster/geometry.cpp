@@ -29,10 +29,12 @@ glm::dvec3 some_point(Scene const& scene) {
 
 }  // namespace
 
-Geometry::Geometry(Scene const& scene, std::span<Mesh const> meshes, Screens const& screens)
+Geometry::Geometry(Scene const& scene, std::span<Mesh const> meshes,
+                   Transmission const& transmission)
     : scene_origin_(some_point(scene)),
       views_(gl::Buffer::create()),
-      screens_(screens, scene_origin_, views_) {
+      screens_(transmission.screens(), scene_origin_, views_),
+      crowns_(transmission.crowns(), scene_origin_, views_) {
   std::vector<Vertex> vertices;
   ranges_.reserve(scene.size());
   for (SurfaceId id = 0; id < scene.size(); ++id) {
@@ -96,6 +98,7 @@ void Geometry::upload(DrawList const& list) {
   commands.insert(commands.end(), list.interior_draws().begin(), list.interior_draws().end());
   commands_.set(std::span<gl::Command const>(commands));
   screens_.upload(list);
+  crowns_.upload(list);
   if (list.shades().empty()) return;
   gl::require_storage(list.shades().size_bytes(), "shades");
   gl::require_storage(list.keys().size_bytes(), "keys of schedules");
@@ -127,6 +130,7 @@ void Geometry::draw_shades() const {
   }
   gl::cut_at_plane(true);
   screens_.draw_all();
+  draw_crowns();
 }
 
 void Geometry::draw_interiors() const {

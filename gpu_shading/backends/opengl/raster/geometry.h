@@ -10,9 +10,10 @@
 #include "backends/opengl/gl/buffer.h"
 #include "backends/opengl/gl/program.h"
 #include "backends/opengl/gl/vertex_array.h"
+#include "backends/opengl/raster/crown_geometry.h"
 #include "backends/opengl/raster/draw_list.h"
 #include "backends/opengl/raster/screen_geometry.h"
-#include "filters/perforation/screens.h"
+#include "filters/transmission.h"
 #include "geometry/triangulation.h"
 #include "gpu_shading/scene.h"
 
@@ -23,13 +24,14 @@ namespace gpu_shading {
 class Geometry {
  public:
   // `meshes`: of all surfaces of the scene, by id.
-  Geometry(Scene const& scene, std::span<Mesh const> meshes, Screens const& screens);
+  Geometry(Scene const& scene, std::span<Mesh const> meshes, Transmission const& transmission);
 
   // The triangles of a surface, for a DrawList. Empty for a degenerate surface.
   std::span<std::uint32_t const> triangles(SurfaceId id) const;
   glm::dvec3 const& scene_origin() const { return scene_origin_; }
 
   ScreenGeometry const& screens() const { return screens_; }
+  CrownGeometry const& crowns() const { return crowns_; }
 
   // Earlier draws keep the data that they still read.
   void upload(DrawList const& list);
@@ -40,6 +42,8 @@ class Geometry {
   void draw_casters() const;
   // Draws every caster with its transmittance and the keys of its schedules.
   void draw_shades() const;
+  // Draws every crown of the list.
+  void draw_crowns() const { crowns_.draw(shades_); }
   // Draws every surface behind a window as its identity.
   void draw_interiors() const;
 
@@ -68,6 +72,7 @@ class Geometry {
   gl::VertexArray surfaces_;
   gl::VertexArray tiles_;
   ScreenGeometry screens_;
+  CrownGeometry crowns_;
   // As uploaded.
   std::size_t vertices_of_tiles_ = 0;
   std::size_t caster_draws_ = 0;

@@ -57,7 +57,7 @@ LuminanceSums sums_of(LuminanceByKey const& by_key, ScheduleKeys const* keys) {
 
 struct GlBackend::OnDevice {
   OnDevice(BackendInput const& input, Bounds const& bounds, LuminanceSum how)
-      : geometry(input.scene, input.meshes, input.transmission.screens()),
+      : geometry(input.scene, input.meshes, input.transmission),
         submissions(geometry, input.transmission, bounds, how, input.statistics) {}
 
   Geometry geometry;
@@ -158,6 +158,8 @@ void GlBackend::gather_casters(DrawList& list, int layer, ReceiverView const& vi
   }
   list.add_caster_draw(list.end_surfaces(begin), record);
   if (tables == nullptr) return;
+  geometry.crowns().add_to(list, *tables, record,
+                           transmission_.crowns_among(view.casters, view.towards_sun));
   std::vector<int> const screens = transmission_.screens_among(view.casters);
   if (screens.empty()) return;
   geometry.screens().add_to(list, *tables, record, screens, view.pixel_area());

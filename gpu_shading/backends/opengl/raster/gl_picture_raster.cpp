@@ -56,7 +56,7 @@ std::uint32_t add_view(DrawList& list, Geometry const& geometry, PictureGrid con
 
 struct GlPictureRaster::OnDevice {
   explicit OnDevice(PictureScene const& scene)
-      : geometry(scene.scene, scene.meshes, scene.transmission.screens()) {}
+      : geometry(scene.scene, scene.meshes, scene.transmission) {}
 
   Geometry geometry;
   gl::Program nearest =
@@ -97,8 +97,8 @@ std::vector<std::uint32_t> GlPictureRaster::nearest(PictureGrid const& grid,
 }
 
 std::vector<float> GlPictureRaster::through_bodies(PictureGrid const& grid,
-                                                    glm::dvec3 const& towards_sun,
-                                                    std::span<SurfaceId const> surfaces) {
+                                                   glm::dvec3 const& towards_sun,
+                                                   std::span<SurfaceId const> surfaces) {
   egl::Current const current = device_.context.make_current();
   Geometry& geometry = on_device_->geometry;
   DrawList list;
@@ -108,6 +108,9 @@ std::vector<float> GlPictureRaster::through_bodies(PictureGrid const& grid,
   std::iota(numbers.begin(), numbers.end(), 0);
   Range const screens = geometry.screens().add_to(list, tables, view, numbers, grid.pixel_area());
   list.set_sheets(geometry.screens().sheets(list, transmission_));
+  std::vector<SurfaceId> all(scene_.size());
+  std::iota(all.begin(), all.end(), SurfaceId{0});
+  geometry.crowns().add_to(list, tables, view, transmission_.crowns_among(all, towards_sun));
   Range const behind = add_surfaces(list, geometry, surfaces);
   geometry.upload(list);
   gl::Framebuffer const target = make_target(gl::Format::colour, grid);
@@ -118,8 +121,9 @@ std::vector<float> GlPictureRaster::through_bodies(PictureGrid const& grid,
   gl::depth(gl::Test::less, false);
   gl::blend(gl::Blend::multiply);
   geometry.screens().draw(screens);
+  geometry.draw_crowns();
   gl::blend(gl::Blend::replace);
-  gl::check("drawing a picture's screens");
+  gl::check("drawing a picture's bodies");
   return read_luminance(target);
 }
 
@@ -136,6 +140,8 @@ std::vector<float> GlPictureRaster::luminance(PictureGrid const& grid,
   Range const plain = add_surfaces(list, geometry, transmission_.flat_among(shaded.casters));
   Range const screens = geometry.screens().add_to(
       list, tables, view, transmission_.screens_among(shaded.casters), grid.pixel_area());
+  geometry.crowns().add_to(list, tables, view,
+                           transmission_.crowns_among(shaded.casters, shaded.towards_sun));
   list.set_sheets(geometry.screens().sheets(list, transmission_));
   geometry.upload(list);
   gl::Framebuffer const target = make_target(gl::Format::colour, grid);
@@ -149,6 +155,7 @@ std::vector<float> GlPictureRaster::luminance(PictureGrid const& grid,
     gl::blend(gl::Blend::multiply);
     if (plain.count > 0) geometry.draw_shades(plain, view);
     geometry.screens().draw(screens);
+    geometry.draw_crowns();
     gl::blend(gl::Blend::replace);
   }
   gl::check("drawing a picture's shaded receiver");

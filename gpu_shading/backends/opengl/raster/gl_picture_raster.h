@@ -26,7 +26,7 @@ class GlPictureRaster : public PictureRaster {
   std::vector<std::uint32_t> nearest(PictureGrid const& grid,
                                      std::span<SurfaceId const> surfaces) override;
   std::vector<float> through_bodies(PictureGrid const& grid, glm::dvec3 const& towards_sun,
-                                     std::span<SurfaceId const> surfaces) override;
+                                    std::span<SurfaceId const> surfaces) override;
   std::vector<float> luminance(PictureGrid const& grid, ShadedReceiver const& shaded) override;
 
  private:

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "gpu_shading/local_axes.h"
+#include "gpu_shading/map_coordinates.h"
+
+// What files of GeoJSON (RFC 7946) have in common. Functions throw Error without the file's name.
+namespace gpu_shading::energyplus::geojson {
+
+using Json = nlohmann::json;
+
+// The member, or null.
+Json const& member(Json const& object, std::string const& name);
+std::string type_of(Json const& object);
+std::string text_of(Json const& value);
+
+// Limit of heights, m: more means a damaged file, or another unit.
+inline constexpr double max_height = 10'000.0;
+
+// The value of a property, as a number or as text: "12", "12.5 m".
+std::optional<double> measure(Json const& properties, std::string const& name,
+                              std::string_view expected);
+
+GeographicPoint read_position(Json const& position, MapCoordinates const& coordinates);
+
+// A member of a FeatureCollection, or a single feature or geometry.
+struct Feature {
+  // Its id, or its property @id, id, osm_id or name, or its number, from 1.
+  std::string name;
+  std::string label;  // for messages: "feature 3 (way/17)"
+  Json const& geometry;
+  Json const& properties;
+};
+
+// Calls use(feature, coordinates) for each. `coordinates`: if empty, those that the file names (the
+// older "crs" member), or WGS84. Returns them. Throws Error: "FILE: feature 3 (way/17): ...".
+MapCoordinates read_features(std::filesystem::path const& path,
+                             std::optional<MapCoordinates> const& coordinates,
+                             std::function<void(Feature const&, MapCoordinates const&)> const& use);
+
+}  // namespace gpu_shading::energyplus::geojson

@@ -1,0 +1,63 @@
+#include "model/site/tree_file.h"
+
+#include <fmt/format.h>
+
+#include "gpu_shading/error.h"
+#include "model/site/geojson.h"
+#include "platform/text.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using geojson::Json;
+
+std::optional<double> length(Json const& properties, char const* name) {
+  auto const metres = geojson::measure(properties, name, "metres");
+  if (metres && *metres <= 0.0) {
+    throw Error(fmt::format("{} is {}, expected more than 0", name, *metres));
+  }
+  return metres;
+}
+
+// Others than OpenStreetMap's own words are as good as none: semi_deciduous, semi_evergreen.
+std::optional<bool> is_evergreen(Json const& properties) {
+  auto const cycle = geojson::text_of(geojson::member(properties, "leaf_cycle"));
+  if (same_name(cycle, "evergreen")) return true;
+  if (same_name(cycle, "deciduous")) return false;
+  return std::nullopt;
+}
+
+}  // namespace
+
+TreeFile read_tree_file(std::filesystem::path const& path,
+                        std::optional<MapCoordinates> const& coordinates) {
+  constexpr std::size_t most = 100'000;
+  TreeFile file;
+  geojson::read_features(path, coordinates,
+                         [&](geojson::Feature const& feature, MapCoordinates const& used) {
+                           auto const type = geojson::type_of(feature.geometry);
+                           auto const& places = geojson::member(feature.geometry, "coordinates");
+                           MappedTree tree;
+                           tree.name = feature.name;
+                           auto const add = [&](Json const& position) {
+                             tree.place = geojson::read_position(position, used);
+                             if (file.trees.size() == most)
+                               throw Error(fmt::format("more than {} trees", most));
+                             file.trees.push_back(tree);
+                           };
+                           if (type != "Point" && type != "MultiPoint") {
+                             ++file.others;
+                             return;
+                           }
+                           tree.height = length(feature.properties, "height");
+                           tree.crown_diameter = length(feature.properties, "diameter_crown");
+                           tree.evergreen = is_evergreen(feature.properties);
+                           if (type == "Point") return add(places);
+                           if (!places.is_array()) throw Error("its coordinates are not positions");
+                           for (auto const& position : places) add(position);
+                         });
+  if (file.trees.empty()) throw Error(fmt::format("{}: has no Point", path.string()));
+  return file;
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,261 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "gpu_shading/crown.h"
+#include "gpu_shading/error.h"
+#include "model/extensions/extension_fields.h"
+#include "model/idf/fields.h"
+#include "model/idf/placeholders.h"
+#include "model/site/farthest_coordinate.h"
+#include "model/site/surroundings.h"
+#include "model/site/tree_file.h"
+#include "platform/naming.h"
+#include "platform/text.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+namespace field = extension::tree;
+
+// The extinction along a sphere's diameter at which it transmits a share of the beam, over its
+// disc: 2 (1 - (1 + k) exp(-k)) / k^2.
+double extinction_of(double share) {
+  double low = 0.0;
+  double high = 100.0;
+  for (int i = 0; i < 60; ++i) {
+    double const k = 0.5 * (low + high);
+    double const transmitted = 2.0 * (1.0 - (1.0 + k) * std::exp(-k)) / (k * k);
+    (transmitted > share ? low : high) = k;
+  }
+  return 0.5 * (low + high);
+}
+
+// Konarska et al. (2014): of the beam, through the crowns of street trees.
+double const with_leaves = extinction_of(0.03);
+double const without_leaves = extinction_of(0.46);
+
+CrownShape shape_of(field::CrownShape shape) {
+  switch (shape) {
+    case field::CrownShape::half_ellipsoid:
+      return CrownShape::half_ellipsoid;
+    case field::CrownShape::cone:
+      return CrownShape::cone;
+    case field::CrownShape::cylinder:
+      return CrownShape::cylinder;
+    case field::CrownShape::ellipsoid:
+      break;
+  }
+  return CrownShape::ellipsoid;
+}
+
+LeafAngles angles_of(field::LeafAngles angles) {
+  switch (angles) {
+    case field::LeafAngles::planophile:
+      return LeafAngles::planophile;
+    case field::LeafAngles::erectophile:
+      return LeafAngles::erectophile;
+    case field::LeafAngles::spherical:
+      break;
+  }
+  return LeafAngles::spherical;
+}
+
+// Of the box around it.
+double share_of_box(CrownShape shape) {
+  using std::numbers::pi;
+  switch (shape) {
+    case CrownShape::cone:
+      return pi / 12.0;
+    case CrownShape::cylinder:
+      return pi / 4.0;
+    case CrownShape::ellipsoid:
+    case CrownShape::half_ellipsoid:
+      break;
+  }
+  return pi / 6.0;
+}
+
+// Where a tree stands, and its own sizes.
+struct Standing {
+  std::string name;
+  glm::dvec3 foot{0.0};
+  std::optional<double> height;
+  std::optional<double> diameter;
+  bool evergreen = false;
+};
+
+// Creates the casters of one object.
+class Builder {
+ public:
+  Builder(InputObject const& object, Surroundings& surroundings)
+      : object_(object), surroundings_(surroundings) {}
+
+  void add(Standing const& tree, std::function<double()> const& latitude) {
+    double const height = tree.height ? *tree.height : needed(object_, field::height);
+    double const diameter = tree.diameter.value_or(0.5 * height);
+    double const base = read(object_, field::crown_base_height).value_or(0.25 * height);
+    if (base >= height) {
+      throw Error(fmt::format("{} is {} m, expected less than the height of {} m",
+                              field::crown_base_height.title, base, height));
+    }
+    surroundings_.types.try_emplace(tree.name, std::string(field::type));
+    add_crown(tree, base, height, diameter, latitude);
+    add_trunk(tree, 0.5 * (base + height));
+    ++trees_;
+  }
+
+  std::string describe(std::string const& from) const {
+    return fmt::format("{} {}: {}{} tree{}; {}", field::type, object_.name,
+                       from.empty() ? "" : from + ": ", trees_, trees_ == 1 ? "" : "s",
+                       extent_.describe());
+  }
+
+ private:
+  void add_caster(Surface surface) {
+    for (auto const& point : surface.polygon.outline) {
+      if (is_within_reach(point)) continue;
+      throw Error(fmt::format("{} {}", printable(surface.name), describe_out_of_reach(point)));
+    }
+    extent_.include(surface.polygon.outline);
+    surroundings_.casters.push_back({std::move(surface), std::nullopt});
+  }
+
+  void add_crown(Standing const& tree, double base, double height, double diameter,
+                 std::function<double()> const& latitude) {
+    Crown crown;
+    crown.shape = shape_of(read(object_, field::crown_shape));
+    crown.height = height - base;
+    crown.leaf_angles = angles_of(read(object_, field::leaf_angles));
+    double const box = diameter * diameter * crown.height;
+    double const sphere = std::cbrt(6.0 / std::numbers::pi * share_of_box(crown.shape) * box);
+    constexpr double projection = 0.5;
+    crown.wood_density =
+        read(object_, field::wood_area_density).value_or(without_leaves / (projection * sphere));
+    crown.leaf_density =
+        read(object_, field::leaf_area_density)
+            .value_or(std::max(0.0, with_leaves / (projection * sphere) - crown.wood_density));
+    crown.deployment = leaf_share(tree, latitude);
+    double const half = 0.5 * diameter;
+    Surface surface;
+    surface.name = tree.name;
+    for (auto const& [x, y] : {std::pair(-half, -half), std::pair(half, -half),
+                               std::pair(half, half), std::pair(-half, half)}) {
+      surface.polygon.outline.push_back(tree.foot + glm::dvec3(x, y, base));
+    }
+    surface.filter.set(crown);
+    add_caster(std::move(surface));
+    extent_.include({tree.foot + glm::dvec3(0.0, 0.0, height)});
+  }
+
+  void add_trunk(Standing const& tree, double top) {
+    double const diameter = read(object_, field::trunk_diameter);
+    if (diameter == 0.0) return;
+    constexpr int sides = 6;
+    auto const corner = [&](int i, double z) {
+      double const angle = 2.0 * std::numbers::pi * i / sides;
+      return tree.foot +
+             glm::dvec3(0.5 * diameter * std::cos(angle), 0.5 * diameter * std::sin(angle), z);
+    };
+    for (int i = 0; i < sides; ++i) {
+      Surface side;
+      side.name = tree.name;
+      side.polygon.outline = {corner(i, 0.0), corner(i + 1, 0.0), corner(i + 1, top),
+                              corner(i, top)};
+      add_caster(std::move(side));
+    }
+  }
+
+  // The position of the crown's schedule in those of the surroundings; -1: always all leaves.
+  int leaf_share(Standing const& tree, std::function<double()> const& latitude) {
+    auto schedule = upper(read(object_, field::leaf_schedule_name));
+    if (schedule.empty()) {
+      if (tree.evergreen) return -1;
+      schedule = season_schedule(latitude() < 0.0);
+    }
+    auto& known = surroundings_.leaf_schedules;
+    auto const found = std::find(known.begin(), known.end(), schedule);
+    if (found != known.end()) return static_cast<int>(found - known.begin());
+    known.push_back(schedule);
+    return static_cast<int>(known.size() - 1);
+  }
+
+  InputObject const& object_;
+  Surroundings& surroundings_;
+  Extent extent_;
+  std::size_t trees_ = 0;
+};
+
+void read_single(InputObject const& object, Builder& builder,
+                 std::function<double()> const& latitude) {
+  expect_blank(object, {field::coordinates}, "without File Name");
+  Standing tree{
+      upper(object.name),
+      {needed(object, field::x), needed(object, field::y), read(object, field::z).value_or(0.0)},
+      needed(object, field::height),
+      read(object, field::crown_diameter),
+      read(object, field::leaf_cycle) == field::LeafCycle::evergreen};
+  builder.add(tree, latitude);
+}
+
+void read_mapped(InputObject const& object, Builder& builder, std::filesystem::path const& folder,
+                 std::string const& file, SiteOrigin const& origin,
+                 std::vector<TerrainGrid> const& terrains) {
+  expect_blank(object, {field::x, field::y, field::z}, "with File Name");
+  auto const coordinates = read_map_coordinates(object, field::coordinates);
+  auto const trees =
+      naming(field::file_name.title, [&] { return read_tree_file(folder / file, coordinates); });
+  LocalAxes const axes(origin.place);
+  bool const evergreen = read(object, field::leaf_cycle) == field::LeafCycle::evergreen;
+  for (auto const& mapped : trees.trees) {
+    auto place = mapped.place;
+    place.elevation = origin.place.elevation;
+    for (auto const& terrain : terrains) {
+      if (auto const elevation = elevation_at(terrain, place)) {
+        place.elevation = *elevation;
+        break;
+      }
+    }
+    Standing tree{
+        upper(object.name + ":" + mapped.name), axes.to_local(place),
+        mapped.height ? mapped.height : read(object, field::height),
+        mapped.crown_diameter ? mapped.crown_diameter : read(object, field::crown_diameter),
+        mapped.evergreen.value_or(evergreen)};
+    naming(fmt::format("{}: {}: tree {}", field::file_name.title, file, mapped.name),
+           [&] { builder.add(tree, [&] { return origin.place.latitude; }); });
+  }
+}
+
+}  // namespace
+
+bool needs_origin_for_trees(std::vector<InputObject> const& objects) {
+  return std::any_of(objects.begin(), objects.end(), [](InputObject const& object) {
+    return object.type == field::type && !object[field::file_name.key].empty();
+  });
+}
+
+void read_trees(std::vector<InputObject> const& objects, std::filesystem::path const& folder,
+                std::optional<SiteOrigin> const& origin, std::vector<TerrainGrid> const& terrains,
+                Surroundings& surroundings) {
+  for (auto const& object : objects) {
+    if (object.type != field::type) continue;
+    naming(object.where(), [&] {
+      auto const file = read(object, field::file_name);
+      Builder builder(object, surroundings);
+      if (file.empty()) {
+        read_single(object, builder, [&] {
+          return origin ? origin->place.latitude : find_site_origin(objects).place.latitude;
+        });
+      } else {
+        read_mapped(object, builder, folder, file, *origin, terrains);
+      }
+      surroundings.remarks.push_back(builder.describe(file));
+    });
+  }
+}
+
+}  // namespace gpu_shading::energyplus

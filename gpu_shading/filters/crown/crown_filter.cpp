@@ -1,0 +1,28 @@
+#include "filters/crown/crown_filter.h"
+
+#include <cmath>
+
+namespace gpu_shading {
+
+BeamFilter::Faces faces_of(Crown const& kind) { return {0.0, kind.height, true}; }
+
+// Light that leaves reflect is left out.
+double solid_share_of(Crown const& /*kind*/, std::span<double const> /*deployments*/) {
+  return 0.0;
+}
+
+FilterLook look_of(Crown const& kind) {
+  double const density = 0.5 * (kind.leaf_density + kind.wood_density);
+  return {FilterLook::Kind::foliage, std::exp(-density * kind.height)};
+}
+
+void add_values(FilterDigest& digest, Crown const& kind) {
+  digest.add(static_cast<double>(kind.shape));
+  digest.add(kind.height);
+  digest.add(kind.leaf_density);
+  digest.add(static_cast<double>(kind.leaf_angles));
+  digest.add(kind.wood_density);
+  digest.add(static_cast<double>(kind.deployment));
+}
+
+}  // namespace gpu_shading

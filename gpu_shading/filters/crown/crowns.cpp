@@ -1,0 +1,251 @@
+#include "filters/crown/crowns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "geometry/convex_area.h"
+#include "geometry/ring.h"
+#include "gpu_shading/error.h"
+
+namespace gpu_shading {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr RayPart everywhere{-infinite, infinite};
+constexpr RayPart nowhere{infinite, -infinite};
+
+RayPart common(RayPart const& a, RayPart const& b) {
+  return {std::max(a.begin, b.begin), std::min(a.end, b.end)};
+}
+
+RayPart between_ends(double position, double step) {
+  if (step == 0.0) return std::abs(position) <= 1.0 ? everywhere : nowhere;
+  double const a = (-1.0 - position) / step;
+  double const b = (1.0 - position) / step;
+  return {std::min(a, b), std::max(a, b)};
+}
+
+void check(std::string_view field, double value, double least, double most) {
+  // Written so that NaN fails.
+  if (value >= least && value <= most) return;
+  throw Error(
+      fmt::format("{} of a crown is {:.9g}, expected {:.9g} to {:.9g}", field, value, least, most));
+}
+
+// A crown's box in the pixels of a view, and its rays.
+class CrownRays {
+ public:
+  CrownRays(CrownInBeam const& crown, View const& pixels)
+      : crown_(crown), solid_(crown.crown->solid) {
+    glm::dvec3 const x(pixels.x);
+    glm::dvec3 const y(pixels.y);
+    double const xx = glm::dot(x, x);
+    double const xy = glm::dot(x, y);
+    double const yy = glm::dot(y, y);
+    double const determinant = xx * yy - xy * xy;
+    // Steps across the beam by one column and by one row.
+    glm::dvec3 const across = (yy * x - xy * y) / determinant;
+    glm::dvec3 const up = (xx * y - xy * x) / determinant;
+    glm::dvec3 const cut(pixels.cut);
+    Crowns::Entry const& entry = *crown.crown;
+    glm::dvec3 const centre = entry.centre - pixels.origin;
+    centre_ = {at(pixels.x, centre), at(pixels.y, centre)};
+    across_ = entry.in_cube(across);
+    up_ = entry.in_cube(up);
+    along_ = entry.in_cube(crown.towards_sun);
+    height_ = at(pixels.cut, centre);
+    rise_across_ = glm::dot(cut, across);
+    rise_up_ = glm::dot(cut, up);
+    rise_ = glm::dot(cut, crown.towards_sun);
+  }
+
+  // Calls use(area) for the faces of the crown's box that face the sun, which a ray meets once.
+  template <typename Use>
+  void each_face(View const& pixels, int side, Use use) const {
+    std::array<glm::dvec3, 8> const corners = crown_.crown->corners();
+    std::array<glm::dvec2, 8> places;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      glm::dvec3 const p = corners.at(i) - pixels.origin;
+      places.at(i) = {at(pixels.x, p), at(pixels.y, p)};
+    }
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      double const facing = along_[static_cast<int>(axis)];
+      if (facing == 0.0) continue;
+      unsigned const fixed = facing > 0.0 ? 1U << axis : 0U;
+      unsigned const a = 1U << (axis + 1) % 3;
+      unsigned const b = 1U << (axis + 2) % 3;
+      use(area_within(std::array{places.at(fixed), places.at(fixed | a), places.at(fixed | a | b),
+                                 places.at(fixed | b)},
+                      side));
+    }
+  }
+
+  float transmittance(int column, int row) const {
+    double const x = column + 0.5 - centre_.x;
+    double const y = row + 0.5 - centre_.y;
+    RayPart path = solid_.inside(x * across_ + y * up_, along_);
+    double const height = height_ + x * rise_across_ + y * rise_up_;
+    if (rise_ > 0.0) {
+      path.begin = std::max(path.begin, -height / rise_);
+    } else if (height <= 0.0) {
+      return 1.0F;
+    }
+    return static_cast<float>(std::exp(-crown_.extinction * path.length()));
+  }
+
+ private:
+  CrownInBeam const& crown_;
+  CrownSolid const& solid_;
+  glm::dvec2 centre_{0.0};  // pixels
+  // In the cube: steps by a column, by a row, and by a metre towards the sun.
+  glm::dvec3 across_{0.0};
+  glm::dvec3 up_{0.0};
+  glm::dvec3 along_{0.0};
+  // Above the cut, of the centre, and the changes by the same steps.
+  double height_ = 0.0;
+  double rise_across_ = 0.0;
+  double rise_up_ = 0.0;
+  double rise_ = 0.0;
+};
+
+}  // namespace
+
+CrownSolid solid_of(CrownShape shape) {
+  switch (shape) {
+    case CrownShape::cone:  // x^2 + y^2 <= ((1 - z) / 2)^2
+      return {-0.25, 0.5, -0.25};
+    case CrownShape::cylinder:
+      return {0.0, 0.0, -1.0};
+    case CrownShape::half_ellipsoid:  // x^2 + y^2 + ((1 + z) / 2)^2 <= 1
+      return {0.25, 0.5, -0.75};
+    case CrownShape::ellipsoid:
+      break;
+  }
+  return {1.0, 0.0, -1.0};
+}
+
+RayPart CrownSolid::inside(glm::dvec3 const& p, glm::dvec3 const& d) const {
+  RayPart const ends = between_ends(p.z, d.z);
+  double const a = d.x * d.x + d.y * d.y + square * d.z * d.z;
+  double const b = p.x * d.x + p.y * d.y + square * p.z * d.z + 0.5 * linear * d.z;
+  double const c = p.x * p.x + p.y * p.y + (square * p.z + linear) * p.z + constant;
+  double const discriminant = b * b - a * c;
+  if (a > 0.0) {
+    if (discriminant <= 0.0) return nowhere;
+    double const root = std::sqrt(discriminant);
+    double const far = b >= 0.0 ? -(b + root) : root - b;
+    double const one = far / a;
+    double const other = c / far;
+    return common(ends, {std::min(one, other), std::max(one, other)});
+  }
+  // Steeper than the sides of a cone, or along a cylinder.
+  if (a == 0.0) {
+    if (b == 0.0) return c < 0.0 ? ends : nowhere;
+    double const crossing = -0.5 * c / b;
+    return common(ends, b > 0.0 ? RayPart{-infinite, crossing} : RayPart{crossing, infinite});
+  }
+  if (discriminant <= 0.0) return ends;
+  double const root = std::sqrt(discriminant);
+  double const far = b >= 0.0 ? -(b + root) : root - b;
+  double const one = far / a;
+  double const other = c / far;
+  // The part below the apex; another cone stands on it.
+  return common(ends, d.z > 0.0 ? RayPart{-infinite, std::min(one, other)}
+                                : RayPart{std::max(one, other), infinite});
+}
+
+glm::dvec3 Crowns::Entry::in_cube(glm::dvec3 const& vector) const {
+  auto const along = [&](glm::dvec3 const& side) {
+    return glm::dot(side, vector) / glm::dot(side, side);
+  };
+  return {along(half[0]), along(half[1]), along(half[2])};
+}
+
+std::array<glm::dvec3, 8> Crowns::Entry::corners() const {
+  std::array<glm::dvec3, 8> corners;
+  for (unsigned i = 0; i < corners.size(); ++i) {
+    corners.at(i) = centre;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      corners.at(i) += (i >> axis & 1U) != 0 ? half.at(axis) : -half.at(axis);
+    }
+  }
+  return corners;
+}
+
+double Crowns::Entry::extinction(glm::dvec3 const& towards_sun,
+                                 std::span<double const> deployments) const {
+  auto const place = static_cast<std::size_t>(crown.deployment);
+  double const leaves =
+      crown.deployment >= 0 && place < deployments.size() ? deployments[place] : 1.0;
+  double const cosine = glm::dot(glm::normalize(half[2]), towards_sun);
+  // Branches have no angle of their own.
+  return leaf_projection(crown.leaf_angles, cosine) * crown.leaf_density * leaves +
+         leaf_projection(LeafAngles::spherical, cosine) * crown.wood_density;
+}
+
+Crowns::Entry Crowns::entry_of(SurfaceId id, Polygon const& polygon, Crown const& crown) {
+  constexpr double tallest = 1e4;    // m
+  constexpr double densest = 1e3;    // m2/m3
+  constexpr double thinnest = 1e-3;  // m
+  check("height", crown.height, thinnest, tallest);
+  check("leaf area density", crown.leaf_density, 0.0, densest);
+  check("wood area density", crown.wood_density, 0.0, densest);
+  Ring const ring = without_repeats(polygon.outline);
+  constexpr double rounding = 1e-6;
+  auto const is_rectangle = [&] {
+    if (ring.size() != 4 || !polygon.holes.empty() || is_degenerate(ring, newell(ring)))
+      return false;
+    glm::dvec3 const a = ring[1] - ring[0];
+    glm::dvec3 const b = ring[2] - ring[1];
+    double const size = glm::length(a) + glm::length(b);
+    return glm::distance(ring[3] - ring[0], b) <= rounding * size &&
+           std::abs(glm::dot(a, b)) <= rounding * glm::length(a) * glm::length(b);
+  };
+  if (!is_rectangle()) throw Error("a crown needs a rectangle without holes for its plan");
+  glm::dvec3 const normal = glm::normalize(newell(ring));
+  Entry entry{crown,
+              id,
+              0.5 * (ring[0] + ring[2]) + 0.5 * crown.height * normal,
+              {0.5 * (ring[1] - ring[0]), 0.5 * (ring[2] - ring[1]), 0.5 * crown.height * normal},
+              solid_of(crown.shape)};
+  return entry;
+}
+
+Crowns::Crowns(Scene const& scene) {
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    auto const* const crown = scene[id].filter.find<Crown>();
+    if (crown == nullptr) continue;
+    if (numbers_.empty()) numbers_.assign(scene.size(), none);
+    numbers_[id] = static_cast<int>(entries_.size());
+    try {
+      entries_.push_back(entry_of(id, scene[id].polygon, *crown));
+    } catch (Error const& error) {
+      throw Error(fmt::format("surface '{}': {}", scene[id].name, error.what()));
+    }
+  }
+}
+
+void shade_by_crowns(LuminanceTile& shaded, PixelMask const& lit, View const& pixels,
+                     std::span<CrownInBeam const> crowns) {
+  for (CrownInBeam const& crown : crowns) {
+    if (crown.extinction == 0.0) continue;
+    CrownRays const rays(crown, pixels);
+    rays.each_face(pixels, shaded.columns(), [&](ConvexArea const& area) {
+      shaded.each_span(area, [&](int row, int first, int length) {
+        std::span<float> const luminance = shaded.row(row);
+        for (int column = first; column < first + length; ++column) {
+          auto const bit = static_cast<unsigned>(column % PixelMask::word_bits);
+          if ((lit.word(row, column) >> bit & 1U) == 0) continue;
+          luminance[static_cast<std::size_t>(column)] *= rays.transmittance(column, row);
+        }
+      });
+    });
+  }
+}
+
+}  // namespace gpu_shading

@@ -1,0 +1,292 @@
+"""What the gpu_shading program draws of a model of EnergyPlus: views, maps, shading masks and screens. Each result
+shows itself in a notebook."""
+
+from __future__ import annotations
+
+import base64
+import csv
+import importlib
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Generic, Literal, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gpu_shading import _html, _programs
+from gpu_shading._arrays import Floats
+from gpu_shading.errors import InvalidInput
+
+Projection = Literal["stereographic", "equidistant", "cylindrical"]
+Kinds = ("building", "shades", "geometry", "neighbours", "terrain")
+
+
+@dataclass(frozen=True, repr=False)
+class Picture:
+    """An image."""
+
+    png: bytes
+
+    def save(self, file: _programs.Name) -> None:
+        """Writes the .png."""
+        Path(file).write_bytes(self.png)
+
+    @property
+    def pixels(self) -> NDArray[np.uint8]:
+        """Red, green and blue, of shape (rows, columns, 3). Needs Pillow."""
+        try:
+            image = importlib.import_module("PIL.Image")
+        except ImportError:
+            raise ImportError("pixels need Pillow: pip install pillow") from None
+        io = importlib.import_module("io")
+        return np.asarray(image.open(io.BytesIO(self.png)).convert("RGB"))
+
+    def _repr_png_(self) -> bytes:
+        return self.png
+
+    def __repr__(self) -> str:
+        return f"<Picture: {len(self.png)} bytes of PNG>"
+
+
+@dataclass(frozen=True, repr=False)
+class Map:
+    """Sunlit hours and beam energy over a receiver."""
+
+    name: str
+    hours: Floats
+    """h, in rows from below, nan where the receiver has no cell."""
+    energy: Floats
+    """Beam solar energy, kWh/m2, in the same cells."""
+    mean_hours: float
+    mean_energy: float
+    picture: Picture
+
+    def _repr_png_(self) -> bytes:
+        return self.picture.png
+
+    def __repr__(self) -> str:
+        return f"<Map of {self.name}: {self.mean_hours:.1f} h, {self.mean_energy:.1f} kWh/m2>"
+
+
+@dataclass(frozen=True)
+class MaskHour:
+    """The sun at a full hour of standard time on the 21st of a month."""
+
+    month: int
+    hour: int
+    azimuth: float
+    altitude: float
+    sunlit: float | None
+    """Sunlit fraction; None where the sun is behind the receiver."""
+    stopped: dict[str, float]
+    """What each kind of shade stops."""
+    beam: float
+    """Direct normal irradiance, W/m2."""
+    marked: bool
+
+
+@dataclass(frozen=True, repr=False)
+class Mask:
+    """What a receiver, or a point of it, sees of the sky."""
+
+    name: str
+    view_factor: float
+    unshaded_view_factor: float
+    stopped: dict[str, float]
+    """What each kind of shade takes of the view factor."""
+    azimuths: Floats
+    """Degrees, of the columns of `sky`."""
+    altitudes: Floats
+    """Degrees, of its rows."""
+    sky: Floats
+    """Sunlit fraction from each direction, nan behind the receiver."""
+    horizon: Floats
+    """Degrees, at each azimuth: below it, more than half is hidden."""
+    hours: tuple[MaskHour, ...]
+    picture: Picture
+    svg: str
+
+    def _repr_png_(self) -> bytes:
+        return self.picture.png
+
+    def __repr__(self) -> str:
+        return f"<Mask of {self.name}: sky view factor {self.view_factor:.3f} of {self.unshaded_view_factor:.3f}>"
+
+
+@dataclass(frozen=True, repr=False)
+class Sheet:
+    """A perforated screen of a model."""
+
+    name: str
+    description: str
+    theta: Floats
+    """Angles of incidence, degrees: the rows of `tau`."""
+    phi: Floats
+    """Azimuths about the normal, degrees: its columns."""
+    tau: Floats
+    """Fraction of the beam that passes."""
+    picture: Picture
+    svg: str
+
+    def _repr_png_(self) -> bytes:
+        return self.picture.png
+
+    def __repr__(self) -> str:
+        return f"<Sheet {self.name}: {self.tau[0, 0]:.1%} open>"
+
+
+_Item = TypeVar("_Item", Map, Mask, Sheet)
+
+
+class Drawings(Sequence[_Item], Generic[_Item]):
+    """Results of one command, by position or by name in any case."""
+
+    def __init__(self, items: Sequence[_Item]) -> None:
+        self._items: tuple[_Item, ...] = tuple(items)
+
+    def __getitem__(self, key: Any) -> Any:
+        if not isinstance(key, str):
+            return self._items[key]
+        for item in self._items:
+            if item.name.upper() == key.upper():
+                return item
+        raise KeyError(f"{key}: expected one of {', '.join(self.names)}")
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+    @property
+    def names(self) -> list[str]:
+        return [item.name for item in self._items]
+
+    def _repr_html_(self) -> str:
+        most = 6
+        pictures = (f'<img alt="{number}" style="max-width: 48%" src="data:image/png;base64,'
+                    f'{base64.b64encode(item.picture.png).decode()}">' for number, item in
+                    enumerate(self._items[:most], 1))
+        return _html.table(["", "name"], enumerate(self.names, 1)) + "".join(pictures)
+
+    def __repr__(self) -> str:
+        shown = [repr(item) for item in self._items[:3]] + ["..."] * (len(self) > 3)
+        return f"<Drawings: {', '.join(shown)}>"
+
+
+def view(model: _programs.Name, weather: _programs.Name | None = None, *, at: str | None = None,
+         day: str | None = None, sun: tuple[float, float] | None = None, receiver: str | None = None,
+         camera: tuple[float, float] | None = None, size: int | None = None) -> Picture:
+    """Draws a model, or one `receiver`, as the sun sees it: `at` "06-21 15:00", over a `day` "06-21", or from an
+    azimuth and altitude `sun`. `camera`: azimuth and altitude to see it from instead, with its shadows."""
+    if sum(value is not None for value in (at, day, sun)) != 1:
+        raise InvalidInput("view: expected one of at, day and sun")
+    arguments = _given(model, weather)
+    for name, value in (("at", at), ("day", day), ("sun", _pair(sun)), ("receiver", receiver),
+                        ("camera", _pair(camera)), ("size", size)):
+        if value is not None:
+            arguments.append(f"--{name}={value}")
+    with tempfile.TemporaryDirectory(prefix="gpu_shading_view_") as folder:
+        _programs.gpu_shading(["view", *arguments, "-o", Path(folder) / "view.png"])
+        return Picture((Path(folder) / "view.png").read_bytes())
+
+
+def map(model: _programs.Name, weather: _programs.Name, *, first: str | None = None, last: str | None = None,
+        receivers: str | None = None, spacing: float = 0.25, rays: int = 4) -> Drawings[Map]:
+    """Maps sunlit hours and beam energy over receivers whose names match a pattern, from the `first` day "06-01" to the
+    `last`, in cells of `spacing` m, as `gpu_shading map` does."""
+    arguments = _given(model, weather) + [f"--spacing={spacing}", f"--rays={rays}"]
+    for name, value in (("from", first), ("to", last), ("receivers", receivers)):
+        if value is not None:
+            arguments.append(f"--{name}={value}")
+    with tempfile.TemporaryDirectory(prefix="gpu_shading_map_") as temporary:
+        folder = Path(temporary) / "maps"
+        _programs.gpu_shading(["map", *arguments, "-o", folder])
+        made = []
+        for row in _rows(folder / "maps.csv"):
+            hours, energy = np.load(folder / f"{row['files']}.npy").astype(np.float64)
+            made.append(Map(row["receiver"], hours, energy, float(row["sunlit mean [h]"]),
+                            float(row["beam mean [kWh/m2]"]), _picture(folder / f"{row['files']}.png")))
+        return Drawings(made)
+
+
+def mask(model: _programs.Name, weather: _programs.Name | None = None, *, receiver: str | None = None,
+         points: float | None = None, projection: Projection = "stereographic", step: int = 2, rays: int = 32,
+         beam: float = 300.0) -> Drawings[Mask]:
+    """Draws the shading masks of windows, or of the receivers whose names match a pattern, as `gpu_shading mask` does.
+    `points`: of a grid with this spacing, m. `beam`: hours with this direct normal irradiance or more, W/m2, are
+    marked: the mean of the weather file, without which that of a clear sky."""
+    arguments = _given(model, weather) + [f"--projection={projection}", f"--step={step}", f"--rays={rays}",
+                                          f"--beam={beam}"]
+    for name, value in (("receiver", receiver), ("points", points)):
+        if value is not None:
+            arguments.append(f"--{name}={value}")
+    with tempfile.TemporaryDirectory(prefix="gpu_shading_mask_") as temporary:
+        folder = Path(temporary) / "masks"
+        _programs.gpu_shading(["mask", *arguments, "-o", folder])
+        hours: dict[str, list[MaskHour]] = {}
+        for row in _rows(folder / "hours.csv"):
+            hours.setdefault(row["receiver"], []).append(_hour(row))
+        return Drawings([_mask(folder, row, step, hours[row["receiver"]]) for row in _rows(folder / "masks.csv")])
+
+
+def screen(model: _programs.Name, name: str | None = None) -> Drawings[Sheet]:
+    """Describes the perforated screens of a model, or those whose names match a pattern, as `gpu_shading screen`
+    does."""
+    arguments: list[str | Path] = [_programs.file(model, "model"), *([] if name is None else [name])]
+    with tempfile.TemporaryDirectory(prefix="gpu_shading_screen_") as temporary:
+        folder = Path(temporary)
+        text = _programs.gpu_shading(["screen", *arguments, "-o", folder])
+        return Drawings([_sheet(folder, table.name.removesuffix("_tau.csv"), text)
+                         for table in sorted(folder.glob("*_tau.csv"))])
+
+
+def _given(model: _programs.Name, weather: _programs.Name | None) -> list[str | Path]:
+    arguments: list[str | Path] = [_programs.file(model, "model")]
+    if weather is not None:
+        arguments += ["-w", _programs.file(weather, "weather")]
+    return arguments
+
+
+def _pair(angles: tuple[float, float] | None) -> str | None:
+    return None if angles is None else f"{angles[0]},{angles[1]}"
+
+
+def _rows(file: Path) -> list[dict[str, str]]:
+    with open(file, newline="", encoding="utf-8", errors="replace") as lines:
+        return list(csv.DictReader(lines))
+
+
+def _picture(file: Path) -> Picture:
+    # Installations without the picture formats write none.
+    return Picture(file.read_bytes() if file.is_file() else b"")
+
+
+def _hour(row: dict[str, str]) -> MaskHour:
+    lit = row["sunlit fraction"]
+    return MaskHour(int(row["month"]), int(row["hour"]), float(row["sun azimuth [deg]"]),
+                    float(row["sun altitude [deg]"]), float(lit) if lit else None,
+                    {kind: float(row[kind]) for kind in Kinds} if lit else {}, float(row["beam [W/m2]"]),
+                    row["marked"] == "yes")
+
+
+def _mask(folder: Path, row: dict[str, str], step: int, hours: list[MaskHour]) -> Mask:
+    azimuths, altitudes = (np.arange(0.5 * step, most, step) for most in (360.0, 90.0))
+    sky = np.full((len(altitudes), len(azimuths)), np.nan)
+    for cell in _rows(folder / f"{row['files']}.csv"):
+        sky[int(float(cell["altitude [deg]"]) // step), int(float(cell["azimuth [deg]"]) // step)] = float(
+            cell["sunlit fraction"])
+    horizon = np.loadtxt(folder / f"{row['files']}.hor")[:, 1]
+    return Mask(row["receiver"], float(row["sky view factor"]), float(row["unshaded view factor"]),
+                {kind: float(row[kind]) for kind in Kinds}, azimuths, altitudes, sky, horizon, tuple(hours),
+                _picture(folder / f"{row['files']}.png"),
+                (folder / f"{row['files']}.svg").read_text(encoding="utf-8"))
+
+
+def _sheet(folder: Path, stem: str, text: str) -> Sheet:
+    rows = _rows(folder / f"{stem}_tau.csv")
+    values = np.array([[float(row[key]) for key in list(row)[:3]] for row in rows])
+    theta, phi = np.unique(values[:, 0]), np.unique(values[:, 1])
+    tau = np.full((len(theta), len(phi)), np.nan)
+    tau[np.searchsorted(theta, values[:, 0]), np.searchsorted(phi, values[:, 1])] = values[:, 2]
+    return Sheet(stem, text, theta, phi, tau, _picture(folder / f"{stem}_tile.png"),
+                 (folder / f"{stem}_tau.svg").read_text(encoding="utf-8"))

@@ -1,0 +1,95 @@
+"""Which runs share shading, and in which order they are run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+
+from gpu_shading.study import tasks
+from gpu_shading.study.engine import Engine
+from gpu_shading.study.tasks import digest
+
+
+def _site(weather: str) -> list[str]:
+    """Latitude, longitude and time zone, which the positions of the sun follow from."""
+    with open(weather, encoding="latin-1") as lines:
+        return lines.readline().strip().split(",")[6:9]
+
+
+@dataclass
+class _Group:
+    """Runs that share their shading: the first computes it, the others read it."""
+
+    folder: str
+    waiting: list[tasks.Job] = field(default_factory=list)
+    is_ready: bool = False
+    has_first: bool = False
+
+
+class Schedule:
+    """Asks for the hashes of scenes in the order of the plan; runs begin once those of all runs before them are known,
+    so that the first of a group is always the same."""
+
+    def __init__(self, jobs: Sequence[tasks.Job], folder: Path, todo: set[str], engine: Engine,
+                 finish: Callable[[tasks.Job, tasks.Outcome, int], None]) -> None:
+        self._jobs, self._folder, self._todo, self._engine, self._finish = jobs, folder, todo, engine, finish
+        self._scenes: dict[str, tuple[tasks.Outcome, int]] = {}
+        self._groups: dict[str, _Group] = {}
+        self._next = 0
+
+    def run(self) -> None:
+        asked: set[str] = set()
+        for job in self._jobs:
+            if job.scene_id not in asked:
+                asked.add(job.scene_id)
+                self._engine.submit(tasks.scene_of, job, then=partial(self._take_scene, job))
+        self._engine.run()
+
+    def _take_scene(self, job: tasks.Job, outcome: tasks.Outcome, attempts: int) -> None:
+        self._scenes[job.scene_id] = outcome, attempts
+        while self._next < len(self._jobs) and self._jobs[self._next].scene_id in self._scenes:
+            self._begin(self._jobs[self._next])
+            self._next += 1
+
+    def _begin(self, job: tasks.Job) -> None:
+        outcome, attempts = self._scenes[job.scene_id]
+        if outcome.error:
+            if job.id in self._todo:
+                self._finish(job, outcome, attempts)
+            return
+        scene = outcome.values["scene"]
+        if "cache" in job.options:  # the user's own
+            if job.id in self._todo:
+                self._submit(job, scene, None, True)
+            return
+        key = digest([scene, _site(job.weather), job.options.get("update"), list(job.arguments)])
+        group = self._groups.get(key)
+        if group is None:
+            group = self._groups[key] = _Group(str(self._folder / "shading" / f"{scene}-{key}"))
+            group.is_ready = Path(group.folder).is_dir() and job.id not in self._todo
+        if job.id not in self._todo:
+            return
+        group.waiting.append(job)
+        self._advance(group, scene)
+
+    def _advance(self, group: _Group, scene: str) -> None:
+        if group.is_ready:
+            for job in group.waiting:
+                self._submit(job, scene, group, False)
+            group.waiting.clear()
+        elif group.waiting and not group.has_first:
+            group.has_first = True
+            self._submit(group.waiting.pop(0), scene, group, True)
+
+    def _submit(self, job: tasks.Job, scene: str, group: _Group | None, is_first: bool) -> None:
+        def then(outcome: tasks.Outcome, attempts: int) -> None:
+            self._finish(job, outcome, attempts)
+            if group is not None and is_first:
+                group.has_first, group.is_ready = False, not outcome.error
+                self._advance(group, scene)
+
+        # Others wait for the first of a group.
+        self._engine.submit(tasks.run, job, scene, group.folder if group else None, is_first, then=then,
+                            priority=2 if is_first else 1)

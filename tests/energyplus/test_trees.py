@@ -1,0 +1,116 @@
+"""Trees before a window, against an integration over its area of their own."""
+
+import json
+import math
+import subprocess
+
+import numpy as np
+import pytest
+import window_with_shades as case
+from output_files import values_of
+from shading_runs import energyplus
+from test_ashrae_1052 import timesteps
+from test_daylighting import FACTORS, blacken, factors, without_louvres
+from test_site import shade
+
+HALF = case.SIZE / 2
+# Foot, height, diameter and crown base, m; leaf area density, m2/m3.
+OAK = ((0.5, -2.8, 0.0), 9.0, 5.0, 2.0, 0.6)
+ELM = ((-3.0, -4.0, 0.0), 8.0, 4.0, 1.5, 0.4)
+
+
+def tree(name, foot, height, diameter, base, density, schedule="", cycle="Evergreen"):
+    x, y, z = foot
+    return (f"GPUShading:Tree,{name},{x},{y},{z},{height},{diameter},{base},Ellipsoid,0,{cycle},{schedule},"
+            f"{density},0;\n")
+
+
+def sunlit_fraction(trees, azimuth, altitude, share=1.0):
+    """Over points of the window: the product of exp(-0.5 density x chord of the ellipsoid)."""
+    a, h = math.radians(azimuth), math.radians(altitude)
+    sun = np.array([math.sin(a) * math.cos(h), math.cos(a) * math.cos(h), math.sin(h)])
+    side = (np.arange(120) + 0.5) / 120 * case.SIZE
+    x, z = np.meshgrid(side - HALF, side + 1.0)
+    points = np.stack([x, np.zeros_like(x), z], axis=-1)
+    passed = np.ones_like(x)
+    for foot, height, diameter, base, density in trees:
+        radii = np.array([diameter / 2, diameter / 2, (height - base) / 2])
+        centre = np.array(foot) + [0.0, 0.0, (height + base) / 2]
+        p, d = (points - centre) / radii, sun / radii
+        b, c = p @ d, (p * p).sum(-1) - 1
+        chord = 2 * np.sqrt(np.maximum(0.0, b * b - c * (d @ d))) / (d @ d)
+        passed *= np.exp(-0.5 * density * share * chord)
+    return passed.mean()
+
+
+@pytest.fixture
+def run(patched, weather, tmp_path):
+    def call(text, name, *options):
+        path = tmp_path / f"{name}.idf"
+        path.write_text(text)
+        done = energyplus.run(patched, path, weather, tmp_path / name, ["-D", "--gpu-shading", *options])
+        assert done.completed, done.why()
+        assert done.severe == []
+        return done
+
+    return call
+
+
+def compare(done, trees, share=1.0):
+    rows = [row for row in timesteps(done.folder) if row[1] > 1 and 95 < row[0] < 265]
+    found = np.array([area / case.SIZE**2 for _, _, area in rows])
+    expected = np.array([sunlit_fraction(trees, azimuth, altitude, share) for azimuth, altitude, _ in rows])
+    print(f"{len(rows)} times, least {expected.min():.2f}, largest difference {np.abs(found - expected).max():.1e}")
+    assert expected.min() < 0.75 and len(rows) > 20
+    assert found == pytest.approx(expected, abs=2e-3)
+
+
+def test_a_window_behind_trees_is_as_integrated(run):
+    text = case.model("south", False, False) + tree("Oak", *OAK) + tree("Elm", *ELM)
+    done = run(text, "trees")
+    compare(done, [OAK, ELM])
+    assert any("GPUShading:Tree Oak: 1 tree" in line for line in done.our_lines)
+
+
+def test_leaves_follow_their_schedule_and_the_season(run):
+    schedule = "ScheduleTypeLimits,Any;Schedule:Constant,Leaves,Any,0.25;\n"
+    text = case.model("south", False, False) + schedule
+    compare(run(text + tree("Oak", *OAK, "Leaves"), "scheduled"), [OAK], 0.25)
+    # The design day is in August: in leaf in the north, and bare in the south.
+    compare(run(text + tree("Oak", *OAK, "", "Deciduous"), "north"), [OAK])
+    southern = text.replace("Site:Location,Atlanta,33.65", "Site:Location,Atlanta,-33.65")
+    bare = run(southern + tree("Oak", *OAK, "", "Deciduous"), "south")
+    assert values_of(bare, "Surface Outside Face Sunlit Fraction")["WINDOW"] == pytest.approx(
+        values_of(run(southern, "none"), "Surface Outside Face Sunlit Fraction")["WINDOW"], abs=1e-6)
+
+
+def test_daylight_passes_crowns(run, box):
+    """A crown like a wall stops what a prism of its shape does, one without leaves nothing, and others a part."""
+    room = blacken(without_louvres(box)) + FACTORS
+    crown = "GPUShading:Tree,T,3,-6,0,8,6,1,Cylinder,0,Evergreen,,{},0;\n"
+    at = [(3 + 3 * math.cos(a), -6 + 3 * math.sin(a)) for a in np.linspace(0, 2 * math.pi, 49)]
+    sides = zip(at, at[1:], strict=False)
+    prism = "".join(shade(f"Side {i}", [(*a, 8), (*a, 1), (*b, 1), (*b, 8)]) for i, (a, b) in enumerate(sides))
+    prism += shade("Top", [(x, y, 8) for x, y in at[:-1]])
+
+    def overcast(done):
+        return factors(done)[:, 3].max()
+
+    open_sky = overcast(run(room, "open"))
+    stopped = overcast(run(room + crown.format(100), "dense"))
+    assert stopped == pytest.approx(overcast(run(room + prism, "prism")), rel=0.01)
+    assert stopped < 0.8 * open_sky
+    assert overcast(run(room + crown.format(0), "bare")) == pytest.approx(open_sky, rel=1e-6)
+    assert stopped * 1.02 < overcast(run(room + crown.format(0.3), "thin")) < open_sky * 0.98
+
+
+def test_trees_of_a_map_are_listed(patched, tmp_path):
+    (tmp_path / "trees.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": [
+        {"type": "Feature", "id": f"node/{i}", "properties": {"natural": "tree", "height": 8 + i},
+         "geometry": {"type": "Point", "coordinates": [-84.42 + 1e-4 * i, 33.649]}} for i in range(3)]}))
+    path = tmp_path / "model.idf"
+    path.write_text(case.model("south", False, False) + "GPUShading:Tree,Street,,,,,,,,0.2,,,,,,trees.geojson;\n")
+    listed = subprocess.run([patched.parent / "gpu_shading", "check", path], capture_output=True, text=True,
+                            check=True).stdout
+    assert "GPUShading:Tree Street: trees.geojson: 3 trees" in listed
+    assert "STREET:NODE/1" in listed and "leaves by GPU SHADING NORTHERN LEAVES" in listed
