@@ -77,8 +77,12 @@ CachedRenderer::Counts& CachedRenderer::Counts::operator+=(Counts const& other) 
 }
 
 CachedRenderer::CachedRenderer(Renderer renderer, std::optional<DiskCache> cache,
-                               std::span<SurfaceId const> receivers)
-    : renderer_(std::move(renderer)), cache_(std::move(cache)), numbers_(renderer_.scene().size()) {
+                               std::span<SurfaceId const> receivers,
+                               MovedRenderers::Open open_moved)
+    : renderers_(std::move(renderer), std::move(open_moved)),
+      current_(&renderers_.at_rest()),
+      cache_(std::move(cache)),
+      numbers_(current_->scene().size()) {
   for (auto const receiver : receivers) number_of(receiver);
 }
 
@@ -96,12 +100,24 @@ std::vector<SurfaceId> const& CachedRenderer::receivers_with(SurfaceId receiver)
   return known_.receivers;
 }
 
-void CachedRenderer::deploy(std::vector<double> const& shares) {
-  auto const state = known_.states.number_of(shares);
+void CachedRenderer::deploy(std::vector<double> const& shares,
+                            std::vector<double> const& positions) {
+  auto both = shares;
+  both.insert(both.end(), positions.begin(), positions.end());
+  auto const state = known_.states.number_of(both);
   if (state == state_ && deployed_) return;
+  positions_ = positions.size();
+  current_ = &renderers_.at(positions);
+  current_->set_deployments(shares);
   state_ = state;
   deployed_ = true;
-  renderer_.set_deployments(shares);
+}
+
+Renderer& CachedRenderer::renderer_in(std::uint32_t state) {
+  auto const& both = known_.states[state];
+  auto const middle = both.end() - static_cast<std::ptrdiff_t>(positions_);
+  deploy({both.begin(), middle}, {middle, both.end()});
+  return *current_;
 }
 
 // Directions that are held across this call are lost.
@@ -199,7 +215,7 @@ std::size_t CachedRenderer::render(Directions const& directions,
     wanted.push_back(receivers[i]);
     surfaces.push_back(known_.receivers[receivers[i]]);
   }
-  auto rendered = renderer_.projected_sunlit_areas(suns_of(unknown), surfaces);
+  auto rendered = current_->projected_sunlit_areas(suns_of(unknown), surfaces);
   for (std::size_t i = 0; i < unknown.size(); ++i) {
     for (std::size_t k = 0; k < wanted.size(); ++k) {
       known_.answers.keep(*unknown[i], wanted[k], std::move(rendered[i][k]));
@@ -216,7 +232,7 @@ std::vector<Sunlit> const* CachedRenderer::find_interior(Direction& direction, s
 }
 
 std::vector<Sunlit> const& CachedRenderer::interior(InteriorKey const& key, AskedSun const& asked) {
-  auto const& scene = renderer_.scene();
+  auto const& scene = renderer().scene();
   auto const window = key.question.window;
   auto& direction = direction_at(asked.sun);
   if (auto const* const known = find_interior(direction, key.hash)) return *known;
@@ -279,7 +295,7 @@ void CachedRenderer::render_interiors(Directions const& directions,
   std::vector<InteriorQuestion> wanted;
   wanted.reserve(questions.size());
   for (auto const* key : questions) wanted.push_back(key->question);
-  auto rendered = renderer_.interior_sunlit_areas(suns_of(directions), wanted);
+  auto rendered = current_->interior_sunlit_areas(suns_of(directions), wanted);
   for (std::size_t i = 0; i < directions.size(); ++i) {
     for (std::size_t k = 0; k < questions.size(); ++k) {
       known_.answers.keep_interior(*directions[i], questions[k]->hash, std::move(rendered[i][k]));
@@ -294,7 +310,7 @@ void CachedRenderer::store() {
 }
 
 CachedRenderer::Counts CachedRenderer::counts() const {
-  return {directions_, cache_ ? cache_->directions_recalled() : 0, renderer_.statistics()};
+  return {directions_, cache_ ? cache_->directions_recalled() : 0, renderers_.statistics()};
 }
 
 RendererOptions watched_options(Options const& options, Messages const& messages) {
@@ -308,7 +324,7 @@ CachedRenderer open_renderer(SceneAssembly const& scene, std::span<SurfaceId con
   auto const& options = scene.model().options;
   auto rendering = watched_options(options, messages);
   rendering.device = device;
-  Renderer renderer(scene.scene(), rendering);
+  Renderer renderer(scene.scene_at(scene.rest_positions()), rendering);
   std::optional<DiskCache> cache;
   if (options.cache) {
     auto const hash = scene.hash(renderer.scene(), renderer.device());
@@ -318,8 +334,13 @@ CachedRenderer open_renderer(SceneAssembly const& scene, std::span<SurfaceId con
     }
     cache.emplace(*options.cache, hash, std::move(limits), messages.remark);
   }
-  CachedRenderer answers(std::move(renderer), std::move(cache), receivers);
-  answers.deploy(scene.optics().deployments());
+  // By the device that was opened.
+  rendering.device = DeviceChoice{renderer.device().id};
+  CachedRenderer answers(std::move(renderer), std::move(cache), receivers,
+                         [&scene, rendering](MovedRenderers::Positions const& positions) {
+                           return Renderer(scene.scene_at(positions), rendering);
+                         });
+  answers.deploy(scene.optics().deployments(), scene.positions());
   return answers;
 }
 

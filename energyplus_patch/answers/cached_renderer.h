@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "answers/disk_cache.h"
+#include "answers/moved_renderers.h"
 #include "gpu_shading/renderer.h"
 #include "platform/messages.h"
 #include "scene/scene_assembly.h"
@@ -71,13 +72,17 @@ class CachedRenderer {
   };
 
   // `receivers` are rendered together at the first question, others from the first question about
-  // them on. `cache`: of this scene.
+  // them on. `cache`: of this scene. `open_moved`: for a scene with moving shades.
   CachedRenderer(Renderer renderer, std::optional<DiskCache> cache,
-                 std::span<SurfaceId const> receivers);
+                 std::span<SurfaceId const> receivers, MovedRenderers::Open open_moved = {});
 
-  // Sets the shares of screens in place (Renderer::set_deployments).
-  void deploy(std::vector<double> const& shares);
-  std::uint32_t state() const { return state_; }  // number of these shares
+  // Sets the shares of screens in place (Renderer::set_deployments) and the positions of moving
+  // shades. Together they are the state that answers are kept by.
+  void deploy(std::vector<double> const& shares, std::vector<double> const& positions = {});
+  std::uint32_t state() const { return state_; }
+
+  // The renderer of a state, for pictures. Valid until the next call of this or of deploy().
+  Renderer& renderer_in(std::uint32_t state);
 
   // Projected sunlit area of a receiver (m2 normal to the beam), with factors[schedule]. What is
   // unknown is rendered for the directions ahead in the same batch, at first for all receivers,
@@ -103,8 +108,9 @@ class CachedRenderer {
   void store();
 
   SceneAnswers const& known() const { return known_; }
-  Renderer& renderer() { return renderer_; }
-  Renderer const& renderer() const { return renderer_; }
+  // Of moving shades at rest.
+  Renderer& renderer() { return renderers_.at_rest(); }
+  Renderer const& renderer() const { return renderers_.at_rest(); }
   bool has_cache() const { return cache_.has_value(); }
   Counts counts() const;
 
@@ -122,10 +128,12 @@ class CachedRenderer {
   void render_interiors(Directions const& directions,
                         std::vector<InteriorKey const*> const& questions);
 
-  Renderer renderer_;
+  MovedRenderers renderers_;
+  Renderer* current_;  // of the state
   std::optional<DiskCache> cache_;
   SceneAnswers known_;
   std::uint32_t state_ = 0;
+  std::size_t positions_ = 0;  // at the end of a state
   bool deployed_ = false;
   Direction* last_ = nullptr;                           // asked about last
   std::vector<std::optional<ReceiverNumber>> numbers_;  // of receivers, by surface

@@ -39,7 +39,7 @@ void SunQuestions::set_sun(SunDirection sun) {
   towards_sun_ = to_vector(sun);
 }
 
-// Where screens move, they may be elsewhere when the sun is where it is expected.
+// Where screens and shades move, they may be elsewhere when the sun is where it is expected.
 AskedSun SunQuestions::asked_sun() const {
   bool const days = !sampled_ && rendered_->known().states.size() == 1;
   return {sun_, days || sky_ ? predicted_.ahead() : std::span<SunDirection const>()};

@@ -33,8 +33,10 @@ class SunQuestions {
   // Forgets the scene and its answers. Questions need another open().
   void close();
 
-  // Sets the shares of screens in place (Renderer::set_deployments).
-  void deploy(std::vector<double> const& shares) { rendered_->deploy(shares); }
+  // CachedRenderer::deploy().
+  void deploy(std::vector<double> const& shares, std::vector<double> const& positions) {
+    rendered_->deploy(shares, positions);
+  }
   void set_sun(SunDirection sun);
 
   // Where it is, as EnergyPlus passed it.

@@ -14,6 +14,7 @@
 #include "reports/remarks.h"
 #include "reports/report.h"
 #include "reports/run_report.h"
+#include "scene/sky_grid.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -81,6 +82,7 @@ void Session::start(Simulation simulation) {
     prepare_page(*options.report);
     record_.emplace(scene_.areas(), scene_.shown_receivers());
   }
+  if (!scene_.model().moving_shades.empty()) control_.emplace(scene_);
   if (options.cache) prepare_cache_folder(*options.cache);
   answers_.emplace(
       SunQuestions::Site{scene_.areas(), options.update.sampling, std::move(simulation.latitude)});
@@ -100,11 +102,45 @@ SunQuestions& Session::answers() {
 }
 
 void Session::begin_day(RunDay const& day, RunRecord::Beam const& beam) {
+  if (undecided_) move_shades(std::nullopt);  // the sun was down
   if (record_) record_->begin_day(day, beam);
+  bool const same = day.environment == day_.environment && day.month == day_.month &&
+                    day.day == day_.day && day.warm_up == day_.warm_up;
+  if (!same) beam_.clear();
+  day_ = day;
+  beam_of_day_ = beam;
+}
+
+// Direct normal irradiance of this timestep, W/m2.
+double Session::beam_now() {
+  if (beam_.empty() && beam_of_day_) beam_ = beam_of_day_();
+  auto const index =
+      static_cast<std::size_t>((moment_.hour - 1) * day_.steps_per_hour + moment_.timestep - 1);
+  return index < beam_.size() ? beam_[index] : 0.0;
+}
+
+// Decides where the moving shades stand at this time.
+void Session::move_shades(std::optional<SunDirection> sun) {
+  undecided_ = false;
+  std::vector<double> positions;
+  std::vector<PositionRecord::Entry> entries;
+  for (auto const& [position, state] : control_->decide(sun, [this] { return beam_now(); })) {
+    positions.push_back(position);
+    entries.push_back({position, name_of(state)});
+  }
+  if (moment_.timestep > 0) position_record_.note(day_, moment_, std::move(entries));
+  bool const moved = positions != scene_.positions();
+  scene_.set_positions(std::move(positions));
+  answers_->deploy(scene_.optics().deployments(), scene_.positions());
+  if (!moved || !scene_.hides_moving_shades()) return;
+  obstructions_.reset();
+  luminance_.reset();
+  renew_reflections();
 }
 
 void Session::set_time(Moment moment) {
   if (!answers_) return;
+  if (undecided_) move_shades(std::nullopt);  // the sun was down
   moment_ = moment;
   if (record_) record_->begin_step(moment);
   if (auto* const first = first_sun_now()) first->reset();
@@ -119,15 +155,21 @@ void Session::set_time(Moment moment) {
     obstructions_.reset();
     luminance_.reset();
     renew_reflections();
+    if (control_) control_->renew();
     answers_->close();
     answers_->open(open_renderer(scene_, receivers, device, messages_));
   } else {
-    answers_->deploy(scene_.optics().deployments());
+    answers_->deploy(scene_.optics().deployments(), scene_.positions());
   }
+  if (!control_) return;
+  control_->set_time(moment);
+  undecided_ = moment.timestep > 0;
+  if (!undecided_) move_shades(std::nullopt);  // for the whole simulation
 }
 
 void Session::set_sun(SunDirection sun) {
   answers().set_sun(sun);
+  if (undecided_ && !is_sky_patch(sun)) move_shades(sun);
   if (record_) record_->set_sun(sun);
   if (auto* const first = first_sun_now()) *first = to_vector(sun);
 }
@@ -150,10 +192,19 @@ double Session::projected_sunlit_area(SurfaceId receiver) {
     return static_cast<float>(area(polygon) * std::max(facing, 0.0));
   }
   auto const id = in_scene(receiver);
-  double const rendered = scene_.unshaded()[id] ? answers.unshaded_area(id)
-                                                : answers.area(id, scene_.optics().factors());
+  double rendered = scene_.unshaded()[id] ? answers.unshaded_area(id)
+                                          : answers.area(id, scene_.optics().factors());
+  if (!scene_.unshaded()[id] && scene_.moving_shade_of(id)) rendered = of_drawn(id, rendered);
   if (record_) record_->note(id, rendered);
   return static_cast<float>(rendered * scene_.area_ratio(id));
+}
+
+// EnergyPlus takes the fraction of a moving shade as that of the surface as it is drawn.
+double Session::of_drawn(SurfaceId id, double projected_area) const {
+  auto const moved = scene_.placed(id).polygon;
+  double const all = area(moved) * glm::dot(normal(moved), answers_->towards_sun());
+  if (all <= 0.0) return 0.0;
+  return std::min(projected_area / all, 1.0) * answers_->unshaded_area(id);
 }
 
 std::vector<double> Session::projected_sunlit_areas(std::span<SurfaceId const> receivers) {
@@ -218,6 +269,8 @@ void Session::finish() {
   if (!any && answers_->counts().directions == 0)
     return;  // the run ended before the first question
   describe_answers(*answers_, scene_.model().options, messages_);
+  if (undecided_) move_shades(std::nullopt);
+  position_record_.describe(scene_.model().moving_shades, messages_);
   write_cache(answers_->rendered(), messages_);
   if (!failed_) write_reports();
 }
@@ -232,11 +285,19 @@ void Session::write_reports() {
   auto const& known = rendered.known();
   auto const& optics = scene_.optics();
   record_->end();
+  std::vector<std::string> heads;
+  for (auto const& schedule : optics.deployment_names()) heads.push_back("share by " + schedule);
+  for (auto const& shade : scene_.model().moving_shades) {
+    heads.push_back(fmt::format("position of {} [{}]", shade.name, shade.unit()));
+  }
   auto const left_out = write_report(
-      *options.report, rendered.renderer(), known.receivers, answers_->asked(),
-      scene_.shown_receivers(), known.answers, optics.factors(),
-      {optics.deployment_names(), known.states}, stages, [&](StagedFiles& files) {
+      *options.report, rendered, known.receivers, answers_->asked(), scene_.shown_receivers(),
+      known.answers, optics.factors(),
+      {std::move(heads), optics.deployment_names().size(), known.states}, stages,
+      [&](StagedFiles& files) {
         write_run(files, *options.report, scene_, rendered.renderer().device(), *record_);
+        auto const& shades = scene_.model().moving_shades;
+        if (!shades.empty()) position_record_.write(files, shades);
       });
   if (left_out > 0) {
     messages_.remark(

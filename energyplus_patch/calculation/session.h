@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "answers/sun_questions.h"
+#include "calculation/shade_control.h"
 #include "calculation/shading_calculation.h"
 #include "hidden/daylight_memory.h"
 #include "hidden/hidden_luminance.h"
 #include "hidden/hidden_reflections.h"
 #include "model/model_reader.h"
+#include "reports/position_record.h"
 #include "reports/run_record.h"
 #include "scene/scene_assembly.h"
 
@@ -48,7 +50,7 @@ class Session : public ShadingCalculation {
   SceneAssembly& complete(Schedules schedules);
 
   // Whether the report wants the days of the run; then they are handed over as they begin.
-  bool records_days() const { return record_.has_value(); }
+  bool records_days() const { return record_ || control_; }
   void begin_day(RunDay const& day, RunRecord::Beam const& beam);
 
   void set_time(Moment moment) override;
@@ -68,7 +70,9 @@ class Session : public ShadingCalculation {
   // What need not be computed again for daylighting.
   DaylightMemory& daylight_memory() { return daylight_memory_; }
   // Whether the transmittance of surfaces for a ray of daylighting depends on a schedule.
-  bool daylight_varies() const { return scene_.optics().has_schedules(); }
+  bool daylight_varies() const {
+    return scene_.optics().has_schedules() || scene_.hides_moving_shades();
+  }
 
   // What hidden casters do to reflected solar radiation; nullptr if there are none.
   HiddenReflections* reflections();
@@ -91,6 +95,9 @@ class Session : public ShadingCalculation {
   SurfaceId in_scene(SurfaceId id) const;
   SunQuestions& answers();
   void write_reports();
+  void move_shades(std::optional<SunDirection> sun);
+  double beam_now();
+  double of_drawn(SurfaceId id, double projected_area) const;
   void renew_reflections();
   std::optional<glm::dvec3>* first_sun_now();
 
@@ -104,6 +111,12 @@ class Session : public ShadingCalculation {
   std::array<std::optional<glm::dvec3>, hours> first_suns_;
   std::optional<SunQuestions> answers_;  // once started
   std::optional<RunRecord> record_;      // for the report
+  std::optional<ShadeControl> control_;  // of moving shades
+  bool undecided_ = false;               // it waits for the sun of this timestep
+  PositionRecord position_record_;
+  RunDay day_;
+  RunRecord::Beam beam_of_day_;
+  std::vector<double> beam_;  // of the day, once asked for
   DaylightMemory daylight_memory_;
   std::optional<HiddenObstructions> obstructions_;  // once asked for
   std::optional<HiddenReflections> reflections_;    // once asked for

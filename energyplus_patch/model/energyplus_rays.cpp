@@ -69,9 +69,10 @@ std::vector<std::string> warn_of_rays(std::vector<InputObject> const& objects,
     std::string_view type;
     bool seen;
   };
-  constexpr std::array<Shade, 5> shades{{
+  constexpr std::array<Shade, 6> shades{{
       {extension::transparent_shade::type, true},
       {extension::perforated_screen::type, true},
+      {extension::moving_shade::type, true},
       {extension::geometry::type, false},
       {extension::site_context::type, false},
       {extension::tree::type, false},
@@ -90,6 +91,11 @@ std::vector<std::string> warn_of_rays(std::vector<InputObject> const& objects,
     for (auto const& [type, seen] : shades) {
       auto const names = names_of(objects, type);
       if (names.empty()) continue;
+      if (type == extension::moving_shade::type) {
+        warnings.push_back(fmt::format("rays of {} see the surfaces of {} {} as they are drawn",
+                                       user.text, type, names));
+        continue;
+      }
       warnings.push_back(seen ? fmt::format("rays of {} treat the surfaces of {} {} as opaque{}",
                                             user.text, type, names, schedules)
                               : fmt::format("rays of {} do not see {} {}", user.text, type, names));

@@ -53,9 +53,46 @@ bool any_moves(PerforatedScreens const& screens) {
                      [](auto const& each) { return !each.second.deployment_schedule.empty(); });
 }
 
-// The model's own surfaces with a TransparentShade or a PerforatedScreen.
+// Names of meshes and of surroundings, which cannot move.
+Names fixed_surfaces(Surroundings const& surroundings) {
+  Names names;
+  for (auto const& [name, type] : surroundings.types) names.insert(name);
+  return names;
+}
+
+// What a run with moving shades needs.
+void prepare_for_moving_shades(Model& model) {
+  if (model.moving_shades.empty()) return;
+  auto const& first = model.moving_shades.front();
+  auto& options = model.options;
+  if (options.update.sampling) {
+    throw Error(fmt::format("{}: --gpu-shading-update {}: expected timestep with moving shades",
+                            first.where, name_of(options.update)));
+  }
+  if (options.mode == Mode::require) {
+    throw Error(fmt::format("{}: --gpu-shading=require: moving shades are rendered on the CPU",
+                            first.where));
+  }
+  options.update.every_timestep = true;
+  options.device.device = DeviceId{};
+  for (auto const& shade : model.moving_shades) model.remarks.push_back(shade.describe());
+  model.remarks.emplace_back(
+      "with moving shades, shading is computed at every timestep, on the CPU");
+  if (!model.shading.detailed_sky) {
+    model.moving_warnings.push_back(fmt::format(
+        "{}: with SimpleSkyDiffuseModeling, the diffuse light of the sky is that of the position "
+        "at rest; ShadowCalculation: Sky Diffuse Modeling Algorithm = DetailedSkyDiffuseModeling "
+        "follows the motion",
+        first.where));
+  }
+}
+
+// The model's own surfaces with a TransparentShade or a PerforatedScreen, or that move.
 Names transmitting_surfaces(Model const& model) {
   Names names;
+  for (auto const& shade : model.moving_shades) {
+    names.insert(shade.surfaces.begin(), shade.surfaces.end());
+  }
   for (auto const& [name, shade] : model.shades.by_surface) names.insert(name);
   for (auto const& [name, screen] : model.screens.by_surface) names.insert(name);
   for (auto const& [name, type] : model.surroundings.types) names.erase(name);
@@ -131,6 +168,8 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   model.shades = read_transparent_shades(objects, model.shading, folder);
   model.screens = read_perforated_screens(objects, model.shading, model.shades, assets);
   check_textures(model.surroundings, model.screens);
+  model.moving_shades =
+      read_moving_shades(objects, model.shading, fixed_surfaces(model.surroundings));
   model.options = resolve(choices, read_settings(objects), model.shading);
   plan_rays(objects, reader, model);
   if (model.options.mode != Mode::off) {
@@ -138,7 +177,8 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
     model.transform_warning = warn_of_transform(objects);
     model.simplified = find_simplified_surfaces(objects, model.shading, model.lean.left_out);
     if (!model.surroundings.empty()) ensure_placeholders(model.lean, model.shading);
-    if (model.shading.detailed_sky && any_moves(model.screens)) {
+    prepare_for_moving_shades(model);
+    if (model.shading.detailed_sky && (any_moves(model.screens) || !model.moving_shades.empty())) {
       add_sky_placeholder(model.lean, model.shading);
     }
   }

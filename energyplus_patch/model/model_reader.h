@@ -7,6 +7,7 @@
 
 #include "model/idf/input_object.h"
 #include "model/idf/model_file.h"
+#include "model/input/moving_shades.h"
 #include "model/input/perforated_screens.h"
 #include "model/input/shading_input.h"
 #include "model/input/transparent_shades.h"
@@ -23,14 +24,16 @@ struct Model {
   ShadingInput shading;
   TransparentShades shades;
   PerforatedScreens screens;
+  std::vector<MovingShade> moving_shades;
   Options options;
   LeanInput lean;
   SimplifiedSurfaces simplified;
   Surroundings surroundings;
-  bool daylighting_answered = false;      // rays of daylighting ask this module
-  bool reflections_answered = false;      // rays of solar reflections do
-  std::vector<std::string> ray_warnings;  // see warn_of_rays
-  std::string transform_warning;          // see warn_of_transform; or ""
+  bool daylighting_answered = false;         // rays of daylighting ask this module
+  bool reflections_answered = false;         // rays of solar reflections do
+  std::vector<std::string> ray_warnings;     // see warn_of_rays
+  std::string transform_warning;             // see warn_of_transform; or ""
+  std::vector<std::string> moving_warnings;  // about moving shades
   std::vector<std::string> remarks;
 };
 

@@ -72,19 +72,20 @@ std::vector<Row> choose(std::vector<Row> const& rows) {
   return chosen;
 }
 
-std::string stem_of(std::string const& surface, SunDirection sun,
-                    DeploymentStates::Shares const& shares) {
+std::string stem_of(std::string const& surface, SunDirection sun, Deployments const& deployments,
+                    std::uint32_t state) {
   auto name = fmt::format("{}_{:05.1f}_{:04.1f}", surface, degrees_clockwise(sun.azimuth),
                           glm::degrees(sun.altitude));
-  for (double const share : shares) name += fmt::format("_{:.6g}", 100.0 * share);
+  auto const& values = deployments.states[state];
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    name += fmt::format("_{:.6g}", i < deployments.shares ? 100.0 * values[i] : values[i]);
+  }
   return name;
 }
 
 std::string heads_of(Deployments const& deployments) {
   std::string text;
-  for (auto const& schedule : deployments.schedules) {
-    text += ',' + csv_quoted("share by " + schedule);
-  }
+  for (auto const& head : deployments.heads) text += ',' + csv_quoted(head);
   return text;
 }
 
@@ -127,11 +128,12 @@ void write_stages(std::filesystem::path const& file, Stages const& stages) {
   write_whole_file(file, [&](std::ostream& csv) { write_table(csv, stages); });
 }
 
-std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer,
+std::size_t write_report(std::filesystem::path const& folder, CachedRenderer& rendered,
                          std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
                          std::vector<SurfaceId> const& shown, AnswerStore const& answers,
                          std::vector<double> const& factors, Deployments const& deployments,
                          Stages const& stages, std::function<void(StagedFiles&)> const& more) {
+  Renderer const& renderer = rendered.renderer();
   std::vector<Row> pictures;
   auto const write_sunlit = [&](std::ostream& csv) {
     csv << "receiver,sun azimuth [deg],sun altitude [deg],projected sunlit area [m2],sunlit "
@@ -166,10 +168,11 @@ std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer
     for (auto const& picture : pictures) {
       auto const& shares = deployments.states[picture.state];
       auto const& receiver = renderer.scene()[picture.receiver].name;
-      auto const name = names.add(stem_of(receiver, picture.sun, shares), ".png");
-      renderer.set_deployments(shares);
-      files.write(name, encode_image(name, renderer.sun_view(picture.sun, picture.receiver,
-                                                             picture_size, factors)));
+      auto const name =
+          names.add(stem_of(receiver, picture.sun, deployments, picture.state), ".png");
+      auto& drawing = rendered.renderer_in(picture.state);
+      files.write(name, encode_image(name, drawing.sun_view(picture.sun, picture.receiver,
+                                                            picture_size, factors)));
       drawn += fmt::format("{},{},{:.4f},{:.4f}{}\n", csv_quoted(name), csv_quoted(receiver),
                            degrees_clockwise(picture.sun.azimuth),
                            glm::degrees(picture.sun.altitude), list(shares));

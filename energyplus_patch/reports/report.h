@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "answers/answer_store.h"
-#include "gpu_shading/renderer.h"
+#include "answers/cached_renderer.h"
 #include "platform/staged_files.h"
 
 namespace gpu_shading::energyplus {
@@ -21,9 +20,10 @@ using Stages = std::vector<std::pair<std::string, double>>;
 // The renderer's own stages, and the remaining time since this module was loaded.
 Stages stages_of(RendererStatistics const& statistics);
 
-// The deployments at which answers were given.
+// The deployments and positions of moving shades at which answers were given.
 struct Deployments {
-  std::vector<std::string> const& schedules;
+  std::vector<std::string> heads;  // of a state's columns
+  std::size_t shares = 0;          // how many of them are deployments
   DeploymentStates const& states;
 };
 
@@ -32,11 +32,12 @@ inline constexpr std::size_t max_report_pictures = 300;
 // Writes into `folder` what a user needs to check a surprising number by eye:
 //   sunlit.csv       receiver, sun azimuth and altitude (degrees), projected sunlit area (m2),
 //                    sunlit fraction, and the share of screens in place by each deployment
-//                    schedule, where there are any: every answer that EnergyPlus was given, or
-//                    interpolated between
+//                    schedule and the positions of moving shades, where there are any: every
+//                    answer that EnergyPlus was given, or interpolated between
 //   NAME_AZ_ALT.png  what the sun sees of a receiver, at up to three of its answers: the one most
 //                    shaded but lit, the one nearest to half sunlit, and the one at the highest
-//                    sun. With deployments NAME_AZ_ALT_SHARE[_SHARE ...].png, shares in percent.
+//                    sun. With deployments NAME_AZ_ALT_SHARE[_SHARE ...].png, shares in percent,
+//                    then positions.
 //   pictures.csv     picture, receiver, sun azimuth and altitude (degrees), shares: every picture
 //                    of this report; others in the folder are of earlier ones
 //   stages.csv       stage, wall-clock seconds
@@ -44,7 +45,7 @@ inline constexpr std::size_t max_report_pictures = 300;
 // surface, are reported, and those of `shown` drawn. Returns the number of pictures beyond
 // max_report_pictures, which are left out. Throws Error when the folder cannot be written; its
 // files are then unchanged.
-std::size_t write_report(std::filesystem::path const& folder, Renderer& renderer,
+std::size_t write_report(std::filesystem::path const& folder, CachedRenderer& rendered,
                          std::vector<SurfaceId> const& receivers, std::vector<bool> const& asked,
                          std::vector<SurfaceId> const& shown, AnswerStore const& answers,
                          std::vector<double> const& factors, Deployments const& deployments,

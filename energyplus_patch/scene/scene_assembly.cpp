@@ -3,14 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "gpu_shading/error.h"
 #include "model/extensions/extension_fields.h"
 #include "model/site/farthest_coordinate.h"
 #include "platform/text.h"
+#include "scene/digest.h"
 #include "scene/model_rule.h"
 #include "scene/scene_hash.h"
+#include "scene/shade_motion.h"
 
 namespace gpu_shading::energyplus {
 
@@ -72,6 +76,46 @@ void SceneAssembly::complete(Schedules schedules) {
     surfaces_.add(std::move(caster.surface));
   }
   optics_ = ShadeOptics(model_, std::move(schedules));
+  find_moving_shades();
+}
+
+void SceneAssembly::find_moving_shades() {
+  auto const& shades = model_.moving_shades;
+  if (shades.empty()) return;
+  std::map<std::string, std::size_t> by_name;
+  for (std::size_t i = 0; i < shades.size(); ++i) {
+    for (auto const& name : shades[i].surfaces) {
+      by_name.emplace(name, i);
+      by_name.emplace(mirrored_name(name), i);
+    }
+  }
+  positions_ = rest_positions();
+  for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
+    auto const found = by_name.find(surfaces_[id].name);
+    moving_shades_.push_back(found == by_name.end() ? std::nullopt : std::optional(found->second));
+  }
+}
+
+std::vector<double> SceneAssembly::rest_positions() const {
+  std::vector<double> positions;
+  for (auto const& shade : model_.moving_shades) positions.push_back(shade.rest);
+  return positions;
+}
+
+bool SceneAssembly::hides_moving_shades() const {
+  for (auto id = size(); id < moving_shades_.size(); ++id) {
+    if (moving_shades_[id]) return true;
+  }
+  return false;
+}
+
+Surface SceneAssembly::placed(SurfaceId id, std::vector<double> const& positions) const {
+  auto surface = surfaces_[id];
+  if (auto const shade = moving_shade_of(id)) {
+    surface.polygon = moved(surface.polygon, model_.moving_shades[*shade], positions.at(*shade));
+    if (area(surface.polygon) <= 0.0) surface.casting = Casting::never;
+  }
+  return surface;
 }
 
 std::vector<SurfaceId> SceneAssembly::shading_surfaces() const {
@@ -123,11 +167,14 @@ std::vector<SurfaceId> SceneAssembly::shown() const {
   return ids;
 }
 
-Scene SceneAssembly::scene(ShadeOptics::Radiation radiation) const {
+Scene SceneAssembly::scene_at(std::vector<double> const& positions,
+                              ShadeOptics::Radiation radiation,
+                              std::optional<std::size_t> opaque) const {
   Scene scene;
   for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
-    auto surface = surfaces_[id];
+    auto surface = placed(id, positions);
     optics_.apply(surface, model_.surroundings.texture_of(id), radiation);
+    if (opaque && moving_shade_of(id) == opaque) surface.filter = {};
     scene.add(std::move(surface));
   }
   std::vector<WallCopy> copies;
@@ -148,7 +195,7 @@ Scene SceneAssembly::scene(ShadeOptics::Radiation radiation) const {
 Scene SceneAssembly::hidden_casters() const {
   Scene scene;
   for (auto id = static_cast<SurfaceId>(size()); id < surfaces_.size(); ++id) {
-    auto surface = surfaces_[id];
+    auto surface = placed(id, positions_);
     optics_.apply(surface, model_.surroundings.texture_of(id), ShadeOptics::Radiation::light);
     if (surface.casting != Casting::never) scene.add(std::move(surface));
   }
@@ -164,7 +211,23 @@ std::vector<SurfaceId> SceneAssembly::hidden(Scene const& scene) const {
 }
 
 Hash SceneAssembly::hash(Scene const& scene, DeviceInfo const& device) const {
-  return hash_scene(scene, {renderer_options(model_.options), device, build_id()});
+  auto const at_rest = hash_scene(scene, {renderer_options(model_.options), device, build_id()});
+  if (moving_shades_.empty()) return at_rest;
+  // Three positions tell one motion from another.
+  Digest digest;
+  digest.add(at_rest);
+  for (SurfaceId id = 0; id < moving_shades_.size(); ++id) {
+    if (!moving_shades_[id]) continue;
+    digest.add(id);
+    auto const& shade = model_.moving_shades[*moving_shades_[id]];
+    for (double const position :
+         {shade.minimum, 0.5 * (shade.minimum + shade.maximum), shade.maximum}) {
+      for (auto const& point : moved(surfaces_[id].polygon, shade, position).outline) {
+        for (double const coordinate : {point.x, point.y, point.z}) digest.add(coordinate);
+      }
+    }
+  }
+  return digest.result();
 }
 
 Surface mirrored(Surface const& original) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "gpu_shading/renderer.h"
@@ -67,9 +69,28 @@ class SceneAssembly {
   // nothing names.
   std::vector<SurfaceId> shown() const;
 
-  // The scene to render, with the optics as they are now: the surfaces by their ids, then a copy
-  // without openings of each wall that has openings.
-  Scene scene(ShadeOptics::Radiation radiation = ShadeOptics::Radiation::solar) const;
+  // The positions of the model's moving shades, in order; at rest until set_positions().
+  std::vector<double> const& positions() const { return positions_; }
+  void set_positions(std::vector<double> positions) { positions_ = std::move(positions); }
+  std::vector<double> rest_positions() const;
+  // A surface without optics, at the positions as they are now.
+  Surface placed(SurfaceId id) const { return placed(id, positions_); }
+  // By surface: the index of the moving shade that it belongs to.
+  std::optional<std::size_t> moving_shade_of(SurfaceId surface) const {
+    return moving_shades_.empty() ? std::nullopt : moving_shades_[surface];
+  }
+  // Whether a moving shade is among the casters that EnergyPlus does not see.
+  bool hides_moving_shades() const;
+
+  // The scene to render, with the optics and positions as they are now: the surfaces by their ids,
+  // then a copy without openings of each wall that has openings.
+  Scene scene(ShadeOptics::Radiation radiation = ShadeOptics::Radiation::solar) const {
+    return scene_at(positions_, radiation);
+  }
+  // The same at other positions. `opaque`: a moving shade to be taken as opaque.
+  Scene scene_at(std::vector<double> const& positions,
+                 ShadeOptics::Radiation radiation = ShadeOptics::Radiation::solar,
+                 std::optional<std::size_t> opaque = std::nullopt) const;
 
   // The casters that are not EnergyPlus's surfaces, with the optics as they are now for light.
   Scene hidden_casters() const;
@@ -81,6 +102,9 @@ class SceneAssembly {
   Hash hash(Scene const& scene, DeviceInfo const& device) const;
 
  private:
+  Surface placed(SurfaceId id, std::vector<double> const& positions) const;
+  void find_moving_shades();
+
   Model model_;
   Scene surfaces_;
   std::vector<double> area_ratios_;
@@ -88,6 +112,8 @@ class SceneAssembly {
   std::vector<bool> receives_;
   std::vector<bool> unshaded_;
   ShadeOptics optics_;
+  std::vector<double> positions_;
+  std::vector<std::optional<std::size_t>> moving_shades_;  // empty: there are none
 };
 
 // The copy of a shading surface that faces the other way.

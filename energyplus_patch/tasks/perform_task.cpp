@@ -19,6 +19,10 @@ namespace {
 
 // Each position of a screen, and each share of leaves, would need samples of its own.
 void refuse_changing_bodies(SceneAssembly const& scene) {
+  if (auto const& shades = scene.model().moving_shades; !shades.empty()) {
+    throw Error(fmt::format("{}: samples cannot be taken of a model with moving shades",
+                            shades.front().where));
+  }
   auto const& optics = scene.optics();
   auto const& leaves = scene.model().surroundings.leaf_schedules;
   for (auto const& name : optics.deployment_names()) {
@@ -59,7 +63,7 @@ CachedRenderer open_for_task(SceneAssembly& scene, std::vector<SurfaceId> const&
   check_device(answers.renderer().device(), options, messages);
   describe_scene(scene, messages);
   scene.optics().update({});
-  answers.deploy(scene.optics().deployments());
+  answers.deploy(scene.optics().deployments(), scene.positions());
   return answers;
 }
 

@@ -207,6 +207,10 @@ class FoundSchedules {
             limited(interface_->maximum(state_, found))};
   }
 
+  double unlimited(std::string const& name, Moment moment) {
+    return interface_->at(state_, schedule(name), moment);
+  }
+
   double at(std::string const& name, Moment moment) {
     auto const found = schedule(name);
     return limited(moment.timestep > 0 ? interface_->at(state_, found, moment)
@@ -238,8 +242,10 @@ ScheduleFunctions::ScheduleFunctions(SymbolTable const& symbols) {
 
 Schedules ScheduleFunctions::of(State& state) const {
   auto const found = std::make_shared<FoundSchedules>(state, interface_);
-  return {[found](std::string const& name) { return found->range(name); },
-          [found](std::string const& name, Moment moment) { return found->at(name, moment); }};
+  return {
+      [found](std::string const& name) { return found->range(name); },
+      [found](std::string const& name, Moment moment) { return found->at(name, moment); },
+      [found](std::string const& name, Moment moment) { return found->unlimited(name, moment); }};
 }
 
 }  // namespace gpu_shading::energyplus

@@ -94,8 +94,8 @@ TEST(Extensions, ErrorsNameObjectFieldValueAndWhatWasExpected) {
             "GPUShading:Settings: 5 fields, expected 4 at most");
   EXPECT_EQ(refusal("GPUShading:Nonsense,1;"),
             "GPUShading:Nonsense: no such object; known: GPUShading:Settings, "
-            "GPUShading:TransparentShade, GPUShading:PerforatedScreen, GPUShading:SiteContext, "
-            "GPUShading:Geometry");
+            "GPUShading:TransparentShade, GPUShading:PerforatedScreen, GPUShading:MovingShade, "
+            "GPUShading:SiteContext, GPUShading:Geometry, GPUShading:Tree");
   EXPECT_EQ(refusal("GPUShading:Settings,1;GPUShading:Settings,2;"),
             "GPUShading:Settings: given twice, expected once at most");
   EXPECT_EQ(refusal("GPUShading:Geometry,a,a.obj;GPUShading:Geometry,A,b.obj;"),

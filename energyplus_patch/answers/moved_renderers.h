@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "gpu_shading/renderer.h"
+
+namespace gpu_shading::energyplus {
+
+// Renderers of one scene, for each position of its moving shades that was asked for. The least
+// recently used ones are closed.
+class MovedRenderers {
+ public:
+  using Positions = std::vector<double>;
+  using Open = std::function<Renderer(Positions const&)>;
+
+  // `open`: needed only if other positions than none are asked for.
+  MovedRenderers(Renderer drawn, Open open)
+      : drawn_(std::make_unique<Renderer>(std::move(drawn))), open_(std::move(open)) {}
+
+  // The renderer that was passed first: of the shades at rest.
+  Renderer& at_rest() { return *drawn_; }
+  Renderer const& at_rest() const { return *drawn_; }
+
+  // Valid until the next call. Throws what `open` throws.
+  Renderer& at(Positions const& positions) {
+    if (positions.empty()) return *drawn_;
+    auto found = moved_.find(positions);
+    if (found == moved_.end()) {
+      if (moved_.size() >= max_renderers) close_oldest();
+      found = moved_.emplace(positions, Moved{std::make_unique<Renderer>(open_(positions))}).first;
+    }
+    found->second.used = ++uses_;
+    return *found->second.renderer;
+  }
+
+  RendererStatistics statistics() const {
+    auto sum = closed_;
+    sum += drawn_->statistics();
+    for (auto const& [positions, moved] : moved_) sum += moved.renderer->statistics();
+    return sum;
+  }
+
+ private:
+  static constexpr std::size_t max_renderers = 200;
+  struct Moved {
+    std::unique_ptr<Renderer> renderer;
+    std::uint64_t used = 0;
+  };
+
+  void close_oldest() {
+    auto oldest = moved_.begin();
+    for (auto each = moved_.begin(); each != moved_.end(); ++each) {
+      if (each->second.used < oldest->second.used) oldest = each;
+    }
+    closed_ += oldest->second.renderer->statistics();
+    moved_.erase(oldest);
+  }
+
+  std::unique_ptr<Renderer> drawn_;
+  Open open_;
+  std::map<Positions, Moved> moved_;
+  std::uint64_t uses_ = 0;
+  RendererStatistics closed_;
+};
+
+}  // namespace gpu_shading::energyplus

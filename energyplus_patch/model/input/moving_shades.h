@@ -1,0 +1,55 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/extensions/extension_fields.h"
+#include "model/idf/input_object.h"
+#include "model/idf/mentions.h"
+#include "model/input/shading_input.h"
+
+namespace gpu_shading::energyplus {
+
+// A GPUShading:MovingShade: shading surfaces that move together.
+struct MovingShade {
+  using Motion = extension::moving_shade::Motion;
+  using Axis = extension::moving_shade::Axis;
+  using Control = extension::moving_shade::Control;
+
+  std::string name;
+  std::string where;                  // type and name, for messages
+  std::vector<std::string> surfaces;  // upper case, sorted
+  Motion motion = Motion::rotate;
+  Axis axis = Axis::centre_line;
+  glm::dvec3 direction{0.0};  // unit vector, or 0
+  glm::dvec3 point{0.0};
+  double minimum = 0.0;
+  double maximum = 0.0;
+  double step = 0.0;
+  double rest = 0.0;  // on the grid
+  Control control = Control::schedule;
+  std::string schedule;      // upper case, or ""
+  std::string receivers;     // pattern, or ""
+  std::string availability;  // upper case, or ""
+  std::optional<double> minimum_beam = std::nullopt;
+  double hysteresis = 0.0;
+
+  // The nearest position at which the surfaces can stand.
+  double nearest(double position) const;
+  // All of these, in order.
+  std::vector<double> positions() const;
+  bool turns() const { return motion == Motion::rotate; }
+  // "deg", "m" or "share".
+  std::string_view unit() const;
+  // "20 surfaces rotate from 0 to 90 deg in steps of 1, at rest at 0: BlockBeam"
+  std::string describe() const;
+};
+
+// Reads every GPUShading:MovingShade of a model. Throws Error, naming object, field and value.
+// `fixed`: names of shading surfaces that cannot move, because they are parts of a mesh or map.
+std::vector<MovingShade> read_moving_shades(std::vector<InputObject> const& objects,
+                                            ShadingInput const& input, Names const& fixed);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,131 @@
+#include "scene/shade_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <limits>
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using Axis = MovingShade::Axis;
+using Motion = MovingShade::Motion;
+
+// Below this, components of a unit vector are taken as 0, and lengths as equal.
+constexpr double rounding = 1e-3;
+
+struct Edge {
+  glm::dvec3 from;
+  glm::dvec3 to;
+
+  glm::dvec3 along() const { return to - from; }
+  double length() const { return glm::length(along()); }
+};
+
+// `Better`: whether the first of two edges is to be taken.
+template <typename Better>
+Edge choose_edge(Ring const& ring, Better const& better) {
+  Edge best{};
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    Edge const edge{ring[i], ring[(i + 1) % ring.size()]};
+    if (edge.length() > 0.0 && (best.length() <= 0.0 || better(edge, best))) best = edge;
+  }
+  return best;
+}
+
+double slope(Edge const& edge) { return std::abs(edge.along().z) / edge.length(); }
+
+bool is_longer(Edge const& edge, Edge const& other) {
+  double const difference = edge.length() / other.length() - 1.0;
+  return difference > rounding || (difference > -rounding && slope(edge) < slope(other) - rounding);
+}
+
+// East, or north, or up.
+glm::dvec3 oriented(glm::dvec3 const& direction) {
+  for (auto const component : {direction.x, direction.y, direction.z}) {
+    if (std::abs(component) > rounding) return component > 0.0 ? direction : -direction;
+  }
+  return direction;
+}
+
+// Of the area. Triangles from the first vertex count with their sign.
+glm::dvec3 centroid(Ring const& ring) {
+  auto const up = normal({ring, {}});
+  glm::dvec3 sum{0.0};
+  double weights = 0.0;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    double const weight = glm::dot(glm::cross(ring[i] - ring[0], ring[i + 1] - ring[0]), up);
+    sum += weight * (ring[i] + ring[i + 1] - 2.0 * ring[0]) / 3.0;
+    weights += weight;
+  }
+  return weights > 0.0 ? ring[0] + sum / weights : ring[0];
+}
+
+glm::dvec3 turned(glm::dvec3 const& point, RotationAxis const& axis, double angle) {
+  auto const arm = point - axis.point;
+  auto const along = glm::dot(arm, axis.direction) * axis.direction;
+  auto const across = arm - along;
+  return axis.point + along + std::cos(angle) * across +
+         std::sin(angle) * glm::cross(axis.direction, across);
+}
+
+template <typename Move>
+Polygon moved_by(Polygon polygon, Move const& move) {
+  for (auto& point : polygon.outline) point = move(point);
+  for (auto& hole : polygon.holes) {
+    for (auto& point : hole) point = move(point);
+  }
+  return polygon;
+}
+
+}  // namespace
+
+RotationAxis rotation_axis(Polygon const& drawn, MovingShade const& shade) {
+  auto const& ring = drawn.outline;
+  if (shade.axis == Axis::given || ring.empty()) return {shade.point, shade.direction};
+  if (shade.axis == Axis::centre_line) {
+    auto const edge = choose_edge(ring, is_longer);
+    return {centroid(ring), oriented(glm::normalize(edge.along()))};
+  }
+  auto const edge = choose_edge(ring, [&](Edge const& one, Edge const& other) {
+    return glm::dot(one.from + one.to - other.from - other.to, shade.direction) > 0.0;
+  });
+  return {edge.from, oriented(glm::normalize(edge.along()))};
+}
+
+Polygon moved(Polygon const& drawn, MovingShade const& shade, double position) {
+  // Degenerate ones cast no shadow.
+  if (area(drawn) <= 0.0) return drawn;
+  switch (shade.motion) {
+    case Motion::rotate: {
+      if (position == 0.0) return drawn;
+      auto const axis = rotation_axis(drawn, shade);
+      double const angle = glm::radians(position);
+      return moved_by(drawn, [&](auto const& point) { return turned(point, axis, angle); });
+    }
+    case Motion::slide:
+      return moved_by(drawn, [&](auto const& point) { return point + position * shade.direction; });
+    case Motion::extend:
+      break;
+  }
+  if (position == 1.0) return drawn;
+  double fixed = std::numeric_limits<double>::infinity();
+  for (auto const& point : drawn.outline) fixed = std::min(fixed, glm::dot(point, shade.direction));
+  return moved_by(drawn, [&](auto const& point) {
+    double const reach = glm::dot(point, shade.direction) - fixed;
+    return point + (position - 1.0) * reach * shade.direction;
+  });
+}
+
+double facing_position(Polygon const& drawn, MovingShade const& shade,
+                       glm::dvec3 const& towards_sun) {
+  auto const axis = rotation_axis(drawn, shade).direction;
+  auto const from = normal(drawn);
+  double const sine = glm::dot(glm::cross(from, towards_sun), axis);
+  double const cosine =
+      glm::dot(from, towards_sun) - glm::dot(from, axis) * glm::dot(towards_sun, axis);
+  return std::hypot(sine, cosine) > 0.0 ? glm::degrees(std::atan2(sine, cosine)) : 0.0;
+}
+
+}  // namespace gpu_shading::energyplus

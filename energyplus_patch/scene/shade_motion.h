@@ -1,0 +1,27 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "gpu_shading/polygon.h"
+#include "model/input/moving_shades.h"
+
+// Where the surfaces of a GPUShading:MovingShade stand at its positions.
+namespace gpu_shading::energyplus {
+
+// The polygon of a surface, from where it is drawn.
+Polygon moved(Polygon const& drawn, MovingShade const& shade, double position);
+
+// An axis of Rotate; the direction is a unit vector.
+struct RotationAxis {
+  glm::dvec3 point;
+  glm::dvec3 direction;
+};
+RotationAxis rotation_axis(Polygon const& drawn, MovingShade const& shade);
+
+// The position, within 180 degrees of the drawn one, at which a surface of Rotate faces the sun as
+// far as its axis allows. Another 180 degrees turn its other side to the sun. 0 if the sun is in
+// line with the axis.
+double facing_position(Polygon const& drawn, MovingShade const& shade,
+                       glm::dvec3 const& towards_sun);
+
+}  // namespace gpu_shading::energyplus

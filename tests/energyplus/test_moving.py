@@ -1,0 +1,259 @@
+"""GPUShading:MovingShade against models in which the shades stand there, and against closed forms."""
+
+import csv
+import math
+import sqlite3
+
+import pytest
+import window_with_shades
+from shading_runs import energyplus
+
+FRACTION = "Surface Outside Face Sunlit Fraction"
+SAME = 1e-6  # of a sunlit fraction: EnergyPlus hands over vertices in single precision
+FAR = window_with_shades.FAR
+LOW, HIGH = 1.0, 1.0 + window_with_shades.SIZE
+DAYS = ("Output:Variable,*,Schedule Value,Timestep;\n")
+
+# A slat of 0.2 m in front of the window, an awning over it, and a panel beside it.
+SLATS = [[(-FAR, -0.3, z), (-FAR, -0.5, z), (FAR, -0.5, z), (FAR, -0.3, z)] for z in (1.3, 1.5, 1.7, 1.9)]
+AWNING = [(-FAR, 0, HIGH), (-FAR, -1.2, HIGH), (FAR, -1.2, HIGH), (FAR, 0, HIGH)]
+PANEL = [(1, -0.2, 3.5), (1, -0.2, 1.2), (2, -0.2, 1.2), (2, -0.2, 3.5)]
+
+
+def surface(name, points):
+    return (f"Shading:Building:Detailed,{name},,{len(points)},\n"
+            + ",\n".join(f"  {x:.12f},{y:.12f},{z:.12f}" for x, y, z in points) + ";\n")
+
+
+def room(*parts, detailed=False):
+    text = window_with_shades.model("south", False, False)
+    if detailed:
+        text = text.replace("PolygonClipping,Timestep;", "PolygonClipping,Timestep,,,,,DetailedSkyDiffuseModeling;")
+    return text + "".join(parts)
+
+
+def slats(turn=0.0):
+    """The slats turned about their centre lines, which point east."""
+    sine, cosine = math.sin(math.radians(turn)), math.cos(math.radians(turn))
+    parts = []
+    for number, points in enumerate(SLATS):
+        _, cy, cz = (sum(p[i] for p in points) / 4 for i in range(3))
+        turned = [(x, cy + cosine * (y - cy) - sine * (z - cz), cz + sine * (y - cy) + cosine * (z - cz))
+                  for x, y, z in points]
+        parts.append(surface(f"Slat {number}", turned))
+    return "".join(parts)
+
+
+def moving(pattern, motion, **fields):
+    names = ["axis", "dx", "dy", "dz", "px", "py", "pz", "minimum", "maximum", "step", "rest", "control", "schedule",
+             "receiver", "available", "beam", "hysteresis"]
+    assert not set(fields) - set(names)
+    return (f"GPUShading:MovingShade,Shade,{pattern},{motion},"
+            + ",".join(str(fields.get(name, "")) for name in names) + ";\n")
+
+
+@pytest.fixture
+def run(patched, weather, tmp_path):
+    def call(text, *options, name="model"):
+        path = tmp_path / f"{name}.idf"
+        path.write_text(text)
+        done = energyplus.run(patched, path, weather, tmp_path / name, ["--gpu-shading", "-D", *options])
+        assert done.completed, done.why() + done.errors + done.text("eplusout.err")
+        return done
+
+    return call
+
+
+def series(done, variable, key="WINDOW"):
+    """{time: value} of a variable of the run."""
+    with sqlite3.connect(f"file:{done.folder / 'eplusout.sql'}?mode=ro", uri=True) as data:
+        rows = data.execute(
+            "SELECT TimeIndex, Value FROM ReportData JOIN ReportDataDictionary USING (ReportDataDictionaryIndex) "
+            "WHERE Name = ? AND upper(KeyValue) LIKE ?", (variable, key))
+        return dict(rows.fetchall())
+
+
+def assert_same(one, other, most=SAME):
+    first, second = series(one, FRACTION), series(other, FRACTION)
+    assert first.keys() == second.keys()
+    assert len(set(first.values())) > 10, "the shade has no effect"
+    assert max(abs(first[time] - second[time]) for time in first) <= most
+
+
+def constant(value):
+    return f"Schedule:Constant,Position,,{value};\n"
+
+
+def moved(points, move):
+    return [move(*point) for point in points]
+
+
+CASES = {
+    "centre line": (slats(), moving("Slat *", "Rotate", schedule="Position"), 35, slats(35)),
+    "edge": (surface("Awning", AWNING),
+             moving("Awning", "Rotate", axis="Edge", dx=0, dy=1, minimum=-60, maximum=0, schedule="Position"), -30,
+             surface("Awning", moved(AWNING, lambda x, y, z: (x, y * math.cos(math.pi / 6),
+                                                              HIGH - y * math.sin(math.pi / 6))))),
+    "given axis": (surface("Panel", PANEL),
+                   moving("Panel", "Rotate", axis="Given", dx=0, dy=0, dz=2, px=1, py=-0.2, pz=0, minimum=-90,
+                          maximum=0, schedule="Position"), -60,
+                   surface("Panel", moved(PANEL, lambda x, y, z: (1 + (x - 1) / 2, -0.2 - (x - 1) * math.sqrt(3) / 2,
+                                                                  z)))),
+    "slide": (surface("Panel", PANEL), moving("Panel", "Slide", dx=-5, dy=0, dz=0, maximum=3, schedule="Position"), 1.5,
+              surface("Panel", moved(PANEL, lambda x, y, z: (x - 1.5, y, z)))),
+    "extend": (surface("Awning", AWNING), moving("Awning", "Extend", dx=0, dy=-1, dz=0, schedule="Position"), 0.4,
+               surface("Awning", moved(AWNING, lambda x, y, z: (x, 0.4 * y, z)))),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_position_equals_the_model_in_which_the_surfaces_stand_there(run, name):
+    drawn, shade, position, there = CASES[name]
+    assert_same(run(room(drawn, shade, constant(position))), run(room(there), name="there"))
+
+
+def test_translucent_and_perforated_slats_move_too(run):
+    fabric = ("GPUShading:TransparentShade,Fabric,Slat 0,Constant,0.3;\n"
+              "GPUShading:PerforatedScreen,Mesh,Slat 1,Round,,Straight,0.005,,0.01,,0.001;\n")
+    assert_same(run(room(slats(), fabric, CASES["centre line"][1], constant(35))),
+                run(room(slats(35), fabric), name="there"))
+
+
+def sun(done):
+    azimuth = series(done, "Site Solar Azimuth Angle", "%")
+    altitude = series(done, "Site Solar Altitude Angle", "%")
+    return {time: (azimuth[time], altitude[time]) for time in azimuth}
+
+
+def test_an_awning_extends_as_its_closed_form_says(run):
+    hours = "".join(f"Until: {hour}:00,{hour % 5 * 0.25}," for hour in range(1, 24))
+    schedule = f"Schedule:Compact,Position,,Through: 12/31,For: AllDays,{hours}Until: 24:00,0;\n"
+    done = run(room(surface("Awning", AWNING), moving("Awning", "Extend", dy=-1, schedule="Position"), schedule, DAYS))
+    fractions, shares = series(done, FRACTION), series(done, "Schedule Value", "POSITION")
+    compared = 0
+    for time, (azimuth, altitude) in sun(done).items():
+        g = math.radians(azimuth - 180.0)
+        if altitude <= 2.0 or math.cos(g) <= 0.05:
+            continue
+        drop = 1.2 * shares[time] * math.tan(math.radians(altitude)) / math.cos(g)
+        assert abs(fractions[time] - max(0.0, 1.0 - drop / window_with_shades.SIZE)) < 2e-4
+        compared += shares[time] > 0.0
+    assert compared > 20
+
+
+REPORT = ("--gpu-shading-report", "report")
+
+
+def rows(done):
+    """Those of positions.csv."""
+    with open(done.folder / "report" / "positions.csv", newline="") as table:
+        return list(csv.DictReader(table))
+
+
+def positions(done):
+    """[(azimuth, altitude, position)] of the timesteps, in order."""
+    suns, table = sun(done), rows(done)
+    return [(*suns[time], float(row["Shade position [deg]"])) for time, row in zip(sorted(suns), table, strict=True)]
+
+
+WIDTH, PITCH = 0.2, 0.2
+FULL = "".join(surface(f"Slat {i}", [(-FAR, -0.3, z), (-FAR, -0.5, z), (FAR, -0.5, z), (FAR, -0.3, z)])
+               for i, z in enumerate(LOW - 0.05 + PITCH * i for i in range(40)))
+
+
+def cut_off(profile):
+    """The smallest turn, in degrees, of slats as wide as their pitch that lets no beam pass at a profile angle.
+
+    A slat turned by t reaches W cos(t) out and drops W sin(t): its shadow on the plane of the slats is
+    W (sin t + cos t tan(profile)) high, which is a pitch at least.
+    """
+    for tenth in range(901):
+        turn = math.radians(tenth / 10)
+        if WIDTH * (math.sin(turn) + math.cos(turn) * math.tan(profile)) >= PITCH - 1e-9:
+            return tenth / 10
+    return 90.0
+
+
+def test_block_beam_turns_slats_to_the_cut_off_angle(run):
+    shade = moving("Slat *", "Rotate", step=1, control="BlockBeam", receiver="Window", maximum=90)
+    winter = room(FULL, shade).replace("21 August,8,21,", "21 December,12,21,")
+    done = run(winter, *REPORT)
+    fractions = series(done, FRACTION)
+    lit = [fractions[time] for time in sorted(fractions)]
+    compared = 0
+    for (azimuth, altitude, position), fraction in zip(positions(done), lit, strict=True):
+        g = math.radians(azimuth - 180.0)
+        if altitude <= 1.0 or math.cos(g) <= 0.05:
+            continue
+        assert fraction <= 1e-6
+        exact = cut_off(math.atan2(math.tan(math.radians(altitude)), math.cos(g)))
+        assert exact - 0.1 <= position <= math.ceil(exact), (azimuth, altitude, exact)
+        compared += 1
+    assert compared > 20
+    assert {row["Shade state"] for row in rows(done)} >= {"at rest", "blocking"}
+
+
+def test_track_sun_faces_the_profile_angle(run):
+    shade = moving("Slat *", "Rotate", step=1, control="TrackSun", minimum=-90, maximum=90, rest=0)
+    done = run(room(FULL, shade), *REPORT)
+    for azimuth, altitude, position in positions(done):
+        g = math.radians(azimuth - 180.0)
+        if altitude <= 1.0 or abs(math.cos(g)) <= 0.05:
+            continue
+        profile = math.degrees(math.atan2(math.tan(math.radians(altitude)), math.cos(g)))
+        # The normal of a slat that is turned by t rises by 90 - t.
+        assert abs(position - (90.0 - profile)) <= 0.51, (azimuth, altitude)
+
+
+def test_an_ems_that_overrides_the_schedule_moves_the_shade_as_the_schedule_would(run):
+    steps = "".join(f"Until: {hour}:00,{hour * 7 % 60}," for hour in range(1, 24))
+    schedule = f"Schedule:Compact,Position,,Through: 12/31,For: AllDays,{steps}Until: 24:00,0;\n"
+    program = "EnergyManagementSystem:Program,Turn"
+    for hour in range(24):
+        program += f",\n  IF Hour == {hour},SET Angle = {(hour + 1) * 7 % 60 if hour < 23 else 0},ENDIF"
+    ems = ("Schedule:Compact,Position,,Through: 12/31,For: AllDays,Until: 24:00,0;\n"
+           + "EnergyManagementSystem:Actuator,Angle,Position,Schedule:Compact,Schedule Value;\n"
+           + "EnergyManagementSystem:ProgramCallingManager,Caller,BeginZoneTimestepBeforeInitHeatBalance,Turn;\n"
+           + program + ";\n")
+    shade = CASES["centre line"][1]
+    scheduled = run(room(slats(), shade, schedule, DAYS), *REPORT)
+    overridden = run(room(slats(), shade, ems, DAYS), *REPORT, name="ems")
+    one, two = ([row["Shade position [deg]"] for row in rows(each)] for each in (scheduled, overridden))
+    assert len(set(one)) > 10
+    assert two == one
+    assert_same(scheduled, overridden)
+
+
+def test_a_cache_keeps_positions_apart(run, tmp_path):
+    cache = ("--gpu-shading-cache", str(tmp_path / "cache"))
+    shade = CASES["centre line"][1]
+    one, other = (room(slats(), shade, constant(position)) for position in (35, 10))
+    run(one, *cache)
+    second = run(other, *cache, name="other")
+    assert_same(second, run(other, name="alone"), 0.0)
+    assert "0 views drawn" in run(one, *cache, name="again").text("eplusout.err")
+
+
+def test_the_sky_follows_with_detailed_modeling(run):
+    """The diffuse light of the sky on the window at a constant position, and in a model that stands there."""
+    variable = "Surface Outside Face Incident Sky Diffuse Solar Radiation Rate per Area"
+    output = f"Output:Variable,Window,{variable},Timestep;\n"
+    varying = "Schedule:Compact,Leaves,,Through: 12/31,For: AllDays,Until: 12:00,0,Until: 24:00,0.001;\n"
+    far = surface("Far", [(500, 500, 0), (501, 500, 0), (501, 500, 1), (500, 500, 1)]).replace("Far,,", "Far,Leaves,")
+    moves = run(room(slats(), CASES["centre line"][1], constant(35), output, detailed=True))
+    there = run(room(slats(35), varying, far, output, detailed=True), name="there")
+    first, second = series(moves, variable), series(there, variable)
+    assert max(first.values()) > 20.0
+    assert max(abs(first[time] - second[time]) for time in first) < 1e-3 * max(first.values())
+    assert "position at rest" not in moves.text("eplusout.err")
+
+
+def test_what_does_not_follow_is_refused_or_stated(patched, weather, tmp_path, run):
+    text = room(slats(), CASES["centre line"][1], constant(35))
+    assert "diffuse light of the sky is that of the position at rest" in run(text).text("eplusout.err")
+    path = tmp_path / "model.idf"
+    for options, message in ((["--gpu-shading-update", "sampled:coarse"], "expected timestep with moving shades"),
+                             (["--gpu-shading=require"], "moving shades are rendered on the CPU")):
+        done = energyplus.run(patched, path, weather, tmp_path / message.split()[0], ["--gpu-shading", "-D", *options])
+        assert not done.completed
+        assert message in done.errors

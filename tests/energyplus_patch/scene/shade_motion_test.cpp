@@ -1,0 +1,91 @@
+#include "scene/shade_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace gpu_shading::energyplus {
+namespace {
+
+using Motion = MovingShade::Motion;
+using Axis = MovingShade::Axis;
+
+// 4 x 1 m, level, its long edges east-west.
+Polygon const slat{{{0, 0, 2}, {4, 0, 2}, {4, 1, 2}, {0, 1, 2}}, {}};
+
+MovingShade shade_of(Motion motion, Axis axis = Axis::centre_line, glm::dvec3 direction = {}) {
+  MovingShade shade;
+  shade.motion = motion;
+  shade.axis = axis;
+  shade.direction = direction;
+  return shade;
+}
+
+void expect_near(glm::dvec3 const& point, glm::dvec3 const& expected) {
+  EXPECT_LT(glm::distance(point, expected), 1e-12)
+      << point.x << ' ' << point.y << ' ' << point.z << " not " << expected.x << ' ' << expected.y
+      << ' ' << expected.z;
+}
+
+TEST(ShadeMotion, RotatesAboutTheCentreLineAndLowersTheSouthernEdge) {
+  auto const turned = moved(slat, shade_of(Motion::rotate), 90.0);
+  expect_near(turned.outline[0], {0, 0.5, 1.5});
+  expect_near(turned.outline[2], {4, 0.5, 2.5});
+}
+
+TEST(ShadeMotion, OrderOfVerticesDoesNotChangeTheAxis) {
+  auto reversed = slat;
+  std::reverse(reversed.outline.begin(), reversed.outline.end());
+  auto const turned = moved(reversed, shade_of(Motion::rotate), 90.0);
+  expect_near(turned.outline[3], {0, 0.5, 1.5});
+}
+
+TEST(ShadeMotion, RotatesAboutTheEdgeInADirection) {
+  auto const turned = moved(slat, shade_of(Motion::rotate, Axis::edge, {0, 1, 0}), 90.0);
+  expect_near(turned.outline[0], {0, 1, 1});
+  expect_near(turned.outline[3], {0, 1, 2});
+}
+
+TEST(ShadeMotion, SquaresTurnAboutALevelAxis) {
+  Polygon const square{{{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, {}};
+  auto const axis = rotation_axis(square, shade_of(Motion::rotate));
+  expect_near(axis.direction, {1, 0, 0});
+  expect_near(axis.point, {0.5, 0, 0.5});
+}
+
+TEST(ShadeMotion, SlidesAndExtendsAlongADirection) {
+  auto const slid = moved(slat, shade_of(Motion::slide, Axis::centre_line, {0, 0, -1}), 0.5);
+  expect_near(slid.outline[2], {4, 1, 1.5});
+  auto const grown = moved(slat, shade_of(Motion::extend, Axis::centre_line, {0, -1, 0}), 0.25);
+  expect_near(grown.outline[0], {0, 0.75, 2});
+  expect_near(grown.outline[2], {4, 1, 2});
+  EXPECT_EQ(area(moved(slat, shade_of(Motion::extend, Axis::centre_line, {0, -1, 0}), 0.0)), 0.0);
+}
+
+TEST(ShadeMotion, FacesTheProfileAngleOfTheSun) {
+  // In the south-east: the profile angle of the slat is atan(tan(altitude) / cos(45 degrees)).
+  glm::dvec3 const sun = glm::normalize(glm::dvec3(1, -1, 1));
+  auto const shade = shade_of(Motion::rotate);
+  double const position = facing_position(slat, shade, sun);
+  EXPECT_NEAR(position, 45.0, 1e-9);
+  auto const facing = normal(moved(slat, shade, position));
+  EXPECT_NEAR(glm::dot(facing, sun), std::numbers::sqrt2 / std::numbers::sqrt3, 1e-12);
+}
+
+TEST(ShadeMotion, PositionsAreOnTheGridAndAtItsEnds) {
+  MovingShade shade;
+  shade.minimum = 0.0;
+  shade.maximum = 1.0;
+  shade.step = 0.3;
+  EXPECT_EQ(shade.positions().size(), 5U);
+  EXPECT_DOUBLE_EQ(shade.nearest(0.31), 0.3);
+  EXPECT_DOUBLE_EQ(shade.nearest(0.96), 1.0);
+  EXPECT_DOUBLE_EQ(shade.nearest(0.94), 0.9);
+  EXPECT_DOUBLE_EQ(shade.nearest(-5.0), 0.0);
+  EXPECT_DOUBLE_EQ(shade.nearest(7.0), 1.0);
+}
+
+}  // namespace
+}  // namespace gpu_shading::energyplus
