@@ -65,7 +65,8 @@ TaskReply run_task(ModelRun const& run, Task const& task) {
   require_model(model);
   if (run.choices.mode == Mode::off) {
     throw Error(
-        "--gpu-shading (or GPU_SHADING) is off, but this command renders: expected auto or require");
+        "--gpu-shading (or GPU_SHADING) is off, but this command renders: expected auto or "
+        "require");
   }
   TemporaryFolder const folder;
   auto const request = folder.path() / "task";
