@@ -61,7 +61,7 @@ TEST(RunPage, OfALargeModelHasLessThanFiveMegabytes) {
   auto const html = to_html(std::move(page));
   RecordProperty("bytes", static_cast<int>(html.size()));
   EXPECT_LT(html.size(), 5'000'000U);
-  EXPECT_THAT(html, HasSubstr("The drawing is simplified: it has 45115 of 95000 casting surfaces"));
+  EXPECT_THAT(html, HasSubstr("The drawing is simplified: it has 35115 of 95000 casting surfaces"));
 }
 
 }  // namespace
