@@ -115,6 +115,7 @@ std::string perform(MaskTask const& task, SceneAssembly& scene, Messages const& 
   std::vector<std::vector<double>> fractions;
   if (task.spacing <= 0.0) {
     std::vector<SurfaceId> receivers;
+    receivers.reserve(places.size());
     for (auto const& place : places) receivers.push_back(place.receiver);
     fractions = render_suns(task, scene, receivers, messages);
   } else {

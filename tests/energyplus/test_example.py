@@ -21,7 +21,7 @@ def example(patched, tmp_path):
 
 
 @pytest.mark.parametrize("program", ["gpu_shading", "energyplus", "energyplus-gpu"])
-@pytest.mark.parametrize("name", ["box_with_louvres", "courtyard", "south_office"])
+@pytest.mark.parametrize("name", ["box_with_louvres", "courtyard", "south_office", "trees"])
 def test_an_example_comes_with_its_weather(name, program, example, weather, tmp_path):
     done = example(name, program=program)
     assert done.returncode == 0, done.stderr
@@ -35,7 +35,7 @@ def test_an_example_comes_with_its_weather(name, program, example, weather, tmp_
 @pytest.mark.parametrize("name, hint", [("canopy", ""), ("../tests", ""), ("courtyrd", "; did you mean courtyard?")])
 def test_what_is_not_an_example_is_refused_with_those_that_are(name, hint, example, tmp_path):
     assert example(name).stderr == (f"gpu_shading: error: example {name}: expected one of box_with_louvres, courtyard, "
-                                    f"south_office{hint}\n")
+                                    f"south_office, trees{hint}\n")
     assert not any(tmp_path.iterdir())
 
 

@@ -43,7 +43,7 @@ def test_devices_are_tested_side_by_side(program):
     count = len(verdicts.splitlines())
     titles, units, *rows = table.splitlines()
     assert titles.split()[-1] == "cpu" and units.split() == ["error", "ms"] * count
-    assert len(rows) == 7
+    assert len(rows) == 8
     for row in rows:
         values = [float(value) for value in row[24:].split()]
         assert len(values) == 2 * count

@@ -51,7 +51,8 @@ struct Projected {
 
 // The index of the first pixel whose centre is beyond a position.
 [[gnu::always_inline]] inline std::int32_t first_beyond(double position, double low, double high) {
-  return static_cast<std::int32_t>(least(most(position, low), high) + 0.5);
+  double const after_centre = least(most(position, low), high) + 0.5;
+  return static_cast<std::int32_t>(after_centre);
 }
 
 [[gnu::always_inline]] inline void project(Corners const& from, View const& view,

@@ -190,7 +190,7 @@ double Calculation::ray_transmittance(DaylightRay const& ray) {
   auto const& [origin, direction, hour] = ray;
   Ray const line{{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}};
   double const share = implementation_->with(
-      [&](auto& shading) { return shading.daylight_transmittance(line, hour); });
+      [&line, hour = hour](auto& shading) { return shading.daylight_transmittance(line, hour); });
   return share < opaque_below ? 0.0 : share;
 }
 
