@@ -71,6 +71,7 @@ void copy_into(Path const& target, Path const& example) {
 void copy_example(std::string const& name) {
   auto const examples = find_examples();
   std::vector<std::string> names;
+  names.reserve(examples.size());
   for (auto const& [known, folder] : examples) names.push_back(known);
   auto const found = examples.find(name);
   if (found == examples.end()) {

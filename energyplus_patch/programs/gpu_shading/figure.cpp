@@ -34,6 +34,8 @@ template <typename... Kinds>
 struct Visitor : Kinds... {
   using Kinds::operator()...;
 };
+template <typename... Kinds>
+Visitor(Kinds...) -> Visitor<Kinds...>;
 
 }  // namespace
 
