@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <numeric>
 #include <vector>
 
 #include "support/shapes.h"
@@ -18,10 +20,12 @@ constexpr int trees = 1000;
 Scene street(bool crowns, double crown_density) {
   Scene scene;
   for (int i = 0; i < receivers; ++i) {
-    scene.add({"window", south_facing(4.0 * (i % 20), 0.0, 1.0 + 3.0 * (i / 20), 2.5, 1.5)});
+    auto const place = std::div(i, 20);
+    scene.add({"window", south_facing(4.0 * place.rem, 0.0, 1.0 + 3.0 * place.quot, 2.5, 1.5)});
   }
   for (int i = 0; i < trees; ++i) {
-    glm::dvec3 const corner(-60.0 + 4.0 * (i % 50), -4.0 - 5.0 * (i / 50), 2.0);
+    auto const place = std::div(i, 50);
+    glm::dvec3 const corner(-60.0 + 4.0 * place.rem, -4.0 - 5.0 * place.quot, 2.0);
     constexpr double side = 3.5;
     constexpr double height = 6.0;
     Surface plan{"tree", level(corner.x, corner.y, corner.z, side, side)};
@@ -46,9 +50,10 @@ double milliseconds(Scene const& scene, DeviceChoice device) {
   RendererOptions options;
   options.device = device;
   Renderer renderer(scene, options);
-  std::vector<SurfaceId> ids;
-  for (SurfaceId id = 0; id < receivers; ++id) ids.push_back(id);
+  std::vector<SurfaceId> ids(receivers);
+  std::iota(ids.begin(), ids.end(), SurfaceId{0});
   std::vector<SunDirection> suns;
+  suns.reserve(directions);
   for (int i = 0; i < directions; ++i) suns.push_back(sun_at(110 + 7 * i, 15 + 2 * i));
   renderer.projected_sunlit_areas(suns, ids);  // creates tiles
   double const before = renderer.statistics().seconds;

@@ -80,8 +80,10 @@ Scene city(int buildings) {
   };
   int const across = static_cast<int>(std::ceil(std::sqrt(buildings)));
   for (int i = 0; i < buildings; ++i) {
-    double const x = 25.0 * (i % across - across / 2) + between(0.0, 5.0);
-    double const y = -20.0 - 25.0 * (i / across) + between(0.0, 5.0);
+    auto const place = std::div(i, across);
+    int const from_middle = place.rem - across / 2;
+    double const x = 25.0 * from_middle + between(0.0, 5.0);
+    double const y = -20.0 - 25.0 * place.quot + between(0.0, 5.0);
     double const width = between(8.0, 15.0);
     double const depth = between(8.0, 15.0);
     double const height = between(4.0, 30.0);
@@ -118,6 +120,7 @@ Result rendered(Scene const& scene, RendererOptions const& options) {
   Renderer renderer(scene, options);
   sunlit(renderer, sun_at(180, 45), 0);  // lays out the receiver's tile
   std::vector<SunDirection> suns;
+  suns.reserve(directions);
   for (int i = 0; i < directions; ++i) suns.push_back(direction(i));
   SurfaceId const receiver = 0;
   double const before = processor_seconds();
@@ -139,6 +142,7 @@ std::vector<glm::vec2> const& origins() {
   static std::vector<glm::vec2> const points = [] {
     constexpr double plastic = 1.32471795724474602596;
     std::vector<glm::vec2> made;
+    made.reserve(max_rays);
     for (int i = 0; i < max_rays; ++i) {
       made.emplace_back(window_width * std::fmod(0.5 + i / plastic, 1.0),
                         window_height * std::fmod(0.5 + i / (plastic * plastic), 1.0));
@@ -229,7 +233,8 @@ class Peer {
     for (int first = 0; first < rays; first += packet) {
       RTCRay16 some{};
       for (int k = 0; k < packet; ++k) {
-        glm::vec2 const from = origins()[static_cast<std::size_t>(first + k)];
+        auto const ray = static_cast<std::size_t>(first) + static_cast<std::size_t>(k);
+        glm::vec2 const from = origins()[ray];
         some.org_x[k] = from.x;
         some.org_z[k] = from.y;
         some.dir_x[k] = sun.x;
