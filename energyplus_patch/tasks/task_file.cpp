@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -198,7 +199,7 @@ ReceiverMap map_of(Json const& json) {
 // Many: as bytes.
 Json shares_to_json(std::vector<BeamShare> const& shares) {
   std::vector<std::uint8_t> bytes(shares.size() * sizeof(BeamShare));
-  std::memcpy(bytes.data(), shares.data(), bytes.size());
+  std::ranges::copy(std::as_bytes(std::span{shares}), std::as_writable_bytes(std::span{bytes}).begin());
   return Json::binary(std::move(bytes));
 }
 
@@ -206,7 +207,8 @@ std::vector<BeamShare> shares_of(Json const& json) {
   static_assert(std::is_trivially_copyable_v<BeamShare>);
   auto const& bytes = json.get_binary();
   std::vector<BeamShare> shares(bytes.size() / sizeof(BeamShare));
-  std::memcpy(shares.data(), bytes.data(), shares.size() * sizeof(BeamShare));
+  auto const read = std::as_writable_bytes(std::span{shares});
+  std::ranges::copy(std::as_bytes(std::span{bytes}).first(read.size()), read.begin());
   return shares;
 }
 
