@@ -77,9 +77,9 @@ CachedRenderer::Counts& CachedRenderer::Counts::operator+=(Counts const& other) 
 }
 
 CachedRenderer::CachedRenderer(Renderer renderer, std::optional<DiskCache> cache,
-                               std::span<SurfaceId const> receivers,
+                               std::span<SurfaceId const> receivers, MovedRenderers::Positions rest,
                                MovedRenderers::Open open_moved)
-    : renderers_(std::move(renderer), std::move(open_moved)),
+    : renderers_(std::move(renderer), std::move(rest), std::move(open_moved)),
       current_(&renderers_.at_rest()),
       cache_(std::move(cache)),
       numbers_(current_->scene().size()) {
@@ -336,7 +336,7 @@ CachedRenderer open_renderer(SceneAssembly const& scene, std::span<SurfaceId con
   }
   // By the device that was opened.
   rendering.device = DeviceChoice{renderer.device().id};
-  CachedRenderer answers(std::move(renderer), std::move(cache), receivers,
+  CachedRenderer answers(std::move(renderer), std::move(cache), receivers, scene.rest_positions(),
                          [&scene, rendering](MovedRenderers::Positions const& positions) {
                            return Renderer(scene.scene_at(positions), rendering);
                          });

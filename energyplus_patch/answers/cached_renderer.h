@@ -72,9 +72,10 @@ class CachedRenderer {
   };
 
   // `receivers` are rendered together at the first question, others from the first question about
-  // them on. `cache`: of this scene. `open_moved`: for a scene with moving shades.
+  // them on. `cache`: of this scene. `rest`, `open_moved`: for a scene with moving shades.
   CachedRenderer(Renderer renderer, std::optional<DiskCache> cache,
-                 std::span<SurfaceId const> receivers, MovedRenderers::Open open_moved = {});
+                 std::span<SurfaceId const> receivers, MovedRenderers::Positions rest = {},
+                 MovedRenderers::Open open_moved = {});
 
   // Sets the shares of screens in place (Renderer::set_deployments) and the positions of moving
   // shades. Together they are the state that answers are kept by.

@@ -18,17 +18,18 @@ class MovedRenderers {
   using Positions = std::vector<double>;
   using Open = std::function<Renderer(Positions const&)>;
 
-  // `open`: needed only if other positions than none are asked for.
-  MovedRenderers(Renderer drawn, Open open)
-      : drawn_(std::make_unique<Renderer>(std::move(drawn))), open_(std::move(open)) {}
+  // `resting`: with the shades at `rest`. `open`: needed only if other positions are asked for.
+  MovedRenderers(Renderer resting, Positions rest, Open open)
+      : resting_(std::make_unique<Renderer>(std::move(resting))),
+        rest_(std::move(rest)),
+        open_(std::move(open)) {}
 
-  // The renderer that was passed first: of the shades at rest.
-  Renderer& at_rest() { return *drawn_; }
-  Renderer const& at_rest() const { return *drawn_; }
+  Renderer& at_rest() { return *resting_; }
+  Renderer const& at_rest() const { return *resting_; }
 
   // Valid until the next call. Throws what `open` throws.
   Renderer& at(Positions const& positions) {
-    if (positions.empty()) return *drawn_;
+    if (positions == rest_) return *resting_;
     auto found = moved_.find(positions);
     if (found == moved_.end()) {
       if (moved_.size() >= max_renderers) close_oldest();
@@ -40,7 +41,7 @@ class MovedRenderers {
 
   RendererStatistics statistics() const {
     auto sum = closed_;
-    sum += drawn_->statistics();
+    sum += resting_->statistics();
     for (auto const& [positions, moved] : moved_) sum += moved.renderer->statistics();
     return sum;
   }
@@ -61,7 +62,8 @@ class MovedRenderers {
     moved_.erase(oldest);
   }
 
-  std::unique_ptr<Renderer> drawn_;
+  std::unique_ptr<Renderer> resting_;
+  Positions rest_;
   Open open_;
   std::map<Positions, Moved> moved_;
   std::uint64_t uses_ = 0;
