@@ -24,11 +24,11 @@ namespace {
 constexpr std::string_view name_field = "name";
 
 ExtensionType const& find_extension_type(std::string_view type) {
-  std::vector<std::string> known;
   for (auto const& candidate : extension_types()) {
     if (same_name(candidate.type, type)) return candidate;
-    known.emplace_back(candidate.type);
   }
+  std::vector<std::string> known;
+  for (auto const& candidate : extension_types()) known.emplace_back(candidate.type);
   throw Error(fmt::format("{}: no such object; known: {}{}", type, fmt::join(known, ", "),
                           did_you_mean(type, known)));
 }
@@ -94,11 +94,12 @@ std::vector<std::string> list_of(ExtensionType const& type, nlohmann::json const
 }
 
 FieldInfo const& find_field(ExtensionType const& type, std::string_view key) {
+  for (auto const* const field : type.fields) {
+    if (field->key == key && key != name_field) return *field;
+  }
   std::vector<std::string> known;
   for (auto const* const field : type.fields) {
-    if (field->key == name_field) continue;
-    if (field->key == key) return *field;
-    known.emplace_back(field->key);
+    if (field->key != name_field) known.emplace_back(field->key);
   }
   if (type.list_field != nullptr) known.emplace_back(type.list);
   throw Error(fmt::format("{}: no such field; known: {}{}", in_quotes(key), fmt::join(known, ", "),
