@@ -36,8 +36,15 @@ double extinction_of(double share) {
 }
 
 // Konarska et al. (2014): of the beam, through the crowns of street trees.
-double const with_leaves = extinction_of(0.03);
-double const without_leaves = extinction_of(0.46);
+double with_leaves() {
+  static double const extinction = extinction_of(0.03);
+  return extinction;
+}
+
+double without_leaves() {
+  static double const extinction = extinction_of(0.46);
+  return extinction;
+}
 
 CrownShape shape_of(field::CrownShape shape) {
   switch (shape) {
@@ -135,10 +142,10 @@ class Builder {
     double const sphere = std::cbrt(6.0 / std::numbers::pi * share_of_box(crown.shape) * box);
     constexpr double projection = 0.5;
     crown.wood_density =
-        read(object_, field::wood_area_density).value_or(without_leaves / (projection * sphere));
+        read(object_, field::wood_area_density).value_or(without_leaves() / (projection * sphere));
     crown.leaf_density =
         read(object_, field::leaf_area_density)
-            .value_or(std::max(0.0, with_leaves / (projection * sphere) - crown.wood_density));
+            .value_or(std::max(0.0, with_leaves() / (projection * sphere) - crown.wood_density));
     crown.deployment = leaf_share(tree, latitude);
     double const half = 0.5 * diameter;
     Surface surface;
