@@ -20,8 +20,6 @@ using Control = MovingShade::Control;
 
 constexpr std::size_t points_of_receiver = 256;
 constexpr std::size_t max_trials = 200;
-// In front of a receiver, m: its vertices are rounded to single precision.
-constexpr double lift = 1e-5;
 // Sunlit fraction below which a receiver counts as shaded.
 constexpr double no_beam = 1e-6;
 constexpr double half_circle = 180.0;
@@ -156,7 +154,7 @@ bool ShadeControl::is_lit(std::size_t index, double position, SunDirection sun) 
   std::vector<SurfaceId> unsure;
   for (auto& receiver : shades_[index].receivers) {
     if (glm::dot(receiver.area, towards_sun) <= 0.0) continue;
-    auto const offset = lift * glm::normalize(receiver.area);
+    auto const offset = ray_lift * glm::normalize(receiver.area);
     RayConditions conditions;
     conditions.receiver = receiver.id;
     conditions.factors = factors;

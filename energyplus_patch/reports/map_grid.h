@@ -10,6 +10,11 @@
 
 namespace gpu_shading::energyplus {
 
+// Of rays from receivers to the sun: EnergyPlus's limit of the cosine of incidence, and how many
+// are traced at once.
+inline constexpr double min_cosine = 1e-5;
+inline constexpr std::size_t rays_in_batch = 65536;
+
 // Axes in the Newell plane of a receiver, as somebody outside sees it: u to the right, v up. v
 // points up the slope of a tilted receiver. A horizontal receiver has its axes along its longest
 // edge, v within 45 degrees of north.

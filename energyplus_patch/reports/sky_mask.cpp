@@ -13,15 +13,6 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-// EnergyPlus hands over vertices in single precision: a ray begins this far in front of the
-// receiver, m, so that a surface in the same plane does not stop it.
-constexpr double lift = 1e-5;
-
-// EnergyPlus's limit of the cosine of incidence.
-constexpr double min_cosine = 1e-5;
-
-constexpr std::size_t rays_in_batch = 65536;
-
 ShadeKind kind_of_caster(std::string const& type, std::string const& name) {
   if (type == extension::geometry::type) return ShadeKind::geometry;
   if (type == extension::tree::type) return ShadeKind::trees;
@@ -130,7 +121,7 @@ std::vector<BeamShare> trace_shares(RayScene const& rays, RayConditions const& c
     batch.clear();
     origins.clear();
   };
-  auto const start = points.normal * lift;
+  auto const start = points.normal * ray_lift;
   for (std::size_t i = 0; i < directions.size(); ++i) {
     auto const towards = to_vector(directions[i]);
     if (glm::dot(towards, points.normal) < min_cosine) continue;

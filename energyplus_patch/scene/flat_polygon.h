@@ -12,6 +12,10 @@ namespace gpu_shading::energyplus {
 
 using FlatRing = std::vector<glm::dvec2>;
 
+// EnergyPlus hands over vertices in single precision: a ray begins this far in front of its
+// receiver, m, so that a surface in the same plane does not stop it.
+inline constexpr double ray_lift = 1e-5;
+
 // From one vertex of a ring to the next.
 glm::dvec3 longest_edge(Ring const& ring);
 

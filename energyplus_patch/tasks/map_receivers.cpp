@@ -33,15 +33,6 @@ struct MapSettings {
   std::size_t rays_per_cell = 4;  // at each time
 };
 
-// EnergyPlus hands over vertices in single precision: a ray begins this far in front of the
-// receiver, m, so that a surface in the same plane does not stop it.
-constexpr double lift = 1e-5;
-
-// EnergyPlus's limit of the cosine of incidence.
-constexpr double min_cosine = 1e-5;
-
-constexpr std::size_t rays_in_batch = 65536;
-
 bool alike(MapTime const& a, MapTime const& b) {
   return a.factors == b.factors && a.deployments == b.deployments;
 }
@@ -71,7 +62,7 @@ class RayBatch {
       trace();
     }
     times_.push_back({&time, cosine});
-    auto const start = grid_.axes().normal * lift;
+    auto const start = grid_.axes().normal * ray_lift;
     auto const rays = settings_.rays_per_cell;
     for (auto const& cell : grid_.cells()) {
       auto const first = rays * (number + turn_of(cell));
