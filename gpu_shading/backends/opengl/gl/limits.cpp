@@ -45,6 +45,14 @@ Limits query_limits() {
   return limits;
 }
 
+void require_vertex_storage(char const* content) {
+  if (query_limits().vertex_storage_blocks >= 1) return;
+  throw DeviceError(
+      fmt::format("the device has no storage buffers in its vertex stage, which {} need; choose "
+                  "another (gpu_shading devices), or cpu",
+                  content));
+}
+
 void require_storage(std::size_t bytes, char const* content) {
   GLint64 most = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);

@@ -19,6 +19,10 @@ struct Limits {
 
 Limits query_limits();
 
+// Throws DeviceError if the vertex stage of the current context has no storage buffers. `content`
+// names what needs them.
+void require_vertex_storage(char const* content);
+
 // Throws DeviceError if a storage block of the current context cannot have so many bytes. `content`
 // names what it holds.
 void require_storage(std::size_t bytes, char const* content);

@@ -59,11 +59,7 @@ CrownGeometry::CrownGeometry(Crowns const& crowns, glm::dvec3 const& scene_origi
                              gl::Buffer const& views)
     : crowns_(crowns) {
   if (crowns_.entries().empty()) return;
-  if (gl::query_limits().vertex_storage_blocks < 1) {
-    throw DeviceError(
-        "the device has no storage buffers in its vertex stage, which crowns of trees need; "
-        "choose another (gpu_shading devices), or cpu");
-  }
+  gl::require_vertex_storage("crowns of trees");
   program_ = gl::Program::link("crowns", shaders::crown_vert, shaders::crown_frag);
   std::vector<BoxVertex> vertices;
   for (Crowns::Entry const& crown : crowns_.entries()) add_faces(crown, scene_origin, vertices);

@@ -63,11 +63,7 @@ ScreenGeometry::ScreenGeometry(Screens const& screens, glm::dvec3 const& scene_o
     : screens_(screens),
       max_texels_(std::min(largest_texture, gl::query_limits().max_texture_size)) {
   if (screens_.entries().empty()) return;
-  if (gl::query_limits().vertex_storage_blocks < 1) {
-    throw DeviceError(
-        "the device has no storage buffers in its vertex stage, which perforated screens need; "
-        "choose another (gpu_shading devices), or cpu");
-  }
+  gl::require_vertex_storage("perforated screens");
   vertices_ = gl::Buffer::create();
   draw_indices_ = gl::Buffer::create();
   sheets_ = gl::Buffer::create();
