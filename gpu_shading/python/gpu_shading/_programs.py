@@ -83,6 +83,24 @@ def file(name: Name, what: str) -> Path:
     return path.absolute()
 
 
+def inputs(model: Name, weather: Name | None) -> list[str | Path]:
+    """The arguments that name a model and its weather file, which must be there."""
+    arguments: list[str | Path] = [file(model, "model")]
+    if weather is not None:
+        arguments += ["-w", file(weather, "weather")]
+    return arguments
+
+
+def flags(**values: object) -> list[str]:
+    """--name=value for each value that is not None; _ in a name stands for -."""
+    return [f"--{name.replace('_', '-')}={value}" for name, value in values.items() if value is not None]
+
+
+def environment() -> dict[str, str]:
+    """Without the variables of this software, so that a run is what its arguments say."""
+    return {key: value for key, value in os.environ.items() if not key.startswith("GPU_SHADING")}
+
+
 def gpu_shading(arguments: Sequence[str | Path]) -> str:
     """What the gpu_shading program prints. Raises RunError with its message."""
     done = subprocess.run([prefix() / "gpu_shading", *arguments], capture_output=True,

@@ -180,11 +180,8 @@ def view(model: _programs.Name, weather: _programs.Name | None = None, *, at: st
     azimuth and altitude `sun`. `camera`: azimuth and altitude to see it from instead, with its shadows."""
     if sum(value is not None for value in (at, day, sun)) != 1:
         raise InvalidInput("view: expected one of at, day and sun")
-    arguments = _given(model, weather)
-    for name, value in (("at", at), ("day", day), ("sun", _pair(sun)), ("receiver", receiver),
-                        ("camera", _pair(camera)), ("size", size)):
-        if value is not None:
-            arguments.append(f"--{name}={value}")
+    arguments = _programs.inputs(model, weather) + _programs.flags(
+        at=at, day=day, sun=_pair(sun), receiver=receiver, camera=_pair(camera), size=size)
     with tempfile.TemporaryDirectory(prefix="gpu_shading_view_") as folder:
         _programs.gpu_shading(["view", *arguments, "-o", Path(folder) / "view.png"])
         return Picture((Path(folder) / "view.png").read_bytes())
@@ -194,10 +191,8 @@ def map(model: _programs.Name, weather: _programs.Name, *, first: str | None = N
         receivers: str | None = None, spacing: float = 0.25, rays: int = 4) -> Drawings[Map]:
     """Maps sunlit hours and beam energy over receivers whose names match a pattern, from the `first` day "06-01" to the
     `last`, in cells of `spacing` m, as `gpu_shading map` does."""
-    arguments = _given(model, weather) + [f"--spacing={spacing}", f"--rays={rays}"]
-    for name, value in (("from", first), ("to", last), ("receivers", receivers)):
-        if value is not None:
-            arguments.append(f"--{name}={value}")
+    arguments = _programs.inputs(model, weather) + _programs.flags(
+        spacing=spacing, rays=rays, **{"from": first}, to=last, receivers=receivers)
     with tempfile.TemporaryDirectory(prefix="gpu_shading_map_") as temporary:
         folder = Path(temporary) / "maps"
         _programs.gpu_shading(["map", *arguments, "-o", folder])
@@ -215,11 +210,8 @@ def mask(model: _programs.Name, weather: _programs.Name | None = None, *, receiv
     """Draws the shading masks of windows, or of the receivers whose names match a pattern, as `gpu_shading mask` does.
     `points`: of a grid with this spacing, m. `beam`: hours with this direct normal irradiance or more, W/m2, are
     marked: the mean of the weather file, without which that of a clear sky."""
-    arguments = _given(model, weather) + [f"--projection={projection}", f"--step={step}", f"--rays={rays}",
-                                          f"--beam={beam}"]
-    for name, value in (("receiver", receiver), ("points", points)):
-        if value is not None:
-            arguments.append(f"--{name}={value}")
+    arguments = _programs.inputs(model, weather) + _programs.flags(
+        projection=projection, step=step, rays=rays, beam=beam, receiver=receiver, points=points)
     with tempfile.TemporaryDirectory(prefix="gpu_shading_mask_") as temporary:
         folder = Path(temporary) / "masks"
         _programs.gpu_shading(["mask", *arguments, "-o", folder])
@@ -238,13 +230,6 @@ def screen(model: _programs.Name, name: str | None = None) -> Drawings[Sheet]:
         text = _programs.gpu_shading(["screen", *arguments, "-o", folder])
         return Drawings([_sheet(folder, table.name.removesuffix("_tau.csv"), text)
                          for table in sorted(folder.glob("*_tau.csv"))])
-
-
-def _given(model: _programs.Name, weather: _programs.Name | None) -> list[str | Path]:
-    arguments: list[str | Path] = [_programs.file(model, "model")]
-    if weather is not None:
-        arguments += ["-w", _programs.file(weather, "weather")]
-    return arguments
 
 
 def _pair(angles: tuple[float, float] | None) -> str | None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import html
 import json
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -74,10 +73,7 @@ def read(model: _programs.Name, weather: _programs.Name | None = None) -> Conten
 
 
 def _document(model: _programs.Name, weather: _programs.Name | None, flags: list[str], format_: str) -> dict[str, Any]:
-    arguments: list[str | Path] = ["check", "--json", *flags, _programs.file(model, "model")]
-    if weather is not None:
-        arguments += ["-w", _programs.file(weather, "weather")]
-    document = json.loads(_programs.gpu_shading(arguments))
+    document = json.loads(_programs.gpu_shading(["check", "--json", *flags, *_programs.inputs(model, weather)]))
     if document.get("format") != format_:
         raise RunError(f"the gpu_shading program writes {document.get('format')!r}, expected {format_!r}: it is of "
                        "another version than this package")

@@ -203,10 +203,9 @@ def run(model: _programs.Name, weather: _programs.Name, folder: _programs.Name |
     inputs = [_programs.file(weather, "weather"), _programs.file(model, "model")]
     out = _empty_folder(folder)
     command: list[str | Path] = [program, *flags, *arguments, "-w", inputs[0], "-d", out, inputs[1]]
-    variables = {key: value for key, value in os.environ.items() if not key.startswith("GPU_SHADING")}
     # A session of its own, so that helpers of EnergyPlus end with it.
-    with subprocess.Popen(command, cwd=out, env=variables, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                          stderr=subprocess.PIPE, start_new_session=True) as process:
+    with subprocess.Popen(command, cwd=out, env=_programs.environment(), stdin=subprocess.DEVNULL,
+                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True) as process:
         try:
             errors = process.communicate()[1].decode(errors="replace")
         except BaseException:

@@ -94,10 +94,9 @@ def end_with_parent() -> None:
 def _run(command: list[str], folder: Path, limit: float | None,
          output: Path = Path(os.devnull)) -> tuple[int, str, bool]:
     """(exit status, standard error, whether the limit was reached); standard output goes into a file."""
-    variables = {key: value for key, value in os.environ.items() if not key.startswith("GPU_SHADING")}
     with open(output, "wb") as out, subprocess.Popen(
-            command, cwd=folder, env=variables, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.PIPE,
-            start_new_session=True, preexec_fn=end_with_parent) as process:
+            command, cwd=folder, env=_programs.environment(), stdin=subprocess.DEVNULL, stdout=out,
+            stderr=subprocess.PIPE, start_new_session=True, preexec_fn=end_with_parent) as process:
         hung = False
         try:
             errors = process.communicate(timeout=limit)[1]
