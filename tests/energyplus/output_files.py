@@ -1,5 +1,6 @@
 """Reads the outputs of a run, and makes those of two runs comparable."""
 
+import csv
 import re
 import sqlite3
 
@@ -10,6 +11,12 @@ TIMES = (
     re.compile(rb"\d{4}-\d\d-\d\d\s+\d\d:\d\d:\d\d"),
     re.compile(rb"(?<=clear), [\d.]+ s$", re.MULTILINE),  # our own line on what was rendered
 )
+
+
+def rows_of(path):
+    """The rows of a table with a heading, as dictionaries."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
 
 
 def masked(content):

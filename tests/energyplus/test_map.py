@@ -11,6 +11,7 @@ import sys
 
 import pytest
 import screened_room
+from output_files import rows_of
 from shading_runs import energyplus, input_file
 
 INCIDENT = "Surface Outside Face Incident Beam Solar Radiation Rate per Area"
@@ -39,11 +40,6 @@ def draw(model, weather, folder, *arguments):
     assert done.returncode == 0, done.stderr
     assert done.stdout == f"{folder}/maps.csv\n"
     return folder
-
-
-def rows_of(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def energies_of(folder):

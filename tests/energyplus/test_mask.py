@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import screened_room
 from eso_file import EsoFile
+from output_files import rows_of
 from PIL import Image
 from shading_runs import energyplus, input_file
 
@@ -29,11 +30,6 @@ def draw(model, folder, *arguments):
     assert done.returncode == 0, done.stderr
     assert done.stdout == f"{folder}/masks.csv\n"
     return folder
-
-
-def rows_of(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def test_hours_are_those_of_a_run(patched, courtyard, weather, tmp_path):

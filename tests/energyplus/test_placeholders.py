@@ -5,7 +5,6 @@ With solar reflections, EnergyPlus asks for the sunlit fraction of every shading
 those in the text of the model, and with what the same model shows without reflections.
 """
 
-import csv
 import json
 import re
 import subprocess
@@ -14,6 +13,7 @@ import sys
 import numpy as np
 import pytest
 import test_run_page
+from output_files import rows_of
 from PIL import Image
 from shading_runs import energyplus
 
@@ -68,11 +68,6 @@ def building_of(model):
     exterior = {name for name in walls if name != "FLOOR"}
     assert len(exterior) == len(walls) - 1 and windows
     return exterior | windows
-
-
-def rows_of(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def test_check_lists_the_model(models, program):

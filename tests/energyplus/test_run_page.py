@@ -1,7 +1,6 @@
 """The page of a run (--gpu-shading-report): its numbers against EnergyPlus's own, and the page in a browser."""
 
 import base64
-import csv
 import json
 import re
 import subprocess
@@ -10,6 +9,7 @@ import numpy as np
 import pytest
 from eso_file import EsoFile
 from html_page import DARK, SOFTWARE_WEBGL, look_at, not_in_tables, print_page, screenshot
+from output_files import rows_of
 from PIL import Image
 from shading_runs import energyplus, input_file
 
@@ -118,11 +118,6 @@ def page(run):
 
 def done_model(run):
     return run[0].folder.parent / "courtyard.idf"
-
-
-def rows_of(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def outputs(run):

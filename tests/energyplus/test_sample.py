@@ -1,6 +1,5 @@
 """gpu_shading sample: samples without a run against EnergyPlus's own, and in shards against one go."""
 
-import csv
 import json
 import os
 import signal
@@ -11,6 +10,7 @@ from datetime import datetime, timedelta
 from pathlib import Path
 
 import pytest
+from output_files import rows_of
 from shading_runs import energyplus, input_file, results
 
 TABLES = ("samples.csv", "year.csv", "samples.json")
@@ -74,11 +74,6 @@ def courtyard_run(patched, courtyard_model, weather, tmp_path_factory):
 def sampled_run(courtyard_run, tmp_path_factory):
     report = tmp_path_factory.mktemp("report")
     return courtyard_run("sampled:medium", f"--gpu-shading-report={report}"), report
-
-
-def rows_of(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def place_of(*angles):
