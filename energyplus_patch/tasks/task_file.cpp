@@ -199,7 +199,8 @@ ReceiverMap map_of(Json const& json) {
 // Many: as bytes.
 Json shares_to_json(std::vector<BeamShare> const& shares) {
   std::vector<std::uint8_t> bytes(shares.size() * sizeof(BeamShare));
-  std::ranges::copy(std::as_bytes(std::span{shares}), std::as_writable_bytes(std::span{bytes}).begin());
+  std::ranges::copy(std::as_bytes(std::span{shares}),
+                    std::as_writable_bytes(std::span{bytes}).begin());
   return Json::binary(std::move(bytes));
 }
 
