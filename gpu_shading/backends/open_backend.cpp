@@ -41,6 +41,9 @@ class SomeViewsOnCpu : public ViewBackend {
 
   DeviceInfo const& device() const override { return device_->device(); }
   bool samples_pixels() const override { return device_->samples_pixels(); }
+  std::optional<std::size_t> few_casters(bool interiors) const override {
+    return device_->few_casters(interiors);
+  }
 
   void add(std::vector<ReceiverView> views) override;
   std::vector<ViewSums> finish() override;

@@ -105,8 +105,9 @@ constexpr double min_cosine = 0.05;
 
 // "a receiver behind transparent shades"
 std::string kind_of(ReceiverView const& view, Transmission const& transmission) {
-  std::string const casters =
-      view.transmits ? transmission.describe(view.casters) : "opaque casters";
+  std::string const casters = view.crowd != nullptr ? "a crowd of opaque casters"
+                              : view.transmits      ? transmission.describe(view.casters)
+                                                    : "opaque casters";
   return (view.through ? "an interior behind " : "a receiver behind ") + casters;
 }
 
@@ -146,6 +147,10 @@ DeviceInfo const& CheckedBackend::device() const { return device_ ? info_ : refe
 
 bool CheckedBackend::samples_pixels() const {
   return (device_ ? device_ : reference_)->samples_pixels();
+}
+
+std::optional<std::size_t> CheckedBackend::few_casters(bool interiors) const {
+  return (device_ ? device_ : reference_)->few_casters(interiors);
 }
 
 void CheckedBackend::add(std::vector<ReceiverView> views) {
@@ -205,7 +210,8 @@ std::string CheckedBackend::find_fault(std::vector<ViewSums> const& sums) {
     for (Kept const* const kept : checks.choose()) {
       chosen.push_back({kind, &checks, kept});
       views.push_back(kept->view);
-      views.back().at_pixels = true;
+      // A crowd's samples are the CPU's.
+      views.back().at_pixels = kept->view.crowd == nullptr;
     }
   }
   if (chosen.empty()) return {};

@@ -56,6 +56,7 @@ class CheckedBackend : public ViewBackend {
 
   DeviceInfo const& device() const override;
   bool samples_pixels() const override;
+  std::optional<std::size_t> few_casters(bool interiors) const override;
 
   void add(std::vector<ReceiverView> views) override;
   std::vector<ViewSums> finish() override;
