@@ -137,8 +137,10 @@ std::unique_ptr<ViewBackend> open_checked_backend(BackendInput const& input,
                                                   DeviceChoice const& choice, Warn const& warn) {
   auto opened = open_backend(input, choice, warn);
   if (opened->device().id.is_cpu()) return opened;
-  auto checked = std::make_unique<CheckedBackend>(std::move(opened),
-                                                  std::make_unique<CpuBackend>(input), input, warn);
+  using Keep = CheckedBackend::Keep;
+  auto checked = std::make_unique<CheckedBackend>(
+      std::move(opened), std::make_unique<CpuBackend>(input), input, warn,
+      choice.device ? Keep::if_right : Keep::if_right_and_not_slower);
   if (input.transmission.screens().entries().size() < 2) return checked;
   return std::make_unique<SomeViewsOnCpu>(std::move(checked), std::make_unique<CpuBackend>(input),
                                           input.transmission);

@@ -121,7 +121,8 @@ std::span<OptionRow const> option_rows() {
            .value = mode_value,
            .default_text = "the official program",
            .meaning = "`auto` (also the flag alone, `on`, `yes`, `true` and `1`): render on a GPU "
-                      "if there is one, otherwise on the CPU. `require`: stop if there is no GPU. "
+                      "if there is one that is not slower, otherwise on the CPU. `require`: stop "
+                      "if there is no GPU. "
                       "`off` (also `no`, `false` and `0`): use polygon clipping, for comparison, "
                       "and remove the extension objects from the input",
            .bare = "auto"}),
