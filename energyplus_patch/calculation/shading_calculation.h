@@ -54,7 +54,9 @@ class ShadingCalculation {
   virtual double projected_sunlit_area(SurfaceId receiver) = 0;
   virtual std::vector<double> projected_sunlit_areas(std::span<SurfaceId const> receivers) = 0;
 
-  // The areas that the sun lights of interior surfaces through a window, in order.
+  // The areas that the sun lights of interior surfaces through a window, in order. EnergyPlus keeps
+  // those above 0 as the beam's of the timestep, even where it asks for a patch of the sky after
+  // the sun (DetailedSkyDiffuseModeling with schedules): from there, they are 0.
   virtual std::vector<double> interior_areas(SurfaceId window,
                                              std::vector<SurfaceId> const& interiors) = 0;
 

@@ -38,9 +38,7 @@ def compare(count, folder):
         place = folder / words.replace(" ", "_")
         place.mkdir()
         path = place / "moving_louvres.idf"
-        # With FullInteriorAndExterior, EnergyPlus counts beam indoors several times: see limits.md.
-        model = generate.model(count, control, position).replace("FullInteriorAndExterior", "FullExterior")
-        path.write_text(model + OUTPUTS)
+        path.write_text(generate.model(count, control, position) + OUTPUTS)
         done = case_study.run_year(path, WEATHER, words)
         values = results.Results(done.folder, "Monthly")
         amounts = " | ".join(f"{values.total(variable):,.0f}" for variable in ENERGY)
