@@ -29,6 +29,7 @@ void solar_beam(State& state, int hour, int timestep) {
   if (auto* const memory = daylight_memory()) memory->note_shadows(hour);
   has_sun() = false;
   original_solar_beam(state, hour, timestep);
+  if (auto* const session = this_run().session) guarded([&] { session->end_time(); });
 }
 
 // EnergyPlus keeps sunlit fractions without reveals by time, those of the sky's patches as well,
@@ -55,7 +56,9 @@ void solar_calculations(State& state) {
   if (session != nullptr && session->records_days()) {
     guarded([&] {
       auto const& functions = installation().functions;
-      session->begin_day(functions.day(state), [&] { return functions.beam_of_day(state); });
+      session->begin_day(
+          functions.day(state), [&] { return functions.beam_of_day(state); },
+          [&] { return functions.wind_of_day(state); });
     });
   }
   original_solar_calculations(state);

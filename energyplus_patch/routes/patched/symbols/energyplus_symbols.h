@@ -61,6 +61,7 @@ enum class Need {
   sky_times,       // beam that reveals reflect is wrong where the sky follows schedules
   surface_ids,     // mirrored shading surfaces are taken as shaded, and there are no `reflections`
   run_days,        // the report has no days
+  outputs,         // moving shades have no output variables
   daylight_rays,   // hidden casters dim no rays of daylighting
   reflections,     // hidden casters do not take part in solar reflections
   daylight_reflections,  // hidden casters do not take part in reflections of daylighting

@@ -32,6 +32,12 @@ TEST(MovingShades, HaveDefaultsByMotion) {
   EXPECT_EQ(shade.step, 1.0);
   EXPECT_EQ(shade.rest, 0.0);
   EXPECT_EQ(shade.schedule, "TURN");
+  EXPECT_EQ(shade.maximum_wind, std::nullopt);
+  auto const folds =
+      read_shades("GPUShading:MovingShade,S,Slat *,Fold,,1,0,0,,,,,,,,,T,,,,,12;").front();
+  EXPECT_EQ(folds.unit(), "deg");
+  EXPECT_EQ(folds.maximum, 90.0);
+  EXPECT_EQ(folds.maximum_wind, 12.0);
   EXPECT_EQ(shade.describe(),
             "GPUShading:MovingShade Louvres: 2 surfaces, Rotate from 0 to 90 deg in steps of "
             "1, at rest at 0, by Schedule TURN");
@@ -47,6 +53,9 @@ TEST(MovingShades, WrongOnesAreNamedWithFieldAndValue) {
   expect_error(head + "Slat 1,Rotate,,1,0,0;", "expected blanks with Axis CentreLine");
   expect_error(head + "Slat 1,Rotate,,,,,,,,20,10,,,,T;", "Maximum Position is 10");
   expect_error(head + "Slat 1,Extend,,0,1,0,,,,0,2,,,,T;", "expected shares from 0 to 1");
+  expect_error(head + "Slat 1,Fold,,1,0,0,,,,0,100,,,,T;", "expected -90 to 90 degrees for Fold");
+  expect_error(head + "Slat 1,Fold,,,,,,,,,,,,,T;", "Direction X, Y and Z are 0");
+  expect_error(head + "Slat 1,Rotate,,,,,,,,,,,,,T,,,,,-1;", "Maximum Wind Speed");
   expect_error(head + "Slat 1,Rotate,,,,,,,,,,0.001;", "Step is 0.001");
   expect_error(head + "Slat 1,Rotate,,,,,,,,,,,91;", "Position at Rest is 91");
   expect_error(head + "Slat 1,Rotate;", "Position Schedule Name");
