@@ -4,6 +4,7 @@ import csv
 import math
 import re
 import sqlite3
+import subprocess
 
 import pytest
 import window_with_shades
@@ -327,6 +328,21 @@ def test_the_sky_follows_with_detailed_modeling(run):
     assert max(first.values()) > 20.0
     assert max(abs(first[time] - second[time]) for time in first) < 1e-3 * max(first.values())
     assert "position at rest" not in moves.text("eplusout.err")
+
+
+def test_pictures_show_other_positions(patched, weather, tmp_path):
+    shade = CASES["centre line"][1] + constant(0)
+    pictures = {}
+    for name, text, options in (("moved", slats() + shade, ["--gpu-shading-positions", "shade=35"]),
+                                ("there", slats(35), []), ("rest", slats() + shade, [])):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "model.idf").write_text(room(text))
+        done = subprocess.run([patched.parent / "gpu_shading", "view", "model.idf", "-w", weather, "--at", "08-21 13:00",
+                               "-o", "picture.png", *options], cwd=tmp_path / name, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        pictures[name] = (tmp_path / name / "picture.png").read_bytes()
+    assert pictures["moved"] == pictures["there"]
+    assert pictures["moved"] != pictures["rest"]
 
 
 def test_what_does_not_follow_is_refused_or_stated(patched, weather, tmp_path, run):

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <sstream>
 
 #include "gpu_shading/error.h"
 #include "model/idf/fields.h"
@@ -192,6 +193,32 @@ std::vector<MovingShade> read_moving_shades(std::vector<InputObject> const& obje
     });
   }
   return shades;
+}
+
+void set_rest(std::vector<MovingShade>& shades, std::string const& option,
+              std::string const& positions) {
+  std::vector<std::string> names;
+  for (auto const& shade : shades) names.push_back(shade.name);
+  std::istringstream parts(positions);
+  for (std::string part; std::getline(parts, part, ',');) {
+    auto const equals = part.rfind('=');
+    auto const position = parse_number(equals == std::string::npos ? "" : part.substr(equals + 1));
+    if (!position) {
+      throw Error(fmt::format("{} {}: expected NAME=POSITION", option, in_quotes(part)));
+    }
+    auto const name = part.substr(0, equals);
+    auto const shade = std::find_if(shades.begin(), shades.end(),
+                                    [&](auto const& each) { return same_name(each.name, name); });
+    if (shade == shades.end()) {
+      throw Error(fmt::format("{} {}: the model has no such {}{}", option, in_quotes(name),
+                              field::type, did_you_mean(name, names)));
+    }
+    if (*position < shade->minimum || *position > shade->maximum) {
+      throw Error(fmt::format("{} {}: expected {} to {} {}", option, in_quotes(part),
+                              shade->minimum, shade->maximum, shade->unit()));
+    }
+    shade->rest = shade->nearest(*position);
+  }
 }
 
 }  // namespace gpu_shading::energyplus

@@ -60,4 +60,8 @@ struct MovingShade {
 std::vector<MovingShade> read_moving_shades(std::vector<InputObject> const& objects,
                                             ShadingInput const& input, Names const& fixed);
 
+// Sets positions at rest: "Louvres=40,Awning=0.5". Throws Error, naming `option`.
+void set_rest(std::vector<MovingShade>& shades, std::string const& option,
+              std::string const& positions);
+
 }  // namespace gpu_shading::energyplus

@@ -43,6 +43,24 @@ TEST(MovingShades, HaveDefaultsByMotion) {
             "1, at rest at 0, by Schedule TURN");
 }
 
+TEST(MovingShades, RestWhereAnOptionSays) {
+  auto shades = read_shades(
+      "GPUShading:MovingShade,South=1,Slat 1,Rotate,,,,,,,,,,5,,,Turn;"
+      "GPUShading:MovingShade,Awning,Slat 2,Extend,,0,-1,0,,,,,,,,,Share;");
+  set_rest(shades, "--positions", "awning=0.25,South=1=42");
+  EXPECT_EQ(shades[0].rest, 40.0);
+  EXPECT_EQ(shades[1].rest, 0.25);
+  auto const expect_refused = [&](std::string const& text, std::string const& message) {
+    EXPECT_THAT([&] { set_rest(shades, "--positions", text); },
+                testing::ThrowsMessage<Error>(testing::HasSubstr(message)))
+        << text;
+  };
+  expect_refused("Awning", "--positions \"Awning\": expected NAME=POSITION");
+  expect_refused("Awning=open", "--positions \"Awning=open\": expected NAME=POSITION");
+  expect_refused("Awnings=0", "no such GPUShading:MovingShade; did you mean Awning?");
+  expect_refused("Awning=1.5", "--positions \"Awning=1.5\": expected 0 to 1 share");
+}
+
 TEST(MovingShades, WrongOnesAreNamedWithFieldAndValue) {
   std::string const head = "GPUShading:MovingShade,S,";
   expect_error(head + "Blind,Rotate,,,,,,,,,,,,,T;",
