@@ -34,6 +34,7 @@ constexpr FieldInfo method_value = choice(method_words, "auto");
 constexpr FieldInfo assets_value = choice(assets_words, "restricted");
 constexpr FieldInfo switch_value = choice(switch_words, "off");
 constexpr FieldInfo path_value{.key = "", .title = ""};
+constexpr FieldInfo text_value{.key = "", .title = ""};
 constexpr FieldInfo path_or_off_value{.key = "", .title = "", .words = off_word, .blank = "off"};
 constexpr FieldInfo threads_value{.key = "",
                                   .title = "",
@@ -179,6 +180,12 @@ std::span<OptionRow const> option_rows() {
            .placeholder = "DIR",
            .meaning = "Keep answers in this folder, so that later runs of the same geometry need "
                       "not render them"}),
+      at<&Choices::positions>(
+          {.name = "positions",
+           .value = text_value,
+           .placeholder = "NAME=POSITION,...",
+           .default_text = "as in the model",
+           .meaning = "Positions at rest of moving shades, which pictures, maps and masks show"}),
       at<&Choices::threads>({.name = "threads",
                              .value = threads_value,
                              .placeholder = "N",
