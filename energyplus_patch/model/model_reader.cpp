@@ -170,6 +170,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   check_textures(model.surroundings, model.screens);
   model.moving_shades =
       read_moving_shades(objects, model.shading, fixed_surfaces(model.surroundings));
+  model.pv_modules = read_pv_modules(objects, model.shading);
   model.options = resolve(choices, read_settings(objects), model.shading);
   plan_rays(objects, reader, model);
   if (model.options.mode != Mode::off) {
