@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "answers/sun_questions.h"
+#include "calculation/pv_loss.h"
 #include "calculation/shade_control.h"
 #include "calculation/shading_calculation.h"
 #include "hidden/daylight_memory.h"
@@ -49,8 +50,8 @@ class Session : public ShadingCalculation {
   // Instead of start(): the surfaces with their optics, for a task (tasks/perform_task.h).
   SceneAssembly& complete(Schedules schedules);
 
-  // Whether the report wants the days of the run; then they are handed over as they begin.
-  bool records_days() const { return record_ || control_; }
+  // Whether the days of the run are wanted; then they are handed over as they begin.
+  bool records_days() const { return record_ || control_ || pv_loss_; }
   void begin_day(RunDay const& day, RunRecord::Beam const& beam);
 
   void set_time(Moment moment) override;
@@ -97,6 +98,7 @@ class Session : public ShadingCalculation {
   void write_reports();
   void move_shades(std::optional<SunDirection> sun);
   double beam_now();
+  double with_pv_loss(SurfaceId id, double projected_area);
   double of_drawn(SurfaceId id, double projected_area) const;
   void renew_reflections();
   std::optional<glm::dvec3>* first_sun_now();
@@ -112,6 +114,8 @@ class Session : public ShadingCalculation {
   std::optional<SunQuestions> answers_;  // once started
   std::optional<RunRecord> record_;      // for the report
   std::optional<ShadeControl> control_;  // of moving shades
+  std::optional<PvLoss> pv_loss_;        // with --gpu-shading-pv
+  bool sky_patch_ = false;               // the sun is a patch of the sky
   bool undecided_ = false;               // it waits for the sun of this timestep
   PositionRecord position_record_;
   RunDay day_;

@@ -179,6 +179,10 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
     model.simplified = find_simplified_surfaces(objects, model.shading, model.lean.left_out);
     if (!model.surroundings.empty()) ensure_placeholders(model.lean, model.shading);
     prepare_for_moving_shades(model);
+    if (choices.pv) {
+      model.pv_reductions = read_pv_reductions(*choices.pv, objects, model.shading);
+      model.options.update.every_timestep = true;
+    }
     if (model.shading.detailed_sky && (any_moves(model.screens) || !model.moving_shades.empty())) {
       add_sky_placeholder(model.lean, model.shading);
     }

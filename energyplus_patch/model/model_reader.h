@@ -10,6 +10,7 @@
 #include "model/input/moving_shades.h"
 #include "model/input/perforated_screens.h"
 #include "model/input/pv_modules.h"
+#include "model/input/pv_reductions.h"
 #include "model/input/shading_input.h"
 #include "model/input/transparent_shades.h"
 #include "model/lean_input.h"
@@ -27,6 +28,7 @@ struct Model {
   PerforatedScreens screens;
   std::vector<MovingShade> moving_shades;
   std::vector<PvModules> pv_modules;
+  PvReductions pv_reductions;
   Options options;
   LeanInput lean;
   SimplifiedSurfaces simplified;

@@ -1,6 +1,7 @@
 """gpu_shading.pv: power of partly shaded modules against pvlib's own functions, one cell at a time, and Martinez's
 measured blocks."""
 
+import re
 import sys
 
 import numpy as np
@@ -14,6 +15,7 @@ pvlib = pytest.importorskip("pvlib", reason="pvlib is missing: run scripts/setup
 
 from gpu_shading.drawings import Picture  # noqa: E402
 
+import gpu_shading  # noqa: E402
 from gpu_shading import pv, pv_modules  # noqa: E402
 
 # A module of 60 cells, as the CEC has them.
@@ -81,7 +83,7 @@ def test_levels_of_mismatch():
     [power] = modules(cells, strings=[0, 0, 1, 1]).power(MODULE)
     assert power.module_with[0] == pytest.approx(power.module_without[0], rel=1e-9)
     assert power.surface_with[0] == pytest.approx(power.surface_without[0], rel=1e-9)
-    assert power.effective_sunlit[0] == pytest.approx(1.0, abs=1e-9)
+    assert power.reduction[0] == pytest.approx(0.0, abs=1e-9)
     assert power.module_with[1] == pytest.approx(power.module_without[1], rel=2e-3)
     assert power.string_with[1, 0] == pytest.approx(power.string_with[0, 0], rel=0.02)  # cooler
     assert power.string_with[1, 1] < 0.8 * power.string_without[1, 1]
@@ -90,7 +92,7 @@ def test_levels_of_mismatch():
     lost = 1 - power.surface_with[1] / power.surface_without[1]
     beam, rest = 800.0, 100.0
     before = beam * power.sunlit[1] + rest
-    assert beam * power.effective_sunlit[1] + rest == pytest.approx(before * (1 - lost), rel=0.02)
+    assert beam * (power.sunlit[1] - power.reduction[1]) + rest == pytest.approx(before * (1 - lost), rel=0.02)
     assert 0 < power.loss < 0.2
     frame = pytest.importorskip("pandas") and power.frame()
     assert frame["surface", 1, "with"].to_numpy() == pytest.approx(power.surface_with)
@@ -104,13 +106,11 @@ def test_a_darker_sky_is_mismatch_too():
 
 
 def test_wrong_parameters_are_named():
-    from gpu_shading import InvalidInput
-
-    with pytest.raises(InvalidInput, match="'No such' is not in pvlib's table"):
+    with pytest.raises(gpu_shading.InvalidInput, match="'No such' is not in pvlib's table"):
         modules(np.ones((1, 1, 10, 6))).power("No such")
-    with pytest.raises(InvalidInput, match="R_s, N_s missing"):
+    with pytest.raises(gpu_shading.InvalidInput, match="R_s, N_s missing"):
         modules(np.ones((1, 1, 10, 6))).power({key: MODULE[key] for key in MODULE if key not in ("R_s", "N_s")})
-    with pytest.raises(InvalidInput, match="N_s is 72, but modules on Deck have 60 cells"):
+    with pytest.raises(gpu_shading.InvalidInput, match="N_s is 72, but modules on Deck have 60 cells"):
         modules(np.ones((1, 1, 10, 6))).power({**MODULE, "N_s": 72})
 
 
@@ -148,3 +148,52 @@ def test_martinez_s_blocks(patched, weather, tmp_path):
         print(f"{found} blocks, loss {loss:.4f}, in the paper {expected:.4f}")
         assert found == blocks
         assert loss == pytest.approx(expected, abs=5e-3)  # as in pvlib's test
+
+
+DAYS = "RunPeriod,Year,12,18,,12,22"
+
+
+@pytest.fixture(scope="module")
+def winter(patched, weather, tmp_path_factory):
+    """The example in five days of December: (model, weather, power by row)"""
+    folder = tmp_path_factory.mktemp("winter")
+    text = test_modules.EXAMPLE.read_text().replace("RunPeriod,Year,1,1,,12,31", DAYS)
+    (folder / "pv_roof.idf").write_text(text + "Output:Variable,*,Generator Produced DC Electricity Energy,Timestep;\n")
+    cells = gpu_shading.modules(folder / "pv_roof.idf", weather, first="12-18", last="12-22")
+    return folder / "pv_roof.idf", weather, cells.power({**MODULE, "I_L_ref": 9.3})
+
+
+def test_generators_and_load_centres_lose_what_strings_lose(winter, tmp_path):
+    model, weather, powers = winter
+    runs = [gpu_shading.run(model, weather, tmp_path / name, pv=pv) for name, pv in (("plain", None), ("pv", powers))]
+    energies = [run.values("Generator Produced DC Electricity Energy", "TimeStep") for run in runs]
+    for number, power in enumerate(powers, 1):
+        before, after = (energy[f"GENERATOR {number}"].sum() for energy in energies)
+        expected = power.surface_with.sum() / power.surface_without.sum()
+        print(f"{power.name}: {after / before:.3f} of EnergyPlus's energy is left, {expected:.3f} by pvlib")
+        assert f"--gpu-shading-pv: {power.name}: sunlit fraction reduced at " in " ".join(runs[1].messages)
+        # PVWatts has light of the sky that nothing shades: it cannot lose more than its beam.
+        low, high = (-0.02, 0.15) if number == 1 else (-0.03, 0.03)
+        assert low < after / before - expected < high and expected < 0.9
+    produced = [run.values("Electric Load Center Produced Electricity Energy", "Monthly") for run in runs]
+    before, after = (sum(energy[f"GENERATOR {number}"].sum() for number in (2, 3)) for energy in energies)
+    # Produced before the inverter.
+    assert produced[0]["PHOTOVOLTAIC"].sum() - produced[1]["PHOTOVOLTAIC"].sum() == pytest.approx(before - after)
+
+
+def test_refused_reductions_are_named(winter, tmp_path):
+    model, weather, _ = winter
+    for row, why in (("12,21,12,1,0.5,0.5,Roof", "is a surface of the building, whose heat balance would change"),
+                     ("12,21,12,1,0.5,0.5,Row 4", "no shading surface of the model; did you mean"),
+                     ("12,21,12,1,1.5,0.5,Row 1", 'line 2: reduction is "1.5", expected a number from 0 to 1'),
+                     ("12,21,25,1,1,1,Row 1", 'hour is "25", expected an integer from 1 to 24')):
+        (tmp_path / "pv.csv").write_text(f"month,day,hour,timestep,reduction,PVWatts,surface\n{row}\n")
+        with pytest.raises(gpu_shading.RunError, match=re.escape(why)):
+            gpu_shading.run(model, weather, tmp_path / row.replace("/", " "),
+                            arguments=[f"--gpu-shading-pv={tmp_path / 'pv.csv'}"])
+
+
+def test_a_surface_of_pvwatts_is_rendered(patched):
+    """Nothing but the generator asks for it."""
+    listed = gpu_shading.check(test_modules.EXAMPLE)
+    assert [each["receives"] for each in listed["surfaces"] if each["name"].startswith("ROW")] == [True] * 3

@@ -4,7 +4,6 @@ modules of a string are in series, and each string has a maximum power point tra
 
 from __future__ import annotations
 
-import csv
 import importlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -48,8 +47,11 @@ class Power:
     surface_without: Floats
     sunlit: Floats
     """Mean beam sunlit fraction of the surface's cells."""
-    effective_sunlit: Floats
-    """The sunlit fraction that reduces the irradiance of the whole surface in the ratio of with to without mismatch."""
+    reduction: Floats
+    """Of the sunlit fraction, by which the irradiance of the surface is reduced in the ratio of with to without
+    mismatch."""
+    beam_reduction: Floats
+    """The same where the circumsolar part of the sky's light is not shaded."""
     steps_per_hour: int
 
     @property
@@ -94,14 +96,14 @@ def power(modules: Modules, module: str | Mapping[str, float], *, albedo: float 
     return tuple(_power(field, modules, _parameters(module), albedo, reverse) for field in modules)
 
 
-def write_sunlit(powers: Sequence[Power], file: _programs.Name) -> None:
-    """Writes effective sunlit fractions, for `energyplus --gpu-shading-pv=FILE`."""
-    with open(Path(file), "w", newline="", encoding="utf-8") as lines:
-        rows = csv.writer(lines)
-        rows.writerow(["surface", "month", "day", "hour", "timestep", "sunlit fraction", "effective sunlit fraction"])
+def write_reductions(powers: Sequence[Power], file: _programs.Name) -> None:
+    """Writes the reductions of sunlit fractions, for `energyplus --gpu-shading-pv FILE` and run()."""
+    with open(Path(file), "w", encoding="utf-8") as lines:
+        lines.write("month,day,hour,timestep,reduction,PVWatts,surface\n")
         for each in powers:
-            for clock, sunlit, effective in zip(each.clock, each.sunlit, each.effective_sunlit, strict=True):
-                rows.writerow([each.name, *clock, f"{sunlit:.6f}", f"{effective:.6f}"])
+            for clock, *reductions in zip(each.clock, each.reduction, each.beam_reduction, strict=True):
+                numbers = [*map(str, clock), *(f"{reduction:.6f}" for reduction in reductions)]
+                lines.write(f"{','.join(numbers)},{each.name}\n")
 
 
 def _pvlib(part: str) -> Any:
@@ -128,6 +130,8 @@ def _parameters(module: str | Mapping[str, float]) -> dict[str, float]:
 class _Irradiance:
     """On the plane, W/m2, by time."""
 
+    direct: Floats
+    """Of the beam alone."""
     beam: Floats
     """With the circumsolar part; shaded by cell."""
     sky: Floats
@@ -145,10 +149,11 @@ def _irradiance(field: ModuleField, modules: Modules, albedo: float) -> _Irradia
     isotropic, around, horizon = (np.nan_to_num(np.asarray(parts[f"poa_{name}"], float))
                                   for name in ("isotropic", "circumsolar", "horizon"))
     cosine = np.maximum(irradiance.aoi_projection(field.tilt, field.azimuth, zenith, modules.azimuth), 0.0)
-    beam = np.where(cosine > 0, modules.beam * cosine + np.maximum(around, 0.0), 0.0)
+    direct = modules.beam * cosine
+    beam = np.where(cosine > 0, direct + np.maximum(around, 0.0), 0.0)
     level = modules.beam * np.sin(np.radians(modules.altitude)) + modules.diffuse
     ground = irradiance.get_ground_diffuse(field.tilt, level, albedo)
-    return _Irradiance(beam, np.maximum(isotropic + horizon, 0.0), np.asarray(ground, float))
+    return _Irradiance(direct, beam, np.maximum(isotropic + horizon, 0.0), np.asarray(ground, float))
 
 
 def _power(field: ModuleField, modules: Modules, parameters: Mapping[str, float], albedo: float,
@@ -191,10 +196,11 @@ def _power(field: ModuleField, modules: Modules, parameters: Mapping[str, float]
         string_without[i] = uniform[number:-1] * of_strings
         surface_without[i] = uniform[-1] * number
         ratio[i] = string_with[i].sum() / surface_without[i] if surface_without[i] > 0 else 1.0
-    with np.errstate(divide="ignore", invalid="ignore"):
-        effective = np.where(light.beam > 1.0, sunlit - (1.0 - ratio) * mean / light.beam, sunlit)
+    # Of less than 1 W/m2, nothing is worth taking.
+    reductions = [np.clip(np.where(shaded > 1.0, (1.0 - ratio) * mean / np.maximum(shaded, 1.0), 0.0), 0.0, sunlit)
+                  for shaded in (light.beam, light.direct)]
     return Power(field.name, modules.clock, modules.times, module_with, module_without, string_with, string_without,
-                 string_with.sum(axis=1), surface_without, sunlit, np.clip(effective, 0.0, 1.0),
+                 string_with.sum(axis=1), surface_without, sunlit, reductions[0], reductions[1],
                  modules.steps_per_hour)
 
 
