@@ -54,16 +54,14 @@ ModuleLayout::ModuleLayout(PvModules const& modules, std::string surface, Polygo
   rings_ = grid.rings();
   auto const room = grid.cell_size();
   auto const size = module_size(spec_);
-  glm::dvec2 const margin{spec_.left.value_or(0.0), spec_.below.value_or(0.0)};
-  int const columns = spec_.columns.value_or(count_along(room.x - margin.x, size.x, spec_.gap));
-  int const rows = spec_.rows.value_or(count_along(room.y - margin.y, size.y, spec_.gap));
+  int const columns = spec_.columns.value_or(count_along(room.x, size.x, spec_.gap));
+  int const rows = spec_.rows.value_or(count_along(room.y, size.y, spec_.gap));
   if (static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) > max_modules) {
     throw Error(fmt::format("{}: {} x {} modules on {}, expected at most {}", spec_.where, columns,
                             rows, surface_, max_modules));
   }
   auto const taken = glm::dvec2(columns, rows) * (size + spec_.gap) - spec_.gap;
-  glm::dvec2 const start{spec_.left.value_or((room.x - taken.x) / 2.0),
-                         spec_.below.value_or((room.y - taken.y) / 2.0)};
+  auto const start = (room - taken) / 2.0;
   bool const by_row = spec_.direction == PvModules::Direction::rows;
   for (int i = 0; i < columns * rows; ++i) {
     int const column = by_row ? i % columns : i / rows;

@@ -15,7 +15,7 @@ HALL = EXAMPLE.read_text().partition("! The parapet")[0]  # without shading surf
 # A level deck above the roof: 10 x 2 modules of 1 m x 1.6 m without frames and gaps.
 DECK = """
 Shading:Building:Detailed,Deck,,4, 1,4.2,5, 1,1,5, 11,1,5, 11,4.2,5;
-GPUShading:PVModules,Modules,Deck,1,1.6,,6,10,3,0,0,,,,,10;
+GPUShading:PVModules,Modules,Deck,1,1.6,,6,10,3,0,0,,,10;
 """
 
 

@@ -83,8 +83,6 @@ std::vector<PvModules> read_pv_modules(std::vector<InputObject> const& objects,
       modules.gap = read(object, field::gap);
       modules.columns = read(object, field::module_columns);
       modules.rows = read(object, field::module_rows);
-      modules.left = read(object, field::left_margin);
-      modules.below = read(object, field::lower_margin);
       modules.string_length = read(object, field::modules_per_string);
       modules.direction = read(object, field::string_direction);
       all.push_back(std::move(modules));

@@ -28,8 +28,6 @@ struct PvModules {
   double gap = 0.0;
   std::optional<int> columns = std::nullopt;
   std::optional<int> rows = std::nullopt;
-  std::optional<double> left = std::nullopt;
-  std::optional<double> below = std::nullopt;
   std::optional<int> string_length = std::nullopt;
   Direction direction = Direction::rows;
 

@@ -176,8 +176,8 @@ std::span<OptionRow const> option_rows() {
                         .value = path_value,
                         .placeholder = "FILE",
                         .default_text = "none",
-                        .meaning = "Take the loss by partly shaded cells from the sunlit fraction "
-                                   "of photovoltaic surfaces, at every timestep"}),
+                        .meaning = "Reductions of the sunlit fraction of photovoltaic surfaces, by "
+                                   "partly shaded cells"}),
       at<&Choices::cache>(
           {.name = "cache",
            .value = path_or_off_value,

@@ -75,10 +75,8 @@ TEST(ModuleLayout, LeavesOutModulesAcrossEdgesAndOpenings) {
   auto roof = wall();
   roof.holes.push_back({{2.2, 2, 1.1}, {2.8, 2, 1.1}, {2.8, 2, 1.9}, {2.2, 2, 1.9}});
   auto spec = modules_of(1.0, 1.0);
-  spec.columns = 5;
+  spec.columns = 6;  // one more on each side
   spec.rows = 3;
-  spec.left = 0.0;
-  spec.below = 0.0;
   ModuleLayout const layout(spec, "ROOF", roof);
   EXPECT_EQ(layout.modules().size(), 11U);  // 4 x 3 but for the one at the skylight
   // The opening lies inside of one module, whose middle is beside it.

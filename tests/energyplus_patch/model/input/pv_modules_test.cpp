@@ -33,7 +33,7 @@ TEST(PvModules, HaveSixtyCellsAndThreeDiodesByDefault) {
   EXPECT_EQ(modules.cells(), 60U);
   EXPECT_EQ(modules.diodes, 3);
   EXPECT_EQ(modules.frame, 0.02);
-  EXPECT_FALSE(modules.columns || modules.left || modules.string_length);
+  EXPECT_FALSE(modules.columns || modules.string_length);
   EXPECT_EQ(read_modules("GPUShading:PVModules,M,roof,1,1;").front().surfaces.front(), "ROOF");
 }
 
