@@ -20,29 +20,38 @@ namespace gpu_shading {
 
 namespace {
 
-// Length of a polygon's projected edges in pixels; each counts up to the diagonal of a tile.
-double edges_of(Polygon const& polygon, View const& view, int side) {
-  double const longest = std::sqrt(2.0) * side;
+// Projected edges of polygons in pixels; each counts up to the diagonal of a tile.
+struct Edges {
   double length = 0.0;
-  auto const add = [&](Ring const& ring) {
+  double swept = 0.0;  // pixels that edges sweep as single precision rounds their ends
+
+  void add(Polygon const& polygon, View const& view, int side) {
+    add(polygon.outline, view, side);
+    for (Ring const& hole : polygon.holes) add(hole, view, side);
+  }
+
+  double tolerance(std::uint64_t pixels) const {
+    auto const all = static_cast<double>(pixels);
+    return (std::sqrt(std::min(length, all)) + swept) / all;
+  }
+
+ private:
+  void add(Ring const& ring, View const& view, int side) {
+    constexpr double rounding = std::numeric_limits<float>::epsilon();
+    double const longest = std::sqrt(2.0) * side;
     auto const place = [&](glm::dvec3 const& vertex) {
       glm::dvec3 const p = vertex - view.origin;
       return to_pixels({at(view.x, p), at(view.y, p)}, side);
     };
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      double const edge = glm::distance(place(ring[i]), place(ring[(i + 1) % ring.size()]));
-      length += std::min(edge, longest);
+      glm::dvec2 const begin = place(ring[i]);
+      glm::dvec2 const end = place(ring[(i + 1) % ring.size()]);
+      double const seen = std::min(glm::distance(begin, end), longest);
+      length += seen;
+      swept += rounding * std::max(glm::length(begin), glm::length(end)) * seen;
     }
-  };
-  add(polygon.outline);
-  for (Ring const& hole : polygon.holes) add(hole);
-  return length;
-}
-
-double tolerance(double edges, std::uint64_t pixels) {
-  auto const all = static_cast<double>(pixels);
-  return std::sqrt(std::min(edges, all)) / all;
-}
+  }
+};
 
 // Sums of the device and of the reference.
 using Pair = std::array<double, 2>;
@@ -68,16 +77,17 @@ ViewDifference compare(ReceiverView const& view, ViewSums const& device, ViewSum
                        Scene const& scene, Transmission const& transmission) {
   int const side = view.tile->side;
   View const projection = view_in_front(*view.frame, view.tile->map, view.towards_sun);
-  double edges = edges_of(scene[view.receiver].polygon, projection, side);
+  Edges edges;
+  edges.add(scene[view.receiver].polygon, projection, side);
   auto const all = static_cast<double>(reference.receiver_pixels);
   auto const drawn = static_cast<double>(device.receiver_pixels);
-  ViewDifference worst{"size", drawn / all, 1.0, tolerance(edges, reference.receiver_pixels)};
+  ViewDifference worst{"size", drawn / all, 1.0, edges.tolerance(reference.receiver_pixels)};
   // Without any pixel the view is asked for again, on a larger tile.
   if (worst.severity() > 1.0 || device.receiver_pixels == 0) return worst;
-  for (SurfaceId const id : view.casters) edges += edges_of(scene[id].polygon, projection, side);
-  for (SurfaceId const id : view.interiors) edges += edges_of(scene[id].polygon, projection, side);
-  if (transmission.any_body(view.casters)) edges = all;
-  double const within = tolerance(edges, reference.receiver_pixels);
+  for (SurfaceId const id : view.casters) edges.add(scene[id].polygon, projection, side);
+  for (SurfaceId const id : view.interiors) edges.add(scene[id].polygon, projection, side);
+  if (transmission.any_body(view.casters)) edges.length = all;
+  double const within = edges.tolerance(reference.receiver_pixels);
   worst = {"sunlit fraction", 0.0, 0.0, within};
   for (std::size_t i = 0; i < reference.parts.size(); ++i) {
     for (auto const& [powers, sums] : pairs_of(device.parts.at(i), reference.parts[i])) {

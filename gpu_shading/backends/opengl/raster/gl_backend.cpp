@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "backends/opengl/gl/buffer.h"
 #include "backends/opengl/gl/limits.h"
 #include "gpu_shading/error.h"
 #include "scene/casters.h"
@@ -25,7 +26,7 @@ Bounds bounds_of(GlSettings const& settings, DeviceInfo const& device) {
   constexpr std::size_t mib = std::size_t{1} << 20U;
   gl::Limits const limits = gl::query_limits();
   Bounds bounds;
-  bounds.in_flight = device.software ? 1 : 3;
+  bounds.in_flight = device.software ? 1 : gl::StorageBuffer::max_in_flight;
   bounds.target = (device.software ? 1 : 32) * mib;
   bounds.all_targets = (device.software ? 64 : 512) * mib;
   bounds.layers = limits.layers_in_vertex_stage ? limits.max_layers : 1;

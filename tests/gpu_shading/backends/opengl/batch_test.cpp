@@ -180,6 +180,26 @@ TEST(Batches, TwoThousandReceiversInOneCall) {
   EXPECT_EQ(renderer.statistics().receivers_drawn, static_cast<std::size_t>(receivers));
 }
 
+// Submissions of one call have tables of their own, of the panes that their views see.
+TEST(Batches, DrawsUnderWayKeepTheirShades) {
+  Scene scene;
+  std::vector<SurfaceId> asked;
+  for (int i = 0; i < 20; ++i) {
+    int const row = i / 5;
+    asked.push_back(scene.add({"receiver", level(1 + 4.5 * (i % 5), 1 + 4.5 * row, 0, 4, 4)}));
+  }
+  for (int i = 0; i < 100; ++i) {
+    int const row = i / 10;
+    Surface pane{"pane", level(2.4 * (i % 10), 1.9 * row, 4, 2.4, 1.9)};
+    pane.filter.set(AngularTransmittance{half()});
+    scene.add(pane);
+  }
+  Renderer renderer = renderer_of(scene, 1024);
+  for (auto const& answer : renderer.projected_sunlit_areas(SunDirection{}, asked)) {
+    EXPECT_NEAR(answer.projected_area, 0.5 * 16, 1e-5);
+  }
+}
+
 // What is under way when an error ends a call does not come into the next.
 TEST(Batches, AnErrorLeavesNothingBehind) {
   Site const site(12, Finish::mixed);
