@@ -3,6 +3,7 @@ measured blocks."""
 
 import re
 import sys
+import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
@@ -94,6 +95,10 @@ def test_levels_of_mismatch():
     before = beam * power.sunlit[1] + rest
     assert beam * (power.sunlit[1] - power.reduction[1]) + rest == pytest.approx(before * (1 - lost), rel=0.02)
     assert 0 < power.loss < 0.2
+    picture = ET.fromstring(power.svg(1))
+    told = [title.text for title in picture.iter("{http://www.w3.org/2000/svg}title")]
+    assert told[:4] == ["0.0%"] * 4  # modules
+    assert told[5] == f"{1 - power.string_with[1, 1] / power.string_without[1, 1]:.1%}"
     frame = pytest.importorskip("pandas") and power.frame()
     assert frame["surface", 1, "with"].to_numpy() == pytest.approx(power.surface_with)
     assert frame.shape == (2, 2 * (1 + 2 + 4))

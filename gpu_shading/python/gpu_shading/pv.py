@@ -16,6 +16,7 @@ from gpu_shading import _programs
 from gpu_shading._arrays import Floats
 from gpu_shading.errors import InvalidInput
 from gpu_shading.pv_modules import Integers, ModuleField, Modules, _frame, _write
+from gpu_shading.pv_picture import draw
 
 _PARAMETERS = ("alpha_sc", "a_ref", "I_L_ref", "I_o_ref", "R_sh_ref", "R_s", "Adjust")
 # Reverse characteristic of a crystalline cell, as in pvlib's example "Calculating power loss from partial module
@@ -52,6 +53,8 @@ class Power:
     mismatch."""
     beam_reduction: Floats
     """The same where the circumsolar part of the sky's light is not shaded."""
+    positions: Integers
+    """Column and row of each module, from 0."""
     steps_per_hour: int
 
     @property
@@ -79,6 +82,13 @@ class Power:
     def write(self, file: _programs.Name) -> None:
         """Writes frame() as Parquet."""
         _write(self.frame(), file)
+
+    def svg(self, string: int = 0) -> str:
+        """A picture: modules by the share of energy that mismatch takes, and the loss of a string by day and hour."""
+        return draw(self, string)
+
+    def _repr_html_(self) -> str:
+        return self.svg()
 
     def __repr__(self) -> str:
         return f"<Power of {self.name}: {self.energy:.1f} kWh, {self.loss:.1%} lost by mismatch>"
@@ -201,7 +211,7 @@ def _power(field: ModuleField, modules: Modules, parameters: Mapping[str, float]
                   for shaded in (light.beam, light.direct)]
     return Power(field.name, modules.clock, modules.times, module_with, module_without, string_with, string_without,
                  string_with.sum(axis=1), surface_without, sunlit, reductions[0], reductions[1],
-                 modules.steps_per_hour)
+                 field.positions, modules.steps_per_hour)
 
 
 def _levels(values: Floats) -> tuple[Floats, Integers]:
