@@ -179,6 +179,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
     model.simplified = find_simplified_surfaces(objects, model.shading, model.lean.left_out);
     if (!model.surroundings.empty()) ensure_placeholders(model.lean, model.shading);
     prepare_for_moving_shades(model);
+    for (auto const& modules : model.pv_modules) model.remarks.push_back(modules.describe());
     if (choices.pv) {
       model.pv_reductions = read_pv_reductions(*choices.pv, objects, model.shading);
       model.options.update.every_timestep = true;

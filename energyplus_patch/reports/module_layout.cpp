@@ -94,7 +94,8 @@ bool ModuleLayout::is_on_surface(FlatBox const& box) const {
 
 FlatBox ModuleLayout::cell(PlacedModule const& module, std::size_t number) const {
   auto const columns = static_cast<std::size_t>(spec_.cell_columns);
-  glm::dvec2 place{static_cast<double>(number % columns), static_cast<double>(number / columns)};
+  auto const row = number / columns;
+  glm::dvec2 place{static_cast<double>(number % columns), static_cast<double>(row)};
   glm::dvec2 counts{spec_.cell_columns, spec_.cell_rows};
   if (spec_.orientation == PvModules::Orientation::landscape) {
     std::swap(place.x, place.y);

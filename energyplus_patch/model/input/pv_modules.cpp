@@ -66,6 +66,12 @@ void read_cells(InputObject const& object, PvModules& modules) {
 
 }  // namespace
 
+std::string PvModules::describe() const {
+  return fmt::format("{}: {} surface{}, modules of {} m x {} m with {} x {} cells", where,
+                     surfaces.size(), surfaces.size() == 1 ? "" : "s", width, length, cell_columns,
+                     cell_rows);
+}
+
 std::vector<PvModules> read_pv_modules(std::vector<InputObject> const& objects,
                                        ShadingInput const& input) {
   std::vector<PvModules> all;

@@ -31,6 +31,8 @@ struct PvModules {
   std::optional<int> string_length = std::nullopt;
   Direction direction = Direction::rows;
 
+  // "GPUShading:PVModules M: 3 surfaces, modules of 1 m x 1.65 m with 6 x 10 cells"
+  std::string describe() const;
   std::size_t cells() const {
     return static_cast<std::size_t>(cell_columns) * static_cast<std::size_t>(cell_rows);
   }

@@ -31,6 +31,8 @@ TEST(PvModules, HaveSixtyCellsAndThreeDiodesByDefault) {
   auto const& modules = all.front();
   EXPECT_THAT(modules.surfaces, testing::ElementsAre("ROW 1", "ROW 2"));
   EXPECT_EQ(modules.cells(), 60U);
+  EXPECT_EQ(modules.describe(),
+            "GPUShading:PVModules M: 2 surfaces, modules of 1 m x 1.65 m with 6 x 10 cells");
   EXPECT_EQ(modules.diodes, 3);
   EXPECT_EQ(modules.frame, 0.02);
   EXPECT_FALSE(modules.columns || modules.string_length);
