@@ -50,7 +50,7 @@ def test_a_module_as_pvlib_s_cells_in_series():
     cells[1, 0, :3, :2] = 0.0  # six cells of the first diode
     cells[2, 0, 0, :] = 0.35  # a cell of each column
     shaded = modules(cells)
-    [power] = shaded.power(MODULE)
+    [power] = gpu_shading.power(shaded, MODULE)
     light = pv._irradiance(shaded[0], shaded, 0.2)
     for i in range(3):
         each = (light.beam[i] * cells[i] + light.sky[i] + light.ground[i]).reshape(10, 3, 2)
@@ -81,7 +81,7 @@ def test_a_module_as_pvlib_s_cells_in_series():
 def test_levels_of_mismatch():
     cells = np.ones((2, 4, 10, 6))
     cells[1, 2, :, :] = 0.5  # one of four modules: no mismatch in itself
-    [power] = modules(cells, strings=[0, 0, 1, 1]).power(MODULE)
+    [power] = gpu_shading.power(modules(cells, strings=[0, 0, 1, 1]), MODULE)
     assert power.module_with[0] == pytest.approx(power.module_without[0], rel=1e-9)
     assert power.surface_with[0] == pytest.approx(power.surface_without[0], rel=1e-9)
     assert power.reduction[0] == pytest.approx(0.0, abs=1e-9)
@@ -105,18 +105,18 @@ def test_levels_of_mismatch():
 
 
 def test_a_darker_sky_is_mismatch_too():
-    [power] = modules(np.zeros((1, 2, 10, 6)), sky_view=[1.0, 0.5], beam=0.0).power(MODULE)
+    [power] = gpu_shading.power(modules(np.zeros((1, 2, 10, 6)), sky_view=[1.0, 0.5], beam=0.0), MODULE)
     assert power.module_with[0, 1] == pytest.approx(power.module_with[0, 0] / 2, rel=0.1)
     assert power.string_with[0, 0] < 0.9 * power.string_without[0, 0]
 
 
 def test_wrong_parameters_are_named():
     with pytest.raises(gpu_shading.InvalidInput, match="'No such' is not in pvlib's table"):
-        modules(np.ones((1, 1, 10, 6))).power("No such")
+        gpu_shading.power(modules(np.ones((1, 1, 10, 6))), "No such")
     with pytest.raises(gpu_shading.InvalidInput, match="R_s, N_s missing"):
-        modules(np.ones((1, 1, 10, 6))).power({key: MODULE[key] for key in MODULE if key not in ("R_s", "N_s")})
+        gpu_shading.power(modules(np.ones((1, 1, 10, 6))), dict(list(MODULE.items())[:5], Adjust=0.0))
     with pytest.raises(gpu_shading.InvalidInput, match="N_s is 72, but modules on Deck have 60 cells"):
-        modules(np.ones((1, 1, 10, 6))).power({**MODULE, "N_s": 72})
+        gpu_shading.power(modules(np.ones((1, 1, 10, 6))), {**MODULE, "N_s": 72})
 
 
 # F. Martinez-Moreno, J. Munoz and E. Lorenzo, Solar Energy Materials and Solar Cells 94 (2010), table 2, as pvlib's
@@ -165,7 +165,7 @@ def winter(patched, weather, tmp_path_factory):
     text = test_modules.EXAMPLE.read_text().replace("RunPeriod,Year,1,1,,12,31", DAYS)
     (folder / "pv_roof.idf").write_text(text + "Output:Variable,*,Generator Produced DC Electricity Energy,Timestep;\n")
     cells = gpu_shading.modules(folder / "pv_roof.idf", weather, first="12-18", last="12-22")
-    return folder / "pv_roof.idf", weather, cells.power({**MODULE, "I_L_ref": 9.3})
+    return folder / "pv_roof.idf", weather, gpu_shading.power(cells, {**MODULE, "I_L_ref": 9.3})
 
 
 def test_generators_and_load_centres_lose_what_strings_lose(winter, tmp_path):

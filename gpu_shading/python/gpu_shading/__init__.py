@@ -22,6 +22,7 @@ from gpu_shading.drawings import Drawings, Map, Mask, MaskHour, Picture, Sheet, 
 from gpu_shading.errors import DeviceError, Error, InvalidInput, RunError
 from gpu_shading.model import check
 from gpu_shading.optics import Screen, Transmittance
+from gpu_shading.pv import Power, power, write_reductions
 from gpu_shading.pv_modules import ModuleField, Modules, modules, read_modules
 from gpu_shading.rays import Hits, Rays
 from gpu_shading.renderer import Renderer
@@ -33,7 +34,8 @@ from gpu_shading.study import Case, Study
 
 __all__ = [
     "Case", "Crown", "DeviceError", "Drawings", "Error", "Hits", "InvalidInput", "Map", "Mask", "MaskHour",
-    "ModuleField", "Modules", "Picture", "Rays", "Renderer", "Rule", "Run", "RunError", "Scene", "Screen", "Sheet",
-    "Study", "Summary", "Surface", "Transmittance", "__version__", "check", "limit_threads", "map", "mask",
-    "modules", "prefix", "read_modules", "read_samples", "run", "sample", "screen", "view", "write_samples",
+    "ModuleField", "Modules", "Picture", "Power", "Rays", "Renderer", "Rule", "Run", "RunError", "Scene", "Screen",
+    "Sheet", "Study", "Summary", "Surface", "Transmittance", "__version__", "check", "limit_threads", "map", "mask",
+    "modules", "power", "prefix", "read_modules", "read_samples", "run", "sample", "screen", "view",
+    "write_reductions", "write_samples",
 ]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,10 +17,6 @@ from gpu_shading import _programs
 from gpu_shading._arrays import Floats
 from gpu_shading.drawings import Picture, _picture, _rows
 from gpu_shading.errors import InvalidInput
-from gpu_shading.runs import _needed
-
-if TYPE_CHECKING:
-    from gpu_shading.pv import Power
 
 _FORMAT = "gpu_shading modules 1"
 Integers = NDArray[np.int64]
@@ -111,12 +108,6 @@ class Modules(Sequence[ModuleField]):
         """Writes frame() as Parquet."""
         _write(self.frame(), file)
 
-    def power(self, module: Any, **options: Any) -> Sequence[Power]:
-        """The power of each field with pvlib: see gpu_shading.pv.power()."""
-        from gpu_shading import pv
-
-        return pv.power(self, module, **options)
-
     def __repr__(self) -> str:
         return f"<Modules: {len(self.times)} times, {', '.join(map(repr, self._fields))}>"
 
@@ -162,7 +153,10 @@ def _field(path: Path, about: dict[str, Any], rows: list[dict[str, str]]) -> Mod
 
 
 def _frame(values: Floats, times: NDArray[np.datetime64], columns: list[Any], names: list[str]) -> Any:
-    pandas = _needed("pandas", "frames")
+    try:
+        pandas = importlib.import_module("pandas")
+    except ImportError:
+        raise ImportError("frames need pandas: pip install pandas") from None
     return pandas.DataFrame(values, index=pandas.DatetimeIndex(times, name="time"),
                             columns=pandas.MultiIndex.from_tuples(columns, names=names))
 

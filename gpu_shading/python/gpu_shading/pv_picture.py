@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import html
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
 from gpu_shading._arrays import Floats
-
-if TYPE_CHECKING:
-    from gpu_shading.pv import Power
 
 # From dark blue to yellow, legible with any kind of colour vision: after cividis (Nunez, Anderton & Renslow 2018).
 _COLOURS = np.array([[0, 34, 78], [66, 78, 108], [124, 123, 120], [187, 174, 108], [254, 232, 56]], float)
@@ -19,9 +16,9 @@ _TALLEST = 40.0  # of a module
 _HOUR = 14.0
 
 
-def draw(power: Power, string: int = 0) -> str:
-    """An SVG: each module by the share of its energy that mismatch takes, and the share of a string's power by day and
-    hour."""
+def draw(power: Any, string: int = 0) -> str:
+    """An SVG of a pv.Power: each module by the share of its energy that mismatch takes, and the share of a string's
+    power by day and hour."""
     shapes: list[str] = []
     lost = _share(power.module_with.sum(axis=0), power.module_without.sum(axis=0))
     most = max(float(lost.max()), 1e-3)

@@ -14,16 +14,14 @@ import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from gpu_shading import _html, _programs
 from gpu_shading._arrays import Floats
 from gpu_shading.errors import InvalidInput, RunError
-
-if TYPE_CHECKING:
-    from gpu_shading.pv import Power
+from gpu_shading.pv import Power, write_reductions
 
 _FREQUENCIES = ("Each Call", "TimeStep", "Hourly", "Daily", "Monthly", "RunPeriod", "Annual")
 
@@ -193,7 +191,7 @@ def run(model: _programs.Name, weather: _programs.Name, folder: _programs.Name |
     `folder`: where results go; it must be empty or not exist, and without it one is made in the folder for temporary
     files. `shading`: False for EnergyPlus's own polygon clipping. Then options of the renderer, each as its flag
     (`--gpu-shading-error` and so on): `error` or `resolution`, `update`, `device`, a side file of `extensions`, and the
-    number of `threads`. `pv`: the power() of modules(), whose loss by partly shaded cells is taken from the sunlit
+    number of `threads`. `pv`: the power() of modules, whose loss by partly shaded cells is taken from the sunlit
     fractions of their surfaces, so that EnergyPlus's generators have it. `arguments`: more for EnergyPlus, such as
     ["-D"]. Raises RunError, with EnergyPlus's reason, if the run does not complete.
     """
@@ -207,8 +205,6 @@ def run(model: _programs.Name, weather: _programs.Name, folder: _programs.Name |
     inputs = [_programs.file(weather, "weather"), _programs.file(model, "model")]
     out = _empty_folder(folder)
     if pv is not None:
-        from gpu_shading.pv import write_reductions
-
         write_reductions(pv, out / "pv_reductions.csv")
         flags.append(f"--gpu-shading-pv={out / 'pv_reductions.csv'}")
     command: list[str | Path] = [program, *flags, *arguments, "-w", inputs[0], "-d", out, inputs[1]]
