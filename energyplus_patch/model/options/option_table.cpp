@@ -174,6 +174,12 @@ std::span<OptionRow const> option_rows() {
                                      "`gpu_shading map` does, into the report, whose page shows "
                                      "them",
                           .bare = "on"}),
+      at<&Choices::pv>({.name = "pv",
+                        .value = path_value,
+                        .placeholder = "FILE",
+                        .default_text = "none",
+                        .meaning = "Reductions of the sunlit fraction of photovoltaic surfaces, by "
+                                   "partly shaded cells"}),
       at<&Choices::cache>(
           {.name = "cache",
            .value = path_or_off_value,

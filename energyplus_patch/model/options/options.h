@@ -55,6 +55,7 @@ struct Choices {
   std::optional<std::filesystem::path> file = std::nullopt;
   std::optional<std::filesystem::path> report = std::nullopt;
   std::optional<bool> maps = std::nullopt;
+  std::optional<std::filesystem::path> pv = std::nullopt;
   std::optional<std::filesystem::path> cache = std::nullopt;  // empty: off
   // The folder where relative file names in the model start, set by the launcher; empty: the
   // model's folder.
