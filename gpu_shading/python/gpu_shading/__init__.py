@@ -16,7 +16,7 @@ except ImportError as _error:
     raise ImportError("gpu_shading needs NumPy: pip install numpy") from _error
 
 from gpu_shading._library import __version__, limit_threads
-from gpu_shading._programs import prefix
+from gpu_shading._programs import measures, prefix
 from gpu_shading.crown import Crown
 from gpu_shading.drawings import Drawings, Map, Mask, MaskHour, Picture, Sheet, map, mask, screen, view
 from gpu_shading.errors import DeviceError, Error, InvalidInput, RunError
@@ -33,6 +33,6 @@ from gpu_shading.study import Case, Study
 __all__ = [
     "Case", "Crown", "DeviceError", "Drawings", "Error", "Hits", "InvalidInput", "Map", "Mask", "MaskHour", "Picture",
     "Rays", "Renderer", "Rule", "Run", "RunError", "Scene", "Screen", "Sheet", "Study", "Summary", "Surface",
-    "Transmittance", "__version__", "check", "limit_threads", "map", "mask", "prefix", "read_samples", "run",
-    "sample", "screen", "view", "write_samples",
+    "Transmittance", "__version__", "check", "limit_threads", "map", "mask", "measures", "prefix", "read_samples",
+    "run", "sample", "screen", "view", "write_samples",
 ]
