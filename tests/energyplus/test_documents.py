@@ -112,8 +112,8 @@ def test_a_reader_sees_what_the_page_promises(page, checkout, patched):
             pytest.skip(f"{ROOT / '.venv' / 'tools' / 'platypus'} is missing: run scripts/setup")
     if page.name == "honeybee.md":
         tools = ROOT / ".venv" / "tools"
-        if not (tools / "honeybee_energy").is_dir():
-            pytest.skip(f"{tools}/honeybee_energy is missing: run scripts/setup")
+        if not (tools / "honeybee_radiance").is_dir():
+            pytest.skip(f"{tools}/honeybee_radiance is missing: run scripts/setup")
         environment["PYTHONPATH"] = str(tools)
     walk(page, folder, environment)
 

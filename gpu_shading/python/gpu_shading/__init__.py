@@ -16,7 +16,7 @@ except ImportError as _error:
     raise ImportError("gpu_shading needs NumPy: pip install numpy") from _error
 
 from gpu_shading._library import __version__, limit_threads
-from gpu_shading._programs import prefix
+from gpu_shading._programs import measures, prefix
 from gpu_shading.crown import Crown
 from gpu_shading.drawings import Drawings, Map, Mask, MaskHour, Picture, Sheet, map, mask, screen, view
 from gpu_shading.errors import DeviceError, Error, InvalidInput, RunError
@@ -36,6 +36,6 @@ __all__ = [
     "Case", "Crown", "DeviceError", "Drawings", "Error", "Hits", "InvalidInput", "Map", "Mask", "MaskHour",
     "ModuleField", "Modules", "Picture", "Power", "Rays", "Renderer", "Rule", "Run", "RunError", "Scene", "Screen",
     "Sheet", "Study", "Summary", "Surface", "Transmittance", "__version__", "check", "limit_threads", "map", "mask",
-    "modules", "power", "prefix", "read_modules", "read_samples", "run", "sample", "screen", "view",
+    "measures", "modules", "power", "prefix", "read_modules", "read_samples", "run", "sample", "screen", "view",
     "write_reductions", "write_samples",
 ]

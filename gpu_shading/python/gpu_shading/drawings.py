@@ -62,6 +62,11 @@ class Map:
     mean_hours: float
     mean_energy: float
     picture: Picture
+    centres: Floats
+    """World axes, in the same rows and columns, and nan where there is no cell."""
+    normal: Floats
+    cell_size: tuple[float, float]
+    """Width and height, m."""
 
     def _repr_png_(self) -> bytes:
         return self.picture.png
@@ -201,7 +206,9 @@ def map(model: _programs.Name, weather: _programs.Name, *, first: str | None = N
         for row in _rows(folder / "maps.csv"):
             hours, energy = np.load(folder / f"{row['files']}.npy").astype(np.float64)
             made.append(Map(row["receiver"], hours, energy, float(row["sunlit mean [h]"]),
-                            float(row["beam mean [kWh/m2]"]), _picture(folder / f"{row['files']}.png")))
+                            float(row["beam mean [kWh/m2]"]), _picture(folder / f"{row['files']}.png"),
+                            _centres(folder / f"{row['files']}.csv", hours.shape), _normal(row),
+                            (float(row["cell width [m]"]), float(row["cell height [m]"]))))
         return Drawings(made)
 
 
@@ -245,6 +252,18 @@ def _rows(file: Path) -> list[dict[str, str]]:
 def _picture(file: Path) -> Picture:
     # Installations without the picture formats write none.
     return Picture(file.read_bytes() if file.is_file() else b"")
+
+
+def _centres(file: Path, shape: tuple[int, ...]) -> Floats:
+    centres = np.full((*shape, 3), np.nan)
+    for cell in _rows(file):
+        centres[int(cell["row"]), int(cell["column"])] = [float(cell[f"{axis} [m]"]) for axis in "xyz"]
+    return centres
+
+
+def _normal(row: dict[str, str]) -> Floats:
+    azimuth, tilt = np.radians(float(row["azimuth [deg]"])), np.radians(float(row["tilt [deg]"]))
+    return np.array([np.sin(azimuth) * np.sin(tilt), np.cos(azimuth) * np.sin(tilt), np.cos(tilt)])
 
 
 def _hour(row: dict[str, str]) -> MaskHour:
