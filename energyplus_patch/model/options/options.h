@@ -55,6 +55,7 @@ struct Choices {
   std::optional<std::filesystem::path> file = std::nullopt;
   std::optional<std::filesystem::path> report = std::nullopt;
   std::optional<bool> maps = std::nullopt;
+  std::optional<std::filesystem::path> pv = std::nullopt;
   std::optional<std::filesystem::path> cache = std::nullopt;  // empty: off
   // The folder where relative file names in the model start, set by the launcher; empty: the
   // model's folder.
@@ -65,6 +66,7 @@ struct Choices {
   // Not in GPUShading:Settings: a model does not widen what is read for it.
   std::optional<Assets> assets = std::nullopt;
   std::optional<Method> method = std::nullopt;
+  std::optional<std::string> positions = std::nullopt;  // at rest, of moving shades
   std::optional<int> threads = std::nullopt;
   std::optional<bool> quiet = std::nullopt;
   std::optional<bool> verbose = std::nullopt;

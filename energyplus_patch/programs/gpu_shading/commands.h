@@ -58,6 +58,7 @@ void add_check(Program const& program);
 void add_view(Program const& program);
 void add_map(Program const& program);
 void add_mask(Program const& program);
+void add_modules(Program const& program);
 void add_screen(Program const& program);
 void add_sample(Program const& program);
 // For `sample --sky`: renders the sunlit fraction of every receiver for each patch of three

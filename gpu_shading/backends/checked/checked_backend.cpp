@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "gpu_shading/error.h"
+#include "platform/stopwatch.h"
 #include "view/tile.h"
 #include "view/view.h"
 
@@ -20,29 +21,38 @@ namespace gpu_shading {
 
 namespace {
 
-// Length of a polygon's projected edges in pixels; each counts up to the diagonal of a tile.
-double edges_of(Polygon const& polygon, View const& view, int side) {
-  double const longest = std::sqrt(2.0) * side;
+// Projected edges of polygons in pixels; each counts up to the diagonal of a tile.
+struct Edges {
   double length = 0.0;
-  auto const add = [&](Ring const& ring) {
+  double swept = 0.0;  // pixels that edges sweep as single precision rounds their ends
+
+  void add(Polygon const& polygon, View const& view, int side) {
+    add(polygon.outline, view, side);
+    for (Ring const& hole : polygon.holes) add(hole, view, side);
+  }
+
+  double tolerance(std::uint64_t pixels) const {
+    auto const all = static_cast<double>(pixels);
+    return (std::sqrt(std::min(length, all)) + swept) / all;
+  }
+
+ private:
+  void add(Ring const& ring, View const& view, int side) {
+    constexpr double rounding = std::numeric_limits<float>::epsilon();
+    double const longest = std::sqrt(2.0) * side;
     auto const place = [&](glm::dvec3 const& vertex) {
       glm::dvec3 const p = vertex - view.origin;
       return to_pixels({at(view.x, p), at(view.y, p)}, side);
     };
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      double const edge = glm::distance(place(ring[i]), place(ring[(i + 1) % ring.size()]));
-      length += std::min(edge, longest);
+      glm::dvec2 const begin = place(ring[i]);
+      glm::dvec2 const end = place(ring[(i + 1) % ring.size()]);
+      double const seen = std::min(glm::distance(begin, end), longest);
+      length += seen;
+      swept += rounding * std::max(glm::length(begin), glm::length(end)) * seen;
     }
-  };
-  add(polygon.outline);
-  for (Ring const& hole : polygon.holes) add(hole);
-  return length;
-}
-
-double tolerance(double edges, std::uint64_t pixels) {
-  auto const all = static_cast<double>(pixels);
-  return std::sqrt(std::min(edges, all)) / all;
-}
+  }
+};
 
 // Sums of the device and of the reference.
 using Pair = std::array<double, 2>;
@@ -68,16 +78,17 @@ ViewDifference compare(ReceiverView const& view, ViewSums const& device, ViewSum
                        Scene const& scene, Transmission const& transmission) {
   int const side = view.tile->side;
   View const projection = view_in_front(*view.frame, view.tile->map, view.towards_sun);
-  double edges = edges_of(scene[view.receiver].polygon, projection, side);
+  Edges edges;
+  edges.add(scene[view.receiver].polygon, projection, side);
   auto const all = static_cast<double>(reference.receiver_pixels);
   auto const drawn = static_cast<double>(device.receiver_pixels);
-  ViewDifference worst{"size", drawn / all, 1.0, tolerance(edges, reference.receiver_pixels)};
+  ViewDifference worst{"size", drawn / all, 1.0, edges.tolerance(reference.receiver_pixels)};
   // Without any pixel the view is asked for again, on a larger tile.
   if (worst.severity() > 1.0 || device.receiver_pixels == 0) return worst;
-  for (SurfaceId const id : view.casters) edges += edges_of(scene[id].polygon, projection, side);
-  for (SurfaceId const id : view.interiors) edges += edges_of(scene[id].polygon, projection, side);
-  if (transmission.any_body(view.casters)) edges = all;
-  double const within = tolerance(edges, reference.receiver_pixels);
+  for (SurfaceId const id : view.casters) edges.add(scene[id].polygon, projection, side);
+  for (SurfaceId const id : view.interiors) edges.add(scene[id].polygon, projection, side);
+  if (transmission.any_body(view.casters)) edges.length = all;
+  double const within = edges.tolerance(reference.receiver_pixels);
   worst = {"sunlit fraction", 0.0, 0.0, within};
   for (std::size_t i = 0; i < reference.parts.size(); ++i) {
     for (auto const& [powers, sums] : pairs_of(device.parts.at(i), reference.parts[i])) {
@@ -95,8 +106,9 @@ constexpr double min_cosine = 0.05;
 
 // "a receiver behind transparent shades"
 std::string kind_of(ReceiverView const& view, Transmission const& transmission) {
-  std::string const casters =
-      view.transmits ? transmission.describe(view.casters) : "opaque casters";
+  std::string const casters = view.crowd != nullptr ? "a crowd of opaque casters"
+                              : view.transmits      ? transmission.describe(view.casters)
+                                                    : "opaque casters";
   return (view.through ? "an interior behind " : "a receiver behind ") + casters;
 }
 
@@ -121,13 +133,14 @@ std::vector<ViewSums> answer(ViewBackend& backend, std::vector<ReceiverView> vie
 
 CheckedBackend::CheckedBackend(std::unique_ptr<ViewBackend> device,
                                std::unique_ptr<ViewBackend> reference, BackendInput const& input,
-                               Warn warn)
+                               Warn warn, Keep keep)
     : device_(std::move(device)),
       reference_(std::move(reference)),
       info_(device_->device()),
       scene_(input.scene),
       transmission_(input.transmission),
-      warn_(std::move(warn)) {
+      warn_(std::move(warn)),
+      keep_(keep) {
   // Tiles must suit both.
   info_.max_resolution = std::min(info_.max_resolution, reference_->device().max_resolution);
 }
@@ -138,6 +151,10 @@ bool CheckedBackend::samples_pixels() const {
   return (device_ ? device_ : reference_)->samples_pixels();
 }
 
+std::optional<std::size_t> CheckedBackend::few_casters(bool interiors) const {
+  return (device_ ? device_ : reference_)->few_casters(interiors);
+}
+
 void CheckedBackend::add(std::vector<ReceiverView> views) {
   if (!device_) return reference_->add(std::move(views));
   for (ReceiverView const& view : views) {
@@ -145,12 +162,18 @@ void CheckedBackend::add(std::vector<ReceiverView> views) {
     if (!checks.enough()) checks.kept.push_back({view, added_});
     ++added_;
   }
+  by_device_.views += views.size();
+  Stopwatch const watch(by_device_.seconds);
   device_->add(std::move(views));
 }
 
 std::vector<ViewSums> CheckedBackend::finish() {
   if (!device_) return reference_->finish();
-  std::vector<ViewSums> sums = device_->finish();
+  std::vector<ViewSums> sums;
+  {
+    Stopwatch const watch(by_device_.seconds);
+    sums = device_->finish();
+  }
   std::string const fault = find_fault(sums);
   if (!fault.empty()) {
     if (!warn_) throw DeviceError(fault);
@@ -159,7 +182,24 @@ std::vector<ViewSums> CheckedBackend::finish() {
     warn_(fault + "; continuing on the CPU");
   }
   discard_kept();
+  judge_pace();
   return sums;
+}
+
+void CheckedBackend::judge_pace() {
+  if (std::exchange(first_batch_, false)) by_device_ = {};
+  if (!device_ || !warn_ || keep_ == Keep::if_right || by_device_.views < timed_views ||
+      by_reference_.views < partly_lit_views) {
+    return;
+  }
+  keep_ = Keep::if_right;
+  double const times = by_device_.each() / by_reference_.each();
+  if (times <= slower) return;
+  device_.reset();
+  warn_(
+      fmt::format("{} takes {:.1f} times as long as the CPU to render this model; continuing on "
+                  "the CPU (name the device to keep it)",
+                  info_.renderer, times));
 }
 
 void CheckedBackend::forget() {
@@ -195,11 +235,17 @@ std::string CheckedBackend::find_fault(std::vector<ViewSums> const& sums) {
     for (Kept const* const kept : checks.choose()) {
       chosen.push_back({kind, &checks, kept});
       views.push_back(kept->view);
-      views.back().at_pixels = true;
+      // A crowd's samples are the CPU's.
+      views.back().at_pixels = kept->view.crowd == nullptr;
     }
   }
   if (chosen.empty()) return {};
-  std::vector<ViewSums> const references = answer(*reference_, std::move(views));
+  by_reference_.views += views.size();
+  std::vector<ViewSums> references;
+  {
+    Stopwatch const watch(by_reference_.seconds);
+    references = answer(*reference_, std::move(views));
+  }
   double worst = 1.0;
   std::string fault;
   for (std::size_t i = 0; i < chosen.size(); ++i) {

@@ -48,9 +48,11 @@ class Contents:
     """Roles, and which zone shades which."""
 
 
-def read(model: _programs.Name, weather: _programs.Name | None = None) -> Contents:
-    """The scene that is rendered for a model."""
-    document = _document(model, weather, ["--vertices"], _FORMATS[1])
+def read(model: _programs.Name, weather: _programs.Name | None = None,
+         extensions: _programs.Name | None = None) -> Contents:
+    """The scene that is rendered for a model. `extensions`: a side file in place of the model's own."""
+    side_file = None if extensions is None else _programs.file(extensions, "extensions")
+    document = _document(model, weather, ["--vertices", *_programs.flags(gpu_shading_file=side_file)], _FORMATS[1])
     shades = [Transmittance.table(np.linspace(0.0, 90.0, len(values)), values) for values in document["transmittances"]]
     screens = [_screen(found) for found in document["screens"]]
     schedules, deployments = document["schedules"], document["deployments"]

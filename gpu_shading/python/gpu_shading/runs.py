@@ -21,6 +21,7 @@ import numpy as np
 from gpu_shading import _html, _programs
 from gpu_shading._arrays import Floats
 from gpu_shading.errors import InvalidInput, RunError
+from gpu_shading.pv import Power, write_reductions
 
 _FREQUENCIES = ("Each Call", "TimeStep", "Hourly", "Daily", "Monthly", "RunPeriod", "Annual")
 
@@ -184,13 +185,15 @@ def _time(row: tuple[Any, ...], zone: datetime.tzinfo) -> datetime.datetime:
 def run(model: _programs.Name, weather: _programs.Name, folder: _programs.Name | None = None, *,
         shading: bool = True, error: float | None = None, resolution: int | None = None, update: str | None = None,
         device: str | None = None, extensions: _programs.Name | None = None, threads: int | None = None,
-        arguments: Sequence[str] = ()) -> Run:
+        pv: Sequence[Power] | None = None, arguments: Sequence[str] = ()) -> Run:
     """Runs `energyplus --gpu-shading` on an IDF or epJSON file with an EPW file.
 
     `folder`: the output folder, new or empty; if None, a new one among the temporary files. `shading`: False for
     EnergyPlus's own polygon clipping. Options of the renderer, as the flags `--gpu-shading-error` and so on: `error` or
-    `resolution`, `update`, `device`, a side file of `extensions`, and the number of `threads`. `arguments`: more for
-    EnergyPlus, such as ["-D"]. A run that does not complete raises RunError with EnergyPlus's reason.
+    `resolution`, `update`, `device`, a side file of `extensions`, and the number of `threads`. `pv`: the power() of
+    modules, whose loss by partly shaded cells is taken from the sunlit fractions of their surfaces, so that EnergyPlus's
+    generators have it. `arguments`: more for EnergyPlus, such as ["-D"]. A run that does not complete raises RunError
+    with EnergyPlus's reason.
     """
     program = _programs.prefix() / "energyplus"
     flags = ["--gpu-shading" if shading else "--gpu-shading=off"]
@@ -201,6 +204,9 @@ def run(model: _programs.Name, weather: _programs.Name, folder: _programs.Name |
             flags.append(f"--gpu-shading-{name}={value}")
     inputs = [_programs.file(weather, "weather"), _programs.file(model, "model")]
     out = _empty_folder(folder)
+    if pv is not None:
+        write_reductions(pv, out / "pv_reductions.csv")
+        flags.append(f"--gpu-shading-pv={out / 'pv_reductions.csv'}")
     command: list[str | Path] = [program, *flags, *arguments, "-w", inputs[0], "-d", out, inputs[1]]
     # A session of its own, so that helpers of EnergyPlus end with it.
     with subprocess.Popen(command, cwd=out, env=_programs.environment(), stdin=subprocess.DEVNULL,

@@ -84,12 +84,13 @@ class Scene:
             self.add(vertices, name=name)
 
     @classmethod
-    def from_energyplus(cls, model: str | os.PathLike[str], weather: str | os.PathLike[str] | None = None) -> Scene:
+    def from_energyplus(cls, model: str | os.PathLike[str], weather: str | os.PathLike[str] | None = None,
+                        extensions: str | os.PathLike[str] | None = None) -> Scene:
         """The scene that `energyplus --gpu-shading` renders for an IDF or epJSON file: EnergyPlus's surfaces, what our
         extension objects add, their optics, and the model's own rules of which surface shades which. EnergyPlus runs
-        up to its shading calculation. `weather`: an EPW file; if None, one that comes with EnergyPlus. An error in the
-        model raises RunError."""
-        return cls._made(read(model, weather))
+        up to its shading calculation. `weather`: an EPW file; if None, one that comes with EnergyPlus. `extensions`: a
+        side file in place of the model's own. An error in the model raises RunError."""
+        return cls._made(read(model, weather, extensions))
 
     @classmethod
     def _made(cls, contents: Contents) -> Scene:

@@ -109,13 +109,13 @@ void CrownGeometry::upload(DrawList const& list) {
   commands_.set(list.crown_draws());
 }
 
-void CrownGeometry::draw(gl::Buffer const& shades) const {
+void CrownGeometry::draw(gl::StorageBuffer const& shades) const {
   if (draws_ == 0) return;
   constexpr std::uint32_t shades_binding = 0;
   gl::cut_at_plane(false);
   program_.use();
   boxes_.bind();
-  shades.bind_storage(shades_binding);
+  shades.bind(shades_binding);
   gl::draw_commands(commands_, 0, draws_);
 }
 

@@ -28,7 +28,7 @@ class CrownGeometry {
   void upload(DrawList const& list);
 
   // Outputs 0 and the factor on the luminance, as in transmit.frag. `shades`: those of the list.
-  void draw(gl::Buffer const& shades) const;
+  void draw(gl::StorageBuffer const& shades) const;
 
  private:
   static constexpr std::size_t faces = 6;

@@ -62,8 +62,6 @@ Geometry::Geometry(Scene const& scene, std::span<Mesh const> meshes,
   surface_indices_ = gl::Buffer::create();
   tile_vertices_ = gl::Buffer::create();
   commands_ = gl::Buffer::create();
-  shades_ = gl::Buffer::create();
-  keys_ = gl::Buffer::create();
 
   using Of = gl::VertexArray::Of;
   surfaces_ = gl::VertexArray::create();
@@ -162,8 +160,8 @@ void Geometry::use_shades() const {
   gl::cut_at_plane(true);
   shade_program_.use();
   surfaces_.bind();
-  shades_.bind_storage(shades_binding);
-  keys_.bind_storage(keys_binding);
+  shades_.bind(shades_binding);
+  keys_.bind(keys_binding);
 }
 
 }  // namespace gpu_shading

@@ -67,8 +67,8 @@ class Geometry {
   gl::Buffer tile_vertices_;
   gl::Buffer views_;
   gl::Buffer commands_;
-  gl::Buffer shades_;
-  gl::Buffer keys_;
+  gl::StorageBuffer shades_;
+  gl::StorageBuffer keys_;
   gl::VertexArray surfaces_;
   gl::VertexArray tiles_;
   ScreenGeometry screens_;

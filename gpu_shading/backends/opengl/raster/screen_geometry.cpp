@@ -66,8 +66,6 @@ ScreenGeometry::ScreenGeometry(Screens const& screens, glm::dvec3 const& scene_o
   gl::require_vertex_storage("perforated screens");
   vertices_ = gl::Buffer::create();
   draw_indices_ = gl::Buffer::create();
-  sheets_ = gl::Buffer::create();
-  regions_ = gl::Buffer::create();
   add_quadrilaterals(scene_origin);
   add_looks();
   quadrilaterals_ = gl::VertexArray::create();
@@ -182,11 +180,11 @@ void ScreenGeometry::draw(Range draws) const {
   constexpr std::uint32_t sheets_binding = 2;
   constexpr std::uint32_t regions_binding = 3;
   quadrilaterals_.bind();
-  sheets_.bind_storage(sheets_binding);
+  sheets_.bind(sheets_binding);
   for (std::size_t i = draws.first; i < draws.first + draws.count; ++i) {
     auto const& [look, indices, record] = draws_[i];
     programs_.at(static_cast<std::size_t>(look.program)).use();
-    if (look.program == of_regions) regions_.bind_storage(regions_binding);
+    if (look.program == of_regions) regions_.bind(regions_binding);
     if (look.texture >= 0) textures_[static_cast<std::size_t>(look.texture)].bind(0);
     gl::draw_indexed_fours(indices.first, indices.count, record);
   }

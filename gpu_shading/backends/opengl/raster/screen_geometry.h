@@ -58,8 +58,8 @@ class ScreenGeometry {
   std::array<gl::Program, 3> programs_;  // by ScreenLook::program
   gl::Buffer vertices_;
   gl::Buffer draw_indices_;
-  gl::Buffer sheets_;
-  gl::Buffer regions_;
+  gl::StorageBuffer sheets_;
+  gl::StorageBuffer regions_;
   gl::VertexArray quadrilaterals_;
 };
 

@@ -144,6 +144,11 @@ TEST(Batches, CountsAreTheSameByEveryWayOfSumming) {
   auto const got = compute.projected_sunlit_areas(suns, site.all);
   for (std::size_t i = 0; i < suns.size(); ++i) {
     for (std::size_t k = 0; k < site.all.size(); ++k) expect_equal(got[i][k], expected[i][k]);
+    for (SurfaceId const window : site.receivers) {
+      auto const inside = readback.interior_sunlit_areas(suns[i], window, site.all);
+      auto const counted = compute.interior_sunlit_areas(suns[i], window, site.all);
+      for (std::size_t k = 0; k < inside.size(); ++k) expect_equal(counted[k], inside[k]);
+    }
   }
 }
 
@@ -178,6 +183,26 @@ TEST(Batches, TwoThousandReceiversInOneCall) {
     EXPECT_NEAR(answers[i].at(factors), expected[i], 2e-3) << i;
   }
   EXPECT_EQ(renderer.statistics().receivers_drawn, static_cast<std::size_t>(receivers));
+}
+
+// Submissions of one call have tables of their own, of the panes that their views see.
+TEST(Batches, DrawsUnderWayKeepTheirShades) {
+  Scene scene;
+  std::vector<SurfaceId> asked;
+  for (int i = 0; i < 20; ++i) {
+    int const row = i / 5;
+    asked.push_back(scene.add({"receiver", level(1 + 4.5 * (i % 5), 1 + 4.5 * row, 0, 4, 4)}));
+  }
+  for (int i = 0; i < 100; ++i) {
+    int const row = i / 10;
+    Surface pane{"pane", level(2.4 * (i % 10), 1.9 * row, 4, 2.4, 1.9)};
+    pane.filter.set(AngularTransmittance{half()});
+    scene.add(pane);
+  }
+  Renderer renderer = renderer_of(scene, 1024, by_opengl);
+  for (auto const& answer : renderer.projected_sunlit_areas(SunDirection{}, asked)) {
+    EXPECT_NEAR(answer.projected_area, 0.5 * 16, 1e-5);
+  }
 }
 
 // What is under way when an error ends a call does not come into the next.
