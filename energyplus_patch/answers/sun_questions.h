@@ -46,7 +46,8 @@ class SunQuestions {
   double area(SurfaceId receiver, std::span<double const> factors);
   // Projected area of a surface that counts as unshaded.
   double unshaded_area(SurfaceId surface) const;
-  // Areas that the sun lights of interior surfaces through a window, in order.
+  // Areas that the sun lights of interior surfaces through a window, in order; 0 from a patch of
+  // the sky (is_sky_patch).
   std::vector<float> interior_areas(InteriorKey const& key, std::span<double const> factors);
 
   CachedRenderer& rendered() { return *rendered_; }

@@ -8,6 +8,7 @@
 
 #include "gpu_shading/error.h"
 #include "scene/scene_assembly.h"
+#include "scene/sky_grid.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -102,6 +103,7 @@ std::vector<double> PlainScene::interior_areas(SurfaceId window,
                                                std::vector<SurfaceId> const& interiors) {
   auto const side = lit_side(window);
   for (auto const interior : interiors) lit_side(interior);
+  if (is_sky_patch(sun_)) return std::vector<double>(interiors.size(), 0.0);
   std::vector<double> areas;
   areas.reserve(interiors.size());
   for (auto const& each : renderer(side).interior_sunlit_areas(sun_, window, interiors)) {

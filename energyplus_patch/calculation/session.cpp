@@ -82,7 +82,11 @@ void Session::start(Simulation simulation) {
     prepare_page(*options.report);
     record_.emplace(scene_.areas(), scene_.shown_receivers());
   }
-  if (!scene_.model().moving_shades.empty()) control_.emplace(scene_);
+  if (auto const& shades = scene_.model().moving_shades; !shades.empty()) {
+    control_.emplace(scene_);
+    step_error_.emplace(shades);
+    add_outputs(simulation);
+  }
   if (!scene_.model().pv_reductions.empty()) pv_loss_.emplace(scene_);
   if (options.cache) prepare_cache_folder(*options.cache);
   answers_.emplace(
@@ -102,34 +106,53 @@ SunQuestions& Session::answers() {
   return *answers_;
 }
 
-void Session::begin_day(RunDay const& day, RunRecord::Beam const& beam) {
-  if (undecided_) move_shades(std::nullopt);  // the sun was down
+void Session::add_outputs(Simulation const& simulation) {
+  auto const& shades = scene_.model().moving_shades;
+  outputs_.resize(shades.size());
+  if (!simulation.add_output) return;
+  for (std::size_t i = 0; i < shades.size(); ++i) {
+    auto const unit = shades[i].unit();
+    simulation.add_output("GPU Shading Moving Shade Position", unit == "share" ? "" : unit,
+                          shades[i].name, outputs_[i].position);
+    simulation.add_output("GPU Shading Moving Shade Control State", "", shades[i].name,
+                          outputs_[i].state);
+  }
+}
+
+void Session::begin_day(RunDay const& day, RunRecord::Beam const& beam,
+                        RunRecord::Beam const& wind) {
   if (record_) record_->begin_day(day, beam);
   bool const same = day.environment == day_.environment && day.month == day_.month &&
                     day.day == day_.day && day.warm_up == day_.warm_up;
   if (!same) beam_.clear();
+  if (!same) wind_.clear();
   day_ = day;
   beam_of_day_ = beam;
+  wind_of_day_ = wind;
 }
 
-// Direct normal irradiance of this timestep, W/m2.
-double Session::beam_now() {
-  if (beam_.empty() && beam_of_day_) beam_ = beam_of_day_();
+double Session::now(std::vector<double>& day, RunRecord::Beam const& of_day) const {
+  if (day.empty() && of_day) day = of_day();
   auto const index =
       static_cast<std::size_t>((moment_.hour - 1) * day_.steps_per_hour + moment_.timestep - 1);
-  return index < beam_.size() ? beam_[index] : 0.0;
+  return index < day.size() ? day[index] : 0.0;
 }
 
 // Decides where the moving shades stand at this time.
 void Session::move_shades(std::optional<SunDirection> sun) {
   undecided_ = false;
   std::vector<double> positions;
+  std::vector<double> exact;
   std::vector<PositionRecord::Entry> entries;
-  for (auto const& [position, state] : control_->decide(sun, [this] { return beam_now(); })) {
-    positions.push_back(position);
-    entries.push_back({position, name_of(state)});
+  for (auto const& each : control_->decide(sun, {[this] { return now(beam_, beam_of_day_); },
+                                                 [this] { return now(wind_, wind_of_day_); }})) {
+    positions.push_back(each.position);
+    exact.push_back(each.exact);
+    entries.push_back({each.position, name_of(each.state)});
+    outputs_[entries.size() - 1] = {each.position, static_cast<double>(each.state)};
   }
   if (moment_.timestep > 0) position_record_.note(day_, moment_, std::move(entries));
+  if (sun && !day_.warm_up) step_error_->note(*sun, positions, exact);
   bool const moved = positions != scene_.positions();
   scene_.set_positions(std::move(positions));
   answers_->deploy(scene_.optics().deployments(), scene_.positions());
@@ -139,9 +162,12 @@ void Session::move_shades(std::optional<SunDirection> sun) {
   renew_reflections();
 }
 
+void Session::end_time() {
+  if (undecided_) move_shades(std::nullopt);  // the sun is down
+}
+
 void Session::set_time(Moment moment) {
   if (!answers_) return;
-  if (undecided_) move_shades(std::nullopt);  // the sun was down
   moment_ = moment;
   if (record_) record_->begin_step(moment);
   if (auto* const first = first_sun_now()) first->reset();
@@ -278,11 +304,32 @@ void Session::finish() {
   if (!any && answers_->counts().directions == 0)
     return;  // the run ended before the first question
   describe_answers(*answers_, scene_.model().options, messages_);
-  if (undecided_) move_shades(std::nullopt);
   position_record_.describe(scene_.model().moving_shades, messages_);
   if (pv_loss_) pv_loss_->describe(messages_);
   write_cache(answers_->rendered(), messages_);
-  if (!failed_) write_reports();
+  if (failed_) return;
+  write_reports();
+  if (!step_error_) return;
+  std::vector<SurfaceId> receivers;
+  for (auto const id : scene_.shown_receivers()) {
+    if (asked[id] && !scene_.moving_shade_of(id)) receivers.push_back(id);
+  }
+  auto const found = step_error_->estimate([&](SunDirection sun, auto const& positions) {
+    answers_->set_sun(sun);
+    answers_->deploy(scene_.optics().deployments(), positions);
+    std::vector<double> fractions;
+    for (auto const id : receivers) {
+      double const all = answers_->unshaded_area(id);
+      double const lit = all > 0.0 ? answers_->area(id, scene_.optics().factors()) : 0.0;
+      fractions.push_back(all > 0.0 ? lit / all : 0.0);
+    }
+    return fractions;
+  });
+  if (!found) return;
+  messages_.remark(fmt::format(
+      "rounding the positions of moving shades to steps changes the sunlit fraction of the surface "
+      "most affected by about {:.4f} on average, {:.4f} at most; estimated at {} timesteps",
+      found->mean, found->most, found->timesteps));
 }
 
 void Session::write_reports() {

@@ -11,6 +11,7 @@
 #include "calculation/pv_loss.h"
 #include "calculation/shade_control.h"
 #include "calculation/shading_calculation.h"
+#include "calculation/step_error.h"
 #include "hidden/daylight_memory.h"
 #include "hidden/hidden_luminance.h"
 #include "hidden/hidden_reflections.h"
@@ -50,11 +51,14 @@ class Session : public ShadingCalculation {
   // Instead of start(): the surfaces with their optics, for a task (tasks/perform_task.h).
   SceneAssembly& complete(Schedules schedules);
 
-  // Whether the days of the run are wanted; then they are handed over as they begin.
+  // Whether the days of the run are wanted; then they are handed over as they begin. Beam and
+  // wind are asked for if they are needed.
   bool records_days() const { return record_ || control_ || pv_loss_; }
-  void begin_day(RunDay const& day, RunRecord::Beam const& beam);
+  void begin_day(RunDay const& day, RunRecord::Beam const& beam, RunRecord::Beam const& wind);
 
   void set_time(Moment moment) override;
+  // EnergyPlus has the shading of this time.
+  void end_time();
   void set_sun(SunDirection sun) override;
 
   // Renders the directions that EnergyPlus is expected to ask for next in the same batch.
@@ -97,7 +101,9 @@ class Session : public ShadingCalculation {
   SunQuestions& answers();
   void write_reports();
   void move_shades(std::optional<SunDirection> sun);
-  double beam_now();
+  // A value of the day, at this timestep.
+  double now(std::vector<double>& day, RunRecord::Beam const& of_day) const;
+  void add_outputs(Simulation const& simulation);
   double with_pv_loss(SurfaceId id, double projected_area);
   double of_drawn(SurfaceId id, double projected_area) const;
   void renew_reflections();
@@ -116,11 +122,20 @@ class Session : public ShadingCalculation {
   std::optional<ShadeControl> control_;  // of moving shades
   std::optional<PvLoss> pv_loss_;        // with --gpu-shading-pv
   bool sky_patch_ = false;               // the sun is a patch of the sky
-  bool undecided_ = false;               // it waits for the sun of this timestep
+  std::optional<StepError> step_error_;
+  bool undecided_ = false;  // the control waits for the sun of this timestep
+  // Values of EnergyPlus's output variables, by moving shade.
+  struct ShadeOutput {
+    double position = 0.0;
+    double state = 0.0;
+  };
+  std::vector<ShadeOutput> outputs_;
   PositionRecord position_record_;
   RunDay day_;
   RunRecord::Beam beam_of_day_;
+  RunRecord::Beam wind_of_day_;
   std::vector<double> beam_;  // of the day, once asked for
+  std::vector<double> wind_;  // the same
   DaylightMemory daylight_memory_;
   std::optional<HiddenObstructions> obstructions_;  // once asked for
   std::optional<HiddenReflections> reflections_;    // once asked for

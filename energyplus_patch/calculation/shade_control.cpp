@@ -20,8 +20,8 @@ using Control = MovingShade::Control;
 
 constexpr std::size_t points_of_receiver = 256;
 constexpr std::size_t max_trials = 200;
-// Sunlit fraction below which a receiver counts as shaded.
-constexpr double no_beam = 1e-6;
+// Sunlit fraction below which a receiver counts as shaded: EnergyPlus takes such as 0.
+constexpr double no_beam = 1e-5;
 constexpr double half_circle = 180.0;
 
 std::vector<double> from_rest(MovingShade const& shade) {
@@ -92,7 +92,7 @@ void ShadeControl::set_time(Moment moment) {
     available = moment.timestep > 0;
     if (!available) continue;
     if (!shade.schedule.empty()) {
-      scheduled = shade.nearest(schedules.position(shade.schedule, moment));
+      scheduled = schedules.position(shade.schedule, moment);
     }
     if (!shade.availability.empty()) {
       available = schedules.position(shade.availability, moment) != 0.0;
@@ -100,21 +100,29 @@ void ShadeControl::set_time(Moment moment) {
   }
 }
 
-std::vector<ShadeControl::Decision> const& ShadeControl::decide(
-    std::optional<SunDirection> sun, std::function<double()> const& beam) {
-  for (std::size_t i = 0; i < shades_.size(); ++i) positions_[i] = shades_[i].scheduled;
+std::vector<ShadeControl::Decision> const& ShadeControl::decide(std::optional<SunDirection> sun,
+                                                                Weather const& weather) {
   std::vector<Decision> next;
   for (std::size_t i = 0; i < shades_.size(); ++i) {
+    auto const& shade = shades_[i].shade;
+    bool const known = moment_.timestep > 0 && shade.maximum_wind && weather.wind;
+    bool const windy = known && weather.wind() > *shade.maximum_wind;
+    double const exact = windy ? shade.rest : shades_[i].scheduled;
+    next.push_back({shade.nearest(exact), windy ? State::windy : State::at_rest,
+                    std::clamp(exact, shade.minimum, shade.maximum)});
+    positions_[i] = next.back().position;
+  }
+  for (std::size_t i = 0; i < shades_.size(); ++i) {
     auto const& shade = shades_[i];
-    Decision decision{positions_[i], State::at_rest};
+    auto& decision = next[i];
+    if (decision.state == State::windy) continue;
     if (shade.shade.control == Control::schedule) {
       if (shade.available) decision.state = State::scheduled;
-    } else if (sun && shade.available && has_beam(shade, *sun, beam)) {
+    } else if (sun && shade.available && has_beam(shade, *sun, weather.beam)) {
       decision =
           shade.shade.control == Control::block_beam ? block_beam(i, *sun) : track_sun(i, *sun);
     }
     positions_[i] = decision.position;
-    next.push_back(decision);
   }
   decisions_ = std::move(next);
   return decisions_;
@@ -192,11 +200,11 @@ ShadeControl::Decision ShadeControl::block_beam(std::size_t index, SunDirection 
     if (is_lit(index, wanted, sun)) continue;
     if (double const present = held(index, wanted);
         present != wanted && !is_lit(index, present, sun)) {
-      return {present, State::held};
+      return {present, State::held, present};
     }
-    return {wanted, wanted == shade.shade.rest ? State::clear : State::blocking};
+    return {wanted, wanted == shade.shade.rest ? State::clear : State::blocking, wanted};
   }
-  return {shade.outward.back(), State::admitting};
+  return {shade.outward.back(), State::admitting, shade.outward.back()};
 }
 
 ShadeControl::Decision ShadeControl::track_sun(std::size_t index, SunDirection sun) const {
@@ -205,8 +213,9 @@ ShadeControl::Decision ShadeControl::track_sun(std::size_t index, SunDirection s
       facing_position(scene_.surfaces()[shades_[index].first].polygon, shade, to_vector(sun));
   // Either side may face the sun.
   auto const first = std::ceil((shade.minimum - facing) / half_circle);
-  double best = shade.nearest(facing + half_circle * first);
-  double off = std::abs(best - (facing + half_circle * first));
+  double best_exact = facing + half_circle * first;
+  double best = shade.nearest(best_exact);
+  double off = std::abs(best - best_exact);
   for (double turns = first - 1.0; facing + half_circle * turns <= shade.maximum + half_circle;
        ++turns) {
     double const exact = facing + half_circle * turns;
@@ -218,15 +227,17 @@ ShadeControl::Decision ShadeControl::track_sun(std::size_t index, SunDirection s
         error < off + shade.step && std::abs(position - shade.rest) < std::abs(best - shade.rest);
     if (!better && !nearer) continue;
     best = position;
+    best_exact = exact;
     off = error;
   }
   double const position = held(index, best);
-  return {position, position == best ? State::tracking : State::held};
+  if (position != best) return {position, State::held, position};
+  return {best, State::tracking, std::clamp(best_exact, shade.minimum, shade.maximum)};
 }
 
 std::string_view name_of(ShadeControl::State state) {
-  constexpr std::array<std::string_view, 7> names{"at rest",   "scheduled", "clear", "blocking",
-                                                  "admitting", "tracking",  "held"};
+  constexpr std::array<std::string_view, 8> names{"at rest",   "scheduled", "clear", "blocking",
+                                                  "admitting", "tracking",  "held",  "windy"};
   return names.at(static_cast<std::size_t>(state));
 }
 

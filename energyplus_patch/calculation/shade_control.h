@@ -25,10 +25,17 @@ class ShadeControl {
     admitting,  // BlockBeam: beam reaches the receivers at every position
     tracking,   // TrackSun
     held,       // by the hysteresis
+    windy,      // the wind keeps the shade at rest
   };
   struct Decision {
     double position = 0.0;
     State state = State::at_rest;
+    double exact = 0.0;  // position before it was rounded to a step
+  };
+  // Of this timestep; asked for where a limit needs it.
+  struct Weather {
+    std::function<double()> beam = {};  // direct normal irradiance, W/m2
+    std::function<double()> wind = {};  // m/s
   };
 
   // The scene must be complete() and outlive this.
@@ -36,11 +43,9 @@ class ShadeControl {
 
   // Reads the schedules.
   void set_time(Moment moment);
-  // The sun of this time; none: it is down. `beam`: direct normal irradiance, W/m2, which is asked
-  // for if a limit needs it. By shade. A shade that looks for the beam takes those that do so after
-  // it to be at rest.
-  std::vector<Decision> const& decide(std::optional<SunDirection> sun,
-                                      std::function<double()> const& beam);
+  // The sun of this time; none: it is down. By shade. A shade that looks for the beam takes those
+  // that do so after it to be at rest.
+  std::vector<Decision> const& decide(std::optional<SunDirection> sun, Weather const& weather);
   // The optics have changed.
   void renew() { trials_.clear(); }
 
@@ -59,7 +64,7 @@ class ShadeControl {
     std::vector<double> outward;  // positions, from rest on
     std::vector<Receiver> receivers;
     SurfaceId first = 0;     // of its surfaces
-    double scheduled = 0.0;  // position
+    double scheduled = 0.0;  // position, not rounded
     bool available = true;
   };
   // The scene with some shades at certain positions, one of them opaque.

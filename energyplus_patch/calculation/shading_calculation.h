@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gpu_shading/rays.h"
@@ -22,6 +23,11 @@ struct Simulation {
   Schedules schedules = {};
   // Latitude of the site, radians; only called if sun positions are sampled.
   std::function<double()> latitude = {};
+  // Adds an output variable of EnergyPlus's for an object, in "deg", "m" or "" (no unit). `value`
+  // is read at the end of each timestep. None: they cannot be added.
+  std::function<void(std::string const& name, std::string_view unit, std::string const& object,
+                     double& value)>
+      add_output = {};
 };
 
 // The shading calculation of one EnergyPlus run: first its surfaces, which are numbered from 0 in
@@ -54,7 +60,9 @@ class ShadingCalculation {
   virtual double projected_sunlit_area(SurfaceId receiver) = 0;
   virtual std::vector<double> projected_sunlit_areas(std::span<SurfaceId const> receivers) = 0;
 
-  // The areas that the sun lights of interior surfaces through a window, in order.
+  // The areas that the sun lights of interior surfaces through a window, in order. EnergyPlus keeps
+  // those above 0 as the beam's of the timestep, even where it asks for a patch of the sky after
+  // the sun (DetailedSkyDiffuseModeling with schedules): from there, they are 0.
   virtual std::vector<double> interior_areas(SurfaceId window,
                                              std::vector<SurfaceId> const& interiors) = 0;
 

@@ -170,6 +170,9 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   check_textures(model.surroundings, model.screens);
   model.moving_shades =
       read_moving_shades(objects, model.shading, fixed_surfaces(model.surroundings));
+  if (choices.positions) {
+    set_rest(model.moving_shades, "--gpu-shading-positions", *choices.positions);
+  }
   model.pv_modules = read_pv_modules(objects, model.shading);
   model.options = resolve(choices, read_settings(objects), model.shading);
   plan_rays(objects, reader, model);

@@ -94,6 +94,15 @@ void SceneAssembly::find_moving_shades() {
     auto const found = by_name.find(surfaces_[id].name);
     moving_shades_.push_back(found == by_name.end() ? std::nullopt : std::optional(found->second));
   }
+  for (std::size_t i = 0; i < shades.size(); ++i) {
+    if (!shades[i].folds()) continue;
+    std::vector<Polygon> panels;
+    for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
+      auto const& surface = surfaces_[id];
+      if (moving_shades_[id] == i && !is_mirrored(surface.name)) panels.push_back(surface.polygon);
+    }
+    model_.moving_shades[i].track = fold_track(panels, shades[i]);
+  }
 }
 
 std::vector<double> SceneAssembly::rest_positions() const {

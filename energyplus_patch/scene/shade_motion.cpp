@@ -1,10 +1,15 @@
 #include "scene/shade_motion.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <limits>
+#include <iterator>
+#include <utility>
+
+#include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -70,6 +75,15 @@ glm::dvec3 turned(glm::dvec3 const& point, RotationAxis const& axis, double angl
          std::sin(angle) * glm::cross(axis.direction, across);
 }
 
+// The first and last coordinate along a direction.
+std::pair<double, double> reach(Polygon const& polygon, glm::dvec3 const& direction) {
+  auto const [low, high] = std::minmax_element(
+      polygon.outline.begin(), polygon.outline.end(), [&](auto const& a, auto const& b) {
+        return glm::dot(a, direction) < glm::dot(b, direction);
+      });
+  return {glm::dot(*low, direction), glm::dot(*high, direction)};
+}
+
 template <typename Move>
 Polygon moved_by(Polygon polygon, Move const& move) {
   for (auto& point : polygon.outline) point = move(point);
@@ -79,7 +93,62 @@ Polygon moved_by(Polygon polygon, Move const& move) {
   return polygon;
 }
 
+// Every second panel turns the other way, from the hinge that the one before it has moved out.
+Polygon folded(Polygon const& drawn, MovingShade const& shade, double position) {
+  auto const& starts = shade.track.starts;
+  double const start = reach(drawn, shade.direction).first;
+  auto const place = std::min_element(starts.begin(), starts.end(), [&](double a, double b) {
+    return std::abs(a - start) < std::abs(b - start);
+  });
+  bool const second = (place - starts.begin()) % 2 == 1;
+  double const angle = glm::radians(position);
+  auto const& first = drawn.outline.front();
+  RotationAxis const axis{first + (*place - glm::dot(first, shade.direction)) * shade.direction,
+                          glm::cross(shade.direction, shade.track.outward)};
+  auto shift = (starts.front() - *place) * (1.0 - std::cos(angle)) * shade.direction;
+  if (second) shift += (*place - *std::prev(place)) * std::sin(angle) * shade.track.outward;
+  return moved_by(drawn, [&](auto const& point) {
+    return shift + turned(point, axis, second ? -angle : angle);
+  });
+}
+
 }  // namespace
+
+MovingShade::Track fold_track(std::vector<Polygon> const& drawn, MovingShade const& shade) {
+  MovingShade::Track track;
+  std::vector<std::pair<double, double>> reaches;
+  for (auto const& panel : drawn) {
+    if (area(panel) <= 0.0) continue;
+    reaches.push_back(reach(panel, shade.direction));
+    bool const first = reaches.back() <= *std::min_element(reaches.begin(), reaches.end());
+    if (first) track.outward = normal(panel);
+    if (std::abs(glm::dot(normal(panel), shade.direction)) > rounding) {
+      throw Error(fmt::format("{}: Direction is at an angle to panels, expected one along them",
+                              shade.where));
+    }
+  }
+  std::sort(reaches.begin(), reaches.end());
+  // Panels above each other fold together.
+  auto const same = [](auto const& a, auto const& b) { return b.first - a.first < rounding; };
+  reaches.erase(std::unique(reaches.begin(), reaches.end(), same), reaches.end());
+  if (reaches.empty() || reaches.size() % 2 != 0) {
+    throw Error(fmt::format("{}: {} panels along Direction, expected pairs for Fold", shade.where,
+                            reaches.size()));
+  }
+  for (std::size_t i = 0; i < reaches.size(); i += 2) {
+    double const one = reaches[i + 1].first - reaches[i].first;
+    double const other = reaches[i + 1].second - reaches[i + 1].first;
+    constexpr double most = 0.1;
+    if (std::abs(one - other) > most * one) {
+      throw Error(
+          fmt::format("{}: panels {} and {} along Direction are {:.6g} and {:.6g} m wide, "
+                      "expected pairs of equal width for Fold",
+                      shade.where, i + 1, i + 2, one, other));
+    }
+  }
+  for (auto const& [start, end] : reaches) track.starts.push_back(start);
+  return track;
+}
 
 RotationAxis rotation_axis(Polygon const& drawn, MovingShade const& shade) {
   auto const& ring = drawn.outline;
@@ -106,15 +175,16 @@ Polygon moved(Polygon const& drawn, MovingShade const& shade, double position) {
     }
     case Motion::slide:
       return moved_by(drawn, [&](auto const& point) { return point + position * shade.direction; });
+    case Motion::fold:
+      return position == 0.0 ? drawn : folded(drawn, shade, position);
     case Motion::extend:
       break;
   }
   if (position == 1.0) return drawn;
-  double fixed = std::numeric_limits<double>::infinity();
-  for (auto const& point : drawn.outline) fixed = std::min(fixed, glm::dot(point, shade.direction));
+  double const fixed = reach(drawn, shade.direction).first;
   return moved_by(drawn, [&](auto const& point) {
-    double const reach = glm::dot(point, shade.direction) - fixed;
-    return point + (position - 1.0) * reach * shade.direction;
+    double const length = glm::dot(point, shade.direction) - fixed;
+    return point + (position - 1.0) * length * shade.direction;
   });
 }
 

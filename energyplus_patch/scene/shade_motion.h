@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "gpu_shading/polygon.h"
 #include "model/input/moving_shades.h"
@@ -10,6 +11,9 @@ namespace gpu_shading::energyplus {
 
 // The polygon of a surface, from where it is drawn.
 Polygon moved(Polygon const& drawn, MovingShade const& shade, double position);
+
+// Of Fold, from the panels as they are drawn. Throws Error.
+MovingShade::Track fold_track(std::vector<Polygon> const& drawn, MovingShade const& shade);
 
 // An axis of Rotate; the direction is a unit vector.
 struct RotationAxis {

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Writes the box of idf_examples/box_with_louvres with level louvres before its south window that turn.
 
-    generate.py [--louvres N] [--control none|fixed|block|track] [--position DEGREES] > moving_louvres.idf
+    generate.py [--louvres N] [--control none|fixed|block|summer|track] [--position DEGREES] > moving_louvres.idf
 
-none: the louvres are level, without a GPUShading:MovingShade; fixed: they stand at a position; block: BlockBeam; track:
-TrackSun. The louvres are as deep as their rows are apart, in 20 rows, each cut into pieces to give N in total.
+none: the louvres are level, without a GPUShading:MovingShade; fixed: they stand at a position; block: BlockBeam;
+summer: BlockBeam from May to September, else level; track: TrackSun. The louvres are as deep as their rows are apart,
+in 20 rows, each cut into pieces to give N in total.
 """
 
 import argparse
@@ -43,6 +44,10 @@ def moving_shade(control, position=0.0):
     head = "\nGPUShading:MovingShade,Louvres,Louvre *,Rotate,,,,,,,,0,80,5,"
     if control == "block":
         return head + ",BlockBeam,,South Window;\n"
+    if control == "summer":
+        days = ",For: AllDays,Until: 24:00,"
+        return (f"\nSchedule:Compact,Summer,,Through: 4/30{days}0,Through: 9/30{days}1,Through: 12/31{days}0;\n"
+                + head + ",BlockBeam,,South Window,Summer;\n")  # fmt: skip
     if control == "track":
         return head + ",TrackSun;\n"
     return f"\nSchedule:Constant,Louvre Position,,{position:g};\n" + head + ",Schedule,Louvre Position;\n"
@@ -68,7 +73,7 @@ def model(count=ROWS, control="block", position=0.0):
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--louvres", type=int, default=ROWS)
-    parser.add_argument("--control", choices=("none", "fixed", "block", "track"), default="block")
+    parser.add_argument("--control", choices=("none", "fixed", "block", "summer", "track"), default="block")
     parser.add_argument("--position", type=float, default=0.0)
     chosen = parser.parse_args()
     sys.stdout.write(model(chosen.louvres, chosen.control, chosen.position))

@@ -18,12 +18,13 @@ from shading_runs import results  # noqa: E402
 WEATHER = "USA_CO_Golden-NREL.724666_TMY3.epw"
 # In words: control, position.
 VARIANTS = {
-    "level, no object": ("none", 0),
-    "level": ("fixed", 0),
+    "without object": ("none", 0),
+    "fixed at 0": ("fixed", 0),
     "fixed at 20": ("fixed", 20),
     "fixed at 40": ("fixed", 40),
     "fixed at 60": ("fixed", 60),
     "BlockBeam": ("block", 0),
+    "BlockBeam in summer": ("summer", 0),
     "TrackSun": ("track", 0),
 }
 OUTPUTS = idf.SOLAR_OUTPUTS + "".join(
@@ -32,18 +33,18 @@ ENERGY = (results.BEAM, results.SOLAR, results.HEATING, results.COOLING)
 
 
 def compare(count, folder):
-    print("| louvres | beam kWh | solar kWh | heating kWh | cooling kWh | seconds |")
-    print("|---|---:|---:|---:|---:|---:|")
+    print("| louvres | beam kWh | solar kWh | heating kWh | cooling kWh | both kWh | seconds |")
+    print("|---|---:|---:|---:|---:|---:|---:|")
     for words, (control, position) in VARIANTS.items():
         place = folder / words.replace(" ", "_")
         place.mkdir()
         path = place / "moving_louvres.idf"
-        # With FullInteriorAndExterior, EnergyPlus counts beam indoors several times: see limits.md.
-        model = generate.model(count, control, position).replace("FullInteriorAndExterior", "FullExterior")
-        path.write_text(model + OUTPUTS)
+        path.write_text(generate.model(count, control, position) + OUTPUTS)
         done = case_study.run_year(path, WEATHER, words)
         values = results.Results(done.folder, "Monthly")
-        amounts = " | ".join(f"{values.total(variable):,.0f}" for variable in ENERGY)
+        totals = [values.total(variable) for variable in ENERGY]
+        totals.append(sum(totals[2:]))
+        amounts = " | ".join(f"{total:,.0f}" for total in totals)
         print(f"| {words} | {amounts} | {done.seconds:.1f} |", flush=True)
 
 
@@ -51,7 +52,7 @@ def main():
     parser = argparse.ArgumentParser(description="Compares moving louvres with fixed ones.")
     parser.add_argument("--louvres", type=int, default=generate.ROWS, metavar="N")
     parser.add_argument("-o", "--output", type=Path, default=Path("out/moving_louvres"), metavar="DIR",
-                        help="for the runs")  # fmt: skip
+                        help="folder for the runs")  # fmt: skip
     chosen = parser.parse_args()
     with case_study.replacing(chosen.output, "moving_louvres") as output:
         compare(chosen.louvres, output.path)

@@ -2,7 +2,9 @@
 
 import csv
 import math
+import re
 import sqlite3
+import subprocess
 
 import pytest
 import window_with_shades
@@ -46,7 +48,7 @@ def slats(turn=0.0):
 
 def moving(pattern, motion, **fields):
     names = ["axis", "dx", "dy", "dz", "px", "py", "pz", "minimum", "maximum", "step", "rest", "control", "schedule",
-             "receiver", "available", "beam", "hysteresis"]
+             "receiver", "available", "beam", "hysteresis", "wind"]
     assert not set(fields) - set(names)
     return (f"GPUShading:MovingShade,Shade,{pattern},{motion},"
             + ",".join(str(fields.get(name, "")) for name in names) + ";\n")
@@ -141,6 +143,43 @@ def test_an_awning_extends_as_its_closed_form_says(run):
     assert compared > 20
 
 
+# Four panels of 0.75 m before the window, far higher and lower than it, from its west side to its east side.
+PANEL_WIDTH, TRACK = 0.75, 0.1
+PANELS = "".join(surface(f"Panel {i}", [(x, -TRACK, 40), (x, -TRACK, -40), (x + PANEL_WIDTH, -TRACK, -40),
+                                        (x + PANEL_WIDTH, -TRACK, 40)])
+                 for i, x in enumerate(-window_with_shades.SIZE / 2 + PANEL_WIDTH * i for i in range(4)))
+
+
+def folded_cover(turn, run_east):
+    """The share of the window's width behind panels folded by an angle; `run_east`: per metre that light moves inwards.
+
+    Panels are connected, so that their shadow reaches from the first to the last of the shadows of their hinges.
+    """
+    hinges = [(-window_with_shades.SIZE / 2 + PANEL_WIDTH * i * math.cos(turn),
+               TRACK + (PANEL_WIDTH * math.sin(turn) if i % 2 else 0.0)) for i in range(5)]
+    shadows = [x + out * run_east for x, out in hinges]
+    half = window_with_shades.SIZE / 2
+    return max(0.0, min(max(shadows), half) - max(min(shadows), -half)) / window_with_shades.SIZE
+
+
+def test_panels_fold_as_their_closed_form_says(run):
+    hours = "".join(f"Until: {hour}:00,{hour * 25 % 100}," for hour in range(1, 24))
+    schedule = f"Schedule:Compact,Position,,Through: 12/31,For: AllDays,{hours}Until: 24:00,0;\n"
+    shade = moving("Panel *", "Fold", dx=1, schedule="Position", step=0.5)
+    done = run(room(PANELS, shade, schedule, DAYS))
+    fractions, turns = series(done, FRACTION), series(done, "Schedule Value", "POSITION")
+    compared = set()
+    for time, (azimuth, altitude) in sun(done).items():
+        g = math.radians(azimuth - 180.0)
+        if altitude <= 2.0 or math.cos(g) <= 0.05:
+            continue
+        # From the south-west, light moves to the east.
+        cover = folded_cover(math.radians(min(turns[time], 90.0)), math.tan(g))
+        assert abs(fractions[time] - (1.0 - cover)) < 2e-4, (time, turns[time], azimuth)
+        compared.add(turns[time])
+    assert len(compared) >= 4
+
+
 REPORT = ("--gpu-shading-report", "report")
 
 
@@ -191,6 +230,49 @@ def test_block_beam_turns_slats_to_the_cut_off_angle(run):
         compared += 1
     assert compared > 20
     assert {row["Shade state"] for row in rows(done)} >= {"at rest", "blocking"}
+
+
+def test_wind_keeps_shades_at_rest(run):
+    """The design day's wind is 3 m/s."""
+    control = CASES["centre line"][1].rstrip(";\n")
+    assert control.endswith(",")  # Hysteresis is blank.
+    calm = run(room(slats(), control + "3.1;\n", constant(35)), *REPORT)
+    windy = run(room(slats(), control + "2.9;\n", constant(35)), *REPORT, name="windy")
+    assert {(row["Shade position [deg]"], row["Shade state"]) for row in rows(calm)} == {("35", "scheduled")}
+    assert {(row["Shade position [deg]"], row["Shade state"]) for row in rows(windy)} == {("0", "windy")}
+    assert_same(windy, run(room(slats()), name="level"))
+
+
+def test_position_and_state_are_output_variables(run):
+    outputs = "".join(f"Output:Variable,*,GPU Shading Moving Shade {name},Timestep;\n"
+                      for name in ("Position", "Control State"))
+    shade = moving("Slat *", "Rotate", step=1, control="BlockBeam", receiver="Window", maximum=90)
+    done = run(room(FULL, shade, outputs).replace("21 August,8,21,", "21 December,12,21,"), *REPORT)
+    table = rows(done)
+    position = series(done, "GPU Shading Moving Shade Position", "SHADE")
+    state = series(done, "GPU Shading Moving Shade Control State", "SHADE")
+    assert [position[time] for time in sorted(position)] == [float(row["Shade position [deg]"]) for row in table]
+    states = ["at rest", "scheduled", "clear", "blocking", "admitting", "tracking", "held", "windy"]
+    assert [states[round(state[time])] for time in sorted(state)] == [row["Shade state"] for row in table]
+    assert len(set(position.values())) > 5
+    assert len(set(state.values())) >= 2
+    assert "GPU Shading Moving Shade Position [deg]" in done.text("eplusout.eso")
+
+
+def test_the_error_of_the_step_is_stated(run):
+    steps = "".join(f"Until: {hour}:00,{7.3 * hour % 45:.2f}," for hour in range(1, 24))
+    schedule = f"Schedule:Compact,Position,,Through: 12/31,For: AllDays,{steps}Until: 24:00,0;\n"
+    coarse, fine = (run(room(slats(), moving("Slat *", "Rotate", step=step, schedule="Position"), schedule),
+                        name=f"step {step}") for step in (5, 0.01))
+    one, other = series(coarse, FRACTION), series(fine, FRACTION)
+    up = [abs(one[time] - other[time]) for time, (_, altitude) in sun(fine).items() if altitude > 0.0]
+    found = re.search(r"most affected by about ([\d.]+) on average, ([\d.]+) at most", coarse.text("eplusout.err"))
+    mean, most = map(float, found.groups())
+    rounded = [value for value in up if value > 0.0]
+    # The window is not always the surface most affected; in the shade, nothing is.
+    assert sum(up) / len(up) <= mean * 1.2 <= 4.0 * sum(rounded) / len(rounded)
+    assert max(up) * 0.5 <= most <= max(up) * 2.0
+    assert "most affected" not in fine.text("eplusout.err")  # All are on its grid.
 
 
 def test_track_sun_faces_the_profile_angle(run):
@@ -246,6 +328,21 @@ def test_the_sky_follows_with_detailed_modeling(run):
     assert max(first.values()) > 20.0
     assert max(abs(first[time] - second[time]) for time in first) < 1e-3 * max(first.values())
     assert "position at rest" not in moves.text("eplusout.err")
+
+
+def test_pictures_show_other_positions(patched, weather, tmp_path):
+    shade = CASES["centre line"][1] + constant(0)
+    pictures = {}
+    for name, text, options in (("moved", slats() + shade, ["--gpu-shading-positions", "shade=35"]),
+                                ("there", slats(35), []), ("rest", slats() + shade, [])):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "model.idf").write_text(room(text))
+        done = subprocess.run([patched.parent / "gpu_shading", "view", "model.idf", "-w", weather, "--at", "08-21 13:00",
+                               "-o", "picture.png", *options], cwd=tmp_path / name, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        pictures[name] = (tmp_path / name / "picture.png").read_bytes()
+    assert pictures["moved"] == pictures["there"]
+    assert pictures["moved"] != pictures["rest"]
 
 
 def test_what_does_not_follow_is_refused_or_stated(patched, weather, tmp_path, run):

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <sstream>
 
 #include "gpu_shading/error.h"
 #include "model/idf/fields.h"
@@ -68,8 +69,9 @@ void read_motion(InputObject const& object, MovingShade& shade) {
 
 void read_range(InputObject const& object, MovingShade& shade) {
   constexpr double quarter = 90.0;
+  bool const degrees = shade.turns() || shade.folds();
   shade.minimum = read(object, field::minimum_position);
-  shade.maximum = read(object, field::maximum_position).value_or(shade.turns() ? quarter : 1.0);
+  shade.maximum = read(object, field::maximum_position).value_or(degrees ? quarter : 1.0);
   double const range = shade.maximum - shade.minimum;
   if (range <= 0.0) {
     throw Error(fmt::format("{} is {}, expected more than {} {}", field::maximum_position.title,
@@ -80,7 +82,12 @@ void read_range(InputObject const& object, MovingShade& shade) {
                             field::minimum_position.title, shade.minimum,
                             field::maximum_position.title, shade.maximum));
   }
-  shade.step = read(object, field::step).value_or(shade.turns() ? 1.0 : range / 100.0);
+  if (shade.folds() && (shade.minimum < -quarter || shade.maximum > quarter)) {
+    throw Error(fmt::format("{} {} and {} {}: expected -90 to 90 degrees for Fold",
+                            field::minimum_position.title, shade.minimum,
+                            field::maximum_position.title, shade.maximum));
+  }
+  shade.step = read(object, field::step).value_or(degrees ? 1.0 : range / 100.0);
   if (range > max_steps * shade.step) {
     throw Error(fmt::format("{} is {}, expected at least {} for at most {} positions",
                             field::step.title, shade.step, range / max_steps, max_steps));
@@ -100,6 +107,7 @@ void read_control(InputObject const& object, MovingShade& shade) {
   shade.availability = upper(read(object, field::availability_schedule_name));
   shade.minimum_beam = read(object, field::minimum_beam);
   shade.hysteresis = read(object, field::hysteresis);
+  shade.maximum_wind = read(object, field::maximum_wind_speed);
   if (shade.control == Control::schedule) {
     if (shade.schedule.empty()) refuse_blank(field::position_schedule_name);
     expect_blank(object,
@@ -151,7 +159,7 @@ std::vector<double> MovingShade::positions() const {
 }
 
 std::string_view MovingShade::unit() const {
-  if (turns()) return "deg";
+  if (turns() || folds()) return "deg";
   return motion == Motion::slide ? "m" : "share";
 }
 
@@ -185,6 +193,32 @@ std::vector<MovingShade> read_moving_shades(std::vector<InputObject> const& obje
     });
   }
   return shades;
+}
+
+void set_rest(std::vector<MovingShade>& shades, std::string const& option,
+              std::string const& positions) {
+  std::vector<std::string> names;
+  for (auto const& shade : shades) names.push_back(shade.name);
+  std::istringstream parts(positions);
+  for (std::string part; std::getline(parts, part, ',');) {
+    auto const equals = part.rfind('=');
+    auto const position = parse_number(equals == std::string::npos ? "" : part.substr(equals + 1));
+    if (!position) {
+      throw Error(fmt::format("{} {}: expected NAME=POSITION", option, in_quotes(part)));
+    }
+    auto const name = part.substr(0, equals);
+    auto const shade = std::find_if(shades.begin(), shades.end(),
+                                    [&](auto const& each) { return same_name(each.name, name); });
+    if (shade == shades.end()) {
+      throw Error(fmt::format("{} {}: the model has no such {}{}", option, in_quotes(name),
+                              field::type, did_you_mean(name, names)));
+    }
+    if (*position < shade->minimum || *position > shade->maximum) {
+      throw Error(fmt::format("{} {}: expected {} to {} {}", option, in_quotes(part),
+                              shade->minimum, shade->maximum, shade->unit()));
+    }
+    shade->rest = shade->nearest(*position);
+  }
 }
 
 }  // namespace gpu_shading::energyplus

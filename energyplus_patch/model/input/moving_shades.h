@@ -35,12 +35,20 @@ struct MovingShade {
   std::string availability;  // upper case, or ""
   std::optional<double> minimum_beam = std::nullopt;
   double hysteresis = 0.0;
+  std::optional<double> maximum_wind = std::nullopt;  // m/s
+  // For Fold, once the surfaces are known (fold_track): where panels begin along the direction, in
+  // order, and to where their hinges move (unit vector).
+  struct Track {
+    std::vector<double> starts;
+    glm::dvec3 outward{0.0};
+  } track = {};
 
   // The nearest position at which the surfaces can stand.
   double nearest(double position) const;
   // All of these, in order.
   std::vector<double> positions() const;
   bool turns() const { return motion == Motion::rotate; }
+  bool folds() const { return motion == Motion::fold; }
   // "deg", "m" or "share".
   std::string_view unit() const;
   // "20 surfaces rotate from 0 to 90 deg in steps of 1, at rest at 0: BlockBeam"
@@ -51,5 +59,9 @@ struct MovingShade {
 // `fixed`: names of shading surfaces that cannot move, because they are parts of a mesh or map.
 std::vector<MovingShade> read_moving_shades(std::vector<InputObject> const& objects,
                                             ShadingInput const& input, Names const& fixed);
+
+// Sets positions at rest: "Louvres=40,Awning=0.5". Throws Error, naming `option`.
+void set_rest(std::vector<MovingShade>& shades, std::string const& option,
+              std::string const& positions);
 
 }  // namespace gpu_shading::energyplus

@@ -34,6 +34,7 @@ constexpr FieldInfo method_value = choice(method_words, "auto");
 constexpr FieldInfo assets_value = choice(assets_words, "restricted");
 constexpr FieldInfo switch_value = choice(switch_words, "off");
 constexpr FieldInfo path_value{.key = "", .title = ""};
+constexpr FieldInfo text_value{.key = "", .title = ""};
 constexpr FieldInfo path_or_off_value{.key = "", .title = "", .words = off_word, .blank = "off"};
 constexpr FieldInfo threads_value{.key = "",
                                   .title = "",
@@ -121,7 +122,8 @@ std::span<OptionRow const> option_rows() {
            .value = mode_value,
            .default_text = "the official program",
            .meaning = "`auto` (also the flag alone, `on`, `yes`, `true` and `1`): render on a GPU "
-                      "if there is one, otherwise on the CPU. `require`: stop if there is no GPU. "
+                      "if there is one that is not slower, otherwise on the CPU. `require`: stop "
+                      "if there is no GPU. "
                       "`off` (also `no`, `false` and `0`): use polygon clipping, for comparison, "
                       "and remove the extension objects from the input",
            .bare = "auto"}),
@@ -184,6 +186,12 @@ std::span<OptionRow const> option_rows() {
            .placeholder = "DIR",
            .meaning = "Keep answers in this folder, so that later runs of the same geometry need "
                       "not render them"}),
+      at<&Choices::positions>(
+          {.name = "positions",
+           .value = text_value,
+           .placeholder = "NAME=POSITION,...",
+           .default_text = "as in the model",
+           .meaning = "Positions at rest of moving shades, which pictures, maps and masks show"}),
       at<&Choices::threads>({.name = "threads",
                              .value = threads_value,
                              .placeholder = "N",

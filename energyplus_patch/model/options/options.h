@@ -66,6 +66,7 @@ struct Choices {
   // Not in GPUShading:Settings: a model does not widen what is read for it.
   std::optional<Assets> assets = std::nullopt;
   std::optional<Method> method = std::nullopt;
+  std::optional<std::string> positions = std::nullopt;  // at rest, of moving shades
   std::optional<int> threads = std::nullopt;
   std::optional<bool> quiet = std::nullopt;
   std::optional<bool> verbose = std::nullopt;

@@ -72,8 +72,8 @@ void Command::run(std::function<void()> const& action) const {
 }
 
 OptionNames model_options(std::initializer_list<std::string_view> more) {
-  OptionNames names{"",        "error", "resolution", "device", "file",
-                    "threads", "quiet", "lean",       "method", "assets"};
+  OptionNames names{"",      "error", "resolution", "device", "file",     "threads",
+                    "quiet", "lean",  "method",     "assets", "positions"};
   names.insert(names.end(), more);
   return names;
 }

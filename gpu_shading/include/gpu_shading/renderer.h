@@ -33,8 +33,9 @@ struct RendererOptions {
   // Otherwise views with few edges are answered exactly, without samples, where that costs less.
   bool samples_only = false;
   // Called with one line when the CPU takes over from an OpenGL device: the first views of each
-  // kind are compared with the CPU's, and one was wrong; or the device cannot draw the scene.
-  // Without it, wrong answers throw DeviceError.
+  // kind are compared with the CPU's, and one was wrong; or the device cannot draw the scene; or,
+  // where no device was named, it takes more than twice as long as the CPU. Without it, wrong
+  // answers throw DeviceError, and a slower device is kept.
   std::function<void(std::string const&)> warn = {};
 };
 

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+
+#include "gpu_shading/error.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -62,6 +65,62 @@ TEST(ShadeMotion, SlidesAndExtendsAlongADirection) {
   expect_near(grown.outline[0], {0, 0.75, 2});
   expect_near(grown.outline[2], {4, 1, 2});
   EXPECT_EQ(area(moved(slat, shade_of(Motion::extend, Axis::centre_line, {0, -1, 0}), 0.0)), 0.0);
+}
+
+// Four panels in a plane that faces south, along the east.
+std::vector<Polygon> panels() {
+  std::vector<Polygon> all;
+  for (double x = 1.0; x < 5.0; ++x) {
+    all.push_back({{{x, 2, 0}, {x + 1, 2, 0}, {x + 1, 2, 3}, {x, 2, 3}}, {}});
+  }
+  return all;
+}
+
+TEST(ShadeMotion, FoldsPairsOfPanelsFromTheEdgeThatStays) {
+  auto shade = shade_of(Motion::fold, Axis::centre_line, {1, 0, 0});
+  auto const drawn = panels();
+  shade.track = fold_track(drawn, shade);
+  double const c = std::cos(std::numbers::pi / 3);
+  double const s = std::sin(std::numbers::pi / 3);
+  double at = 1.0;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    auto const panel = moved(drawn[i], shade, 60.0);
+    // Hinges move out to the south.
+    double const from = i % 2 == 0 ? 2.0 : 2.0 - s;
+    double const to = i % 2 == 0 ? 2.0 - s : 2.0;
+    expect_near(panel.outline[0], {at, from, 0});
+    expect_near(panel.outline[2], {at + c, to, 3});
+    EXPECT_NEAR(area(panel), 3.0, 1e-12);
+    at += c;
+  }
+  expect_near(moved(drawn[3], shade, 90.0).outline[1], {1, 2, 0});
+  expect_near(moved(drawn[1], shade, -90.0).outline[0], {1, 3, 0});
+  EXPECT_EQ(moved(drawn[2], shade, 0.0).outline, drawn[2].outline);
+}
+
+TEST(ShadeMotion, FoldsTowardsEitherEndAndInRowsAboveEachOther) {
+  auto shade = shade_of(Motion::fold, Axis::centre_line, {-1, 0, 0});
+  auto drawn = panels();
+  for (auto above : panels()) {
+    for (auto& point : above.outline) point.z += 3.0;
+    drawn.push_back(above);
+  }
+  shade.track = fold_track(drawn, shade);
+  EXPECT_EQ(shade.track.starts.size(), 4U);
+  expect_near(moved(drawn[3], shade, 90.0).outline[1], {5, 2, 0});
+  expect_near(moved(drawn[7], shade, 90.0).outline[0], {5, 1, 3});
+}
+
+TEST(ShadeMotion, OnlyEqualPairsFold) {
+  auto const shade = shade_of(Motion::fold, Axis::centre_line, {1, 0, 0});
+  auto three = panels();
+  three.pop_back();
+  EXPECT_THROW(fold_track(three, shade), Error);
+  auto narrow = panels();
+  narrow[3].outline[1].x = narrow[3].outline[2].x = 4.5;
+  EXPECT_THROW(fold_track(narrow, shade), Error);
+  EXPECT_THROW(fold_track(panels(), shade_of(Motion::fold, Axis::centre_line, {0, 1, 0})), Error);
+  EXPECT_THROW(fold_track({}, shade), Error);
 }
 
 TEST(ShadeMotion, FacesTheProfileAngleOfTheSun) {

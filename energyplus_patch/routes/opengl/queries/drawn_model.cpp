@@ -92,11 +92,8 @@ void DrawnModel::set_time(SunDirection sun) {
 void DrawnModel::set_sun(glm::dvec3 const& towards_sun) {
   if (towards_sun == sun_) return;
   sun_ = towards_sun;
-  auto sun = to_direction(towards_sun);
-  if (input_) {
-    sun = without_rounding(sun);
-    set_time(sun);
-  }
+  auto const sun = without_rounding(to_direction(towards_sun));
+  if (input_) set_time(sun);
   calculation_->set_sun(sun);
 }
 

@@ -1,5 +1,7 @@
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gpu_shading/error.h"
@@ -87,10 +89,15 @@ void set_model(PenumbraObject* self) {
   State& state = *this_run().state;
   auto const messages = messages_of(this_run());
   add_mirrored_surfaces(session, messages);
-  begin(session,
-        {messages, installed.schedules.of(state),
-         [&installed, &state] { return installed.functions.latitude(state); }},
-        installed.task ? &*installed.task : nullptr);
+  Simulation simulation{messages, installed.schedules.of(state),
+                        [&installed, &state] { return installed.functions.latitude(state); }};
+  if (installed.served.contains(Need::outputs)) {
+    simulation.add_output = [&](std::string const& name, std::string_view unit,
+                                std::string const& object, double& value) {
+      installed.functions.add_output(state, name, unit, object, value);
+    };
+  }
+  begin(session, std::move(simulation), installed.task ? &*installed.task : nullptr);
 }
 
 void set_sun_position(PenumbraObject* self, float azimuth, float altitude) {

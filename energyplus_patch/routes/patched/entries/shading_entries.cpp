@@ -1,4 +1,5 @@
 #include <string_view>
+#include <utility>
 
 #include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
@@ -10,6 +11,13 @@ PointerTo<symbol::solar_beam_at_timestep> original_solar_beam = nullptr;
 PointerTo<symbol::sky_shading> original_sky_shading = nullptr;
 PointerTo<symbol::process_shadowing_input> original_process_shadowing_input = nullptr;
 PointerTo<symbol::perform_solar_calculations> original_solar_calculations = nullptr;
+PointerTo<symbol::shadow> original_shadow = nullptr;
+
+// Whether EnergyPlus has the sun's shadows of this timestep, and asks for patches of the sky.
+bool& has_sun() {
+  thread_local bool has = false;
+  return has;
+}
 
 void set_time(Moment moment) {
   if (auto* const session = this_run().session) guarded([&] { session->set_time(moment); });
@@ -19,7 +27,21 @@ void set_time(Moment moment) {
 void solar_beam(State& state, int hour, int timestep) {
   set_time({hour, timestep});
   if (auto* const memory = daylight_memory()) memory->note_shadows(hour);
+  has_sun() = false;
   original_solar_beam(state, hour, timestep);
+  if (auto* const session = this_run().session) guarded([&] { session->end_time(); });
+}
+
+// EnergyPlus keeps sunlit fractions without reveals by time, those of the sky's patches as well,
+// which would replace the sun's: they are kept for a time close to midnight.
+void shadow(State& state, int hour, int timestep) {
+  constexpr int last_hour = 24;
+  bool const ours = this_run().session != nullptr && timestep > 0;
+  if (ours && std::exchange(has_sun(), true)) {
+    original_shadow(state, last_hour, 1);
+  } else {
+    original_shadow(state, hour, timestep);
+  }
 }
 
 // Shading of the sky for the whole simulation.
@@ -34,7 +56,9 @@ void solar_calculations(State& state) {
   if (session != nullptr && session->records_days()) {
     guarded([&] {
       auto const& functions = installation().functions;
-      session->begin_day(functions.day(state), [&] { return functions.beam_of_day(state); });
+      session->begin_day(
+          functions.day(state), [&] { return functions.beam_of_day(state); },
+          [&] { return functions.wind_of_day(state); });
     });
   }
   original_solar_calculations(state);
@@ -56,6 +80,7 @@ void process_shadowing_input(State& state) {
 std::vector<Entry> shading_entries() {
   return {
       watch(symbol::solar_beam_at_timestep, &solar_beam, &original_solar_beam),
+      watch(symbol::shadow, &shadow, &original_shadow),
       watch(symbol::sky_shading, &sky_shading, &original_sky_shading),
       watch(symbol::process_shadowing_input, &process_shadowing_input,
             &original_process_shadowing_input),

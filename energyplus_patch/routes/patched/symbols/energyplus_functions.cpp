@@ -90,6 +90,36 @@ std::vector<double> EnergyPlusFunctions::beam_of_day(State& state) const {
   return beam;
 }
 
+std::vector<double> EnergyPlusFunctions::wind_of_day(State& state) const {
+  constexpr int hours = 24;
+  int const steps_per_hour = symbol::steps_per_hour.in(symbols_)(&state);
+  auto const weather_wind = symbol::weather_wind.in(symbols_);
+  std::vector<double> wind;
+  for (int hour = 0; hour < hours; ++hour) {
+    for (int step = 1; step <= steps_per_hour; ++step) {
+      wind.push_back(weather_wind(&state, hour, step));
+    }
+  }
+  return wind;
+}
+
+void EnergyPlusFunctions::add_output(State& state, std::string const& name, std::string_view unit,
+                                     std::string const& object, double& value) const {
+  // Its enumerations, and the defaults of its arguments.
+  constexpr int none = 6;
+  constexpr int metres = 21;
+  constexpr int degrees = 34;
+  constexpr int zone_timestep = 0;
+  constexpr int average = 0;
+  constexpr int invalid = -1;
+  constexpr int no_index_group = -999;
+  constexpr int each_call = 0;
+  int const units = unit == "deg" ? degrees : unit == "m" ? metres : none;
+  symbol::setup_output_variable.in(symbols_)(state, name, units, value, zone_timestep, average,
+                                             object, invalid, invalid, invalid, {}, {}, 1, 1, {},
+                                             no_index_group, {}, each_call);
+}
+
 class ScheduleInterface {
  public:
   // A schedule of EnergyPlus's: where it is, or its number; 0 if there is none.

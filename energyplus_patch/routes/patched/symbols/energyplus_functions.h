@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,13 @@ class EnergyPlusFunctions {
   RunDay day(State& state) const;
   // The beam of that day (RunDay::beam). For Need::run_days.
   std::vector<double> beam_of_day(State& state) const;
+  // The wind speed of that day, m/s, likewise.
+  std::vector<double> wind_of_day(State& state) const;
+
+  // Adds an output variable of zone timesteps, averaged over longer times, in "deg", "m" or "" (no
+  // unit); `value` must outlive the run. For Need::outputs.
+  void add_output(State& state, std::string const& name, std::string_view unit,
+                  std::string const& object, double& value) const;
 
   // Whether the sun is up in the weather of the timestep that EnergyPlus is at. For
   // Need::daylight_memory.

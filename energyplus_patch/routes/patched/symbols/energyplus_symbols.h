@@ -58,8 +58,10 @@ enum class Need {
   before_25_1,     // from_25_1 serves instead
   eio_line,        // the .eio file has no lines on shading
   opaque_warning,  // EnergyPlus warns that pixel counting takes shades as opaque (before 24.2)
+  sky_times,       // beam that reveals reflect is wrong where the sky follows schedules
   surface_ids,     // mirrored shading surfaces are taken as shaded, and there are no `reflections`
   run_days,        // the report has no days
+  outputs,         // moving shades have no output variables
   daylight_rays,   // hidden casters dim no rays of daylighting
   reflections,     // hidden casters do not take part in solar reflections
   daylight_reflections,  // hidden casters do not take part in reflections of daylighting
