@@ -191,9 +191,9 @@ def run(model: _programs.Name, weather: _programs.Name, folder: _programs.Name |
     `folder`: the output folder, new or empty; if None, a new one among the temporary files. `shading`: False for
     EnergyPlus's own polygon clipping. Options of the renderer, as the flags `--gpu-shading-error` and so on: `error` or
     `resolution`, `update`, `device`, a side file of `extensions`, and the number of `threads`. `pv`: the power() of
-    modules, whose loss by partly shaded cells is taken from the sunlit fractions of their surfaces, so that EnergyPlus's
-    generators have it. `arguments`: more for EnergyPlus, such as ["-D"]. A run that does not complete raises RunError
-    with EnergyPlus's reason.
+    modules, whose loss by partly shaded cells is taken from the sunlit fractions of their surfaces, so that
+    EnergyPlus's generators have it. `arguments`: more for EnergyPlus, such as ["-D"]. A run that does not complete
+    raises RunError with EnergyPlus's reason.
     """
     program = _programs.prefix() / "energyplus"
     flags = ["--gpu-shading" if shading else "--gpu-shading=off"]
