@@ -67,7 +67,11 @@ def hours(run, weather, points):
     steps = [step for step in run.results.steps if step.beam >= THRESHOLD]
     if not points or not (run.program.parent / energyplus.program_name("gpu_shading")).is_file():
         return {}
-    scene = _scene(run, weather)
+    try:
+        scene = _scene(run, weather)
+    except ImportError as error:  # on Windows, which has no Python package
+        print(f"compare_shading: no hours of glare risk: {error}", file=sys.stderr)
+        return {}
     rays = scene.rays()
     azimuths, altitudes, beams = (np.array([getattr(step, name) for step in steps])
                                   for name in ("azimuth", "altitude", "beam"))

@@ -120,9 +120,9 @@ class Renderer {
   std::vector<std::vector<std::vector<Sunlit>>> interior_sunlit_areas(
       std::span<SunDirection const> suns, std::span<InteriorQuestion const> questions);
 
-  // A picture of a receiver as the sun sees it: sunlit pixels yellow, shaded ones blue, casters
-  // grey by their tilt to the sun. If a caster in view transmits, the receiver is grey by its
-  // luminance, with factors[schedule] for schedules, 1 where there are too few. World-up is up;
+  // A picture of a receiver as the sun sees it, in fraction_colour() of the share of the beam that
+  // reaches it, with factors[schedule] for schedules, 1 where there are too few. Casters are grey
+  // by their tilt to the sun. World-up is up;
   // `size` is the number of pixels on the longer side, 1 .. DeviceInfo::max_resolution, otherwise
   // throws Error.
   Image sun_view(SunDirection sun, SurfaceId receiver, int size,

