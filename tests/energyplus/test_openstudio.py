@@ -9,6 +9,7 @@ import pytest
 import screened_room
 from large_packages import environment, need
 from shading_runs import energyplus
+from shading_runs.version import input_version
 
 MEASURES = energyplus.REPOSITORY / "gpu_shading" / "python" / "gpu_shading" / "measures"
 # As a step of an OpenStudio workflow: the measure changes a workspace, which is then written for the run.
@@ -47,7 +48,7 @@ def room(tmp_path):
     screen = re.search(r"^GPUShading:[^;]*;", text, re.M)[0]
     model, side = tmp_path / "room.idf", tmp_path / "sheets.idf"
     model.write_text(text.replace(screen, ""))
-    side.write_text("Version, 25.2;\n! What OpenStudio cannot know; with ; in a comment\n" + screen)
+    side.write_text(f"Version, {input_version()};\n! What OpenStudio cannot know; with ; in a comment\n" + screen)
     return model, side
 
 

@@ -49,8 +49,8 @@ void write_cells(MapGrid const& grid, std::vector<MapValue> const& values, std::
 
 void write_npy_header(std::string_view type, std::vector<std::size_t> const& shape,
                       std::ostream& npy) {
-  auto header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({},), }}", type,
-                            fmt::join(shape, ", "));
+  auto header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", type,
+                            fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
   constexpr std::size_t preamble = 10;
   constexpr std::size_t aligned = 64;
   while ((preamble + header.size() + 1) % aligned != 0) header += ' ';

@@ -116,7 +116,7 @@ class MovingShade(ExtensionObject):
     Edge point east, north or up, also after the model has turned."""
 
     keyword = "GPUShading:MovingShade"
-    motion: Literal["Rotate", "Slide", "Extend"]
+    motion: Literal["Rotate", "Slide", "Extend", "Fold"]
     axis: Literal["CentreLine", "Edge", "Given"] | None = None
     direction_x: float | None = None
     direction_y: float | None = None
@@ -134,6 +134,7 @@ class MovingShade(ExtensionObject):
     availability_schedule: Any = None
     minimum_beam: float | None = None
     hysteresis: float | None = None
+    maximum_wind_speed: float | None = None
 
     def moved(self, move: Any, turn: Any, mirrored: bool = False) -> MovingShade:
         """With functions that change a Point3D and a Vector3D."""

@@ -164,7 +164,7 @@ def _parameters(parameters: Any, climate: Any) -> Any:
 
 
 def _release() -> str:
-    """The EnergyPlus that runs, as in its dictionary: "25.2"."""
+    """The EnergyPlus that runs, as in its dictionary: the major and the minor number."""
     import gpu_shading
 
     with open(gpu_shading.prefix() / "Energy+.idd", encoding="utf-8", errors="replace") as lines:
