@@ -53,9 +53,9 @@ double number(std::string const& text, std::string_view field, double max_size) 
 
 // The names of files from NREL have several.
 std::string with_single_spaces(std::string text) {
-  auto const [first, last] =
-      std::ranges::unique(text, [](char a, char b) { return a == ' ' && b == ' '; });
-  text.erase(first, last);
+  auto const end =
+      std::unique(text.begin(), text.end(), [](char a, char b) { return a == ' ' && b == ' '; });
+  text.erase(end, text.end());
   return text;
 }
 
