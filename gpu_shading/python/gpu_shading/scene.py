@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from ctypes import byref, c_size_t
 from dataclasses import dataclass, fields
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
@@ -22,6 +23,7 @@ from gpu_shading.optics import FlatFilter, Screen, Transmittance, choice
 from gpu_shading.rays import Faces, Rays, RayScreens, make_rays
 from gpu_shading.renderer import Receivers, Renderer, Values, schedule_table
 from gpu_shading.rule import Rule
+from gpu_shading.scene_files import Part, save, series
 
 if TYPE_CHECKING:
     import xarray
@@ -242,6 +244,20 @@ class Scene:
         its index as "surface"."""
         return to_pyvista([list(self._triangles(index)) if surface.holes else [surface.vertices]
                            for index, surface in enumerate(self._surfaces)], values or {})
+
+    def save(self, file: str | os.PathLike[str], values: Any = None, *, times: Sequence[Any] | None = None,
+             name: str = "sunlit") -> None:
+        """Writes the surfaces with values, such as sunlit fractions, for drawing in 3D: a .glb, which browsers show and
+        which plays the times one after another; a .vtp of VTK with an array of cells for each time, "sunlit 12:00"; or
+        a .pvd, ParaView's list of a .vtp for each time. `values`: as `sunlit` returns them, or by name as Run.values
+        has them. `times`: a label for each row of values."""
+        shown = None if values is None else series(name, values, times, self.names, self.receivers)
+        parts = []
+        for index, surface in enumerate(self._surfaces):
+            triangles = self._triangles(index)
+            parts.append(Part(list(triangles) if surface.holes else [surface.vertices], triangles,
+                              bool(surface.transmittance or surface.screen or surface.crown)))
+        save(Path(file), parts, shown)
 
     def to_trimesh(self) -> Any:
         """The surfaces as a trimesh.Trimesh of triangles; `face_attributes["surface"]` has their indices."""
