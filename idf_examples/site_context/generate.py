@@ -63,6 +63,7 @@ GPUShading:SiteContext,
   ,                        !- Origin Latitude {{deg}}
   ,                        !- Origin Longitude {{deg}}
   {elevation},                 !- Origin Elevation {{m}}
+  ,                        !- Radius {{m}}
   Office;                  !- Left Out Name 1
 """
 MESH = """

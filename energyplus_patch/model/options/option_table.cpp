@@ -36,6 +36,11 @@ constexpr FieldInfo switch_value = choice(switch_words, "off");
 constexpr FieldInfo path_value{.key = "", .title = ""};
 constexpr FieldInfo text_value{.key = "", .title = ""};
 constexpr FieldInfo path_or_off_value{.key = "", .title = "", .words = off_word, .blank = "off"};
+constexpr FieldInfo gibibytes_value{.key = "",
+                                    .title = "",
+                                    .kind = FieldKind::real,
+                                    .minimum = Limit{0.0, true},
+                                    .maximum = Limit{1e6, false}};
 constexpr FieldInfo threads_value{.key = "",
                                   .title = "",
                                   .kind = FieldKind::integer,
@@ -186,6 +191,17 @@ std::span<OptionRow const> option_rows() {
            .placeholder = "DIR",
            .meaning = "Keep answers in this folder, so that later runs of the same geometry need "
                       "not render them"}),
+      at<&Choices::cache_size>({.name = "cache-size",
+                                .value = gibibytes_value,
+                                .placeholder = "GIB",
+                                .default_text = "1",
+                                .meaning = "The most that the folder of the cache takes, in GiB: "
+                                           "above it, the least recently used files are evicted"}),
+      at<&Choices::cache_read_only>(
+          {.name = "cache-read-only",
+           .value = switch_value,
+           .meaning = "Write nothing into the cache: for a folder of others",
+           .bare = "on"}),
       at<&Choices::positions>(
           {.name = "positions",
            .value = text_value,

@@ -65,6 +65,7 @@ void add_sample(Program const& program);
 // divisions of the sky, and writes sky.csv and sky_view.csv, with view factors to the sky.
 void sample_sky(ModelRun const& run, std::filesystem::path const& folder);
 void add_export(Program const& program);
+void add_city(Program const& program);
 void add_study(Program const& program);
 // Becomes the command of the Python package. Throws Error where there is none.
 [[noreturn]] void run_study(std::vector<std::string> const& arguments);

@@ -108,6 +108,7 @@ int run(std::vector<std::string> arguments) {
   add_screen(program);
   add_sample(program);
   add_export(program);
+  add_city(program);
   add_study(program);
   add_docs(program);
   add_example(program);
