@@ -52,15 +52,16 @@ Json parse_features(std::filesystem::path const& path,
   bool in_features = false;
   std::size_t values = 0;
   auto const watch = [&](int depth, Json::parse_event_t event, Json const& parsed) {
-    using enum Json::parse_event_t;
+    using Event = Json::parse_event_t;
     if (depth > max_depth) throw Error(fmt::format("is nested more than {} deep", max_depth));
     if (++values > max_values) {
       throw Error(fmt::format("has more than {} values in one feature", max_values));
     }
-    if (depth == 1 && event == key) name = parsed.get<std::string>();
-    if (depth == 1 && event == array_start) in_features = name == "features";
-    if (depth == 1 && event == array_end) in_features = false;
-    bool const complete = event == object_end || event == array_end || event == value;
+    if (depth == 1 && event == Event::key) name = parsed.get<std::string>();
+    if (depth == 1 && event == Event::array_start) in_features = name == "features";
+    if (depth == 1 && event == Event::array_end) in_features = false;
+    bool const complete =
+        event == Event::object_end || event == Event::array_end || event == Event::value;
     if (!in_features || depth != 2 || !complete) return true;
     use(parsed);
     values = 0;
