@@ -136,6 +136,7 @@ def test_errors_say_what_was_expected(scene, sunlit, tmp_path):
     for file, values, times, words in (
             ("day.obj", sunlit, None, "expected a name that ends in one of .glb, .vtp, .pvd"),
             ("day.glb", sunlit[:, :2], None, "expected one value for each of 3 receivers"),
+            ("day.vtp", sunlit[:0], None, "0 times, expected 1 to 1000"),
             ("day.glb", sunlit, ["noon"] * 3, "1 different times, expected 3"),
             ("day.glb", {"door": [1.0]}, None, "none of DOOR is a surface"),
             ("day.glb", {"left": [1.0], "right": [1.0, 2.0]}, None, "expected one value of each surface at each time")):

@@ -18,6 +18,8 @@ from gpu_shading._arrays import Floats
 from gpu_shading.errors import InvalidInput
 
 FORMATS = (".glb", ".vtp", ".pvd")
+# A node of a .glb, an array of a .vtp or a file of a .pvd each.
+MOST_TIMES = 1000
 
 
 @dataclass(frozen=True)
@@ -69,6 +71,8 @@ def series(name: str, values: Any, times: Sequence[Any] | None, names: Sequence[
         table = np.full((*given.shape[:-1], len(names)), np.nan)
         table[..., list(receivers)] = given
     steps = 0 if table.ndim == 1 else len(table)
+    if table.ndim > 1 and not 1 <= steps <= MOST_TIMES:
+        raise InvalidInput(f"values: {name}: {steps} times, expected 1 to {MOST_TIMES}")
     labels = tuple(map(str, times if times is not None else range(1, steps + 1)))
     if len(labels) != steps or len(set(labels)) != steps:
         raise InvalidInput(f"times: {len(set(labels))} different times, expected {steps}, one for each row of values")
