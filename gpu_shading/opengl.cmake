@@ -17,6 +17,7 @@ add_library(gpu_shading_opengl STATIC
   backends/opengl/gl/readback.cpp
   backends/opengl/gl/texture.cpp
   backends/opengl/gl/vertex_array.cpp
+  backends/opengl/raster/crowd_masks.cpp
   backends/opengl/raster/crown_geometry.cpp
   backends/opengl/raster/draw_list.cpp
   backends/opengl/raster/geometry.cpp

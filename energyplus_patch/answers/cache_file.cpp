@@ -19,7 +19,8 @@ std::optional<std::vector<std::byte>> read_cache_file(std::filesystem::path cons
   // Opened only once, because another file may replace it at any moment; a pipe is not waited for.
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
   FileDescriptor const file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (!file.is_open() && errno == ENOENT) return std::nullopt;
+  // ESTALE: another host has evicted it from a shared folder.
+  if (!file.is_open() && (errno == ENOENT || errno == ESTALE)) return std::nullopt;
   struct stat found {};
   if (!file.is_open() || fstat(file.get(), &found) != 0 || !S_ISREG(found.st_mode)) {
     throw Error("cannot be read");

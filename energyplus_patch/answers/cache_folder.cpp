@@ -47,8 +47,12 @@ std::string cache_file_name(std::string_view digits) {
   return std::string(digits) + std::string(extension);
 }
 
-void prepare_cache_folder(std::filesystem::path const& folder) {
+void prepare_cache_folder(std::filesystem::path const& folder, bool read_only) {
   std::error_code failure;
+  if (read_only) {
+    if (std::filesystem::is_directory(folder, failure)) return;
+    throw Error(fmt::format("--gpu-shading-cache: {}: no such folder", folder.string()));
+  }
   std::filesystem::create_directories(folder, failure);
   if (int const error = find_access(folder); error != 0) {
     failure = std::error_code(error, std::generic_category());

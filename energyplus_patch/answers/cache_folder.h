@@ -12,8 +12,9 @@ namespace gpu_shading::energyplus {
 
 constexpr std::string_view cache_lock_name = "gpu_shading.lock";
 
-// Creates the folder if it is missing. Throws Error if it is not writable.
-void prepare_cache_folder(std::filesystem::path const& folder);
+// Creates the folder if it is missing. Throws Error if it is not writable or, if it is only read,
+// not there.
+void prepare_cache_folder(std::filesystem::path const& folder, bool read_only = false);
 
 std::string cache_file_name(std::string_view hash_digits);
 

@@ -19,10 +19,10 @@ class DiskCache {
   static constexpr std::uint64_t default_max_bytes = std::uint64_t{1} << 30U;  // of the folder
 
   // Reads the file if there is one. A file that cannot be used gives a remark and is replaced by
-  // store().
+  // store(), unless the cache is only read. `max_bytes`: of the folder.
   DiskCache(std::filesystem::path const& folder, Hash const& scene, AnswerLimits limits,
             std::function<void(std::string const&)> const& remark,
-            std::uint64_t max_bytes = default_max_bytes);
+            std::uint64_t max_bytes = default_max_bytes, bool read_only = false);
 
   // Adds known answers for the run's receivers to a direction of the run.
   void recall(SceneAnswers& run, AnswerStore::Direction& direction);
@@ -49,6 +49,7 @@ class DiskCache {
   Hash scene_;
   AnswerLimits limits_;
   std::uint64_t max_bytes_;
+  bool read_only_;
   std::size_t directions_recalled_ = 0;
   SceneAnswers known_;
   std::unordered_map<SurfaceId, ReceiverNumber> numbers_;  // of known_.receivers

@@ -87,7 +87,8 @@ void Session::start(Simulation simulation) {
     step_error_.emplace(shades);
     add_outputs(simulation);
   }
-  if (options.cache) prepare_cache_folder(*options.cache);
+  if (!scene_.model().pv_reductions.empty()) pv_loss_.emplace(scene_);
+  if (options.cache) prepare_cache_folder(*options.cache, options.cache_read_only);
   answers_.emplace(
       SunQuestions::Site{scene_.areas(), options.update.sampling, std::move(simulation.latitude)});
   answers_->open(open_renderer(scene_, scene_.receivers(), options.device, messages_));
@@ -195,7 +196,8 @@ void Session::set_time(Moment moment) {
 
 void Session::set_sun(SunDirection sun) {
   answers().set_sun(sun);
-  if (undecided_ && !is_sky_patch(sun)) move_shades(sun);
+  sky_patch_ = is_sky_patch(sun);
+  if (undecided_ && !sky_patch_) move_shades(sun);
   if (record_) record_->set_sun(sun);
   if (auto* const first = first_sun_now()) *first = to_vector(sun);
 }
@@ -221,8 +223,15 @@ double Session::projected_sunlit_area(SurfaceId receiver) {
   double rendered = scene_.unshaded()[id] ? answers.unshaded_area(id)
                                           : answers.area(id, scene_.optics().factors());
   if (!scene_.unshaded()[id] && scene_.moving_shade_of(id)) rendered = of_drawn(id, rendered);
+  if (pv_loss_ && !sky_patch_) rendered = with_pv_loss(id, rendered);
   if (record_) record_->note(id, rendered);
   return static_cast<float>(rendered * scene_.area_ratio(id));
+}
+
+double Session::with_pv_loss(SurfaceId id, double projected_area) {
+  double const all = answers_->unshaded_area(id);
+  if (all <= 0.0) return projected_area;
+  return all * pv_loss_->reduced(id, day_, moment_, projected_area / all);
 }
 
 // EnergyPlus takes the fraction of a moving shade as that of the surface as it is drawn.
@@ -296,6 +305,7 @@ void Session::finish() {
     return;  // the run ended before the first question
   describe_answers(*answers_, scene_.model().options, messages_);
   position_record_.describe(scene_.model().moving_shades, messages_);
+  if (pv_loss_) pv_loss_->describe(messages_);
   write_cache(answers_->rendered(), messages_);
   if (failed_) return;
   write_reports();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "answers/sun_questions.h"
+#include "calculation/pv_loss.h"
 #include "calculation/shade_control.h"
 #include "calculation/shading_calculation.h"
 #include "calculation/step_error.h"
@@ -52,9 +53,9 @@ class Session : public ShadingCalculation {
   // Instead of start(): the surfaces with their optics, for a task (tasks/perform_task.h).
   SceneAssembly& complete(Schedules schedules);
 
-  // Whether the report wants the days of the run; then they are handed over as they begin. Beam and
-  // wind are asked for if they are needed.
-  bool records_days() const { return record_ || control_; }
+  // Whether the days of the run are wanted; then they are handed over as they begin. Beam and wind
+  // are asked for if they are needed.
+  bool records_days() const { return record_ || control_ || pv_loss_; }
   void begin_day(RunDay const& day, RunRecord::Beam const& beam, RunRecord::Beam const& wind);
 
   void set_time(Moment moment) override;
@@ -105,6 +106,7 @@ class Session : public ShadingCalculation {
   // A value of the day, at this timestep.
   double now(std::vector<double>& day, RunRecord::Beam const& of_day) const;
   void add_outputs(Simulation const& simulation);
+  double with_pv_loss(SurfaceId id, double projected_area);
   double of_drawn(SurfaceId id, double projected_area) const;
   void renew_reflections();
   std::optional<glm::dvec3>* first_sun_now();
@@ -121,7 +123,9 @@ class Session : public ShadingCalculation {
   std::optional<RunRecord> record_;      // for the report
   std::optional<ShadeControl> control_;  // of moving shades
   std::optional<StepError> step_error_;
-  bool undecided_ = false;  // the control waits for the sun of this timestep
+  std::optional<PvLoss> pv_loss_;  // with --gpu-shading-pv
+  bool sky_patch_ = false;         // the sun is a patch of the sky
+  bool undecided_ = false;         // the control waits for the sun of this timestep
   // Values of EnergyPlus's output variables, by moving shade.
   struct ShadeOutput {
     double position = 0.0;

@@ -31,13 +31,12 @@ std::string encode_labelled(std::string const& name, Image const& image,
 struct PictureSheet {
   struct Item {
     std::filesystem::path picture;
-    std::string caption;
+    std::string caption;  // lines
   };
   std::vector<Item> items;
-  bool scale = false;  // a scale of sunlit fractions beside them
 };
 
-// In rows or, in a .gif, one after another.
+// In rows or, in a .gif, one after another, with a scale of sunlit fractions beside them.
 std::string encode_sheet(std::string const& name, PictureSheet const& sheet);
 
 bool is_animation(std::filesystem::path const& path);

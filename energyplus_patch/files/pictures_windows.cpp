@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <sstream>
 
 #include "files/picture_plugin/sheet_layout.h"
 #include "files/pictures.h"
@@ -164,10 +165,10 @@ class Picture {
   Bitmap bitmap_;
 };
 
-void add_scale(Picture& on, SheetLayout const& layout, int columns, int rows) {
-  int const left = layout.bar_left(columns);
+void add_scale(Picture& on, SheetLayout const& layout) {
+  int const left = layout.bar_left();
   int const top = layout.bar_top();
-  int const tall = layout.bar_height(rows);
+  int const tall = layout.bar_height();
   for (int y = 0; y < tall; ++y) {
     auto const colour = fraction_colour((tall - 1.0 - y) / (tall - 1.0));
     auto const channel = [&](int c) { return static_cast<BYTE>(std::lround(colour[c])); };
@@ -180,7 +181,7 @@ void add_scale(Picture& on, SheetLayout const& layout, int columns, int rows) {
   write(numbers, top + tall, "0");
   write(numbers, top + tall - tall / 2, "0.5");
   write(numbers, top, "1");
-  write(left, layout.caption / 2 + layout.margin, "sunlit");
+  write(left, layout.caption - layout.text / 2, "sunlit");
 }
 
 }  // namespace
@@ -200,31 +201,29 @@ std::string encode_sheet(std::string const& name, PictureSheet const& sheet) {
   start_gdiplus();
   encoder_of(name);  // refuses a format before anything is drawn
   std::vector<std::unique_ptr<Bitmap>> pictures;
-  int width = 0;
-  int height = 0;
+  std::vector<PictureSize> sizes;
+  std::ptrdiff_t breaks = 0;
   for (auto const& item : sheet.items) {
     auto const& picture = pictures.emplace_back(std::make_unique<Bitmap>(item.picture.c_str()));
     check(picture->GetLastStatus(), item.picture.string());
-    width = std::max(width, static_cast<int>(picture->GetWidth()));
-    height = std::max(height, static_cast<int>(picture->GetHeight()));
+    sizes.push_back(
+        {static_cast<int>(picture->GetWidth()), static_cast<int>(picture->GetHeight())});
+    breaks = std::max(breaks, std::ranges::count(item.caption, '\n'));
   }
-  SheetLayout const layout(width, height, sheet.scale);
-  int const count = static_cast<int>(pictures.size());
-  int const columns = std::min(count, SheetLayout::max_columns);
-  int const rows = (count + columns - 1) / columns;
-  Picture on(name, layout.sheet_width(columns), layout.sheet_height(rows));
-  on.fill(0, 0, layout.sheet_width(columns), layout.sheet_height(rows), {0xff, 0xff, 0xff});
-  for (int i = 0; i < count; ++i) {
-    auto const number = static_cast<std::size_t>(i);
-    int const x = i % columns * layout.cell_width;
-    int const y = i / columns * layout.cell_height;
-    on.write({x + layout.cell_width / 2, y + layout.caption / 2, layout.text, LabelAlign::centre,
-              sheet.items[number].caption});
-    auto& picture = *pictures[number];
-    on.paste(picture, x + (layout.cell_width - static_cast<int>(picture.GetWidth())) / 2,
-             y + layout.caption + (height - static_cast<int>(picture.GetHeight())) / 2);
+  SheetLayout const layout(sizes, SheetLayout::max_columns, static_cast<int>(breaks) + 1);
+  Picture on(name, layout.sheet_width(), layout.sheet_height());
+  on.fill(0, 0, layout.sheet_width(), layout.sheet_height(), {0xff, 0xff, 0xff});
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    std::istringstream caption(sheet.items[i].caption);
+    int number = 0;
+    for (std::string line; std::getline(caption, line); ++number) {
+      on.write({layout.left(i) + layout.cell_width / 2, layout.line_middle(i, number), layout.text,
+                LabelAlign::centre, line});
+    }
+    on.paste(*pictures[i], layout.picture_left(i, sizes[i].width),
+             layout.picture_top(i, sizes[i].height));
   }
-  if (sheet.scale) add_scale(on, layout, columns, rows);
+  add_scale(on, layout);
   return on.encode();
 }
 

@@ -173,6 +173,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   if (choices.positions) {
     set_rest(model.moving_shades, "--gpu-shading-positions", *choices.positions);
   }
+  model.pv_modules = read_pv_modules(objects, model.shading);
   model.options = resolve(choices, read_settings(objects), model.shading);
   plan_rays(objects, reader, model);
   if (model.options.mode != Mode::off) {
@@ -181,6 +182,11 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
     model.simplified = find_simplified_surfaces(objects, model.shading, model.lean.left_out);
     if (!model.surroundings.empty()) ensure_placeholders(model.lean, model.shading);
     prepare_for_moving_shades(model);
+    for (auto const& modules : model.pv_modules) model.remarks.push_back(modules.describe());
+    if (choices.pv) {
+      model.pv_reductions = read_pv_reductions(*choices.pv, objects, model.shading);
+      model.options.update.every_timestep = true;
+    }
     if (model.shading.detailed_sky && (any_moves(model.screens) || !model.moving_shades.empty())) {
       add_sky_placeholder(model.lean, model.shading);
     }

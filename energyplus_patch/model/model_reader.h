@@ -9,6 +9,8 @@
 #include "model/idf/model_file.h"
 #include "model/input/moving_shades.h"
 #include "model/input/perforated_screens.h"
+#include "model/input/pv_modules.h"
+#include "model/input/pv_reductions.h"
 #include "model/input/shading_input.h"
 #include "model/input/transparent_shades.h"
 #include "model/lean_input.h"
@@ -25,6 +27,8 @@ struct Model {
   TransparentShades shades;
   PerforatedScreens screens;
   std::vector<MovingShade> moving_shades;
+  std::vector<PvModules> pv_modules;
+  PvReductions pv_reductions;
   Options options;
   LeanInput lean;
   SimplifiedSurfaces simplified;

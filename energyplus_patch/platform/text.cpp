@@ -189,13 +189,16 @@ std::size_t distance(std::string_view a, std::string_view b) {
 std::string did_you_mean(std::string_view text, std::vector<std::string> const& words) {
   std::string_view nearest;
   std::size_t least = text.size() + 1;
-  for (std::string_view const word : words) {
-    auto const* const rest =
-        std::mismatch(text.begin(), text.end(), word.begin(), word.end()).first;
-    auto const same = static_cast<std::size_t>(rest - text.begin());
+  auto const typed = upper(text);
+  for (auto const& word : words) {
+    // Names in models and flags have no case.
+    auto const known = upper(word);
+    auto const rest = std::ranges::mismatch(typed, known).in1;
+    auto const same = static_cast<std::size_t>(rest - typed.begin());
     // Of the letters from the first wrong one on, a third may be wrong.
     auto const allowed = std::max<std::size_t>(1, (text.size() - same + 2) / 3);
-    auto const steps = distance(text.substr(same), word.substr(same));
+    auto const steps =
+        distance(std::string_view(typed).substr(same), std::string_view(known).substr(same));
     if (steps <= allowed && steps < least) {
       least = steps;
       nearest = word;

@@ -32,7 +32,7 @@ double number(std::string const& text) {
 struct Dictionary {
   std::string azimuth;
   std::string altitude;
-  std::string beam;                                        // empty: not reported
+  std::unordered_map<std::string, double RunTime::*> weather;
   std::unordered_map<std::string, std::size_t> schedules;  // to indices in RunTime::schedules
 };
 
@@ -44,8 +44,8 @@ Dictionary read_dictionary(std::istream& eso, RunTimes& run) {
     if (words.size() < 4) continue;
     if (words[3].starts_with("Site Solar Azimuth Angle")) dictionary.azimuth = words[0];
     if (words[3].starts_with("Site Solar Altitude Angle")) dictionary.altitude = words[0];
-    if (words[3].starts_with("Site Direct Solar Radiation Rate per Area")) {
-      dictionary.beam = words[0];
+    for (auto const& [name, member] : weather_variables) {
+      if (words[3].starts_with(name)) dictionary.weather[words[0]] = member;
     }
     if (words[3].starts_with("Schedule Value")) {
       dictionary.schedules[words[0]] = run.schedules.size();
@@ -87,6 +87,14 @@ double schedule_value(RunTimes const& run, RunTime const& time, std::string cons
                     1.0);
 }
 
+std::vector<double> schedule_values(RunTimes const& run, RunTime const& time,
+                                    std::vector<std::string> const& names) {
+  std::vector<double> values(names.size());
+  std::transform(names.begin(), names.end(), values.begin(),
+                 [&](std::string const& name) { return schedule_value(run, time, name); });
+  return values;
+}
+
 bool sun_is_up(SunDirection sun) { return to_vector(sun).z >= min_cosine; }
 
 double sunlit_fraction(double projected_area, glm::dvec3 const& area, glm::dvec3 const& sun) {
@@ -98,7 +106,7 @@ double sunlit_fraction(double projected_area, glm::dvec3 const& area, glm::dvec3
 
 RunTimes read_run_times(std::istream& eso) {
   RunTimes run;
-  auto const dictionary = read_dictionary(eso, run);
+  auto dictionary = read_dictionary(eso, run);
   std::map<std::size_t, RunTime> times;
   std::optional<RunTime> current;
   auto const close = [&] {
@@ -135,8 +143,8 @@ RunTimes read_run_times(std::istream& eso) {
       current->sun.azimuth = number(words[1]) * degree;
     } else if (current && kind == dictionary.altitude) {
       current->sun.altitude = number(words[1]) * degree;
-    } else if (current && kind == dictionary.beam) {
-      current->beam = number(words[1]);
+    } else if (current && dictionary.weather.contains(kind)) {
+      (*current).*dictionary.weather[kind] = number(words[1]);
     } else if (current) {
       auto const schedule = dictionary.schedules.find(kind);
       if (schedule != dictionary.schedules.end()) {

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <istream>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gpu_shading/sun_direction.h"
@@ -17,7 +20,11 @@ struct RunTime {
   int timestep = 0;  // timestep of the hour, from 1
   SunDirection sun;  // as EnergyPlus uses it for the whole timestep
   std::vector<double> schedules;
-  double beam = 0.0;  // direct normal irradiance, W/m2, from run_for_beam()
+  // From run_for_beam():
+  double beam = 0.0;         // direct normal irradiance, W/m2
+  double diffuse = 0.0;      // diffuse horizontal irradiance, W/m2
+  double temperature = 0.0;  // of the air, degC
+  double wind = 0.0;         // speed, m/s
 
   bool operator==(RunTime const&) const = default;
 };
@@ -43,6 +50,8 @@ std::size_t row_of(RunTime const& time, int steps_per_hour);
 // The value of a schedule (upper case) at one of the run's times, limited to 0 .. 1; 0 if
 // EnergyPlus does not know it.
 double schedule_value(RunTimes const& run, RunTime const& time, std::string const& name);
+std::vector<double> schedule_values(RunTimes const& run, RunTime const& time,
+                                    std::vector<std::string> const& names);
 
 // EnergyPlus's own limit (Engineering Reference, "Shading Module"): below it, the sun is down; with
 // a smaller cosine of incidence, it is behind a surface.
@@ -52,8 +61,15 @@ bool sun_is_up(SunDirection sun);
 // `area`: unit normal times net area (m2); `sun`: unit vector to the sun.
 double sunlit_fraction(double projected_area, glm::dvec3 const& area, glm::dvec3 const& sun);
 
+// EnergyPlus's output variables of the weather, and where their values are kept.
+inline constexpr std::array<std::pair<std::string_view, double RunTime::*>, 4> weather_variables{
+    {{"Site Direct Solar Radiation Rate per Area", &RunTime::beam},
+     {"Site Diffuse Solar Radiation Rate per Area", &RunTime::diffuse},
+     {"Site Outdoor Air Drybulb Temperature", &RunTime::temperature},
+     {"Site Wind Speed", &RunTime::wind}}};
+
 // Reads an eplusout.eso with Site Solar Azimuth Angle, Site Solar Altitude Angle, Schedule Value
-// and, perhaps, Site Direct Solar Radiation Rate per Area at every timestep. Throws Error if two
+// and, perhaps, weather_variables at every timestep. Throws Error if two
 // run periods have different sun positions at the same time of the year.
 RunTimes read_run_times(std::istream& eso);
 

@@ -225,7 +225,9 @@ RunTimes run_for_year(EnergyPlusCall const& call, std::vector<std::string> const
 RunTimes run_for_beam(EnergyPlusCall const& call, std::vector<std::string> const& schedules) {
   auto const model = edit_model(call.model);
   reduce_to_times(*model, schedules);
-  report_at_timesteps(*model, "*", "Site Direct Solar Radiation Rate per Area");
+  for (auto const& [variable, member] : weather_variables) {
+    report_at_timesteps(*model, "*", variable);
+  }
   return run_whole_year(call, *model);
 }
 

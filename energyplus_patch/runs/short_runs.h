@@ -38,8 +38,8 @@ RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> cons
 RunTimes run_for_year(EnergyPlusCall const& call, std::vector<std::string> const& schedules,
                       int steps_per_hour);
 
-// The same at the model's own timestep, with the direct normal irradiance of the weather file as
-// EnergyPlus uses it.
+// The same at the model's own timestep, with the weather file's irradiance, temperature and wind as
+// EnergyPlus uses them.
 RunTimes run_for_beam(EnergyPlusCall const& call, std::vector<std::string> const& schedules);
 
 // The values of schedules on every day of the model's design days and run periods, or of the design

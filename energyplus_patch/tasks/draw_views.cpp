@@ -4,12 +4,14 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <iterator>
 #include <optional>
 
 #include "answers/cached_renderer.h"
 #include "files/pictures.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/scene_view.h"
+#include "model/extensions/extension_fields.h"
 #include "platform/staged_files.h"
 #include "platform/text.h"
 #include "tasks/perform_task.h"
@@ -126,24 +128,56 @@ SurfaceId find(Drawing const& drawing, std::string const& name) {
       fmt::format("receiver {}: the model has no such surface; see gpu_shading check", name));
 }
 
-// By surface, for those that face the sun.
-std::vector<std::optional<double>> sunlit_fractions(Drawing const& drawing, SunDirection sun) {
+// The sunlit fractions of some surfaces, 0 for those that face away from the sun.
+std::vector<double> fractions_of(Drawing const& drawing, SunDirection sun,
+                                 std::vector<SurfaceId> const& surfaces) {
   auto const& scene = drawing.renderer.scene();
   auto const towards_sun = to_vector(sun);
-  std::vector<std::optional<double>> fractions(scene.size());
+  auto const unshaded = [&](SurfaceId id) {
+    auto const& polygon = scene[id].polygon;
+    return area(polygon) * glm::dot(normal(polygon), towards_sun);
+  };
   std::vector<SurfaceId> lit;
-  for (SurfaceId const id : drawing.shown) {
-    if (!drawing.receives[id] || area(scene[id].polygon) <= 0.0) continue;
-    fractions[id] = 0.0;
-    if (glm::dot(normal(scene[id].polygon), towards_sun) > 0.0) lit.push_back(id);
-  }
+  std::ranges::copy_if(surfaces, std::back_inserter(lit),
+                       [&](SurfaceId id) { return unshaded(id) > 0.0; });
   auto const areas = drawing.renderer.projected_sunlit_areas(sun, lit);
-  for (std::size_t i = 0; i < lit.size(); ++i) {
-    auto const& polygon = scene[lit[i]].polygon;
-    double const unshaded = area(polygon) * glm::dot(normal(polygon), towards_sun);
-    fractions[lit[i]] = std::min(1.0, areas[i].at(drawing.factors) / unshaded);
+  std::vector<double> fractions(surfaces.size(), 0.0);
+  for (std::size_t i = 0, next = 0; i < surfaces.size() && next < lit.size(); ++i) {
+    if (surfaces[i] != lit[next]) continue;
+    fractions[i] = std::min(1.0, areas[next].at(drawing.factors) / unshaded(surfaces[i]));
+    ++next;
   }
   return fractions;
+}
+
+// By surface, of the receivers that are shown.
+std::vector<std::optional<double>> sunlit_fractions(Drawing const& drawing, SunDirection sun) {
+  auto const& scene = drawing.renderer.scene();
+  std::vector<SurfaceId> receivers;
+  std::ranges::copy_if(drawing.shown, std::back_inserter(receivers), [&](SurfaceId id) {
+    return drawing.receives[id] && area(scene[id].polygon) > 0.0;
+  });
+  auto const found = fractions_of(drawing, sun, receivers);
+  std::vector<std::optional<double>> fractions(scene.size());
+  for (std::size_t i = 0; i < receivers.size(); ++i) fractions[receivers[i]] = found[i];
+  return fractions;
+}
+
+// From elsewhere than the sun, neighbours too; as the sun sees them, they would hide what they
+// shade.
+std::vector<SurfaceId> shown_in(ViewsTask const& task, SceneAssembly const& scene) {
+  auto ids = scene.shown();
+  if (!std::ranges::all_of(task.views, [](auto const& view) { return view.camera.has_value(); })) {
+    return ids;
+  }
+  auto const& types = scene.model().surroundings.types;
+  for (SurfaceId id = 0; id < scene.surfaces().size(); ++id) {
+    auto const& name = scene.surfaces()[id].name;
+    auto const type = types.find(name);
+    bool const context = type != types.end() && type->second == extension::site_context::type;
+    if (context && !name.ends_with(":TERRAIN")) ids.push_back(id);
+  }
+  return ids;
 }
 
 std::string draw_whole(SceneView& scene, SunView const& view,
@@ -153,11 +187,13 @@ std::string draw_whole(SceneView& scene, SunView const& view,
                            scene.scale(*view.camera, fractions, size));
 }
 
-// Into a folder: all of them, or none.
-void draw_views(std::vector<SunView> const& views, std::filesystem::path const& folder,
-                Drawing const& drawing) {
+// Into a folder: all of them, or none. Returns a line for each, with the receiver's sunlit
+// fraction.
+std::string draw_views(std::vector<SunView> const& views, std::filesystem::path const& folder,
+                       Drawing const& drawing) {
   StagedFiles files(folder);
   std::optional<SceneView> whole;
+  std::string told;
   for (auto const& view : views) {
     if (view.receiver.empty()) {
       auto const fractions = sunlit_fractions(drawing, view.sun);
@@ -172,9 +208,12 @@ void draw_views(std::vector<SunView> const& views, std::filesystem::path const& 
       files.write(view.picture, encode_image(view.picture, drawing.renderer.sun_view(
                                                                view.sun, receiver, drawing.size,
                                                                drawing.factors)));
+      told += fmt::format("{:.3f}", fractions_of(drawing, view.sun, {receiver}).front());
     }
+    told += '\n';
   }
   files.commit();
+  return told;
 }
 
 }  // namespace
@@ -187,9 +226,9 @@ std::string perform(ViewsTask const& task, SceneAssembly& scene, Messages const&
   renderer.set_deployments(scene.optics().deployments());
   std::vector<bool> receives(scene.surfaces().size(), false);
   for (auto const id : scene.shown_receivers()) receives[id] = true;
-  draw_views(task.views, task.folder,
-             {renderer, scene.shown(), std::move(receives), scene.optics().factors(), task.size});
-  return {};
+  return draw_views(
+      task.views, task.folder,
+      {renderer, shown_in(task, scene), std::move(receives), scene.optics().factors(), task.size});
 }
 
 }  // namespace gpu_shading::energyplus

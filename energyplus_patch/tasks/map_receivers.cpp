@@ -186,19 +186,11 @@ std::vector<MappedReceiver> make_grids(SceneAssembly const& scene, MapTask const
   return receivers;
 }
 
-std::vector<double> values_of(std::vector<std::string> const& names, RunTimes const& run,
-                              RunTime const& time) {
-  std::vector<double> values(names.size());
-  std::transform(names.begin(), names.end(), values.begin(),
-                 [&](std::string const& name) { return schedule_value(run, time, name); });
-  return values;
-}
-
 std::vector<MapTime> times_of(MapTask const& request, ShadeOptics const& optics) {
   std::vector<MapTime> times;
   for (auto const& time : request.run.times) {
-    times.push_back({time.sun, time.beam, values_of(optics.factor_names(), request.run, time),
-                     values_of(optics.deployment_names(), request.run, time)});
+    times.push_back({time.sun, time.beam, schedule_values(request.run, time, optics.factor_names()),
+                     schedule_values(request.run, time, optics.deployment_names())});
   }
   return times;
 }

@@ -47,7 +47,7 @@ std::vector<SurfaceId> masked_receivers(SceneAssembly const& scene, std::string 
   }
   if (!chosen.empty()) return chosen;
   throw Error(fmt::format("--receiver {}: no exterior surface matches{}", in_quotes(pattern),
-                          did_you_mean(upper(pattern), names)));
+                          did_you_mean(pattern, names)));
 }
 
 std::vector<MaskedPlace> places_of(SceneAssembly const& scene, MaskTask const& task) {

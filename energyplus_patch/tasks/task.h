@@ -100,7 +100,34 @@ struct ReceiverMask {
   std::vector<BeamShare> suns;
 };
 
-using Task = std::variant<ListingTask, ViewsTask, SamplesTask, MapTask, DirectionsTask, MaskTask>;
+// Sunlit fractions of the cells of photovoltaic modules.
+struct ModulesTask {
+  RunTimes run;  // the times with the sun up, with the schedules
+  // For an array of each surface, named 0, 1, ...: by time, then by cell, unsigned 16 bits, low
+  // byte first; 65535 is sunlit.
+  std::filesystem::path folder;
+  std::filesystem::path file;
+  int progress = -1;  // the file descriptor for progress; none if negative
+
+  bool operator==(ModulesTask const&) const = default;
+};
+
+// View factors to a sky of uniform radiance.
+struct ModuleSky {
+  double view = 0.0;
+  double unshaded = 0.0;
+};
+
+// The modules on one surface: ModuleLayout of the model's object and this polygon.
+struct ModuleField {
+  std::string object;  // name of the GPUShading:PVModules
+  std::string surface;
+  Polygon polygon;
+  std::vector<ModuleSky> sky;  // by module
+};
+
+using Task = std::variant<ListingTask, ViewsTask, SamplesTask, MapTask, DirectionsTask, MaskTask,
+                          ModulesTask>;
 
 // How it went.
 struct TaskReply {

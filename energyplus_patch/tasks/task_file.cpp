@@ -66,39 +66,45 @@ Json to_json(SamplesTask const& task) {
           {"progress", task.progress}};
 }
 
-Json to_json(MapTask const& task) {
+Json run_to_json(RunTimes const& run) {
   Json times = Json::array();
-  for (auto const& [month, day, hour, timestep, sun, schedules, beam] : task.run.times) {
-    times.push_back({month, day, hour, timestep, sun.azimuth, sun.altitude, Json(schedules), beam});
+  for (auto const& time : run.times) {
+    times.push_back({time.month, time.day, time.hour, time.timestep, time.sun.azimuth,
+                     time.sun.altitude, Json(time.schedules), time.beam});
   }
+  return {{"steps", run.steps_per_hour}, {"schedules", run.schedules}, {"times", std::move(times)}};
+}
+
+RunTimes run_of(Json const& json) {
+  RunTimes run{json.at("steps"), {}, json.at("schedules")};
+  for (auto const& time : json.at("times")) {
+    run.times.push_back({time.at(0),
+                         time.at(1),
+                         time.at(2),
+                         time.at(3),
+                         {time.at(4), time.at(5)},
+                         time.at(6),
+                         time.at(7)});
+  }
+  return run;
+}
+
+Json to_json(MapTask const& task) {
   return {{"kind", "maps"},
           {"receivers", task.receivers},
           {"spacing", task.spacing},
           {"rays", task.rays_per_cell},
-          {"steps", task.run.steps_per_hour},
-          {"schedules", task.run.schedules},
-          {"times", std::move(times)},
+          {"run", run_to_json(task.run)},
           {"file", task.file.string()},
           {"progress", task.progress}};
 }
 
-MapTask to_map_task(Json const& json) {
-  MapTask task{json.at("receivers"),
-               json.at("spacing"),
-               json.at("rays"),
-               {json.at("steps"), {}, json.at("schedules")},
-               json.at("file").get<std::string>(),
-               json.at("progress")};
-  for (auto const& time : json.at("times")) {
-    task.run.times.push_back({time.at(0),
-                              time.at(1),
-                              time.at(2),
-                              time.at(3),
-                              {time.at(4), time.at(5)},
-                              time.at(6),
-                              time.at(7)});
-  }
-  return task;
+Json to_json(ModulesTask const& task) {
+  return {{"kind", "modules"},
+          {"run", run_to_json(task.run)},
+          {"folder", task.folder.string()},
+          {"file", task.file.string()},
+          {"progress", task.progress}};
 }
 
 Json directions_to_json(std::vector<SunDirection> const& directions) {
@@ -135,7 +141,18 @@ Json to_json(MaskTask const& task) {
 Task to_task(Json const& json) {
   auto const kind = json.at("kind").get<std::string>();
   if (kind == "listing") return ListingTask{json.at("vertices"), json.at("json")};
-  if (kind == "maps") return to_map_task(json);
+  if (kind == "maps") {
+    return MapTask{json.at("receivers"),
+                   json.at("spacing"),
+                   json.at("rays"),
+                   run_of(json.at("run")),
+                   json.at("file").get<std::string>(),
+                   json.at("progress")};
+  }
+  if (kind == "modules") {
+    return ModulesTask{run_of(json.at("run")), json.at("folder").get<std::string>(),
+                       json.at("file").get<std::string>(), json.at("progress")};
+  }
   if (kind == "directions") {
     return DirectionsTask{directions_of(json.at("directions")), json.at("file").get<std::string>()};
   }
@@ -178,20 +195,27 @@ Ring ring_of(Json const& json) {
   return ring;
 }
 
+Json polygon_to_json(Polygon const& polygon) {
+  Json rings = Json::array({ring_to_json(polygon.outline)});
+  for (auto const& hole : polygon.holes) rings.push_back(ring_to_json(hole));
+  return rings;
+}
+
+Polygon polygon_of(Json const& json) {
+  Polygon polygon{ring_of(json.at(0)), {}};
+  for (std::size_t i = 1; i < json.size(); ++i) polygon.holes.push_back(ring_of(json[i]));
+  return polygon;
+}
+
 Json map_to_json(ReceiverMap const& map) {
-  Json holes = Json::array();
-  for (auto const& hole : map.polygon.holes) holes.push_back(ring_to_json(hole));
   Json values = Json::array();
   for (auto const& value : map.values) values.push_back({value.hours, value.energy});
-  return {{"name", map.name},
-          {"outline", ring_to_json(map.polygon.outline)},
-          {"holes", std::move(holes)},
-          {"values", std::move(values)}};
+  return {
+      {"name", map.name}, {"polygon", polygon_to_json(map.polygon)}, {"values", std::move(values)}};
 }
 
 ReceiverMap map_of(Json const& json) {
-  ReceiverMap map{json.at("name"), {ring_of(json.at("outline")), {}}, {}};
-  for (auto const& hole : json.at("holes")) map.polygon.holes.push_back(ring_of(hole));
+  ReceiverMap map{json.at("name"), polygon_of(json.at("polygon")), {}};
   for (auto const& value : json.at("values")) map.values.push_back({value.at(0), value.at(1)});
   return map;
 }
@@ -298,6 +322,27 @@ std::vector<ReceiverMask> read_masks(Path const& file) {
     std::vector<ReceiverMask> masks;
     for (auto const& mask : json) masks.push_back(mask_of(mask));
     return masks;
+  });
+}
+
+void write_module_fields(Path const& file, std::vector<ModuleField> const& fields) {
+  Json json = Json::array();
+  for (auto const& [object, surface, polygon, sky] : fields) {
+    Json views = Json::array();
+    for (auto const& [view, unshaded] : sky) views.push_back({view, unshaded});
+    json.push_back({object, surface, polygon_to_json(polygon), std::move(views)});
+  }
+  write(file, json);
+}
+
+std::vector<ModuleField> read_module_fields(Path const& file) {
+  return read(file, [](Json const& json) {
+    std::vector<ModuleField> fields;
+    for (auto const& row : json) {
+      fields.push_back({row.at(0), row.at(1), polygon_of(row.at(2)), {}});
+      for (auto const& view : row.at(3)) fields.back().sky.push_back({view.at(0), view.at(1)});
+    }
+    return fields;
   });
 }
 

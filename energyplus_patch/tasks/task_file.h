@@ -35,6 +35,8 @@ void write_fractions(std::filesystem::path const& file,
 std::vector<ReceiverFractions> read_fractions(std::filesystem::path const& file);
 void write_masks(std::filesystem::path const& file, std::vector<ReceiverMask> const& masks);
 std::vector<ReceiverMask> read_masks(std::filesystem::path const& file);
+void write_module_fields(std::filesystem::path const& file, std::vector<ModuleField> const& fields);
+std::vector<ModuleField> read_module_fields(std::filesystem::path const& file);
 
 // A task of the gpu_shading program that EnergyPlus is run for (--gpu-shading-task), and the reply
 // to it as it comes about.

@@ -41,6 +41,9 @@ class SomeViewsOnCpu : public ViewBackend {
 
   DeviceInfo const& device() const override { return device_->device(); }
   bool samples_pixels() const override { return device_->samples_pixels(); }
+  std::optional<std::size_t> few_casters(bool interiors) const override {
+    return device_->few_casters(interiors);
+  }
 
   void add(std::vector<ReceiverView> views) override;
   std::vector<ViewSums> finish() override;
@@ -134,8 +137,10 @@ std::unique_ptr<ViewBackend> open_checked_backend(BackendInput const& input,
                                                   DeviceChoice const& choice, Warn const& warn) {
   auto opened = open_backend(input, choice, warn);
   if (opened->device().id.is_cpu()) return opened;
-  auto checked = std::make_unique<CheckedBackend>(std::move(opened),
-                                                  std::make_unique<CpuBackend>(input), input, warn);
+  using Keep = CheckedBackend::Keep;
+  auto checked = std::make_unique<CheckedBackend>(
+      std::move(opened), std::make_unique<CpuBackend>(input), input, warn,
+      choice.device ? Keep::if_right : Keep::if_right_and_not_slower);
   if (input.transmission.screens().entries().size() < 2) return checked;
   return std::make_unique<SomeViewsOnCpu>(std::move(checked), std::make_unique<CpuBackend>(input),
                                           input.transmission);

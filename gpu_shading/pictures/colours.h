@@ -14,8 +14,6 @@ namespace gpu_shading {
 using Colour = glm::dvec3;
 
 inline constexpr double brightest = 255.0;
-inline constexpr Colour yellow(brightest, brightest, 0.0);
-inline constexpr Colour blue(0.0, 0.0, brightest);
 inline constexpr Colour sky(226.0, 234.0, 243.0);  // neither white nor a grey
 // In a view from elsewhere than the sun:
 inline constexpr Colour ground(229.0, 233.0, 229.0);

@@ -7,8 +7,8 @@
 namespace gpu_shading {
 
 // A receiver in the sun's own view, a parallel projection along the rays, `size` pixels on the
-// longer side; everything else of the scene is drawn around it. Of casters that are all opaque it
-// is yellow and blue, else grey by its luminance. `frame`: the receiver's.
+// longer side; everything else of the scene is drawn around it. It has the colours of fractions by
+// its luminance. `frame`: the receiver's.
 Image draw_receiver(PictureRaster& raster, Scene const& scene, ShadedReceiver const& shaded,
                     PlaneFrame const& frame, int size);
 

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <map>
 #include <vector>
 
 #include "backends/open_backend.h"
@@ -300,15 +302,27 @@ class SceneView::Implementation {
 
   PictureFrame find_frame(SunAxes const& axes,
                           std::span<std::optional<double> const> fractions) const {
-    PictureFrame all;
+    std::map<SurfaceId, PictureFrame> parts;
     PictureFrame receivers;
     for_each_point([&](SurfaceId id, glm::dvec3 const& point) {
-      all.include(axes(point - middle_));
+      parts[id].include(axes(point - middle_));
       if (id < fractions.size() && fractions[id]) receivers.include(axes(point - middle_));
     });
     if (receivers.empty()) throw Error("there is no receiver to view");
-    PictureFrame const limit = receivers.widened(0.5 * receivers.longer());
-    PictureFrame const frame{glm::max(all.low, limit.low), glm::min(all.high, limit.high)};
+    // What begins nearby is shown whole, unless it goes far.
+    PictureFrame const near = receivers.widened(0.5 * receivers.longer());
+    PictureFrame const limit = receivers.widened(receivers.longer());
+    PictureFrame frame = receivers;
+    for (auto const& [id, part] : parts) {
+      bool const is_near = glm::all(glm::greaterThan(part.high, near.low)) &&
+                           glm::all(glm::lessThan(part.low, near.high));
+      if (!is_near) continue;
+      bool const is_small = glm::all(glm::greaterThan(part.low, limit.low)) &&
+                            glm::all(glm::lessThan(part.high, limit.high));
+      PictureFrame const& within = is_small ? limit : near;
+      frame.include(glm::max(part.low, within.low));
+      frame.include(glm::min(part.high, within.high));
+    }
     return frame.widened(scene_border * frame.longer());
   }
 

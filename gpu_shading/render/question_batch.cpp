@@ -18,9 +18,6 @@ constexpr std::size_t max_viewed = 16384;
 // Number of questions whose casters are searched at a time, because the results take memory.
 constexpr std::size_t max_asked = 64;
 
-// Casters in view up to which each is looked at; of more, a sample, and the back end searches them.
-constexpr std::size_t few_casters = 4000;
-
 // Steps of an EdgeSweep that always take less time than samples.
 constexpr double few_steps = 300.0;
 
@@ -38,8 +35,7 @@ double sample_cost(Detail const& detail, int side, bool transmits, std::size_t i
 }  // namespace
 
 QuestionBatch::QuestionBatch(Parts const& parts)
-    : parts_(parts),
-      may_be_crowd_(!parts.backend.samples_pixels() && parts.transmission.all_opaque()) {
+    : parts_(parts), may_be_crowd_(parts.transmission.all_opaque()) {
   parts_.backend.forget();
 }
 
@@ -82,9 +78,10 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
     found.turn = best_turn(detail);
   };
   double const enough = parts_.receivers.size().enough();
-  if (may_be_crowd_) {
+  auto const few = may_be_crowd_ ? parts_.backend.few_casters(question.through) : std::nullopt;
+  if (few) {
     if (auto crowd = casters.crowd_in_view(parts_.scene, question.receiver, *seen.frame,
-                                           question.towards_sun, few_casters)) {
+                                           question.towards_sun, *few)) {
       found.crowd_count = crowd->count();
       Detail detail =
           casters.detail(crowd->sample, *seen.frame, question.towards_sun, enough / crowd->each);
@@ -154,6 +151,10 @@ void QuestionBatch::stretch_tiles(std::vector<ReceiverView>& views) {
   std::vector<double> stretches(views.size());
   for_each_index(views.size(), [&](std::size_t i) {
     ReceiverView const& view = views[i];
+    if (view.crowd != nullptr) {
+      stretches[i] = 1.0;
+      return;
+    }
     stretches[i] =
         stretch_without_aliasing({view.receiver, *view.frame, *view.tile, view.towards_sun,
                                   view.pixel_area(), view.casters, view.transmits},

@@ -95,6 +95,7 @@ void Casters::add(SurfaceId id, Surface const& surface) {
   caster.warped = off > 1e-3;  // more than models' coordinates are rounded by
   caster.faces = surface.filter.faces();
   caster.only_turned_away = surface.casting == Casting::turned_away;
+  any_turned_away_ = any_turned_away_ || caster.only_turned_away;
   points_.insert(points_.end(), ring.begin(), ring.end());
   caster.first_hole = holes_.size();
   caster.holes = surface.polygon.holes.size();

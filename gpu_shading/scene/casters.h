@@ -77,6 +77,8 @@ class Casters {
   // For searches by others: the tree, of the casters' boxes, and the caster at a position in it.
   Bvh const& tree() const { return tree_; }
   SurfaceId id(std::uint32_t position) const { return casters_[position].id; }
+  // Whether some casters count only where the sun meets one of their faces.
+  bool any_turned_away() const { return any_turned_away_; }
   // Which casters count for a receiver at one sun direction, wherever they are.
   class Counted {
    public:
@@ -152,6 +154,7 @@ class Casters {
   std::vector<glm::dvec3> points_;
   std::vector<Ring> holes_;
   std::vector<std::uint32_t> position_of_;  // of casters, by id
+  bool any_turned_away_ = false;
 };
 
 }  // namespace gpu_shading

@@ -73,14 +73,24 @@ Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, 
   return tile.counted_pixels > 0 ? tile : bounding_tile(polygon, frame, tile.side);
 }
 
+View in_pixels(View view, TileGrid const& grid) {
+  glm::dvec4 const shift(0.0, 0.0, 0.0, 1.0);
+  view.x = 0.5 * grid.width * (view.x + shift);
+  view.y = 0.5 * grid.rows * (view.y + shift);
+  view.x += grid.shear * view.y;
+  return view;
+}
+
+glm::dvec2 on_grid(glm::dvec2 const& place, TileGrid const& grid) {
+  glm::dvec2 pixels = (0.5 * place + 0.5) * glm::dvec2(grid.width, grid.rows);
+  pixels.x += grid.shear * pixels.y;
+  return pixels;
+}
+
 void light(PixelMask& mask, Tile const& tile, TileGrid const& grid) {
-  glm::dvec2 const size(grid.width, grid.rows);
   for (std::size_t i = 0; i < tile.triangles.size(); i += 3) {
     std::array<glm::dvec2, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      corners.at(k) = (0.5 * glm::dvec2(tile.triangles[i + k]) + 0.5) * size;
-      corners.at(k).x += grid.shear * corners.at(k).y;
-    }
+    for (std::size_t k = 0; k < 3; ++k) corners.at(k) = on_grid(tile.triangles[i + k], grid);
     mask.light(area_within(corners, grid.side()));
   }
 }

@@ -58,6 +58,11 @@ struct TileGrid {
 
 inline TileGrid pixels_of(Tile const& tile) { return {tile.side, tile.side, 0.0}; }
 
+// A view of a tile with its x and y in columns and rows of the tile's grid.
+View in_pixels(View view, TileGrid const& grid);
+// The same for a place on the tile, in clip coordinates.
+glm::dvec2 on_grid(glm::dvec2 const& place, TileGrid const& grid);
+
 // The receiver's own samples.
 void light(PixelMask& mask, Tile const& tile, TileGrid const& grid);
 

@@ -107,7 +107,7 @@ def model(glass="single", turn=0.0):
 def main():
     parser = argparse.ArgumentParser(description="Writes the model of two rooms under a glass canopy.")
     parser.add_argument("--glass", choices=GLASS, default="single", help="panes of one or three sheets")
-    parser.add_argument("--turn", type=float, default=0.0, metavar="DEGREES", help="of each pane out of the surface")
+    parser.add_argument("--turn", type=float, default=0.0, metavar="DEGREES", help="angle of each pane to the surface")
     arguments = parser.parse_args()
     sys.stdout.writelines(model(arguments.glass, arguments.turn))
 

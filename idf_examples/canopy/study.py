@@ -64,7 +64,8 @@ def compare(folder):
 
 def main():
     parser = argparse.ArgumentParser(description="Compares glass canopies by the sun in the rooms below.")
-    parser.add_argument("-o", "--output", type=Path, default=Path("out/canopy"), metavar="DIR", help="for the runs")
+    parser.add_argument("-o", "--output", type=Path, default=Path("out/canopy"), metavar="DIR",
+                        help="folder for the runs")
     with case_study.replacing(parser.parse_args().output, "canopy") as output:
         compare(output.path)
 

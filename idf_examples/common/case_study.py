@@ -169,8 +169,9 @@ def run_year(path, weather, words):
 def main(study):
     parser = argparse.ArgumentParser(description="Runs each variant for a year and prints a table.")
     parser.add_argument("-o", "--output", type=Path, default=Path("out") / study.name, metavar="DIR",
-                        help="for the runs (default: %(default)s)")  # fmt: skip
-    parser.add_argument("-w", "--weather", default=study.weather, metavar="EPW", help="(default: %(default)s)")
+                        help="folder for the runs (default: %(default)s)")  # fmt: skip
+    parser.add_argument("-w", "--weather", default=study.weather, metavar="EPW",
+                        help="weather file (default: %(default)s)")  # fmt: skip
     parser.add_argument("--device", default="auto", metavar="NAME", help="as --gpu-shading-device (default: auto)")
     parser.add_argument("--update", default="idf", metavar="HOW", help="as --gpu-shading-update (default: idf)")
     parser.add_argument("--samples", nargs="+", metavar="DETAIL",

@@ -338,7 +338,7 @@ def model(glass_kind="single", turn=20.0, size=FULL):
 def main():
     parser = argparse.ArgumentParser(description="Writes the model of a hotel under a grid shell of glass.")
     parser.add_argument("--glass", choices=GLASS, default="single", help="panes of one or three sheets")
-    parser.add_argument("--turn", type=float, default=20.0, metavar="DEGREES", help="of each pane out of the shell")
+    parser.add_argument("--turn", type=float, default=20.0, metavar="DEGREES", help="angle of each pane to the shell")
     parser.add_argument("--small", action="store_true", help="a small hotel of the same kind, quick to run")
     arguments = parser.parse_args()
     sys.stdout.writelines(model(arguments.glass, arguments.turn, SMALL if arguments.small else FULL))

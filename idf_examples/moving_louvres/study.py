@@ -52,7 +52,7 @@ def main():
     parser = argparse.ArgumentParser(description="Compares moving louvres with fixed ones.")
     parser.add_argument("--louvres", type=int, default=generate.ROWS, metavar="N")
     parser.add_argument("-o", "--output", type=Path, default=Path("out/moving_louvres"), metavar="DIR",
-                        help="for the runs")  # fmt: skip
+                        help="folder for the runs")  # fmt: skip
     chosen = parser.parse_args()
     with case_study.replacing(chosen.output, "moving_louvres") as output:
         compare(chosen.louvres, output.path)

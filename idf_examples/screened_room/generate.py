@@ -146,7 +146,8 @@ def write_image(path):
 
 def main():
     parser = argparse.ArgumentParser(description="Writes the model of one room behind a perforated screen.")
-    parser.add_argument("--facing", choices=AZIMUTHS, default="south", help="of the window (default: south)")
+    parser.add_argument("--facing", choices=AZIMUTHS, default="south",
+                        help="orientation of the window (default: south)")
     parser.add_argument("--screen", choices=SCREENS, default="small holes",
                         help="what the screen is (default: small holes)")
     parser.add_argument("--image", metavar="FILE", help=f"write the gradient's image too; the model reads {IMAGE}")

@@ -80,7 +80,7 @@ def compare(folder):
 def main():
     parser = argparse.ArgumentParser(description="Compares perforated screens by the sun in the room behind them.")
     parser.add_argument("-o", "--output", type=Path, default=Path("out/screened_room"), metavar="DIR",
-                        help="for the runs")  # fmt: skip
+                        help="folder for the runs")  # fmt: skip
     with case_study.replacing(parser.parse_args().output, "screened_room") as output:
         compare(output.path)
 

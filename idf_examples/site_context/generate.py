@@ -63,6 +63,7 @@ GPUShading:SiteContext,
   ,                        !- Origin Latitude {{deg}}
   ,                        !- Origin Longitude {{deg}}
   {elevation},                 !- Origin Elevation {{m}}
+  ,                        !- Radius {{m}}
   Office;                  !- Left Out Name 1
 """
 MESH = """
@@ -187,8 +188,8 @@ def main():
     parser = argparse.ArgumentParser(description="Writes an office in a town at the foot of hills.")
     parser.add_argument("-o", "--output", type=Path, default=Path("out/site_context"), metavar="DIR",
                         help="folder for the model and its files (default: out/site_context)")
-    parser.add_argument("--without", default="", metavar="PARTS", help="of town, hills and sail, with commas between")
-    parser.add_argument("--triangles", type=int, default=800, metavar="N", help="of the sail")
+    parser.add_argument("--without", default="", metavar="PARTS", help="leave out some of town,hills,sail")
+    parser.add_argument("--triangles", type=int, default=800, metavar="N", help="number of triangles of the sail")
     arguments = parser.parse_args()
     parts = {"town", "hills", "sail"} - set(arguments.without.split(","))
     try:

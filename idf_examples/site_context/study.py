@@ -63,7 +63,7 @@ def load(folder, times=5):
 def main():
     parser = argparse.ArgumentParser(description="Compares surroundings of an office by its solar radiation.")
     parser.add_argument("-o", "--output", type=Path, default=Path("out/site_context_study"), metavar="DIR",
-                        help="for the runs")
+                        help="folder for the runs")
     parser.add_argument("--load", action="store_true", help="measure the time to load meshes instead")
     arguments = parser.parse_args()
     with case_study.replacing(arguments.output, "site_context") as output:

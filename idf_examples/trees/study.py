@@ -55,7 +55,7 @@ VARIANTS = {
 def main():
     parser = argparse.ArgumentParser(description="Compares trees and boxes before an office.")
     parser.add_argument("-o", "--output", type=Path, default=Path("out/trees_study"), metavar="DIR",
-                        help="for the runs")
+                        help="folder for the runs")
     arguments = parser.parse_args()
     print("| before the window | solar, kWh | heating | cooling | seconds |")
     print("|---|---:|---:|---:|---:|")

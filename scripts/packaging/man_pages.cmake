@@ -28,7 +28,7 @@ endfunction()
 file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/man)
 set(program $<TARGET_FILE:gpu_shading_program>)
 add_man_page(gpu_shading ${program} HELP --help-all DEPENDS gpu_shading_program)
-foreach(subcommand devices check view map mask screen sample export docs example)
+foreach(subcommand devices check view map mask screen sample export city docs example)
   add_man_page(gpu_shading-${subcommand} "${program} ${subcommand}" DEPENDS gpu_shading_program)
 endforeach()
 # Its help is that of the Python package.

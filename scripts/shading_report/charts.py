@@ -15,9 +15,10 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
-RUN_COLOURS = ("#0072B2", "#D55E00", "#009E73")
-HATCHES = ("", "///", "...")
-MARKS = ("o", "x", "+")
+RUN_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#F0E442", "#666666")
+HATCHES = ("", "///", "...", "xxx", "\\\\\\", "---", "|||", "+++")
+MARKS = ("o", "x", "+", "s", "^", "d", "v", "*")
+IN_ROW = 6  # labels of runs below a chart, at most
 NOT_FACING = "#e4e4e4"
 GRID = {"color": "#d0d0d0", "linewidth": 0.6}
 
@@ -31,6 +32,15 @@ mpl.rcParams.update({
 })
 
 _numbers = itertools.count()
+
+
+def run_colour(number):
+    return RUN_COLOURS[number % len(RUN_COLOURS)]
+
+
+def _hatch(number):
+    """Another one where colours begin again."""
+    return HATCHES[(number + number // len(HATCHES)) % len(HATCHES)]
 
 
 def _svg(figure, description):
@@ -113,7 +123,7 @@ def scatter(reference, others, description):
     figure, axes = _figure(3.1, 3.0, left=0.5, bottom=0.45, right=0.1, top=0.1)
     axes.plot([0, 1], [0, 1], color="#444444", linewidth=0.8)
     for number, (label, values) in enumerate(others, start=1):
-        axes.plot(reference, values, MARKS[number - 1], color=RUN_COLOURS[number], markersize=2.5,
+        axes.plot(reference, values, MARKS[(number - 1) % len(MARKS)], color=run_colour(number), markersize=2.5,
                   markeredgewidth=0.6, alpha=0.6, rasterized=True, label=label)
     axes.set(xlim=(-0.03, 1.03), ylim=(-0.03, 1.03), aspect="equal")
     axes.grid(**GRID)
@@ -145,7 +155,7 @@ def histogram(others, description):
     largest = max((np.abs(values).max(initial=0.0) for _, values in others), default=0.0) or 1e-9
     edges = np.linspace(-largest, largest, 42)
     for number, (label, values) in enumerate(others, start=1):
-        axes.hist(values, bins=edges, color=RUN_COLOURS[number], histtype="stepfilled", alpha=0.75, label=label)
+        axes.hist(values, bins=edges, color=run_colour(number), histtype="stepfilled", alpha=0.75, label=label)
     axes.set_yscale("log")
     axes.set_ylim(bottom=0.5)
     axes.axvline(0.0, color="#444444", linewidth=0.8)
@@ -162,11 +172,12 @@ def histogram(others, description):
 
 def months(names, runs, title, description):
     """Bars of each month, side by side. runs: [(label, kWh by month)]."""
-    figure, axes = _figure(4.6, 2.5, left=0.7, right=0.1, bottom=0.55)
+    rows = -(-len(runs) // IN_ROW)
+    figure, axes = _figure(4.6, 2.3 + 0.2 * rows, left=0.7, right=0.1, bottom=0.35 + 0.2 * rows)
     width = 0.8 / len(runs)
     for number, (label, values) in enumerate(runs):
         positions = np.arange(len(names)) + (number - (len(runs) - 1) / 2) * width
-        axes.bar(positions, values, width, color=RUN_COLOURS[number], hatch=HATCHES[number], edgecolor="white",
+        axes.bar(positions, values, width, color=run_colour(number), hatch=_hatch(number), edgecolor="white",
                  linewidth=0.4, label=label)
     numbers = [name if len(names) <= 12 else str(position) for position, name in enumerate(names, start=1)]
     axes.set_xticks(range(len(names)), numbers, fontsize=8)
@@ -174,7 +185,7 @@ def months(names, runs, title, description):
     axes.set_ylabel("kWh")
     axes.set_title(title, loc="left", fontsize=9, fontweight="bold")
     axes.grid(axis="y", **GRID)
-    figure.legend(frameon=False, ncols=len(runs), loc="lower center", borderaxespad=0.1)
+    figure.legend(frameon=False, ncols=min(len(runs), IN_ROW), loc="lower center", borderaxespad=0.1)
     return _svg(figure, description)
 
 

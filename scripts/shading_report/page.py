@@ -8,7 +8,7 @@ import jinja2
 import numpy as np
 from shading_runs import results, verdict
 
-from shading_report import building, charts, facts, origin, pictures, tables
+from shading_report import building, charts, facts, origin, pictures, tables, variants
 
 HERE = Path(__file__).resolve().parent
 
@@ -190,9 +190,12 @@ def _gather(output, everything, weather, most, further):
         weather=weather.name,
         written=origin.written(),
         runs=runs,
-        colours=charts.RUN_COLOURS,
+        colour=charts.run_colour,
         missing=[run for run in everything if not run.results],
-        verdicts=[(run.title, verdict.sentences(runs, run)) for run in runs[1:]],
+        verdicts=[(run.title, verdict.energy(runs[0], run)) for run in runs[1:]],
+        agreements=[(run.title, verdict.agreement(run, limit)) for run in runs[1:]],
+        unseen=verdict.unseen(runs),
+        **variants.compare(runs, weather, calendar, output / "looks"),
         limit=limit,
         summaries=[results.summary(run.found) for run in runs[1:]],
         environments=by_environment,

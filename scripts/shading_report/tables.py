@@ -30,6 +30,21 @@ def _summaries(runs, limit):
                 yield "summary", title, "change %", run.label, 100 * (after / before - 1)
 
 
+def _choice(runs, page):
+    for environment, quantities in page["chosen_by"]:
+        for quantity in quantities:
+            for run, value in zip(runs, quantity.values, strict=True):
+                yield "variant", environment, f"{quantity.title} {quantity.unit}", run.label, value
+    yield "variant", "", "picture", "", page["look"].caption
+    yield "glare", "", "threshold W/m2", "", page["threshold"]
+    for environment, point, hours in page["glare"]:
+        for run, value in zip(runs, hours, strict=True):
+            yield "glare", f"{environment}, {point}", "hours", run.label, value
+    for title, cells in page["changed"]:
+        for run, cell in zip(runs[1:], cells, strict=True):
+            yield "input", title, "difference", run.label, cell
+
+
 def _receivers(runs, lines, numbered):
     yield "summary", "", "receivers", "", len(lines)
     yield "summary", "", "receivers hour by hour", "", sum(bool(line.anchor) for line in lines)
@@ -65,6 +80,7 @@ def _hours(runs, details):
 def _rows(page):
     """page: what the template is rendered with."""
     runs = page["runs"]
+    yield from _choice(runs, page)
     yield from _summaries(runs, page["limit"])
     for section, periods in (("energy", page["environments"]), ("month", page["months"])):
         for period, amounts in periods:

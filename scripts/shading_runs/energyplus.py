@@ -67,6 +67,14 @@ def out_folder():
     return (REPOSITORY if in_checkout() else Path.cwd()) / "out"
 
 
+def python_packages():
+    """Folders in which the package gpu_shading may be, where Python does not find it by itself."""
+    if in_checkout():
+        return [REPOSITORY / "gpu_shading" / "python"]
+    # cmake --install puts these scripts into share/gpu_shading.
+    return [REPOSITORY.parent / "lib" / "python3" / "dist-packages"]
+
+
 def processor():
     """Name and number of cores of this machine's processor."""
     try:

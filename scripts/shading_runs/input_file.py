@@ -93,8 +93,13 @@ class Idf:
         self.remove(lambda name: name == class_name.lower())
         self.add(class_name, fields)
 
-    def add_output_variable(self, variable, frequency):
-        self.add("Output:Variable", ["*", variable, frequency])
+    def add_output_variable(self, variable, frequency, key="*"):
+        self.add("Output:Variable", [key, variable, frequency])
+
+    def schedules_of_shades(self):
+        """The schedules that objects of shades name."""
+        values = [(name, [self.text[slice(*span)] for span in spans]) for name, spans, _, _ in self.objects]
+        return _schedules_of_shades((name, fields[0], fields) for name, fields in values if fields)
 
     def remove(self, is_unwanted):
         """Removes the objects whose class, in lower case, is_unwanted accepts."""
@@ -161,10 +166,14 @@ class EpJson:
         self.remove(lambda name: name == class_name.lower())
         self.data[class_name] = {f"{class_name} 1": dict(zip(names, fields, strict=True))}
 
-    def add_output_variable(self, variable, frequency):
+    def schedules_of_shades(self):
+        return _schedules_of_shades((key, name, map(str, fields.values())) for key, objects in self.data.items()
+                                    for name, fields in objects.items())
+
+    def add_output_variable(self, variable, frequency, key="*"):
         objects = self.data.setdefault(self._key("Output:Variable") or "Output:Variable", {})
         objects[f"compare_shading {len(objects)}"] = {
-            "key_value": "*",
+            "key_value": key,
             "variable_name": variable,
             "reporting_frequency": frequency,
         }
@@ -185,6 +194,17 @@ class EpJson:
 
     def write(self, path):
         Path(path).write_text(json.dumps(self.data, indent=1), encoding="utf-8")
+
+
+def _schedules_of_shades(objects):
+    """objects: (class, name, values of fields). Schedules named by objects of shades, in order."""
+    schedules, named = {}, {}
+    for type_, name, values in objects:
+        if type_.lower().startswith("schedule:"):
+            schedules[name.upper()] = name
+        elif type_.lower().startswith(("shading:", "gpushading:")):
+            named |= {value.upper(): None for value in values}
+    return [schedules[name] for name in named if name in schedules]
 
 
 def _copy_named(source, folder, omitted, text):

@@ -1,13 +1,15 @@
 """The runs that compare_shading compares: how each is started, and its outcome."""
 
 import shlex
+import string
+import subprocess
 from pathlib import Path
 
 from shading_runs import energyplus, input_file, results
 
 OURS = "gpushading:"
 STAGES = "stages.csv"  # time of each stage, in the run's folder
-LONG = 20  # characters, for a title in a heading
+LONG, LONG_TOGETHER = 20, 45  # characters, of a title in a heading and of those of all runs
 
 
 class Method:
@@ -47,6 +49,26 @@ class Method:
             self.missing = f"EnergyPlus fell back to {self.run.method}"
             return
         self.results = results.Results(folder)
+
+    def side_file_seen(self):
+        """The file of extension objects for the gpu_shading program on the placed model; an empty one for a run of
+        EnergyPlus itself, which does not know ours."""
+        if self.is_ours:
+            return self.extension_file
+        nothing = self.placed.parent.with_name(f"{self.key}.nothing.idf")
+        nothing.write_text("! EnergyPlus itself has no extension objects.\n")
+        return nothing
+
+    def draw(self, weather, *arguments):
+        """What `gpu_shading view` needs to draw the placed model. Returns why it could not, or ''."""
+        program = self.program.parent / energyplus.program_name("gpu_shading")
+        if not program.is_file():
+            return f"{program.name} is not beside {self.program}"
+        side_file = self.side_file_seen()
+        words = [program, "view", self.placed, "-w", weather, *map(str, arguments)]
+        done = subprocess.run([*words, *([f"--gpu-shading-file={side_file}"] if side_file else [])],
+                              capture_output=True, text=True, errors="replace", stdin=subprocess.DEVNULL)
+        return (done.stderr.strip().splitlines() or [f"exit status {done.returncode}"])[-1] if done.returncode else ""
 
     @property
     def extension_file(self):
@@ -94,7 +116,7 @@ def holds_extensions_alone(path):
 
 
 def parse(text, key, model):
-    """The run that --a or --b names: a kind or a file, and further EnergyPlus options.
+    """The run that one of --runs names: a kind or a file, and further EnergyPlus options.
 
     A file with extension objects only replaces the model's own side file; any other file is a model to run instead.
     Raises ValueError or OSError.
@@ -133,19 +155,24 @@ def name_by_difference(variants):
         each.label = each.title
 
 
-def choose(model, a, b, with_xvfb):
+def choose(model, runs, with_xvfb):
     """The methods, the reference first. Methods that are not available hold the reason."""
-    plain = a in KINDS and b in KINDS and a != b
+    texts = [*runs, *(["pixelcounting"] if with_xvfb and "pixelcounting" not in runs else [])]
+    letters = string.ascii_uppercase
+    if not 2 <= len(texts) <= len(letters):
+        raise ValueError(f"--runs: {len(texts)} of them, expected 2 to {len(letters)}")
+    is_plain = all(text in KINDS for text in texts) and len(set(texts)) == len(texts)
     names = {"clipping": "stock", "gpu": "gpu", "pixelcounting": "xvfb"}
-    chosen = [parse(text, names[text] if plain else key, model) for text, key in ((a, "a"), (b, "b"))]
-    if not plain:
-        for each, letter in zip(chosen, "AB", strict=True):
+    chosen = [parse(text, names[text] if is_plain else letter.lower(), model)
+              for text, letter in zip(texts, letters, strict=False)]
+    if not is_plain:
+        for each, letter in zip(chosen, letters, strict=False):
             each.short = letter
-    if all(each.is_ours for each in chosen):
-        name_by_difference(chosen)
-    if with_xvfb and "pixelcounting" not in (a, b):
-        chosen.append(pixel_counting("xvfb", model))
-    if any(len(each.title) > LONG for each in chosen):
+    ours = [each for each in chosen if each.is_ours]
+    if len(ours) > 1:
+        name_by_difference(ours)
+    lengths = [len(each.title) for each in chosen]
+    if max(lengths) > LONG or sum(lengths) > LONG_TOGETHER:
         for each in chosen:
             each.label = each.short
     return chosen

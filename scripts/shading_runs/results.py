@@ -21,6 +21,9 @@ OF_ZONES = (HEATING, COOLING, LIGHTS)
 # With the number of a reference point; the key is the Daylighting:Controls.
 POINT = "Daylighting Reference Point {} Illuminance"
 AZIMUTH, ALTITUDE = "Site Solar Azimuth Angle", "Site Solar Altitude Angle"
+DIRECT = "Site Direct Solar Radiation Rate per Area"  # W/m2, normal to the sun
+OF_SUN = (AZIMUTH, ALTITUDE, DIRECT)
+SCHEDULE = "Schedule Value"
 J_PER_KWH = 3.6e6
 
 # Sunlit fractions are compared only while the sun is higher than this above the receiver's plane: below it, an
@@ -49,8 +52,23 @@ def instrument(model, frequency="Hourly"):
     for number in range(1, points + 1):
         model.add_output_variable(POINT.format(number), frequency)
     # At every timestep: an hourly mean of the azimuth is wrong where the sun passes north.
-    for variable in (AZIMUTH, ALTITUDE):
+    for variable in OF_SUN[:3 if points else 2]:
         model.add_output_variable(variable, "Timestep")
+    for schedule in model.schedules_of_shades() if points else ():
+        model.add_output_variable(SCHEDULE, "Timestep", schedule)
+
+
+@dataclass
+class Step:
+    """A timestep with the sun above the horizon: its environment, length in hours, the sun in degrees, the beam in
+    W/m2 normal to the sun, and values of schedules of shades by their names in upper case."""
+
+    environment: str
+    hours: float
+    azimuth: float = 0.0
+    altitude: float = 0.0
+    beam: float = 0.0
+    schedules: dict = field(default_factory=dict)
 
 
 @dataclass
@@ -83,7 +101,8 @@ class Results:
     """All values of one run: values[variable][receiver or zone name] is an array over times, and so is
     illuminance["CONTROLS, point 1"], in lux.
 
-    times are (environment, month, day, hour 1 .. 24, minute) at the end of the hour; multipliers are those of zones.
+    times are (environment, month, day, hour 1 .. 24, minute) at the end of the hour; multipliers are those of zones;
+    steps are those with the sun above the horizon.
     """
 
     def __init__(self, folder, frequency="Hourly"):
@@ -128,33 +147,41 @@ class Results:
         ):
             number = variable.removeprefix(POINT.split("{}")[0]).split()[0]
             target[index] = self.illuminance[f"{key}, point {number}"] = array("d")
-        angle = {index: (AZIMUTH, ALTITUDE).index(variable) for index, variable in data.execute(
+        of_sun = {index: OF_SUN.index(variable) for index, variable in data.execute(
             "SELECT ReportDataDictionaryIndex, Name FROM ReportDataDictionary "
-            "WHERE ReportingFrequency = 'Zone Timestep' AND Name IN (?, ?)", (AZIMUTH, ALTITUDE))}
-        time_indices, suns = {}, {}
+            "WHERE ReportingFrequency = 'Zone Timestep' AND Name IN (?, ?, ?)", OF_SUN)}
+        schedules = dict(data.execute(
+            "SELECT ReportDataDictionaryIndex, KeyValue FROM ReportDataDictionary "
+            "WHERE ReportingFrequency = 'Zone Timestep' AND Name = ?", (SCHEDULE,)))
+        time_indices, suns, values = {}, {}, {}
         for time_index, index, value in data.execute(
             "SELECT TimeIndex, ReportDataDictionaryIndex, Value FROM ReportData ORDER BY ReportDataIndex"
         ):
             if index in target:
                 target[index].append(value)
                 time_indices[time_index] = None
-            elif index in angle:
-                suns.setdefault(time_index, [0.0, 0.0])[angle[index]] = value
+            elif index in of_sun:
+                suns.setdefault(time_index, [0.0] * len(OF_SUN))[of_sun[index]] = value
+            elif index in schedules:
+                values.setdefault(time_index, {})[schedules[index].upper()] = value
         environments = {index: (name, kind) for index, name, kind in data.execute(
             "SELECT EnvironmentPeriodIndex, EnvironmentName, EnvironmentType FROM EnvironmentPeriods")}
         rows = {row[0]: row[1:] for row in data.execute(
-            "SELECT TimeIndex, EnvironmentPeriodIndex, Month, Day, Hour, Minute, WarmupFlag FROM Time")}
+            "SELECT TimeIndex, EnvironmentPeriodIndex, Month, Day, Hour, Minute, WarmupFlag, Interval FROM Time")}
         # The warm-up flag is only set with Output:Diagnostics, ReportDuringWarmup.
         self.times = [(environments.get(rows[i][0], ("?",))[0], *rows[i][1:5]) for i in time_indices]
         self.is_warmup = [bool(rows[i][5]) for i in time_indices]
         self.weather_periods = {name for name, kind in environments.values() if kind == WEATHER_PERIOD}
-        steps = {}
-        for time_index, (azimuth, altitude) in suns.items():
-            environment, month, day, hour, minute, is_warmup = rows[time_index]
-            if not is_warmup:
-                when = (environments.get(environment, ("?",))[0], month, day, hour + (minute > 0))
-                steps.setdefault(when, []).append((azimuth, altitude))
-        self.sun = {when: mean_direction(directions) for when, directions in steps.items()}
+        self.steps, directions = [], {}
+        for time_index, (azimuth, altitude, beam) in suns.items():
+            environment, month, day, hour, minute, is_warmup, interval = rows[time_index]
+            if is_warmup:
+                continue
+            name = environments.get(environment, ("?",))[0]
+            directions.setdefault((name, month, day, hour + (minute > 0)), []).append((azimuth, altitude))
+            if altitude > 0.0:
+                self.steps.append(Step(name, interval / 60.0, azimuth, altitude, beam, values.get(time_index, {})))
+        self.sun = {when: mean_direction(found) for when, found in directions.items()}
 
     def sun_up(self, receiver):
         """Indices of the times when the sun faces the receiver."""

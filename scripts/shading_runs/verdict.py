@@ -8,7 +8,7 @@ DEFAULT_ERROR = 1e-3  # of --gpu-shading-error
 NAMES = {results.SOLAR: "transmitted solar radiation", results.HEATING: "heating", results.COOLING: "cooling",
          results.LIGHTS: "lighting"}
 CLASSES = {f"{methods.OURS}{name.lower()}": name
-           for name in ("TransparentShade", "PerforatedScreen", "Geometry", "SiteContext")}
+           for name in ("TransparentShade", "PerforatedScreen", "MovingShade", "Geometry", "SiteContext", "Tree")}
 SAME = 5e-6  # relative, beyond the digits that are said
 
 
@@ -30,15 +30,15 @@ def _objects(run):
     return {CLASSES[name] for path in paths for name in input_file.read(path).classes() if name in CLASSES}
 
 
-def _ignored(runs, other):
-    """Why the runs are of different buildings, or ''."""
-    pair = (runs[0], other)
-    blind = [run for run in pair if not run.is_ours]
-    objects = set().union(*(_objects(run) for run in pair if run.is_ours))
-    if not objects or len(blind) != 1:
-        return ""
-    return (f"{blind[0].title} does not know the GPUShading objects ({', '.join(sorted(objects))}), so that the runs "
-            "are of different buildings.")
+def unseen(runs):
+    """What runs of EnergyPlus itself cannot see of the others' models, a sentence for each."""
+    found = []
+    for run in (each for each in runs if not each.is_ours):
+        objects = set().union(*(_objects(each) for each in runs if each.is_ours or each is run))
+        if objects:
+            found.append(f"{run.title} cannot see GPUShading objects ({', '.join(sorted(objects))}): its figures are "
+                         "of a building without them.")
+    return found
 
 
 def share_beyond(other, limit):
@@ -57,7 +57,8 @@ def _percent(value):
     return f"{value:,.0f}" if value >= 10.0 else f"{value:.2g}"
 
 
-def _sunlit(other, limit):
+def agreement(other, limit):
+    """Of sunlit fractions with those of the reference."""
     values = [abs(value) for found in other.found for value in found.values]
     if not values:
         return "The sun faces no receiver at any hour that both runs have."
@@ -70,7 +71,8 @@ def _sunlit(other, limit):
     return f"Sunlit fractions differ: {share:.0f} % of the hours by more than {limit:g}, and by {mean:.2g} in the mean."
 
 
-def _energy(reference, other):
+def energy(reference, other):
+    """What changes from the reference."""
     changed, same = [], []
     for variable, name in NAMES.items():
         before, after = (run.results.total(variable) for run in (reference, other))
@@ -91,4 +93,4 @@ def _energy(reference, other):
 
 def sentences(runs, other):
     """What `other` has found beside the first of the runs."""
-    return [text for text in (_ignored(runs, other), _sunlit(other, allowed(runs)), _energy(runs[0], other)) if text]
+    return [text for text in (agreement(other, allowed(runs)), energy(runs[0], other)) if text]

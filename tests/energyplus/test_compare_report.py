@@ -87,8 +87,8 @@ def model(courtyard, tmp_path_factory):
 def variants(patched, model, weather, tmp_path_factory):
     """Rendered as it is, and with glass."""
     folder = tmp_path_factory.mktemp("variants")
-    done = compare(model, folder, weather, "--a", "gpu --gpu-shading-resolution=256",
-                   "--b", model.with_name("glass.idf"), "--receivers", str(RECEIVERS))
+    done = compare(model, folder, weather, "--runs", "gpu --gpu-shading-resolution=256",
+                   model.with_name("glass.idf"), "--receivers", str(RECEIVERS))
     assert done.returncode == 0, done.stderr
     assert f"report: {folder / 'report.html'}" in done.stdout
     return folder
@@ -246,7 +246,7 @@ def test_the_page_in_a_browser(variants, tmp_path, width, options):
     for label, marks, chart_width in seen["charts"]:
         assert marks >= 3, label
         assert 150 < chart_width <= width, label
-    assert len(seen["images"]) >= 2 * RECEIVERS
+    assert len(seen["images"]) >= 2 + 2 * RECEIVERS
     assert all(natural > 50 for _, natural in seen["images"])
     assert seen["sorted"] == sorted(seen["sorted"], reverse=True) and seen["sorted"][0] > 0.01
 
@@ -292,16 +292,16 @@ def test_one_folder_for_one_model_after_another(patched, courtyard, weather, tmp
 
 
 def test_a_run_that_is_neither_kind_nor_file(model, weather, tmp_path):
-    done = compare(model, tmp_path, weather, "--b", "nothing.idf")
+    done = compare(model, tmp_path, weather, "--runs", "gpu", "nothing.idf")
     assert done.returncode == 1
     assert done.stderr.startswith("compare_shading: nothing.idf: expected clipping, gpu, pixelcounting, a file")
     assert len(done.stderr.splitlines()) == 1
 
 
 def test_what_a_run_is_called(model):
-    plain = methods.choose(model, "clipping", "gpu", False)
+    plain = methods.choose(model, ["clipping", "gpu"], False)
     assert [(run.key, run.short, run.is_ours) for run in plain] == [("stock", "clip", False), ("gpu", "gpu", True)]
-    named = methods.choose(model, "gpu", str(model.with_name("glass.idf")), False)
+    named = methods.choose(model, ["gpu", str(model.with_name("glass.idf"))], False)
     assert [(run.key, run.short) for run in named] == [("a", "A"), ("b", "B")]
     assert named[0].extension_file is None and named[1].extension_file == model.with_name("glass.idf")
 
@@ -327,16 +327,100 @@ def test_messages_of_a_run(tmp_path):
     assert run.severe == ["Severe: Second", "Fatal: Fourth"]
 
 
-def test_daylight_and_lighting_are_those_reported(patched, louvres, weather, tmp_path):
-    """Twelve louvres, and the same louvres half transparent: more light at the point, less electricity."""
-    model = tmp_path / "day.idf"
-    model.write_text(daylit_rooms.plain(louvres(12)))
-    model.with_name("glass.idf").write_text("GPUShading:TransparentShade,Glass,Louvre *,Constant,0.5;\n")
-    folder = tmp_path / "out"
-    done = compare(model, folder, weather, "--a", "gpu", "--b", model.with_name("glass.idf"), "--", "-D")
+@pytest.fixture(scope="module")
+def rooms(patched, louvres, weather, tmp_path_factory):
+    """Clipping and the renderer with twelve louvres, the same louvres half transparent, and no louvres."""
+    folder = tmp_path_factory.mktemp("rooms")
+    model = folder / "day.idf"
+    text = louvres(12) + daylit_rooms.control(x=POINT[0], y=POINT[1]) + daylit_rooms.OUTPUTS
+    model.write_text(text)
+    bare = input_file.Idf(text)
+    bare.remove(lambda name: name.startswith("shading:"))
+    bare.set_field("Building", (1,), "0.0")
+    bare.write(folder / "open.idf")
+    (folder / "glass.idf").write_text("GPUShading:TransparentShade,Glass,Louvre *,Constant,0.5;\n")
+    done = compare(model, folder / "out", weather, "--runs", "clipping", "gpu", folder / "glass.idf",
+                   folder / "open.idf", "--receivers", "1", "--", "-D")
     assert done.returncode == 0, done.stderr
-    tables = Tables((folder / "report.html").read_text(encoding="utf-8")).tables
-    runs = [EsoFile(folder / key / "eplusout.eso") for key in ("a", "b")]
+    text = (folder / "out" / "report.html").read_text(encoding="utf-8")
+    return text, Tables(text).tables, [folder / "out" / key for key in "abcd"]
+
+
+POINT = (3.0, 1.5, 0.8)
+WINDOW = ((1.5, 0.8), (4.5, 2.8))  # x and z, in the plane y = 0
+
+
+def hours_of_sun(folder):
+    """At the point behind the bare window, from the sun of each timestep, a quarter of an hour."""
+    eso = EsoFile(folder / "eplusout.eso", "TimeStep")
+    azimuths, altitudes, beams = (eso.values[name, "Environment"] for name in (
+        "Site Solar Azimuth Angle", "Site Solar Altitude Angle", "Site Direct Solar Radiation Rate per Area"))
+    count = 0
+    for when, beam in beams.items():
+        azimuth, altitude = np.radians(azimuths[when]), np.radians(altitudes[when])
+        south = -np.cos(azimuth) * np.cos(altitude)
+        if altitude <= 0 or south <= 0 or beam < 50.0:
+            continue
+        x = POINT[0] + POINT[1] / south * np.sin(azimuth) * np.cos(altitude)
+        z = POINT[2] + POINT[1] / south * np.sin(altitude)
+        count += WINDOW[0][0] < x < WINDOW[1][0] and WINDOW[0][1] < z < WINDOW[1][1]
+    return count / 4
+
+
+def test_variants_are_compared_by_what_they_are_chosen_by(rooms):
+    _, tables, folders = rooms
+    header, *rows = tables["table-variants-1"]
+    assert [row[0] for row in rows] == [
+        "PolygonClipping (A)", "the model as it is (B)", "glass.idf (C)", "open.idf (D)"]
+    columns = {title: [number(row[i]) for row in rows] for i, title in enumerate(header) if i}
+    runs = [EsoFile(folder / "eplusout.eso") for folder in folders]
+    for title, variable in (("Cooling kWh", QUANTITIES["Cooling"]),
+                            ("Sun through windows kWh", QUANTITIES["Transmitted solar radiation"])):
+        series = [np.sum([list(run.values[variable, key].values()) for key in run.keys(variable)], axis=0) / 3.6e6
+                  for run in runs]
+        assert columns[title] == pytest.approx([values.sum() for values in series], rel=0.006), title
+        if title == "Cooling kWh":
+            assert columns["Cooling peak kW"] == pytest.approx([values.max() for values in series], rel=0.006)
+    assert columns["Sun through windows kWh"] == sorted(columns["Sun through windows kWh"])
+
+
+def test_glare_risk_is_the_sun_at_the_points(rooms):
+    _, tables, folders = rooms
+    (row,) = tables["table-glare"][1:]
+    assert row[:2] == ["CLEAR AUTUMN DAY", "BOX LIGHT, point 1"]
+    clipping, opaque, glass, bare = map(number, row[2:])
+    assert bare == pytest.approx(hours_of_sun(folders[3])) and bare > 2.0
+    assert glass == bare  # half the beam is far above the threshold
+    assert clipping == opaque < bare
+
+
+def test_each_variant_has_its_picture(rooms):
+    text, _, folders = rooms
+    looks = re.search(r'<div class="looks">(.*?)</div>', text, re.DOTALL)[1]
+    assert looks.count("<img ") == 4 and "No picture" not in looks
+    pictures = []
+    for folder in folders:
+        with Image.open(folder.parent / "looks" / f"{folder.name}.png") as picture:
+            pictures.append(picture.convert("RGB").tobytes())
+    # Stock sees opaque louvres, as the renderer does without the side file.
+    assert pictures[0] == pictures[1] and len(set(pictures)) == 3
+    assert re.search(r"sun at azimuth [\d.]+°, altitude [\d.]+°", text)
+
+
+def test_inputs_that_differ_and_what_stock_cannot_see(rooms):
+    text, tables, _ = rooms
+    rows = {row[0]: row[1:] for row in tables["table-inputs"][1:]}
+    assert rows["GPUShading:TransparentShade"] == ["–", "1 added: Glass", "–"]
+    assert "Building" not in rows  # 0 and 0.0 are the same
+    assert rows["Shading:Building:Detailed"][:2] == ["–", "–"]
+    assert rows["Shading:Building:Detailed"][2].startswith("12 removed: Louvre 1")
+    assert "PolygonClipping cannot see GPUShading objects (TransparentShade)" in text
+
+
+def test_daylight_and_lighting_are_those_reported(rooms):
+    """More light through louvres that are half transparent, and less electricity."""
+    _, tables, folders = rooms
+    runs = [EsoFile(folder / "eplusout.eso") for folder in folders]
     (row,) = tables["table-daylight"][1:]
     assert row[0] == "BOX LIGHT, point 1"
     lux = np.array([list(run.values["Daylighting Reference Point 1 Illuminance", "BOX LIGHT"].values())
@@ -344,10 +428,17 @@ def test_daylight_and_lighting_are_those_reported(patched, louvres, weather, tmp
     lit = lux.max(axis=0) > 0.0
     assert int(row[1]) == lit.sum() >= 8
     means = lux[:, lit].mean(axis=1)
-    assert means[1] > 1.1 * means[0]
-    assert list(map(number, row[2:5])) == pytest.approx([*means, means[1] - means[0]], abs=0.006)
-    assert number(row[6]) == pytest.approx(np.abs(lux[1] - lux[0]).max(), abs=0.006)
+    assert means[2] > 1.1 * means[1]
+    assert list(map(number, row[2:6])) == pytest.approx(means, abs=0.006)
+    assert number(row[-2]) == pytest.approx(np.abs(lux[2] - lux[0]).max(), abs=0.006)
     lighting = next(row for row in tables["table-energy"] if "Lighting" in row)
     energies = [sum(run.values["Zone Lights Electricity Energy", "BOX"].values()) / 3.6e6 for run in runs]
-    assert energies[1] < energies[0]
-    assert list(map(number, lighting[2:4])) == pytest.approx(energies, abs=ENERGY)
+    assert energies[2] < energies[1]
+    assert list(map(number, lighting[2:6])) == pytest.approx(energies, abs=ENERGY)
+
+
+def test_a_page_of_many_variants_in_a_browser(rooms, tmp_path):
+    _, _, folders = rooms
+    seen = look_at(folders[0].parent / "report.html", 480, LOOK, tmp_path)
+    assert seen["troubles"] == [] and seen["faults"] == [] and seen["outside"] == []
+    assert seen["wide"] <= 480

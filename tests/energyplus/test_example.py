@@ -35,7 +35,7 @@ def test_an_example_comes_with_its_weather(name, program, example, weather, tmp_
 @pytest.mark.parametrize("name, hint", [("canopy", ""), ("../tests", ""), ("courtyrd", "; did you mean courtyard?")])
 def test_what_is_not_an_example_is_refused_with_those_that_are(name, hint, example, tmp_path):
     assert example(name).stderr == (f"gpu_shading: error: example {name}: expected one of box_with_louvres, courtyard, "
-                                    f"south_office, trees{hint}\n")
+                                    f"pv_roof, south_office, trees{hint}\n")
     assert not any(tmp_path.iterdir())
 
 

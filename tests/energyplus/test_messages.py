@@ -324,7 +324,7 @@ def test_a_comparison_s_report_names_no_folder_of_this_computer(patched, model, 
     other.parent.mkdir()
     other.write_text("GPUShading:TransparentShade,Glass,*,Constant,0.35;\n")
     done = subprocess.run([energyplus.REPOSITORY / "scripts" / "compare_shading", model, "-w", weather, "-o",
-                           tmp_path / "out", "--a", "gpu", "--b", f"gpu --gpu-shading-file={other}", "--", "-D"],
+                           tmp_path / "out", "--runs", "gpu", f"gpu --gpu-shading-file={other}", "--", "-D"],
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     for name in ("report.html", "report.csv"):

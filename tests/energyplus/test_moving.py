@@ -347,8 +347,9 @@ def test_pictures_show_other_positions(patched, weather, tmp_path):
                                 ("there", slats(35), []), ("rest", slats() + shade, [])):
         (tmp_path / name).mkdir()
         (tmp_path / name / "model.idf").write_text(room(text))
-        done = subprocess.run([patched.parent / "gpu_shading", "view", "model.idf", "-w", weather, "--at", "08-21 13:00",
-                               "-o", "picture.png", *options], cwd=tmp_path / name, capture_output=True, text=True)
+        done = subprocess.run([patched.parent / "gpu_shading", "view", "model.idf", "-w", weather,
+                               "--at", "08-21 13:00", "-o", "picture.png", *options],
+                              cwd=tmp_path / name, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
         pictures[name] = (tmp_path / name / "picture.png").read_bytes()
     assert pictures["moved"] == pictures["there"]

@@ -212,6 +212,7 @@ def test_types_are_checked(tmp_path):
     source = energyplus.REPOSITORY / "gpu_shading" / "python"
     paths = {"MYPYPATH": str(source), "PYTHONPATH": f"{TOOLS}:{source}"}
     done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", tmp_path, user,
-                           source / "gpu_shading"], env=energyplus.os.environ | paths, capture_output=True, text=True)
+                           source / "gpu_shading", source / "honeybee_gpushading"],
+                          env=energyplus.os.environ | paths, capture_output=True, text=True)
     errors = [line for line in done.stdout.splitlines() if " error: " in line]
     assert len(errors) == 2 and '"casts"' in errors[0] and "oval" in errors[1], done.stdout + done.stderr

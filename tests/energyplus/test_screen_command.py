@@ -237,9 +237,9 @@ def test_the_documents_show_what_is_printed(patched, tmp_path):
     assert done.returncode == 0, done.stderr
     page = energyplus.REPOSITORY / "energyplus_patch" / "docs" / "guides" / "screens.md"
     [shown] = re.findall(r"```text\n(room\.idf: .*?)```\n", page.read_text(), re.S)
-    # Lines of "..." stand for rows of the table that the page leaves out.
+    # Lines of "..." stand for rows of the table that the page leaves out; what follows the table is left out too.
     pattern = r"(?:[ \d.]+\n)+".join(re.escape(part) for part in re.split(r" +\.\.\.\n", shown))
-    assert re.fullmatch(pattern, done.stdout)
+    assert re.match(pattern, done.stdout)
 
 
 KLEMS = ((0, 5, 1), (5, 15, 8), (15, 25, 16), (25, 35, 20), (35, 45, 24), (45, 55, 24), (55, 65, 24), (65, 75, 16),

@@ -71,7 +71,7 @@ def test_a_signal_leaves_no_folder(command):
     seed = random.randrange(2 ** 32)
     moments = random.Random(seed)
     ends = []
-    for number in range(9):
+    for number in range(4):
         process = command.start()
         moment = took * moments.random()
         try:

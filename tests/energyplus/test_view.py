@@ -14,7 +14,8 @@ import window_with_shades
 from PIL import Image
 from shading_runs import energyplus
 
-YELLOW, BLUE = (255, 255, 0), (0, 0, 255)
+YELLOW, BLUE = (254, 232, 56), (0, 34, 78)  # the ends of cividis
+TEXT, MARGIN = 11, 5  # pixels: of captions, at least, and around a picture of up to 300
 CIVIDIS = 4  # of 255: the colours are straight lines between 17 of them
 
 
@@ -76,8 +77,44 @@ def test_one_picture(view, tmp_path):
     done = view("--receiver", "Window", "--sun", "180,60", "-o", "sun.png", "--size", "300")
     assert done.returncode == 0, done.stderr
     with Image.open(tmp_path / "sun.png") as picture:
-        # A caption above it and a margin about it; no scale, which a receiver's two colours do not need.
-        assert 300 < max(picture.size) < 340
+        pixels = np.asarray(picture.convert("RGB"))
+    # The receiver, its time's fraction and the sun above it, a margin about it, and a scale beside it.
+    assert pixels.shape[1] == 300 + 2 * MARGIN + SCALE
+    above = (pixels[:, :-SCALE] < 128).all(axis=2).any(axis=1)
+    lines = np.flatnonzero(np.diff(above[:60].astype(int)) == 1)
+    assert len(lines) >= 3 and lines[2] < 4 * TEXT
+    bar = {tuple(pixel) for pixel in pixels[:, -SCALE + TEXT + 2]}
+    assert {YELLOW, BLUE} <= bar and len(bar) > 50
+
+
+def test_what_passes_a_screen_has_no_moire(view, tmp_path):
+    """Holes of a pixel and a half show as their mean; the fraction is that of the run's own shading."""
+    model = tmp_path / "model.idf"
+    model.write_text(model.read_text() + "GPUShading:PerforatedScreen,Mesh,Screen,Round,,Straight,0.006,,0.008,,0;\n"
+                     "Shading:Building:Detailed,Screen,,4,-9,-1,-9,9,-1,-9,9,-1,9,-9,-1,9;\n")
+    (tmp_path / "views.txt").write_text("sun.png 180 20 Window\n")
+    done = view("--list", "views.txt", "-o", ".", "--size", "300")
+    assert done.returncode == 0, done.stderr
+    with Image.open(tmp_path / "sun.png") as picture:
+        pixels = np.asarray(picture.convert("RGB"), float)
+    middle = pixels[pixels.shape[0] * 2 // 5:pixels.shape[0] * 3 // 5, 120:180]
+    assert middle.std(axis=(0, 1)).max() < 8.0
+    shape = np.pi / 4 * (6 / 8) ** 2  # open share of a sheet without thickness
+    assert np.abs(middle.mean(axis=(0, 1)) - colour(shape)).max() < 2 * CIVIDIS
+
+
+def test_a_day_uses_its_canvas(view, tmp_path):
+    """Rows are as high as their highest picture: by day, wide pictures of a low sun take little."""
+    done = view("--day", "06-21", "-o", "day.png", "--size", "300")
+    assert done.returncode == 0, done.stderr
+    with Image.open(tmp_path / "day.png") as picture:
+        pixels = np.asarray(picture.convert("RGB"))[:, :-SCALE]
+    cells = np.split(np.arange(pixels.shape[1] - pixels.shape[1] % 4), 4)
+    blank = (pixels == 255).all(axis=2)
+    for columns in cells[:1]:
+        runs = np.diff(np.flatnonzero(np.diff(blank[:, columns].all(axis=1).astype(int))))
+        assert runs.max() <= 300
+    assert pixels.shape[0] < 4 * (300 + 5 * TEXT)
 
 
 @pytest.mark.parametrize("arguments, words", [
@@ -212,7 +249,7 @@ def test_a_missing_font_is_replaced_or_left_out(kept, patched, tmp_path):
     assert done.returncode == 0, done.stderr
     assert ("no font was found" in done.stderr) == (kept == 0) and done.stderr.count("no font") <= 1
     with Image.open(picture) as written:
-        text = written.convert("RGB").crop((0, 0, written.width, 20))
+        text = written.convert("RGB").crop((0, 0, written.width, 60))
         assert (len(text.getcolors()) > 1) == (kept == 1)
 
 

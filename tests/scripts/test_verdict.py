@@ -84,10 +84,9 @@ def test_a_run_that_ignores_screens_is_said_to(run, in_model):
     clip = run("Clipping", is_ours=False)
     text = "GPUShading:PerforatedScreen,Veil,Screen,Round;\n" if in_model else "Zone,Box;\n"
     ours = run("Renderer", [0.0], text=text, side=not in_model)
-    assert verdict.sentences([clip, ours], ours)[0] == (
-        "Clipping does not know the GPUShading objects (PerforatedScreen), so that the runs are of different "
-        "buildings.")
-    assert "different buildings" not in " ".join(verdict.sentences([run("Other", text=text), ours], ours))
+    assert verdict.unseen([clip, ours]) == [
+        "Clipping cannot see GPUShading objects (PerforatedScreen): its figures are of a building without them."]
+    assert verdict.unseen([run("Other", text=text), ours]) == []
 
 
 def test_variants_are_named_by_what_differs(tmp_path):

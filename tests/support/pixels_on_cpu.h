@@ -15,6 +15,7 @@ class PixelsOnCpu : public CpuBackend {
  public:
   using CpuBackend::CpuBackend;
   bool samples_pixels() const override { return true; }
+  std::optional<std::size_t> few_casters(bool /*interiors*/) const override { return {}; }
   void add(std::vector<ReceiverView> views) override {
     for (ReceiverView& view : views) view.at_pixels = true;
     CpuBackend::add(std::move(views));

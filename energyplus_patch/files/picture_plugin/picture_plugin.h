@@ -41,12 +41,12 @@ int gpu_shading_write_labelled(char const* path, char const* name,
                                gpu_shading_labelled const* picture, char* message,
                                std::size_t message_size);
 
-// Pictures combined in one file, each below its caption.
+// Pictures combined in one file, each below the lines of its caption.
 struct gpu_shading_sheet {
   int count;
   char const* const* pictures;  // files of our own
   char const* const* captions;
-  unsigned char const* scale;  // gpu_shading_scale_colours x red, green, blue; nullptr: no scale
+  unsigned char const* scale;  // gpu_shading_scale_colours x red, green, blue
   int columns;                 // of the combined picture
   int animated;                // not 0: an animation instead
   float frames_per_second;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -25,14 +26,28 @@ constexpr std::array<float, 3> black{0.0F, 0.0F, 0.0F};
 
 using Layout = gpu_shading::SheetLayout;
 
-Layout layout_of(std::vector<ImageBuf> const& pictures, bool scale) {
-  int width = 0;
-  int height = 0;
+std::vector<std::string> lines_of(char const* text) {
+  std::istringstream all(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(all, line);) lines.push_back(line);
+  return lines;
+}
+
+// Of all pictures together or, in an animation, of each alone; all frames have one size.
+Layout layout_of(std::vector<ImageBuf> const& pictures, gpu_shading_sheet const& sheet) {
+  std::vector<gpu_shading::PictureSize> sizes;
   for (auto const& picture : pictures) {
-    width = std::max(width, picture.spec().width);
-    height = std::max(height, picture.spec().height);
+    gpu_shading::PictureSize const size{picture.spec().width, picture.spec().height};
+    if (sheet.animated == 0 || sizes.empty()) {
+      sizes.push_back(size);
+    } else {
+      sizes.front() = {std::max(sizes.front().width, size.width),
+                       std::max(sizes.front().height, size.height)};
+    }
   }
-  return {width, height, scale};
+  std::size_t lines = 1;
+  for (int i = 0; i < sheet.count; ++i) lines = std::max(lines, lines_of(sheet.captions[i]).size());
+  return {sizes, sheet.columns, static_cast<int>(lines)};
 }
 
 void check(bool done, ImageBuf const& image) {
@@ -87,13 +102,12 @@ void write(ImageBuf& on, int x, int y, std::string const& text, int size, TextAl
   warn_of_missing_font();
 }
 
-void add_scale(ImageBuf& on, Layout const& layout, int columns, int rows,
-               unsigned char const* colours) {
+void add_scale(ImageBuf& on, Layout const& layout, unsigned char const* colours) {
   constexpr int shades = gpu_shading_scale_colours;
-  int const left = layout.bar_left(columns);
+  int const left = layout.bar_left();
   int const wide = layout.text;
   int const top = layout.bar_top();
-  int const tall = layout.bar_height(rows);
+  int const tall = layout.bar_height();
   for (int y = 0; y < tall; ++y) {
     auto const shade = static_cast<std::size_t>((tall - 1 - y) * (shades - 1) / (tall - 1));
     std::array<float, 3> colour{};
@@ -110,18 +124,20 @@ void add_scale(ImageBuf& on, Layout const& layout, int columns, int rows,
     write(on, left + wide + layout.margin, top + tall - tall * step / steps, number, layout.text,
           TextAlignX::Left);
   }
-  write(on, left, layout.caption / 2 + layout.margin, "sunlit", layout.text, TextAlignX::Left);
+  write(on, left, layout.caption - layout.text / 2, "sunlit", layout.text, TextAlignX::Left);
 }
 
-void add_picture(ImageBuf& on, ImageBuf const& picture, std::string const& caption, int x, int y,
+void add_picture(ImageBuf& on, ImageBuf const& picture, char const* caption, std::size_t cell,
                  Layout const& layout) {
+  int number = 0;
+  for (auto const& line : lines_of(caption)) {
+    write(on, layout.left(cell) + layout.cell_width / 2, layout.line_middle(cell, number), line,
+          layout.text, TextAlignX::Center);
+    ++number;
+  }
   auto const& spec = picture.spec();
-  write(on, x + layout.cell_width / 2, y + layout.caption / 2, caption, layout.text,
-        TextAlignX::Center);
-  // Centred in its cell.
-  check(OIIO::ImageBufAlgo::paste(on, x + (layout.cell_width - spec.width) / 2,
-                                  y + layout.caption + (layout.height - spec.height) / 2, 0, 0,
-                                  picture),
+  check(OIIO::ImageBufAlgo::paste(on, layout.picture_left(cell, spec.width),
+                                  layout.picture_top(cell, spec.height), 0, 0, picture),
         on);
 }
 
@@ -180,19 +196,15 @@ extern "C" EXPORTED int gpu_shading_write_sheet(char const* path, char const* na
       pictures.emplace_back(sheet->pictures[i]);
       check(pictures.back().read(0, 0, true, OIIO::TypeDesc::UINT8), pictures.back());
     }
-    auto const layout = layout_of(pictures, sheet->scale != nullptr);
+    auto const layout = layout_of(pictures, *sheet);
     std::vector<ImageBuf> frames;
-    int const columns = sheet->animated != 0 ? 1 : std::min(sheet->count, sheet->columns);
-    int const each = sheet->animated != 0 ? 1 : sheet->count;
-    for (int first = 0; first < sheet->count; first += each) {
-      int const rows = (each + columns - 1) / columns;
-      auto frame = blank(layout.sheet_width(columns), layout.sheet_height(rows));
-      for (int i = 0; i < each; ++i) {
-        int const number = first + i;
-        add_picture(frame, pictures[static_cast<std::size_t>(number)], sheet->captions[number],
-                    i % columns * layout.cell_width, i / columns * layout.cell_height, layout);
+    std::size_t const each = sheet->animated != 0 ? 1 : pictures.size();
+    for (std::size_t first = 0; first < pictures.size(); first += each) {
+      auto frame = blank(layout.sheet_width(), layout.sheet_height());
+      for (std::size_t i = 0; i < each; ++i) {
+        add_picture(frame, pictures[first + i], sheet->captions[first + i], i, layout);
       }
-      if (sheet->scale != nullptr) add_scale(frame, layout, columns, rows, sheet->scale);
+      add_scale(frame, layout, sheet->scale);
       frames.push_back(std::move(frame));
     }
     write_frames(path, name, frames, sheet->frames_per_second);

@@ -1,50 +1,93 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
 
 namespace gpu_shading {
 
+struct PictureSize {
+  int width = 0;
+  int height = 0;
+};
+
 // Lengths in a sheet of pictures in proportion to the largest of them, so that all sizes look
-// alike; pixels. Each picture has a cell, below the line of its caption; the scale is at the right.
+// alike; pixels. Each picture has a cell, below the lines of its caption, in rows that are as high
+// as their highest picture; the scale is at the right.
 struct SheetLayout {
   static constexpr int max_columns = 4;
   static constexpr int scale_colours = 256;
   static constexpr int min_bar = scale_colours / 8;
 
-  SheetLayout(int max_width, int max_height, bool scale)
-      : width(std::max(1, max_width)), height(std::max(1, max_height)) {
+  SheetLayout(std::span<PictureSize const> pictures, int max_in_row, int lines)
+      : columns(std::min(static_cast<int>(pictures.size()), max_in_row)) {
+    int longest = 1;
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      width = std::max(width, pictures[i].width);
+      longest = std::max({longest, pictures[i].width, pictures[i].height});
+      auto const row = i / static_cast<std::size_t>(columns);
+      if (row == row_heights.size()) row_heights.push_back(1);
+      row_heights[row] = std::max(row_heights[row], pictures[i].height);
+    }
     constexpr int min_text = 11;
-    constexpr int lines = 28;
-    text = std::max(min_text, std::max(width, height) / lines);
+    constexpr int lines_of_longest = 28;
+    text = std::max(min_text, longest / lines_of_longest);
     margin = text / 2;
-    caption = 2 * text;
+    line = text + margin / 2;
+    caption = text + lines * line;
     cell_width = width + 2 * margin;
-    cell_height = height + caption + margin;
-    scale_width = scale ? 7 * text : 0;
+    for (int const height : row_heights) row_tops.push_back(row_tops.back() + cell_height(height));
+    scale_width = 7 * text;
     // Where a bar and its numbers have room.
-    scale_height = scale ? caption + 2 * text + margin + min_bar : 0;
+    scale_height = caption + 2 * text + margin + min_bar;
   }
 
-  int sheet_width(int columns) const { return columns * cell_width + scale_width; }
-  int sheet_height(int rows) const { return std::max(rows * cell_height, scale_height); }
+  int sheet_width() const { return columns * cell_width + scale_width; }
+  int sheet_height() const { return std::max(row_tops.back(), scale_height); }
+
+  // Of the cell of a picture.
+  int left(std::size_t picture) const {
+    return static_cast<int>(picture % static_cast<std::size_t>(columns)) * cell_width;
+  }
+  int top(std::size_t picture) const { return row_tops[row_of(picture)]; }
+  // The middle of a line of its caption.
+  int line_middle(std::size_t picture, int number) const {
+    return top(picture) + margin + number * line + line / 2;
+  }
+  // Where the picture is, in the middle of its cell.
+  int picture_left(std::size_t picture, int its_width) const {
+    return left(picture) + (cell_width - its_width) / 2;
+  }
+  int picture_top(std::size_t picture, int its_height) const {
+    return top(picture) + caption + (row_heights[row_of(picture)] - its_height) / 2;
+  }
 
   // The bar of the scale, from 0 at the bottom to 1.
-  int bar_left(int columns) const { return columns * cell_width + text; }
+  int bar_left() const { return columns * cell_width + text; }
   int bar_top() const { return caption + text; }
-  int bar_height(int rows) const {
-    int const below = std::max(cell_height, scale_height);
-    return std::max(min_bar, std::min(sheet_height(rows), below) - bar_top() - margin - text);
+  int bar_height() const {
+    int const below = std::max(row_tops[1], scale_height);
+    return std::max(min_bar, std::min(sheet_height(), below) - bar_top() - margin - text);
   }
 
-  int width;  // of the largest picture
-  int height;
-  int text;  // height of the font
-  int margin;
-  int caption;  // height of the line above a picture
-  int cell_width;
-  int cell_height;
-  int scale_width;
-  int scale_height;
+  int columns;
+  int width = 1;  // of the widest picture
+  std::vector<int> row_heights;
+  std::vector<int> row_tops{0};  // and below the last one
+  int text = 0;                  // height of the font
+  int margin = 0;
+  int line = 0;     // height of a line of a caption
+  int caption = 0;  // height of the lines above a picture
+  int cell_width = 0;
+  int scale_width = 0;
+  int scale_height = 0;
+
+ private:
+  std::size_t row_of(std::size_t picture) const {
+    return picture / static_cast<std::size_t>(columns);
+  }
+  int cell_height(int height) const { return height + caption + margin; }
 };
 
 }  // namespace gpu_shading

@@ -2,9 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
+#include "model/idf/input_object.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {
+
+namespace {
+
+// OpenStudio writes an object whose type it does not know as a Catchall, whose first field is the
+// type.
+void unwrap(IdfObject& object) {
+  if (object.fields.empty() || !same_name(object.type, "Catchall")) return;
+  if (!is_extension(object.fields.front())) return;
+  object.type = std::move(object.fields.front());
+  object.fields.erase(object.fields.begin());
+}
+
+}  // namespace
 
 std::vector<IdfObject> parse_idf(std::string_view text) {
   std::vector<IdfObject> objects;
@@ -19,6 +35,10 @@ std::vector<IdfObject> parse_idf(std::string_view text) {
     }
     token.clear();
   };
+  auto const take_object = [&] {
+    unwrap(current);
+    if (!current.type.empty()) objects.push_back(std::move(current));
+  };
   for (std::size_t at = 0; at < text.size(); ++at) {
     char const c = text[at];
     if (c == '!') {
@@ -30,7 +50,7 @@ std::vector<IdfObject> parse_idf(std::string_view text) {
       take_token();
       if (c == ';') {
         current.end = at + 1;
-        if (!current.type.empty()) objects.push_back(std::move(current));
+        take_object();
         current = {};
         inside = false;
       }
@@ -46,7 +66,7 @@ std::vector<IdfObject> parse_idf(std::string_view text) {
     take_token();
     current.end = text.size();
     current.is_closed = false;
-    if (!current.type.empty()) objects.push_back(std::move(current));
+    take_object();
   }
   return objects;
 }

@@ -198,6 +198,7 @@ std::vector<MovingShade> read_moving_shades(std::vector<InputObject> const& obje
 void set_rest(std::vector<MovingShade>& shades, std::string const& option,
               std::string const& positions) {
   std::vector<std::string> names;
+  names.reserve(shades.size());
   for (auto const& shade : shades) names.push_back(shade.name);
   std::istringstream parts(positions);
   for (std::string part; std::getline(parts, part, ',');) {

@@ -178,7 +178,7 @@ Error no_shading_surface(std::string_view field, std::string const& pattern,
   }
   std::vector<std::string> names;
   for (auto const& [name, surface] : input.shading_surfaces) names.push_back(name);
-  return refused("no shading surface of the model matches" + did_you_mean(upper(pattern), names));
+  return refused("no shading surface of the model matches" + did_you_mean(pattern, names));
 }
 
 std::string mirrored_name(std::string const& shading_surface) {

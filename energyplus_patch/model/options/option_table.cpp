@@ -36,6 +36,11 @@ constexpr FieldInfo switch_value = choice(switch_words, "off");
 constexpr FieldInfo path_value{.key = "", .title = ""};
 constexpr FieldInfo text_value{.key = "", .title = ""};
 constexpr FieldInfo path_or_off_value{.key = "", .title = "", .words = off_word, .blank = "off"};
+constexpr FieldInfo gibibytes_value{.key = "",
+                                    .title = "",
+                                    .kind = FieldKind::real,
+                                    .minimum = Limit{0.0, true},
+                                    .maximum = Limit{1e6, false}};
 constexpr FieldInfo threads_value{.key = "",
                                   .title = "",
                                   .kind = FieldKind::integer,
@@ -122,7 +127,8 @@ std::span<OptionRow const> option_rows() {
            .value = mode_value,
            .default_text = "the official program",
            .meaning = "`auto` (also the flag alone, `on`, `yes`, `true` and `1`): render on a GPU "
-                      "if there is one, otherwise on the CPU. `require`: stop if there is no GPU. "
+                      "if there is one that is not slower, otherwise on the CPU. `require`: stop "
+                      "if there is no GPU. "
                       "`off` (also `no`, `false` and `0`): use polygon clipping, for comparison, "
                       "and remove the extension objects from the input",
            .bare = "auto"}),
@@ -173,12 +179,29 @@ std::span<OptionRow const> option_rows() {
                                      "`gpu_shading map` does, into the report, whose page shows "
                                      "them",
                           .bare = "on"}),
+      at<&Choices::pv>({.name = "pv",
+                        .value = path_value,
+                        .placeholder = "FILE",
+                        .default_text = "none",
+                        .meaning = "Reductions of the sunlit fraction of photovoltaic surfaces, by "
+                                   "partly shaded cells"}),
       at<&Choices::cache>(
           {.name = "cache",
            .value = path_or_off_value,
            .placeholder = "DIR",
            .meaning = "Keep answers in this folder, so that later runs of the same geometry need "
                       "not render them"}),
+      at<&Choices::cache_size>({.name = "cache-size",
+                                .value = gibibytes_value,
+                                .placeholder = "GIB",
+                                .default_text = "1",
+                                .meaning = "The most that the folder of the cache takes, in GiB: "
+                                           "above it, the least recently used files are evicted"}),
+      at<&Choices::cache_read_only>(
+          {.name = "cache-read-only",
+           .value = switch_value,
+           .meaning = "Write nothing into the cache: for a folder of others",
+           .bare = "on"}),
       at<&Choices::positions>(
           {.name = "positions",
            .value = text_value,

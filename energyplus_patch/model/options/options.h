@@ -55,7 +55,10 @@ struct Choices {
   std::optional<std::filesystem::path> file = std::nullopt;
   std::optional<std::filesystem::path> report = std::nullopt;
   std::optional<bool> maps = std::nullopt;
+  std::optional<std::filesystem::path> pv = std::nullopt;
   std::optional<std::filesystem::path> cache = std::nullopt;  // empty: off
+  std::optional<double> cache_size = std::nullopt;            // GiB
+  std::optional<bool> cache_read_only = std::nullopt;
   // The folder where relative file names in the model start, set by the launcher; empty: the
   // model's folder.
   std::optional<std::filesystem::path> folder = std::nullopt;
@@ -113,6 +116,8 @@ struct Options {
   std::optional<std::filesystem::path> report;
   Lean lean = Lean::automatic;
   std::optional<std::filesystem::path> cache = std::nullopt;
+  std::uint64_t cache_bytes = std::uint64_t{1} << 30U;  // the most that its folder takes
+  bool cache_read_only = false;
   std::optional<std::filesystem::path> stages = std::nullopt;
   bool verbose = false;
 };

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
-#include "model/site/geojson.h"
 #include "platform/naming.h"
 #include "platform/text.h"
 
@@ -93,10 +92,11 @@ void read_parts(geojson::Feature const& feature, HeightRule const& heights,
 }  // namespace
 
 BuildingFile read_buildings(std::filesystem::path const& path, HeightRule const& heights,
-                            std::optional<MapCoordinates> const& coordinates) {
+                            std::optional<MapCoordinates> const& coordinates,
+                            std::optional<geojson::Nearby> const& nearby) {
   BuildingFile file;
   file.coordinates = geojson::read_features(
-      path, coordinates, [&](geojson::Feature const& feature, MapCoordinates const& used) {
+      path, coordinates, nearby, [&](geojson::Feature const& feature, MapCoordinates const& used) {
         Building building{feature.name, feature.label, {}};
         read_parts(feature, heights, used, building);
         if (building.parts.empty()) {
@@ -105,7 +105,7 @@ BuildingFile read_buildings(std::filesystem::path const& path, HeightRule const&
           file.buildings.push_back(std::move(building));
         }
       });
-  if (file.buildings.empty()) {
+  if (file.buildings.empty() && !nearby) {
     throw Error(fmt::format("{}: has no Polygon or MultiPolygon", path.string()));
   }
   return file;

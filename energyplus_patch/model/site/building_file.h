@@ -7,6 +7,7 @@
 
 #include "gpu_shading/footprint.h"
 #include "gpu_shading/map_coordinates.h"
+#include "model/site/geojson.h"
 
 namespace gpu_shading::energyplus {
 
@@ -34,11 +35,11 @@ struct BuildingFile {
   std::size_t others = 0;  // features that are not areas
 };
 
-// Reads GeoJSON (RFC 7946): Polygon and MultiPolygon features of a FeatureCollection, or a single
-// feature or geometry. `coordinates`: if empty, those that the file names (the older "crs" member),
-// or WGS84. The property min_height raises a building's base above the ground. Throws Error: "FILE:
+// Reads the Polygon and MultiPolygon features of a file (model/site/geojson.h), or those in the
+// circle. The property min_height raises a building's base above the ground. Throws Error: "FILE:
 // feature 3 (way/17): ...".
 BuildingFile read_buildings(std::filesystem::path const& path, HeightRule const& heights,
-                            std::optional<MapCoordinates> const& coordinates);
+                            std::optional<MapCoordinates> const& coordinates,
+                            std::optional<geojson::Nearby> const& nearby = std::nullopt);
 
 }  // namespace gpu_shading::energyplus

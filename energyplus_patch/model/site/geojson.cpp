@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "gpu_shading/error.h"
 #include "model/idf/model_file.h"
+#include "model/site/flat_geobuf.h"
 #include "platform/files.h"
 #include "platform/naming.h"
 #include "platform/text.h"
@@ -38,31 +43,81 @@ MapCoordinates stated_coordinates(Json const& root) {
   }
 }
 
-bool refuse_deep(int depth, Json::parse_event_t /*event*/, Json const& /*parsed*/) {
+// Parses a file and returns its root without features, which are passed to `use` one by one.
+Json parse_features(std::filesystem::path const& path,
+                    std::function<void(Json const&)> const& use) {
   constexpr int max_depth = 100;
-  if (depth > max_depth) throw Error(fmt::format("is nested more than {} deep", max_depth));
-  return true;
+  constexpr std::size_t max_values = 20'000'000;  // of a feature, or of the rest
+  std::string name;                               // of the root's member
+  bool in_features = false;
+  std::size_t values = 0;
+  auto const watch = [&](int depth, Json::parse_event_t event, Json const& parsed) {
+    using Event = Json::parse_event_t;
+    if (depth > max_depth) throw Error(fmt::format("is nested more than {} deep", max_depth));
+    if (++values > max_values) {
+      throw Error(fmt::format("has more than {} values in one feature", max_values));
+    }
+    if (depth == 1 && event == Event::key) name = parsed.get<std::string>();
+    if (depth == 1 && event == Event::array_start) in_features = name == "features";
+    if (depth == 1 && event == Event::array_end) in_features = false;
+    bool const complete =
+        event == Event::object_end || event == Event::array_end || event == Event::value;
+    if (!in_features || depth != 2 || !complete) return true;
+    use(parsed);
+    values = 0;
+    return false;
+  };
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error("cannot be read");
+  try {
+    auto root = Json::parse(file, watch);
+    if (type_of(root).empty()) throw Error("is not GeoJSON: it has no type");
+    return root;
+  } catch (Json::exception const& error) {
+    throw Error(fmt::format("is not GeoJSON: {}", reason_of(error)));
+  }
 }
 
-void read_root(Json const& root, MapCoordinates const& coordinates,
-               std::function<void(Feature const&, MapCoordinates const&)> const& use) {
+MapCoordinates read_geojson(std::filesystem::path const& path,
+                            std::optional<MapCoordinates> const& coordinates,
+                            UseFeature const& use) {
+  // The type and the crs may come after the features.
+  auto const root = parse_features(path, [](Json const& /*feature*/) {});
+  auto const used = coordinates ? *coordinates : stated_coordinates(root);
   std::size_t number = 0;
-  auto const add = [&](Json const& feature) {
-    ++number;
-    bool const bare = type_of(feature) != "Feature";
-    Feature each{name_of(feature), fmt::format("feature {}", number),
-                 bare ? feature : member(feature, "geometry"), member(feature, "properties")};
-    if (each.name.empty()) {
-      each.name = std::to_string(number);
-    } else {
-      each.label += fmt::format(" ({})", each.name);
-    }
-    naming(each.label, [&] { use(each, coordinates); });
-  };
+  auto const add = [&](Json const& feature) { use_numbered(feature, ++number, used, use); };
   if (type_of(root) == "FeatureCollection") {
-    for (auto const& feature : member(root, "features")) add(feature);
+    parse_features(path, add);
   } else {
     add(root);
+  }
+  return used;
+}
+
+// Degrees of latitude and longitude.
+struct Extent {
+  double south = std::numeric_limits<double>::infinity();
+  double north = -std::numeric_limits<double>::infinity();
+  double west = std::numeric_limits<double>::infinity();
+  double east = -std::numeric_limits<double>::infinity();
+};
+
+void include(Json const& geometry, MapCoordinates const& coordinates, Extent& extent) {
+  for (auto const& part : member(geometry, "geometries")) include(part, coordinates, extent);
+  std::vector<Json const*> left{&member(geometry, "coordinates")};
+  while (!left.empty()) {
+    auto const& next = *left.back();
+    left.pop_back();
+    if (!next.is_array()) continue;
+    if (next.empty() || next[0].is_array()) {
+      for (auto const& each : next) left.push_back(&each);
+      continue;
+    }
+    auto const place = read_position(next, coordinates);
+    extent.south = std::min(extent.south, place.latitude);
+    extent.north = std::max(extent.north, place.latitude);
+    extent.west = std::min(extent.west, place.longitude);
+    extent.east = std::max(extent.east, place.longitude);
   }
 }
 
@@ -112,20 +167,42 @@ GeographicPoint read_position(Json const& position, MapCoordinates const& coordi
   return coordinates.to_geographic({position[0].get<double>(), position[1].get<double>()});
 }
 
-MapCoordinates read_features(
-    std::filesystem::path const& path, std::optional<MapCoordinates> const& coordinates,
-    std::function<void(Feature const&, MapCoordinates const&)> const& use) {
-  auto const text = read_text_file(path);
+bool Nearby::reaches(Json const& geometry, MapCoordinates const& coordinates) const {
+  constexpr double turn = 360.0;
+  Extent extent;
+  include(geometry, coordinates, extent);
+  if (extent.south > extent.north) return false;
+  double const middle = (extent.west + extent.east) / 2.0;
+  double const longitude = centre.longitude + turn * std::round((middle - centre.longitude) / turn);
+  auto const nearest = LocalAxes({centre.latitude, centre.longitude, 0.0})
+                           .to_local({std::clamp(centre.latitude, extent.south, extent.north),
+                                      std::clamp(longitude, extent.west, extent.east), 0.0});
+  return std::hypot(nearest.x, nearest.y) <= radius && nearest.z > -radius;
+}
+
+void use_numbered(Json const& feature, std::size_t number, MapCoordinates const& coordinates,
+                  UseFeature const& use) {
+  bool const bare = type_of(feature) != "Feature";
+  Feature each{name_of(feature), fmt::format("feature {}", number),
+               bare ? feature : member(feature, "geometry"), member(feature, "properties")};
+  if (each.name.empty()) {
+    each.name = std::to_string(number);
+  } else {
+    each.label += fmt::format(" ({})", each.name);
+  }
+  naming(each.label, [&] { use(each, coordinates); });
+}
+
+MapCoordinates read_features(std::filesystem::path const& path,
+                             std::optional<MapCoordinates> const& coordinates,
+                             std::optional<Nearby> const& nearby, UseFeature const& use) {
+  require_file(path);
+  auto const use_near = [&](Feature const& feature, MapCoordinates const& used) {
+    if (!nearby || nearby->reaches(feature.geometry, used)) use(feature, used);
+  };
   return naming(path.string(), [&] {
-    try {
-      auto const root = Json::parse(text, refuse_deep);
-      if (type_of(root).empty()) throw Error("is not GeoJSON: it has no type");
-      auto const used = coordinates ? *coordinates : stated_coordinates(root);
-      read_root(root, used, use);
-      return used;
-    } catch (Json::exception const& error) {
-      throw Error(fmt::format("is not GeoJSON: {}", reason_of(error)));
-    }
+    return is_flat_geobuf(path) ? read_flat_geobuf(path, coordinates, nearby, use_near)
+                                : read_geojson(path, coordinates, use_near);
   });
 }
 

@@ -10,7 +10,7 @@
 #include "gpu_shading/local_axes.h"
 #include "gpu_shading/map_coordinates.h"
 
-// What files of GeoJSON (RFC 7946) have in common. Functions throw Error without the file's name.
+// Files of features, as GeoJSON (RFC 7946) has them. Functions throw Error without the file's name.
 namespace gpu_shading::energyplus::geojson {
 
 using Json = nlohmann::json;
@@ -38,10 +38,26 @@ struct Feature {
   Json const& properties;
 };
 
-// Calls use(feature, coordinates) for each. `coordinates`: if empty, those that the file names (the
-// older "crs" member), or WGS84. Returns them. Throws Error: "FILE: feature 3 (way/17): ...".
+// A circle on the ground. A feature is in it if the bounding box of its positions is, in part.
+struct Nearby {
+  GeographicPoint centre;
+  double radius;  // m
+
+  bool reaches(Json const& geometry, MapCoordinates const& coordinates) const;
+};
+
+using UseFeature = std::function<void(Feature const&, MapCoordinates const&)>;
+
+// The feature or bare geometry with this number, named and labelled.
+void use_numbered(Json const& feature, std::size_t number, MapCoordinates const& coordinates,
+                  UseFeature const& use);
+
+// Calls use(feature, coordinates) for each feature of a file of GeoJSON or FlatGeobuf, which its
+// first bytes tell, or for those in the circle. Only one is in memory at a time. `coordinates`: if
+// empty, those that the file names (in GeoJSON the older "crs" member), or WGS84. Returns them.
+// Throws Error: "FILE: feature 3 (way/17): ...".
 MapCoordinates read_features(std::filesystem::path const& path,
                              std::optional<MapCoordinates> const& coordinates,
-                             std::function<void(Feature const&, MapCoordinates const&)> const& use);
+                             std::optional<Nearby> const& nearby, UseFeature const& use);
 
 }  // namespace gpu_shading::energyplus::geojson

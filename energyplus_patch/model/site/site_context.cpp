@@ -34,14 +34,16 @@ HeightRule read_heights(InputObject const& object) {
 // One object with the contents of its files.
 struct Context {
   std::string name;
-  std::string file;  // file of buildings, as the user wrote it
+  std::string file;                       // file of buildings, as the user wrote it
+  std::optional<geojson::Nearby> nearby;  // of the buildings that are read
   std::optional<BuildingFile> buildings;
   std::optional<TerrainGrid> terrain;
   double clear_distance = 0.0;
   std::vector<std::string> left_out;
 };
 
-Context read_context(InputObject const& object, std::filesystem::path const& folder) {
+Context read_context(InputObject const& object, std::filesystem::path const& folder,
+                     GeographicPoint const& origin) {
   Context context;
   context.name = object.name;
   context.left_out = read(object, field::left_out_name);
@@ -54,14 +56,17 @@ Context read_context(InputObject const& object, std::filesystem::path const& fol
   if (buildings.empty()) {
     expect_blank(object,
                  {field::buildings_coordinates, field::height_property, field::levels_property,
-                  field::storey_height, field::default_height},
+                  field::storey_height, field::default_height, field::radius},
                  "without Buildings File Name");
   } else {
     auto const coordinates = read_map_coordinates(object, field::buildings_coordinates);
     auto const heights = read_heights(object);
     context.file = buildings;
+    if (auto const radius = read(object, field::radius)) {
+      context.nearby = geojson::Nearby{origin, *radius};
+    }
     context.buildings = naming(field::buildings_file_name.title, [&] {
-      return read_buildings(folder / buildings, heights, coordinates);
+      return read_buildings(folder / buildings, heights, coordinates, context.nearby);
     });
   }
   if (terrain.empty()) {
@@ -177,8 +182,9 @@ class Builder {
       }
     }
     describe(
-        fmt::format("{} building{} ({} walls and roofs{}{}{})", drawn, drawn == 1 ? "" : "s", faces,
-                    left_out == 0 ? "" : fmt::format(", {} left out", left_out),
+        fmt::format("{} building{}{} ({} walls and roofs{}{}{})", drawn, drawn == 1 ? "" : "s",
+                    context_.nearby ? fmt::format(" within {:g} m", context_.nearby->radius) : "",
+                    faces, left_out == 0 ? "" : fmt::format(", {} left out", left_out),
                     file.others == 0 ? "" : fmt::format(", {} features without area", file.others),
                     describe_north(file.coordinates)));
   }
@@ -246,7 +252,7 @@ std::vector<TerrainGrid> read_site_contexts(std::vector<InputObject> const& obje
   for (auto const& object : objects) {
     if (object.type != field::type) continue;
     naming(object.where(), [&] {
-      contexts.push_back(read_context(object, folder));
+      contexts.push_back(read_context(object, folder, origin.place));
       constexpr double tallest_storey = 20.0;
       constexpr double tallest_building = 1000.0;
       auto const odd = lengths_beyond(object, {{field::storey_height, tallest_storey},

@@ -33,7 +33,7 @@ TreeFile read_tree_file(std::filesystem::path const& path,
                         std::optional<MapCoordinates> const& coordinates) {
   constexpr std::size_t most = 100'000;
   TreeFile file;
-  geojson::read_features(path, coordinates,
+  geojson::read_features(path, coordinates, std::nullopt,
                          [&](geojson::Feature const& feature, MapCoordinates const& used) {
                            auto const type = geojson::type_of(feature.geometry);
                            auto const& places = geojson::member(feature.geometry, "coordinates");

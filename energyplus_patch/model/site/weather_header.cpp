@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -50,6 +51,14 @@ double number(std::string const& text, std::string_view field, double max_size) 
   return *value;
 }
 
+// The names of files from NREL have several.
+std::string with_single_spaces(std::string text) {
+  auto const end =
+      std::unique(text.begin(), text.end(), [](char a, char b) { return a == ' ' && b == ' '; });
+  text.erase(end, text.end());
+  return text;
+}
+
 }  // namespace
 
 WeatherSite read_weather_site(std::filesystem::path const& weather) {
@@ -63,7 +72,7 @@ WeatherSite read_weather_site(std::filesystem::path const& weather) {
                     weather.string()));
   }
   return naming(weather.string() + ": LOCATION", [&] {
-    return WeatherSite{fields[1], number(fields[6], "latitude", 90.0),
+    return WeatherSite{with_single_spaces(fields[1]), number(fields[6], "latitude", 90.0),
                        number(fields[7], "longitude", 180.0), number(fields[8], "time zone", 14.0),
                        number(fields[9], "elevation", 10000.0)};
   });

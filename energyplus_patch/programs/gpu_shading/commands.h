@@ -58,12 +58,14 @@ void add_check(Program const& program);
 void add_view(Program const& program);
 void add_map(Program const& program);
 void add_mask(Program const& program);
+void add_modules(Program const& program);
 void add_screen(Program const& program);
 void add_sample(Program const& program);
 // For `sample --sky`: renders the sunlit fraction of every receiver for each patch of three
 // divisions of the sky, and writes sky.csv and sky_view.csv, with view factors to the sky.
 void sample_sky(ModelRun const& run, std::filesystem::path const& folder);
 void add_export(Program const& program);
+void add_city(Program const& program);
 void add_study(Program const& program);
 // Becomes the command of the Python package. Throws Error where there is none.
 [[noreturn]] void run_study(std::vector<std::string> const& arguments);

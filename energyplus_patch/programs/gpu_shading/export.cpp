@@ -39,8 +39,8 @@ void add_export(Program const& program) {
   Command const command(
       program, "export",
       "Render sunlit fractions of the run periods, for an EnergyPlus without this renderer",
-      {"", "error", "resolution", "update", "device", "file", "report", "cache", "threads", "quiet",
-       "verbose", "assets"});
+      {"", "error", "resolution", "update", "device", "file", "report", "cache", "cache-size",
+       "cache-read-only", "threads", "quiet", "verbose", "assets"});
   auto const model = command.add_model("Weather file: site and calendar (required)");
   auto const call = std::make_shared<EnergyPlusCall>();
   auto const folder = std::make_shared<std::string>();

@@ -104,9 +104,11 @@ int run(std::vector<std::string> arguments) {
   add_view(program);
   add_map(program);
   add_mask(program);
+  add_modules(program);
   add_screen(program);
   add_sample(program);
   add_export(program);
+  add_city(program);
   add_study(program);
   add_docs(program);
   add_example(program);

@@ -1,14 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
-#include <regex>
 #include <utility>
 #include <vector>
 
 #include "gpu_shading/error.h"
-#include "model/model_reader.h"
 #include "model/site/weather_header.h"
 #include "platform/console.h"
 #include "platform/files.h"
@@ -17,9 +14,8 @@
 #include "programs/gpu_shading/commands.h"
 #include "programs/gpu_shading/listed_folder.h"
 #include "programs/gpu_shading/map_files.h"
-#include "routes/schedules/rendered_fractions.h"
+#include "programs/gpu_shading/run_period.h"
 #include "runs/installation.h"
-#include "runs/short_runs.h"
 #include "tasks/task_file.h"
 
 namespace gpu_shading::energyplus {
@@ -28,77 +24,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct MapOrder {
-  std::string from;       // "MM-DD"; empty: 1 January
-  std::string to;         // "MM-DD", the last day; empty: 31 December
+  DayOptions days;
   std::string receivers;  // a pattern of names; empty: all that EnergyPlus shades
   double spacing = 0.25;  // m
   int rays_per_cell = 4;
   bool common_scale = false;  // of the pictures; otherwise each has its own
   std::filesystem::path folder;
 };
-
-constexpr int month_step = 100;
-
-// Days by number, 100 x month + day, in any year.
-struct Period {
-  int from;
-  int to;  // may be less: then across the new year
-
-  bool has(RunTime const& time) const {
-    int const day = month_step * time.month + time.day;
-    return from <= to ? from <= day && day <= to : day >= from || day <= to;
-  }
-};
-
-int parse_day(char const* option, std::string const& text) {
-  static std::regex const form(R"((\d\d?)-(\d\d?))");
-  std::smatch words;
-  if (std::regex_match(text, words, form)) {
-    constexpr int leap_year = 2024;
-    auto const date = std::chrono::year(leap_year) / std::stoi(words[1]) / std::stoi(words[2]);
-    if (date.ok()) return month_step * std::stoi(words[1]) + std::stoi(words[2]);
-  }
-  throw Error(fmt::format("{} {}: expected month and day, as in 06-21", option, in_quotes(text)));
-}
-
-std::string day_text(int number) {
-  return fmt::format("{:02}-{:02}", number / month_step, number % month_step);
-}
-
-std::string describe_days(Period const& period) {
-  if (period.from == period.to) return day_text(period.from);
-  return fmt::format("{} to {}", day_text(period.from), day_text(period.to));
-}
-
-Period period_of(MapOrder const& order) {
-  constexpr int first = 101;
-  constexpr int last = 1231;
-  return {order.from.empty() ? first : parse_day("--from", order.from),
-          order.to.empty() ? last : parse_day("--to", order.to)};
-}
-
-// The times of the period with the sun up, from a run of EnergyPlus with nothing but calendar,
-// weather and schedules: a second or two for a year of any model. The run that traces cannot
-// provide them: it ends at the first question about shading, before any weather, and would
-// otherwise simulate the building for the whole year. The model is read here for the names of the
-// schedules, which EnergyPlus only reports if it is asked for them by name.
-RunTimes times_of(ModelRun const& run, Period const& period) {
-  EnergyPlusCall call;
-  call.program = find_launcher();
-  call.model = run.model;
-  call.weather = run.weather;
-  auto const model = read_model(run.model, run.choices);
-  auto times = run_for_beam(call, shade_schedules(model));
-  auto const unknown = unknown_schedules(model, times.schedules);
-  if (!unknown.empty()) print_line("warning: " + describe_unknown(unknown));
-  std::erase_if(times.times,
-                [&](RunTime const& time) { return !period.has(time) || !sun_is_up(time.sun); });
-  if (times.times.empty()) {
-    throw Error(fmt::format("--from {} --to {}: the sun does not rise in the weather file's days",
-                            day_text(period.from), day_text(period.to)));
-  }
-  return times;
-}
 
 std::vector<ReceiverMap> trace(ModelRun const& run, MapOrder const& order, RunTimes times) {
   StandardError const progress;
@@ -199,12 +131,9 @@ void write_pictures(std::vector<GriddedMap> const& maps, std::string const& peri
 // Traces and writes maps of sunlit hours and beam energy: for each receiver a picture, a table and
 // an array, and for all of them maps.csv, and maps.json about the run.
 void draw_maps(ModelRun const& run, MapOrder const& order) {
-  if (!run.weather) {
-    throw Error("-w: a weather file is required (it sets site, calendar and beam radiation)");
-  }
+  auto const site = read_weather_site(weather_of(run));
   require_model(run.model);
-  auto const site = read_weather_site(*run.weather);
-  auto const period = period_of(order);
+  auto const period = period_of(order.days);
   ListedFolder folder(order.folder, "maps.json", "gpu_shading maps 1");
   auto times = times_of(run, period);
   auto const about = describe_maps(run, order, period, times, site);
@@ -238,8 +167,7 @@ void add_map(Program const& program) {
   auto const model =
       command.add_model("Weather file: site, calendar and beam radiation (required)");
   auto const order = std::make_shared<MapOrder>();
-  command->add_option("--from", order->from, "First day (default: 01-01)")->type_name("MM-DD");
-  command->add_option("--to", order->to, "Last day (default: 12-31)")->type_name("MM-DD");
+  add_days(*command.operator->(), order->days);
   command
       ->add_option("--receivers", order->receivers,
                    "Name of a surface, or a pattern in which * stands for any characters; also "

@@ -2,6 +2,7 @@
 
 #include <iosfwd>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reports/map_grid.h"
@@ -29,6 +30,10 @@ MapSummary summarise(MapGrid const& grid, std::vector<MapValue> const& values);
 // A row for each cell: its column and row, its centre in world axes (x east, y north, z up) and in
 // the receiver's own (u, v), its area and its values.
 void write_cells(MapGrid const& grid, std::vector<MapValue> const& values, std::ostream& csv);
+
+// The start of a file in NumPy's format 1.0.
+void write_npy_header(std::string_view type, std::vector<std::size_t> const& shape,
+                      std::ostream& npy);
 
 // NumPy's format 1.0: single precision of shape (2, rows, columns), first hours, then kWh/m2; the
 // lowest row first; nan where the receiver has no cell.

@@ -47,16 +47,23 @@ void write_cells(MapGrid const& grid, std::vector<MapValue> const& values, std::
   }
 }
 
-void write_array(MapGrid const& grid, std::vector<MapValue> const& values, std::ostream& npy) {
-  static_assert(std::endian::native == std::endian::little, "the format named below");
-  auto header = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': (2, {}, {}), }}",
-                            grid.rows(), grid.columns());
+void write_npy_header(std::string_view type, std::vector<std::size_t> const& shape,
+                      std::ostream& npy) {
+  auto header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", type,
+                            fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
   constexpr std::size_t preamble = 10;
   constexpr std::size_t aligned = 64;
   while ((preamble + header.size() + 1) % aligned != 0) header += ' ';
   header += '\n';
   npy << "\x93NUMPY" << '\x01' << '\x00' << static_cast<char>(header.size() % 256)
       << static_cast<char>(header.size() / 256) << header;
+}
+
+void write_array(MapGrid const& grid, std::vector<MapValue> const& values, std::ostream& npy) {
+  static_assert(std::endian::native == std::endian::little, "the format named below");
+  write_npy_header(
+      "<f4", {2, static_cast<std::size_t>(grid.rows()), static_cast<std::size_t>(grid.columns())},
+      npy);
   auto const plane =
       static_cast<std::size_t>(grid.rows()) * static_cast<std::size_t>(grid.columns());
   std::vector<float> all(2 * plane, std::nanf(""));

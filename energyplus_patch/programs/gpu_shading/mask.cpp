@@ -192,7 +192,7 @@ void add_mask(Program const& program) {
       "sun's paths coloured by sunlit fraction, and the sky view factor; as .png, .svg and .csv, "
       "with the horizon as a .hor file, hours.csv and masks.csv. Transmittance schedules are at "
       "their lowest value, and screens fully deployed",
-      model_options({"cache"}));
+      model_options({"cache", "cache-size", "cache-read-only"}));
   auto const model = command.add_model(
       "Weather file: site and mean beam of the hours (default: Site:Location and a clear sky)");
   auto const order = std::make_shared<MaskOrder>();

@@ -197,7 +197,7 @@ void add_sample(Program const& program) {
       "Sample sunlit fractions as --gpu-shading-update sampled:... does, without a run, and write "
       "tables of the samples and of every 15 minutes of the year; or sunlit fractions for patches "
       "of the sky",
-      model_options({"cache"}));
+      model_options({"cache", "cache-size", "cache-read-only"}));
   auto const model =
       command.add_model("Weather file: site and calendar (required, except with --sky)");
   auto const order = std::make_shared<SampleOrder>();

@@ -5,6 +5,7 @@
 #include <glm/trigonometric.hpp>
 #include <optional>
 #include <regex>
+#include <sstream>
 #include <utility>
 
 #include "files/pictures.h"
@@ -14,6 +15,7 @@
 #include "platform/console.h"
 #include "platform/process.h"
 #include "platform/staged_files.h"
+#include "platform/text.h"
 #include "programs/gpu_shading/commands.h"
 #include "tasks/view_list.h"
 
@@ -25,7 +27,7 @@ using Path = std::filesystem::path;
 
 // A time to draw.
 struct SunTime {
-  std::string caption;  // "06-21 15:00"
+  std::string caption;  // "06-21 15:00", or empty for a direction alone
   SunDirection sun;     // above the horizon
 };
 
@@ -96,16 +98,25 @@ std::vector<SunTime> sun_times(std::string const& text, SiteClock const& clock,
   return times;
 }
 
-// Into a folder of its own, under the names of the views' pictures.
-Path draw_in(Path const& temporary, ModelRun const& run, std::vector<SunView> const& views,
-             int size) {
+// Views in a folder of their own, under the names of their pictures.
+struct DrawnViews {
+  Path folder;
+  std::vector<std::string> fractions;  // of each view's receiver
+};
+
+DrawnViews draw_in(Path const& temporary, ModelRun const& run, std::vector<SunView> const& views,
+                   int size) {
   auto drawn = temporary / "views";
   std::filesystem::create_directory(drawn);
   auto const reply = run_task(run, ViewsTask{views, drawn, size});
   for (auto const& warning : reply.warnings) {
     print_line("warning: " + warning);
   }
-  return drawn;
+  DrawnViews found{std::move(drawn), {}};
+  std::istringstream lines(reply.text);
+  for (std::string line; std::getline(lines, line);) found.fractions.push_back(line);
+  found.fractions.resize(views.size());
+  return found;
 }
 
 // All pictures of a list, or none.
@@ -114,7 +125,7 @@ void draw(ModelRun const& run, std::vector<SunView> const& views, Path const& fo
   // Before the time is spent: whether the folder can be written to.
   StagedFiles files(folder);
   TemporaryFolder const temporary;
-  auto const drawn = draw_in(temporary.path(), run, views, size);
+  auto const drawn = draw_in(temporary.path(), run, views, size).folder;
   for (auto const& view : views) files.copy(view.picture, drawn / view.picture);
   files.commit();
 }
@@ -125,8 +136,19 @@ struct CaptionedView {
   std::string caption;
 };
 
-// In one file, arranged in rows or, if its name ends in .gif, as an animation; with a scale of
-// sunlit fractions next to whole scenes.
+// Lines above a picture: the receiver or the model, its time and fraction, and the sun.
+std::string lines_above(CaptionedView const& captioned, std::string const& fraction) {
+  auto const& [view, caption] = captioned;
+  auto text = view.receiver.empty() ? "" : upper(view.receiver) + "\n";
+  text += caption;
+  if (!fraction.empty()) text += fmt::format("{}sunlit {}", caption.empty() ? "" : ", ", fraction);
+  if (!text.empty() && !text.ends_with('\n')) text += "\n";
+  return text + fmt::format("sun at azimuth {:.1f}, altitude {:.1f}",
+                            glm::degrees(view.sun.azimuth), glm::degrees(view.sun.altitude));
+}
+
+// In one file with a scale of sunlit fractions, arranged in rows or, if its name ends in .gif, as
+// an animation.
 void draw_together(ModelRun const& run, std::vector<CaptionedView> const& views, Path const& file,
                    int size) {
   StagedFiles files(file.parent_path());
@@ -139,8 +161,8 @@ void draw_together(ModelRun const& run, std::vector<CaptionedView> const& views,
   auto const drawn = draw_in(temporary.path(), run, plain, size);
   PictureSheet sheet;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    sheet.items.push_back({drawn / plain[i].picture, views[i].caption});
-    sheet.scale = sheet.scale || plain[i].receiver.empty();
+    sheet.items.push_back(
+        {drawn.folder / plain[i].picture, lines_above(views[i], drawn.fractions[i])});
   }
   auto const name = file.filename().string();
   files.write(name, encode_sheet(name, sheet));
@@ -160,8 +182,7 @@ struct ViewArguments {
 
 std::vector<SunTime> view_times(ModelRun const& model, ViewArguments const& arguments) {
   if (!arguments.sun.empty()) {
-    return {{fmt::format("azimuth {:g}, altitude {:g}", arguments.sun[0], arguments.sun[1]),
-             direction_of_degrees(arguments.sun[0], arguments.sun[1])}};
+    return {{"", direction_of_degrees(arguments.sun[0], arguments.sun[1])}};
   }
   SiteClock const clock(read_objects(model.model), model.weather);
   if (!arguments.at.empty()) return {sun_time(arguments.at, clock)};
@@ -198,18 +219,21 @@ void run_view(ModelRun const& model, ViewArguments const& arguments) {
         "expected --at \"MM-DD HH:MM\", --day MM-DD, --sun AZIMUTH,ALTITUDE, or --list FILE");
   }
   auto const camera = camera_of(arguments);
-  auto const title = camera ? model.model.filename().string() + ", " : "";
   std::vector<CaptionedView> views;
   for (auto const& time : view_times(model, arguments)) {
-    views.push_back({{"", time.sun, arguments.receiver, camera}, title + time.caption});
+    views.push_back({{"", time.sun, arguments.receiver, camera}, time.caption});
+    if (!camera) continue;
+    auto const model_name = model.model.filename().string();
+    views.back().caption = time.caption.empty() ? model_name : model_name + ", " + time.caption;
   }
   constexpr int size_of_many = 400;
   draw_together(model, views, output,
                 arguments.size.value_or(views.size() > 1 ? size_of_many : default_size));
   for (auto const& view : views) {
     auto const sun = view.view.sun;
-    print("{}: sun at azimuth {:.3f}, altitude {:.3f} degrees\n", view.caption,
-          glm::degrees(sun.azimuth), glm::degrees(sun.altitude));
+    print("{}sun at azimuth {:.3f}, altitude {:.3f} degrees\n",
+          view.caption.empty() ? "" : view.caption + ": ", glm::degrees(sun.azimuth),
+          glm::degrees(sun.altitude));
   }
 }
 
@@ -219,8 +243,8 @@ void add_view(Program const& program) {
   Command const command(
       program, "view",
       "Draw the model as the sun sees it, with receivers coloured from dark blue to yellow by "
-      "their sunlit fraction; or one receiver, with sunlit parts yellow, shaded parts blue, and "
-      "parts behind transparent casters grey. Transmittance schedules are at their lowest value, "
+      "their sunlit fraction; or one receiver, each part by its share of the beam. Transmittance "
+      "schedules are at their lowest value, "
       "and screens fully deployed",
       model_options());
   auto const model = command.add_model();

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "gpu_shading/error.h"
+#include "platform/stopwatch.h"
 #include "view/tile.h"
 #include "view/view.h"
 
@@ -105,8 +106,9 @@ constexpr double min_cosine = 0.05;
 
 // "a receiver behind transparent shades"
 std::string kind_of(ReceiverView const& view, Transmission const& transmission) {
-  std::string const casters =
-      view.transmits ? transmission.describe(view.casters) : "opaque casters";
+  std::string const casters = view.crowd != nullptr ? "a crowd of opaque casters"
+                              : view.transmits      ? transmission.describe(view.casters)
+                                                    : "opaque casters";
   return (view.through ? "an interior behind " : "a receiver behind ") + casters;
 }
 
@@ -131,13 +133,14 @@ std::vector<ViewSums> answer(ViewBackend& backend, std::vector<ReceiverView> vie
 
 CheckedBackend::CheckedBackend(std::unique_ptr<ViewBackend> device,
                                std::unique_ptr<ViewBackend> reference, BackendInput const& input,
-                               Warn warn)
+                               Warn warn, Keep keep)
     : device_(std::move(device)),
       reference_(std::move(reference)),
       info_(device_->device()),
       scene_(input.scene),
       transmission_(input.transmission),
-      warn_(std::move(warn)) {
+      warn_(std::move(warn)),
+      keep_(keep) {
   // Tiles must suit both.
   info_.max_resolution = std::min(info_.max_resolution, reference_->device().max_resolution);
 }
@@ -148,6 +151,10 @@ bool CheckedBackend::samples_pixels() const {
   return (device_ ? device_ : reference_)->samples_pixels();
 }
 
+std::optional<std::size_t> CheckedBackend::few_casters(bool interiors) const {
+  return (device_ ? device_ : reference_)->few_casters(interiors);
+}
+
 void CheckedBackend::add(std::vector<ReceiverView> views) {
   if (!device_) return reference_->add(std::move(views));
   for (ReceiverView const& view : views) {
@@ -155,12 +162,18 @@ void CheckedBackend::add(std::vector<ReceiverView> views) {
     if (!checks.enough()) checks.kept.push_back({view, added_});
     ++added_;
   }
+  by_device_.views += views.size();
+  Stopwatch const watch(by_device_.seconds);
   device_->add(std::move(views));
 }
 
 std::vector<ViewSums> CheckedBackend::finish() {
   if (!device_) return reference_->finish();
-  std::vector<ViewSums> sums = device_->finish();
+  std::vector<ViewSums> sums;
+  {
+    Stopwatch const watch(by_device_.seconds);
+    sums = device_->finish();
+  }
   std::string const fault = find_fault(sums);
   if (!fault.empty()) {
     if (!warn_) throw DeviceError(fault);
@@ -169,7 +182,24 @@ std::vector<ViewSums> CheckedBackend::finish() {
     warn_(fault + "; continuing on the CPU");
   }
   discard_kept();
+  judge_pace();
   return sums;
+}
+
+void CheckedBackend::judge_pace() {
+  if (std::exchange(first_batch_, false)) by_device_ = {};
+  if (!device_ || !warn_ || keep_ == Keep::if_right || by_device_.views < timed_views ||
+      by_reference_.views < partly_lit_views) {
+    return;
+  }
+  keep_ = Keep::if_right;
+  double const times = by_device_.each() / by_reference_.each();
+  if (times <= slower) return;
+  device_.reset();
+  warn_(
+      fmt::format("{} takes {:.1f} times as long as the CPU to render this model; continuing on "
+                  "the CPU (name the device to keep it)",
+                  info_.renderer, times));
 }
 
 void CheckedBackend::forget() {
@@ -205,11 +235,17 @@ std::string CheckedBackend::find_fault(std::vector<ViewSums> const& sums) {
     for (Kept const* const kept : checks.choose()) {
       chosen.push_back({kind, &checks, kept});
       views.push_back(kept->view);
-      views.back().at_pixels = true;
+      // A crowd's samples are the CPU's.
+      views.back().at_pixels = kept->view.crowd == nullptr;
     }
   }
   if (chosen.empty()) return {};
-  std::vector<ViewSums> const references = answer(*reference_, std::move(views));
+  by_reference_.views += views.size();
+  std::vector<ViewSums> references;
+  {
+    Stopwatch const watch(by_reference_.seconds);
+    references = answer(*reference_, std::move(views));
+  }
   double worst = 1.0;
   std::string fault;
   for (std::size_t i = 0; i < chosen.size(); ++i) {

@@ -41,7 +41,7 @@ using Warn = std::function<void(std::string const&)>;
 
 // A device whose first answers of each kind of view are compared with those of a reference, the
 // CPU. Once one is wrong, the reference answers: from the views of that batch whose kinds were
-// still being checked on.
+// still being checked on. So it does from the next batch on once the device is found to be slower.
 class CheckedBackend : public ViewBackend {
  public:
   // Up to so many views of a kind are compared, until this many were partly sunlit; all sunlit or
@@ -49,13 +49,21 @@ class CheckedBackend : public ViewBackend {
   static constexpr std::size_t max_views = 24;
   static constexpr std::size_t partly_lit_views = 8;
 
-  // `warn` gets one line when the reference takes over. Without it, finish() then throws
-  // DeviceError.
+  // A device that takes more than so many times as long for a view as the reference is slower.
+  static constexpr double slower = 2.0;
+  // Views after the first batch by which that is judged.
+  static constexpr std::size_t timed_views = 200;
+
+  enum class Keep { if_right, if_right_and_not_slower };
+
+  // `warn` gets one line when the reference takes over. Without it, finish() throws DeviceError if
+  // an answer is wrong, and a slower device is kept.
   CheckedBackend(std::unique_ptr<ViewBackend> device, std::unique_ptr<ViewBackend> reference,
-                 BackendInput const& input, Warn warn);
+                 BackendInput const& input, Warn warn, Keep keep = Keep::if_right);
 
   DeviceInfo const& device() const override;
   bool samples_pixels() const override;
+  std::optional<std::size_t> few_casters(bool interiors) const override;
 
   void add(std::vector<ReceiverView> views) override;
   std::vector<ViewSums> finish() override;
@@ -80,6 +88,15 @@ class CheckedBackend : public ViewBackend {
   // Compares some of the views that are kept. Returns a line about the worst difference that
   // rounding does not explain, or nothing.
   std::string find_fault(std::vector<ViewSums> const& sums);
+  // The time that views took.
+  struct Pace {
+    std::size_t views = 0;
+    double seconds = 0.0;
+
+    double each() const { return seconds / static_cast<double>(views); }
+  };
+  // Leaves a device that is slower.
+  void judge_pace();
   // Has the reference answer all views that are kept.
   void answer_kept(std::vector<ViewSums>& sums);
   void discard_kept();
@@ -90,6 +107,10 @@ class CheckedBackend : public ViewBackend {
   Scene const& scene_;
   Transmission const& transmission_;
   Warn warn_;
+  Keep keep_;
+  Pace by_device_;  // after the first batch, which also allocates
+  Pace by_reference_;
+  bool first_batch_ = true;
   std::size_t added_ = 0;                 // views of this batch
   std::map<std::string, Checks> checks_;  // by kind
 };

@@ -19,14 +19,6 @@
 namespace gpu_shading {
 namespace {
 
-View in_pixels(View view, TileGrid const& grid) {
-  glm::dvec4 const shift(0.0, 0.0, 0.0, 1.0);
-  view.x = 0.5 * grid.width * (view.x + shift);
-  view.y = 0.5 * grid.rows * (view.y + shift);
-  view.x += grid.shear * view.y;
-  return view;
-}
-
 bool any_scheduled(std::span<Shade const> shades) {
   return std::any_of(shades.begin(), shades.end(),
                      [](Shade const& shade) { return shade.schedule != Shade::unscheduled; });

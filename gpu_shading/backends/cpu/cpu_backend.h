@@ -19,6 +19,7 @@ class CpuBackend : public ViewBackend {
 
   DeviceInfo const& device() const override { return device_; }
   bool samples_pixels() const override { return false; }
+  std::optional<std::size_t> few_casters(bool /*interiors*/) const override { return 4000; }
 
   // Throws Error where a view has too many combinations of schedules.
   void add(std::vector<ReceiverView> views) override;

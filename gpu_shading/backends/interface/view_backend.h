@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -82,8 +84,12 @@ class ViewBackend {
   virtual DeviceInfo const& device() const = 0;
 
   // Whether it samples views at the centres of their tiles' pixels, so that tiles should not alias
-  // with what repeats in a view. Otherwise it also searches crowds of opaque casters itself.
+  // with what repeats in a view.
   virtual bool samples_pixels() const { return true; }
+
+  // The number of opaque casters in view up to which each of them must be found for this back end,
+  // which finds more itself, in views with `interiors` or without; empty: it finds none.
+  virtual std::optional<std::size_t> few_casters(bool /*interiors*/) const { return std::nullopt; }
 
   // Takes a batch of views, which may be started at once or later. Throws DeviceError if the device
   // fails, and Error if a view cannot be answered; then call forget() to discard what was taken.

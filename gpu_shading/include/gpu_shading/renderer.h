@@ -33,8 +33,9 @@ struct RendererOptions {
   // Otherwise views with few edges are answered exactly, without samples, where that costs less.
   bool samples_only = false;
   // Called with one line when the CPU takes over from an OpenGL device: the first views of each
-  // kind are compared with the CPU's, and one was wrong; or the device cannot draw the scene.
-  // Without it, wrong answers throw DeviceError.
+  // kind are compared with the CPU's, and one was wrong; or the device cannot draw the scene; or,
+  // where no device was named, it takes more than twice as long as the CPU. Without it, wrong
+  // answers throw DeviceError, and a slower device is kept.
   std::function<void(std::string const&)> warn = {};
 };
 
@@ -119,9 +120,9 @@ class Renderer {
   std::vector<std::vector<std::vector<Sunlit>>> interior_sunlit_areas(
       std::span<SunDirection const> suns, std::span<InteriorQuestion const> questions);
 
-  // A picture of a receiver as the sun sees it: sunlit pixels yellow, shaded ones blue, casters
-  // grey by their tilt to the sun. If a caster in view transmits, the receiver is grey by its
-  // luminance, with factors[schedule] for schedules, 1 where there are too few. World-up is up;
+  // A picture of a receiver as the sun sees it, in fraction_colour() of the share of the beam that
+  // reaches it, with factors[schedule] for schedules, 1 where there are too few. Casters are grey
+  // by their tilt to the sun. World-up is up;
   // `size` is the number of pixels on the longer side, 1 .. DeviceInfo::max_resolution, otherwise
   // throws Error.
   Image sun_view(SunDirection sun, SurfaceId receiver, int size,

@@ -146,7 +146,7 @@ class Handle:
 
 
 def limit_threads(count: int) -> None:
-    """From now on at most `count` threads compute at a time in this process, the calling one among them."""
+    """Sets the maximum number of threads that compute in this process at a time, with the calling one."""
     call("limit_threads", min(whole(count, "count", 1, 1 << 31), 1 << 20))
 
 

@@ -75,6 +75,11 @@ def _prefix_of_wheel() -> Path:
         raise RunError(str(error.code)) from None
 
 
+def measures() -> Path:
+    """The folder of OpenStudio measures, for measure_paths of a workflow."""
+    return _PACKAGE / "measures"
+
+
 def file(name: Name, what: str) -> Path:
     """The absolute path of a file that must be there."""
     path = Path(name)

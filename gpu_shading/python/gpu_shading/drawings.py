@@ -1,5 +1,5 @@
-"""What the gpu_shading program draws of a model of EnergyPlus: views, maps, shading masks and screens. Each result
-shows itself in a notebook."""
+"""Pictures of EnergyPlus models by the gpu_shading program: views, maps, shading masks and screens. A notebook shows
+each result."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Kinds = ("building", "shades", "geometry", "trees", "neighbours", "terrain")
 
 @dataclass(frozen=True, repr=False)
 class Picture:
-    """An image."""
+    """A PNG image, empty if the installation has no picture formats."""
 
     png: bytes
 
@@ -62,6 +62,11 @@ class Map:
     mean_hours: float
     mean_energy: float
     picture: Picture
+    centres: Floats
+    """World axes, in the same rows and columns, and nan where there is no cell."""
+    normal: Floats
+    cell_size: tuple[float, float]
+    """Width and height, m."""
 
     def _repr_png_(self) -> bytes:
         return self.picture.png
@@ -81,7 +86,7 @@ class MaskHour:
     sunlit: float | None
     """Sunlit fraction; None where the sun is behind the receiver."""
     stopped: dict[str, float]
-    """What each kind of shade stops."""
+    """Share of the beam that each kind of shade stops."""
     beam: float
     """Direct normal irradiance, W/m2."""
     marked: bool
@@ -89,13 +94,13 @@ class MaskHour:
 
 @dataclass(frozen=True, repr=False)
 class Mask:
-    """What a receiver, or a point of it, sees of the sky."""
+    """The sky as seen from a receiver, or from a point of it."""
 
     name: str
     view_factor: float
     unshaded_view_factor: float
     stopped: dict[str, float]
-    """What each kind of shade takes of the view factor."""
+    """The part of the view factor that each kind of shade takes."""
     azimuths: Floats
     """Degrees, of the columns of `sky`."""
     altitudes: Floats
@@ -176,8 +181,9 @@ class Drawings(Sequence[_Item], Generic[_Item]):
 def view(model: _programs.Name, weather: _programs.Name | None = None, *, at: str | None = None,
          day: str | None = None, sun: tuple[float, float] | None = None, receiver: str | None = None,
          camera: tuple[float, float] | None = None, size: int | None = None) -> Picture:
-    """Draws a model, or one `receiver`, as the sun sees it: `at` "06-21 15:00", over a `day` "06-21", or from an
-    azimuth and altitude `sun`. `camera`: azimuth and altitude to see it from instead, with its shadows."""
+    """Draws a model, or one `receiver`, as the sun sees it: `at` "06-21 15:00", over a `day` "06-21", or with the `sun`
+    at an azimuth and altitude in degrees. `camera`: draw it as seen from this azimuth and altitude, with its shadows.
+    `size`: pixels on the longer side."""
     if sum(value is not None for value in (at, day, sun)) != 1:
         raise InvalidInput("view: expected one of at, day and sun")
     arguments = _programs.inputs(model, weather) + _programs.flags(
@@ -200,7 +206,9 @@ def map(model: _programs.Name, weather: _programs.Name, *, first: str | None = N
         for row in _rows(folder / "maps.csv"):
             hours, energy = np.load(folder / f"{row['files']}.npy").astype(np.float64)
             made.append(Map(row["receiver"], hours, energy, float(row["sunlit mean [h]"]),
-                            float(row["beam mean [kWh/m2]"]), _picture(folder / f"{row['files']}.png")))
+                            float(row["beam mean [kWh/m2]"]), _picture(folder / f"{row['files']}.png"),
+                            _centres(folder / f"{row['files']}.csv", hours.shape), _normal(row),
+                            (float(row["cell width [m]"]), float(row["cell height [m]"]))))
         return Drawings(made)
 
 
@@ -208,8 +216,8 @@ def mask(model: _programs.Name, weather: _programs.Name | None = None, *, receiv
          points: float | None = None, projection: Projection = "stereographic", step: int = 2, rays: int = 32,
          beam: float = 300.0) -> Drawings[Mask]:
     """Draws the shading masks of windows, or of the receivers whose names match a pattern, as `gpu_shading mask` does.
-    `points`: of a grid with this spacing, m. `beam`: hours with this direct normal irradiance or more, W/m2, are
-    marked: the mean of the weather file, without which that of a clear sky."""
+    `points`: draw masks of the points of a grid with this spacing, m. `step`: of azimuth and altitude, degrees. `beam`:
+    mark hours with at least this direct normal irradiance, W/m2, by the weather file or, without one, a clear sky."""
     arguments = _programs.inputs(model, weather) + _programs.flags(
         projection=projection, step=step, rays=rays, beam=beam, receiver=receiver, points=points)
     with tempfile.TemporaryDirectory(prefix="gpu_shading_mask_") as temporary:
@@ -244,6 +252,18 @@ def _rows(file: Path) -> list[dict[str, str]]:
 def _picture(file: Path) -> Picture:
     # Installations without the picture formats write none.
     return Picture(file.read_bytes() if file.is_file() else b"")
+
+
+def _centres(file: Path, shape: tuple[int, ...]) -> Floats:
+    centres = np.full((*shape, 3), np.nan)
+    for cell in _rows(file):
+        centres[int(cell["row"]), int(cell["column"])] = [float(cell[f"{axis} [m]"]) for axis in "xyz"]
+    return centres
+
+
+def _normal(row: dict[str, str]) -> Floats:
+    azimuth, tilt = np.radians(float(row["azimuth [deg]"])), np.radians(float(row["tilt [deg]"]))
+    return np.array([np.sin(azimuth) * np.sin(tilt), np.cos(azimuth) * np.sin(tilt), np.cos(tilt)])
 
 
 def _hour(row: dict[str, str]) -> MaskHour:

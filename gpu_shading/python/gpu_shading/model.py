@@ -1,4 +1,4 @@
-"""Models of EnergyPlus: what takes part in their shading calculation, and what is rendered for them."""
+"""EnergyPlus models: the surfaces that take part in shading, and the scene that is rendered."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _FORMATS = ("gpu_shading check 1", "gpu_shading scene 1")
 
 
 class Check(dict[str, Any]):
-    """What check() returns: a dictionary that shows its surfaces in a notebook."""
+    """The result of check(): a dictionary that shows its surfaces in a notebook."""
 
     def _repr_html_(self) -> str:
         columns = ("name", "kind", "area", "receives", "casts")
@@ -29,14 +29,14 @@ class Check(dict[str, Any]):
 
 def check(model: _programs.Name, weather: _programs.Name | None = None) -> Check:
     """How each surface of an IDF or epJSON file takes part in the shading calculation, as `gpu_shading check --json`
-    tells it: "surfaces", each with "name", "kind", "area" (m2), "receives" and "casts", and "remarks" and "rule".
-    EnergyPlus runs up to its shading calculation. An error of the model is a RunError."""
+    prints it: "surfaces", each with "name", "kind", "area" (m2), "receives" and "casts", and "remarks" and "rule".
+    EnergyPlus runs up to its shading calculation. An error in the model raises RunError."""
     return Check(_document(model, weather, [], _FORMATS[0]))
 
 
 @dataclass(frozen=True)
 class Contents:
-    """What a scene is made from."""
+    """The parts of a scene."""
 
     error: float
     resolution: int | None
@@ -48,9 +48,11 @@ class Contents:
     """Roles, and which zone shades which."""
 
 
-def read(model: _programs.Name, weather: _programs.Name | None = None) -> Contents:
-    """The scene that is rendered for a model."""
-    document = _document(model, weather, ["--vertices"], _FORMATS[1])
+def read(model: _programs.Name, weather: _programs.Name | None = None,
+         extensions: _programs.Name | None = None) -> Contents:
+    """The scene that is rendered for a model. `extensions`: a side file in place of the model's own."""
+    side_file = None if extensions is None else _programs.file(extensions, "extensions")
+    document = _document(model, weather, ["--vertices", *_programs.flags(gpu_shading_file=side_file)], _FORMATS[1])
     shades = [Transmittance.table(np.linspace(0.0, 90.0, len(values)), values) for values in document["transmittances"]]
     screens = [_screen(found) for found in document["screens"]]
     schedules, deployments = document["schedules"], document["deployments"]

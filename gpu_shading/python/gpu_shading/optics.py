@@ -1,4 +1,4 @@
-"""What a surface lets pass of the beam: transmittance by angle of incidence, and perforated sheets."""
+"""Optics of shades: transmittance of the beam by angle of incidence, and perforated sheets."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def choice(value: str, among: Sequence[str], what: str) -> int:
 
 
 class FlatFilter:
-    """A kind of filter that dims all of a surface alike, by one number for each direction. `handle`: the library's."""
+    """A transmittance that depends on the direction alone, not on the place on a surface. `handle`: the library's."""
 
     handle: _library.Handle
 
@@ -43,7 +43,8 @@ class FlatFilter:
 class Transmittance(FlatFilter):
     """Beam solar transmittance of a flat shade by angle of incidence, 0 to 1, the same through both faces.
 
-    Made by one of the class's functions. `tau(angles)` evaluates it; angles are in degrees from the normal, 0 to 90.
+    Created by a class method, such as Transmittance.constant(0.4). A transmittance outside of 0 to 1 at any angle is an
+    InvalidInput. Angles are in degrees from the normal, 0 to 90.
     """
 
     def __init__(self, recipe: tuple[str, dict[str, Any]], *arguments: Any) -> None:
@@ -55,14 +56,14 @@ class Transmittance(FlatFilter):
 
     @classmethod
     def constant(cls, value: float) -> Transmittance:
-        """The same at every angle, 0 to 1."""
+        """The same transmittance, 0 to 1, at every angle."""
         value = number(value, "transmittance")
         return cls(("constant", {"value": value}), value)
 
     @classmethod
     def polynomial(cls, coefficients: ArrayLike, *, of: Literal["cosine", "degrees"] = "cosine") -> Transmittance:
-        """c[0] + c[1] x + ... + c[8] x^8 at most, where x is the cosine of the angle of incidence, or the angle in
-        degrees. It must stay within 0 and 1."""
+        """c[0] + c[1] x + ..., with up to nine coefficients, where x is the cosine of the angle of incidence, or the
+        angle in degrees."""
         values = _row(coefficients, "coefficients")
         in_cosine = choice(of, ("cosine", "degrees"), "of") == 0
         return cls(("polynomial", {"coefficients": values.copy(), "of": of}), pointer(values), len(values),
@@ -70,7 +71,7 @@ class Transmittance(FlatFilter):
 
     @classmethod
     def table(cls, angles: ArrayLike, values: ArrayLike) -> Transmittance:
-        """Interpolates two or more points by monotone cubics; angles in degrees, increasing, 0 to 90."""
+        """Monotone cubic interpolation of two or more points, and constant values beyond them. Angles increase."""
         x, y = _row(angles, "angles"), _row(values, "values")
         if len(x) != len(y):
             raise InvalidInput(f"values: {len(y)}, expected as many as angles, {len(x)}")
@@ -78,8 +79,10 @@ class Transmittance(FlatFilter):
 
     @classmethod
     def glazing(cls, panes: ArrayLike) -> Transmittance:
-        """Panes from the one that faces the sun to the innermost, one a row: transmittance, front and back reflectance
-        at normal incidence, each 0 to 1. As EnergyPlus computes a construction of them."""
+        """Several panes, as EnergyPlus computes a construction of them.
+
+        `panes`: a row for each, beginning with the one that faces the sun: transmittance, front and back reflectance at
+        normal incidence, each 0 to 1."""
         rows = numbers(panes, "panes")
         if rows.ndim != 2 or rows.shape[1] != 3 or not len(rows):
             raise InvalidInput(f"panes: an array of shape {rows.shape}, expected (panes, 3)")
@@ -87,12 +90,13 @@ class Transmittance(FlatFilter):
 
     @classmethod
     def simple_glazing(cls, u_factor: float, shgc: float) -> Transmittance:
-        """A window by its U-factor, W/(m2 K) above 0 and at most 7, and solar heat gain coefficient, 0 to 1."""
+        """EnergyPlus's simple window model: U-factor in W/(m2 K), above 0 and at most 7, and solar heat gain
+        coefficient, 0 to 1."""
         u_factor, shgc = number(u_factor, "u_factor"), number(shgc, "shgc")
         return cls(("simple_glazing", {"u_factor": u_factor, "shgc": shgc}), u_factor, shgc)
 
     def tau(self, angles: ArrayLike) -> Floats:
-        """Transmittance at angles of incidence in degrees, in the shape of `angles`."""
+        """Transmittance at each of `angles`, in an array of the same shape."""
         wanted = np.asarray(np.radians(within(numbers(angles, "angles"), "angles", 0.0, 90.0, " degrees")))
         results = np.empty(wanted.shape)
         _library.call("transmittance_at", self.handle, pointer(wanted), wanted.size, pointer(results))
@@ -100,11 +104,12 @@ class Transmittance(FlatFilter):
 
 
 class Screen:
-    """A perforated sheet of any extent, repeated over its surfaces. Lengths are in metres.
+    """A perforated sheet: a pattern of holes that repeats over a surface. Lengths are in metres.
 
-    `thickness`: of the sheet, 0 allowed. `plane`: where in it the polygon of a surface lies. `layers`: copies of the
-    holes over the thickness, 1 to 64; None: as many as needed. `detail`: whether holes are drawn one by one, by their
-    effective transmittance, or as their size in pixels asks for.
+    Created by Screen.pattern or Screen.image. `thickness` of the sheet may be 0. `plane`: where the surface's polygon
+    lies in the sheet. `layers`: copies of the holes over the thickness, 1 to 64, or None for as many as needed.
+    `detail`: draw "holes" one by one, use their "effective" transmittance, or choose by their size in pixels
+    ("automatic").
     """
 
     def __init__(self, recipe: tuple[str, dict[str, Any]], make: str, *arguments: Any) -> None:
@@ -118,10 +123,11 @@ class Screen:
     def pattern(cls, hole: Hole, size: float, pitch: float, *, arrangement: Arrangement = "staggered 60",
                 length: float = 0.0, row_pitch: float = 0.0, thickness: float = 0.0, plane: Plane = "centre",
                 detail: Detail = "automatic") -> Screen:
-        """Holes as manufacturers describe them.
+        """Holes as on a manufacturer's data sheet.
 
-        `size`: diameter, side, width of a slot, or width across a hexagon's flats. `pitch`: between the centres of
-        nearest neighbours, or along a row if `row_pitch`, the distance between rows, is given. `length`: of a slot.
+        `size`: diameter, side of a square, width of a slot, or distance across a hexagon's flats. `pitch`: distance
+        between the centres of nearest neighbours or, if `row_pitch` (the distance between rows) is given, of neighbours
+        in a row. `length`: of a slot, from end to end. Holes that overlap are an InvalidInput.
         """
         lengths = {what: number(value, what) for value, what in (
             (size, "size"), (length, "length"), (pitch, "pitch"), (row_pitch, "row_pitch"))}
@@ -139,7 +145,7 @@ class Screen:
     def image(cls, opacity: ArrayLike, width: float, height: float, *, threshold: float | None = 0.5,
               thickness: float = 0.0, plane: Plane = "centre", layers: int | None = None,
               detail: Detail = "automatic") -> Screen:
-        """A tile of `width` x `height` whose opacity, 0 (open) to 1 (solid), is given in rows from the bottom up.
+        """A tile of `width` x `height` with an opacity for each texel, 0 (open) to 1 (solid), in rows from the bottom.
 
         With a threshold, the tile is solid where the interpolated opacity is above it; with None, opacity is
         fractional. At most 16384 texels each way.
@@ -155,7 +161,7 @@ class Screen:
     def from_texels(cls, texels: NDArray[np.uint16], width: float, height: float, *, threshold: float | None = 0.5,
                     thickness: float = 0.0, plane: Plane = "centre", layers: int | None = None,
                     detail: Detail = "automatic") -> Screen:
-        """The same from opacities of 0 to 65535."""
+        """As image(), from opacities of 0 to 65535."""
         tile = np.array(unmasked(texels, "texels"), order="C")
         if tile.dtype != np.uint16:
             raise InvalidInput(f"texels: {tile.dtype}, expected uint16")
@@ -172,7 +178,7 @@ class Screen:
     def tau(self, theta: ArrayLike, phi: ArrayLike = 0.0) -> Floats:
         """Fraction of the beam that passes, away from the sheet's edges: exact for patterns, from a table for images.
 
-        Degrees: `theta`, the angle of incidence from the normal, 0 to 90; `phi`, the azimuth about the normal from u
+        `theta`: angle of incidence from the normal, 0 to 90 degrees. `phi`: azimuth about the normal in degrees, from u
         (along a row of holes) towards v. The arrays are broadcast against each other.
         """
         try:
@@ -194,7 +200,7 @@ class Screen:
 
     @property
     def open_fraction(self) -> float:
-        """Open fraction of the sheet's area."""
+        """Share of the sheet's area that is open, 0 to 1."""
         return float(self._sizes()[0])
 
     @property

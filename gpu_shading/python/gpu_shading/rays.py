@@ -1,4 +1,4 @@
-"""Single rays: what passes along them, and what they meet."""
+"""Single rays: the transmittance along them, and the surfaces that they meet."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _SCREENS = ("automatic", "holes", "effective")
 
 
 class Hits(NamedTuple):
-    """What each ray meets first."""
+    """The first surface that each ray meets."""
 
     surfaces: NDArray[np.int64]
     """Index of the surface, -1 where there is none."""
@@ -29,12 +29,12 @@ class Hits(NamedTuple):
 
 
 class Rays:
-    """Answers for single rays through a scene. Made by Scene.rays. Any number of threads may ask at the same time.
+    """Answers for single rays through a scene. Created by Scene.rays. Any number of threads may ask at the same time.
 
-    Origins and directions are arrays of shape (rays, 3); directions of any length but 0. `lengths` (m, or infinite)
-    make segments of rays. `receiver`: the surface that rays ask for, which they do not meet, and for which the scene's
-    rule counts. `excluded`: surfaces that are passed over. `factors` and `deployments` as in Renderer.sunlit, but for
-    all rays.
+    `origins` (m) and `directions` are arrays of shape (rays, 3); a direction may have any length except 0. `lengths`:
+    where rays end, m; without, they are infinite. `receiver`: index of the surface that the rays are sent from or to:
+    they do not meet it, and the scene's rule for it applies. `excluded`: indices of surfaces that the rays ignore.
+    `factors` and `deployments`: as in Renderer.sunlit, one value for all rays.
     """
 
     def __init__(self, handle: _library.Handle, surfaces: int,
@@ -49,7 +49,7 @@ class Rays:
                       receiver: int | None = None, excluded: Sequence[int] = (),
                       factors: Mapping[str, float] | ArrayLike | None = None,
                       deployments: Mapping[str, float] | ArrayLike | None = None) -> Floats:
-        """The product of what the surfaces on each ray's way let pass, 0 to 1."""
+        """The transmittance along each ray, 0 to 1: the product of those of all surfaces on its way."""
         record, kept = self._record(origins, directions, lengths, receiver, excluded, factors, deployments)
         results = np.empty(record.rays)
         _library.call("rays_transmittance", self._handle, byref(record), pointer(results))
@@ -60,7 +60,7 @@ class Rays:
                 opaque: bool = False, receiver: int | None = None, excluded: Sequence[int] = (),
                 factors: Mapping[str, float] | ArrayLike | None = None,
                 deployments: Mapping[str, float] | ArrayLike | None = None) -> Hits:
-        """The nearest surface that each ray meets. `opaque`: only those that let nothing of the ray pass."""
+        """The nearest surface that each ray meets, or with `opaque` the nearest that stops it."""
         record, kept = self._record(origins, directions, lengths, receiver, excluded, factors, deployments)
         hits = Hits(np.empty(record.rays, dtype=np.int64), np.empty(record.rays))
         _library.call("rays_nearest", self._handle, byref(record), int(opaque), pointer(hits.surfaces),

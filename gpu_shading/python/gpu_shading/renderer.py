@@ -1,4 +1,4 @@
-"""How much of a scene the sun reaches."""
+"""Sunlit fractions and areas of the surfaces of a scene."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ _MAX_ANSWERS = 1 << 20
 
 
 class Renderer:
-    """Computes how much of a scene the sun reaches. Made by Scene.renderer. Threads may share one; it answers one
-    question at a time, on all cores or on the GPU, and meanwhile other threads of Python run."""
+    """Computes sunlit fractions of a scene. Created by Scene.renderer. Threads may share one; it answers one question
+    at a time, on all cores or on the GPU, while other threads of Python run."""
 
     def __init__(self, handle: _library.Handle, vectors: Floats, receivers: Sequence[int], names: Sequence[str],
                  factor_table: Callable[[Values | None, int | None], Floats],
@@ -48,7 +48,7 @@ class Renderer:
 
     @property
     def device(self) -> str:
-        """What computes, such as "CPU (2 threads, AVX2)"."""
+        """The device that renders, such as "CPU (2 threads, AVX2)"."""
         return _library.text("renderer_device", self._handle)
 
     def __repr__(self) -> str:
@@ -70,12 +70,14 @@ class Renderer:
         """Sunlit fractions, 0 to 1, of shape directions x receivers.
 
         `directions`: of shape (..., 2), azimuth clockwise from north and altitude from the horizon in degrees, or
-        (..., 3), vectors to the sun. `receivers`: indices or names of surfaces, without which all that receive are
-        meant. `labelled`: an xarray DataArray with the names of receivers and the azimuths and altitudes of
-        directions. `progress`: a bar, by tqdm.
-        `factors`: values of the scene's schedules, by name or in their order, or a row of them for each direction;
-        needed if the scene has schedules. `deployments`: the deployed part of screens, by name or in order, 1 if not
-        given. Many directions in one call are faster than one call each.
+        (..., 3), vectors to the sun. `receivers`: indices or names of surfaces; all that receive if None.
+        `factors`: values of the scene's schedules, 0 to 1, by name or in their order, or a row of them for each
+        direction; required if the scene has schedules. `deployments`: the deployed part of screens, 0 to 1, by name or
+        in order; 1 if not given. `labelled`: return an xarray DataArray with the names of receivers and the azimuths
+        and altitudes of directions. `progress`: show a bar (needs tqdm).
+
+        Many directions in one call are faster than one call each. Arrays of a wrong shape or with values out of range
+        raise InvalidInput, and a device that fails DeviceError.
         """
         angles, shape = suns(directions)
         wanted = self._wanted(receivers)
@@ -89,14 +91,15 @@ class Renderer:
 
     def projected_areas(self, directions: ArrayLike, *, receivers: Receivers | None = None,
                         factors: Values | None = None, deployments: Values | None = None) -> Floats:
-        """The same as areas normal to the beam, m2, as EnergyPlus asks for them."""
+        """Sunlit areas normal to the beam, m2, of shape directions x receivers; arguments as in sunlit."""
         angles, shape = suns(directions)
         wanted = self._wanted(receivers)
         return self._ask("renderer_sunlit", angles, wanted, factors, deployments).reshape(*shape, len(wanted))
 
     def interior_areas(self, directions: ArrayLike, window: int, interiors: Sequence[int], *,
                        factors: Values | None = None, deployments: Values | None = None) -> Floats:
-        """Areas normal to the beam (m2) of each of `interiors` that the sun lights through `window` alone."""
+        """Areas normal to the beam, m2, of each of `interiors` that the sun lights through `window` alone; of shape
+        directions x interiors."""
         angles, shape = suns(directions)
         through = int(indices([window], len(self._vectors), "window")[0])
         wanted = indices(interiors, len(self._vectors), "interiors")
@@ -159,7 +162,7 @@ class Renderer:
 
 @contextlib.contextmanager
 def _bar(total: int | None) -> Iterator[Callable[[int], Any]]:
-    """What is called with the number of directions that were answered."""
+    """A function to call with the number of directions that were answered."""
     if total is None:
         yield lambda _: None
         return

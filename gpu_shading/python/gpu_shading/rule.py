@@ -14,10 +14,10 @@ from gpu_shading.errors import InvalidInput
 
 @dataclass(frozen=True)
 class Rule:
-    """Which caster counts for which receiver, as a model asks (gpu_shading/shading_rule.h)."""
+    """Which casters shade which receivers (gpu_shading/shading_rule.h)."""
 
     roles: NDArray[np.uint32]
-    """Of each surface in a row: wall, zone, 0 to 3 for which surfaces it shades, and the only one if that is 3."""
+    """A row for each surface: wall, zone, 0 to 3 for which surfaces it shades, and the only one if that is 3."""
     zone_shades: NDArray[np.uint8]
     """Square, by the receiver's zone and then the caster's: 1 where it shades."""
 

@@ -1,4 +1,4 @@
-"""Whole runs of EnergyPlus, and what they report."""
+"""Whole runs of EnergyPlus, and their results."""
 
 from __future__ import annotations
 
@@ -21,20 +21,21 @@ import numpy as np
 from gpu_shading import _html, _programs
 from gpu_shading._arrays import Floats
 from gpu_shading.errors import InvalidInput, RunError
+from gpu_shading.pv import Power, write_reductions
 
 _FREQUENCIES = ("Each Call", "TimeStep", "Hourly", "Daily", "Monthly", "RunPeriod", "Annual")
 
 
 @dataclass(frozen=True)
 class Summary:
-    """How a run went."""
+    """Errors, time and energy of a run."""
 
     warnings: int
     severe: int
     seconds: float
     """Elapsed time, as EnergyPlus reports it."""
     messages: tuple[str, ...]
-    """What our module said."""
+    """The lines of gpu_shading in eplusout.err."""
     variables: tuple[str, ...]
     """Output variables in eplusout.eso."""
     site_energy: float | None
@@ -51,14 +52,14 @@ class Run:
     """A run that EnergyPlus completed."""
 
     folder: Path
-    """What EnergyPlus wrote: eplusout.eso, eplusout.err, ..."""
+    """The output folder: eplusout.eso, eplusout.err, ..."""
     messages: tuple[str, ...]
-    """What our module said: the device that rendered, warnings."""
+    """The lines of gpu_shading in eplusout.err: the device that rendered, warnings."""
 
     def values(self, variable: str, frequency: str | None = None) -> dict[str, Floats]:
-        """An output variable by its key, such as {"WINDOW 1": array}: its values in the last environment of the run,
-        which is the last run period if there is one. Reads eplusout.eso, which has the variables that the model asks
-        for with Output:Variable. `frequency`: "Each Call", "TimeStep", "Hourly", "Daily", "Monthly", "RunPeriod" or
+        """Values of an output variable by key, such as {"WINDOW 1": array}, in the last environment of the run (the
+        last run period, if there is one), from eplusout.eso. A variable for which the model has no Output:Variable
+        raises InvalidInput. `frequency`: "Each Call", "TimeStep", "Hourly", "Daily", "Monthly", "RunPeriod" or
         "Annual", if the variable is reported at several."""
         if frequency is not None and frequency not in _FREQUENCIES:
             raise InvalidInput(f"frequency: {frequency!r}, expected one of {', '.join(_FREQUENCIES)}")
@@ -184,14 +185,15 @@ def _time(row: tuple[Any, ...], zone: datetime.tzinfo) -> datetime.datetime:
 def run(model: _programs.Name, weather: _programs.Name, folder: _programs.Name | None = None, *,
         shading: bool = True, error: float | None = None, resolution: int | None = None, update: str | None = None,
         device: str | None = None, extensions: _programs.Name | None = None, threads: int | None = None,
-        arguments: Sequence[str] = ()) -> Run:
+        pv: Sequence[Power] | None = None, arguments: Sequence[str] = ()) -> Run:
     """Runs `energyplus --gpu-shading` on an IDF or epJSON file with an EPW file.
 
-    `folder`: where results go; it must be empty or not exist, and without it one is made in the folder for temporary
-    files. `shading`: False for EnergyPlus's own polygon clipping. Then options of the renderer, each as its flag
-    (`--gpu-shading-error` and so on): `error` or `resolution`, `update`, `device`, a side file of `extensions`, and the
-    number of `threads`. `arguments`: more for EnergyPlus, such as ["-D"]. Raises RunError, with EnergyPlus's reason,
-    if the run does not complete.
+    `folder`: the output folder, new or empty; if None, a new one among the temporary files. `shading`: False for
+    EnergyPlus's own polygon clipping. Options of the renderer, as the flags `--gpu-shading-error` and so on: `error` or
+    `resolution`, `update`, `device`, a side file of `extensions`, and the number of `threads`. `pv`: the power() of
+    modules, whose loss by partly shaded cells is taken from the sunlit fractions of their surfaces, so that
+    EnergyPlus's generators have it. `arguments`: more for EnergyPlus, such as ["-D"]. A run that does not complete
+    raises RunError with EnergyPlus's reason.
     """
     program = _programs.prefix() / "energyplus"
     flags = ["--gpu-shading" if shading else "--gpu-shading=off"]
@@ -202,6 +204,9 @@ def run(model: _programs.Name, weather: _programs.Name, folder: _programs.Name |
             flags.append(f"--gpu-shading-{name}={value}")
     inputs = [_programs.file(weather, "weather"), _programs.file(model, "model")]
     out = _empty_folder(folder)
+    if pv is not None:
+        write_reductions(pv, out / "pv_reductions.csv")
+        flags.append(f"--gpu-shading-pv={out / 'pv_reductions.csv'}")
     command: list[str | Path] = [program, *flags, *arguments, "-w", inputs[0], "-d", out, inputs[1]]
     # A session of its own, so that helpers of EnergyPlus end with it.
     with subprocess.Popen(command, cwd=out, env=_programs.environment(), stdin=subprocess.DEVNULL,

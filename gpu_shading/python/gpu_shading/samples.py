@@ -24,8 +24,10 @@ _FORMAT = "gpu_shading samples 1"
 
 def sample(model: _programs.Name, weather: _programs.Name, folder: _programs.Name | None = None, *,
            mode: Mode = "medium") -> xarray.Dataset:
-    """Samples a model, by `gpu_shading sample`, and returns read_samples() of its tables. `folder`: where they are
-    kept, with which an interrupted call resumes."""
+    """Samples a year's sunlit fractions by `gpu_shading sample`, and returns them as read_samples() does.
+
+    `folder`: where the tables are kept, so that an interrupted call can resume. `mode`: "fine", "medium" or "coarse".
+    """
     _xarray()
     arguments: list[str | Path] = ["sample", _programs.file(model, "model"), "-w", _programs.file(weather, "weather"),
                                    "--mode", mode]
@@ -40,7 +42,8 @@ def read_samples(folder: _programs.Name) -> xarray.Dataset:
 
     Dimensions are `time`, every 15 minutes of the year at the end of the timestep in standard time; `receiver`; and
     `axis`, x, y, z. Variables: `sunlit_fraction` (time, receiver), 0 to 1; `azimuth` and `altitude` (time) of the sun
-    in degrees; `area` (receiver) in m2; and `normal` (receiver, axis). Attributes say how and of what it was made.
+    in degrees; `area` (receiver) in m2; and `normal` (receiver, axis). Attributes name mode, model, weather file, site
+    and version.
     """
     dataset = _xarray().Dataset
     tables = Path(folder)
@@ -73,7 +76,7 @@ def read_samples(folder: _programs.Name) -> xarray.Dataset:
 
 def write_samples(dataset: xarray.Dataset, file: _programs.Name) -> None:
     """Writes a Dataset as NetCDF (.nc), or its sunlit fractions as a table of times and receivers in Parquet
-    (.parquet). A file that exists is replaced as a whole."""
+    (.parquet). An existing file is replaced."""
     path = Path(file)
     if path.suffix not in (".nc", ".parquet"):
         raise InvalidInput(f"{path}: expected a name that ends in .nc or .parquet")

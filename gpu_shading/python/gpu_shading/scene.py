@@ -1,12 +1,13 @@
-"""Scenes of surfaces, and how much of them the sun reaches."""
+"""Scenes of surfaces, and their sunlit fractions."""
 
 from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from ctypes import byref, c_size_t
 from dataclasses import dataclass, fields
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
@@ -22,6 +23,7 @@ from gpu_shading.optics import FlatFilter, Screen, Transmittance, choice
 from gpu_shading.rays import Faces, Rays, RayScreens, make_rays
 from gpu_shading.renderer import Receivers, Renderer, Values, schedule_table
 from gpu_shading.rule import Rule
+from gpu_shading.scene_files import Part, save, series
 
 if TYPE_CHECKING:
     import xarray
@@ -60,9 +62,9 @@ class Scene:
         scene = Scene(receivers={"window": window}, casters=[overhang])
         scene.sunlit([[180.0, 45.0]])      # azimuth and altitude in degrees: fractions, directions x receivers
 
-    `receivers` given here cast no shadows; `add` has every choice. `error` and `resolution` are the accuracy of the
-    answers where a question does not say: 99 % of fractions are within this absolute error, 1e-5 to 0.1, or the number
-    of pixels along each side of every receiver's tile.
+    `receivers` given here cast no shadows; `add` has every choice. The accuracy of answers, unless renderer() asks for
+    another, is either `error`, an absolute error that 99 % of fractions are within (1e-5 to 0.1), or `resolution`, the
+    number of pixels along each side of every receiver's tile.
     """
 
     def __init__(self, receivers: Iterable[ArrayLike] | Mapping[str, ArrayLike] = (),
@@ -84,11 +86,13 @@ class Scene:
             self.add(vertices, name=name)
 
     @classmethod
-    def from_energyplus(cls, model: str | os.PathLike[str], weather: str | os.PathLike[str] | None = None) -> Scene:
+    def from_energyplus(cls, model: str | os.PathLike[str], weather: str | os.PathLike[str] | None = None,
+                        extensions: str | os.PathLike[str] | None = None) -> Scene:
         """The scene that `energyplus --gpu-shading` renders for an IDF or epJSON file: EnergyPlus's surfaces, what our
         extension objects add, their optics, and the model's own rules of which surface shades which. EnergyPlus runs
-        up to its shading calculation. `weather`: an EPW file, without which one that comes with EnergyPlus is used."""
-        return cls._made(read(model, weather))
+        up to its shading calculation. `weather`: an EPW file; if None, one that comes with EnergyPlus. `extensions`: a
+        side file in place of the model's own. An error in the model raises RunError."""
+        return cls._made(read(model, weather, extensions))
 
     @classmethod
     def _made(cls, contents: Contents) -> Scene:
@@ -110,10 +114,11 @@ class Scene:
 
         `casts`: "always", both faces; "turned away", only while it faces away from the sun, which is enough for each
         face of a closed body; or "never". It is opaque unless it has a transmittance (a constant, 0 to 1, or one by
-        angle of incidence), a screen or a schedule, which multiply. A screen's tile begins at `screen_origin` (m),
-        along axes at the second vertex, of which u leads to the third, and is turned by `screen_rotation` (degrees).
-        `schedule` names a factor that varies with time, `deployment` the part of the screen that is deployed, or the
-        share of leaves of a `crown`, which has neither a transmittance nor a screen.
+        angle of incidence), a screen or a schedule, which multiply. `screen_origin` (m): the position of the screen's
+        tile from the second vertex, along u, which leads to the third vertex, and v; `screen_rotation` (degrees) turns
+        the tile. `schedule` names a factor that varies with time (`factors` of Renderer.sunlit). `deployment` names the
+        deployed part of the screen, or the share of leaves of a `crown` (`deployments`). A crown has neither a
+        transmittance nor a screen.
         """
         index = len(self._surfaces)
         what = f"surface {name or index}"
@@ -151,7 +156,7 @@ class Scene:
                  trunk_diameter: float = 0.3, leaf_angles: LeafAngles = "spherical", wood_density: float = 0.0,
                  leaves: str | None = None) -> int:
         """Adds a tree that stands at `foot` (x, y, z) and returns the index of its crown; see Crown. Lengths in metres;
-        the crown begins at `crown_base` above the foot, a quarter of the height unless it is given. The trunk is an
+        the crown begins at `crown_base` above the foot, by default a quarter of the height. The trunk is an
         opaque hexagonal prism up to the middle of the crown; none if its diameter is 0. `leaves` names a schedule of
         the share of leaves (`deployments` of a question)."""
         what = f"tree {name or len(self._surfaces)}"
@@ -240,13 +245,27 @@ class Scene:
         return to_pyvista([list(self._triangles(index)) if surface.holes else [surface.vertices]
                            for index, surface in enumerate(self._surfaces)], values or {})
 
+    def save(self, file: str | os.PathLike[str], values: Any = None, *, times: Sequence[Any] | None = None,
+             name: str = "sunlit") -> None:
+        """Writes the surfaces with values, such as sunlit fractions, for drawing in 3D: a .glb, which browsers show and
+        which plays the times one after another; a .vtp of VTK with an array of cells for each time, "sunlit 12:00"; or
+        a .pvd, ParaView's list of a .vtp for each time. `values`: as `sunlit` returns them, or by name as Run.values
+        has them. `times`: a label for each row of values."""
+        shown = None if values is None else series(name, values, times, self.names, self.receivers)
+        parts = []
+        for index, surface in enumerate(self._surfaces):
+            triangles = self._triangles(index)
+            parts.append(Part(list(triangles) if surface.holes else [surface.vertices], triangles,
+                              bool(surface.transmittance or surface.screen or surface.crown)))
+        save(Path(file), parts, shown)
+
     def to_trimesh(self) -> Any:
         """The surfaces as a trimesh.Trimesh of triangles; `face_attributes["surface"]` has their indices."""
         return to_trimesh([self._triangles(index) for index in range(len(self._surfaces))])
 
     def renderer(self, *, device: str = "auto", error: float | None = None,
                  resolution: int | None = None) -> Renderer:
-        """What answers for this scene as it is now. `device`: "auto", the first GPU and otherwise the CPU; "cpu"; or a
+        """A Renderer of this scene as it is now. `device`: "auto", the first GPU and otherwise the CPU; "cpu"; or a
         number from `gpu_shading devices`. Renderers are kept until a surface is added."""
         key = (str(device), self.error if error is None else error,
                self.resolution if resolution is None and error is None else resolution)
@@ -262,9 +281,9 @@ class Scene:
                         self.deployment_shares)
 
     def rays(self, *, faces: Faces = "as casting", screens: RayScreens = "effective") -> Rays:
-        """What answers for single rays through this scene as it is now. `faces` that stop rays: "as casting", by what
-        each surface casts, with the ray as the direction to the sun, or "both". `screens`: what a ray meets of them:
-        their effective transmittance, their "holes", or "automatic", as each screen's detail says."""
+        """Rays through this scene as it is now. `faces` that stop rays: "as casting", as each surface casts shadows if
+        the sun is in the ray's direction, or "both". `screens`: rays meet their "effective" transmittance, their
+        "holes", or what each screen's detail says ("automatic")."""
         return make_rays(self.native(), len(self._surfaces), self.factor_table, self.deployment_shares, faces, screens)
 
     def factor_table(self, factors: Values | None, directions: int | None) -> Floats:

@@ -95,6 +95,14 @@ struct Cached {
             [this](std::string const& line) { remarks.push_back(line); },
             max_bytes};
   }
+  DiskCache open_read_only() {
+    return {path,
+            scene,
+            {std::vector<double>(10, 30.0), 3},
+            [](std::string const&) {},
+            DiskCache::default_max_bytes,
+            true};
+  }
   fs::path file() const { return path / cache_file_name(fmt::format("{:02x}{:030}", scene[0], 0)); }
   SceneAnswers stored() const { return decode(read(file()), scene); }
 
@@ -261,6 +269,28 @@ TEST(DiskCache, DamagedFileIsIgnoredWithARemarkAndReplaced) {
   expect_some_answers(cached.stored());
 }
 
+TEST(DiskCache, ReadOnlyRecallsAndWritesNothing) {
+  TemporaryFolder const folder;
+  Cached cached(folder.path());
+  cached.open().store(some_answers());
+  auto const long_ago = fs::file_time_type::clock::now() - std::chrono::hours(9);
+  fs::last_write_time(cached.file(), long_ago);
+  auto const before = read(cached.file());
+  auto reader = cached.open_read_only();
+  auto run = some_answers();
+  run.answers = AnswerStore();
+  auto& direction = run.answers.at(noon, 1);
+  reader.recall(run, direction);
+  EXPECT_TRUE(direction.recalled);
+  run.answers.keep(run.answers.at({0.5, 0.5}, 1), 0, lit(3.0));
+  reader.store(run);
+  EXPECT_EQ(read(cached.file()), before);
+  EXPECT_EQ(fs::last_write_time(cached.file()), long_ago);
+  Cached other(folder.path(), 2);
+  other.open_read_only().store(some_answers());
+  EXPECT_FALSE(fs::exists(other.file()));
+}
+
 TEST(DiskCache, FolderIsBoundedAndWhatIsNotOursStays) {
   TemporaryFolder const folder;
   auto const hour = std::chrono::hours(1);
@@ -382,6 +412,9 @@ TEST(CacheFolder, IsMadeWhereMissingAndRefusedWhereItCannotBeWrittenTo) {
   TemporaryFolder const folder;
   prepare_cache_folder(folder.path() / "a" / "b");
   EXPECT_TRUE(fs::is_directory(folder.path() / "a" / "b"));
+  prepare_cache_folder(folder.path() / "a", true);
+  EXPECT_THROW(prepare_cache_folder(folder.path() / "c", true), Error);
+  EXPECT_FALSE(fs::exists(folder.path() / "c"));
   write(folder.path() / "file", "");
   for (auto const& bad :
        {folder.path() / "file", fs::path("/proc/nothing/here"), folder.path() / "file" / "below"}) {

@@ -23,6 +23,8 @@ TEST(Text, MistypedWordHasANearOne) {
     EXPECT_EQ(did_you_mean(near, words), "; did you mean view?") << near;
   }
   EXPECT_EQ(did_you_mean("exprot", words), "; did you mean export?");
+  EXPECT_EQ(did_you_mean("Exprot", words), "; did you mean export?");
+  EXPECT_EQ(did_you_mean("west windwo", {"WEST WINDOW"}), "; did you mean WEST WINDOW?");
   EXPECT_EQ(did_you_mean("divces", words), "; did you mean devices?");
   for (auto const* const far : {"", "x", "run", "weave", "simple_check"}) {
     EXPECT_EQ(did_you_mean(far, words), "") << far;

@@ -36,7 +36,11 @@ TEST(TaskFile, TasksComeBackAsTheyWere) {
               folder.path() / not_utf8,
               7},
       DirectionsTask{{{1.0 / 3.0, 0.5}, {}}, folder.path() / not_utf8},
-      MaskTask{not_utf8, 2, 16, 0.1, {{1.0 / 3.0, 0.5}}, folder.path() / not_utf8, 7}};
+      MaskTask{not_utf8, 2, 16, 0.1, {{1.0 / 3.0, 0.5}}, folder.path() / not_utf8, 7},
+      ModulesTask{{4, {{6, 21, 12, 3, {1.0 / 3.0, 0.5}, {0.25}, 812.5}}, {"HEDGE"}},
+                  folder.path() / not_utf8,
+                  folder.path() / not_utf8,
+                  7}};
   for (auto const& task : tasks) {
     write_request(file, {task, folder.path() / "reply"});
     auto const request = read_request(file);

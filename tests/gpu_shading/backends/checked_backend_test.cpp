@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "backends/cpu/cpu_backend.h"
@@ -69,10 +71,11 @@ class Rig {
         receivers_(scene_, casters_, TileSize::fixed(resolution), 4096) {}
 
   BackendInput input() { return {scene_, meshes_, transmission_, statistics_}; }
-  std::unique_ptr<CheckedBackend> checked(Spoil spoil, Warn warn) {
+  using Keep = CheckedBackend::Keep;
+  std::unique_ptr<CheckedBackend> checked(Spoil spoil, Warn warn, Keep keep = Keep::if_right) {
     return std::make_unique<CheckedBackend>(std::make_unique<FakeGpu>(input(), std::move(spoil)),
                                             std::make_unique<CpuBackend>(input()), input(),
-                                            std::move(warn));
+                                            std::move(warn), keep);
   }
 
   std::vector<Sunlit> areas(ViewBackend& backend, std::vector<SunDirection> const& suns) {
@@ -249,6 +252,31 @@ TEST(CheckedBackend, ThrowsWithoutAWayToWarn) {
   auto const checked =
       rig.checked([](ReceiverView const&, ViewSums& sums) { scale(sums, 0.5); }, {});
   EXPECT_THROW(rig.areas(*checked, suns), DeviceError);
+}
+
+// Unless it was chosen by name, or nobody can be told.
+TEST(CheckedBackend, LeavesADeviceThatIsSlower) {
+  Rig rig(ShadedRoom(caster_kind("opaque")).scene);
+  auto const slowly = [](ReceiverView const&, ViewSums&) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(3));
+  };
+  using Keep = CheckedBackend::Keep;
+  std::size_t const batches = CheckedBackend::timed_views / suns.size() + 2;
+  for (Keep const keep : {Keep::if_right, Keep::if_right_and_not_slower}) {
+    std::vector<std::string> warnings;
+    auto const checked = rig.checked(
+        slowly, [&](std::string const& line) { warnings.push_back(line); }, keep);
+    for (std::size_t i = 0; i < batches; ++i) rig.areas(*checked, suns);
+    bool const leaves = keep == Keep::if_right_and_not_slower;
+    EXPECT_EQ(checked->device().id.is_cpu(), leaves);
+    ASSERT_EQ(warnings.size(), leaves ? 1U : 0U);
+    if (leaves) {
+      EXPECT_NE(warnings[0].find(" times as long as the CPU"), std::string::npos) << warnings[0];
+    }
+  }
+  auto const silent = rig.checked(slowly, {}, Keep::if_right_and_not_slower);
+  for (std::size_t i = 0; i < batches; ++i) rig.areas(*silent, suns);
+  EXPECT_FALSE(silent->device().id.is_cpu());
 }
 
 // The number of pixels by which a device may differ, and by which not.

@@ -3,59 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 
 #include "backends/cpu/coverage.h"
 #include "geometry/triangulation.h"
+#include "support/crowds.h"
 #include "support/random_scene.h"
 #include "support/shapes.h"
 
 namespace gpu_shading {
 namespace {
-
-// Leaves, triangles, angles of two pieces and crossing plates in front of a window, some of them
-// through its plane or on it, some of them cast only when turned away.
-Scene mixed_crowd(int count) {
-  Scene scene;
-  std::mt19937 generator{5};
-  auto const between = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(generator()) / std::mt19937::max();
-  };
-  scene.add({"window", south_facing(0, 0, 0, 3, 2)});
-  for (int i = 0; i < count; ++i) {
-    glm::dvec3 const corner(between(-1, 4), between(-2, 0.2), between(-1, 4));
-    double const size = between(0.02, 0.2);
-    glm::dvec3 const a(size, between(-size, size), 0.0);
-    glm::dvec3 const b(0.0, between(-size, size), size);
-    Surface surface{"caster", parallelogram(corner, a, b)};
-    if (i % 4 == 1) surface.polygon.outline.pop_back();
-    if (i % 4 == 2) {
-      surface.polygon.outline = {corner,
-                                 corner + a,
-                                 corner + a + 0.3 * b,
-                                 corner + 0.3 * a + 0.3 * b,
-                                 corner + 0.3 * a + b,
-                                 corner + b};
-    }
-    if (i % 8 == 3) surface.casting = Casting::turned_away;
-    if (i % 16 == 4) surface.polygon = south_facing(corner.x, -5e-5, corner.z, size, size);
-    scene.add(surface);
-  }
-  return scene;
-}
-
-// Every third caster counts.
-ShadingRule thirds(Scene const& scene) {
-  ShadingRule rule;
-  rule.zones = 2;
-  rule.zone_shades = {1, 0, 1, 1};
-  rule.roles.resize(scene.size());
-  for (std::size_t id = 0; id < scene.size(); ++id) {
-    rule.roles[id].wall = static_cast<std::uint32_t>(id);
-    rule.roles[id].zone = id % 3 == 0 ? 0 : 1;
-  }
-  return rule;
-}
 
 void expect_as_listed(Scene const& scene, char const* name) {
   SCOPED_TRACE(name);

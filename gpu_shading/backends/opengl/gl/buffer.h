@@ -19,6 +19,12 @@ class Buffer : public Object<destroy_buffer> {
   // Replaces the contents. Earlier draws keep the old storage.
   void set_data(std::span<std::byte const> bytes);
 
+  // Allocates this many bytes for the device alone, in place of what it had.
+  void set_size(std::size_t bytes);
+  // Sets the first bytes to 0.
+  void clear(std::size_t bytes);
+  void copy_to(Buffer& to, std::size_t bytes) const;
+
   // Allocates this many bytes that the device writes and the CPU reads; the address is valid for
   // the lifetime of the buffer. Call it once.
   std::byte const* set_shared_size(std::size_t bytes);

@@ -90,6 +90,10 @@ void draw_vertices(std::size_t first, std::size_t count) {
 
 void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) { glDispatchCompute(x, y, z); }
 
+void share_between_programs() {
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
 void share_written() { glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT); }
 
 }  // namespace gpu_shading::gl

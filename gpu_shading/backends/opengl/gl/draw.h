@@ -54,6 +54,9 @@ void draw_commands(Buffer const& commands, std::size_t first, std::size_t count)
 
 void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z);  // groups of a compute program
 
+// Memory barrier between programs that write and read the same storage blocks, and clears of these.
+void share_between_programs();
+
 // Memory barrier: makes buffer writes of programs visible in mapped memory after a later Fence.
 void share_written();
 

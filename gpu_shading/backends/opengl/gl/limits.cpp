@@ -23,6 +23,12 @@ int integer(GLenum which) {
   return value;
 }
 
+std::size_t max_storage_bytes() {
+  GLint64 most = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  return static_cast<std::size_t>(most);
+}
+
 }  // namespace
 
 Limits query_limits() {
@@ -39,6 +45,7 @@ Limits query_limits() {
                                      integer(GL_MAX_FRAMEBUFFER_HEIGHT), limits.max_texture_size});
   limits.max_layers =
       std::min(integer(GL_MAX_ARRAY_TEXTURE_LAYERS), integer(GL_MAX_FRAMEBUFFER_LAYERS));
+  limits.storage_bytes = max_storage_bytes();
   limits.vertex_storage_blocks = integer(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS);
   limits.layers_in_vertex_stage = epoxy_has_gl_extension("GL_ARB_shader_viewport_layer_array");
   check("asking for the device's limits");
@@ -54,9 +61,8 @@ void require_vertex_storage(char const* content) {
 }
 
 void require_storage(std::size_t bytes, char const* content) {
-  GLint64 most = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-  if (bytes <= static_cast<std::size_t>(most)) return;
+  std::size_t const most = max_storage_bytes();
+  if (bytes <= most) return;
   constexpr double mib = 1024.0 * 1024.0;
   throw DeviceError(fmt::format(
       "{}: {} take a storage block of {:.0f} MiB, more than the device's limit of {:.0f} MiB; use "

@@ -13,6 +13,7 @@ struct Limits {
   int max_target_size = 0;              // pixels per side of a framebuffer
   int max_texture_size = 0;             // texels per side
   int max_layers = 0;                   // of a texture
+  std::size_t storage_bytes = 0;        // of a storage block
   int vertex_storage_blocks = 0;        // OpenGL guarantees none
   bool layers_in_vertex_stage = false;  // GL_ARB_shader_viewport_layer_array
 };

@@ -8,6 +8,7 @@
 
 #include "backends/opengl/gl/buffer.h"
 #include "backends/opengl/gl/limits.h"
+#include "backends/opengl/raster/crowd_masks.h"
 #include "gpu_shading/error.h"
 #include "scene/casters.h"
 #include "view/view.h"
@@ -63,6 +64,8 @@ struct GlBackend::OnDevice {
 
   Geometry geometry;
   Submissions submissions;
+  bool takes_crowds = false;
+  std::optional<CrowdMasks> crowds;  // once there is one
 };
 
 GlBackend::GlBackend(egl::Device device, BackendInput const& input, GlSettings const& settings)
@@ -70,6 +73,17 @@ GlBackend::GlBackend(egl::Device device, BackendInput const& input, GlSettings c
   egl::Current const current = device_.context.make_current();
   on_device_ = std::make_unique<OnDevice>(input, bounds_of(settings, device_.info),
                                           settings.sum.value_or(fastest_sum(device_.info)));
+  bool const wanted = settings.crowds.value_or(!device_.info.software);
+  if (wanted && input.transmission.all_opaque() && CrowdMasks::fit(input.meshes)) {
+    on_device_->takes_crowds = true;
+    meshes_.assign(input.meshes.begin(), input.meshes.end());
+  }
+}
+
+std::optional<std::size_t> GlBackend::few_casters(bool interiors) const {
+  constexpr std::size_t few = 500;
+  if (interiors || !on_device_->takes_crowds) return std::nullopt;
+  return few;
 }
 
 GlBackend::~GlBackend() {
@@ -86,7 +100,22 @@ GlBackend::~GlBackend() {
 void GlBackend::add(std::vector<ReceiverView> views) {
   if (views.empty()) return;
   egl::Current const current = device_.context.make_current();
-  for (ReceiverView const& view : views) draw(view);
+  for (ReceiverView const& view : views) {
+    if (view.crowd != nullptr) {
+      cover(view);
+    } else {
+      draw(view);
+    }
+  }
+}
+
+void GlBackend::cover(ReceiverView const& view) {
+  auto& crowds = on_device_->crowds;
+  if (!crowds) {
+    crowds.emplace(scene_, meshes_, *view.crowd, !device_.info.software);
+    meshes_ = {};
+  }
+  drawn_.push_back({view.tile, std::nullopt, crowds->add(view), true});
 }
 
 void GlBackend::draw(ReceiverView const& view) {
@@ -195,12 +224,21 @@ std::vector<ViewSums> GlBackend::finish() {
   egl::Current const current = device_.context.make_current();
   Submissions& submissions = on_device_->submissions;
   submissions.finish();
+  auto& crowds = on_device_->crowds;
+  if (crowds) crowds->finish();
   for (auto const& [tile, view] : measured_) {
     double const pixels = submissions.sums(view).front().begin()->second;
     if (pixels > 0.0) receiver_pixels_.emplace(tile, static_cast<std::uint64_t>(pixels));
   }
   for (std::size_t i = 0; i < drawn_.size(); ++i) {
     Drawn const& drawn = drawn_[i];
+    if (drawn.crowd) {
+      auto const [own, lit] = crowds->samples(drawn.view);
+      auto const pixels = static_cast<double>(drawn.tile->counted_pixels);
+      sums[i].receiver_pixels = own > 0 ? drawn.tile->counted_pixels : 0;
+      sums[i].parts.push_back({lit * pixels / std::max(own, 1U), {}});
+      continue;
+    }
     auto const known = receiver_pixels_.find(drawn.tile);
     if (known != receiver_pixels_.end()) sums[i].receiver_pixels = known->second;
     ScheduleKeys const* const keys = drawn.keys ? &*drawn.keys : nullptr;
@@ -211,6 +249,7 @@ std::vector<ViewSums> GlBackend::finish() {
   drawn_.clear();
   measured_.clear();
   submissions.clear();
+  if (crowds) crowds->clear();
   return sums;
 }
 
@@ -219,6 +258,7 @@ void GlBackend::forget() {
   measured_.clear();
   egl::Current const current = device_.context.make_current();
   on_device_->submissions.clear();
+  if (on_device_->crowds) on_device_->crowds->clear();
 }
 
 }  // namespace gpu_shading

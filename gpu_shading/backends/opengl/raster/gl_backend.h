@@ -19,6 +19,8 @@ namespace gpu_shading {
 // How a device is used.
 struct GlSettings {
   std::optional<LuminanceSum> sum = std::nullopt;  // empty: whichever is faster on the device
+  // Whether views of many opaque casters are covered by compute programs; empty: on a GPU.
+  std::optional<bool> crowds = std::nullopt;
   int max_layers = 0;  // views drawn at once, at most; 0: as many as the device's bounds allow
 };
 
@@ -36,6 +38,7 @@ class GlBackend : public ViewBackend {
   GlBackend& operator=(GlBackend&&) = delete;
 
   DeviceInfo const& device() const override { return device_.info; }
+  std::optional<std::size_t> few_casters(bool interiors) const override;
 
   // Also throws Error if a view has too many scheduled shades to count separately: the numbers of
   // shades of each schedule must fit in three times 24 bits.
@@ -49,10 +52,12 @@ class GlBackend : public ViewBackend {
   struct Drawn {
     Tile const* tile;
     std::optional<ScheduleKeys> keys;
-    std::size_t view;  // of submissions
+    std::size_t view;  // of submissions, or of crowds
+    bool crowd = false;
   };
 
   void draw(ReceiverView const& view);
+  void cover(ReceiverView const& view);
   // Draws the receiver alone, once for each tile, because OpenGL first rounds vertices to fractions
   // of a pixel.
   void measure(Tile const& tile);
@@ -69,6 +74,7 @@ class GlBackend : public ViewBackend {
   egl::Device device_;
   Scene const& scene_;
   Transmission const& transmission_;
+  std::vector<Mesh> meshes_;  // for crowds
   std::unique_ptr<OnDevice> on_device_;
   std::vector<Drawn> drawn_;
   std::unordered_map<Tile const*, std::size_t> measured_;           // views being rasterised

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 
 #include "backends/opengl/gl/program.h"
 #include "backends/opengl/gl/readback.h"
@@ -21,6 +23,18 @@ class Reduction {
   virtual double sum(int layer) = 0;
 };
 
+// Reads back the numbers of pixels of each identity from 1 on, in the layers of a texture of
+// identities, which must outlive it.
+class IdentityCounts {
+ public:
+  virtual ~IdentityCounts() = default;
+
+  // Starts counting what was drawn before, in the first `layers` layers, up to identity `most`.
+  virtual void start(int layers, std::size_t most) = 0;
+  // The counts, once the device has done the work of start(); valid until the next call.
+  virtual std::span<std::uint32_t const> counts(int layer) = 0;
+};
+
 // How luminance is summed, in a fixed order each; the results differ by rounding only.
 enum class LuminanceSum {
   compute,   // by a compute shader
@@ -34,6 +48,7 @@ class Summing {
 
   // For units, only if whole pixels are read back ahead.
   std::unique_ptr<Reduction> make(gl::LayeredTexture const& texture);
+  std::unique_ptr<IdentityCounts> count(gl::LayeredTexture const& texture);
   // Bytes per layer besides its pixels.
   std::size_t extra_bytes(int side) const;
 
@@ -45,7 +60,9 @@ class Summing {
 
  private:
   LuminanceSum how_;
-  gl::Program squares_;  // once needed
+  gl::Program squares_;  // each once needed
+  gl::Program totals_;
+  gl::Program identities_;
 };
 
 }  // namespace gpu_shading

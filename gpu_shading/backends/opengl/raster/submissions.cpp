@@ -57,7 +57,9 @@ void Submissions::submit(Group const& group, Batch& batch) {
     list.set_sheets(geometry_.screens().sheets(list, transmission_));
   }
   geometry_.upload(list);
-  target->draw(geometry_, layers);
+  std::size_t parts = 0;
+  for (Range const& answer : batch.answers) parts = std::max(parts, answer.count);
+  target->draw(geometry_, layers, parts);
   gl::check("drawing views");
   in_flight_.push_back({target, std::move(batch.answers), gl::Fence::here()});
   batch.answers.clear();

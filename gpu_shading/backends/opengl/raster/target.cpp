@@ -77,7 +77,7 @@ class StencilTarget : public Target {
         layers_(gl::Framebuffer::of_layers({&texture_})),
         pixels_(texture_, Mode::when_asked) {}
 
-  void draw(Geometry& geometry, int layers) override {
+  void draw(Geometry& geometry, int layers, std::size_t /*parts*/) override {
     layers_.bind();
     gl::no_depth();
     // Sunlit pixels get a new mark each time, so that earlier marks need no clearing.
@@ -115,7 +115,7 @@ class SummedTarget : public Target {
         reduction_(summing.make(texture_)),
         draw_to_(draw_to) {}
 
-  void draw(Geometry& geometry, int layers) override {
+  void draw(Geometry& geometry, int layers, std::size_t /*parts*/) override {
     draw_to_(geometry, layers_);
     gl::Framebuffer::unbind();
     reduction_->start(layers);
@@ -139,7 +139,7 @@ class ScheduledTarget : public Target {
         layers_(gl::Framebuffer::of_layers({&texture_})),
         pixels_(texture_, mode) {}
 
-  void draw(Geometry& geometry, int layers) override {
+  void draw(Geometry& geometry, int layers, std::size_t /*parts*/) override {
     draw_luminance(geometry, layers_, lit_without_key, gl::Blend::multiply_and_add);
     pixels_.start(layers);
   }
@@ -161,14 +161,15 @@ class ScheduledTarget : public Target {
 // same depth, the first is used.
 class Identities {
  public:
-  Identities(int side, int layers, Mode mode)
+  Identities(int side, int layers)
       : texture_(gl::LayeredTexture::create(gl::Pixel::identity, side, layers)),
         depth_(gl::LayeredTexture::create(gl::Pixel::depth, side, layers)),
-        layers_(gl::Framebuffer::of_layers({&texture_, &depth_})),
-        pixels_(texture_, mode) {}
+        layers_(gl::Framebuffer::of_layers({&texture_, &depth_})) {}
+
+  gl::LayeredTexture const& texture() const { return texture_; }
 
   // Behind windows, except where casters close them, if these are wanted too.
-  void draw(Geometry& geometry, int layers, bool casters) {
+  void draw(Geometry& geometry, bool casters) {
     // Nothing is nearer than 0: all pixels are closed except the window's, which are at the far
     // end.
     layers_.bind();
@@ -184,49 +185,51 @@ class Identities {
     gl::depth(gl::Test::less, true);
     geometry.draw_interiors();
     gl::no_depth();
-    pixels_.start(layers);
   }
-
-  std::span<std::uint32_t const> pixels(int layer) { return pixels_.layer<std::uint32_t>(layer); }
 
  private:
   gl::LayeredTexture texture_;
   gl::LayeredTexture depth_;
   gl::Framebuffer layers_;
-  gl::Readback pixels_;
 };
 
 class InteriorTarget : public Target {
  public:
-  InteriorTarget(int side, int layers, Mode mode) : identities_(side, layers, mode) {}
+  InteriorTarget(int side, int layers, Summing& summing)
+      : surfaces_(side, layers), counts_(summing.count(surfaces_.texture())) {}
 
-  void draw(Geometry& geometry, int layers) override { identities_.draw(geometry, layers, true); }
+  void draw(Geometry& geometry, int layers, std::size_t parts) override {
+    surfaces_.draw(geometry, true);
+    gl::Framebuffer::unbind();
+    counts_->start(layers, parts);
+  }
 
   void read(int layer, std::span<LuminanceByKey> parts) override {
-    std::vector<std::uint64_t> counts(parts.size() + 1);
-    for (std::uint32_t const identity : identities_.pixels(layer)) ++counts[identity];
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      parts[i][{}] = static_cast<double>(counts[i + 1]);
-    }
+    std::span<std::uint32_t const> const counts = counts_->counts(layer);
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i][{}] = counts[i];
   }
 
  private:
-  Identities identities_;
+  Identities surfaces_;
+  std::unique_ptr<IdentityCounts> counts_;
 };
 
 class ShadedInteriorTarget : public Target {
  public:
   ShadedInteriorTarget(int side, int layers, Mode mode)
-      : luminance_(side, layers, mode), identities_(side, layers, mode) {}
+      : luminance_(side, layers, mode),
+        surfaces_(side, layers),
+        pixels_(surfaces_.texture(), mode) {}
 
-  void draw(Geometry& geometry, int layers) override {
-    luminance_.draw(geometry, layers);
-    identities_.draw(geometry, layers, false);
+  void draw(Geometry& geometry, int layers, std::size_t parts) override {
+    luminance_.draw(geometry, layers, parts);
+    surfaces_.draw(geometry, false);
+    pixels_.start(layers);
   }
 
   void read(int layer, std::span<LuminanceByKey> parts) override {
     std::span<glm::vec4 const> const luminance = luminance_.pixels(layer);
-    std::span<std::uint32_t const> const identities = identities_.pixels(layer);
+    std::span<std::uint32_t const> const identities = pixels_.layer<std::uint32_t>(layer);
     std::vector<LuminanceSorter> sorters(parts.begin(), parts.end());
     for (std::size_t i = 0; i < luminance.size(); ++i) {
       if (identities[i] > 0) sorters[identities[i] - 1].add(luminance[i]);
@@ -235,7 +238,8 @@ class ShadedInteriorTarget : public Target {
 
  private:
   ScheduledTarget luminance_;
-  Identities identities_;
+  Identities surfaces_;
+  gl::Readback pixels_;
 };
 
 std::size_t pixel_bytes(Kind kind) {
@@ -266,7 +270,7 @@ std::unique_ptr<Target> make_target(Kind kind, int side, int layers, Summing& su
     case Kind::scheduled:
       return std::make_unique<ScheduledTarget>(side, layers, mode);
     case Kind::interior:
-      return std::make_unique<InteriorTarget>(side, layers, mode);
+      return std::make_unique<InteriorTarget>(side, layers, summing);
     case Kind::shaded_interior:
       return std::make_unique<ShadedInteriorTarget>(side, layers, mode);
     case Kind::opaque:
@@ -284,8 +288,9 @@ std::size_t layer_bytes(Kind kind, int side, Summing const& summing) {
     case Kind::opaque:
     case Kind::unscheduled:
       return bytes + summing.extra_bytes(side);
-    case Kind::scheduled:
     case Kind::interior:
+      return bytes;
+    case Kind::scheduled:
     case Kind::shaded_interior:
       break;
   }

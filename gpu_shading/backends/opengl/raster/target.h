@@ -25,8 +25,9 @@ class Target {
  public:
   virtual ~Target() = default;
 
-  // Draws the contents of `geometry`, with views from layer 0 on, without waiting.
-  virtual void draw(Geometry& geometry, int layers) = 0;
+  // Draws the contents of `geometry`, with views from layer 0 on of up to `parts` sums each,
+  // without waiting.
+  virtual void draw(Geometry& geometry, int layers, std::size_t parts) = 0;
   // When that is done: sums of a layer's luminance, for a window by the surface behind it.
   virtual void read(int layer, std::span<LuminanceByKey> parts) = 0;
 };

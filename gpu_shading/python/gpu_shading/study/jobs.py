@@ -41,12 +41,14 @@ def make_jobs(cases: Sequence[Case], source: str, folder: Path, outputs: tuple[s
                     raise InvalidInput(f"{words!r}: {model} has no such object")
         except InvalidInput as error:
             raise InvalidInput(f"{source}: {name}: {error}") from None
+        side_file = extensions or model.with_suffix(".gpu-shading.idf")
         options = {key: os.path.abspath(value) if key == "cache" else str(value)
                    for key, value in case.options.items()}
         scene_id = digest([
-            versions, _digest_of(model), _digest_of(extensions or model.with_suffix(".gpu-shading.idf")),
-            [_digest_of(model.parent / file) for file in _files(model)], sorted(options.items()),
-            sorted((key, str(value)) for key, value in case.fields.items()), list(case.remove), case.objects])
+            versions, _digest_of(model), _digest_of(side_file),
+            [_digest_of(model.parent / file) for file in _files(model, model.parent) + _files(side_file, model.parent)],
+            sorted(options.items()), sorted((key, str(value)) for key, value in case.fields.items()),
+            list(case.remove), case.objects])
         inputs = digest([scene_id, _digest_of(weather), list(case.arguments), list(outputs), *task])
         readable = re.sub(r"[^\w.-]+", "-", name)[:80]
         jobs.append(tasks.Job(
@@ -73,8 +75,9 @@ def _contents(model: Path) -> models.Idf | models.EpJson:
 
 
 @cache
-def _files(model: Path) -> list[str]:
-    return _contents(model).files(model.parent)
+def _files(file: Path, folder: Path) -> list[str]:
+    """What a model or its side file names, relative to the model's folder."""
+    return models.read(file).files(folder) if file.is_file() else []
 
 
 @cache

@@ -135,7 +135,7 @@ class Idf:
     def files(self, folder: Path) -> list[str]:
         """The values that name files, relative to the model's folder."""
         values = {self.text[slice(*span)] for _, spans, _, _ in self.objects for span in spans}
-        return sorted(value for value in values if _is_file(folder, value))
+        return sorted(value for value in values if _is_named(folder, value))
 
     def anchor(self, folder: Path) -> bool:
         """Makes the names of files absolute; returns whether objects of ours have some."""
@@ -202,7 +202,7 @@ class EpJson:
         raise InvalidInput("objects: can be added to an IDF, not to epJSON")
 
     def files(self, folder: Path) -> list[str]:
-        return sorted({value for _, value in self._texts() if _is_file(folder, value)})
+        return sorted({value for _, value in self._texts() if _is_named(folder, value)})
 
     def anchor(self, folder: Path) -> bool:
         ours = False
@@ -222,5 +222,9 @@ class EpJson:
         path.write_text(json.dumps(self.data, indent=1), encoding="utf-8")
 
 
+def _is_named(folder: Path, value: str) -> bool:
+    return bool(_FILE.fullmatch(value)) and (folder / value).is_file()
+
+
 def _is_file(folder: Path, value: str) -> bool:
-    return bool(_FILE.fullmatch(value)) and not os.path.isabs(value) and (folder / value).is_file()
+    return not os.path.isabs(value) and _is_named(folder, value)

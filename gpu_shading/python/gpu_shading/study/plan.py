@@ -15,7 +15,8 @@ from typing import Any
 from gpu_shading import _programs
 from gpu_shading.errors import InvalidInput
 
-OPTIONS = ("error", "resolution", "update", "device", "threads", "lean", "method", "assets", "cache")
+OPTIONS = ("error", "resolution", "update", "device", "threads", "lean", "method", "assets", "cache", "cache-size",
+           "cache-read-only")
 _JOBQUEUES = ("slurm", "pbs", "lsf")
 
 

@@ -31,6 +31,22 @@ TEST(IdfText, ObjectWithoutFields) {
   EXPECT_TRUE(objects[0].fields.empty());
 }
 
+TEST(IdfText, CatchallOfAnExtensionIsTheExtension) {
+  auto const objects = parse_idf(
+      "Catchall,\n"
+      "  GPUShading:TransparentShade,  !- Object Type\n"
+      "  Glass,                        !- Generic Data Field 1\n"
+      "  Pane;\n"
+      "Catchall,Zone,Core;\n"
+      "CATCHALL;");
+  ASSERT_EQ(objects.size(), 3U);
+  EXPECT_EQ(objects[0].type, "GPUShading:TransparentShade");
+  EXPECT_EQ(objects[0].fields, (std::vector<std::string>{"Glass", "Pane"}));
+  EXPECT_EQ(objects[0].begin, 0U);
+  EXPECT_EQ(objects[1].type, "Catchall");
+  EXPECT_EQ(objects[2].type, "CATCHALL");
+}
+
 TEST(IdfText, SpanIsTheObjectWithItsSemicolon) {
   std::string const text = "!c\n  A,\n  b;  !- rest\nC,d;";
   auto const objects = parse_idf(text);

@@ -27,14 +27,17 @@ TEST(ShadingInput, ShadingSurfacesGetTheNamesThatEnergyPlusGivesThem) {
 
 TEST(ShadingInput, ShadingFractionsAreWantedOnlyWhereTheyAreUsed) {
   std::string const surfaces =
-      "Shading:Building:Detailed,A;Shading:Building:Detailed,B;Shading:Building:Detailed,C;";
+      "Shading:Building:Detailed,A;Shading:Building:Detailed,B;Shading:Building:Detailed,C;"
+      "Shading:Building:Detailed,D;";
   EXPECT_FALSE(read(surfaces).wants("A"));
   auto const named = read(surfaces +
                           "Output:Variable,a,Surface Outside Face Sunlit Fraction;"
                           "Generator:Photovoltaic,PV,b;"
+                          "Generator:PVWatts,W,5,1000,Standard,FixedOpenRack,0.14,Surface,,,d;"
                           "GPUShading:TransparentShade,Glass,C,Constant,0.5;");
   EXPECT_TRUE(named.wants("A"));
   EXPECT_TRUE(named.wants("B"));
+  EXPECT_TRUE(named.wants("D"));
   EXPECT_FALSE(named.wants("C"));
   EXPECT_TRUE(
       read(surfaces + "Building,X,0,City,0.04,0.4,FullExteriorWithReflections;").wants("C"));

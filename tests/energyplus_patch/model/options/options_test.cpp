@@ -187,6 +187,15 @@ TEST(Options, ResolutionAndErrorTogetherAreRefused) {
   }
 }
 
+TEST(Options, CacheHasASizeAndMayBeReadOnly) {
+  auto const options =
+      resolve(take({"--gpu-shading-cache-size=2.5", "--gpu-shading-cache-read-only"}), {}, {});
+  EXPECT_EQ(options.cache_bytes, 5U << 29U);
+  EXPECT_TRUE(options.cache_read_only);
+  EXPECT_EQ(resolve({}, {}, {}).cache_bytes, 1U << 30U);
+  EXPECT_THAT(refusal({"--gpu-shading-cache-size=0"}), HasSubstr("cache-size"));
+}
+
 TEST(Options, CacheIsOffUnlessAFolderIsNamedAndOffOverridesTheEnvironment) {
   auto const cache = [](std::vector<std::string> const& flags, char const* environment) {
     setenv("GPU_SHADING_CACHE", environment, 1);

@@ -1,9 +1,11 @@
 #include "model/site/building_file.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <vector>
 
 #include "gpu_shading/error.h"
 #include "platform/process.h"
@@ -109,6 +111,45 @@ TEST(BuildingFile, CoordinatesAreTheFilesOrTheUsers) {
   EXPECT_THAT(refusal(with("")), HasSubstr("are not WGS84 degrees"));
   EXPECT_THAT(refusal(with(R"(, "crs": {"type": "name", "properties": {"name": "EPSG:2056"}})")),
               HasSubstr("crs is \"EPSG:2056\", expected WGS84"));
+}
+
+// Blocks of 20 m, 40 m apart along the equator.
+std::string row_of_blocks(int count) {
+  constexpr double metre = 1.0 / 111'319.49;  // degrees of longitude
+  std::string features;
+  for (int i = 0; i < count; ++i) {
+    double const west = 40.0 * i * metre;
+    double const east = west + 20.0 * metre;
+    features += fmt::format(
+        R"({}{{"type": "Feature", "id": "b{}", "properties": {{"height": 9}}, "geometry": {{"type":
+        "Polygon", "coordinates": [[[{},0],[{},0],[{},0.0001],[{},0.0001]]]}}}})",
+        i == 0 ? "" : ",", i, west, east, east, west);
+  }
+  return collection(features);
+}
+
+std::vector<std::string> names_near(std::string const& text, geojson::Nearby const& nearby) {
+  TemporaryFolder const folder;
+  auto const path = folder.path() / "town.geojson";
+  std::ofstream(path) << text;
+  std::vector<std::string> names;
+  for (auto const& building : read_buildings(path, usual, std::nullopt, nearby).buildings)
+    names.push_back(building.name);
+  return names;
+}
+
+TEST(BuildingFile, OnlyThoseNearby) {
+  auto const blocks = row_of_blocks(10);
+  // Blocks at 80 .. 100, 120 .. 140 and 160 .. 180 m.
+  GeographicPoint const centre{0.0, 130.0 / 111'319.49, 0.0};
+  using testing::ElementsAre;
+  EXPECT_THAT(names_near(blocks, {centre, 29.9}), ElementsAre("b3"));
+  EXPECT_THAT(names_near(blocks, {centre, 30.1}), ElementsAre("b2", "b3", "b4"));
+  EXPECT_THAT(names_near(blocks, {{0.0, centre.longitude + 360.0, 0.0}, 30.1}),
+              ElementsAre("b2", "b3", "b4"));
+  EXPECT_THAT(names_near(blocks, {{1.0, 0.0, 0.0}, 1000.0}), testing::IsEmpty());
+  // On the other side of the earth.
+  EXPECT_THAT(names_near(blocks, {{0.0, -179.999, 0.0}, 1000.0}), testing::IsEmpty());
 }
 
 TEST(BuildingFile, SaysWhatIsWrong) {

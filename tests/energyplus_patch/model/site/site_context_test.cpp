@@ -72,7 +72,7 @@ TEST_F(SiteContext, WithoutTerrainTheGroundIsAtTheOrigin) {
 }
 
 TEST_F(SiteContext, WhatIsLeftOut) {
-  auto const found = read(location + "GPUShading:SiteContext,Town,town.geojson,,,,,,,,,,,,B/*;");
+  auto const found = read(location + "GPUShading:SiteContext,Town,town.geojson,,,,,,,,,,,,,B/*;");
   EXPECT_EQ(found.casters.size(), 5U);
   EXPECT_FALSE(found.types.contains("TOWN:B/2"));
   EXPECT_THAT(found.remarks[0], HasSubstr("1 building (5 walls and roofs, 1 left out)"));

@@ -36,6 +36,9 @@ TEST_F(WeatherHeader, LocationIsTheFirstLine) {
   auto const found = site(golden_line + "DESIGN CONDITIONS,0\n");
   EXPECT_EQ(found.name, "Golden");
   EXPECT_EQ(found.latitude, 39.74);
+  EXPECT_EQ(
+      site("LOCATION,Denver  Golden   Nr,CO,USA,TMY3,724666,39.74,-105.18,-7.0,1829.0\n").name,
+      "Denver Golden Nr");
   EXPECT_EQ(found.longitude, -105.18);
   EXPECT_EQ(found.time_zone, -7.0);
   EXPECT_EQ(found.elevation, 1829.0);

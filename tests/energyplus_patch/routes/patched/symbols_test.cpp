@@ -47,7 +47,10 @@ std::string their_parameters(std::string const& declaration) {
           {R"(EnergyPlus::Dayltg::Illums)", "gpu_shading::energyplus::Illuminance"},
           {R"(Penumbra::Surface\b)", "gpu_shading::energyplus::SurfaceObject"},
           {R"(EnergyPlus::(Dayltg|DataSurfaces)::(SkyType|RadType|WinShadingType|ExtWinType|CalledFor))",
-           "int"}}) {
+           "int"},
+          {R"(EnergyPlus::Constant::(Units|eResource))", "int"},
+          {R"(EnergyPlus::OutputProcessor::(TimeStepType|StoreType|Group|EndUseCat))", "int"},
+          {R"(EnergyPlus::OutputProcessor::ReportFreq)", "int"}}) {
     list = std::regex_replace(list, std::regex(theirs), ours);
   }
   return list;

@@ -144,6 +144,11 @@ TEST(Batches, CountsAreTheSameByEveryWayOfSumming) {
   auto const got = compute.projected_sunlit_areas(suns, site.all);
   for (std::size_t i = 0; i < suns.size(); ++i) {
     for (std::size_t k = 0; k < site.all.size(); ++k) expect_equal(got[i][k], expected[i][k]);
+    for (SurfaceId const window : site.receivers) {
+      auto const inside = readback.interior_sunlit_areas(suns[i], window, site.all);
+      auto const counted = compute.interior_sunlit_areas(suns[i], window, site.all);
+      for (std::size_t k = 0; k < inside.size(); ++k) expect_equal(counted[k], inside[k]);
+    }
   }
 }
 
@@ -194,7 +199,7 @@ TEST(Batches, DrawsUnderWayKeepTheirShades) {
     pane.filter.set(AngularTransmittance{half()});
     scene.add(pane);
   }
-  Renderer renderer = renderer_of(scene, 1024);
+  Renderer renderer = renderer_of(scene, 1024, by_opengl);
   for (auto const& answer : renderer.projected_sunlit_areas(SunDirection{}, asked)) {
     EXPECT_NEAR(answer.projected_area, 0.5 * 16, 1e-5);
   }

@@ -13,8 +13,9 @@ namespace gpu_shading {
 namespace {
 
 using Colour = std::array<int, 3>;
-constexpr Colour yellow{255, 255, 0};
-constexpr Colour blue{0, 0, 255};
+// The ends of cividis.
+constexpr Colour yellow{254, 232, 56};
+constexpr Colour blue{0, 34, 78};
 
 Colour colour_at(Image const& image, int column, int row) {
   auto const at = 3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +

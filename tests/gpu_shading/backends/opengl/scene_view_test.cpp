@@ -93,6 +93,21 @@ TEST_P(SceneViews, FarSurfacesDoNotMakeReceiversSmall) {
   EXPECT_GT(counts.at(rounded(fraction_colour(0.75))), 300 * 300 / 10);
 }
 
+TEST_P(SceneViews, ShowsNeighboursWhole) {
+  Case beside;
+  // From above, beside a receiver of 4 m: one that ends 3.8 m beside it, then one that goes far, of
+  // which as much is shown as half of the receiver.
+  for (double const width : {2.8, 30.0}) {
+    auto const roof = beside.scene.add({"roof", level(5, 0, 0, width, 4)});
+    beside.all.push_back(roof);
+    beside.fractions.emplace_back(std::nullopt);
+    SceneView view(beside.scene, beside.all, GetParam());
+    auto const image = view.draw(sun_at(180, 90), beside.fractions, 500);
+    double const metres = 7.8;  // of both receiver and roof
+    EXPECT_NEAR(image.height, 500 * (4 + 0.08 * metres) / (1.08 * metres), 2.0);
+  }
+}
+
 TEST_P(SceneViews, SaysWhatItCannotDraw) {
   Case const some;
   SceneView view(some.scene, some.all, GetParam());
