@@ -41,6 +41,8 @@ class Session : public ShadingCalculation {
   bool is_placeholder(SurfaceId id) const { return std::holds_alternative<Surface>(added_[id]); }
 
   ShadingInput const& input() const { return scene_.model().shading; }
+  // Whether the model was changed so that EnergyPlus follows the sky's shading.
+  bool follows_sky() const { return scene_.model().lean.follows_sky; }
 
   // Ids of EnergyPlus's shading surfaces, placeholders too, without mirrored copies, in order.
   std::vector<SurfaceId> shading_surfaces() const;

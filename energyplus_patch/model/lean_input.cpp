@@ -215,6 +215,7 @@ void add_sky_placeholder(LeanInput& lean, ShadingInput const& input) {
   auto taken = all_surfaces(input);
   for (auto const& placeholder : lean.placeholders) taken.insert(placeholder.name);
   lean.placeholders.push_back(make_sky_placeholder(taken));
+  lean.follows_sky = true;
 }
 
 }  // namespace gpu_shading::energyplus

@@ -19,6 +19,7 @@ struct LeanInput {
   Names left_out;                // Shading:...:Detailed objects
   std::vector<Surface> casters;  // the same, with all vertices that the model gives them
   std::vector<Placeholder> placeholders;
+  bool follows_sky = false;  // one of them is that of add_sky_placeholder()
   std::string remark;  // message for the user: what is left out, or why nothing is; "": no message
 
   bool active() const { return !left_out.empty(); }

@@ -330,6 +330,16 @@ def test_the_sky_follows_with_detailed_modeling(run):
     assert "position at rest" not in moves.text("eplusout.err")
 
 
+def test_a_shade_at_rest_leaves_long_wave_radiation_as_it_is(run):
+    variable = "Surface Outside Face Thermal Radiation to Sky Heat Transfer Coefficient"
+    output = f"Output:Variable,Window,{variable},Timestep;\n"
+    rests, alone, bare = (
+        series(run(room(text, output, detailed=True), name=name), variable)
+        for name, text in (("rests", slats() + CASES["centre line"][1] + constant(0)), ("alone", slats()), ("bare", "")))
+    assert max(abs(rests[time] - alone[time]) for time in alone) < 1e-4 * max(alone.values())
+    assert max(alone.values()) < 0.9 * max(bare.values())
+
+
 def test_pictures_show_other_positions(patched, weather, tmp_path):
     shade = CASES["centre line"][1] + constant(0)
     pictures = {}

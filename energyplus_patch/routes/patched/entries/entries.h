@@ -70,6 +70,9 @@ DaylightMemory* daylight_memory();
 // EnergyPlus begins to compute daylight factors.
 void begin_daylight_memory(State& state);
 
+// EnergyPlus has set the sun, or asks for the next patch of the sky.
+void note_sun();
+
 // While EnergyPlus integrates over the sky that a window sees at an hour.
 class SkyIntegral {
  public:

@@ -102,6 +102,7 @@ void set_model(PenumbraObject* self) {
 
 void set_sun_position(PenumbraObject* self, float azimuth, float altitude) {
   self->session->set_sun({azimuth, altitude});
+  note_sun();
 }
 
 // Rendering waits for the first question, when the wanted receivers are known.

@@ -1,8 +1,11 @@
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
+#include "routes/patched/memory/sky_ratios.h"
+#include "scene/sky_grid.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -32,6 +35,23 @@ void solar_beam(State& state, int hour, int timestep) {
   if (auto* const session = this_run().session) guarded([&] { session->end_time(); });
 }
 
+// The sky's ratios while its shading is computed for the second time.
+struct SecondPass {
+  std::optional<SkyRatios> ratios;
+  int patches = 0;  // until now
+};
+SecondPass& second_pass() {
+  thread_local SecondPass pass;
+  return pass;
+}
+
+void warn_of_long_wave() {
+  messages_of(this_run())
+      .warning(
+          "EnergyPlus's sky ratios have an unexpected layout in memory: long-wave radiation is "
+          "exchanged with the sky as if nothing shaded");
+}
+
 // EnergyPlus keeps sunlit fractions without reveals by time, those of the sky's patches as well,
 // which would replace the sun's: they are kept for a time close to midnight.
 void shadow(State& state, int hour, int timestep) {
@@ -48,6 +68,21 @@ void shadow(State& state, int hour, int timestep) {
 void sky_shading(State& state) {
   set_time({});
   original_sky_shading(state);
+  auto* const session = this_run().session;
+  if (session == nullptr || !session->follows_sky()) return;
+  // A model that we made EnergyPlus follow the sky of keeps its view factors for long-wave
+  // radiation: see SkyRatios.
+  auto& pass = second_pass();
+  pass = {};
+  auto const& installed = installation();
+  if (installed.serves(Need::long_wave)) {
+    guarded([&] { pass.ratios = SkyRatios::find(state, installed.functions.symbols()); });
+  }
+  if (pass.ratios) {
+    original_sky_shading(state);
+  } else {
+    warn_of_long_wave();
+  }
 }
 
 // Called for each day, or for each timestep where shading is calculated as often.
@@ -76,6 +111,13 @@ void process_shadowing_input(State& state) {
 }
 
 }  // namespace
+
+void note_sun() {
+  auto& [ratios, patches] = second_pass();
+  if (!ratios || ++patches < sky_rows * sky_columns) return;
+  if (!ratios->restore()) warn_of_long_wave();
+  ratios.reset();
+}
 
 std::vector<Entry> shading_entries() {
   return {

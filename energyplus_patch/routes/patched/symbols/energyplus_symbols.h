@@ -59,6 +59,7 @@ enum class Need {
   eio_line,        // the .eio file has no lines on shading
   opaque_warning,  // EnergyPlus warns that pixel counting takes shades as opaque (before 24.2)
   sky_times,       // beam that reveals reflect is wrong where the sky follows schedules
+  long_wave,       // nothing shades long-wave radiation where the sky follows shades that change
   surface_ids,     // mirrored shading surfaces are taken as shaded, and there are no `reflections`
   run_days,        // the report has no days
   outputs,         // moving shades have no output variables
