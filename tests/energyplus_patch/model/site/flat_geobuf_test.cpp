@@ -35,6 +35,7 @@ std::vector<Building> read(std::filesystem::path const& path,
 
 std::vector<std::string> names(std::vector<Building> const& buildings) {
   std::vector<std::string> names;
+  names.reserve(buildings.size());
   for (auto const& building : buildings) names.push_back(building.name);
   return names;
 }
