@@ -53,7 +53,7 @@ class SunHours:
 
     def write(self, folder: Name) -> None:
         """As results of grids: folders with grids_info.json and a .res file for each grid, as Honeybee's recipes
-        write them and honeybee-vtk reads them."""
+        write them."""
         for name, unit, values in (("sun_hours", "h", self.hours), ("beam_energy", "kWh/m2", self.energy)):
             target = Path(folder) / name
             target.mkdir(parents=True, exist_ok=True)
