@@ -10,9 +10,7 @@
 
 namespace gpu_shading::energyplus {
 
-// Of rays from receivers to the sun: EnergyPlus's limit of the cosine of incidence, and how many
-// are traced at once.
-inline constexpr double min_cosine = 1e-5;
+// How many rays from receivers to the sun are traced at once.
 inline constexpr std::size_t rays_in_batch = 65536;
 
 // Axes in the Newell plane of a receiver, as somebody outside sees it: u to the right, v up. v

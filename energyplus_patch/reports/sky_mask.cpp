@@ -9,6 +9,7 @@
 
 #include "model/extensions/extension_fields.h"
 #include "reports/map_grid.h"
+#include "runs/run_times.h"
 
 namespace gpu_shading::energyplus {
 namespace {

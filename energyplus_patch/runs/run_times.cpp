@@ -19,9 +19,6 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-// See sun_is_up().
-constexpr double min_cosine = 1e-5;
-
 double number(std::string const& text) {
   auto const value = parse_number(text);
   if (!value) throw Error(fmt::format("eplusout.eso: \"{}\" is not a number", text));
@@ -106,7 +103,7 @@ double sunlit_fraction(double projected_area, glm::dvec3 const& area, glm::dvec3
 
 RunTimes read_run_times(std::istream& eso) {
   RunTimes run;
-  auto dictionary = read_dictionary(eso, run);
+  auto const dictionary = read_dictionary(eso, run);
   std::map<std::size_t, RunTime> times;
   std::optional<RunTime> current;
   auto const close = [&] {
@@ -143,8 +140,9 @@ RunTimes read_run_times(std::istream& eso) {
       current->sun.azimuth = number(words[1]) * degree;
     } else if (current && kind == dictionary.altitude) {
       current->sun.altitude = number(words[1]) * degree;
-    } else if (current && dictionary.weather.contains(kind)) {
-      (*current).*dictionary.weather[kind] = number(words[1]);
+    } else if (auto const weather = dictionary.weather.find(kind);
+               current && weather != dictionary.weather.end()) {
+      (*current).*(weather->second) = number(words[1]);
     } else if (current) {
       auto const schedule = dictionary.schedules.find(kind);
       if (schedule != dictionary.schedules.end()) {

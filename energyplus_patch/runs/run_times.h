@@ -55,6 +55,7 @@ std::vector<double> schedule_values(RunTimes const& run, RunTime const& time,
 
 // EnergyPlus's own limit (Engineering Reference, "Shading Module"): below it, the sun is down; with
 // a smaller cosine of incidence, it is behind a surface.
+inline constexpr double min_cosine = 1e-5;
 bool sun_is_up(SunDirection sun);
 
 // The sunlit fraction as EnergyPlus reports it, 0 .. 1, from the projected sunlit area (m2).

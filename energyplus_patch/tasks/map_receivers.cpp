@@ -15,6 +15,7 @@
 #include "platform/text.h"
 #include "reports/map_grid.h"
 #include "reports/remarks.h"
+#include "runs/run_times.h"
 #include "tasks/perform_task.h"
 
 namespace gpu_shading::energyplus {

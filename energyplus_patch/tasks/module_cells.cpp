@@ -19,6 +19,7 @@
 #include "reports/module_layout.h"
 #include "reports/remarks.h"
 #include "reports/sky_mask.h"
+#include "runs/run_times.h"
 #include "tasks/perform_task.h"
 
 namespace gpu_shading::energyplus {

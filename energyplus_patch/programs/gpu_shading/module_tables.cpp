@@ -13,6 +13,7 @@
 #include "programs/gpu_shading/map_files.h"
 #include "programs/gpu_shading/module_files.h"
 #include "reports/report.h"
+#include "runs/run_times.h"
 
 namespace gpu_shading::energyplus {
 namespace {

@@ -14,6 +14,7 @@
 #include "platform/staged_files.h"
 #include "platform/text.h"
 #include "programs/gpu_shading/commands.h"
+#include "runs/run_times.h"
 #include "tasks/samples/sky_patches.h"
 #include "tasks/task_file.h"
 
@@ -24,7 +25,6 @@ std::array<SkyDivision, 3> skies() { return {energyplus_sky(), reinhart_sky(1), 
 
 // The cosine of incidence of a patch's centre; 0 if it is behind the receiver.
 double cosine_of(SkyPatch const& patch, SampledReceiver const& receiver) {
-  constexpr double min_cosine = 1e-5;  // EnergyPlus's limit
   double const cosine = glm::dot(glm::normalize(receiver.area), to_vector(patch.centre));
   return cosine < min_cosine ? 0.0 : cosine;
 }
