@@ -73,34 +73,32 @@ RunDay EnergyPlusFunctions::day(State& state) const {
   return day;
 }
 
-std::vector<double> EnergyPlusFunctions::beam_of_day(State& state) const {
+template <typename ValueAt>
+std::vector<double> EnergyPlusFunctions::of_day(State& state, ValueAt value_at) const {
   constexpr int hours = 24;
   int const steps_per_hour = symbol::steps_per_hour.in(symbols_)(&state);
-  auto const weather_beam = symbol::weather_beam.in(symbols_);
-  std::vector<double> beam;
-  auto const sun = sun_of_day(symbol::day_of_year.in(symbols_)(&state));
+  std::vector<double> values;
   for (int hour = 0; hour < hours; ++hour) {
     for (int step = 1; step <= steps_per_hour; ++step) {
-      // Between hours, the weather may have a beam before sunrise, which EnergyPlus drops.
-      double const end = hour + static_cast<double>(step) / steps_per_hour;
-      bool const up = sun_is_up(state, sun, end);
-      beam.push_back(up ? weather_beam(&state, hour, step) : 0.0);
+      values.push_back(value_at(hour, step, hour + static_cast<double>(step) / steps_per_hour));
     }
   }
-  return beam;
+  return values;
+}
+
+std::vector<double> EnergyPlusFunctions::beam_of_day(State& state) const {
+  auto const weather_beam = symbol::weather_beam.in(symbols_);
+  auto const sun = sun_of_day(symbol::day_of_year.in(symbols_)(&state));
+  return of_day(state, [&](int hour, int step, double end) {
+    // Between hours, the weather may have a beam before sunrise, which EnergyPlus drops.
+    return sun_is_up(state, sun, end) ? weather_beam(&state, hour, step) : 0.0;
+  });
 }
 
 std::vector<double> EnergyPlusFunctions::wind_of_day(State& state) const {
-  constexpr int hours = 24;
-  int const steps_per_hour = symbol::steps_per_hour.in(symbols_)(&state);
   auto const weather_wind = symbol::weather_wind.in(symbols_);
-  std::vector<double> wind;
-  for (int hour = 0; hour < hours; ++hour) {
-    for (int step = 1; step <= steps_per_hour; ++step) {
-      wind.push_back(weather_wind(&state, hour, step));
-    }
-  }
-  return wind;
+  return of_day(
+      state, [&](int hour, int step, double /*end*/) { return weather_wind(&state, hour, step); });
 }
 
 void EnergyPlusFunctions::add_output(State& state, std::string const& name, std::string_view unit,

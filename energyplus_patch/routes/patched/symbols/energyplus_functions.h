@@ -54,6 +54,9 @@ class EnergyPlusFunctions {
              double cosine_of_declination) const;
   // Whether the sun is above the horizon, at a time in hours of a day.
   bool sun_is_up(State const& state, SunOfTime const& day, double hour) const;
+  // The values at the timesteps of a day: value_at(hour from 0, timestep from 1, its end in hours).
+  template <typename ValueAt>
+  std::vector<double> of_day(State& state, ValueAt value_at) const;
 
   SymbolTable symbols_;
 };
