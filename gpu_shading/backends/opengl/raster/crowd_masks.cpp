@@ -1,8 +1,6 @@
 #include "backends/opengl/raster/crowd_masks.h"
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include "antialias/antialias.h"
 #include "backends/opengl/gl/check.h"

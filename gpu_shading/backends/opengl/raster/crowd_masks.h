@@ -26,8 +26,7 @@ namespace gpu_shading {
 // and destroying it require the current context.
 class CrowdMasks {
  public:
-  // All must outlive it, except the meshes.
-  // `parallel`: the device has thousands of threads.
+  // All must outlive it, except the meshes. `parallel`: the device has thousands of threads.
   CrowdMasks(Scene const& scene, std::span<Mesh const> meshes, Casters const& casters,
              bool parallel);
 

@@ -9,6 +9,7 @@
 #include "backends/opengl/gl/buffer.h"
 #include "backends/opengl/gl/limits.h"
 #include "backends/opengl/raster/crowd_masks.h"
+#include "geometry/triangulation.h"
 #include "gpu_shading/error.h"
 #include "scene/casters.h"
 #include "view/view.h"
@@ -74,10 +75,8 @@ GlBackend::GlBackend(egl::Device device, BackendInput const& input, GlSettings c
   on_device_ = std::make_unique<OnDevice>(input, bounds_of(settings, device_.info),
                                           settings.sum.value_or(fastest_sum(device_.info)));
   bool const wanted = settings.crowds.value_or(!device_.info.software);
-  if (wanted && input.transmission.all_opaque() && CrowdMasks::fit(input.meshes)) {
-    on_device_->takes_crowds = true;
-    meshes_.assign(input.meshes.begin(), input.meshes.end());
-  }
+  on_device_->takes_crowds =
+      wanted && input.transmission.all_opaque() && CrowdMasks::fit(input.meshes);
 }
 
 std::optional<std::size_t> GlBackend::few_casters(bool interiors) const {
@@ -112,8 +111,7 @@ void GlBackend::add(std::vector<ReceiverView> views) {
 void GlBackend::cover(ReceiverView const& view) {
   auto& crowds = on_device_->crowds;
   if (!crowds) {
-    crowds.emplace(scene_, meshes_, *view.crowd, !device_.info.software);
-    meshes_ = {};
+    crowds.emplace(scene_, triangulate_all(scene_), *view.crowd, !device_.info.software);
   }
   drawn_.push_back({view.tile, std::nullopt, crowds->add(view), true});
 }

@@ -74,7 +74,6 @@ class GlBackend : public ViewBackend {
   egl::Device device_;
   Scene const& scene_;
   Transmission const& transmission_;
-  std::vector<Mesh> meshes_;  // for crowds
   std::unique_ptr<OnDevice> on_device_;
   std::vector<Drawn> drawn_;
   std::unordered_map<Tile const*, std::size_t> measured_;           // views being rasterised
