@@ -309,7 +309,11 @@ void Session::finish() {
   write_cache(answers_->rendered(), messages_);
   if (failed_) return;
   write_reports();
-  if (!step_error_) return;
+  if (step_error_) describe_step_error();
+}
+
+void Session::describe_step_error() {
+  auto const& asked = answers_->asked();
   std::vector<SurfaceId> receivers;
   for (auto const id : scene_.shown_receivers()) {
     if (asked[id] && !scene_.moving_shade_of(id)) receivers.push_back(id);
@@ -320,8 +324,7 @@ void Session::finish() {
     std::vector<double> fractions;
     for (auto const id : receivers) {
       double const all = answers_->unshaded_area(id);
-      double const lit = all > 0.0 ? answers_->area(id, scene_.optics().factors()) : 0.0;
-      fractions.push_back(all > 0.0 ? lit / all : 0.0);
+      fractions.push_back(all > 0.0 ? answers_->area(id, scene_.optics().factors()) / all : 0.0);
     }
     return fractions;
   });

@@ -102,6 +102,7 @@ class Session : public ShadingCalculation {
   SurfaceId in_scene(SurfaceId id) const;
   SunQuestions& answers();
   void write_reports();
+  void describe_step_error();
   void move_shades(std::optional<SunDirection> sun);
   // A value of the day, at this timestep.
   double now(std::vector<double>& day, RunRecord::Beam const& of_day) const;
