@@ -41,7 +41,7 @@ void find_surfaces(InputObject const& object, std::vector<std::string> const& ou
     modules.surfaces.push_back(name);
   }
   if (modules.surfaces.empty()) {
-    refuse("no exterior or shading surface matches" + did_you_mean(upper(pattern), outdoors));
+    refuse("no exterior or shading surface matches" + did_you_mean(pattern, outdoors));
   }
 }
 
