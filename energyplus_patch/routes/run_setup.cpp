@@ -53,7 +53,7 @@ void rewrite_epjson_model(nlohmann::json& json, std::filesystem::path const& pat
 }
 
 void prepare_folders(Options const& options, bool report) {
-  if (options.cache) prepare_cache_folder(*options.cache, options.cache_read_only);
+  if (options.cache) prepare_cache_folder(*options.cache);
   if (options.report && report) prepare_report(*options.report);
 }
 

@@ -104,6 +104,13 @@ Choices read_environment();
 // GPUShading:Settings. Throws Error if a value cannot be used.
 Choices read_settings(std::vector<InputObject> const& objects);
 
+// A folder in which answers are kept after the run.
+struct CacheFolder {
+  std::filesystem::path path;
+  std::uint64_t max_bytes = std::uint64_t{1} << 30U;  // of its files
+  bool read_only = false;
+};
+
 // The resolved options of a run.
 struct Options {
   static constexpr double default_error = 1e-3;
@@ -115,9 +122,7 @@ struct Options {
   DeviceChoice device;
   std::optional<std::filesystem::path> report;
   Lean lean = Lean::automatic;
-  std::optional<std::filesystem::path> cache = std::nullopt;
-  std::uint64_t cache_bytes = std::uint64_t{1} << 30U;  // the most that its folder takes
-  bool cache_read_only = false;
+  std::optional<CacheFolder> cache = std::nullopt;
   std::optional<std::filesystem::path> stages = std::nullopt;
   bool verbose = false;
 };
