@@ -1,5 +1,7 @@
 // CPU time of a sun direction for one scene with sheets that are opaque, transparent, or perforated
 // by a pattern or an image, and the mean sunlit area, by which two builds can be compared.
+//
+//   screen_cost [sheets]    of one kind, by its name
 
 #include <array>
 #include <cstddef>
@@ -8,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <random>
+#include <string_view>
 #include <vector>
 
 #include "gpu_shading/perforated_screen.h"
@@ -50,7 +53,7 @@ Scene roof(int across, int along, Finish const& finish) {
   return scene;
 }
 
-void print_row(char const* name, Finish const& finish, int across, int along, int resolution) {
+void print_row(std::string_view name, Finish const& finish, int across, int along, int resolution) {
   Renderer renderer = renderer_of(roof(across, along, finish), resolution);
   std::array<SurfaceId, receivers> asked{};
   for (SurfaceId id = 0; id < receivers; ++id) asked[id] = id;
@@ -65,8 +68,9 @@ void print_row(char const* name, Finish const& finish, int across, int along, in
     }
   }
   double const seconds = processor_seconds() - start;
-  std::printf("%-22s %6d %8d %8.2f ms  %.13f\n", name, across * along, resolution,
-              1e3 * seconds / directions, area / directions / receivers);
+  std::printf("%-22.*s %6d %8d %8.2f ms  %.13f\n", static_cast<int>(name.size()), name.data(),
+              across * along, resolution, 1e3 * seconds / directions,
+              area / directions / receivers);
   std::fflush(stdout);
 }
 
@@ -99,7 +103,7 @@ OpacityTile random_holes() {
   return OpacityTile(width, height, columns, rows, opacity);
 }
 
-void print_table() {
+void print_table(std::string_view only) {
   auto const glass = std::make_shared<Transmittance const>(
       Transmittance::polynomial_in_cosine({0.0, 2.4, -2.4, 0.8}));
   HolePattern const holes(
@@ -118,7 +122,7 @@ void print_table() {
   OpacityTile const fractional(holes, 0.1 / 48, std::nullopt);
   OpacityTile const random = random_holes();
   struct Kind {
-    char const* name;
+    std::string_view name;
     Finish finish;
   };
   std::array const kinds{
@@ -137,7 +141,10 @@ void print_table() {
   std::printf("sheets                 number   pixels a direction     sunlit, m2\n");
   for (int const resolution : {256, 512, 1024}) {
     for (auto const [across, along] : {std::array{1, 1}, std::array{5, 2}, std::array{10, 10}}) {
-      for (Kind const& kind : kinds) print_row(kind.name, kind.finish, across, along, resolution);
+      for (Kind const& kind : kinds) {
+        if (!only.empty() && kind.name != only) continue;
+        print_row(kind.name, kind.finish, across, along, resolution);
+      }
     }
   }
 }
@@ -145,4 +152,7 @@ void print_table() {
 }  // namespace
 }  // namespace gpu_shading
 
-int main() { return gpu_shading::print_or_say_why("screen_cost", gpu_shading::print_table); }
+int main(int argc, char** argv) {
+  return gpu_shading::print_or_say_why("screen_cost",
+                                       [&] { gpu_shading::print_table(argc > 1 ? argv[1] : ""); });
+}
