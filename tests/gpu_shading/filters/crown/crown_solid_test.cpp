@@ -163,7 +163,8 @@ TEST(CrownPixels, PassWhatTheirRaysDo) {
   for (int i = 0; i < 200; ++i) {
     Scene const scene = random_crown(engine, shapes.at(static_cast<std::size_t>(i) % 4));
     // Now and then along the axis, or nearly so: in parallel to a cylinder's sides.
-    double const altitude = i % 20 < 4 ? 90.0 - 0.5 * (i / 20) : 10.0 + 75.0 * uniform(engine);
+    int const steps = i / 20;
+    double const altitude = i % 20 < 4 ? 90.0 - 0.5 * steps : 10.0 + 75.0 * uniform(engine);
     glm::dvec3 const towards_sun = to_vector(sun_at(360.0 * uniform(engine), altitude));
     auto const frame = plane_frame(scene[0].polygon).value();
     constexpr int side = 70;
