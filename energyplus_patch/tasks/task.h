@@ -30,7 +30,8 @@ struct ListingTask {
 struct ViewsTask {
   std::vector<SunView> views;
   std::filesystem::path folder;
-  int size = 0;  // pixels on a picture's longer side
+  int size = 0;        // pixels on a picture's longer side
+  bool range = false;  // outlines of moving shades at both ends of their range
 
   bool operator==(ViewsTask const&) const = default;
 };

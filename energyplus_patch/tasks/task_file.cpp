@@ -56,7 +56,8 @@ Json to_json(ViewsTask const& task) {
   return {{"kind", "views"},
           {"views", std::move(views)},
           {"folder", task.folder.string()},
-          {"size", task.size}};
+          {"size", task.size},
+          {"range", task.range}};
 }
 
 Json to_json(SamplesTask const& task) {
@@ -172,7 +173,7 @@ Task to_task(Json const& json) {
                        {json.at("shard"), json.at("shards")},
                        json.at("progress")};
   }
-  ViewsTask task{{}, json.at("folder").get<std::string>(), json.at("size")};
+  ViewsTask task{{}, json.at("folder").get<std::string>(), json.at("size"), json.at("range")};
   for (auto const& view : json.at("views")) {
     task.views.push_back({view.at(0), {view.at(1), view.at(2)}, view.at(3)});
     constexpr std::size_t with_camera = 6;
