@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
 import importlib
 import logging
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -68,6 +70,14 @@ def open_jobqueue(jobqueue: Mapping[str, Any]) -> Any:
     return cluster
 
 
+@contextlib.contextmanager
+def _needing_scheduler() -> Iterator[None]:
+    try:
+        yield
+    except (OSError, asyncio.CancelledError) as error:
+        raise RunError(f"Dask's scheduler is gone ({error}); the same command resumes") from None
+
+
 @dataclass
 class _Task:
     function: Callable[..., Outcome]
@@ -90,7 +100,8 @@ class Engine:
         self._start(_Task(function, arguments, then, 1, priority))
 
     def _start(self, task: _Task) -> None:
-        future = self._client.submit(task.function, *task.arguments, pure=False, priority=task.priority)
+        with _needing_scheduler():
+            future = self._client.submit(task.function, *task.arguments, pure=False, priority=task.priority)
         self._tasks[future] = task
         self._completed.add(future)
 
@@ -98,7 +109,8 @@ class Engine:
         """Until nothing is left; what outcomes lead to may submit more."""
         for future in self._completed:
             task = self._tasks.pop(future)
-            outcome, died = self._outcome(future)
+            with _needing_scheduler():
+                outcome, died = self._outcome(future)
             if outcome.error and task.attempt < self._tries and not died:
                 task.attempt += 1
                 self._start(task)
@@ -110,7 +122,7 @@ class Engine:
         if future.status == "finished":
             return future.result(), False
         if future.status != "error":
-            raise RunError(f"Dask's scheduler is gone (a task is {future.status}); the same command resumes")
+            raise asyncio.CancelledError(f"a task is {future.status}")
         error = future.exception()
         if type(error).__name__ == "KilledWorker":
             return Outcome(f"its worker died {self._tries} times"), True
