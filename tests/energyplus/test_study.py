@@ -293,5 +293,7 @@ def test_a_queue_is_asked_for_what_the_plan_says(gs):
     with open_jobqueue({"kind": "slurm", "workers": 0, "queue": "short", "walltime": "01:00:00"}) as cluster:
         script = cluster.job_script()
     assert "#SBATCH -p short" in script and "#SBATCH -t 01:00:00" in script and "--nthreads 1" in script
+    package = energyplus.REPOSITORY / "gpu_shading" / "python"  # not where a job would look
+    assert f"export PYTHONPATH={package}${{PYTHONPATH:+:$PYTHONPATH}}" in script
     with pytest.raises(gs.InvalidInput, match="--jobqueue sge: expected one of slurm, pbs, lsf"):
         open_jobqueue({"kind": "sge"})

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
 import importlib
 import logging
 import os
-from collections.abc import Callable, Mapping
+import shlex
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from gpu_shading.errors import InvalidInput, RunError
@@ -58,14 +62,32 @@ def open_jobqueue(jobqueue: Mapping[str, Any]) -> Any:
         module = importlib.import_module("dask_jobqueue")
     except ImportError:
         raise ImportError("--jobqueue needs dask-jobqueue: pip install dask-jobqueue") from None
-    resources = {"cores": 1, "processes": 1, "memory": "2 GB", **jobqueue}
+    resources: dict[str, Any] = {"cores": 1, "processes": 1, "memory": "2 GB", **jobqueue}
+    resources["job_script_prologue"] = [*_variables_of_jobs(), *resources.get("job_script_prologue", ())]
     kind, workers = check_jobqueue(str(resources.pop("kind", ""))), resources.pop("workers", 1)
     try:
         cluster = getattr(module, _CLUSTERS[kind])(**resources)
     except (TypeError, ValueError) as error:
         raise InvalidInput(f"jobqueue: {error}") from None
-    cluster.scale(workers)
+    # Jobs that end, as at their walltime, are replaced.
+    cluster.adapt(minimum=workers, maximum=workers)
     return cluster
+
+
+def _variables_of_jobs() -> list[str]:
+    """This package and EnergyPlus need not be those that a job would find by itself."""
+    values = {"PYTHONPATH": str(Path(__file__).resolve().parents[2]),
+              "GPU_SHADING_PREFIX": os.environ.get("GPU_SHADING_PREFIX", "")}
+    later = {"PYTHONPATH": "${PYTHONPATH:+:$PYTHONPATH}"}
+    return [f"export {name}={shlex.quote(value)}{later.get(name, '')}" for name, value in values.items() if value]
+
+
+@contextlib.contextmanager
+def _needing_scheduler() -> Iterator[None]:
+    try:
+        yield
+    except (OSError, asyncio.CancelledError) as error:
+        raise RunError(f"Dask's scheduler is gone ({error}); the same command resumes") from None
 
 
 @dataclass
@@ -90,15 +112,21 @@ class Engine:
         self._start(_Task(function, arguments, then, 1, priority))
 
     def _start(self, task: _Task) -> None:
-        future = self._client.submit(task.function, *task.arguments, pure=False, priority=task.priority)
+        with _needing_scheduler():
+            future = self._client.submit(task.function, *task.arguments, pure=False, priority=task.priority)
         self._tasks[future] = task
         self._completed.add(future)
 
     def run(self) -> None:
         """Until nothing is left; what outcomes lead to may submit more."""
         for future in self._completed:
+            if future.status in ("lost", "pending"):
+                # Its worker died with the result, so that the scheduler runs it again.
+                self._completed.add(future)
+                continue
             task = self._tasks.pop(future)
-            outcome, died = self._outcome(future)
+            with _needing_scheduler():
+                outcome, died = self._outcome(future)
             if outcome.error and task.attempt < self._tries and not died:
                 task.attempt += 1
                 self._start(task)
@@ -110,7 +138,7 @@ class Engine:
         if future.status == "finished":
             return future.result(), False
         if future.status != "error":
-            raise RunError(f"Dask's scheduler is gone (a task is {future.status}); the same command resumes")
+            raise asyncio.CancelledError(f"a task is {future.status}")
         error = future.exception()
         if type(error).__name__ == "KilledWorker":
             return Outcome(f"its worker died {self._tries} times"), True
