@@ -175,8 +175,9 @@ std::span<OptionRow const> option_rows() {
                       "pictures of what the sun sees, all answers and the time of each stage"}),
       at<&Choices::maps>({.name = "maps",
                           .value = switch_value,
-                          .meaning = "Map sunlit hours and beam energy before the run, as "
-                                     "`gpu_shading map` does, into the report, whose page shows "
+                          .meaning = "Before the run, map sunlit hours and beam energy "
+                                     "(`gpu_shading map`) and shade photovoltaic modules "
+                                     "(`gpu_shading modules`) into the report, whose page shows "
                                      "them",
                           .bare = "on"}),
       at<&Choices::pv>({.name = "pv",

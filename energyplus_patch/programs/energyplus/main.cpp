@@ -155,6 +155,29 @@ void check_conversion(RunSetup const& setup) {
   }
 }
 
+// Runs a command of gpu_shading on the model, into a folder of the report.
+void run_for_page(RunSetup const& setup, std::string const& name) {
+  auto const& choices = setup.choices;
+  std::vector<std::string> command{(own_folder() / "gpu_shading").string(),
+                                   name,
+                                   setup.line.model->string(),
+                                   "-w",
+                                   setup.line.weather->string(),
+                                   "-o",
+                                   (*choices.report / (name == "map" ? "maps" : name)).string()};
+  Choices own;
+  own.file = choices.file;
+  own.threads = choices.threads;
+  own.quiet = choices.quiet;
+  own.assets = choices.assets;
+  for (auto const& flag : to_flags(own)) command.push_back(flag);
+  TemporaryFolder const folder;
+  auto const log = folder.path() / "log.txt";
+  if (run_process(command, {}, log) != EXIT_SUCCESS) {
+    throw Error(last_error(log).value_or(fmt::format("gpu_shading {} failed", name)));
+  }
+}
+
 // Into the report's folder, for its page.
 void draw_maps(RunSetup const& setup) {
   auto const& choices = setup.choices;
@@ -162,24 +185,8 @@ void draw_maps(RunSetup const& setup) {
   naming("--gpu-shading-maps", [&] {
     if (!choices.report) throw Error("expected --gpu-shading-report with it");
     if (!setup.line.weather) throw Error("expected a weather file, -w, with it");
-    std::vector<std::string> command{(own_folder() / "gpu_shading").string(),
-                                     "map",
-                                     setup.line.model->string(),
-                                     "-w",
-                                     setup.line.weather->string(),
-                                     "-o",
-                                     (*choices.report / "maps").string()};
-    Choices own;
-    own.file = choices.file;
-    own.threads = choices.threads;
-    own.quiet = choices.quiet;
-    own.assets = choices.assets;
-    for (auto const& flag : to_flags(own)) command.push_back(flag);
-    TemporaryFolder const folder;
-    auto const log = folder.path() / "log.txt";
-    if (run_process(command, {}, log) != EXIT_SUCCESS) {
-      throw Error(last_error(log).value_or("gpu_shading map failed"));
-    }
+    run_for_page(setup, "map");
+    if (!read_model(*setup.line.model, choices).pv_modules.empty()) run_for_page(setup, "modules");
   });
 }
 
