@@ -139,6 +139,14 @@ Json to_json(MaskTask const& task) {
           {"progress", task.progress}};
 }
 
+Json to_json(SurroundingsTask const& task) {
+  return {{"kind", "surroundings"},
+          {"rays", task.rays},
+          {"file", task.file.string()},
+          {"table", task.table.string()},
+          {"progress", task.progress}};
+}
+
 Task to_task(Json const& json) {
   auto const kind = json.at("kind").get<std::string>();
   if (kind == "listing") return ListingTask{json.at("vertices"), json.at("json")};
@@ -156,6 +164,10 @@ Task to_task(Json const& json) {
   }
   if (kind == "directions") {
     return DirectionsTask{directions_of(json.at("directions")), json.at("file").get<std::string>()};
+  }
+  if (kind == "surroundings") {
+    return SurroundingsTask{json.at("rays"), json.at("file").get<std::string>(),
+                            json.at("table").get<std::string>(), json.at("progress")};
   }
   if (kind == "masks") {
     return MaskTask{json.at("receivers"),

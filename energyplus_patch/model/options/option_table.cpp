@@ -180,6 +180,12 @@ std::span<OptionRow const> option_rows() {
                                      "(`gpu_shading modules`) into the report, whose page shows "
                                      "them",
                           .bare = "on"}),
+      at<&Choices::surroundings>(
+          {.name = "surroundings",
+           .value = switch_value,
+           .meaning = "View factors for long-wave exchange by rays, as `gpu_shading export "
+                      "--surroundings` writes them",
+           .bare = "on"}),
       at<&Choices::pv>({.name = "pv",
                         .value = path_value,
                         .placeholder = "FILE",
@@ -270,6 +276,12 @@ std::span<OptionRow const> option_rows() {
                            .default_text = "the current folder",
                            .meaning = "Where the user started EnergyPlus",
                            .audience = programs}),
+      at<&Choices::surrounding_objects>({.name = "surrounding-objects",
+                                         .value = path_value,
+                                         .placeholder = "FILE",
+                                         .default_text = "none",
+                                         .meaning = "Objects of --gpu-shading-surroundings",
+                                         .audience = programs}),
       at<&Choices::task>({.name = "task",
                           .value = path_value,
                           .placeholder = "FILE",

@@ -55,6 +55,9 @@ struct Choices {
   std::optional<std::filesystem::path> file = std::nullopt;
   std::optional<std::filesystem::path> report = std::nullopt;
   std::optional<bool> maps = std::nullopt;
+  // View factors are applied; the objects are those of the file, which the launcher has written.
+  std::optional<bool> surroundings = std::nullopt;
+  std::optional<std::filesystem::path> surrounding_objects = std::nullopt;
   std::optional<std::filesystem::path> pv = std::nullopt;
   std::optional<std::filesystem::path> cache = std::nullopt;  // empty: off
   std::optional<double> cache_size = std::nullopt;            // GiB
