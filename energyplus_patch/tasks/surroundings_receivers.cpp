@@ -140,7 +140,8 @@ std::string perform(SurroundingsTask const& task, SceneAssembly& scene, Messages
   auto const ratios = sky_ratios(scene, receivers, messages);
   auto const surfaces = scene.scene(ShadeOptics::Radiation::long_wave);
   RayScene const rays(surfaces, {.screens = ScreenDetail::automatic});
-  auto const [groups, group_of] = group(scene, surfaces);
+  auto const grouping = group(scene, surfaces);
+  auto const& groups = grouping.groups;
   Progress progress("tracing rays to the surroundings", receivers.size(), task.progress);
   std::vector<SurfaceViews> views;
   std::vector<double> errors;
@@ -150,7 +151,7 @@ std::string perform(SurroundingsTask const& task, SceneAssembly& scene, Messages
                                    .deployments = scene.optics().deployments()};
     constexpr int cells = 256;
     auto const found =
-        trace_view_factors(rays, conditions, group_of, groups.size(),
+        trace_view_factors(rays, conditions, grouping.group_of, groups.size(),
                            points_of(scene.surfaces()[id].polygon, cells), task.rays);
     views.push_back(
         {scene.surfaces()[id].name, in_millionths(found.factors), ratios[views.size()]});

@@ -197,7 +197,7 @@ def test_nothing_is_rendered_without_a_run_period(patched, courtyard, weather, t
 
 @pytest.mark.parametrize("arguments, words", [
     (["--scheduled", "out"], "-w: a weather file is required"),
-    (["-w", "weather"], "--scheduled is required"),
+    (["-w", "weather"], "Exactly 1 option from [--scheduled,--surroundings] is required"),
     (["-w", "weather", "--scheduled", "."], "choose another folder"),
     (["-w", "weather", "--imported", "sunlit.csv"], "--imported: no such flag"),
 ])
