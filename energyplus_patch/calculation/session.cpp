@@ -350,15 +350,16 @@ void Session::write_reports() {
   for (auto const& shade : scene_.model().moving_shades) {
     heads.push_back(fmt::format("position of {} [{}]", shade.name, shade.unit()));
   }
-  auto const left_out = write_report(
-      *options.report, rendered, known.receivers, answers_->asked(), scene_.shown_receivers(),
-      known.answers, optics.factors(),
-      {std::move(heads), optics.deployment_names().size(), known.states}, stages,
-      [&](StagedFiles& files) {
-        write_run(files, *options.report, scene_, rendered.renderer().device(), *record_);
-        auto const& shades = scene_.model().moving_shades;
-        if (!shades.empty()) position_record_.write(files, shades);
-      });
+  auto const left_out =
+      write_report(*options.report, rendered, known.receivers, answers_->asked(),
+                   scene_.shown_receivers(), known.answers, optics.factors(),
+                   {std::move(heads), optics.deployment_names().size(), known.states}, stages,
+                   [&](StagedFiles& files) {
+                     write_run(files, *options.report, scene_, rendered.renderer().device(),
+                               *record_, position_record_);
+                     auto const& shades = scene_.model().moving_shades;
+                     if (!shades.empty()) position_record_.write(files, shades);
+                   });
   if (left_out > 0) {
     messages_.remark(
         fmt::format("--gpu-shading-report: the first {} pictures are drawn, {} more are not; "

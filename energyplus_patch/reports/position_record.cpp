@@ -17,6 +17,15 @@ void PositionRecord::note(RunDay const& day, Moment moment, std::vector<Entry> e
   rows_.push_back({day, moment, std::move(entries)});
 }
 
+PositionRecord::Hours PositionRecord::ends_of_hours(RunDay::Kind kind) const {
+  Hours hours;
+  for (auto const& [day, moment, entries] : rows_) {
+    if (day.kind != kind || moment.timestep != day.steps_per_hour) continue;
+    hours[{day.month, day.day, moment.hour}] = &entries;
+  }
+  return hours;
+}
+
 void PositionRecord::write(StagedFiles& files, std::vector<MovingShade> const& shades) const {
   files.write(positions_table, [&](std::ostream& csv) {
     csv << "environment,month,day,hour,timestep";

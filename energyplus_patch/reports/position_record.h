@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +25,11 @@ class PositionRecord {
 
   // By shade.
   void note(RunDay const& day, Moment moment, std::vector<Entry> entries);
+
+  // What was noted at the end of each hour, by month, day and hour: of run periods or design days,
+  // the last one if it was simulated more than once.
+  using Hours = std::map<std::array<int, 3>, std::vector<Entry> const*>;
+  Hours ends_of_hours(RunDay::Kind kind) const;
 
   // positions.csv: environment number, month, day, hour, timestep, and the position and state of
   // each shade.

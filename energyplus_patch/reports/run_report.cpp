@@ -27,6 +27,7 @@
 #include "reports/map_grid.h"
 #include "reports/module_folder.h"
 #include "reports/page/run_page.h"
+#include "reports/page_motions.h"
 #include "reports/report.h"
 #include "reports/sky_mask.h"
 
@@ -191,13 +192,17 @@ std::vector<SurfaceId> drawn_casters(SceneAssembly const& assembly, Scene const&
   return ids;
 }
 
-void add_surfaces(RunPage& page, SceneAssembly const& assembly, RunRecord const& record) {
+// Returns their ids.
+std::vector<SurfaceId> add_surfaces(RunPage& page, SceneAssembly const& assembly,
+                                    RunRecord const& record) {
   auto const scene = assembly.scene();
   PageStyles styles;
+  std::vector<SurfaceId> ids;
   std::vector<bool> added(scene.size(), false);
   for (std::size_t i = 0; i < record.receivers().size(); ++i) {
     auto const id = record.receivers()[i];
     added[id] = true;
+    ids.push_back(id);
     page.surfaces.push_back({scene[id].name, scene[id].polygon, 0});
     page.receivers.push_back(
         receiver_of(scene[id], record.beam()[i], record.months()[i],
@@ -205,26 +210,31 @@ void add_surfaces(RunPage& page, SceneAssembly const& assembly, RunRecord const&
   }
   for (auto const id : drawn_casters(assembly, scene, record)) {
     auto const& surface = scene[id];
-    if (added[id] || area(surface.polygon) <= 0.0) continue;
+    if (added[id] || area(assembly.surfaces()[id].polygon) <= 0.0) continue;
     auto const style = styles.number_of(surface);
     if (auto const* const crown = surface.filter.find<Crown>()) {
       constexpr int sides = 8;
       for (auto& face : crown_faces(surface.polygon, *crown, sides)) {
+        ids.push_back(id);
         page.surfaces.push_back({surface.name, std::move(face), style});
       }
       continue;
     }
+    ids.push_back(id);
     page.surfaces.push_back({surface.name, surface.polygon, style});
   }
   page.styles = styles.all();
+  return ids;
 }
 
 RunPage page_of(SceneAssembly const& assembly, DeviceInfo const& device, RunRecord const& record,
-                std::vector<RunRecord::Day const*> const& days) {
+                std::vector<RunRecord::Day const*> const& days, PositionRecord const& positions) {
   RunPage page;
   page.title = assembly.model().file;
-  add_surfaces(page, assembly, record);
+  auto const ids = add_surfaces(page, assembly, record);
   add_hours(page, days);
+  auto const kind = record.of_design_days() ? RunDay::Kind::design_day : RunDay::Kind::run_period;
+  add_motions(page, assembly, ids, kind, positions);
   page.facts = {
       {record.of_design_days() ? "Design days simulated" : "Days simulated",
        std::to_string(record.simulated())},
@@ -446,9 +456,10 @@ void prepare_page(std::filesystem::path const& folder) {
 }
 
 void write_run(StagedFiles& files, std::filesystem::path const& folder, SceneAssembly& assembly,
-               DeviceInfo const& device, RunRecord const& record) {
+               DeviceInfo const& device, RunRecord const& record, PositionRecord const& positions) {
   auto const days = chosen_days(record);
-  auto page = page_of(assembly, device, record, days);
+  assembly.set_positions(assembly.rest_positions());
+  auto page = page_of(assembly, device, record, days, positions);
   add_maps(page, folder);
   add_from(page, folder, "Modules", [&] { add_modules_of(page, folder / "modules"); });
   add_skies(page, assembly, record);

@@ -4,6 +4,7 @@
 
 #include "gpu_shading/device.h"
 #include "platform/staged_files.h"
+#include "reports/position_record.h"
 #include "reports/run_record.h"
 #include "scene/scene_assembly.h"
 
@@ -22,10 +23,11 @@ namespace gpu_shading::energyplus {
 //   run_sky.csv        receivers with a shading mask: view factor to the sky, and without shades
 //   run_facts.csv      the facts below the page's title
 // Maps that gpu_shading map has written into the report's folder, or its folder maps, are on the
-// page, too, and so is what gpu_shading modules has written into its folder modules. Masks are of the schedules' lowest values and screens fully deployed, which the optics
-// then have.
+// page, too, and so is what gpu_shading modules has written into its folder modules. Masks are of the
+// schedules' lowest values and screens fully deployed, which the optics then have, and of moving
+// shades at rest.
 void write_run(StagedFiles& files, std::filesystem::path const& folder, SceneAssembly& assembly,
-               DeviceInfo const& device, RunRecord const& record);
+               DeviceInfo const& device, RunRecord const& record, PositionRecord const& positions);
 
 // Throws Error if the folder has an index.html that is not of this report, or one that cannot be
 // replaced.

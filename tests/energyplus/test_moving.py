@@ -1,5 +1,6 @@
 """GPUShading:MovingShade against models in which the shades stand there, and against closed forms."""
 
+import base64
 import csv
 import json
 import math
@@ -10,8 +11,10 @@ import subprocess
 import numpy as np
 import pytest
 import window_with_shades
+from html_page import SOFTWARE_WEBGL, look_at
 from PIL import Image
 from shading_runs import energyplus
+from test_run_page import content_of
 
 FRACTION = "Surface Outside Face Sunlit Fraction"
 SAME = 1e-6  # of a sunlit fraction: EnergyPlus hands over vertices in single precision
@@ -394,6 +397,48 @@ def test_pictures_draw_both_ends_of_the_range(patched, weather, tmp_path):
     metre = (east[0] - west[0]) / 3
     assert west[-1] - west[0] == pytest.approx(metre, abs=4) and east[-1] - east[0] == pytest.approx(metre, abs=4)
     assert metre > 40
+
+
+MOVES = """() => {
+  const [motion] = content.motions;
+  const [number] = motion.surfaces;
+  return {seen: content.days[0].hours.map((_, hour) => {
+    go(0, hour);
+    const [first, end] = view.opaque.ranges.get(number);
+    const {array} = view.opaque.geometry.attributes.position;
+    const heights = [...array.slice(3 * first, 3 * end)].filter((_, i) => i % 3 === 2);
+    return {text: document.getElementById("moment").textContent, rise: Math.max(...heights) - Math.min(...heights)};
+  })};
+}"""
+
+
+def test_the_page_moves_its_shades(run, tmp_path):
+    steps = "".join(f"Until: {hour}:00,{hour * 7 % 60}," for hour in range(1, 24))
+    schedule = f"Schedule:Compact,Position,,Through: 12/31,For: AllDays,{steps}Until: 24:00,0;\n"
+    done = run(room(slats(), CASES["centre line"][1], schedule), *REPORT)
+    page = done.folder / "report" / "index.html"
+    content = content_of(page)
+    [motion] = content["motions"]
+    ends = {row["hour"]: float(row["Shade position [deg]"]) for row in rows(done)}  # the last timestep of each
+    hours = [ends[str(hour)] for hour, *_ in content["days"][0]["hours"]]
+
+    def shorts(text):
+        return np.frombuffer(base64.b64decode(text), "<u2")
+
+    assert [motion["positions"][i] for i in shorts(motion["hours"])] == hours
+    assert len(set(hours)) > 8
+    geometry = content["geometry"]
+    places = geometry["low"] + geometry["step"] * shorts(motion["places"]).reshape(len(SLATS), -1, 4, 3).astype(float)
+    names = [content["names"][number] for number in motion["surfaces"]]
+    for name, outlines in zip(names, places, strict=True):
+        for turn, outline in zip(motion["positions"], outlines, strict=True):
+            numbers = re.findall(r"-?\d+\.\d{12}", slats(turn).upper().split(f"{name},")[1].split(";")[0])
+            assert outline.ravel() == pytest.approx(list(map(float, numbers)), abs=geometry["step"])
+    looked = look_at(page, 1000, MOVES, tmp_path, *SOFTWARE_WEBGL)
+    assert looked["troubles"] == []
+    for seen, turn in zip(looked["seen"], hours, strict=True):
+        assert f"Shade at {turn:g} deg" in seen["text"]
+        assert seen["rise"] == pytest.approx(0.2 * math.sin(math.radians(turn)), abs=2 * geometry["step"])
 
 
 def test_what_does_not_follow_is_refused_or_stated(patched, weather, tmp_path, run):

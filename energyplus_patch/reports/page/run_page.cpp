@@ -71,9 +71,12 @@ std::string script_text(Json const& json) {
   return text;
 }
 
-std::size_t vertices_of(Polygon const& polygon) {
-  return std::accumulate(polygon.holes.begin(), polygon.holes.end(), polygon.outline.size(),
-                         [](std::size_t sum, Ring const& hole) { return sum + hole.size(); });
+std::size_t vertices_of(PageSurface const& surface) {
+  auto const& polygon = surface.polygon;
+  auto const once =
+      std::accumulate(polygon.holes.begin(), polygon.holes.end(), polygon.outline.size(),
+                      [](std::size_t sum, Ring const& hole) { return sum + hole.size(); });
+  return once * (1 + surface.moved.size());
 }
 
 bool is_drawable(Polygon const& polygon) {
@@ -90,35 +93,44 @@ struct Extent {
 Extent extent_of(std::vector<PageSurface> const& surfaces) {
   glm::dvec3 low(HUGE_VAL);
   glm::dvec3 high(-HUGE_VAL);
-  for (auto const& surface : surfaces) {
-    for (auto const& vertex : surface.polygon.outline) {
+  auto const include = [&](Polygon const& polygon) {
+    for (auto const& vertex : polygon.outline) {
       low = glm::min(low, vertex);
       high = glm::max(high, vertex);
     }
+  };
+  for (auto const& surface : surfaces) {
+    include(surface.polygon);
+    std::for_each(surface.moved.begin(), surface.moved.end(), include);
   }
   if (!(low.x <= high.x)) return {};
   auto const size = high - low;
   return {low, std::max({size.x, size.y, size.z, 1e-3}) / UINT16_MAX};
 }
 
+// In steps from the lowest corner.
+void add_places(std::vector<std::uint16_t>& places, Ring const& ring, Extent const& extent) {
+  for (auto const& vertex : ring) {
+    auto const place = glm::round((vertex - extent.low) / extent.step);
+    for (int axis = 0; axis < 3; ++axis) {
+      places.push_back(
+          static_cast<std::uint16_t>(std::clamp(place[axis], 0.0, double{UINT16_MAX})));
+    }
+  }
+}
+
 // The geometry: `shape` has, for each surface, its style, the number of its rings and of the
 // vertices of each; `places` the vertices in steps from the lowest corner.
-Json geometry_of(RunPage const& page) {
-  auto const extent = extent_of(page.surfaces);
+Json geometry_of(RunPage const& page, Extent const& extent) {
   std::vector<std::uint16_t> shape;
   std::vector<std::uint16_t> places;
   auto const add = [&](Ring const& ring) {
     shape.push_back(static_cast<std::uint16_t>(ring.size()));
-    for (auto const& vertex : ring) {
-      auto const place = glm::round((vertex - extent.low) / extent.step);
-      for (int axis = 0; axis < 3; ++axis) {
-        places.push_back(
-            static_cast<std::uint16_t>(std::clamp(place[axis], 0.0, double{UINT16_MAX})));
-      }
-    }
+    add_places(places, ring, extent);
   };
-  for (auto const& [name, polygon, style] : page.surfaces) {
-    shape.push_back(static_cast<std::uint16_t>(style));
+  for (auto const& surface : page.surfaces) {
+    auto const& polygon = surface.polygon;
+    shape.push_back(static_cast<std::uint16_t>(surface.style));
     if (!is_drawable(polygon)) {
       shape.push_back(0);
       continue;
@@ -131,6 +143,32 @@ Json geometry_of(RunPage const& page) {
           {"step", extent.step},
           {"shape", base64(shape)},
           {"places", base64(places)}};
+}
+
+// `places` has the vertices of each of the surfaces at each position, as geometry_of has them.
+Json motions_of(RunPage const& page, Extent const& extent) {
+  Json list = Json::array();
+  for (std::size_t number = 0; number < page.motions.size(); ++number) {
+    auto const& motion = page.motions[number];
+    Json surfaces = Json::array();
+    std::vector<std::uint16_t> places;
+    for (std::size_t i = 0; i < page.surfaces.size(); ++i) {
+      auto const& surface = page.surfaces[i];
+      if (surface.motion != number || !is_drawable(surface.polygon)) continue;
+      surfaces.push_back(i);
+      for (auto const& polygon : surface.moved) {
+        add_places(places, polygon.outline, extent);
+        for (auto const& hole : polygon.holes) add_places(places, hole, extent);
+      }
+    }
+    list.push_back({{"name", motion.name},
+                    {"unit", motion.unit},
+                    {"positions", motion.positions},
+                    {"hours", base64(motion.hours)},
+                    {"surfaces", std::move(surfaces)},
+                    {"places", base64(places)}});
+  }
+  return list;
 }
 
 Json to_json(PageStyle const& style) {
@@ -271,7 +309,9 @@ Json content_of(RunPage const& page) {
   bool const all = page.surfaces.size() - page.receivers.size() <= max_caster_names;
   auto const named = all ? page.surfaces.size() : page.receivers.size();
   for (std::size_t i = 0; i < named; ++i) names.push_back(page.surfaces[i].name);
-  Json content{{"title", page.title}, {"names", names}, {"geometry", geometry_of(page)}};
+  auto const extent = extent_of(page.surfaces);
+  Json content{{"title", page.title}, {"names", names}, {"geometry", geometry_of(page, extent)}};
+  content["motions"] = motions_of(page, extent);
   content["maps"] = maps_of(page);
   content["skies"] = skies_of(page);
   content["modules"] = modules_of(page.modules);
@@ -316,10 +356,10 @@ void simplify(RunPage& page) {
   std::size_t drawn = 0;
   for (std::size_t i = 0; i < first; ++i) {
     kept[i] = true;
-    vertices += vertices_of(page.surfaces[i].polygon);
+    vertices += vertices_of(page.surfaces[i]);
   }
   for (auto const i : casters) {
-    vertices += vertices_of(page.surfaces[i].polygon);
+    vertices += vertices_of(page.surfaces[i]);
     if (vertices > max_vertices) break;
     kept[i] = is_drawable(page.surfaces[i].polygon);
     drawn += kept[i] ? 1 : 0;

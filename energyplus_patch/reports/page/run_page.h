@@ -33,7 +33,17 @@ struct PageStyle {
 struct PageSurface {
   std::string name;
   Polygon polygon;
-  std::size_t style = 0;  // index in RunPage::styles
+  std::size_t style = 0;                             // index in RunPage::styles
+  std::optional<std::size_t> motion = std::nullopt;  // index in RunPage::motions
+  std::vector<Polygon> moved = {};                   // at the positions of its motion
+};
+
+// How the surfaces of a moving shade stand.
+struct PageMotion {
+  std::string name;
+  std::string unit;
+  std::vector<double> positions;     // in order
+  std::vector<std::uint16_t> hours;  // by hour of the days: the index of its position
 };
 
 // What the page tells about a receiver; its table has the same numbers.
@@ -125,6 +135,7 @@ struct RunPage {
   std::vector<PageDay> days;
   // Sunlit, percent: of each receiver at the first hour of the first day, then at the next.
   std::vector<std::uint8_t> percents;
+  std::vector<PageMotion> motions;
   std::vector<PageMap> maps;
   std::vector<PageSky> skies;
   std::vector<std::string> sky_kinds;  // of what stops the beam

@@ -37,6 +37,21 @@ PositionRecord record_of_three() {
   return record;
 }
 
+TEST(PositionRecord, KnowsTheEndsOfHours) {
+  PositionRecord record;
+  for (int timestep = 1; timestep <= 4; ++timestep) {
+    auto day = day_in_june(1);
+    day.steps_per_hour = 4;
+    record.note(day, {9, timestep}, {{10.0 * timestep, "scheduled"}});
+    day.kind = RunDay::Kind::design_day;
+    record.note(day, {9, timestep}, {{1.0, "windy"}});
+  }
+  auto const hours = record.ends_of_hours(RunDay::Kind::run_period);
+  ASSERT_EQ(hours.size(), 1U);
+  EXPECT_EQ(hours.begin()->first, (std::array{6, 1, 9}));
+  EXPECT_EQ(hours.begin()->second->front().position, 40.0);
+}
+
 TEST(PositionRecord, HasARowForEachTimestepAfterTheWarmUp) {
   auto const folder = std::filesystem::path(testing::TempDir()) / "position_record_test";
   std::filesystem::remove_all(folder);

@@ -44,6 +44,16 @@ TEST(RunPage, KeepsNamesFromBeingMarkup) {
   EXPECT_THAT(html, HasSubstr("&lt;/title&gt;&lt;script&gt;stop()&lt;/script&gt; @scripts@"));
 }
 
+TEST(RunPage, LeavesNoPlaceForSurfacesThatMoveThroughTooManyPositions) {
+  auto page = page_of(1, 2);
+  page.motions.push_back({"Louvres", "deg", std::vector<double>(40000), {}});
+  page.surfaces[2].motion = 0;  // the larger one
+  page.surfaces[2].moved.assign(40000, square(0.0, 0.5));
+  simplify(page);
+  ASSERT_EQ(page.surfaces.size(), 1U);
+  EXPECT_EQ(page.notes.size(), 1U);
+}
+
 TEST(RunPage, OfALargeModelHasLessThanFiveMegabytes) {
   auto page = page_of(2385, 95000);
   constexpr std::size_t hours = 377;  // some 900,000 fractions

@@ -21,6 +21,33 @@ function readSurfaces() {
   return surfaces;
 }
 
+// Adds to each motion, by its surfaces and positions, their rings.
+function readMotions(surfaces) {
+  const {low, step} = content.geometry;
+  for (const motion of content.motions) {
+    motion.hours = shortsOf(motion.hours);
+    const steps = shortsOf(motion.places);
+    let place = -3;
+    const readRing = (ring) => ring.map(() => {
+      place += 3;
+      return [0, 1, 2].map((axis) => low[axis] + step * steps[place + axis]);
+    });
+    motion.rings = motion.surfaces.map((number) => motion.positions.map(() => surfaces[number].rings.map(readRing)));
+  }
+}
+
+function positionAt(motion, day, hour) { return motion.hours[content.firstHours[day] + hour]; }
+
+// Moves surfaces to where they stand at an hour; returns the numbers of those that were elsewhere.
+function moveSurfaces(surfaces, day, hour) {
+  return content.motions.flatMap((motion) => motion.surfaces.filter((number, i) => {
+    const rings = motion.rings[i][positionAt(motion, day, hour)];
+    const moves = surfaces[number].rings !== rings;
+    surfaces[number].rings = rings;
+    return moves;
+  }));
+}
+
 // The box of some points: {middle, radius, low, high}.
 function boundsOf(surfaces) {
   const low = [Infinity, Infinity, Infinity];
@@ -60,6 +87,11 @@ function axesOf(normal) {
   const level = [-normal[1], normal[0], 0];
   const u = Math.hypot(...level) > 1e-6 ? unit(level) : [1, 0, 0];
   return {u, v: cross(normal, u)};
+}
+
+// How many points of triangles a surface has, unless some are in one line.
+function trianglePointsIn(rings) {
+  return 3 * (rings.reduce((sum, ring) => sum + ring.length + 2, 0) - 4);
 }
 
 // Points of triangles, three by three.

@@ -55,7 +55,10 @@ function showTime() {
   part("hour").value = state.hour;
   const sun = document.createElement("small");
   sun.textContent = `sun at azimuth ${numberText(azimuth, 1)}\u00b0, altitude ${numberText(altitude, 1)}\u00b0`;
-  part("moment").replaceChildren(`${dayText(day)}, ${hourText(hour)}`, sun);
+  const shades = document.createElement("small");
+  shades.textContent = content.motions.map((motion) =>
+    `${motion.name} at ${motion.positions[positionAt(motion, state.day, state.hour)]} ${motion.unit}`).join(", ");
+  part("moment").replaceChildren(`${dayText(day)}, ${hourText(hour)}`, sun, shades);
   view?.showHour(state.day, state.hour);
   showReceiver();
 }
@@ -249,6 +252,7 @@ function chooseBeginning() {
 
 function addView() {
   const surfaces = readSurfaces();
+  readMotions(surfaces);
   if (canDrawModel()) {
     view = new ModelView(part("view"), surfaces);
   } else {

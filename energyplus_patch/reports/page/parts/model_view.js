@@ -17,32 +17,45 @@ function canDrawModel() {
 // Triangles of many surfaces in one mesh, with the number of the surface of each.
 class Merged {
   constructor(surfaces, numbers, middle, repeat) {
-    const places = [];
-    const normals = [];
-    const textured = [];
+    this.middle = middle;
+    this.repeat = repeat;
     this.owners = []; // by triangle
     this.ranges = new Map(); // of vertices, by surface: [first, end]
+    let end = 0;
     for (const number of numbers) {
       const {rings} = surfaces[number];
       if (rings.length === 0) continue;
-      const normal = normalOf(rings[0]);
-      const {u, v} = axesOf(normal);
-      const first = places.length / 3;
-      for (const point of trianglesOf(rings, normal)) {
-        places.push(...point.map((value, axis) => value - middle[axis]));
-        normals.push(...normal);
-        if (repeat) textured.push(dot(point, u) / repeat, dot(point, v) / repeat);
-      }
-      const end = places.length / 3;
+      const first = end;
+      end += trianglePointsIn(rings);
       this.ranges.set(number, [first, end]);
       for (let i = first; i < end; i += 3) this.owners.push(number);
     }
     this.geometry = new THREE.BufferGeometry();
-    this.geometry.setAttribute("position", new THREE.Float32BufferAttribute(places, 3));
-    this.geometry.setAttribute("normal", new THREE.Float32BufferAttribute(normals, 3));
-    if (repeat) this.geometry.setAttribute("uv", new THREE.Float32BufferAttribute(textured, 2));
-    this.tint = new THREE.Float32BufferAttribute(new Float32Array(places.length / 3 * 4), 4);
-    this.geometry.setAttribute("tint", this.tint);
+    const add = (name, size) => this.geometry.setAttribute(name, new THREE.Float32BufferAttribute(new Float32Array(end * size), size));
+    add("position", 3);
+    add("normal", 3);
+    if (repeat) add("uv", 2);
+    add("tint", 4);
+    this.tint = this.geometry.attributes.tint;
+    for (const number of this.ranges.keys()) this.place(number, surfaces[number].rings);
+  }
+
+  // Puts a surface, if it is one of these, where its rings are.
+  place(number, rings) {
+    const [first, end] = this.ranges.get(number) || [0, 0];
+    if (first === end) return;
+    const {position, normal: facing, uv} = this.geometry.attributes;
+    const normal = normalOf(rings[0]);
+    const {u, v} = axesOf(normal);
+    const points = trianglesOf(rings, normal);
+    for (let i = first; i < end; ++i) {
+      const point = points[i - first] || rings[0][0]; // there are fewer triangles where points are in one line
+      position.setXYZ(i, ...point.map((value, axis) => value - this.middle[axis]));
+      facing.setXYZ(i, ...normal);
+      if (uv) uv.setXY(i, dot(point, u) / this.repeat, dot(point, v) / this.repeat);
+    }
+    for (const attribute of [position, facing, uv]) if (attribute) attribute.needsUpdate = true;
+    this.geometry.boundingSphere = null;
   }
 
   // Red, green, blue, 0 .. 255; `tilts`: how much a surface's tilt may change it, or AS_IT_IS.
@@ -52,6 +65,38 @@ class Merged {
       this.tint.setXYZW(i, colour[0] / 255, colour[1] / 255, colour[2] / 255, tilts);
     }
     this.tint.needsUpdate = true;
+  }
+}
+
+// Edges of many surfaces, of the first ones if there are more than MOST_EDGES.
+class EdgeLines {
+  constructor(surfaces, numbers, middle) {
+    this.middle = middle;
+    this.firsts = new Map(); // vertices, by surface
+    let end = 0;
+    for (const number of numbers) {
+      this.firsts.set(number, end);
+      for (const ring of surfaces[number].rings) end += 2 * ring.length;
+      if (end > 2 * MOST_EDGES) break;
+    }
+    this.geometry = new THREE.BufferGeometry();
+    this.geometry.setAttribute("position", new THREE.Float32BufferAttribute(new Float32Array(3 * end), 3));
+    for (const number of this.firsts.keys()) this.place(number, surfaces[number].rings);
+  }
+
+  place(number, rings) {
+    let at = this.firsts.get(number);
+    if (at === undefined) return;
+    const {position} = this.geometry.attributes;
+    for (const ring of rings) {
+      ring.forEach((point, i) => {
+        for (const end of [point, ring[(i + 1) % ring.length]]) {
+          position.setXYZ(at++, ...end.map((value, axis) => value - this.middle[axis]));
+        }
+      });
+    }
+    position.needsUpdate = true;
+    this.geometry.boundingSphere = null;
   }
 }
 
@@ -76,6 +121,7 @@ class ModelView {
     this.sky = new THREE.Group();
     this.choiceLines = new THREE.Group();
     this.maps = new THREE.Group();
+    this.placed = []; // Merged and EdgeLines
     this.scene.add(this.casters, this.maps, this.sky, this.choiceLines);
     this.addLight();
     this.addSurfaces();
@@ -116,6 +162,7 @@ class ModelView {
   }
 
   addMesh(merged, material, group) {
+    this.placed.push(merged);
     const mesh = new THREE.Mesh(merged.geometry, material);
     mesh.castShadow = mesh.receiveShadow = true;
     mesh.userData.owners = merged.owners;
@@ -161,21 +208,9 @@ class ModelView {
   }
 
   edgesOf(numbers, material) {
-    const places = [];
-    const {middle} = this.bounds;
-    for (const number of numbers) {
-      for (const ring of this.surfaces[number].rings) {
-        ring.forEach((point, i) => {
-          for (const end of [point, ring[(i + 1) % ring.length]]) {
-            places.push(...end.map((value, axis) => value - middle[axis]));
-          }
-        });
-      }
-      if (places.length > 6 * MOST_EDGES) break;
-    }
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.Float32BufferAttribute(places, 3));
-    return new THREE.LineSegments(geometry, material);
+    const lines = new EdgeLines(this.surfaces, numbers, this.bounds.middle);
+    this.placed.push(lines);
+    return new THREE.LineSegments(lines.geometry, material);
   }
 
   // Below everything: terrain, where there is some, is not drawn.
@@ -272,6 +307,9 @@ class ModelView {
 
   showHour(day, hour) {
     this.time = [day, hour];
+    const moved = moveSurfaces(this.surfaces, day, hour);
+    for (const number of moved) for (const one of this.placed) one.place(number, this.surfaces[number].rings);
+    if (moved.includes(this.chosen)) this.choose(this.chosen);
     const direction = content.days[day].hours[hour];
     this.sun = sunDirection(direction);
     this.light.position.set(...this.sun).multiplyScalar(3 * this.lightReach);

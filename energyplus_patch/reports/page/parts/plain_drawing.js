@@ -3,6 +3,7 @@
 class PlainDrawing {
   constructor(canvas, surfaces) {
     this.canvas = canvas;
+    this.all = surfaces;
     this.surfaces = surfaces.filter((surface) => surface.rings.length > 0);
     this.numbers = surfaces.map((_, i) => i).filter((i) => surfaces[i].rings.length > 0);
     this.onChoose = () => {};
@@ -19,7 +20,11 @@ class PlainDrawing {
       sun: this.time ? sunDirection(content.days[this.time[0]].hours[this.time[1]]) : [0, 0, 1]}[from];
     this.draw();
   }
-  showHour(day, hour) { this.time = [day, hour]; this.draw(); }
+  showHour(day, hour) {
+    this.time = [day, hour];
+    moveSurfaces(this.all, day, hour);
+    this.draw();
+  }
   choose(receiver) { this.chosen = receiver; this.draw(); }
   setCasters(shown) { this.castersShown = shown; this.draw(); }
   setPath() {}
