@@ -47,9 +47,10 @@ std::string cache_file_name(std::string_view digits) {
   return std::string(digits) + std::string(extension);
 }
 
-void prepare_cache_folder(std::filesystem::path const& folder, bool read_only) {
+void prepare_cache_folder(CacheFolder const& cache) {
+  auto const& folder = cache.path;
   std::error_code failure;
-  if (read_only) {
+  if (cache.read_only) {
     if (std::filesystem::is_directory(folder, failure)) return;
     throw Error(fmt::format("--gpu-shading-cache: {}: no such folder", folder.string()));
   }

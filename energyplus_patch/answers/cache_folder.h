@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "model/options/options.h"
+
 namespace gpu_shading::energyplus {
 
 // The folder of --gpu-shading-cache. Our files in it are HASH.sunlit, where HASH is 32 hexadecimal
@@ -14,7 +16,7 @@ constexpr std::string_view cache_lock_name = "gpu_shading.lock";
 
 // Creates the folder if it is missing. Throws Error if it is not writable or, if it is only read,
 // not there.
-void prepare_cache_folder(std::filesystem::path const& folder, bool read_only = false);
+void prepare_cache_folder(CacheFolder const& folder);
 
 std::string cache_file_name(std::string_view hash_digits);
 

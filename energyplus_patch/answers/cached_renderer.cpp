@@ -332,8 +332,7 @@ CachedRenderer open_renderer(SceneAssembly const& scene, std::span<SurfaceId con
     for (SurfaceId id = 0; id < renderer.scene().size(); ++id) {
       limits.areas.push_back(area(renderer.scene()[id].polygon));
     }
-    cache.emplace(*options.cache, hash, std::move(limits), messages.remark, options.cache_bytes,
-                  options.cache_read_only);
+    cache.emplace(*options.cache, hash, std::move(limits), messages.remark);
   }
   // By the device that was opened.
   rendering.device = DeviceChoice{renderer.device().id};

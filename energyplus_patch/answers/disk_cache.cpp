@@ -38,26 +38,23 @@ void write_file(Path const& path, std::vector<std::byte> const& bytes) {
 
 }  // namespace
 
-DiskCache::DiskCache(Path const& folder, Hash const& scene, AnswerLimits limits,
-                     std::function<void(std::string const&)> const& remark, std::uint64_t max_bytes,
-                     bool read_only)
-    : folder_(folder),
-      file_(folder / cache_file_name(to_text(scene))),
+DiskCache::DiskCache(CacheFolder folder, Hash const& scene, AnswerLimits limits,
+                     std::function<void(std::string const&)> const& remark)
+    : folder_(std::move(folder)),
+      file_(folder_.path / cache_file_name(to_text(scene))),
       scene_(scene),
-      limits_(std::move(limits)),
-      max_bytes_(max_bytes),
-      read_only_(read_only) {
+      limits_(std::move(limits)) {
   try {
     known_ = read_answers(file_, scene_, limits_);
   } catch (Error const& error) {
     remark(fmt::format("--gpu-shading-cache: {} {}: it is ignored{}", file_.string(), error.what(),
-                       read_only_ ? "" : ", and replaced at the end of the run"));
+                       folder_.read_only ? "" : ", and replaced at the end of the run"));
     return;
   }
   for (ReceiverNumber number = 0; number < known_.receivers.size(); ++number) {
     numbers_[known_.receivers[number]] = number;
   }
-  if (read_only_) return;
+  if (folder_.read_only) return;
   // The most recently used files are removed last.
   std::error_code ignored;
   std::filesystem::last_write_time(file_, std::filesystem::file_time_type::clock::now(), ignored);
@@ -98,10 +95,10 @@ std::vector<Sunlit> const* DiskCache::recall_interior(SceneAnswers& run,
 }
 
 void DiskCache::store(SceneAnswers const& run) {
-  if (read_only_) return;
+  if (folder_.read_only) return;
   known_ = SceneAnswers();
   numbers_.clear();
-  CacheLock const lock(folder_ / cache_lock_name);
+  CacheLock const lock(folder_.path / cache_lock_name);
   SceneAnswers all;
   try {
     all = read_answers(file_, scene_, limits_);
@@ -114,7 +111,7 @@ void DiskCache::store(SceneAnswers const& run) {
     all = SceneAnswers();
   add_answers(run, all);
   write_file(file_, encode(all, scene_));
-  bound_cache_folder(folder_, max_bytes_, file_);
+  bound_cache_folder(folder_.path, folder_.max_bytes, file_);
 }
 
 }  // namespace gpu_shading::energyplus

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "answers/cache_encoding.h"
+#include "model/options/options.h"
 
 namespace gpu_shading::energyplus {
 
@@ -16,13 +17,10 @@ namespace gpu_shading::energyplus {
 // others have stored meanwhile are added; a damaged file counts as missing.
 class DiskCache {
  public:
-  static constexpr std::uint64_t default_max_bytes = std::uint64_t{1} << 30U;  // of the folder
-
   // Reads the file if there is one. A file that cannot be used gives a remark and is replaced by
-  // store(), unless the cache is only read. `max_bytes`: of the folder.
-  DiskCache(std::filesystem::path const& folder, Hash const& scene, AnswerLimits limits,
-            std::function<void(std::string const&)> const& remark,
-            std::uint64_t max_bytes = default_max_bytes, bool read_only = false);
+  // store(), unless the cache is only read.
+  DiskCache(CacheFolder folder, Hash const& scene, AnswerLimits limits,
+            std::function<void(std::string const&)> const& remark);
 
   // Adds known answers for the run's receivers to a direction of the run.
   void recall(SceneAnswers& run, AnswerStore::Direction& direction);
@@ -44,12 +42,10 @@ class DiskCache {
                                      AnswerStore::Direction const& direction) const;
   void note_recalled(AnswerStore::Direction& direction);
 
-  std::filesystem::path folder_;
+  CacheFolder folder_;
   std::filesystem::path file_;
   Hash scene_;
   AnswerLimits limits_;
-  std::uint64_t max_bytes_;
-  bool read_only_;
   std::size_t directions_recalled_ = 0;
   SceneAnswers known_;
   std::unordered_map<SurfaceId, ReceiverNumber> numbers_;  // of known_.receivers

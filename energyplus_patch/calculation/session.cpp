@@ -88,7 +88,7 @@ void Session::start(Simulation simulation) {
     add_outputs(simulation);
   }
   if (!scene_.model().pv_reductions.empty()) pv_loss_.emplace(scene_);
-  if (options.cache) prepare_cache_folder(*options.cache, options.cache_read_only);
+  if (options.cache) prepare_cache_folder(*options.cache);
   answers_.emplace(
       SunQuestions::Site{scene_.areas(), options.update.sampling, std::move(simulation.latitude)});
   answers_->open(open_renderer(scene_, scene_.receivers(), options.device, messages_));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <string_view>
 
 #include "gpu_shading/error.h"
@@ -79,12 +80,39 @@ void prepare_for_moving_shades(Model& model) {
   model.remarks.emplace_back(
       "with moving shades, shading is computed at every timestep, on the CPU");
   if (!model.shading.detailed_sky) {
-    model.moving_warnings.push_back(fmt::format(
+    model.warnings.push_back(fmt::format(
         "{}: with SimpleSkyDiffuseModeling, the diffuse light of the sky is that of the position "
         "at rest; ShadowCalculation: Sky Diffuse Modeling Algorithm = DetailedSkyDiffuseModeling "
         "follows the motion",
         first.where));
   }
+}
+
+// A user's own factors stay.
+void add_surrounding_objects(Choices const& choices, Model& model) {
+  if (!choices.surrounding_objects) {
+    if (!model.surrounding_groups.empty() && !choices.task) {
+      model.remarks.push_back(fmt::format("{} applies with --gpu-shading-surroundings only",
+                                          model.surrounding_groups.front().where));
+    }
+    return;
+  }
+  model.surrounding_objects = choices.surrounding_objects;
+  constexpr std::string_view warning = "warning: ";
+  std::ifstream messages(choices.surrounding_objects->parent_path() / surroundings_messages);
+  for (std::string line; std::getline(messages, line);) {
+    if (line.starts_with(warning)) {
+      model.warnings.push_back(line.substr(warning.size()));
+    } else {
+      model.remarks.push_back(fmt::format("long-wave exchange by {}", line));
+    }
+  }
+  if (model.own_environments.empty()) return;
+  std::vector<std::string> names(model.own_environments.begin(), model.own_environments.end());
+  std::sort(names.begin(), names.end());
+  model.remarks.push_back(
+      fmt::format("{} of the model stays, so that these surfaces get no view factors: {}",
+                  local_environment, listed(names, 3)));
 }
 
 // The model's own surfaces with a TransparentShade or a PerforatedScreen, or that move.
@@ -170,11 +198,14 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   check_textures(model.surroundings, model.screens);
   model.moving_shades =
       read_moving_shades(objects, model.shading, fixed_surfaces(model.surroundings));
+  model.surrounding_groups = read_surrounding_groups(objects);
+  model.own_environments = surfaces_with_environment(objects);
   if (choices.positions) {
     set_rest(model.moving_shades, "--gpu-shading-positions", *choices.positions);
   }
   model.pv_modules = read_pv_modules(objects, model.shading);
   model.options = resolve(choices, read_settings(objects), model.shading);
+  add_surrounding_objects(choices, model);
   plan_rays(objects, reader, model);
   if (model.options.mode != Mode::off) {
     check_location(objects);
@@ -187,7 +218,11 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
       model.pv_reductions = read_pv_reductions(*choices.pv, objects, model.shading);
       model.options.update.every_timestep = true;
     }
-    if (model.shading.detailed_sky && (any_moves(model.screens) || !model.moving_shades.empty())) {
+    // Without the placeholder, EnergyPlus multiplies our view factors by the sky's ratios, or does
+    // not, by a schedule's value at the start of the day (SkyRatios).
+    bool const given_views = model.surrounding_objects || has_views(objects);
+    if (model.shading.detailed_sky &&
+        (any_moves(model.screens) || !model.moving_shades.empty() || given_views)) {
       add_sky_placeholder(model.lean, model.shading);
     }
   }
@@ -200,9 +235,11 @@ Model read_model(std::filesystem::path const& path, Choices const& choices) {
 
 Rewrite rewrite_for(Model const& model) {
   return {model.options.mode == Mode::off ? "PolygonClipping" : "PixelCounting",
-          model.options.update.every_timestep ? "Timestep" : "", model.lean.left_out,
+          model.options.update.every_timestep ? "Timestep" : "",
+          model.lean.left_out,
           own_schedules(model.lean.placeholders, model.surroundings.leaf_schedules),
-          model.lean.placeholders};
+          model.lean.placeholders,
+          model.surrounding_objects};
 }
 
 }  // namespace gpu_shading::energyplus

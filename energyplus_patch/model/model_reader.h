@@ -12,6 +12,7 @@
 #include "model/input/pv_modules.h"
 #include "model/input/pv_reductions.h"
 #include "model/input/shading_input.h"
+#include "model/input/surrounding_groups.h"
 #include "model/input/transparent_shades.h"
 #include "model/lean_input.h"
 #include "model/options/options.h"
@@ -33,11 +34,14 @@ struct Model {
   LeanInput lean;
   SimplifiedSurfaces simplified;
   Surroundings surroundings;
-  bool daylighting_answered = false;         // rays of daylighting ask this module
-  bool reflections_answered = false;         // rays of solar reflections do
-  std::vector<std::string> ray_warnings;     // see warn_of_rays
-  std::string transform_warning;             // see warn_of_transform; or ""
-  std::vector<std::string> moving_warnings;  // about moving shades
+  std::vector<SurroundingGroup> surrounding_groups;
+  std::optional<std::filesystem::path> surrounding_objects;  // to be added to EnergyPlus's input
+  Names own_environments;                 // surfaces with a SurfaceProperty:LocalEnvironment
+  bool daylighting_answered = false;      // rays of daylighting ask this module
+  bool reflections_answered = false;      // rays of solar reflections do
+  std::vector<std::string> ray_warnings;  // see warn_of_rays
+  std::string transform_warning;          // see warn_of_transform; or ""
+  std::vector<std::string> warnings;      // more of them, about moving shades and view factors
   std::vector<std::string> remarks;
 };
 

@@ -161,6 +161,30 @@ std::string csv_field(std::string_view text) {
                                                                          : quoted;
 }
 
+std::vector<std::string> csv_fields(std::string_view line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (char const character : line) {
+    if (character == '"') quoted = !quoted;
+    if (character == ',' && !quoted) {
+      fields.emplace_back();
+    } else {
+      fields.back() += character;
+    }
+  }
+  return fields;
+}
+
+std::string csv_text(std::string const& field) {
+  if (field.size() < 2 || field.front() != '"' || field.back() != '"') return field;
+  std::string text;
+  for (std::size_t i = 1; i + 1 < field.size(); ++i) {
+    text += field[i];
+    if (field[i] == '"') ++i;  // doubled
+  }
+  return text;
+}
+
 namespace {
 
 // The distance of Damerau and Levenshtein in its restricted form (optimal string alignment).

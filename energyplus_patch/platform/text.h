@@ -50,6 +50,11 @@ std::string csv_quoted(std::string_view text);
 // The same, in quotes only if necessary.
 std::string csv_field(std::string_view text);
 
+// The fields of a line of CSV as they are written, with their quotes.
+std::vector<std::string> csv_fields(std::string_view line);
+// The text of a field, without its quotes.
+std::string csv_text(std::string const& field);
+
 // "; did you mean WORD?" for the word that `text` is most probably a mistyping of: the one that the
 // fewest inserted, deleted, replaced or swapped letters make of it. Empty where none is near.
 std::string did_you_mean(std::string_view text, std::vector<std::string> const& words);

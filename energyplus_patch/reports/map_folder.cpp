@@ -27,37 +27,12 @@ std::string read_list(std::filesystem::path const& file) {
   return read_text_file(file);
 }
 
-// The fields of a line as they are written, with their quotes.
-std::vector<std::string> fields_of(std::string_view line) {
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  for (char const character : line) {
-    if (character == '"') quoted = !quoted;
-    if (character == ',' && !quoted) {
-      fields.emplace_back();
-    } else {
-      fields.back() += character;
-    }
-  }
-  return fields;
-}
-
-std::string unquoted(std::string const& field) {
-  if (field.size() < 2 || field.front() != '"' || field.back() != '"') return field;
-  std::string text;
-  for (std::size_t i = 1; i + 1 < field.size(); ++i) {
-    text += field[i];
-    if (field[i] == '"') ++i;  // doubled
-  }
-  return text;
-}
-
 MapFolder::Row row_of(std::string const& line) {
   // receiver, files, azimuth, tilt, area, cells, their width and height, then the values.
   constexpr std::size_t mean_hours = 8;
   constexpr std::size_t mean_energy = 10;
   constexpr std::size_t columns = 13;
-  auto const fields = fields_of(line);
+  auto const fields = csv_fields(line);
   auto const number = [&](std::size_t column) {
     return column < fields.size() ? parse_number(fields[column]) : std::nullopt;
   };
@@ -66,7 +41,7 @@ MapFolder::Row row_of(std::string const& line) {
   if (fields.size() != columns || !hours || !energy) {
     throw Error(fmt::format("expected a row of maps.csv, got {}", in_quotes(line)));
   }
-  MapFolder::Row row{fields[0], unquoted(fields[1]), *hours, *energy};
+  MapFolder::Row row{fields[0], csv_text(fields[1]), *hours, *energy};
   if (row.stem.empty() || row.stem.find_first_of("/\\") != std::string::npos) {
     throw Error(fmt::format("expected the name of a file, got {}", in_quotes(fields[1])));
   }

@@ -104,7 +104,7 @@ void describe_scene(SceneAssembly const& scene, Messages const& messages) {
   for (auto const& warning : model.screens.warnings()) messages.warning(warning);
   for (auto const& warning : model.ray_warnings) messages.warning(warning);
   if (!model.transform_warning.empty()) messages.warning(model.transform_warning);
-  for (auto const& warning : model.moving_warnings) messages.warning(warning);
+  for (auto const& warning : model.warnings) messages.warning(warning);
   for (auto const& remark : model.remarks) messages.remark(remark);
   if (auto const& remark = model.lean.remark; !remark.empty()) {
     messages.remark(remark);

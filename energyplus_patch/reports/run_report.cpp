@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -24,6 +25,7 @@
 #include "platform/text.h"
 #include "reports/map_folder.h"
 #include "reports/map_grid.h"
+#include "reports/module_folder.h"
 #include "reports/page/run_page.h"
 #include "reports/report.h"
 #include "reports/sky_mask.h"
@@ -330,20 +332,37 @@ void add_maps_of(RunPage& page, std::filesystem::path const& folder) {
   }
 }
 
-// Maps are not needed: one that cannot be read is no reason to lose a run's report.
+void add_modules_of(RunPage& page, std::filesystem::path const& folder) {
+  auto modules = read_module_folder(folder);
+  if (!modules) return;
+  page.modules = std::move(*modules);
+  if (page.modules.left_out > 0) {
+    page.notes.push_back(
+        fmt::format("{} strings of photovoltaic modules are left out; strings.csv "
+                    "has them.",
+                    page.modules.left_out));
+  }
+}
+
+// Maps and modules are not needed: one that cannot be read is no reason to lose a run's report.
+void add_from(RunPage& page, std::filesystem::path const& report, char const* what,
+              std::function<void()> const& add) {
+  try {
+    add();
+  } catch (std::exception const& error) {
+    auto why = one_line(error.what());
+    auto const where = report.string() + '/';
+    // The page may go elsewhere, and say nothing of this computer.
+    for (auto at = why.find(where); at != std::string::npos; at = why.find(where)) {
+      why.erase(at, where.size());
+    }
+    page.notes.push_back(fmt::format("{} are left out: {}", what, why));
+  }
+}
+
 void add_maps(RunPage& page, std::filesystem::path const& report) {
   for (auto const& folder : {report, report / "maps"}) {
-    try {
-      add_maps_of(page, folder);
-    } catch (std::exception const& error) {
-      auto why = one_line(error.what());
-      auto const where = report.string() + '/';
-      // The page may go elsewhere, and say nothing of this computer.
-      for (auto at = why.find(where); at != std::string::npos; at = why.find(where)) {
-        why.erase(at, where.size());
-      }
-      page.notes.push_back(fmt::format("Maps are left out: {}", why));
-    }
+    add_from(page, report, "Maps", [&] { add_maps_of(page, folder); });
     if (!page.maps.empty()) return;
   }
 }
@@ -431,6 +450,7 @@ void write_run(StagedFiles& files, std::filesystem::path const& folder, SceneAss
   auto const days = chosen_days(record);
   auto page = page_of(assembly, device, record, days);
   add_maps(page, folder);
+  add_from(page, folder, "Modules", [&] { add_modules_of(page, folder / "modules"); });
   add_skies(page, assembly, record);
   simplify(page);
   files.write(facts_table, [&](std::ostream& csv) { write_facts(page, csv); });

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "answers/cache_folder.h"
+#include "gpu_shading/error.h"
 #include "model/options/report_folder.h"
 #include "platform/naming.h"
 
@@ -53,8 +54,15 @@ void rewrite_epjson_model(nlohmann::json& json, std::filesystem::path const& pat
 }
 
 void prepare_folders(Options const& options, bool report) {
-  if (options.cache) prepare_cache_folder(*options.cache, options.cache_read_only);
+  if (options.cache) prepare_cache_folder(*options.cache);
   if (options.report && report) prepare_report(*options.report);
+}
+
+void refuse_surroundings(Choices const& choices) {
+  if (!choices.surroundings.value_or(false) || choices.surrounding_objects || choices.task) return;
+  throw Error(
+      "--gpu-shading-surroundings: only the program energyplus for Linux applies it; expected the "
+      "objects of gpu_shading export --surroundings in the model");
 }
 
 }  // namespace gpu_shading::energyplus

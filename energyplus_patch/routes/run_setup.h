@@ -33,6 +33,9 @@ struct RunSetup {
   CommandLine line;                    // the same, read
 };
 
+// Throws Error for --gpu-shading-surroundings where its objects have not been written.
+void refuse_surroundings(Choices const& choices);
+
 // Reads a model's objects, and returns how EnergyPlus's text changes.
 using TakeModel = std::function<Rewrite(std::vector<InputObject> objects, MentionFinder const&)>;
 

@@ -103,7 +103,8 @@ void ShadeOptics::apply(Surface& surface, std::optional<TextureAxes> const& text
   if (shading == model_->shading.shading_surfaces.end()) return;
   auto const shade = model_->shades.by_surface.find(surface.name);
   if (shade != model_->shades.by_surface.end()) {
-    surface.filter.set(radiation == Radiation::solar ? shade->second.solar : shade->second.visible);
+    if (radiation == Radiation::long_wave && shade->second.glass) return;
+    surface.filter.set(radiation == Radiation::light ? shade->second.visible : shade->second.solar);
   }
   apply_screen(surface, texture);
   auto const schedule = by_name_.find(shading->second.transmittance_schedule);

@@ -23,7 +23,8 @@ class ShadeOptics {
   // Throws Error, naming object and field, if EnergyPlus lacks a schedule.
   ShadeOptics(Model const& model, Schedules schedules);
 
-  enum class Radiation { solar, light };
+  // Glass is opaque to long-wave radiation; what passes other shades is as for the sun.
+  enum class Radiation { solar, light, long_wave };
 
   // Sets a surface's casting and filter. `texture`: of a mesh.
   // Throws Error if a screen's texture cannot be read.

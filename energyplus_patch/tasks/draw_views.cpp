@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 #include <iterator>
 #include <optional>
 
@@ -14,6 +15,7 @@
 #include "model/extensions/extension_fields.h"
 #include "platform/staged_files.h"
 #include "platform/text.h"
+#include "scene/shade_motion.h"
 #include "tasks/perform_task.h"
 
 namespace gpu_shading::energyplus {
@@ -25,6 +27,7 @@ struct Drawing {
   std::vector<bool> receives;          // by surface: whether it is coloured by its sunlit fraction
   std::vector<double> const& factors;  // values of schedules
   int size;                            // pixels on the longer side
+  std::vector<Ring> range;             // outlines to draw over what is there
 };
 
 void darken(Image& image, int x, int y) {
@@ -62,6 +65,27 @@ void draw_line(Image& image, glm::dvec2 const& from, glm::dvec2 const& to, doubl
           length > 0.0 ? std::clamp(glm::dot(place - from, to - from) / (length * length), 0.0, 1.0)
                        : 0.0;
       if (glm::distance(place, from + share * (to - from)) <= half) darken(image, x, y);
+    }
+  }
+}
+
+// Outlines in dashes, in front of all else.
+void draw_dashed(Image& image, std::vector<Ring> const& rings, ViewScale const& scale) {
+  double const thick = std::max(1.2, std::min(image.width, image.height) / 500.0);
+  double const dash = 5.0 * thick;
+  auto const place = [&](glm::dvec3 const& point) {
+    glm::dvec4 const whole(point, 1.0);
+    return glm::dvec2(glm::dot(scale.across, whole), glm::dot(scale.down, whole));
+  };
+  for (auto const& ring : rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      auto const from = place(ring[i]);
+      auto const to = place(ring[(i + 1) % ring.size()]);
+      double const length = glm::distance(from, to);
+      for (double at = 0.0; at < length; at += 2.0 * dash) {
+        auto const end = std::min(at + dash, length);
+        draw_line(image, glm::mix(from, to, at / length), glm::mix(from, to, end / length), thick);
+      }
     }
   }
 }
@@ -181,10 +205,14 @@ std::vector<SurfaceId> shown_in(ViewsTask const& task, SceneAssembly const& scen
 }
 
 std::string draw_whole(SceneView& scene, SunView const& view,
-                       std::vector<std::optional<double>> const& fractions, int size) {
-  if (!view.camera) return encode_image(view.picture, scene.draw(view.sun, fractions, size));
-  return encode_with_marks(view.picture, scene.draw(*view.camera, view.sun, fractions, size),
-                           scene.scale(*view.camera, fractions, size));
+                       std::vector<std::optional<double>> const& fractions, int size,
+                       std::vector<Ring> const& range) {
+  auto const scale = scene.scale(view.camera.value_or(view.sun), fractions, size);
+  auto image = view.camera ? scene.draw(*view.camera, view.sun, fractions, size)
+                           : scene.draw(view.sun, fractions, size);
+  draw_dashed(image, range, scale);
+  if (!view.camera) return encode_image(view.picture, image);
+  return encode_with_marks(view.picture, std::move(image), scale);
 }
 
 // Into a folder: all of them, or none. Returns a line for each, with the receiver's sunlit
@@ -201,8 +229,9 @@ std::string draw_views(std::vector<SunView> const& views, std::filesystem::path 
       if (!whole) {
         whole.emplace(drawing.renderer.scene(), drawing.shown,
                       DeviceChoice{drawing.renderer.device().id});
+        for (auto const& ring : drawing.range) whole->include(ring);
       }
-      files.write(view.picture, draw_whole(*whole, view, fractions, drawing.size));
+      files.write(view.picture, draw_whole(*whole, view, fractions, drawing.size, drawing.range));
     } else {
       auto const receiver = find(drawing, view.receiver);
       files.write(view.picture, encode_image(view.picture, drawing.renderer.sun_view(
@@ -216,6 +245,20 @@ std::string draw_views(std::vector<SunView> const& views, std::filesystem::path 
   return told;
 }
 
+// Of shades that move, at both ends.
+std::vector<Ring> range_of(SceneAssembly const& scene) {
+  std::vector<Ring> rings;
+  for (auto const id : scene.shown()) {
+    auto const number = scene.moving_shade_of(id);
+    if (!number) continue;
+    auto const& shade = scene.model().moving_shades[*number];
+    for (double const position : {shade.minimum, shade.maximum}) {
+      rings.push_back(moved(scene.surfaces()[id].polygon, shade, position).outline);
+    }
+  }
+  return rings;
+}
+
 }  // namespace
 
 std::string perform(ViewsTask const& task, SceneAssembly& scene, Messages const& messages) {
@@ -226,9 +269,9 @@ std::string perform(ViewsTask const& task, SceneAssembly& scene, Messages const&
   renderer.set_deployments(scene.optics().deployments());
   std::vector<bool> receives(scene.surfaces().size(), false);
   for (auto const id : scene.shown_receivers()) receives[id] = true;
-  return draw_views(
-      task.views, task.folder,
-      {renderer, shown_in(task, scene), std::move(receives), scene.optics().factors(), task.size});
+  return draw_views(task.views, task.folder,
+                    {renderer, shown_in(task, scene), std::move(receives), scene.optics().factors(),
+                     task.size, task.range ? range_of(scene) : std::vector<Ring>{}});
 }
 
 }  // namespace gpu_shading::energyplus

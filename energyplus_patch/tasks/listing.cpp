@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -11,6 +12,7 @@
 #include "model/extensions/extension_fields.h"
 #include "platform/text.h"
 #include "scene/model_rule.h"
+#include "scene/shade_motion.h"
 #include "scene/shade_optics.h"
 #include "tasks/perform_task.h"
 
@@ -27,7 +29,14 @@ struct ListedSurface {
   bool receives = false;                            // whether its own sunlit fraction is rendered
   std::optional<std::string> casts = std::nullopt;  // its optics; empty: it casts no shadows
   std::optional<TileAxes> tile = std::nullopt;      // of its screen
+  MovingShade const* moves = nullptr;               // that it is part of
+  std::vector<Ring> moved = {};                     // its outline at three_positions()
 };
+
+// Both ends of a shade's range, and the position at rest between them.
+std::array<double, 3> three_positions(MovingShade const& shade) {
+  return {shade.minimum, shade.rest, shade.maximum};
+}
 
 struct Listing {
   std::vector<std::string> remarks;  // what lean input did, and which surroundings were read
@@ -93,14 +102,21 @@ std::vector<MeshRow> meshes_of(Scene const& scene, Model const& model) {
   return rows;
 }
 
-ListedSurface row_of(Scene const& scene, Model const& model, std::vector<bool> const& wanted,
-                     SurfaceId id) {
-  auto const& surface = scene[id];
+ListedSurface row_of(SceneAssembly const& scene, SurfaceId id) {
+  auto const& model = scene.model();
+  auto const& wanted = scene.receives();
+  auto const& surface = scene.surfaces()[id];
   ListedSurface row{surface.name, kind_of(surface.name, model.shading), area(surface.polygon)};
   if (row.area <= 0.0) return row;
   row.receives = row.kind != "reveal" && id < wanted.size() && wanted[id];
   if (surface.casting != Casting::never) row.casts = describe_optics(model, surface);
   row.tile = tile_of(model, surface);
+  if (auto const shade = scene.moving_shade_of(id)) {
+    row.moves = &model.moving_shades[*shade];
+    for (double const position : three_positions(*row.moves)) {
+      row.moved.push_back(moved(surface.polygon, *row.moves, position).outline);
+    }
+  }
   return row;
 }
 
@@ -117,6 +133,10 @@ std::string table_of(std::vector<ListedSurface> const& rows) {
     auto const* const none = row.area <= 0.0 ? "not (no area)" : "not";
     text += fmt::format("{:{}}  {:{}}  {:12.3f}  {:8}  {}\n", row.name, width, row.kind, kind_width,
                         row.area, row.receives ? "yes" : "no", row.casts.value_or(none));
+    if (row.moves != nullptr) {
+      text += fmt::format("    moves from {} to {} {} with {}\n", row.moves->minimum,
+                          row.moves->maximum, row.moves->unit(), row.moves->name);
+    }
     if (!row.tile) continue;
     text += fmt::format("    tile from {} m, u along {}, v along {}\n", place(row.tile->origin, 3),
                         place(row.tile->u, 4), place(row.tile->v, 4));
@@ -134,6 +154,17 @@ Json to_json(ListedSurface const& row) {
                     {"u", to_json(row.tile->u)},
                     {"v", to_json(row.tile->v)}};
   }
+  if (row.moves != nullptr) {
+    auto outlines = Json::array();
+    for (auto const& ring : row.moved) {
+      outlines.push_back(Json::array());
+      for (auto const& point : ring) outlines.back().push_back(to_json(point));
+    }
+    json["moves"] = {{"shade", row.moves->name},
+                     {"unit", row.moves->unit()},
+                     {"positions", three_positions(*row.moves)},
+                     {"outlines", std::move(outlines)}};
+  }
   return json;
 }
 
@@ -150,14 +181,14 @@ std::vector<std::string> remarks_of(Model const& model) {
   return remarks;
 }
 
-// `wanted`: by EnergyPlus's surfaces. The surfaces after these are not in its input: first those
-// left out by lean input, then the surroundings, with one row for a mesh and none for neighbouring
-// buildings and terrain.
-Listing list_surfaces(Scene const& scene, Model const& model, std::vector<bool> const& wanted) {
+// EnergyPlus's surfaces, and after these those that are not in its input: first those left out by
+// lean input, then the surroundings, with one row for a mesh and none for neighbouring buildings
+// and terrain.
+Listing list_surfaces(SceneAssembly const& assembly) {
+  auto const& scene = assembly.surfaces();
+  auto const& model = assembly.model();
   Listing listing{remarks_of(model), {}, describe(make_shading_rule(model.shading, scene, {}))};
-  for (auto const id : listed(scene, model)) {
-    listing.surfaces.push_back(row_of(scene, model, wanted, id));
-  }
+  for (auto const id : listed(scene, model)) listing.surfaces.push_back(row_of(assembly, id));
   for (auto const& mesh : meshes_of(scene, model)) {
     auto const& surface = scene[mesh.first];
     listing.surfaces.push_back(
@@ -207,7 +238,7 @@ std::string perform(ListingTask const& task, SceneAssembly& scene, Messages cons
   if (task.vertices) {
     return task.json ? scene_document(scene) : list_vertices(scene.surfaces(), scene.model());
   }
-  auto const listing = list_surfaces(scene.surfaces(), scene.model(), scene.receives());
+  auto const listing = list_surfaces(scene);
   if (!task.json) return text_of(listing);
   scene.optics().update({});
   return json_text_of(listing, to_text(scene.hash(scene.scene(), {})));

@@ -58,7 +58,7 @@ SampledScene sampled_scene(SamplesTask const& task, SceneAssembly const& scene,
 CachedRenderer open_for_task(SceneAssembly& scene, std::vector<SurfaceId> const& receivers,
                              Messages const& messages) {
   auto const& options = scene.model().options;
-  if (options.cache) prepare_cache_folder(*options.cache, options.cache_read_only);
+  if (options.cache) prepare_cache_folder(*options.cache);
   auto answers = open_renderer(scene, receivers, options.device, messages);
   check_device(answers.renderer().device(), options, messages);
   describe_scene(scene, messages);

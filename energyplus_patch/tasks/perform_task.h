@@ -15,6 +15,7 @@ std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages cons
 std::string perform(MapTask const& task, SceneAssembly& scene, Messages const& messages);
 std::string perform(DirectionsTask const& task, SceneAssembly& scene, Messages const& messages);
 std::string perform(MaskTask const& task, SceneAssembly& scene, Messages const& messages);
+std::string perform(SurroundingsTask const& task, SceneAssembly& scene, Messages const& messages);
 std::string perform(ModulesTask const& task, SceneAssembly& scene, Messages const& messages);
 
 // For tasks that render: the answers of a device that was checked, with schedules at their lowest

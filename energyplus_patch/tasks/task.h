@@ -30,7 +30,8 @@ struct ListingTask {
 struct ViewsTask {
   std::vector<SunView> views;
   std::filesystem::path folder;
-  int size = 0;  // pixels on a picture's longer side
+  int size = 0;        // pixels on a picture's longer side
+  bool range = false;  // outlines of moving shades at both ends of their range
 
   bool operator==(ViewsTask const&) const = default;
 };
@@ -100,6 +101,17 @@ struct ReceiverMask {
   std::vector<BeamShare> suns;
 };
 
+// View factors of exterior surfaces to sky, ground and groups of surfaces, with schedules at their
+// lowest value and screens fully deployed: EnergyPlus's objects with them, and a table.
+struct SurroundingsTask {
+  int rays = 0;                 // from a receiver
+  std::filesystem::path file;   // .idf or .epJSON
+  std::filesystem::path table;  // or empty
+  int progress = -1;            // the file descriptor for progress; none if negative
+
+  bool operator==(SurroundingsTask const&) const = default;
+};
+
 // Sunlit fractions of the cells of photovoltaic modules.
 struct ModulesTask {
   RunTimes run;  // the times with the sun up, with the schedules
@@ -127,7 +139,7 @@ struct ModuleField {
 };
 
 using Task = std::variant<ListingTask, ViewsTask, SamplesTask, MapTask, DirectionsTask, MaskTask,
-                          ModulesTask>;
+                          ModulesTask, SurroundingsTask>;
 
 // How it went.
 struct TaskReply {

@@ -56,7 +56,8 @@ Json to_json(ViewsTask const& task) {
   return {{"kind", "views"},
           {"views", std::move(views)},
           {"folder", task.folder.string()},
-          {"size", task.size}};
+          {"size", task.size},
+          {"range", task.range}};
 }
 
 Json to_json(SamplesTask const& task) {
@@ -138,6 +139,14 @@ Json to_json(MaskTask const& task) {
           {"progress", task.progress}};
 }
 
+Json to_json(SurroundingsTask const& task) {
+  return {{"kind", "surroundings"},
+          {"rays", task.rays},
+          {"file", task.file.string()},
+          {"table", task.table.string()},
+          {"progress", task.progress}};
+}
+
 Task to_task(Json const& json) {
   auto const kind = json.at("kind").get<std::string>();
   if (kind == "listing") return ListingTask{json.at("vertices"), json.at("json")};
@@ -156,6 +165,10 @@ Task to_task(Json const& json) {
   if (kind == "directions") {
     return DirectionsTask{directions_of(json.at("directions")), json.at("file").get<std::string>()};
   }
+  if (kind == "surroundings") {
+    return SurroundingsTask{json.at("rays"), json.at("file").get<std::string>(),
+                            json.at("table").get<std::string>(), json.at("progress")};
+  }
   if (kind == "masks") {
     return MaskTask{json.at("receivers"),
                     json.at("step"),
@@ -172,7 +185,7 @@ Task to_task(Json const& json) {
                        {json.at("shard"), json.at("shards")},
                        json.at("progress")};
   }
-  ViewsTask task{{}, json.at("folder").get<std::string>(), json.at("size")};
+  ViewsTask task{{}, json.at("folder").get<std::string>(), json.at("size"), json.at("range")};
   for (auto const& view : json.at("views")) {
     task.views.push_back({view.at(0), {view.at(1), view.at(2)}, view.at(3)});
     constexpr std::size_t with_camera = 6;

@@ -232,8 +232,17 @@ class SceneView::Implementation {
   ViewScale scale(SunDirection camera, std::span<std::optional<double> const> fractions,
                   int size) const {
     SunAxes const axes(to_vector(camera));
-    double const pixels = size / find_frame(axes, fractions).longer();
-    return {pixels, pixels * axes.right.y, pixels * axes.up.y};
+    PictureFrame const frame = find_frame(axes, fractions);
+    double const pixels = size / frame.longer();
+    auto const along = [&](glm::dvec3 const& axis, double from) {
+      return glm::dvec4(pixels * axis, -pixels * (glm::dot(axis, middle_) + from));
+    };
+    return {pixels, pixels * axes.right.y, pixels * axes.up.y, along(axes.right, frame.low.x),
+            along(-axes.up, -frame.high.y)};
+  }
+
+  void include(std::span<glm::dvec3 const> points) {
+    included_.insert(included_.end(), points.begin(), points.end());
   }
 
  private:
@@ -323,6 +332,7 @@ class SceneView::Implementation {
       frame.include(glm::max(part.low, within.low));
       frame.include(glm::min(part.high, within.high));
     }
+    for (auto const& point : included_) frame.include(axes(point - middle_));
     return frame.widened(scene_border * frame.longer());
   }
 
@@ -348,6 +358,7 @@ class SceneView::Implementation {
   glm::dvec3 middle_{0.0};
   double lowest_ = 0.0;  // height of the lowest surface
   double reach_ = 1.0;
+  std::vector<glm::dvec3> included_;
   std::unique_ptr<PictureRaster> raster_;
 };
 
@@ -356,6 +367,8 @@ SceneView::SceneView(Scene const& scene, std::span<SurfaceId const> shown,
     : implementation_(std::make_unique<Implementation>(scene, shown, device)) {}
 
 SceneView::~SceneView() = default;
+
+void SceneView::include(std::span<glm::dvec3 const> points) { implementation_->include(points); }
 
 Image SceneView::draw(SunDirection camera, SunDirection sun,
                       std::span<std::optional<double> const> fractions, int size) {

@@ -320,6 +320,13 @@ def test_objects_in_the_documents_are_those_of_the_dictionary():
     assert seen == set(known)
 
 
+def test_extras_of_the_wheel_are_named():
+    tomllib = pytest.importorskip("tomllib")  # of Python 3.11
+    project = tomllib.loads((ROOT / "scripts" / "wheel" / "pyproject.toml").read_text())["project"]
+    page = (MANUAL / "guides" / "installing.md").read_text()
+    assert [extra for extra in project["optional-dependencies"] if f"`{extra}`" not in page] == []
+
+
 def test_messages_are_the_program_s():
     """What the page on trouble quotes in its tables stands in the sources, three dots for what differs."""
     text = ""

@@ -250,6 +250,24 @@ def test_sun_hours_are_grids(hb, office, weather, tmp_path):
     assert office.properties.radiance.sensor_grids[0].mesh == grid.mesh
 
 
+def test_results_of_grids_are_described_as_honeybee_does(hb, tmp_path):
+    """By a recipe of honeybee-radiance, and by the class with which honeybee-display reads them."""
+    from click.testing import CliRunner
+    from honeybee_radiance.cli.postprocess import post_process
+    from ladybug.datatype.base import DataTypeBase
+
+    hb.SunHours((), (), ()).write(tmp_path)
+    ours = {name: json.loads((tmp_path / name / "vis_metadata.json").read_text())
+            for name in ("sun_hours", "beam_energy")}
+    theirs = json.loads(CliRunner().invoke(post_process, ["direct-sun-hours-vis-metadata"]).output)
+    hours = ours["sun_hours"]
+    assert {key: hours[key] for key in ("type", "unit")} == {key: theirs[key] for key in ("type", "unit")}
+    assert hours["data_type"] == theirs["data_type"] | {"name": "Sun Hours"}
+    for metadata in ours.values():
+        kind = DataTypeBase.from_dict(metadata["data_type"])
+        assert kind.is_unit_acceptable(metadata["unit"]) and kind.cumulative
+
+
 TRANSLATE = """
 import sys
 import openstudio

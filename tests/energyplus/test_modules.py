@@ -7,6 +7,7 @@ import subprocess
 
 import numpy as np
 import pytest
+from html_page import look_at
 from output_files import rows_of
 from shading_runs import energyplus
 
@@ -185,6 +186,73 @@ GPUShading:TransparentShade,Cloth,Sail,Constant,0.4;
                             for k in range(50)])
         assert float(row["sky view factor"]) == pytest.approx(expected, abs=0.015)
         assert float(row["unshaded view factor"]) == pytest.approx(1.0, abs=0.003)
+
+
+LOOK = """() => {
+  const titles = (id) => [...document.querySelectorAll(`#${id} title`)].map((title) => title.textContent);
+  const fills = [...document.querySelectorAll("#field-plot rect")].map((box) => box.getAttribute("fill"));
+  const choose = (id, value) => {
+    document.getElementById(id).value = value;
+    document.getElementById(id).dispatchEvent(new Event("change"));
+  };
+  const seen = {faults: faults(), hidden: document.getElementById("modules").hidden, fills};
+  choose("module-surface", 1);
+  const lost = document.getElementById("field-loss").textContent;
+  Object.assign(seen, {modules: titles("field-plot"), lost, first: titles("string-plot")});
+  document.querySelectorAll("#field-plot rect")[7].dispatchEvent(new Event("click"));
+  Object.assign(seen, {chosen: document.getElementById("module-string").value, second: titles("string-plot"),
+    texts: [document.getElementById("modules").textContent]});
+  return seen;
+}"""
+
+
+def one_day(text):
+    assert "RunPeriod,Year,1,1,,12,31" in text
+    return text.replace("RunPeriod,Year,1,1,,12,31", "RunPeriod,Days,12,20,,12,20")
+
+
+MONTHS = {12: "December"}
+
+
+def test_modules_are_on_the_page_of_a_run(patched, weather, tmp_path):
+    text = one_day(EXAMPLE.read_text())
+    assert "6, 10, 3;" in text
+    text = text.replace("6, 10, 3;", "6, 10, 3, , , , , 5;")  # in strings of five modules
+    shaded = Shaded(text, weather, tmp_path, "--from", "12-20", "--to", "12-21")
+    (tmp_path / "report").mkdir()
+    shaded.folder.rename(tmp_path / "report" / "modules")
+    done = energyplus.run(patched, tmp_path / "model.idf", weather, tmp_path / "run",
+                          ["--gpu-shading", f"--gpu-shading-report={tmp_path / 'report'}"])
+    assert done.completed, done.why()
+    seen = look_at(tmp_path / "report" / "index.html", 1000, LOOK, tmp_path)
+    assert seen["troubles"] == [] and seen["faults"] == [] and not seen["hidden"]
+    rows = [row for row in shaded.modules if row["surface"] == "ROW 2"]
+    assert seen["modules"] == [f"String {row['string']}, column {row['column']}, row {row['row']}: "
+                               f"{100 * float(row['beam loss']):.1f} % of its beam is lost" for row in rows]
+    assert seen["lost"] == f"{100 * max(float(row['beam loss']) for row in rows):.1f} %"
+    assert len(set(seen["fills"])) > 1 and seen["chosen"] == "1"
+    for number, titles in (("1", seen["first"]), ("2", seen["second"])):
+        hours = {}
+        for row in shaded.strings:
+            if (row["surface"], row["string"]) == ("ROW 2", number):
+                hours.setdefault((int(row["month"]), int(row["day"]), int(row["hour"])), []).append(
+                    float(row["sunlit fraction"]))
+        shown = {title.rsplit(": ", 1)[0]: float(title.rsplit(": ", 1)[1].split()[0]) for title in titles}
+        assert shown.keys() == {f"{day} {MONTHS[month]}, {hour:02}:00" for month, day, hour in hours}
+        for (month, day, hour), values in hours.items():
+            assert shown[f"{day} {MONTHS[month]}, {hour:02}:00"] == pytest.approx(100 * np.mean(values), abs=0.501)
+    assert seen["first"] != seen["second"]
+
+
+def test_modules_that_cannot_be_read_are_left_out_of_the_page(patched, weather, tmp_path):
+    (tmp_path / "model.idf").write_text(one_day(EXAMPLE.read_text()))
+    (tmp_path / "report" / "modules").mkdir(parents=True)
+    (tmp_path / "report" / "modules" / "modules.json").write_text('{"format": "gpu_shading modules 2"}')
+    done = energyplus.run(patched, tmp_path / "model.idf", weather, tmp_path / "run",
+                          ["--gpu-shading", f"--gpu-shading-report={tmp_path / 'report'}"])
+    assert done.completed, done.why()
+    notes = [row["value"] for row in rows_of(tmp_path / "report" / "run_facts.csv") if row["fact"] == "Note"]
+    assert notes == ["Modules are left out: modules/modules.json: is of another format"]
 
 
 def test_files_and_errors(patched, weather, tmp_path):

@@ -1,13 +1,16 @@
 """GPUShading:MovingShade against models in which the shades stand there, and against closed forms."""
 
 import csv
+import json
 import math
 import re
 import sqlite3
 import subprocess
 
+import numpy as np
 import pytest
 import window_with_shades
+from PIL import Image
 from shading_runs import energyplus
 
 FRACTION = "Surface Outside Face Sunlit Fraction"
@@ -355,6 +358,42 @@ def test_pictures_show_other_positions(patched, weather, tmp_path):
         pictures[name] = (tmp_path / name / "picture.png").read_bytes()
     assert pictures["moved"] == pictures["there"]
     assert pictures["moved"] != pictures["rest"]
+
+
+def test_check_lists_both_ends_of_the_range(patched, weather, tmp_path):
+    path = tmp_path / "model.idf"
+    path.write_text(room(slats(), moving("Slat *", "Rotate", minimum=-30, maximum=60, rest=0, schedule="Position"),
+                         constant(0)))
+    program = [patched.parent / "gpu_shading", "check", path, "-w", weather]
+    text = subprocess.run(program, capture_output=True, text=True, check=True).stdout
+    assert text.count("moves from -30 to 60 deg with Shade") == len(SLATS)
+    listed = json.loads(subprocess.run([*program, "--json"], capture_output=True, text=True, check=True).stdout)
+    rows = {row["name"]: row["moves"] for row in listed["surfaces"] if "moves" in row}
+    assert len(rows) == len(SLATS)
+    for number, moves in enumerate(rows[f"SLAT {number}"] for number in range(len(SLATS))):
+        assert (moves["shade"], moves["unit"], moves["positions"]) == ("Shade", "deg", [-30, 0, 60])
+        for turn, outline in zip(moves["positions"], moves["outlines"], strict=True):
+            numbers = re.findall(r"-?\d+\.\d{12}", slats(turn).split(f"Slat {number},")[1].split(";")[0])
+            assert sum(outline, []) == pytest.approx(list(map(float, numbers)), abs=2e-6)
+
+
+def test_pictures_draw_both_ends_of_the_range(patched, weather, tmp_path):
+    """Seen from the south: a panel of 1 m that slides 3 m to the west is drawn here and there, 2 m apart."""
+    drawn, shade, _, _ = CASES["slide"]
+    (tmp_path / "model.idf").write_text(room(drawn, shade, constant(0)))
+    pictures = []
+    for options in ([], ["--range"]):
+        done = subprocess.run([patched.parent / "gpu_shading", "view", "model.idf", "-w", weather, "--at",
+                               "08-21 13:00", "--camera", "180,30", "-o", "picture.png", *options],
+                              cwd=tmp_path, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        pictures.append(np.asarray(Image.open(tmp_path / "picture.png").convert("L"), dtype=int))
+    columns = np.flatnonzero((np.abs(pictures[0] - pictures[1]) > 20).any(axis=0))
+    [gap] = np.flatnonzero(np.diff(columns) > 40)
+    west, east = columns[:gap + 1], columns[gap + 1:]
+    metre = (east[0] - west[0]) / 3
+    assert west[-1] - west[0] == pytest.approx(metre, abs=4) and east[-1] - east[0] == pytest.approx(metre, abs=4)
+    assert metre > 40
 
 
 def test_what_does_not_follow_is_refused_or_stated(patched, weather, tmp_path, run):

@@ -334,7 +334,7 @@ def test_an_index_page_of_somebody_else_is_left_alone(patched, box, weather, tmp
 
 
 def test_maps_in_the_same_command(patched, box, weather, tmp_path):
-    (tmp_path / "box.idf").write_text(box)
+    (tmp_path / "box.idf").write_text(box + "GPUShading:PVModules,Modules,East,1,1,,2,2,1,0,0,1,1;\n")
     done = energyplus.run(patched, tmp_path / "box.idf", weather, tmp_path / "out",
                           ["-D", "--gpu-shading", f"--gpu-shading-report={tmp_path / 'report'}", "--gpu-shading-maps"])
     assert done.completed, done.why()
@@ -342,6 +342,8 @@ def test_maps_in_the_same_command(patched, box, weather, tmp_path):
     content = content_of(tmp_path / "report" / "index.html")
     names = [content["names"][one["receiver"]] for one in content["maps"]["list"]]
     assert sorted(names) == sorted(row["receiver"] for row in rows) and len(names) > 4
+    assert [field["surface"] for field in content["modules"]["fields"]] == [
+        row["surface"] for row in rows_of(tmp_path / "report" / "modules" / "modules.csv")]
 
 
 @pytest.mark.parametrize("arguments, why", [

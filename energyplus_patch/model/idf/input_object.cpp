@@ -102,6 +102,7 @@ std::vector<ObjectType> const& known_types() {
       {"Daylighting:DELight:ComplexFenestration", {"name"}},
       {"Construction:ComplexFenestrationState", {"name"}},
       {"PythonPlugin:Instance", {"name"}},
+      {"SurfaceProperty:LocalEnvironment", {"name", "exterior_surface_name"}},
       {"Output:Surfaces:Drawing", {}},
       {"Output:Variable", {"key_value", "variable_name"}},
       {"Output:Table:TimeBins", {"key_value", "variable_name"}},

@@ -59,6 +59,10 @@ class IdfEditor : public ModelEditor {
     objects_.push_back(std::move(object));
   }
 
+  void merge(std::string_view text) override {
+    for (auto& object : parse_idf(text)) objects_.push_back(std::move(object));
+  }
+
   void edit_texts(std::function<void(std::string&)> const& change) override {
     for (auto& object : objects_) {
       for (auto& field : object.fields) change(field);
@@ -125,6 +129,8 @@ class EpjsonEditor : public ModelEditor {
     }
     instances[name] = std::move(object);
   }
+
+  void merge(std::string_view text) override { model_.merge_patch(parse_epjson(text)); }
 
   void edit_texts(std::function<void(std::string&)> const& change) override {
     edit_texts_in(model_, change);

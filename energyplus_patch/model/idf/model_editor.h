@@ -49,6 +49,8 @@ class ModelEditor {
   virtual void edit(std::string_view type, std::function<void(EditedObject&)> const& change) = 0;
   // Fields in the IDF's order, all of them up to the last.
   virtual void add(std::string_view type, std::vector<NewField> const& fields) = 0;
+  // Adds the objects of a text of the same kind.
+  virtual void merge(std::string_view text) = 0;
   // All fields of all objects that are text.
   virtual void edit_texts(std::function<void(std::string&)> const& change) = 0;
   virtual std::string text() const = 0;

@@ -265,6 +265,7 @@ std::string rewrite_idf(std::string_view text, std::vector<IdfObject> const& par
   for (auto const& placeholder : rewrite.placeholders) {
     result += format_idf(placeholder_type, placeholder_fields(placeholder));
   }
+  if (rewrite.objects) result += '\n' + read_text_file(*rewrite.objects);
   return result;
 }
 
@@ -281,6 +282,7 @@ void rewrite_epjson(nlohmann::json& model, Rewrite const& rewrite) {
   for (auto const& placeholder : rewrite.placeholders) {
     model[placeholder_type][placeholder.name] = placeholder_json(placeholder);
   }
+  if (rewrite.objects) model.merge_patch(parse_epjson(read_text_file(*rewrite.objects)));
   auto& instances = model[shadow_key];
   if (instances.is_null()) instances = nlohmann::json::object();
   if (!instances.is_object()) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,11 +48,13 @@ struct Rewrite {
   Names left_out = {};  // detailed shading surfaces, with their ShadingProperty:Reflectance
   std::vector<std::string> schedules = {};     // of ours (own_schedules), added
   std::vector<Placeholder> placeholders = {};  // added
+  // A file with more objects, of the same kind as the model.
+  std::optional<std::filesystem::path> objects = std::nullopt;
 };
 
 // ShadowCalculation changed, or added where there is none, all its other fields kept; extension
-// objects and the surfaces that are left out taken out; placeholders added. Everything else stays
-// as it is, to the byte in the case of an IDF. `parsed`: the text's objects.
+// objects and the surfaces that are left out taken out; placeholders and objects added. Everything
+// else stays as it is, to the byte in the case of an IDF. `parsed`: the text's objects.
 std::string rewrite_idf(std::string_view text, Rewrite const& rewrite);
 std::string rewrite_idf(std::string_view text, std::vector<IdfObject> const& parsed,
                         Rewrite const& rewrite);

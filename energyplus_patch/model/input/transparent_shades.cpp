@@ -115,7 +115,8 @@ void add_object(InputObject const& object, std::vector<InputObject> const& objec
                            : transmittance;
   add_filter(field::surface_name.title, read(object, field::surface_name),
              {object.name, fmt::format("transparent ({})", made.description),
-              AngularTransmittance{transmittance}, AngularTransmittance{visible}},
+              AngularTransmittance{transmittance}, AngularTransmittance{visible},
+              read(object, field::transmittance_model) == field::TransmittanceModel::construction},
              input, shades);
 }
 

@@ -19,6 +19,7 @@ struct TransparentShade {
   std::string description;  // e.g. "transparent (construction Double Clear)"
   FilterFactor solar;
   FilterFactor visible;  // for light; may share its model with `solar`
+  bool glass = false;
 };
 
 struct TransparentShades {

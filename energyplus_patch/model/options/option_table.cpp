@@ -175,10 +175,17 @@ std::span<OptionRow const> option_rows() {
                       "pictures of what the sun sees, all answers and the time of each stage"}),
       at<&Choices::maps>({.name = "maps",
                           .value = switch_value,
-                          .meaning = "Map sunlit hours and beam energy before the run, as "
-                                     "`gpu_shading map` does, into the report, whose page shows "
+                          .meaning = "Before the run, map sunlit hours and beam energy "
+                                     "(`gpu_shading map`) and shade photovoltaic modules "
+                                     "(`gpu_shading modules`) into the report, whose page shows "
                                      "them",
                           .bare = "on"}),
+      at<&Choices::surroundings>(
+          {.name = "surroundings",
+           .value = switch_value,
+           .meaning = "View factors for long-wave exchange by rays, as `gpu_shading export "
+                      "--surroundings` writes them",
+           .bare = "on"}),
       at<&Choices::pv>({.name = "pv",
                         .value = path_value,
                         .placeholder = "FILE",
@@ -269,6 +276,12 @@ std::span<OptionRow const> option_rows() {
                            .default_text = "the current folder",
                            .meaning = "Where the user started EnergyPlus",
                            .audience = programs}),
+      at<&Choices::surrounding_objects>({.name = "surrounding-objects",
+                                         .value = path_value,
+                                         .placeholder = "FILE",
+                                         .default_text = "none",
+                                         .meaning = "Objects of --gpu-shading-surroundings",
+                                         .audience = programs}),
       at<&Choices::task>({.name = "task",
                           .value = path_value,
                           .placeholder = "FILE",

@@ -170,12 +170,14 @@ Options resolve(Choices choices, Choices const& settings, ShadingInput const& in
   options.stages = choices.stages;
   options.lean = choices.lean.value_or(Lean::automatic);
   options.verbose = choices.verbose.value_or(false);
-  if (choices.cache && !choices.cache->empty()) options.cache = choices.cache;
-  if (choices.cache_size) {
-    constexpr double gibibyte = 1 << 30;
-    options.cache_bytes = static_cast<std::uint64_t>(*choices.cache_size * gibibyte);
+  if (choices.cache && !choices.cache->empty()) {
+    auto& cache = options.cache.emplace(CacheFolder{*choices.cache});
+    if (choices.cache_size) {
+      constexpr double gibibyte = 1 << 30;
+      cache.max_bytes = static_cast<std::uint64_t>(*choices.cache_size * gibibyte);
+    }
+    cache.read_only = choices.cache_read_only.value_or(false);
   }
-  options.cache_read_only = choices.cache_read_only.value_or(false);
   return options;
 }
 

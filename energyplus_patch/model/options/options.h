@@ -55,6 +55,9 @@ struct Choices {
   std::optional<std::filesystem::path> file = std::nullopt;
   std::optional<std::filesystem::path> report = std::nullopt;
   std::optional<bool> maps = std::nullopt;
+  // View factors are applied; the objects are those of the file, which the launcher has written.
+  std::optional<bool> surroundings = std::nullopt;
+  std::optional<std::filesystem::path> surrounding_objects = std::nullopt;
   std::optional<std::filesystem::path> pv = std::nullopt;
   std::optional<std::filesystem::path> cache = std::nullopt;  // empty: off
   std::optional<double> cache_size = std::nullopt;            // GiB
@@ -104,6 +107,13 @@ Choices read_environment();
 // GPUShading:Settings. Throws Error if a value cannot be used.
 Choices read_settings(std::vector<InputObject> const& objects);
 
+// A folder in which answers are kept after the run.
+struct CacheFolder {
+  std::filesystem::path path;
+  std::uint64_t max_bytes = std::uint64_t{1} << 30U;  // of its files
+  bool read_only = false;
+};
+
 // The resolved options of a run.
 struct Options {
   static constexpr double default_error = 1e-3;
@@ -115,9 +125,7 @@ struct Options {
   DeviceChoice device;
   std::optional<std::filesystem::path> report;
   Lean lean = Lean::automatic;
-  std::optional<std::filesystem::path> cache = std::nullopt;
-  std::uint64_t cache_bytes = std::uint64_t{1} << 30U;  // the most that its folder takes
-  bool cache_read_only = false;
+  std::optional<CacheFolder> cache = std::nullopt;
   std::optional<std::filesystem::path> stages = std::nullopt;
   bool verbose = false;
 };

@@ -35,7 +35,8 @@ double extinction_of(double share) {
   return 0.5 * (low + high);
 }
 
-// Konarska et al. (2014): of the beam, through the crowns of street trees.
+// Konarska et al. (2014) measured 1.3 to 5.3 % of the beam through crowns of street trees in leaf,
+// and 40.2 to 51.9 % without leaves.
 double with_leaves() {
   static double const extinction = extinction_of(0.03);
   return extinction;

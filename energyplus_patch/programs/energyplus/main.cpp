@@ -155,6 +155,29 @@ void check_conversion(RunSetup const& setup) {
   }
 }
 
+// Runs a command of gpu_shading on the model, into a folder of the report.
+void run_for_page(RunSetup const& setup, std::string const& name) {
+  auto const& choices = setup.choices;
+  std::vector<std::string> command{(own_folder() / "gpu_shading").string(),
+                                   name,
+                                   setup.line.model->string(),
+                                   "-w",
+                                   setup.line.weather->string(),
+                                   "-o",
+                                   (*choices.report / (name == "map" ? "maps" : name)).string()};
+  Choices own;
+  own.file = choices.file;
+  own.threads = choices.threads;
+  own.quiet = choices.quiet;
+  own.assets = choices.assets;
+  for (auto const& flag : to_flags(own)) command.push_back(flag);
+  TemporaryFolder const folder;
+  auto const log = folder.path() / "log.txt";
+  if (run_process(command, {}, log) != EXIT_SUCCESS) {
+    throw Error(last_error(log).value_or(fmt::format("gpu_shading {} failed", name)));
+  }
+}
+
 // Into the report's folder, for its page.
 void draw_maps(RunSetup const& setup) {
   auto const& choices = setup.choices;
@@ -162,24 +185,47 @@ void draw_maps(RunSetup const& setup) {
   naming("--gpu-shading-maps", [&] {
     if (!choices.report) throw Error("expected --gpu-shading-report with it");
     if (!setup.line.weather) throw Error("expected a weather file, -w, with it");
-    std::vector<std::string> command{(own_folder() / "gpu_shading").string(),
-                                     "map",
-                                     setup.line.model->string(),
-                                     "-w",
-                                     setup.line.weather->string(),
-                                     "-o",
-                                     (*choices.report / "maps").string()};
+    run_for_page(setup, "map");
+    if (!read_model(*setup.line.model, choices).pv_modules.empty()) run_for_page(setup, "modules");
+  });
+}
+
+// Computes the objects of --gpu-shading-surroundings, which the run adds to EnergyPlus's input, and
+// what there is to say about them, into a folder.
+void trace_surroundings(RunSetup& setup, Path const& folder) {
+  auto& choices = setup.choices;
+  naming("--gpu-shading-surroundings", [&] {
+    auto const& model = *setup.line.model;
+    auto const file = folder / (is_epjson(model) ? "objects.epJSON" : "objects.idf");
+    std::vector<std::string> command{(own_folder() / "gpu_shading").string(), "export",
+                                     model.string(), "--surroundings", file.string()};
     Choices own;
+    own.mode = Mode::automatic;
+    own.resolution = choices.resolution;
+    own.error = choices.error;
+    own.device = choices.device;
     own.file = choices.file;
+    own.cache = choices.cache;
+    own.cache_size = choices.cache_size;
+    own.cache_read_only = choices.cache_read_only;
+    own.positions = choices.positions;
     own.threads = choices.threads;
-    own.quiet = choices.quiet;
     own.assets = choices.assets;
     for (auto const& flag : to_flags(own)) command.push_back(flag);
-    TemporaryFolder const folder;
-    auto const log = folder.path() / "log.txt";
+    auto const log = folder / "log.txt";
     if (run_process(command, {}, log) != EXIT_SUCCESS) {
-      throw Error(last_error(log).value_or("gpu_shading map failed"));
+      throw Error(last_error(log).value_or("gpu_shading export failed"));
     }
+    std::ifstream lines(log);
+    write_whole_file(folder / surroundings_messages, [&](std::ostream& messages) {
+      constexpr std::string_view mark = "gpu_shading: ";
+      for (std::string line; std::getline(lines, line);) {
+        auto const text = line.starts_with(mark) ? line.substr(mark.size()) : line;
+        if (text.starts_with("view factors") || text.starts_with("warning: "))
+          messages << text << '\n';
+      }
+    });
+    choices.surrounding_objects = file;
   });
 }
 
@@ -296,10 +342,14 @@ int launch(RunSetup& setup, char** argv) {
   if (line.version) fmt::print("gpu_shading {}\n", GPU_SHADING_VERSION);
   if (line.help) fmt::print("{}", options_help());
   check_files(line);
+  std::optional<TemporaryFolder> surroundings;
   if (line.model) {
     check_conversion(setup);
     check_model(setup);
     draw_maps(setup);
+    if (choices.surroundings.value_or(false) && !choices.task) {
+      trace_surroundings(setup, surroundings.emplace().path());
+    }
     // A preprocessor (-x) passes another file to EnergyPlus, but files in the folder of the user's
     // model still apply.
     choices.folder = std::filesystem::absolute(*line.model).parent_path();

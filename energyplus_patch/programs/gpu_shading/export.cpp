@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include "gpu_shading/error.h"
+#include "model/idf/model_file.h"
 #include "platform/console.h"
 #include "platform/files.h"
 #include "platform/staged_files.h"
 #include "programs/gpu_shading/commands.h"
+#include "reports/view_factors.h"
 #include "routes/schedules/scheduled_run.h"
 #include "runs/installation.h"
 
@@ -33,25 +35,66 @@ void export_scheduled(ModelRun const& run, EnergyPlusCall call,
   print("{}\n", (folder / model.path.filename()).string());
 }
 
+constexpr int default_rays = 65536;
+
+// Writes EnergyPlus's objects with view factors, and a table of them beside.
+void export_surroundings(ModelRun const& run, std::filesystem::path const& file, int rays) {
+  if (!is_idf(file) && !is_epjson(file)) {
+    throw Error(fmt::format("--surroundings {}: expected an .idf or .epJSON file", file.string()));
+  }
+  auto const target = std::filesystem::absolute(file);
+  StagedFiles files(target.parent_path());
+  auto table = target.filename();
+  table.replace_extension(".csv");
+  StandardError const progress;
+  SurroundingsTask const task{rays, files.add(target.filename().string()),
+                              files.add(table.string()), progress.descriptor()};
+  auto const reply = run_task(run, task);
+  for (auto const& warning : reply.warnings) print_line("warning: " + warning);
+  print_line(reply.text);
+  files.commit();
+  print("{}\n", file.string());
+}
+
 }  // namespace
 
 void add_export(Program const& program) {
   Command const command(
       program, "export",
-      "Render sunlit fractions of the run periods, for an EnergyPlus without this renderer",
+      "Write sunlit fractions of the run periods, or view factors for long-wave exchange, for an "
+      "EnergyPlus without this renderer",
       {"", "error", "resolution", "update", "device", "file", "report", "cache", "cache-size",
-       "cache-read-only", "threads", "quiet", "verbose", "assets"});
-  auto const model = command.add_model("Weather file: site and calendar (required)");
+       "cache-read-only", "threads", "quiet", "verbose", "assets", "positions"});
+  auto const model =
+      command.add_model("Weather file: site and calendar (required with --scheduled)");
   auto const call = std::make_shared<EnergyPlusCall>();
   auto const folder = std::make_shared<std::string>();
+  auto const file = std::make_shared<std::string>();
+  auto const rays = std::make_shared<int>(default_rays);
   command->add_flag("-x,--expandobjects", call->expand, "Run ExpandObjects first");
   command->add_flag("-a,--annual", call->annual, "Simulate a whole year, whatever the run periods");
-  command
-      ->add_option("--scheduled", *folder,
+  auto* const what = command->add_option_group("what");
+  what->add_option("--scheduled", *folder,
                    "Write the model, with its sunlit fractions as schedules, into this folder")
-      ->required()
       ->type_name("DIR");
-  command.run([model, call, folder] { export_scheduled(*model, *call, *folder); });
+  what->add_option("--surroundings", *file,
+                   "Write SurfaceProperty:LocalEnvironment, :SurroundingSurfaces and "
+                   ":GroundSurfaces of exterior surfaces, with view factors, into this .idf or "
+                   ".epJSON file, and a table of them as .csv")
+      ->type_name("FILE");
+  what->require_option(1);
+  constexpr int max_rays = 1 << 24;
+  command->add_option("--rays", *rays, "Rays from a receiver, for view factors, in steps of 16")
+      ->check(CLI::Range(view_factor_batches, max_rays))
+      ->capture_default_str()
+      ->type_name("N");
+  command.run([model, call, folder, file, rays] {
+    if (file->empty()) {
+      export_scheduled(*model, *call, *folder);
+    } else {
+      export_surroundings(*model, *file, *rays / view_factor_batches * view_factor_batches);
+    }
+  });
 }
 
 }  // namespace gpu_shading::energyplus

@@ -98,6 +98,11 @@ std::vector<SunTime> sun_times(std::string const& text, SiteClock const& clock,
   return times;
 }
 
+struct Look {
+  int size;    // pixels
+  bool range;  // of moving shades
+};
+
 // Views in a folder of their own, under the names of their pictures.
 struct DrawnViews {
   Path folder;
@@ -105,10 +110,10 @@ struct DrawnViews {
 };
 
 DrawnViews draw_in(Path const& temporary, ModelRun const& run, std::vector<SunView> const& views,
-                   int size) {
+                   Look const& look) {
   auto drawn = temporary / "views";
   std::filesystem::create_directory(drawn);
-  auto const reply = run_task(run, ViewsTask{views, drawn, size});
+  auto const reply = run_task(run, ViewsTask{views, drawn, look.size, look.range});
   for (auto const& warning : reply.warnings) {
     print_line("warning: " + warning);
   }
@@ -120,12 +125,13 @@ DrawnViews draw_in(Path const& temporary, ModelRun const& run, std::vector<SunVi
 }
 
 // All pictures of a list, or none.
-void draw(ModelRun const& run, std::vector<SunView> const& views, Path const& folder, int size) {
+void draw(ModelRun const& run, std::vector<SunView> const& views, Path const& folder,
+          Look const& look) {
   if (views.empty()) throw Error("no picture was requested");
   // Before the time is spent: whether the folder can be written to.
   StagedFiles files(folder);
   TemporaryFolder const temporary;
-  auto const drawn = draw_in(temporary.path(), run, views, size).folder;
+  auto const drawn = draw_in(temporary.path(), run, views, look).folder;
   for (auto const& view : views) files.copy(view.picture, drawn / view.picture);
   files.commit();
 }
@@ -150,7 +156,7 @@ std::string lines_above(CaptionedView const& captioned, std::string const& fract
 // In one file with a scale of sunlit fractions, arranged in rows or, if its name ends in .gif, as
 // an animation.
 void draw_together(ModelRun const& run, std::vector<CaptionedView> const& views, Path const& file,
-                   int size) {
+                   Look const& look) {
   StagedFiles files(file.parent_path());
   std::vector<SunView> plain;
   for (auto const& view : views) {
@@ -158,7 +164,7 @@ void draw_together(ModelRun const& run, std::vector<CaptionedView> const& views,
     plain.back().picture = fmt::format("{}.png", plain.size());
   }
   TemporaryFolder const temporary;
-  auto const drawn = draw_in(temporary.path(), run, plain, size);
+  auto const drawn = draw_in(temporary.path(), run, plain, look);
   PictureSheet sheet;
   for (std::size_t i = 0; i < views.size(); ++i) {
     sheet.items.push_back(
@@ -178,6 +184,9 @@ struct ViewArguments {
   std::string list;
   std::string output;
   std::optional<int> size;
+  bool range = false;
+
+  Look look(int default_size) const { return {size.value_or(default_size), range}; }
 };
 
 std::vector<SunTime> view_times(ModelRun const& model, ViewArguments const& arguments) {
@@ -209,9 +218,12 @@ std::optional<SunDirection> camera_of(ViewArguments const& arguments) {
 
 void run_view(ModelRun const& model, ViewArguments const& arguments) {
   Path const output = arguments.output;
+  if (arguments.range && !arguments.receiver.empty()) {
+    throw Error("--range: draws the whole model; leave out --receiver");
+  }
   constexpr int default_size = 800;
   if (!arguments.list.empty()) {
-    draw(model, read_views(arguments.list), output, arguments.size.value_or(default_size));
+    draw(model, read_views(arguments.list), output, arguments.look(default_size));
     return;
   }
   if (arguments.sun.empty() && arguments.at.empty() && arguments.day.empty()) {
@@ -228,7 +240,7 @@ void run_view(ModelRun const& model, ViewArguments const& arguments) {
   }
   constexpr int size_of_many = 400;
   draw_together(model, views, output,
-                arguments.size.value_or(views.size() > 1 ? size_of_many : default_size));
+                arguments.look(views.size() > 1 ? size_of_many : default_size));
   for (auto const& view : views) {
     auto const sun = view.view.sun;
     print("{}sun at azimuth {:.3f}, altitude {:.3f} degrees\n",
@@ -278,6 +290,8 @@ void add_view(Program const& program) {
       ->delimiter(',')
       ->expected(2)
       ->type_name("AZIMUTH,ALTITUDE");
+  command->add_flag("--range", arguments->range,
+                    "Draw the outlines of moving shades at both ends of their range, too");
   command
       ->add_option("-o,--output", arguments->output,
                    "The picture, in the format of its file name extension; with --list, the folder "

@@ -237,6 +237,24 @@ Json skies_of(RunPage const& page) {
           {"list", list}};
 }
 
+Json modules_of(PageModules const& modules) {
+  Json fields = Json::array();
+  for (auto const& field : modules.fields) {
+    Json list = Json::array();
+    for (auto const& [string, column, row, loss] : field.modules) {
+      list.push_back({string, column, row, loss});
+    }
+    Json strings = Json::array();
+    for (auto const& codes : field.strings) strings.push_back(base64(codes));
+    fields.push_back({{"surface", field.surface},
+                      {"width", field.width},
+                      {"height", field.height},
+                      {"modules", list},
+                      {"strings", strings}});
+  }
+  return {{"days", modules.days}, {"fields", fields}, {"dark", PageModules::dark}};
+}
+
 // From 0 to 1.
 Json colours() {
   Json list = Json::array();
@@ -256,6 +274,7 @@ Json content_of(RunPage const& page) {
   Json content{{"title", page.title}, {"names", names}, {"geometry", geometry_of(page)}};
   content["maps"] = maps_of(page);
   content["skies"] = skies_of(page);
+  content["modules"] = modules_of(page.modules);
   content["facts"] = page.facts;
   content["notes"] = page.notes;
   content["colours"] = colours();

@@ -84,6 +84,32 @@ struct PageMap {
   double mean_energy = 0.0;
 };
 
+// Photovoltaic modules over a period.
+struct PageModules {
+  static constexpr std::size_t hours_of_day = 24;
+  static constexpr std::uint8_t dark = 255;  // instead of a percentage: sun behind or down
+
+  struct Module {
+    int string = 0;     // from 1, as are the next two
+    int column = 0;     // from the left
+    int row = 0;        // from below
+    double loss = 0.0;  // of its beam over the period, 0 .. 1
+  };
+
+  struct Field {
+    std::string surface;
+    double width = 0.0;  // of a module on the surface, m
+    double height = 0.0;
+    std::vector<Module> modules;
+    // By string: the mean sunlit fraction of its cells in percent, by day, then by hour.
+    std::vector<std::vector<std::uint8_t>> strings;
+  };
+
+  std::vector<std::pair<int, int>> days;  // month and day
+  std::vector<Field> fields;
+  std::size_t left_out = 0;  // strings beyond max_strings
+};
+
 // Everything on a page, which is one file that loads nothing.
 struct RunPage {
   static constexpr std::uint8_t turned_away = 254;  // instead of a percentage
@@ -104,6 +130,7 @@ struct RunPage {
   std::vector<std::string> sky_kinds;  // of what stops the beam
   std::string maps_from;               // the days that they are about, MM-DD
   std::string maps_to;
+  PageModules modules;
   std::vector<std::string> notes;  // what is left out
 };
 

@@ -28,7 +28,6 @@ using Path = std::filesystem::path;
 constexpr std::string_view shadow_calculation = "ShadowCalculation";
 constexpr FieldPosition method_field{0, "shading_calculation_method"};
 constexpr FieldPosition frequency_field{1, "shading_calculation_update_frequency_method"};
-constexpr std::string_view local_environment = "SurfaceProperty:LocalEnvironment";
 constexpr FieldPosition exterior_surface{1, "exterior_surface_name"};
 constexpr FieldPosition sunlit_schedule{2, "sunlit_fraction_schedule_name"};
 
@@ -157,6 +156,7 @@ ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choi
   auto const editor = edit_model(call.model);
   editor->remove([](std::string_view type) { return is_extension(type); });
   auto model = read_model(call.model, choices);
+  if (model.surrounding_objects) editor->merge(read_text_file(*model.surrounding_objects));
   if (model.options.mode == Mode::off) {
     set_method(*editor, "PolygonClipping", "");
   } else {

@@ -49,8 +49,10 @@ CpuBackend::ViewScreens CpuBackend::note_screens(ReceiverView const& view,
     directions.push_back({view.towards_sun, {}, {}});
   }
   for (int const number : noted.numbers) {
-    directions.back().add(number, may_see_effect(transmission_.screens()[number], view.towards_sun,
-                                                 view.pixel_area()));
+    directions.back().add(
+        number,
+        may_see_effect(transmission_.screens()[number], view.towards_sun, view.pixel_area()),
+        static_cast<double>(view.tile->counted_pixels) / static_cast<double>(noted.numbers.size()));
   }
   noted.direction = directions.size() - 1;
   return noted;

@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/convex_area.h"
 #include "geometry/ring.h"
 #include "gpu_shading/error.h"
 
@@ -36,82 +35,6 @@ void check(std::string_view field, double value, double least, double most) {
   throw Error(
       fmt::format("{} of a crown is {:.9g}, expected {:.9g} to {:.9g}", field, value, least, most));
 }
-
-// A crown's box in the pixels of a view, and its rays.
-class CrownRays {
- public:
-  CrownRays(CrownInBeam const& crown, View const& pixels)
-      : crown_(crown), solid_(crown.crown->solid) {
-    glm::dvec3 const x(pixels.x);
-    glm::dvec3 const y(pixels.y);
-    double const xx = glm::dot(x, x);
-    double const xy = glm::dot(x, y);
-    double const yy = glm::dot(y, y);
-    double const determinant = xx * yy - xy * xy;
-    // Steps across the beam by one column and by one row.
-    glm::dvec3 const across = (yy * x - xy * y) / determinant;
-    glm::dvec3 const up = (xx * y - xy * x) / determinant;
-    glm::dvec3 const cut(pixels.cut);
-    Crowns::Entry const& entry = *crown.crown;
-    glm::dvec3 const centre = entry.centre - pixels.origin;
-    centre_ = {at(pixels.x, centre), at(pixels.y, centre)};
-    across_ = entry.in_cube(across);
-    up_ = entry.in_cube(up);
-    along_ = entry.in_cube(crown.towards_sun);
-    height_ = at(pixels.cut, centre);
-    rise_across_ = glm::dot(cut, across);
-    rise_up_ = glm::dot(cut, up);
-    rise_ = glm::dot(cut, crown.towards_sun);
-  }
-
-  // Calls use(area) for the faces of the crown's box that face the sun, which a ray meets once.
-  template <typename Use>
-  void each_face(View const& pixels, int side, Use use) const {
-    std::array<glm::dvec3, 8> const corners = crown_.crown->corners();
-    std::array<glm::dvec2, 8> places;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      glm::dvec3 const p = corners.at(i) - pixels.origin;
-      places.at(i) = {at(pixels.x, p), at(pixels.y, p)};
-    }
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      double const facing = along_[static_cast<int>(axis)];
-      if (facing == 0.0) continue;
-      unsigned const fixed = facing > 0.0 ? 1U << axis : 0U;
-      unsigned const a = 1U << (axis + 1) % 3;
-      unsigned const b = 1U << (axis + 2) % 3;
-      use(area_within(std::array{places.at(fixed), places.at(fixed | a), places.at(fixed | a | b),
-                                 places.at(fixed | b)},
-                      side));
-    }
-  }
-
-  float transmittance(int column, int row) const {
-    double const x = column + 0.5 - centre_.x;
-    double const y = row + 0.5 - centre_.y;
-    RayPart path = solid_.inside(x * across_ + y * up_, along_);
-    double const height = height_ + x * rise_across_ + y * rise_up_;
-    if (rise_ > 0.0) {
-      path.begin = std::max(path.begin, -height / rise_);
-    } else if (height <= 0.0) {
-      return 1.0F;
-    }
-    return static_cast<float>(std::exp(-crown_.extinction * path.length()));
-  }
-
- private:
-  CrownInBeam const& crown_;
-  CrownSolid const& solid_;
-  glm::dvec2 centre_{0.0};  // pixels
-  // In the cube: steps by a column, by a row, and by a metre towards the sun.
-  glm::dvec3 across_{0.0};
-  glm::dvec3 up_{0.0};
-  glm::dvec3 along_{0.0};
-  // Above the cut, of the centre, and the changes by the same steps.
-  double height_ = 0.0;
-  double rise_across_ = 0.0;
-  double rise_up_ = 0.0;
-  double rise_ = 0.0;
-};
 
 }  // namespace
 
@@ -227,24 +150,6 @@ Crowns::Crowns(Scene const& scene) {
     } catch (Error const& error) {
       throw Error(fmt::format("surface '{}': {}", scene[id].name, error.what()));
     }
-  }
-}
-
-void shade_by_crowns(LuminanceTile& shaded, PixelMask const& lit, View const& pixels,
-                     std::span<CrownInBeam const> crowns) {
-  for (CrownInBeam const& crown : crowns) {
-    if (crown.extinction == 0.0) continue;
-    CrownRays const rays(crown, pixels);
-    rays.each_face(pixels, shaded.columns(), [&](ConvexArea const& area) {
-      shaded.each_span(area, [&](int row, int first, int length) {
-        std::span<float> const luminance = shaded.row(row);
-        for (int column = first; column < first + length; ++column) {
-          auto const bit = static_cast<unsigned>(column % PixelMask::word_bits);
-          if ((lit.word(row, column) >> bit & 1U) == 0) continue;
-          luminance[static_cast<std::size_t>(column)] *= rays.transmittance(column, row);
-        }
-      });
-    });
   }
 }
 

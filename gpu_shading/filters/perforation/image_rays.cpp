@@ -1,6 +1,7 @@
 #include "filters/perforation/image_rays.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -35,6 +36,7 @@ struct Between {
 ImageRays::ImageRays(OpacityTile const& image, SheetInBeam const& sheet,
                      std::vector<double> const& depths)
     : image_(&image),
+      cells_(sheet.cells.get()),
       threshold_(sheet.threshold),
       tile_(sheet.tile),
       size_(image.columns(), image.rows()) {
@@ -79,6 +81,47 @@ float ImageRays::through(glm::dvec2 const& place) const {
     if (most >= 1.0F) break;
   }
   return 1.0F - most;
+}
+
+ImageCells::Known ImageRays::known(glm::dvec2 const& first, glm::dvec2 const& step,
+                                   std::uint64_t wanted) const {
+  if (cells_ == nullptr) return {0, 0};
+  ImageCells::Known const found = cells_->find(first, step, tile_);
+  return {found.open & wanted, found.solid & wanted};
+}
+
+namespace {
+
+// Calls use(number) for the bits that are set.
+template <typename Use>
+void each_ray(std::uint64_t bits, Use use) {
+  for (; bits != 0; bits &= bits - 1) use(std::countr_zero(bits));
+}
+
+}  // namespace
+
+void ImageRays::find_through(glm::dvec2 const& first, glm::dvec2 const& step, std::uint64_t wanted,
+                             Passed& passed) const {
+  ImageCells::Known const found = known(first, step, wanted);
+  float const nothing = 1.0F - solid(OpacityTile::solid_texel * (1.0F / 65535.0F));
+  for (std::size_t i = 0; i < passed.size(); ++i) {
+    passed[i] = (found.open >> i & 1U) != 0 ? 1.0F : nothing;
+  }
+  each_ray(wanted & ~found.open & ~found.solid, [&](int ray) {
+    passed[static_cast<std::size_t>(ray)] = through(first + static_cast<double>(ray) * step);
+  });
+}
+
+std::uint64_t ImageRays::passing(glm::dvec2 const& first, glm::dvec2 const& step,
+                                 std::uint64_t wanted) const {
+  ImageCells::Known const found = known(first, step, wanted);
+  std::uint64_t passing = found.open;
+  each_ray(wanted & ~found.open & ~found.solid, [&](int ray) {
+    if (through(first + static_cast<double>(ray) * step) > 0.0F) {
+      passing |= std::uint64_t{1} << static_cast<unsigned>(ray);
+    }
+  });
+  return passing;
 }
 
 }  // namespace gpu_shading

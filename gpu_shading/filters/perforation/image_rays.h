@@ -1,8 +1,12 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <vector>
 
+#include "filters/perforation/image_cells.h"
 #include "filters/perforation/sheet_in_beam.h"
 #include "gpu_shading/opacity_tile.h"
 
@@ -24,14 +28,31 @@ class ImageRays {
   // The fraction of a ray that passes all layers, from its position at the inside face.
   float through(glm::dvec2 const& place) const;
 
+  // The same for rays at equal steps from `first`, where the bit of a ray is set in `wanted`.
+  using Passed = std::array<float, ImageCells::most>;
+  void find_through(glm::dvec2 const& first, glm::dvec2 const& step, std::uint64_t wanted,
+                    Passed& passed) const;
+  // A bit for each that passes, where opacity is 0 or 1.
+  std::uint64_t passing(glm::dvec2 const& first, glm::dvec2 const& step,
+                        std::uint64_t wanted) const;
+
+  // For `sheet.cells`.
+  std::shared_ptr<ImageCells const> make_cells(ImageBounds const& bounds) const {
+    return std::make_shared<ImageCells const>(bounds, layers_);
+  }
+
  private:
   // In texels, from 0 up to the image's columns and rows.
   glm::dvec2 in_image(glm::dvec2 const& place) const;
   float opacity(glm::dvec2 const& texel) const;
   float solid(float opacity) const;
+  // What cells tell of the rays that are wanted.
+  ImageCells::Known known(glm::dvec2 const& first, glm::dvec2 const& step,
+                          std::uint64_t wanted) const;
 
   OpacityTile const* image_;
-  float threshold_;  // less than 0: none
+  ImageCells const* cells_;  // may be null
+  float threshold_;          // less than 0: none
   glm::dvec2 tile_;
   glm::dvec2 size_;                 // texels
   std::vector<glm::dvec2> layers_;  // from a ray's position at the inside face, in the image

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <tbb/collaborative_call_once.h>
 
+#include <mutex>
 #include <utility>
 
+#include "filters/perforation/image_cells.h"
 #include "filters/perforation/perforation_filter.h"
 #include "gpu_shading/error.h"
 #include "platform/parallel.h"
@@ -30,6 +32,8 @@ struct PerforatedScreen::Lazy {
   // Threads that wait for the table share the work on it.
   tbb::collaborative_once_flag once;
   std::optional<ScreenTransmittance> transmittance;
+  std::once_flag bounds_once;
+  std::optional<ImageBounds> bounds;
 };
 
 PerforatedScreen::PerforatedScreen(HolePattern const& pattern, Sheet const& sheet)
@@ -70,6 +74,11 @@ ScreenTransmittance const& PerforatedScreen::transmittance() const {
     make();
   }
   return *lazy_->transmittance;
+}
+
+ImageBounds const& PerforatedScreen::image_bounds() const {
+  std::call_once(lazy_->bounds_once, [&] { lazy_->bounds.emplace(*tile_); });
+  return *lazy_->bounds;
 }
 
 namespace {

@@ -136,7 +136,7 @@ class Part {
 
   void darken_whole(int row, int first, int end, PixelMask& lit) const {
     each_word(row, first, end, lit, [&](int x, int /*stop*/, std::uint64_t wanted) {
-      std::uint64_t const stopped = wanted & ~rays_.passing(place(row, x), to_place_[0]);
+      std::uint64_t const stopped = wanted & ~rays_.passing(place(row, x), to_place_[0], wanted);
       lit.keep(row, x, ~(stopped << static_cast<unsigned>(x % PixelMask::word_bits)));
     });
   }
@@ -218,7 +218,7 @@ bool all_or_nothing(ScreensInView const& in_view, View const& pixels) {
     if (sheet.in_place != 1.0F) return false;
     if (sheet.layers == solid_sheet) return true;
     Screens::Entry const& screen = (*in_view.screens)[number];
-    return sheet.layers == exact_sheet &&
+    return has_edges(sheet) &&
            static_cast<float>(drawn_pixel(in_view, screen, pixels)) <= sheet.blend_from;
   });
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "filters/perforation/image_rays.h"
 #include "gpu_shading/perforated_screen.h"
 
 namespace gpu_shading {
@@ -111,6 +112,54 @@ glm::dvec2 shift_of(Screens::Entry const& entry, glm::dvec3 const& towards_sun, 
          (entry.screen->sheet().thickness / cosine);
 }
 
+// Whether the same rays pass two screens' layers.
+bool same_layers(Screens::Entry const& a, SheetInBeam const& in_a, Screens::Entry const& b,
+                 SheetInBeam const& in_b) {
+  return a.screen == b.screen && in_a.ray_offset == in_b.ray_offset && in_a.layers == in_b.layers;
+}
+
+// Gives cells to the images that rays meet often enough.
+void add_cells(Screens const& screens, ScreensAtDirection const& wanted,
+               std::span<SheetInBeam> sheets) {
+  struct Alike {
+    int first;
+    double rays;
+    std::shared_ptr<ImageCells const> cells;
+  };
+  std::vector<Alike> found;
+  auto const each_image = [&](auto use) {
+    for (std::size_t i = 0; i < wanted.in_view.size(); ++i) {
+      if (!wanted.in_view[i] || sheets[i].layers <= 0 || !screens.entries()[i].screen->tile()) {
+        continue;
+      }
+      int const number = static_cast<int>(i);
+      auto const alike = std::find_if(found.begin(), found.end(), [&](Alike const& other) {
+        return same_layers(screens[other.first], sheets[static_cast<std::size_t>(other.first)],
+                           screens[number], sheets[i]);
+      });
+      use(number, alike);
+    }
+  };
+  each_image([&](int number, auto alike) {
+    double const rays = wanted.rays[static_cast<std::size_t>(number)];
+    if (alike == found.end()) {
+      found.push_back({number, rays, nullptr});
+    } else {
+      alike->rays += rays;
+    }
+  });
+  for (Alike& each : found) {
+    PerforatedScreen const& screen = *screens[each.first].screen;
+    SheetInBeam const& sheet = sheets[static_cast<std::size_t>(each.first)];
+    if (!ImageCells::worth(*screen.tile(), each.rays)) continue;
+    each.cells = ImageRays(*screen.tile(), sheet, layer_depths(sheet.layers))
+                     .make_cells(screen.image_bounds());
+  }
+  each_image([&](int number, auto alike) {
+    sheets[static_cast<std::size_t>(number)].cells = alike->cells;
+  });
+}
+
 }  // namespace
 
 double pixel_in_sheet(Screens::Entry const& screen, View const& pixels) {
@@ -133,13 +182,23 @@ bool varies(PerforatedScreen const& screen) {
   return screen.transmittance().regions_across() * screen.transmittance().regions_up() > 1;
 }
 
-void ScreensAtDirection::add(int number, bool sees_effect) {
+std::vector<double> layer_depths(int layers) {
+  if (layers == 1) return {0.5};
+  std::vector<double> depths;
+  depths.reserve(static_cast<std::size_t>(std::max(0, layers)));
+  for (int k = 0; k < layers; ++k) depths.push_back(static_cast<double>(k) / (layers - 1));
+  return depths;
+}
+
+void ScreensAtDirection::add(int number, bool sees_effect, double rays_added) {
   auto const place = static_cast<std::size_t>(number);
   if (place >= in_view.size()) {
     in_view.resize(place + 1, false);
     by_effect.resize(place + 1, false);
+    rays.resize(place + 1, 0.0);
   }
   in_view[place] = true;
+  rays[place] += rays_added;
   if (sees_effect) by_effect[place] = true;
 }
 
@@ -183,6 +242,7 @@ std::vector<SheetInBeam> sheets_in_beam(Screens const& screens, ScreensAtDirecti
     sheets[number] = sheet_in_beam(entry, wanted.towards_sun, deployed(entry, deployments),
                                    wanted.by_effect[number]);
   }
+  add_cells(screens, wanted, sheets);
   return sheets;
 }
 

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,8 @@
 #include "view/view.h"
 
 namespace gpu_shading {
+
+class ImageCells;
 
 // The number of layers that represent a sheet at a shift, front and back included: 1 + ceil(shift /
 // web), at most `most`, so that no ray steps over a web of that width; 0 beyond the longest path
@@ -62,7 +65,17 @@ struct SheetInBeam {
   int regions_across = 0;
   int regions_up = 0;
   std::vector<glm::vec4> regions;
+  // Of an image that many rays meet; else null.
+  std::shared_ptr<ImageCells const> cells;
 };
+
+// Whether rays through its holes pass or not, and nothing between, by functions for many at once.
+inline bool has_edges(SheetInBeam const& sheet) {
+  return sheet.shape == SheetShape::image ? sheet.threshold >= 0.0F : sheet.layers == exact_sheet;
+}
+
+// Depths of layers, from 0 at the inside face to 1 at the outside face.
+std::vector<double> layer_depths(int layers);
 
 // The size of pixels in a screen's plane, m; `pixels` has its x and y in pixels.
 double pixel_in_sheet(Screens::Entry const& screen, View const& pixels);
@@ -77,10 +90,11 @@ bool may_see_effect(Screens::Entry const& screen, glm::dvec3 const& towards_sun,
 // The screens in any view at one sun direction.
 struct ScreensAtDirection {
   glm::dvec3 towards_sun{0.0};
-  std::vector<bool> in_view;    // by index; not in view if too short
-  std::vector<bool> by_effect;  // those whose effective transmittance some view may use
+  std::vector<bool> in_view;      // by index; not in view if too short
+  std::vector<bool> by_effect;    // those whose effective transmittance some view may use
+  std::vector<double> rays = {};  // that meet each, about
 
-  void add(int number, bool sees_effect);
+  void add(int number, bool sees_effect, double rays_added = 0.0);
 };
 
 // `in_place`: the deployed fraction. `has_effect`: whether its effective transmittance may be used.

@@ -27,14 +27,6 @@ int around(int place, int count) {
   return rest < 0 ? rest + count : rest;
 }
 
-std::vector<double> depths_of(int layers) {
-  if (layers == 1) return {0.5};
-  std::vector<double> depths;
-  depths.reserve(static_cast<std::size_t>(std::max(0, layers)));
-  for (int k = 0; k < layers; ++k) depths.push_back(static_cast<double>(k) / (layers - 1));
-  return depths;
-}
-
 bool has_table(PerforatedScreen const& screen) { return !screen.pattern(); }
 
 // The effective transmittance of a sheet for a displacement; `place`: in the sheet's plane.
@@ -101,7 +93,7 @@ SheetRays::SheetRays(PerforatedScreen const& screen, SheetInBeam const& sheet, d
       ray_(sheet.ray_offset),
       tile_(sheet.tile),
       blend_(glm::smoothstep(sheet.blend_from, sheet.blend_to, static_cast<float>(pixel))),
-      depths_(depths_of(sheet.layers)) {
+      depths_(layer_depths(sheet.layers)) {
   if (screen.pattern()) {
     pattern_.emplace(sheet);
     if (by_rows && blend_ > 0.0F && sheet.blend_from > 0.0F) rows_.emplace(sheet);
@@ -117,15 +109,8 @@ std::optional<float> SheetRays::everywhere() const {
 
 void SheetRays::whole_paths(glm::dvec2 const& first, glm::dvec2 const& step, std::uint64_t wanted,
                             Passed& passed) const {
-  if (!pattern_) {
-    for (std::size_t i = 0; i < passed.size(); ++i, wanted >>= 1U) {
-      if ((wanted & 1U) == 0) continue;
-      passed[i] = part_of_path(first + static_cast<double>(i) * step, 0.0, 1.0);
-    }
-    return;
-  }
   if (blend_ == 1.0F) return find_by_effect(first, step, passed);
-  find_through_holes(first, step, passed);
+  find_through_holes(first, step, wanted, passed);
   if (blend_ == 0.0F) return;
   Passed by_effect;
   find_by_effect(first, step, by_effect);
@@ -135,7 +120,8 @@ void SheetRays::whole_paths(glm::dvec2 const& first, glm::dvec2 const& step, std
 }
 
 void SheetRays::find_through_holes(glm::dvec2 const& first, glm::dvec2 const& step,
-                                   Passed& passed) const {
+                                   std::uint64_t wanted, Passed& passed) const {
+  if (image_) return image_->find_through(first, step, wanted, passed);
   if (sheet_.layers == exact_sheet) return pattern_->find_passing(first, step, ray_, passed);
   passed.fill(1.0F);
   Passed in_layer;
@@ -148,7 +134,13 @@ void SheetRays::find_through_holes(glm::dvec2 const& first, glm::dvec2 const& st
 void SheetRays::find_by_effect(glm::dvec2 const& first, glm::dvec2 const& step,
                                Passed& passed) const {
   if (rows_) return rows_->find(first, step, passed);
-  passed.fill(sheet_.effective[3]);
+  if (pattern_) {
+    passed.fill(sheet_.effective[3]);
+    return;
+  }
+  for (std::size_t i = 0; i < passed.size(); ++i) {
+    passed[i] = through_effective(first + static_cast<double>(i) * step, 0.0, 1.0);
+  }
 }
 
 float SheetRays::part_of_path(glm::dvec2 const& place, double begin, double end) const {

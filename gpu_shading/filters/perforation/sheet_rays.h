@@ -35,12 +35,11 @@ class SheetRays {
                    Passed& passed) const;
 
   // Whether a ray passes or not, and nothing between.
-  bool all_or_nothing() const {
-    return pattern_.has_value() && sheet_.layers == exact_sheet && blend_ == 0.0F;
-  }
+  bool all_or_nothing() const { return has_edges(sheet_) && blend_ == 0.0F; }
   // The same as `whole_paths`, if so: a bit for each ray.
-  std::uint64_t passing(glm::dvec2 const& first, glm::dvec2 const& step) const {
-    return pattern_->passing(first, step, ray_);
+  std::uint64_t passing(glm::dvec2 const& first, glm::dvec2 const& step,
+                        std::uint64_t wanted) const {
+    return image_ ? image_->passing(first, step, wanted) : pattern_->passing(first, step, ray_);
   }
 
   // The transmittance of a part of the path, 0 at the inside face and 1 at the outside face.
@@ -51,8 +50,9 @@ class SheetRays {
   float solid_at(glm::dvec2 const& place) const;
   float through_layers(glm::dvec2 const& place, double begin, double end) const;
   float through_holes(glm::dvec2 const& place, double begin, double end) const;
-  // Of whole paths through a pattern, as `whole_paths`.
-  void find_through_holes(glm::dvec2 const& first, glm::dvec2 const& step, Passed& passed) const;
+  // Of whole paths, as `whole_paths`.
+  void find_through_holes(glm::dvec2 const& first, glm::dvec2 const& step, std::uint64_t wanted,
+                          Passed& passed) const;
   void find_by_effect(glm::dvec2 const& first, glm::dvec2 const& step, Passed& passed) const;
   float through_effective(glm::dvec2 const& place, double begin, double end) const;
 

@@ -9,6 +9,8 @@
 
 namespace gpu_shading {
 
+struct ImageBounds;
+
 // The plane of the sheet in which the polygon of its surface lies. The outside is the side to which
 // the polygon's normal points.
 enum class SheetPlane { centre, outside, inside };
@@ -48,6 +50,9 @@ class PerforatedScreen {
 
   // Computed at the first call, which takes a few seconds for a large raster.
   ScreenTransmittance const& transmittance() const;
+
+  // Of an image, for the CPU. Computed at the first call.
+  ImageBounds const& image_bounds() const;
 
  private:
   Sheet sheet_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,6 +18,9 @@ struct ViewScale {
   double pixels_per_metre = 0.0;  // across the view
   double north_right = 0.0;       // of a metre to the north, pixels to the right
   double north_up = 0.0;
+  // Of a point, multiplied with its coordinates and 1: pixels from the left edge, and from the top.
+  glm::dvec4 across{0.0};
+  glm::dvec4 down{0.0};
 };
 
 // Draws a whole scene as the sun sees it, or from elsewhere with shadows, in parallel projection
@@ -29,6 +34,9 @@ class SceneView {
   ~SceneView();
   SceneView(SceneView const&) = delete;
   SceneView& operator=(SceneView const&) = delete;
+
+  // Widens the frame of all pictures to these points.
+  void include(std::span<glm::dvec3 const> points);
 
   // `fractions`: one entry per surface of the scene. Receivers have their sunlit fraction, 0 .. 1,
   // and are drawn in fraction_colour(); other surfaces have none and are grey by their tilt to the

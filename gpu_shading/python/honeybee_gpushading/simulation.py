@@ -52,15 +52,18 @@ class SunHours:
     """Beam solar energy, kWh/m2."""
 
     def write(self, folder: Name) -> None:
-        """As results of grids: folders with grids_info.json and a .res file for each grid, as Honeybee's recipes
-        write them."""
-        for name, unit, values in (("sun_hours", "h", self.hours), ("beam_energy", "kWh/m2", self.energy)):
+        """As results of grids: folders with grids_info.json, vis_metadata.json and a .res file for each grid, as
+        Honeybee's recipes write them and honeybee-display reads them."""
+        hours = importlib.import_module("ladybug.datatype.time").Time("Sun Hours")
+        energy = importlib.import_module("ladybug.datatype.energyintensity").EnergyIntensity("Beam Energy")
+        for name, kind, unit, values in (("sun_hours", hours, "hr", self.hours),
+                                         ("beam_energy", energy, "kWh/m2", self.energy)):
             target = Path(folder) / name
             target.mkdir(parents=True, exist_ok=True)
             infos = [{"name": grid.identifier, "identifier": grid.identifier, "full_id": grid.identifier,
                       "count": grid.count, "group": ""} for grid in self.grids]
             (target / "grids_info.json").write_text(json.dumps(infos, indent=1), encoding="utf-8")
-            metadata = {"type": "VisualizationMetaData", "unit": unit, "data_type": name.replace("_", " ").title()}
+            metadata = {"type": "VisualizationMetaData", "data_type": kind.to_dict(), "unit": unit}
             (target / "vis_metadata.json").write_text(json.dumps(metadata, indent=1), encoding="utf-8")
             for grid, of_grid in zip(self.grids, values, strict=True):
                 lines = "".join(f"{value:.6g}\n" for value in of_grid)

@@ -88,20 +88,13 @@ struct Cached {
   explicit Cached(fs::path folder, std::uint8_t number = 1)
       : path(std::move(folder)), scene(scene_of(number)) {}
 
-  DiskCache open(std::uint64_t max_bytes = DiskCache::default_max_bytes) {
-    return {path,
-            scene,
-            {std::vector<double>(10, 30.0), 3},
-            [this](std::string const& line) { remarks.push_back(line); },
-            max_bytes};
-  }
-  DiskCache open_read_only() {
-    return {path,
-            scene,
-            {std::vector<double>(10, 30.0), 3},
-            [](std::string const&) {},
-            DiskCache::default_max_bytes,
-            true};
+  DiskCache open() { return open({path}); }
+  DiskCache open(std::uint64_t max_bytes) { return open({path, max_bytes}); }
+  DiskCache open_read_only() { return open({.path = path, .read_only = true}); }
+  DiskCache open(CacheFolder const& folder) {
+    return {folder, scene, {std::vector<double>(10, 30.0), 3}, [this](std::string const& line) {
+              remarks.push_back(line);
+            }};
   }
   fs::path file() const { return path / cache_file_name(fmt::format("{:02x}{:030}", scene[0], 0)); }
   SceneAnswers stored() const { return decode(read(file()), scene); }
@@ -410,16 +403,16 @@ TEST(DiskCache, ManyProcessesStoreIntoOneFolder) {
 
 TEST(CacheFolder, IsMadeWhereMissingAndRefusedWhereItCannotBeWrittenTo) {
   TemporaryFolder const folder;
-  prepare_cache_folder(folder.path() / "a" / "b");
+  prepare_cache_folder({folder.path() / "a" / "b"});
   EXPECT_TRUE(fs::is_directory(folder.path() / "a" / "b"));
-  prepare_cache_folder(folder.path() / "a", true);
-  EXPECT_THROW(prepare_cache_folder(folder.path() / "c", true), Error);
+  prepare_cache_folder({.path = folder.path() / "a", .read_only = true});
+  EXPECT_THROW(prepare_cache_folder({.path = folder.path() / "c", .read_only = true}), Error);
   EXPECT_FALSE(fs::exists(folder.path() / "c"));
   write(folder.path() / "file", "");
   for (auto const& bad :
        {folder.path() / "file", fs::path("/proc/nothing/here"), folder.path() / "file" / "below"}) {
     try {
-      prepare_cache_folder(bad);
+      prepare_cache_folder({bad});
       FAIL() << bad;
     } catch (Error const& error) {
       EXPECT_THAT(error.what(), HasSubstr("--gpu-shading-cache: " + bad.string()));

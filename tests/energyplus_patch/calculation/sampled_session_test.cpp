@@ -59,7 +59,7 @@ struct Sampled {
     if (deployed) made.screens = read_perforated_screens(objects, made.shading, {}, {});
     made.options.update = {sampling.has_value(), sampling};
     made.options.resolution = resolution;
-    if (!cache.empty()) made.options.cache = cache;
+    if (!cache.empty()) made.options.cache = CacheFolder{cache};
     return made;
   }
 

@@ -388,7 +388,7 @@ struct Deployed {
     model.shading = read_shading_input(objects);
     model.screens = read_perforated_screens(objects, model.shading, {}, {});
     if (!report.empty()) model.options.report = report;
-    if (!cache.empty()) model.options.cache = cache;
+    if (!cache.empty()) model.options.cache = CacheFolder{cache};
     return model;
   }
 
@@ -502,7 +502,7 @@ struct WithCache {
 
   static Model model(std::filesystem::path const& folder) {
     auto made = model_of("Shading:Site:Detailed,Plate,Leaves;");
-    made.options.cache = folder;
+    made.options.cache = CacheFolder{folder};
     return made;
   }
 

@@ -3,12 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
+#include <random>
 
 #include "gpu_shading/error.h"
 #include "model/idf/model_file.h"
+#include "scene/shade_motion.h"
+#include "support/shapes.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -176,6 +182,157 @@ TEST(ShadeControl, ReceiversMustBeInTheModel) {
   EXPECT_THAT([&] { ShadedRoom const room(shade); },
               testing::ThrowsMessage<Error>(testing::HasSubstr(
                   "Receiver Name \"WINDOWS\": no exterior surface matches; did you mean WINDOW?")));
+}
+
+// A window of 2 x 1 m to the south, behind obstacles and slats, panels or an awning that move.
+struct RandomScene {
+  std::vector<Polygon> fixed;
+  std::vector<Polygon> moving;
+  MovingShade shade;
+  SunDirection sun;
+};
+
+constexpr double window_width = 2.0;
+constexpr double window_height = 1.0;
+
+RandomScene random_scene(unsigned seed) {
+  std::mt19937 engine(seed);
+  auto const between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  };
+  RandomScene random;
+  auto& shade = random.shade;
+  shade.control = MovingShade::Control::block_beam;
+  shade.receivers = "WINDOW";
+  double const out = between(0.1, 0.5);
+  if (seed % 3 == 0) {
+    shade.motion = MovingShade::Motion::rotate;
+    shade.maximum = between(30.0, 90.0);
+    shade.step = between(3.0, 15.0);
+    double const pitch = between(0.2, 0.35);
+    for (double z = -0.6; z < window_height + 0.6; z += pitch) {
+      random.moving.push_back(level(-4.0, -out - 0.15, z, 10.0, 0.3));
+    }
+  } else if (seed % 3 == 1) {
+    shade.motion = MovingShade::Motion::slide;
+    shade.direction = {1, 0, 0};
+    shade.minimum = between(-1.0, 0.0);
+    shade.maximum = between(1.0, 4.0);
+    shade.step = between(0.1, 0.4);
+    random.moving.push_back(south_facing(between(-4.0, -2.0), -out, -1.0, between(2.0, 4.0), 3.0));
+  } else {
+    shade.motion = MovingShade::Motion::extend;
+    shade.direction = {0, -1, 0};
+    shade.maximum = 1.0;
+    shade.step = between(0.05, 0.2);
+    random.moving.push_back(
+        parallelogram({-5, 0, window_height}, {0, -between(0.5, 3.0), 0}, {12, 0, 0}));
+  }
+  shade.rest = shade.nearest(between(shade.minimum, shade.maximum));
+  for (int i = 0; i < 3; ++i) {
+    random.fixed.push_back(south_facing(between(-2.0, 3.0), -between(0.6, 4.0), between(-1.0, 1.0),
+                                        between(0.2, 1.5), between(0.2, 2.0)));
+  }
+  random.sun = sun_at(between(100.0, 260.0), between(5.0, 70.0));
+  return random;
+}
+
+// Whether a ray to the sun meets a parallelogram.
+bool is_met(Polygon const& polygon, glm::dvec3 const& from, glm::dvec3 const& towards_sun) {
+  auto const& ring = polygon.outline;
+  glm::dvec3 const a = ring[1] - ring[0];
+  glm::dvec3 const b = ring[3] - ring[0];
+  glm::dvec3 const up = glm::cross(a, b);
+  double const slope = glm::dot(up, towards_sun);
+  if (std::abs(slope) < 1e-12) return false;
+  double const along = glm::dot(up, ring[0] - from) / slope;
+  if (along <= 0.0) return false;
+  glm::dvec3 const at = from + along * towards_sun - ring[0];
+  double const u = glm::dot(glm::cross(at, b), up) / glm::dot(up, up);
+  double const v = glm::dot(glm::cross(a, at), up) / glm::dot(up, up);
+  return u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0;
+}
+
+// How many of 4,096 points of the window are lit, if it is larger by a share.
+int lit_points(RandomScene const& random, double position, double larger) {
+  std::vector<Polygon> casters = random.fixed;
+  for (auto const& polygon : random.moving) {
+    casters.push_back(moved(polygon, random.shade, position));
+    if (area(casters.back()) <= 0.0) casters.pop_back();
+  }
+  auto const towards_sun = to_vector(random.sun);
+  constexpr int points = 4096;
+  int lit = 0;
+  for (int i = 0; i < points; ++i) {
+    // No two are in one row or column, so that slits are found wherever they run.
+    auto const within = [&](double step) {
+      return 0.5 + (1.0 + larger) * (glm::fract(i * step) - 0.5);
+    };
+    glm::dvec3 const point(window_width * within(0.7548776662466927), 0.0,
+                           window_height * within(0.5698402909980532));
+    bool const stopped = std::any_of(casters.begin(), casters.end(), [&](auto const& polygon) {
+      return is_met(polygon, point, towards_sun);
+    });
+    if (!stopped) ++lit;
+  }
+  return lit;
+}
+
+ShadeControl::Decision decided(RandomScene const& random) {
+  Model model;
+  model.options.device.device = DeviceId{};
+  model.moving_shades = {random.shade};
+  std::string idf;
+  auto const name = [](std::size_t i) { return "MOVING " + std::to_string(i); };
+  for (std::size_t i = 0; i < random.moving.size(); ++i) {
+    idf += "Shading:Building:Detailed," + name(i) + ";";
+    model.moving_shades.front().surfaces.push_back(name(i));
+  }
+  model.shading = read_shading_input(read_idf(idf));
+  SceneAssembly scene(std::move(model));
+  scene.add({"WINDOW", south_facing(0, 0, 0, window_width, window_height)});
+  for (auto const& polygon : random.fixed) scene.add({"FIXED", polygon});
+  for (std::size_t i = 0; i < random.moving.size(); ++i) scene.add({name(i), random.moving[i]});
+  auto const none = [](std::string const&, Moment) { return 0.0; };
+  scene.complete({[](std::string const&) { return std::pair{0.0, 1.0}; }, none, none});
+  ShadeControl control(scene);
+  control.set_time({12, 1});
+  return control.decide(random.sun, {}).front();
+}
+
+// A window that is a little larger tells slivers from darkness.
+constexpr double with_rim = 0.03;
+
+void expect_nearest_without_beam(RandomScene const& random,
+                                 ShadeControl::Decision const& decision) {
+  auto const all = random.shade.positions();
+  bool const some_dark = std::any_of(all.begin(), all.end(), [&](double position) {
+    return lit_points(random, position, with_rim) == 0;
+  });
+  if (decision.state == State::admitting) {
+    EXPECT_FALSE(some_dark);
+    return;
+  }
+  EXPECT_EQ(lit_points(random, decision.position, 0.0), 0);
+  double const moves = std::abs(decision.position - random.shade.rest);
+  for (double const position : all) {
+    if (std::abs(position - random.shade.rest) > moves - 1e-9) continue;
+    EXPECT_GT(lit_points(random, position, with_rim), 0) << position;
+  }
+}
+
+TEST(ShadeControl, BlockBeamLeavesNoBeamWhereSomePositionHasNone) {
+  std::map<State, int> found;
+  for (unsigned seed = 0; seed < 150; ++seed) {
+    SCOPED_TRACE(seed);
+    auto const random = random_scene(seed);
+    auto const decision = decided(random);
+    ++found[decision.state];
+    expect_nearest_without_beam(random, decision);
+  }
+  EXPECT_GT(found[State::blocking], 20);
+  EXPECT_GT(found[State::admitting], 20);
+  EXPECT_GT(found[State::clear], 10);
 }
 
 }  // namespace

@@ -28,6 +28,12 @@ TEST(Instructions, DISABLED_PrintAnswers) {
       if (seed % 2 == 0 && id % 2 == 1) surface.filter.set(PerforatedSheet{mesh});
       scene.add(surface);
     }
+    if (seed % 3 == 0) {
+      auto const place = random.scene[0].polygon.outline[0] + 3.0 * to_vector(random.sun);
+      Surface crown{"crown", level(place.x - 1.0, place.y - 1.0, place.z - 1.0, 2.0, 2.0)};
+      crown.filter.set(Crown{.height = 2.0});
+      scene.add(crown);
+    }
     Renderer renderer = renderer_of(scene, 300, on_cpu);
     std::printf("answer %a\n", sunlit(renderer, random.sun, 0).projected_area);
   }

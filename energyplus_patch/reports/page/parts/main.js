@@ -136,7 +136,8 @@ function addPanels() {
     });
   });
   part("projection").addEventListener("change", showCharts);
-  part("save-chart").addEventListener("click", () => saveChart(document.querySelector(".panel:not([hidden]) svg")));
+  part("save-chart").addEventListener("click", () => saveChart(document.querySelector(".panel:not([hidden]) svg"),
+    content.names[state.receiver]));
   part("save-picture").addEventListener("click", () => savePicture(part("view")));
   const animation = part("save-animation");
   animation.hidden = !canRecord();
@@ -302,6 +303,7 @@ function begin() {
   addControls();
   addColourings();
   addPanels();
+  addModules();
   addHover();
   receiverTable = new ReceiverTable(part("receivers"), part("filter"), part("shown"), choose);
   if (content.days.length > 0) {

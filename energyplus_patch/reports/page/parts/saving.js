@@ -31,8 +31,8 @@ function chartText(plot) {
   return new XMLSerializer().serializeToString(copy);
 }
 
-function saveChart(plot) {
-  saveAs(`${fileStem()}_${content.names[state.receiver].replace(/[^\w.-]+/g, "_")}.svg`,
+function saveChart(plot, surface) {
+  saveAs(`${fileStem()}_${surface.replace(/[^\w.-]+/g, "_")}.svg`,
     new Blob([chartText(plot)], {type: "image/svg+xml"}));
 }
 

@@ -34,6 +34,7 @@ int run(RunSetup& setup) {
   if (line.preprocessed) {
     throw Error("-m: an EPMacro model cannot be rendered on Windows; create its IDF first");
   }
+  refuse_surroundings(setup.choices);
   if (!setup.has_model()) return run_hosted(library, setup.arguments, {});
   auto& choices = setup.choices;
   choices.folder = std::filesystem::absolute(*line.model).parent_path();

@@ -37,6 +37,7 @@ RunSetup read_setup(int count, char const* const* options, std::vector<std::stri
   RunSetup given(flags);
   if (!given.arguments.empty())
     throw Error(fmt::format("{}: no such flag", given.arguments.front()));
+  refuse_surroundings(given.choices);
   apply_to_process(given.choices);
   given.arguments = std::move(arguments);
   given.line = read_command_line(given.arguments);

@@ -205,6 +205,7 @@ std::vector<std::string> take_options(std::vector<std::string> arguments) {
   run = {};
   try {
     RunSetup setup(arguments);
+    refuse_surroundings(setup.choices);
     if (setup.wanted) warn_of_method(setup.choices);
     run.wanted = setup.wanted;
     run.choices = std::move(setup.choices);

@@ -95,7 +95,8 @@ TEST(Extensions, ErrorsNameObjectFieldValueAndWhatWasExpected) {
   EXPECT_EQ(refusal("GPUShading:Nonsense,1;"),
             "GPUShading:Nonsense: no such object; known: GPUShading:Settings, "
             "GPUShading:TransparentShade, GPUShading:PerforatedScreen, GPUShading:MovingShade, "
-            "GPUShading:SiteContext, GPUShading:Geometry, GPUShading:Tree, GPUShading:PVModules");
+            "GPUShading:SurroundingGroup, GPUShading:SiteContext, GPUShading:Geometry, "
+            "GPUShading:Tree, GPUShading:PVModules");
   EXPECT_EQ(refusal("GPUShading:Settings,1;GPUShading:Settings,2;"),
             "GPUShading:Settings: given twice, expected once at most");
   EXPECT_EQ(refusal("GPUShading:Geometry,a,a.obj;GPUShading:Geometry,A,b.obj;"),

@@ -188,11 +188,15 @@ TEST(Options, ResolutionAndErrorTogetherAreRefused) {
 }
 
 TEST(Options, CacheHasASizeAndMayBeReadOnly) {
-  auto const options =
-      resolve(take({"--gpu-shading-cache-size=2.5", "--gpu-shading-cache-read-only"}), {}, {});
-  EXPECT_EQ(options.cache_bytes, 5U << 29U);
-  EXPECT_TRUE(options.cache_read_only);
-  EXPECT_EQ(resolve({}, {}, {}).cache_bytes, 1U << 30U);
+  auto const cache = [](std::vector<std::string> flags) {
+    flags.emplace_back("--gpu-shading-cache=/f");
+    return resolve(take(flags), {}, {}).cache.value();
+  };
+  auto const bounded = cache({"--gpu-shading-cache-size=2.5", "--gpu-shading-cache-read-only"});
+  EXPECT_EQ(bounded.max_bytes, 5U << 29U);
+  EXPECT_TRUE(bounded.read_only);
+  EXPECT_EQ(cache({}).max_bytes, 1U << 30U);
+  EXPECT_FALSE(cache({}).read_only);
   EXPECT_THAT(refusal({"--gpu-shading-cache-size=0"}), HasSubstr("cache-size"));
 }
 
@@ -202,7 +206,8 @@ TEST(Options, CacheIsOffUnlessAFolderIsNamedAndOffOverridesTheEnvironment) {
     auto choices = take(flags);
     choices.fill_from(read_environment());
     unsetenv("GPU_SHADING_CACHE");
-    return resolve(choices, {}, {}).cache;
+    auto const resolved = resolve(choices, {}, {}).cache;
+    return resolved ? std::optional(resolved->path) : std::nullopt;
   };
   EXPECT_EQ(cache({}, ""), std::nullopt);
   EXPECT_EQ(cache({}, "/e"), "/e");

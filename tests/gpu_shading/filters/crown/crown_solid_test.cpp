@@ -1,17 +1,21 @@
-// The path of a ray through a crown's solid, against its definition point by point, and the
-// projection of leaves, against leaves drawn at random.
+// The path of a ray through a crown's solid, against its definition point by point, the projection
+// of leaves, against leaves drawn at random, and the pixels of a tile, against rays.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <numbers>
 #include <random>
 
 #include "filters/crown/crowns.h"
+#include "geometry/plane_frame.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/rays.h"
 #include "support/shapes.h"
+#include "view/tile.h"
 
 namespace gpu_shading {
 namespace {
@@ -136,6 +140,61 @@ TEST(CrownRays, PassTheirPartOfTheCrown) {
   conditions.deployments = shares;
   EXPECT_NEAR(rays.transmittance({{0, 0, 0}, {0, 0, 1}, infinite}, conditions), std::pow(all, 0.25),
               1e-12);
+}
+
+// A crown that the plane of a receiver may cut.
+Scene random_crown(std::mt19937& engine, CrownShape shape) {
+  auto const between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  };
+  Scene scene;
+  scene.add({"receiver", level(-3, -3, 2.5, 6, 5)});
+  Surface crown{"crown",
+                level(between(-6, 2), between(-6, 2), between(0, 6), between(1, 6), between(1, 6))};
+  crown.filter.set(Crown{shape, between(1, 6), between(0.1, 2)});
+  scene.add(crown);
+  return scene;
+}
+
+TEST(CrownPixels, PassWhatTheirRaysDo) {
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  std::size_t dimmed = 0;
+  for (int i = 0; i < 200; ++i) {
+    Scene const scene = random_crown(engine, shapes.at(static_cast<std::size_t>(i) % 4));
+    // Now and then along the axis, or nearly so: in parallel to a cylinder's sides.
+    int const steps = i / 20;
+    double const altitude = i % 20 < 4 ? 90.0 - 0.5 * steps : 10.0 + 75.0 * uniform(engine);
+    glm::dvec3 const towards_sun = to_vector(sun_at(360.0 * uniform(engine), altitude));
+    auto const frame = plane_frame(scene[0].polygon).value();
+    constexpr int side = 70;
+    TileMap const map = fit_tile(frame, scene[0].polygon.outline, side);
+    View const pixels = in_pixels(view_in_front(frame, map, towards_sun), {side, side, 0.0});
+    LuminanceTile shaded;
+    shaded.start(side, 0, side);
+    PixelMask lit;
+    lit.start(side, 0, side);
+    Crowns const crowns(scene);
+    CrownInBeam const crown{&crowns[0], towards_sun, crowns[0].extinction(towards_sun, {})};
+    shade_by_crowns(shaded, lit, pixels, {&crown, 1});
+    glm::dmat3 const from_pixels = glm::inverse(glm::transpose(
+        glm::dmat3(glm::dvec3(pixels.x), glm::dvec3(pixels.y), glm::dvec3(pixels.cut))));
+    RayScene const rays(scene, {});
+    for (int row = 0; row < side; ++row) {
+      for (int column = 0; column < side; ++column) {
+        glm::dvec3 const on_receiver(column + 0.5 - pixels.x.w, row + 0.5 - pixels.y.w,
+                                     1e-9 - pixels.cut.w);
+        RayConditions conditions;
+        conditions.receiver = 0;
+        double const passed = rays.transmittance(
+            {pixels.origin + from_pixels * on_receiver, towards_sun}, conditions);
+        float const found = shaded.row(row)[static_cast<std::size_t>(column)];
+        ASSERT_NEAR(found, passed, 2e-5) << i << ' ' << row << ' ' << column;
+        if (passed < 0.99) ++dimmed;
+      }
+    }
+  }
+  EXPECT_GT(dimmed, 100000U);
 }
 
 TEST(Crowns, MistakesAreNamed) {

@@ -14,7 +14,8 @@ SheetInBeam in_beam(SheetCase const& one, Surface const& surface) {
   Scene scene;
   scene.add(surface);
   ScreensAtDirection wanted{towards_sun_of(one), {}, {}};
-  wanted.add(0, false);
+  constexpr double many = 1e9;  // rays, for which images have cells
+  wanted.add(0, false, many);
   return sheets_in_beam(Screens(scene), wanted, {}).front();
 }
 
