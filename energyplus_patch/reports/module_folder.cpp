@@ -21,8 +21,8 @@ using Json = nlohmann::json;
 using Path = std::filesystem::path;
 
 constexpr std::size_t max_fields = 1000;
-constexpr std::size_t max_modules = 20'000;
-constexpr std::size_t max_strings = 40;
+constexpr std::size_t max_modules = 10'000;
+constexpr std::size_t max_strings = 20;
 constexpr int max_days = 366;
 
 std::string read_table(Path const& file) {

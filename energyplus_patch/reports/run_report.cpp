@@ -26,6 +26,7 @@
 #include "reports/map_folder.h"
 #include "reports/map_grid.h"
 #include "reports/module_folder.h"
+#include "reports/near_terrain.h"
 #include "reports/page/run_page.h"
 #include "reports/page_motions.h"
 #include "reports/report.h"
@@ -166,15 +167,31 @@ struct Surrounds {
   }
 };
 
+// The surroundings of the receivers that are drawn; `reach`: in diagonals of the receivers.
+Surrounds surrounds_of(Scene const& scene, RunRecord const& record, double reach) {
+  Surrounds near;
+  for (auto const id : record.receivers()) near.add(scene[id].polygon);
+  double const margin = reach * std::max(glm::distance(near.low, near.high), 1.0);
+  near.low -= margin;
+  near.high += margin;
+  return near;
+}
+
+bool is_site_context(Model const& model, std::string const& name) {
+  auto const type = model.surroundings.types.find(name);
+  return type != model.surroundings.types.end() && type->second == extension::site_context::type;
+}
+
+bool is_terrain(Model const& model, std::string const& name) {
+  return name.ends_with(":TERRAIN") && is_site_context(model, name);
+}
+
 // What is drawn besides receivers: the model's shades, walls that take no part in shading, and the
 // neighbouring buildings near by.
 std::vector<SurfaceId> drawn_casters(SceneAssembly const& assembly, Scene const& scene,
                                      RunRecord const& record) {
-  Surrounds near;
-  for (auto const id : record.receivers()) near.add(scene[id].polygon);
-  double const reach = 1.5 * std::max(glm::distance(near.low, near.high), 1.0);
-  near.low -= reach;
-  near.high += reach;
+  constexpr double reach = 1.5;
+  auto const near = surrounds_of(scene, record, reach);
   auto const& model = assembly.model();
   auto ids = assembly.shown();
   // Windows inside of the building show nothing.
@@ -182,14 +199,24 @@ std::vector<SurfaceId> drawn_casters(SceneAssembly const& assembly, Scene const&
     return scene[id].casting == Casting::never && model.shading.base_of.contains(scene[id].name);
   });
   for (SurfaceId id = 0; id < scene.size(); ++id) {
-    auto const type = model.surroundings.types.find(scene[id].name);
-    if (type == model.surroundings.types.end()) continue;
-    bool const terrain = scene[id].name.ends_with(":TERRAIN");
-    if (type->second == extension::site_context::type && !terrain && near.has(scene[id].polygon)) {
+    auto const& name = scene[id].name;
+    if (is_site_context(model, name) && !is_terrain(model, name) && near.has(scene[id].polygon)) {
       ids.push_back(id);
     }
   }
   return ids;
+}
+
+PageTerrain drawn_terrain(SceneAssembly const& assembly, Scene const& scene,
+                          RunRecord const& record) {
+  std::vector<Polygon const*> ground;
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    if (is_terrain(assembly.model(), scene[id].name)) ground.push_back(&scene[id].polygon);
+  }
+  // Farther than neighbours: hills matter from far away.
+  constexpr double reach = 4.0;
+  auto const near = surrounds_of(scene, record, reach);
+  return terrain_in(ground, near.low, near.high);
 }
 
 // Returns their ids.
@@ -224,6 +251,7 @@ std::vector<SurfaceId> add_surfaces(RunPage& page, SceneAssembly const& assembly
     page.surfaces.push_back({surface.name, surface.polygon, style});
   }
   page.styles = styles.all();
+  page.terrain = drawn_terrain(assembly, scene, record);
   return ids;
 }
 

@@ -23,9 +23,9 @@ namespace gpu_shading::energyplus {
 //   run_sky.csv        receivers with a shading mask: view factor to the sky, and without shades
 //   run_facts.csv      the facts below the page's title
 // Maps that gpu_shading map has written into the report's folder, or its folder maps, are on the
-// page, too, and so is what gpu_shading modules has written into its folder modules. Masks are of the
-// schedules' lowest values and screens fully deployed, which the optics then have, and of moving
-// shades at rest.
+// page, too, and so is what gpu_shading modules has written into its folder modules. Masks are of
+// the schedules' lowest values and screens fully deployed, which the optics then have, and of
+// moving shades at rest.
 void write_run(StagedFiles& files, std::filesystem::path const& folder, SceneAssembly& assembly,
                DeviceInfo const& device, RunRecord const& record, PositionRecord const& positions);
 

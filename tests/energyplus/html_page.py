@@ -192,6 +192,12 @@ def look_at(page, width, look, folder, *options, before=""):
     return json.loads(html.unescape(found[1]))
 
 
+def content_of(page):
+    """What the page of a run is about."""
+    text = page.read_text(encoding="utf-8")
+    return json.loads(re.search(r'<script type="application/json" id="content">(.*?)</script>', text, re.DOTALL)[1])
+
+
 def screenshot(page, width, height, picture, *options):
     _run(picture.parent, width, height, *options, f"--screenshot={picture}", page.as_uri())
 

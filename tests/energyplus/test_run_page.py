@@ -1,14 +1,13 @@
 """The page of a run (--gpu-shading-report): its numbers against EnergyPlus's own, and the page in a browser."""
 
 import base64
-import json
 import re
 import subprocess
 
 import numpy as np
 import pytest
 from eso_file import EsoFile
-from html_page import DARK, SOFTWARE_WEBGL, look_at, not_in_tables, print_page, screenshot
+from html_page import DARK, SOFTWARE_WEBGL, content_of, look_at, not_in_tables, print_page, screenshot
 from output_files import rows_of
 from PIL import Image
 from shading_runs import energyplus, input_file
@@ -261,11 +260,6 @@ def test_the_page_on_paper(page, tmp_path):
     # Hatched fields, each with a picture of its own, made it 6 MB.
     assert 20_000 < (tmp_path / "page.pdf").stat().st_size < 1_000_000
     print(tmp_path / "page.pdf")
-
-
-def content_of(page):
-    text = page.read_text(encoding="utf-8")
-    return json.loads(re.search(r'<script type="application/json" id="content">(.*?)</script>', text, re.DOTALL)[1])
 
 
 def test_maps_are_on_the_page(run):

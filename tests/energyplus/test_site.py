@@ -9,6 +9,7 @@ import subprocess
 
 import numpy as np
 import pytest
+from html_page import content_of
 from PIL import Image, TiffImagePlugin, TiffTags
 from shading_runs import energyplus, input_file, results
 from test_screens import write_grey_image
@@ -124,8 +125,18 @@ def test_terrain_shades_like_a_slope(run, bare, tmp_path):
         f"dx {(east - west) / 2:.12f}\ndy {north - south:.12f}\n"
         f"{ELEVATION} {ELEVATION} {ELEVATION}\n{ELEVATION + 12} {ELEVATION + 12} {ELEVATION + 12}\n")
     (tmp_path / "context.gpu-shading.idf").write_text("GPUShading:SiteContext,Hill,,,,,,,hill.asc;\n")
-    answer = run(bare, "context")
+    answer = run(bare, "context", [f"--gpu-shading-report={tmp_path / 'report'}"])
     assert_alike(reference, answer, ["SOUTH"])
+    terrain = content_of(tmp_path / "report" / "index.html")["terrain"]
+    nodes, codes = terrain["nodes"], np.frombuffer(base64.b64decode(terrain["heights"]), "<u2")
+    x, y = (terrain["low"][axis] + terrain["step"][axis] * np.arange(nodes) for axis in (0, 1))
+    x, y = np.meshgrid(x, y)
+    inside = (abs(x) < 59.9) & (y > -31.9) & (y < -8.1)
+    outside = (abs(x) > 60.1) | (y < -32.1) | (y > -7.9)
+    codes = codes.reshape(nodes, nodes)
+    assert inside.sum() > 1000 and (codes[outside] == terrain["none"]).all()
+    heights = terrain["low"][2] + terrain["rise"] * codes[inside]
+    assert heights == pytest.approx((-8 - y[inside]) / 2, abs=0.01)
     assert any("terrain of 3 x 2 nodes (2 cells drawn)" in line for line in answer.our_lines)
 
 

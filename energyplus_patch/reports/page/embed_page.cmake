@@ -4,7 +4,7 @@
 function(embed_page variable)
   set(folder ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/parts)
   # In the order in which they are run.
-  set(scripts content colours geometry patterns shading sky model_view plain_drawing maps carpet modules beam mask saving receivers main)
+  set(scripts content colours geometry patterns shading sky terrain model_view plain_drawing maps carpet modules beam mask saving receivers main)
   list(TRANSFORM scripts PREPEND ${folder}/)
   list(TRANSFORM scripts APPEND .js)
   set(parts ${folder}/page.html ${folder}/page.css ${scripts} ${ARGN})

@@ -24,6 +24,9 @@ using Json = nlohmann::ordered_json;
 
 // Vertices that a page may have: with three coordinates of two bytes, a third more as text.
 constexpr std::size_t max_vertices = 150000;
+// What the text of modules takes of them.
+constexpr std::size_t vertices_of_module = 3;
+constexpr std::size_t codes_of_vertex = 6;
 // More names than this of surfaces that only cast shadows are left out.
 constexpr std::size_t max_caster_names = 3000;
 constexpr std::size_t max_in_ring = 60000;
@@ -77,6 +80,15 @@ std::size_t vertices_of(PageSurface const& surface) {
       std::accumulate(polygon.holes.begin(), polygon.holes.end(), polygon.outline.size(),
                       [](std::size_t sum, Ring const& hole) { return sum + hole.size(); });
   return once * (1 + surface.moved.size());
+}
+
+std::size_t vertices_of(PageModules const& modules) {
+  std::size_t vertices = 0;
+  for (auto const& field : modules.fields) {
+    vertices += vertices_of_module * field.modules.size();
+    for (auto const& codes : field.strings) vertices += codes.size() / codes_of_vertex;
+  }
+  return vertices;
 }
 
 bool is_drawable(Polygon const& polygon) {
@@ -275,6 +287,31 @@ Json skies_of(RunPage const& page) {
           {"list", list}};
 }
 
+// Heights in 65,534ths of their range, 65,535 where there is no ground.
+Json terrain_of(PageTerrain const& terrain) {
+  if (terrain.nodes == 0) return nullptr;
+  float low = HUGE_VALF;
+  float high = -HUGE_VALF;
+  for (float const height : terrain.heights) {
+    low = height < low ? height : low;
+    high = height > high ? height : high;
+  }
+  constexpr std::uint16_t none = UINT16_MAX;
+  float const rise = std::max(high - low, 1e-3F) / (none - 1);
+  std::vector<std::uint16_t> codes;
+  codes.reserve(terrain.heights.size());
+  for (float const height : terrain.heights) {
+    codes.push_back(
+        std::isnan(height) ? none : static_cast<std::uint16_t>(std::lround((height - low) / rise)));
+  }
+  return {{"nodes", terrain.nodes},
+          {"low", {terrain.low.x, terrain.low.y, low}},
+          {"step", {terrain.step.x, terrain.step.y}},
+          {"rise", rise},
+          {"none", none},
+          {"heights", base64(codes)}};
+}
+
 Json modules_of(PageModules const& modules) {
   Json fields = Json::array();
   for (auto const& field : modules.fields) {
@@ -314,6 +351,7 @@ Json content_of(RunPage const& page) {
   content["motions"] = motions_of(page, extent);
   content["maps"] = maps_of(page);
   content["skies"] = skies_of(page);
+  content["terrain"] = terrain_of(page.terrain);
   content["modules"] = modules_of(page.modules);
   content["facts"] = page.facts;
   content["notes"] = page.notes;
@@ -352,7 +390,7 @@ void simplify(RunPage& page) {
   std::stable_sort(casters.begin(), casters.end(),
                    [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
   std::vector<bool> kept(page.surfaces.size(), false);
-  std::size_t vertices = 0;
+  std::size_t vertices = vertices_of(page.modules);
   std::size_t drawn = 0;
   for (std::size_t i = 0; i < first; ++i) {
     kept[i] = true;

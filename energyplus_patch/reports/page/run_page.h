@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -94,6 +95,17 @@ struct PageMap {
   double mean_energy = 0.0;
 };
 
+// The ground near by, as heights of the nodes of a grid; without nodes if there is none.
+struct PageTerrain {
+  static constexpr std::size_t nodes_of_side = 97;
+
+  std::size_t nodes = 0;  // of each side
+  glm::dvec2 low{0.0};    // the south-western node, m
+  glm::dvec2 step{0.0};
+  std::vector<float>
+      heights;  // m, row by row from the south; not a number where there is no ground
+};
+
 // Photovoltaic modules over a period.
 struct PageModules {
   static constexpr std::size_t hours_of_day = 24;
@@ -141,6 +153,7 @@ struct RunPage {
   std::vector<std::string> sky_kinds;  // of what stops the beam
   std::string maps_from;               // the days that they are about, MM-DD
   std::string maps_to;
+  PageTerrain terrain;
   PageModules modules;
   std::vector<std::string> notes;  // what is left out
 };

@@ -54,7 +54,8 @@ TEST(RunPage, LeavesNoPlaceForSurfacesThatMoveThroughTooManyPositions) {
   EXPECT_EQ(page.notes.size(), 1U);
 }
 
-TEST(RunPage, OfALargeModelHasLessThanFiveMegabytes) {
+// As many receivers and casting surfaces as the hotel has, on terrain.
+RunPage large_page() {
   auto page = page_of(2385, 95000);
   constexpr std::size_t hours = 377;  // some 900,000 fractions
   page.days.push_back({3, 21, std::vector<PageHour>(hours)});
@@ -68,10 +69,29 @@ TEST(RunPage, OfALargeModelHasLessThanFiveMegabytes) {
   for (std::size_t i = 0; i < 300; ++i) {
     page.skies.push_back({i, 0.25, 0.5, std::vector<std::uint8_t>(900, 57)});
   }
-  auto const html = to_html(std::move(page));
+  page.terrain.nodes = PageTerrain::nodes_of_side;
+  page.terrain.step = {1.0, 1.0};
+  page.terrain.heights.assign(page.terrain.nodes * page.terrain.nodes, 1.0F);
+  return page;
+}
+
+TEST(RunPage, OfALargeModelHasLessThanFiveMegabytes) {
+  auto const html = to_html(large_page());
   RecordProperty("bytes", static_cast<int>(html.size()));
   EXPECT_LT(html.size(), 5'000'000U);
   EXPECT_THAT(html, HasSubstr("The drawing is simplified: it has 35115 of 95000 casting surfaces"));
+}
+
+TEST(RunPage, GivesUpCastingSurfacesForModules) {
+  auto page = large_page();
+  constexpr std::size_t days = 366;
+  constexpr std::size_t modules = 10'000;
+  constexpr std::size_t strings = 20;
+  page.modules.days.assign(days, {12, 21});
+  auto& field = page.modules.fields.emplace_back();
+  field.modules.assign(modules, {10, 1'000, 1'000, 0.123456});
+  field.strings.assign(strings, std::vector<std::uint8_t>(days * PageModules::hours_of_day, 57));
+  EXPECT_LT(to_html(std::move(page)).size(), 5'000'000U);
 }
 
 }  // namespace

@@ -213,16 +213,21 @@ class ModelView {
     return new THREE.LineSegments(lines.geometry, material);
   }
 
-  // Below everything: terrain, where there is some, is not drawn.
+  // A disc below everything, and the terrain, where it may be lower.
   addGround() {
     this.floor = this.bounds.low[2] - this.bounds.middle[2] - 0.002 * this.radius;
-    const disc = new THREE.CircleBufferGeometry(GROUND * this.radius, 128);
-    this.groundTint = new THREE.Float32BufferAttribute(new Float32Array(disc.attributes.position.count * 4), 4);
-    disc.setAttribute("tint", this.groundTint);
+    const disc = new THREE.CircleBufferGeometry((content.terrain ? 1.05 : GROUND) * this.radius, 128);
+    disc.setAttribute("tint", new THREE.Float32BufferAttribute(new Float32Array(disc.attributes.position.count * 4), 4));
     const ground = new THREE.Mesh(disc, this.material);
     ground.position.z = this.floor;
     ground.receiveShadow = true;
     this.scene.add(ground);
+    this.groundTints = [[disc.attributes.tint, 0]];
+    if (!content.terrain) return;
+    const terrain = new THREE.Mesh(terrainGeometry(content.terrain, this.bounds.middle), this.material);
+    terrain.castShadow = terrain.receiveShadow = true;
+    this.casters.add(terrain);
+    this.groundTints.push([terrain.geometry.attributes.tint, 1]);
   }
 
   addCamera() {
@@ -400,10 +405,10 @@ class ModelView {
   refreshTheme() {
     const {caster, ground, edge} = theme();
     for (const number of this.numbersOf("opaque")) this.opaque.paint(number, caster, 1);
-    for (let i = 0; i < this.groundTint.count; ++i) {
-      this.groundTint.setXYZW(i, ground[0] / 255, ground[1] / 255, ground[2] / 255, 0);
+    for (const [tint, tilts] of this.groundTints) {
+      for (let i = 0; i < tint.count; ++i) tint.setXYZW(i, ground[0] / 255, ground[1] / 255, ground[2] / 255, tilts);
+      tint.needsUpdate = true;
     }
-    this.groundTint.needsUpdate = true;
     this.edges.color.setHex(edge);
     this.casterEdges.color.setHex(edge);
     for (const {style, material} of this.sheets) material.color.setHex(theme()[style.kind]);
