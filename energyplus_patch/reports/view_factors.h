@@ -43,7 +43,7 @@ struct SurfaceViews {
 };
 
 // Adds SurfaceProperty:LocalEnvironment with :SurroundingSurfaces, for groups with a schedule, or
-// else with :GroundSurfaces. EnergyPlus 25.2 multiplies the sky view factor of these objects by its
+// else with :GroundSurfaces. EnergyPlus multiplies the sky view factor of these objects by its
 // ratio of sky diffuse radiation, and then takes the ground to be all the rest. So the sky view
 // factor is divided by the ratio; all without a schedule is the rest, at air temperature.
 // `nested`: for epJSON. Returns the surfaces for which EnergyPlus's limit, a sum of 1, cuts off
