@@ -76,7 +76,7 @@ def test_completion_offers_what_the_programs_know(installed, patched):
     program = installed / "bin" / "gpu_shading"
     assert set(completions(installed, program, "")) >= {"devices", "check", "view", "map", "sample", "export"}
     assert completions(installed, program, "exp") == ["export"]
-    assert set(completions(installed, program, "view", "--r")) == {"--receiver"}
+    assert set(completions(installed, program, "view", "--re")) == {"--receiver"}
     assert "--gpu-shading-device" in completions(installed, program, "view", "--gpu-shading-de")
     assert completions(installed, program, "screen", "--gpu-shading-de") == []
     assert "--gpu-shading-device" in completions(installed, patched, "--gpu-shading-de")
