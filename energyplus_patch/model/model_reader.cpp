@@ -230,7 +230,14 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
 }
 
 Model read_model(std::filesystem::path const& path, Choices const& choices) {
-  return understand(read_objects(path), path, choices);
+  auto objects = read_objects(path);
+  if (!objects.empty() && std::ranges::all_of(objects, is_extension, &InputObject::type)) {
+    throw Error(
+        fmt::format("{}: has {}... objects alone, expected a model: give this file by "
+                    "--gpu-shading-file",
+                    path.string(), extension_prefix));
+  }
+  return understand(std::move(objects), path, choices);
 }
 
 Rewrite rewrite_for(Model const& model) {

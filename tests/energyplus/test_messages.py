@@ -75,6 +75,13 @@ def test_errors_of_files_are_one_line_in_our_words(call, model, tmp_path, argume
     assert done.stderr == f"gpu_shading: error: {message.format(folder=tmp_path)}\n"
 
 
+def test_a_file_of_extension_objects_is_no_model(call, tmp_path):
+    (tmp_path / "shades.idf").write_text("GPUShading:TransparentShade, Half, Screen, Constant, 0.5;\n")
+    done = call("check", "shades.idf")
+    assert done.stderr == ("gpu_shading: error: shades.idf: has GPUShading:... objects alone, expected a model: give "
+                           "this file by --gpu-shading-file\n")
+
+
 @pytest.mark.parametrize("fields, message", [
     ("Geometry,Tree,loop.obj,m,Z", "GPUShading:Geometry Tree: File Name: loop.obj"),
     ("PerforatedScreen,Veil,Louvre*,Texture,loop.png,,,,,,0.001",
