@@ -23,21 +23,20 @@ void set_heights(PageTerrain& terrain, Triangle const& triangle) {
   auto const node_of = [&](glm::dvec3 const& point, auto const& round) {
     auto const place = (glm::dvec2(point) - terrain.low) / terrain.step;
     auto const last = static_cast<double>(terrain.nodes - 1);
-    return glm::dvec2(std::clamp(round(place.x), 0.0, last), std::clamp(round(place.y), 0.0, last));
+    return glm::uvec2(std::clamp(round(place.x), 0.0, last), std::clamp(round(place.y), 0.0, last));
   };
   auto const from =
       node_of(glm::min(a, glm::min(b, c)), [](double value) { return std::floor(value); });
   auto const to =
       node_of(glm::max(a, glm::max(b, c)), [](double value) { return std::ceil(value); });
-  for (double row = from.y; row <= to.y; row += 1.0) {
-    for (double column = from.x; column <= to.x; column += 1.0) {
+  for (auto row = from.y; row <= to.y; ++row) {
+    for (auto column = from.x; column <= to.x; ++column) {
       auto const point = terrain.low + glm::dvec2(column, row) * terrain.step - glm::dvec2(a);
       double const along = cross(point, second) / twice;
       double const across = cross(first, point) / twice;
       constexpr double rounding = 1e-9;
       if (along < -rounding || across < -rounding || along + across > 1.0 + rounding) continue;
-      terrain.heights[static_cast<std::size_t>(row) * terrain.nodes +
-                      static_cast<std::size_t>(column)] =
+      terrain.heights[row * terrain.nodes + column] =
           static_cast<float>(a.z + along * (b.z - a.z) + across * (c.z - a.z));
     }
   }

@@ -82,7 +82,9 @@ void draw_dashed(Image& image, std::vector<Ring> const& rings, ViewScale const& 
       auto const from = place(ring[i]);
       auto const to = place(ring[(i + 1) % ring.size()]);
       double const length = glm::distance(from, to);
-      for (double at = 0.0; at < length; at += 2.0 * dash) {
+      auto const dashes = static_cast<int>(std::ceil(length / (2.0 * dash)));
+      for (int k = 0; k < dashes; ++k) {
+        double const at = 2.0 * dash * k;
         auto const end = std::min(at + dash, length);
         draw_line(image, glm::mix(from, to, at / length), glm::mix(from, to, end / length), thick);
       }
