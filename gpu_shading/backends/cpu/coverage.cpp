@@ -205,9 +205,11 @@ void Coverage::shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* pa
   casters.bodies.shade(shaded, mask, pixels);
 }
 
-void Coverage::darken(PixelMask& mask, int side, View const& pixels,
-                      CastersInView const& casters) const {
-  if (casters.crowd != nullptr) return casters.crowd->darken(mask, side, pixels, casters.question);
+void Coverage::darken(PixelMask& mask, int side, View const& pixels, CastersInView const& casters,
+                      int threads) const {
+  if (casters.crowd != nullptr) {
+    return casters.crowd->darken(mask, side, pixels, casters.question, threads);
+  }
   cover(mask, side, pixels, casters, {}, [](ConvexArea const&, Shade const&) {});
 }
 
@@ -225,7 +227,9 @@ struct Coverage::Rows {
   template <typename Use>
   std::uint64_t each(Use use) const {
     std::atomic<std::uint64_t> own = 0;
-    in_rows(grid.rows, threads, [&](int first, int end) {
+    // A crowd is shared by its casters.
+    int const shares = casters.crowd != nullptr ? 1 : threads;
+    in_rows(grid.rows, shares, [&](int first, int end) {
       static thread_local PixelMask mask;
       mask.start(grid.columns(), first, end);
       light(mask, tile, grid);
@@ -249,7 +253,7 @@ struct Coverage::Rows {
   double lit(std::uint64_t& own) const {
     std::atomic<std::uint64_t> sum = 0;
     own = each([&](PixelMask& mask, int /*first*/, int /*end*/) {
-      coverage.darken(mask, grid.side(), pixels, casters);
+      coverage.darken(mask, grid.side(), pixels, casters, threads);
       sum += mask.lit();
     });
     return static_cast<double>(sum);
@@ -387,7 +391,7 @@ std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& v
   auto const pieces = interior_pieces(grid, in_pixels(behind, grid), interiors);
   std::vector<LuminanceSums> sums(interiors.size());
   if (casters.opaque()) {
-    darken(lit, grid.side(), pixels, casters);
+    darken(lit, grid.side(), pixels, casters, 1);
     each_band(grid, lit, pieces, [&](Band const& band) { add_lit(lit, band, sums); });
   } else {
     static thread_local LuminanceTile shaded;

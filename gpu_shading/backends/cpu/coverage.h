@@ -91,8 +91,9 @@ class Coverage {
   template <typename Use>
   void each_area(int side, View const& pixels, CastersInView const& casters,
                  std::span<std::size_t const> order, Range const& positions, Use use) const;
-  // Of opaque casters.
-  void darken(PixelMask& mask, int side, View const& pixels, CastersInView const& casters) const;
+  // Of opaque casters. On so many threads, if they are a crowd.
+  void darken(PixelMask& mask, int side, View const& pixels, CastersInView const& casters,
+              int threads) const;
 
   // Where each piece of the interior surfaces is.
   std::vector<InteriorPiece> interior_pieces(TileGrid const& grid, View const& pixels,
