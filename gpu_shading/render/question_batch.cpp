@@ -15,8 +15,12 @@ namespace {
 
 // Number of answers awaited at a time, because their sums take memory.
 constexpr std::size_t max_viewed = 16384;
-// Number of questions whose casters are searched at a time, because the results take memory.
-constexpr std::size_t max_asked = 64;
+// Number of questions whose casters are searched at a time: few for a device, which draws those of
+// before meanwhile, and otherwise as many as memory for so many casters allows, because threads
+// wait for each other after each time.
+constexpr std::size_t min_asked = 64;
+constexpr std::size_t max_asked = 4096;
+constexpr std::size_t max_casters = std::size_t{1} << 20U;
 
 // Steps of an EdgeSweep that always take less time than samples.
 constexpr double few_steps = 300.0;
@@ -35,7 +39,7 @@ double sample_cost(Detail const& detail, int side, bool transmits, std::size_t i
 }  // namespace
 
 QuestionBatch::QuestionBatch(Parts const& parts)
-    : parts_(parts), may_be_crowd_(parts.transmission.all_opaque()) {
+    : parts_(parts), may_be_crowd_(parts.transmission.all_opaque()), at_once_(min_asked) {
   parts_.backend.forget();
 }
 
@@ -47,7 +51,7 @@ void QuestionBatch::ask(Question const& question) {
   if (cosine <= edge_on) return;
   auto const* const in_sector = parts_.receivers.in_sector(question.receiver, question.towards_sun);
   asked_.push_back({question, &seen, cosine, in_sector});
-  if (asked_.size() < max_asked) return;
+  if (asked_.size() < at_once_) return;
   cull();
   if (viewed_.size() >= max_viewed) finish();
 }
@@ -57,6 +61,11 @@ void QuestionBatch::cull() {
   {
     Stopwatch const watch(parts_.statistics.cull_seconds);
     for_each_index(asked_.size(), [&](std::size_t i) { found[i] = find(asked_[i]); });
+  }
+  if (parts_.backend.device().id.is_cpu()) {
+    std::size_t casters = 1;
+    for (Found const& each : found) casters += each.in_view.casters.size();
+    at_once_ = std::clamp(max_casters * asked_.size() / casters, min_asked, max_asked);
   }
   std::vector<ReceiverView> views;
   for (std::size_t i = 0; i < asked_.size(); ++i) enqueue(asked_[i], std::move(found[i]), views);

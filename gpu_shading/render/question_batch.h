@@ -90,6 +90,7 @@ class QuestionBatch {
 
   Parts parts_;
   bool may_be_crowd_;
+  std::size_t at_once_;  // questions whose casters are searched
   std::vector<Asked> asked_;
   std::vector<Viewed> viewed_;
 };

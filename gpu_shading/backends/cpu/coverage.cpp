@@ -64,17 +64,25 @@ void each_bit(std::uint64_t word, std::size_t number, Use use) {
   }
 }
 
+// The rows of each part, of which so many threads may take one at a time.
+int rows_a_part(int rows, int threads) {
+  // The largest tiles would take too much memory at once.
+  constexpr int most = 2048;
+  return std::clamp((rows - 1) / std::max(threads, 1) + 1, 1, most);
+}
+
+// Calls use(i) for every i below `count`, on one thread or on all.
+template <typename Use>
+void for_each_of(std::size_t count, int threads, Use const& use) {
+  if (threads > 1) return for_each_index(count, use);
+  for (std::size_t i = 0; i < count; ++i) use(i);
+}
+
 // Calls use(first, end) for parts of a number of rows, on at most this many threads.
 template <typename Use>
 void in_rows(int rows, int threads, Use use) {
-  // The largest tiles would take too much memory at once.
-  constexpr int most = 2048;
-  if (threads <= 1) {
-    for (int first = 0; first < rows; first += most) use(first, std::min(first + most, rows));
-    return;
-  }
-  int const share = std::min((rows + threads - 1) / threads, most);
-  for_each_index(static_cast<std::size_t>((rows + share - 1) / share), [&](std::size_t part) {
+  int const share = rows_a_part(rows, threads);
+  for_each_of(static_cast<std::size_t>((rows + share - 1) / share), threads, [&](std::size_t part) {
     int const first = static_cast<int>(part) * share;
     use(first, std::min(first + share, rows));
   });
@@ -135,26 +143,60 @@ struct Coverage::Band {
   std::size_t count = 0;
 };
 
+template <typename Use>
+void Coverage::each_area(int side, View const& pixels, CastersInView const& casters,
+                         std::span<std::size_t const> order, Range const& positions,
+                         Use use) const {
+  for (std::size_t i = positions.first; i < positions.first + positions.count; ++i) {
+    std::size_t const place = order.empty() ? i : order[i];
+    Shade const shade = casters.shades.empty() ? Shade{} : casters.shades[place];
+    pieces_.each(casters.surfaces[place], pixels,
+                 [&](ProjectedPiece const& piece) { use(piece.area(side), shade); });
+  }
+}
+
+std::vector<std::vector<ShadedArea>> Coverage::areas(int side, View const& pixels,
+                                                     CastersInView const& casters,
+                                                     std::span<std::size_t const> order,
+                                                     int threads) const {
+  constexpr std::size_t at_once = 256;
+  std::size_t const count = casters.surfaces.size();
+  std::vector<std::vector<ShadedArea>> found((count + at_once - 1) / at_once);
+  for_each_of(found.size(), threads, [&](std::size_t i) {
+    Range const positions{i * at_once, std::min(at_once, count - i * at_once)};
+    found[i].reserve(positions.count);
+    each_area(side, pixels, casters, order, positions,
+              [&](ConvexArea const& area, Shade const& shade) {
+                if (area.first_row < area.end_row) found[i].push_back({area, shade});
+              });
+  });
+  return found;
+}
+
 template <typename Dim>
 void Coverage::cover(PixelMask& mask, int side, View const& pixels, CastersInView const& casters,
                      std::span<std::size_t const> order, Dim dim) const {
-  for (std::size_t i = 0; i < casters.surfaces.size(); ++i) {
-    std::size_t const place = order.empty() ? i : order[i];
-    Shade const shade = casters.shades.empty() ? Shade{} : casters.shades[place];
-    pieces_.each(casters.surfaces[place], pixels, [&](ProjectedPiece const& piece) {
-      if (shade.transmittance > 0.0F) {
-        dim(piece.area(side), shade);
-      } else {
-        mask.darken(piece.area(side));
-      }
-    });
+  auto const put = [&](ConvexArea const& area, Shade const& shade) {
+    if (shade.transmittance > 0.0F) {
+      dim(area, shade);
+    } else {
+      mask.darken(area);
+    }
+  };
+  if (casters.areas.empty()) {
+    return each_area(side, pixels, casters, order, {0, casters.surfaces.size()}, put);
+  }
+  for (std::vector<ShadedArea> const& some : casters.areas) {
+    for (auto const& [area, shade] : some) {
+      if (area.first_row < mask.end_row() && area.end_row > mask.first_row()) put(area, shade);
+    }
   }
 }
 
 void Coverage::shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* passed,
                      View const& pixels, CastersInView const& casters) const {
   std::vector<std::size_t> order;
-  if (passed != nullptr) order = by_schedule(casters.shades);
+  if (passed != nullptr && casters.areas.empty()) order = by_schedule(casters.shades);
   cover(mask, shaded.columns(), pixels, casters, order,
         [&](ConvexArea const& area, Shade const& shade) {
           shaded.multiply(area, shade.transmittance);
@@ -163,9 +205,11 @@ void Coverage::shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* pa
   casters.bodies.shade(shaded, mask, pixels);
 }
 
-void Coverage::darken(PixelMask& mask, int side, View const& pixels,
-                      CastersInView const& casters) const {
-  if (casters.crowd != nullptr) return casters.crowd->darken(mask, side, pixels, casters.question);
+void Coverage::darken(PixelMask& mask, int side, View const& pixels, CastersInView const& casters,
+                      int threads) const {
+  if (casters.crowd != nullptr) {
+    return casters.crowd->darken(mask, side, pixels, casters.question, threads);
+  }
   cover(mask, side, pixels, casters, {}, [](ConvexArea const&, Shade const&) {});
 }
 
@@ -183,7 +227,9 @@ struct Coverage::Rows {
   template <typename Use>
   std::uint64_t each(Use use) const {
     std::atomic<std::uint64_t> own = 0;
-    in_rows(grid.rows, threads, [&](int first, int end) {
+    // A crowd is shared by its casters.
+    int const shares = casters.crowd != nullptr ? 1 : threads;
+    in_rows(grid.rows, shares, [&](int first, int end) {
       static thread_local PixelMask mask;
       mask.start(grid.columns(), first, end);
       light(mask, tile, grid);
@@ -207,7 +253,7 @@ struct Coverage::Rows {
   double lit(std::uint64_t& own) const {
     std::atomic<std::uint64_t> sum = 0;
     own = each([&](PixelMask& mask, int /*first*/, int /*end*/) {
-      coverage.darken(mask, grid.side(), pixels, casters);
+      coverage.darken(mask, grid.side(), pixels, casters, threads);
       sum += mask.lit();
     });
     return static_cast<double>(sum);
@@ -277,14 +323,24 @@ struct Coverage::Rows {
 LuminanceSums Coverage::sums(Tile const& tile, View const& view, CastersInView const& casters,
                              Samples samples, int threads) const {
   auto const [grid, counting] = sampled(tile, view, casters, samples);
-  Rows const rows{*this, tile, grid, in_pixels(view, grid), casters, threads};
+  View const pixels = in_pixels(view, grid);
+  bool const by_schedules = any_scheduled(casters.shades);
+  CastersInView in_parts = casters;
+  std::vector<std::vector<ShadedArea>> projected;
+  if (casters.crowd == nullptr && rows_a_part(grid.rows, threads) < grid.rows) {
+    std::vector<std::size_t> order;
+    if (by_schedules) order = by_schedule(casters.shades);
+    projected = areas(grid.side(), pixels, casters, order, threads);
+    in_parts.areas = projected;
+  }
+  Rows const rows{*this, tile, grid, pixels, in_parts, threads};
   std::uint64_t own = 0;
   LuminanceSums sums;
   if (casters.opaque()) {
     sums.unscheduled = rows.lit(own);
   } else if (counting) {
     sums.unscheduled = rows.counted(own);
-  } else if (any_scheduled(casters.shades)) {
+  } else if (by_schedules) {
     sums = rows.scheduled(own);
   } else {
     sums.unscheduled = rows.luminance(own);
@@ -335,7 +391,7 @@ std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& v
   auto const pieces = interior_pieces(grid, in_pixels(behind, grid), interiors);
   std::vector<LuminanceSums> sums(interiors.size());
   if (casters.opaque()) {
-    darken(lit, grid.side(), pixels, casters);
+    darken(lit, grid.side(), pixels, casters, 1);
     each_band(grid, lit, pieces, [&](Band const& band) { add_lit(lit, band, sums); });
   } else {
     static thread_local LuminanceTile shaded;

@@ -20,12 +20,20 @@
 
 namespace gpu_shading {
 
+// A convex piece of a flat caster, in pixels.
+struct ShadedArea {
+  ConvexArea area;
+  Shade shade;
+};
+
 // What is in front of a receiver at one direction of the sun.
 struct CastersInView {
   std::span<SurfaceId const> surfaces;  // that are flat
   std::span<Shade const> shades;        // of each surface; none where all are opaque
   BodiesInView bodies;
   SampledRepeats repeats = {};  // of surfaces at equal distances
+  // Of `surfaces`, where they are needed several times.
+  std::span<std::vector<ShadedArea> const> areas = {};
   // Where `surfaces` are only a sample: rasterises all of them, which are opaque.
   CrowdRaster const* crowd = nullptr;
   CrowdQuestion question = {};
@@ -75,8 +83,17 @@ class Coverage {
   template <typename Dim>
   void cover(PixelMask& mask, int side, View const& pixels, CastersInView const& casters,
              std::span<std::size_t const> order, Dim dim) const;
-  // Of opaque casters.
-  void darken(PixelMask& mask, int side, View const& pixels, CastersInView const& casters) const;
+  // The areas of all casters, in that order, for cover(). On so many threads.
+  std::vector<std::vector<ShadedArea>> areas(int side, View const& pixels,
+                                             CastersInView const& casters,
+                                             std::span<std::size_t const> order, int threads) const;
+  // Calls use(area, shade) for the pieces of casters at some positions of the order.
+  template <typename Use>
+  void each_area(int side, View const& pixels, CastersInView const& casters,
+                 std::span<std::size_t const> order, Range const& positions, Use use) const;
+  // Of opaque casters. On so many threads, if they are a crowd.
+  void darken(PixelMask& mask, int side, View const& pixels, CastersInView const& casters,
+              int threads) const;
 
   // Where each piece of the interior surfaces is.
   std::vector<InteriorPiece> interior_pieces(TileGrid const& grid, View const& pixels,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "antialias/antialias.h"
@@ -14,8 +15,8 @@
 namespace gpu_shading {
 namespace {
 
-// Number of casters from which several cores share a view.
-constexpr std::size_t worth_sharing = 200;
+// Number of casters of a view that take a thread long enough to be worth its waking.
+constexpr std::size_t worth_a_thread = 2500;
 
 // Pixels per side of a tile up to which holes smaller than pixels are replaced by their effective
 // transmittance, which takes no account of where the receiver's edges cut them, unless by rows.
@@ -70,7 +71,10 @@ void CpuBackend::add(std::vector<ReceiverView> views) {
   std::vector<std::vector<SheetInBeam>> sheets(directions.size());
   for_each_index(sheets.size(),
                  [&](std::size_t i) { sheets[i] = transmission_.sheets(directions[i]); });
-  bool const few = views.size() < static_cast<std::size_t>(available_threads());
+  std::size_t const threads = static_cast<std::size_t>(available_threads());
+  // Of each view, where there are fewer of them than threads.
+  std::size_t const max_shares =
+      views.empty() || views.size() >= threads ? 1 : (2 * threads - 1) / views.size() + 1;
   std::size_t const first = sums_.size();
   sums_.resize(first + views.size());
   for_each_index(views.size(), [&](std::size_t i) {
@@ -79,9 +83,11 @@ void CpuBackend::add(std::vector<ReceiverView> views) {
     if (!noted[i].numbers.empty()) {
       screens = {&transmission_.screens(), sheets[noted[i].direction], noted[i].numbers};
     }
-    bool const shared = few && (view.crowd != nullptr || view.casters.size() >= worth_sharing ||
-                                !screens.numbers.empty());
-    sums_[first + i] = sums_of(view, screens, shared ? available_threads() : 1);
+    std::size_t const casters =
+        view.crowd != nullptr ? static_cast<std::size_t>(view.crowd_count) : view.casters.size();
+    std::size_t const shares = screens.numbers.empty() ? casters / worth_a_thread : threads;
+    sums_[first + i] =
+        sums_of(view, screens, static_cast<int>(std::min({shares, max_shares, threads})));
   });
 }
 

@@ -1,12 +1,18 @@
 #include "backends/cpu/crowd_raster.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <span>
+#include <utility>
 
 #include "platform/instructions.h"
+#include "platform/parallel.h"
 
 namespace gpu_shading {
 namespace {
@@ -135,6 +141,24 @@ ConvexArea area_of(Projected const& projected, std::size_t lane, int side) {
   return area;
 }
 
+// Nodes of a tree that together have all of its casters, so many or more if the tree has them.
+std::vector<std::uint32_t> branches(std::vector<Bvh::Node> const& nodes, std::size_t count) {
+  std::vector<std::uint32_t> found{0};
+  for (std::size_t before = 0; found.size() < count && found.size() > before;) {
+    before = found.size();
+    std::vector<std::uint32_t> next;
+    for (std::uint32_t const node : found) {
+      if (nodes[node].count <= lanes) {
+        next.push_back(node);
+      } else {
+        next.insert(next.end(), {nodes[node].children, nodes[node].children + 1});
+      }
+    }
+    found = std::move(next);
+  }
+  return found;
+}
+
 }  // namespace
 
 struct CrowdRaster::Search {
@@ -164,15 +188,43 @@ CrowdRaster::CrowdRaster(Scene const& scene, Casters const& casters, SurfacePiec
 }
 
 void CrowdRaster::darken(PixelMask& mask, int side, View const& pixels,
-                         CrowdQuestion const& question) const {
+                         CrowdQuestion const& question, int threads) const {
   auto const& nodes = casters_.tree().nodes();
   if (nodes.empty()) return;
-  Search search{mask,
-                side,
-                pixels,
-                {static_cast<double>(mask.columns()), static_cast<double>(mask.first_row()),
-                 static_cast<double>(mask.end_row())},
-                {casters_, scene_, question.receiver, question.towards_sun}};
+  auto const search_in = [&](PixelMask& of) {
+    return Search{of,
+                  side,
+                  pixels,
+                  {static_cast<double>(mask.columns()), static_cast<double>(mask.first_row()),
+                   static_cast<double>(mask.end_row())},
+                  {casters_, scene_, question.receiver, question.towards_sun}};
+  };
+  if (threads <= 1) {
+    Search search = search_in(mask);
+    return darken_below(search, 0);
+  }
+  // Several branches for each thread, far apart, so that all have about as much to do. Parts of the
+  // rows instead would each meet the casters at their ends.
+  auto const parts = static_cast<std::size_t>(threads);
+  std::vector<std::uint32_t> const roots = branches(nodes, 16 * parts);
+  std::vector<PixelMask> masks(parts, mask);
+  // A thread that waits must not begin with another view, which would take the memory of this.
+  tbb::this_task_arena::isolate([&] {
+    for_each_index(parts, [&](std::size_t part) {
+      Search search = search_in(masks[part]);
+      for (std::size_t i = part; i < roots.size(); i += parts) darken_below(search, roots[i]);
+    });
+  });
+  std::span<std::uint64_t> const lit = mask.words();
+  for (PixelMask const& part : masks) {
+    std::transform(lit.begin(), lit.end(), part.words().begin(), lit.begin(), std::bit_and());
+  }
+}
+
+void CrowdRaster::darken_below(Search& search, std::uint32_t root) const {
+  auto const& nodes = casters_.tree().nodes();
+  PixelMask const& mask = search.mask;
+  View const& pixels = search.pixels;
   glm::dvec3 const x(pixels.x);
   glm::dvec3 const y(pixels.y);
   glm::dvec3 const normal(pixels.cut);
@@ -181,7 +233,7 @@ void CrowdRaster::darken(PixelMask& mask, int side, View const& pixels,
   glm::dvec3 const abs_normal = glm::abs(normal);
   std::uint32_t waiting[64];
   int count = 0;
-  waiting[count++] = 0;
+  waiting[count++] = root;
   while (count > 0) {
     Bvh::Node const& node = nodes[waiting[--count]];
     glm::dvec3 const centre = node.centre - pixels.origin;

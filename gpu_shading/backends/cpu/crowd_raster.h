@@ -29,14 +29,17 @@ class CrowdRaster {
   CrowdRaster(Scene const& scene, Casters const& casters, SurfacePieces const& pieces);
 
   // Takes the samples that some caster covers from a mask. `pixels`: the view in front of the
-  // receiver, with x and y in pixels of a grid of up to `side` columns and rows.
-  void darken(PixelMask& mask, int side, View const& pixels, CrowdQuestion const& question) const;
+  // receiver, with x and y in pixels of a grid of up to `side` columns and rows. On so many threads
+  // at most.
+  void darken(PixelMask& mask, int side, View const& pixels, CrowdQuestion const& question,
+              int threads) const;
 
  private:
   static constexpr std::size_t at_once = 8;
 
   struct Search;
 
+  void darken_below(Search& search, std::uint32_t root) const;
   void darken_some(Search& search, std::uint32_t first, std::uint32_t count) const;
   // Calls use(area) for the pieces of a caster that may shade the receiver.
   template <typename Use>

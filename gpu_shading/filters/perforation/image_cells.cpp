@@ -109,26 +109,6 @@ std::vector<std::uint64_t> joined(std::vector<std::uint64_t> const& corners, std
   return both;
 }
 
-// Positions of rays along a side of the tile, as multiples of 2^-32 of the side: what overflows is
-// whole tiles.
-struct Positions {
-  std::uint32_t first;
-  std::uint32_t step;
-  std::uint32_t cells;  // of the side
-  std::uint32_t doubt;  // of positions of 63 steps, in 2^-32 of a cell
-};
-
-std::uint32_t part_of_tile(double tiles) {
-  double const part = tiles - std::floor(tiles);
-  return static_cast<std::uint32_t>(static_cast<std::uint64_t>(std::llround(part * 0x1p32)));
-}
-
-Positions positions(double first, double step, double tile, int texels, int per_texel) {
-  auto const cells = static_cast<std::uint32_t>(texels * per_texel);
-  // Cells begin at the centres of texels. Positions are rounded by half a multiple, 64 times.
-  return {part_of_tile(first / tile + 0.5 / texels), part_of_tile(step / tile), cells, 64 * cells};
-}
-
 // For each ray its word and its bit there; or else, near the edge of a cell, what the word after
 // all others has.
 struct Places {
@@ -136,24 +116,31 @@ struct Places {
   alignas(32) std::array<std::uint32_t, ImageCells::most> bits;
 };
 
-struct Rays {
-  Positions across;
-  Positions up;
+struct Lattice {
+  glm::uvec2 cells;      // of the sides
   std::uint32_t stride;  // words of a row
   std::uint32_t unknown;
 };
 
+// Whether the cell of a position is in doubt, of which `product` is the part in 2^-32 of a cell:
+// positions are rounded by half a multiple, 64 times.
+[[gnu::always_inline]] inline bool is_near_edge(std::uint32_t product, std::uint32_t cells) {
+  std::uint32_t const doubt = 64 * cells;
+  return product + doubt < 2 * doubt;
+}
+
 // Written so that the compiler can vectorise over rays.
-[[gnu::always_inline]] inline void find_places(Rays const& rays, Places& places) {
+[[gnu::always_inline]] inline void find_places(Lattice const& lattice, TilePositions const& rays,
+                                               Places& places) {
   for (std::uint32_t i = 0; i < ImageCells::most; ++i) {
-    std::uint32_t const x = rays.across.first + i * rays.across.step;
-    std::uint32_t const y = rays.up.first + i * rays.up.step;
-    auto const column = static_cast<std::uint32_t>(std::uint64_t{x} * rays.across.cells >> 32U);
-    auto const row = static_cast<std::uint32_t>(std::uint64_t{y} * rays.up.cells >> 32U);
-    bool const is_near_edge = (x * rays.across.cells + rays.across.doubt < 2 * rays.across.doubt) |
-                              (y * rays.up.cells + rays.up.doubt < 2 * rays.up.doubt);
-    std::uint32_t const word = row * rays.stride + (column >> 5U);
-    places.words[i] = is_near_edge ? rays.unknown : word;
+    std::uint32_t const x = rays.first.x + i * rays.step.x;
+    std::uint32_t const y = rays.first.y + i * rays.step.y;
+    auto const column = static_cast<std::uint32_t>(std::uint64_t{x} * lattice.cells.x >> 32U);
+    auto const row = static_cast<std::uint32_t>(std::uint64_t{y} * lattice.cells.y >> 32U);
+    bool const in_doubt = is_near_edge(x * lattice.cells.x, lattice.cells.x) |
+                          is_near_edge(y * lattice.cells.y, lattice.cells.y);
+    std::uint32_t const word = row * lattice.stride + (column >> 5U);
+    places.words[i] = in_doubt ? lattice.unknown : word;
     places.bits[i] = column & 31U;
   }
 }
@@ -186,9 +173,7 @@ bool ImageCells::worth(OpacityTile const& image, double rays) {
 }
 
 ImageCells::ImageCells(ImageBounds const& bounds, std::span<glm::dvec2 const> layers)
-    : per_texel_(bounds.per_texel),
-      columns_(bounds.columns / per_texel_),
-      rows_(bounds.rows / per_texel_) {
+    : cells_(bounds.columns, bounds.rows) {
   auto const width = static_cast<std::size_t>((bounds.columns + word_bits - 1) / word_bits);
   stride_ = 2 * width;
   words_.resize(static_cast<std::size_t>(bounds.rows) * stride_ + 1);
@@ -217,14 +202,11 @@ ImageCells::ImageCells(ImageBounds const& bounds, std::span<glm::dvec2 const> la
   }
 }
 
-ImageCells::Known ImageCells::find(glm::dvec2 const& first, glm::dvec2 const& step,
-                                   glm::dvec2 const& tile) const {
+ImageCells::Known ImageCells::find(TilePositions const& rays) const {
   Places places;
-  run<find_places>(
-      Rays{positions(first.x, step.x, tile.x, columns_, per_texel_),
-           positions(first.y, step.y, tile.y, rows_, per_texel_),
-           static_cast<std::uint32_t>(stride_), static_cast<std::uint32_t>(words_.size() - 1)},
-      places);
+  run<find_places>(Lattice{cells_, static_cast<std::uint32_t>(stride_),
+                           static_cast<std::uint32_t>(words_.size() - 1)},
+                   rays, places);
   constexpr std::uint64_t both = 0x1'0000'0001U;
   constexpr std::size_t half = most / 2;
   std::uint64_t low = 0;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "filters/perforation/tile_positions.h"
 #include "gpu_shading/opacity_tile.h"
 
 namespace gpu_shading {
@@ -34,19 +35,18 @@ class ImageCells {
   // Whether so many rays are worth the cells.
   static bool worth(OpacityTile const& image, double rays);
 
-  // For rays at equal steps from a position, both in m; a bit for each, the lowest for the first.
-  // Neither is set where rays of the same cell differ, or near the edge of a cell.
+  // For rays from half a texel beyond their positions, as cells begin at the centres of texels; a
+  // bit for each, the lowest for the first. Neither is set where rays of the same cell differ, or
+  // near the edge of a cell.
   static constexpr std::size_t most = 64;
   struct Known {
     std::uint64_t open;
     std::uint64_t solid;
   };
-  Known find(glm::dvec2 const& first, glm::dvec2 const& step, glm::dvec2 const& tile) const;
+  Known find(TilePositions const& rays) const;
 
  private:
-  int per_texel_;
-  int columns_;  // texels
-  int rows_;
+  glm::uvec2 cells_;        // of the image's sides
   std::size_t stride_ = 0;  // words of a row
   // Of 32 cells each: bits of the open ones, and then of the solid ones. The last has none.
   std::vector<std::uint64_t> words_;

@@ -8,6 +8,7 @@
 
 #include "filters/perforation/image_cells.h"
 #include "filters/perforation/sheet_in_beam.h"
+#include "filters/perforation/tile_positions.h"
 #include "gpu_shading/opacity_tile.h"
 
 namespace gpu_shading {
@@ -26,7 +27,7 @@ class ImageRays {
   // 0 .. 1.
   float solid_at(glm::dvec2 const& place) const;
   // The fraction of a ray that passes all layers, from its position at the inside face.
-  float through(glm::dvec2 const& place) const;
+  float through(glm::dvec2 const& place) const { return through(position(place)); }
 
   // The same for rays at equal steps from `first`, where the bit of a ray is set in `wanted`.
   using Passed = std::array<float, ImageCells::most>;
@@ -37,25 +38,26 @@ class ImageRays {
                         std::uint64_t wanted) const;
 
   // For `sheet.cells`.
-  std::shared_ptr<ImageCells const> make_cells(ImageBounds const& bounds) const {
-    return std::make_shared<ImageCells const>(bounds, layers_);
-  }
+  std::shared_ptr<ImageCells const> make_cells(ImageBounds const& bounds) const;
 
  private:
-  // In texels, from 0 up to the image's columns and rows.
-  glm::dvec2 in_image(glm::dvec2 const& place) const;
-  float opacity(glm::dvec2 const& texel) const;
+  // Half a texel beyond a place: the texel there and those before it surround the place.
+  glm::uvec2 position(glm::dvec2 const& place) const {
+    return part_of_tile((place + half_texel_) / tile_);
+  }
+  float opacity(glm::uvec2 const& position) const;
+  float through(glm::uvec2 const& position) const;
   float solid(float opacity) const;
   // What cells tell of the rays that are wanted.
-  ImageCells::Known known(glm::dvec2 const& first, glm::dvec2 const& step,
-                          std::uint64_t wanted) const;
+  ImageCells::Known known(TilePositions const& rays, std::uint64_t wanted) const;
 
   OpacityTile const* image_;
   ImageCells const* cells_;  // may be null
   float threshold_;          // less than 0: none
   glm::dvec2 tile_;
-  glm::dvec2 size_;                 // texels
-  std::vector<glm::dvec2> layers_;  // from a ray's position at the inside face, in the image
+  glm::uvec2 size_;  // texels
+  glm::dvec2 half_texel_;
+  std::vector<glm::uvec2> layers_;  // from a ray's position at the inside face
 };
 
 }  // namespace gpu_shading

@@ -29,6 +29,8 @@ void check_thickness(double thickness) {
 }  // namespace
 
 struct PerforatedScreen::Lazy {
+  std::once_flag open_once;
+  double open_fraction = 0.0;
   // Threads that wait for the table share the work on it.
   tbb::collaborative_once_flag once;
   std::optional<ScreenTransmittance> transmittance;
@@ -57,7 +59,10 @@ PerforatedScreen::PerforatedScreen(OpacityTile tile, Sheet const& sheet)
 }
 
 double PerforatedScreen::open_fraction() const {
-  return pattern_ ? pattern_->open_fraction() : tile_->open_fraction();
+  std::call_once(lazy_->open_once, [&] {
+    lazy_->open_fraction = pattern_ ? pattern_->open_fraction() : tile_->open_fraction();
+  });
+  return lazy_->open_fraction;
 }
 
 ScreenTransmittance const& PerforatedScreen::transmittance() const {

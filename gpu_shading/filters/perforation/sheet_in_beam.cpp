@@ -90,6 +90,18 @@ std::vector<glm::vec4> effective(PerforatedScreen const& screen, glm::dvec2 cons
   return regions;
 }
 
+std::vector<float> repeated_once(SheetInBeam const& sheet) {
+  std::vector<float> values;
+  for (int row = 0; row <= sheet.regions_up; ++row) {
+    for (int column = 0; column <= sheet.regions_across; ++column) {
+      int const number =
+          row % sheet.regions_up * sheet.regions_across + column % sheet.regions_across;
+      values.push_back(sheet.regions[static_cast<std::size_t>(number)][3]);
+    }
+  }
+  return values;
+}
+
 void describe_pattern(HolePattern const& pattern, SheetInBeam& sheet) {
   Perforation const& given = pattern.perforation();
   double const straight = given.hole == Hole::Slotted ? given.length - given.size : 0.0;
@@ -230,6 +242,7 @@ SheetInBeam sheet_in_beam(Screens::Entry const& entry, glm::dvec3 const& towards
   sheet.regions_across = screen.transmittance().regions_across();
   sheet.regions_up = screen.transmittance().regions_up();
   sheet.regions = std::move(thirds);
+  sheet.whole_path = repeated_once(sheet);
   return sheet;
 }
 

@@ -65,6 +65,8 @@ struct SheetInBeam {
   int regions_across = 0;
   int regions_up = 0;
   std::vector<glm::vec4> regions;
+  // The last of them, each row followed by its first again, and so the rows.
+  std::vector<float> whole_path;
   // Of an image that many rays meet; else null.
   std::shared_ptr<ImageCells const> cells;
 };

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "filters/perforation/image_rays.h"
+#include "filters/perforation/region_rays.h"
 #include "filters/perforation/sheet_outline.h"
 
 namespace gpu_shading {
@@ -134,13 +135,8 @@ void SheetRays::find_through_holes(glm::dvec2 const& first, glm::dvec2 const& st
 void SheetRays::find_by_effect(glm::dvec2 const& first, glm::dvec2 const& step,
                                Passed& passed) const {
   if (rows_) return rows_->find(first, step, passed);
-  if (pattern_) {
-    passed.fill(sheet_.effective[3]);
-    return;
-  }
-  for (std::size_t i = 0; i < passed.size(); ++i) {
-    passed[i] = through_effective(first + static_cast<double>(i) * step, 0.0, 1.0);
-  }
+  if (!sheet_.regions.empty()) return find_by_region(sheet_, first, step, passed);
+  passed.fill(sheet_.effective[3]);
 }
 
 float SheetRays::part_of_path(glm::dvec2 const& place, double begin, double end) const {

@@ -69,7 +69,7 @@ Counts check(OpacityTile const& image, glm::dvec2 const& ray) {
   glm::dvec2 const step(0.00137, -0.00021);
   for (int row = 0; row < 40; ++row) {
     glm::dvec2 const first(-0.3 + 0.0047 * row, 0.9 - 0.0113 * row);
-    ImageCells::Known const known = cells.find(first, step, tile);
+    ImageCells::Known const known = cells.find(TilePositions(first + 0.5 * texel, step, tile));
     EXPECT_EQ(known.open & known.solid, 0U);
     counts.known += std::popcount(known.open | known.solid);
     for (int i = 0; i < static_cast<int>(ImageCells::most); ++i, ++counts.all) {
