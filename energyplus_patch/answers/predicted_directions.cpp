@@ -15,16 +15,11 @@ constexpr std::size_t patches = sky_rows * patch_azimuths;
 // Tolerance of angles up to 2 pi in single precision, several times the rounding.
 constexpr double rounding = 1e-6;
 
-// In the order in which EnergyPlus asks for them, twice, so that those after any of them follow it.
+// Twice, so that those after any of them follow it.
 std::vector<SunDirection> const& sky() {
   static auto const directions = [] {
-    std::vector<SunDirection> all;
-    for (std::size_t i = 0; i < 2 * patches; ++i) {
-      std::size_t const azimuth = i % patch_azimuths;
-      std::size_t const altitude = i % patches / patch_azimuths;
-      all.push_back({sky_step * static_cast<double>(azimuth),
-                     sky_step * (static_cast<double>(altitude) + 0.5)});
-    }
+    auto all = sky_patches();
+    all.insert(all.end(), sky_patches().begin(), sky_patches().end());
     return all;
   }();
   return directions;

@@ -87,6 +87,14 @@ void Session::start(Simulation simulation) {
     step_error_.emplace(shades);
     add_outputs(simulation);
   }
+  if (weighs_sky_patches()) {
+    if (!simulation.takes_sky_multipliers) {
+      throw Error(
+          "--gpu-shading-sky: perez-patches needs --gpu-shading-method patched, which this "
+          "EnergyPlus does not allow; expected energyplus");
+    }
+    sky_multipliers_.emplace(scene_.areas());
+  }
   if (!scene_.model().pv_reductions.empty()) pv_loss_.emplace(scene_);
   if (options.cache) prepare_cache_folder(*options.cache);
   answers_.emplace(
@@ -196,6 +204,7 @@ void Session::set_time(Moment moment) {
 
 void Session::set_sun(SunDirection sun) {
   answers().set_sun(sun);
+  sun_ = sun;
   sky_patch_ = is_sky_patch(sun);
   if (undecided_ && !sky_patch_) move_shades(sun);
   if (record_) record_->set_sun(sun);
@@ -220,12 +229,42 @@ double Session::projected_sunlit_area(SurfaceId receiver) {
     return static_cast<float>(area(polygon) * std::max(facing, 0.0));
   }
   auto const id = in_scene(receiver);
-  double rendered = scene_.unshaded()[id] ? answers.unshaded_area(id)
-                                          : answers.area(id, scene_.optics().factors());
-  if (!scene_.unshaded()[id] && scene_.moving_shade_of(id)) rendered = of_drawn(id, rendered);
+  double rendered = rendered_area(id);
   if (pv_loss_ && !sky_patch_) rendered = with_pv_loss(id, rendered);
   if (record_) record_->note(id, rendered);
   return static_cast<float>(rendered * scene_.area_ratio(id));
+}
+
+double Session::rendered_area(SurfaceId id) {
+  if (scene_.unshaded()[id]) return answers_->unshaded_area(id);
+  double const rendered = answers_->area(id, scene_.optics().factors());
+  return scene_.moving_shade_of(id) ? of_drawn(id, rendered) : rendered;
+}
+
+std::vector<double> Session::sky_multipliers(SkyWeather const& weather) {
+  auto const& optics = scene_.optics();
+  auto shades = optics.factors();
+  for (auto const& more : {optics.deployments(), scene_.positions()}) {
+    shades.insert(shades.end(), more.begin(), more.end());
+  }
+  if (!sky_multipliers_->knows(shades)) {
+    std::vector<SurfaceId> receivers;
+    for (SurfaceId id = 0; id < scene_.size(); ++id) {
+      if (answers_->asked()[id] || scene_.unshaded()[id]) receivers.push_back(id);
+    }
+    sky_multipliers_->renew(std::move(shades), receivers, [&](std::size_t patch, SurfaceId id) {
+      answers_->set_sun(sky_patches()[patch]);
+      return rendered_area(id);
+    });
+    answers_->set_sun(sun_);
+  }
+  auto const by_surface = sky_multipliers_->at(weather);
+  std::vector<double> by_id;
+  for (auto const& added : added_) {
+    auto const* const id = std::get_if<SurfaceId>(&added);
+    by_id.push_back(id == nullptr ? -1.0 : by_surface[*id]);
+  }
+  return by_id;
 }
 
 double Session::with_pv_loss(SurfaceId id, double projected_area) {

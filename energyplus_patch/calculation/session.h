@@ -11,6 +11,7 @@
 #include "calculation/pv_loss.h"
 #include "calculation/shade_control.h"
 #include "calculation/shading_calculation.h"
+#include "calculation/sky_multipliers.h"
 #include "calculation/step_error.h"
 #include "hidden/daylight_memory.h"
 #include "hidden/hidden_luminance.h"
@@ -87,6 +88,12 @@ class Session : public ShadingCalculation {
   // What they do to light that daylighting receives by reflection; nullptr if there are none.
   HiddenLuminance* luminance();
 
+  // Whether sky_multipliers() are wanted in place of EnergyPlus's own.
+  bool weighs_sky_patches() const { return scene_.model().options.sky == SkyModel::perez_patches; }
+  // SkyMultipliers::at() with the shades as they are now, by EnergyPlus's id; negative for surfaces
+  // that it did not ask about.
+  std::vector<double> sky_multipliers(SkyWeather const& weather);
+
   // The last direction to the sun at the first timestep of an hour, 1 .. 24; nothing if EnergyPlus
   // did not ask for it.
   std::optional<glm::dvec3> first_sun(int hour) const;
@@ -107,6 +114,7 @@ class Session : public ShadingCalculation {
   // A value of the day, at this timestep.
   double now(std::vector<double>& day, RunRecord::Beam const& of_day) const;
   void add_outputs(Simulation const& simulation);
+  double rendered_area(SurfaceId id);
   double with_pv_loss(SurfaceId id, double projected_area);
   double of_drawn(SurfaceId id, double projected_area) const;
   void renew_reflections();
@@ -125,8 +133,10 @@ class Session : public ShadingCalculation {
   std::optional<ShadeControl> control_;  // of moving shades
   std::optional<StepError> step_error_;
   std::optional<PvLoss> pv_loss_;  // with --gpu-shading-pv
-  bool sky_patch_ = false;         // the sun is a patch of the sky
-  bool undecided_ = false;         // the control waits for the sun of this timestep
+  std::optional<SkyMultipliers> sky_multipliers_;
+  SunDirection sun_;
+  bool sky_patch_ = false;  // the sun is a patch of the sky
+  bool undecided_ = false;  // the control waits for the sun of this timestep
   // Values of EnergyPlus's output variables, by moving shade.
   struct ShadeOutput {
     double position = 0.0;

@@ -28,6 +28,7 @@ struct Simulation {
   std::function<void(std::string const& name, std::string_view unit, std::string const& object,
                      double& value)>
       add_output = {};
+  bool takes_sky_multipliers = false;  // of Session::sky_multipliers()
 };
 
 // The shading calculation of one EnergyPlus run: first its surfaces, which are numbered from 0 in

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "gpu_shading/sun_direction.h"
 
@@ -13,6 +14,10 @@ namespace gpu_shading::energyplus {
 inline constexpr int sky_rows = 6;
 inline constexpr int sky_columns = 24;
 inline constexpr double sky_step = std::numbers::pi / 12.0;
+
+// In the order in which EnergyPlus asks for them: rows from the horizon, each from the north
+// clockwise.
+std::vector<SunDirection> const& sky_patches();
 
 // Whether EnergyPlus uses the direction as a patch of the sky. It is practically impossible for the
 // sun to be exactly there, and harmless.

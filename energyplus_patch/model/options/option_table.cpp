@@ -25,6 +25,7 @@ constexpr std::array<std::string_view, 3> mode_words{"auto", "require", "off"};
 constexpr std::array<std::string_view, 3> lean_words{"auto", "on", "off"};
 constexpr std::array<std::string_view, 4> method_words{"auto", "patched", "opengl", "scheduled"};
 constexpr std::array<std::string_view, 2> assets_words{"restricted", "any"};
+constexpr std::array<std::string_view, 2> sky_words{"energyplus", "perez-patches"};
 constexpr std::array<std::string_view, 2> switch_words{"off", "on"};
 constexpr std::array<std::string_view, 1> off_word{"off"};
 
@@ -32,6 +33,7 @@ constexpr FieldInfo mode_value = choice(mode_words, "");
 constexpr FieldInfo lean_value = choice(lean_words, "auto");
 constexpr FieldInfo method_value = choice(method_words, "auto");
 constexpr FieldInfo assets_value = choice(assets_words, "restricted");
+constexpr FieldInfo sky_value = choice(sky_words, "energyplus");
 constexpr FieldInfo switch_value = choice(switch_words, "off");
 constexpr FieldInfo path_value{.key = "", .title = ""};
 constexpr FieldInfo text_value{.key = "", .title = ""};
@@ -180,6 +182,12 @@ std::span<OptionRow const> option_rows() {
                                      "(`gpu_shading modules`) into the report, whose page shows "
                                      "them",
                           .bare = "on"}),
+      at<&Choices::sky>(
+          {.name = "sky",
+           .value = sky_value,
+           .meaning = "Diffuse radiation of the sky. `energyplus`: its isotropic, circumsolar and "
+                      "horizon parts. `perez-patches`: by the all-weather model of Perez et al. "
+                      "(1993) from each patch of the sky, at every zone timestep"}),
       at<&Choices::surroundings>(
           {.name = "surroundings",
            .value = switch_value,

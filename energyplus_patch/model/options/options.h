@@ -26,6 +26,12 @@ enum class Lean {
   off,
 };
 
+// How the sky's diffuse radiation is distributed.
+enum class SkyModel {
+  energyplus,     // as EnergyPlus does: isotropic, circumsolar and horizon parts
+  perez_patches,  // by patch, after Perez et al. (1993)
+};
+
 // When shading is calculated.
 struct Update {
   bool every_timestep = false;  // if false: as often as the model asks
@@ -55,6 +61,7 @@ struct Choices {
   std::optional<std::filesystem::path> file = std::nullopt;
   std::optional<std::filesystem::path> report = std::nullopt;
   std::optional<bool> maps = std::nullopt;
+  std::optional<SkyModel> sky = std::nullopt;
   // View factors are applied; the objects are those of the file, which the launcher has written.
   std::optional<bool> surroundings = std::nullopt;
   std::optional<std::filesystem::path> surrounding_objects = std::nullopt;
@@ -125,6 +132,7 @@ struct Options {
   DeviceChoice device;
   std::optional<std::filesystem::path> report;
   Lean lean = Lean::automatic;
+  SkyModel sky = SkyModel::energyplus;
   std::optional<CacheFolder> cache = std::nullopt;
   std::optional<std::filesystem::path> stages = std::nullopt;
   bool verbose = false;

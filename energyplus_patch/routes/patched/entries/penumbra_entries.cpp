@@ -91,6 +91,7 @@ void set_model(PenumbraObject* self) {
   add_mirrored_surfaces(session, messages);
   Simulation simulation{messages, installed.schedules.of(state),
                         [&installed, &state] { return installed.functions.latitude(state); }};
+  simulation.takes_sky_multipliers = installed.serves(Need::sky_patches);
   if (installed.served.contains(Need::outputs)) {
     simulation.add_output = [&](std::string const& name, std::string_view unit,
                                 std::string const& object, double& value) {

@@ -1,9 +1,12 @@
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "gpu_shading/error.h"
 #include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
+#include "routes/patched/memory/sky_multipliers.h"
 #include "routes/patched/memory/sky_ratios.h"
 #include "scene/sky_grid.h"
 
@@ -12,6 +15,7 @@ namespace {
 
 PointerTo<symbol::solar_beam_at_timestep> original_solar_beam = nullptr;
 PointerTo<symbol::sky_shading> original_sky_shading = nullptr;
+PointerTo<symbol::sky_view_factors> original_sky_view_factors = nullptr;
 PointerTo<symbol::process_shadowing_input> original_process_shadowing_input = nullptr;
 PointerTo<symbol::perform_solar_calculations> original_solar_calculations = nullptr;
 PointerTo<symbol::shadow> original_shadow = nullptr;
@@ -64,8 +68,48 @@ void shadow(State& state, int hour, int timestep) {
   }
 }
 
+// Where EnergyPlus keeps its sky multipliers; nullptr until it is known.
+std::byte*& multipliers_place() {
+  thread_local std::byte* place = nullptr;
+  return place;
+}
+
+void weigh_sky_patches(State& state, Session& session) {
+  auto const& installed = installation();
+  auto*& place = multipliers_place();
+  auto const weather = installed.functions.sky_weather(state);
+  if (weather.towards_sun.z <= 0.0 || weather.diffuse <= 0.0) return;
+  if (place == nullptr) {
+    place = find_sky_multipliers(state, installed.functions.symbols(),
+                                 [&] { original_sky_view_factors(state); });
+    original_sky_view_factors(state);
+  }
+  auto const multipliers = sky_multipliers_at(place);
+  if (multipliers.empty()) {
+    throw Error(
+        "--gpu-shading-sky: EnergyPlus's sky multipliers have an unexpected layout in memory; "
+        "expected energyplus");
+  }
+  auto const ids = read_surface_ids(state, *installed.surface_ids,
+                                    static_cast<std::int32_t>(multipliers.size()), session);
+  auto const weighed = session.sky_multipliers(weather);
+  for (std::size_t i = 0; i < multipliers.size(); ++i) {
+    auto const id = ids[i + 1];
+    if (id && weighed[*id] >= 0.0) multipliers[i] = weighed[*id];
+  }
+}
+
+// The sky's diffuse irradiance at a timestep with the sun up.
+void sky_view_factors(State& state) {
+  original_sky_view_factors(state);
+  auto* const session = this_run().session;
+  if (session == nullptr || !session->weighs_sky_patches()) return;
+  guarded([&] { weigh_sky_patches(state, *session); });
+}
+
 // Shading of the sky for the whole simulation.
 void sky_shading(State& state) {
+  multipliers_place() = nullptr;
   set_time({});
   original_sky_shading(state);
   auto* const session = this_run().session;
@@ -124,6 +168,7 @@ std::vector<Entry> shading_entries() {
       watch(symbol::solar_beam_at_timestep, &solar_beam, &original_solar_beam),
       watch(symbol::shadow, &shadow, &original_shadow),
       watch(symbol::sky_shading, &sky_shading, &original_sky_shading),
+      watch(symbol::sky_view_factors, &sky_view_factors, &original_sky_view_factors),
       watch(symbol::process_shadowing_input, &process_shadowing_input,
             &original_process_shadowing_input),
       watch(symbol::perform_solar_calculations, &solar_calculations, &original_solar_calculations),

@@ -50,11 +50,10 @@ double EnergyPlusFunctions::latitude(State const& state) const {
   return 0.0;
 }
 
-bool EnergyPlusFunctions::sun_is_up(State const& state, SunOfTime const& day, double hour) const {
+Vector EnergyPlusFunctions::sun(State const& state, SunOfTime const& day, double hour) const {
   constexpr double minutes = 60.0;
   return sun(state, hour, day.equation_of_time / minutes, std::sin(day.declination),
-             std::cos(day.declination))
-             .z > 0.0;
+             std::cos(day.declination));
 }
 
 RunDay EnergyPlusFunctions::day(State& state) const {
@@ -91,7 +90,7 @@ std::vector<double> EnergyPlusFunctions::beam_of_day(State& state) const {
   auto const sun = sun_of_day(symbol::day_of_year.in(symbols_)(&state));
   return of_day(state, [&](int hour, int step, double end) {
     // Between hours, the weather may have a beam before sunrise, which EnergyPlus drops.
-    return sun_is_up(state, sun, end) ? weather_beam(&state, hour, step) : 0.0;
+    return this->sun(state, sun, end).z > 0.0 ? weather_beam(&state, hour, step) : 0.0;
   });
 }
 
@@ -99,6 +98,16 @@ std::vector<double> EnergyPlusFunctions::wind_of_day(State& state) const {
   auto const weather_wind = symbol::weather_wind.in(symbols_);
   return of_day(
       state, [&](int hour, int step, double /*end*/) { return weather_wind(&state, hour, step); });
+}
+
+SkyWeather EnergyPlusFunctions::sky_weather(State& state) const {
+  int const day = symbol::day_of_year.in(symbols_)(&state);
+  int const hour = symbol::hour_from_0.in(symbols_)(&state);
+  int const step = symbol::timestep_from_1.in(symbols_)(&state);
+  double const end = hour + static_cast<double>(step) / symbol::steps_per_hour.in(symbols_)(&state);
+  return {to_glm(sun(state, sun_of_day(day), end)),
+          symbol::weather_beam.in(symbols_)(&state, hour, step),
+          symbol::weather_diffuse.in(symbols_)(&state, hour, step), day};
 }
 
 void EnergyPlusFunctions::add_output(State& state, std::string const& name, std::string_view unit,

@@ -10,6 +10,7 @@
 #include "reports/run_record.h"
 #include "routes/patched/binary/symbol_table.h"
 #include "routes/patched/symbols/energyplus_symbols.h"
+#include "scene/perez_sky.h"
 #include "scene/schedules.h"
 
 namespace gpu_shading::energyplus {
@@ -37,6 +38,10 @@ class EnergyPlusFunctions {
   // The wind speed of that day, m/s, likewise.
   std::vector<double> wind_of_day(State& state) const;
 
+  // The sun and the weather of the timestep that EnergyPlus is at; the sun may be below the
+  // horizon. For Need::sky_patches.
+  SkyWeather sky_weather(State& state) const;
+
   // Adds an output variable of zone timesteps, averaged over longer times, in "deg", "m" or "" (no
   // unit); `value` must outlive the run. For Need::outputs.
   void add_output(State& state, std::string const& name, std::string_view unit,
@@ -52,8 +57,8 @@ class EnergyPlusFunctions {
   // Direction cosines of the sun: east, north, up.
   Vector sun(State const& state, double hour, double equation_of_time, double sine_of_declination,
              double cosine_of_declination) const;
-  // Whether the sun is above the horizon, at a time in hours of a day.
-  bool sun_is_up(State const& state, SunOfTime const& day, double hour) const;
+  // The same at a time in hours of a day.
+  Vector sun(State const& state, SunOfTime const& day, double hour) const;
   // The values at the timesteps of a day: value_at(hour from 0, timestep from 1, its end in hours).
   template <typename ValueAt>
   std::vector<double> of_day(State& state, ValueAt value_at) const;

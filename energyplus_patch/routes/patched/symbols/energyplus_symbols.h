@@ -60,6 +60,7 @@ enum class Need {
   opaque_warning,  // EnergyPlus warns that pixel counting takes shades as opaque (before 24.2)
   sky_times,       // beam that reveals reflect is wrong where the sky follows schedules
   long_wave,       // nothing shades long-wave radiation where the sky follows shades that change
+  sky_patches,     // --gpu-shading-sky perez-patches is an error
   surface_ids,     // mirrored shading surfaces are taken as shaded, and there are no `reflections`
   run_days,        // the report has no days
   outputs,         // moving shades have no output variables
