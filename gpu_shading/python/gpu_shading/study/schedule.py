@@ -36,24 +36,24 @@ class Schedule:
                  finish: Callable[[tasks.Job, tasks.Outcome, int], None], checked: Callable[[int, int], None]) -> None:
         self._jobs, self._folder, self._todo, self._engine, self._finish = jobs, folder, todo, engine, finish
         self._checked = checked
-        self._asked: dict[str, tasks.Job] = {}
         self._scenes: dict[str, tuple[tasks.Outcome, int]] = {}
         self._groups: dict[str, _Group] = {}
-        self._next = 0
 
     def run(self) -> None:
+        first: dict[str, tasks.Job] = {}
         for job in self._jobs:
-            self._asked.setdefault(job.scene_id, job)
-        for job in self._asked.values():
-            self._engine.submit(tasks.scene_of, job, then=partial(self._take_scene, job), priority=3)
-        self._engine.run()
+            first.setdefault(job.scene_id, job)
 
-    def _take_scene(self, job: tasks.Job, outcome: tasks.Outcome, attempts: int) -> None:
-        self._scenes[job.scene_id] = outcome, attempts
-        self._checked(len(self._scenes), len(self._asked))
-        while self._next < len(self._jobs) and self._jobs[self._next].scene_id in self._scenes:
-            self._begin(self._jobs[self._next])
-            self._next += 1
+        def take(scene_id: str, outcome: tasks.Outcome, attempts: int) -> None:
+            self._scenes[scene_id] = outcome, attempts
+            self._checked(len(self._scenes), len(first))
+
+        for scene_id, job in first.items():
+            self._engine.submit(tasks.scene_of, job, then=partial(take, scene_id))
+        self._engine.run()
+        for job in self._jobs:
+            self._begin(job)
+        self._engine.run()
 
     def _begin(self, job: tasks.Job) -> None:
         outcome, attempts = self._scenes[job.scene_id]
