@@ -13,6 +13,7 @@
 #include "model/idf/model_file.h"
 #include "model/site/flat_geobuf.h"
 #include "model/site/geo_package.h"
+#include "model/site/sqlite_file.h"
 #include "platform/files.h"
 #include "platform/naming.h"
 #include "platform/text.h"
