@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Searches depth and tilt of ten blades before a window for little cooling and much daylight.
 
-    optimise.py EVALUATIONS [DIR]
+    optimise.py VARIANTS [DIR]
 
-Each generation of the search (NSGA-II of platypus-opt) is a study in DIR, by default ./study. A search that was killed
-goes through what is there without running it again. Prints the best of all variants, and draws DIR/trade.png.
+Each generation of the search (NSGA-II of platypus-opt) is a study in DIR, by default ./study, until there are so many
+variants. A search that was killed goes through what is there without running it again. Prints the best of all variants,
+and draws DIR/trade.png.
 """
 
 import random
@@ -42,7 +43,7 @@ def case(depth, tilt):
                             remove=("Shading:Building:Detailed",), objects=SENSOR + blades)
 
 
-def search(evaluations, folder):
+def search(count, folder):
     """The rows of the table of all variants that were tried."""
     with Client(threads_per_worker=1) as client:
         cases = {}
@@ -65,7 +66,7 @@ def search(evaluations, folder):
 
         problem = Problem(2, 2)
         problem.types[:] = [Real(0.02, 0.30), Real(0, 80)]
-        NSGAII(problem, population_size=20, evaluator=Generation()).run(evaluations)
+        NSGAII(problem, population_size=20, evaluator=Generation()).run(lambda _: len(cases) >= count)
         return gpu_shading.Study(cases.values(), folder, outputs=[OUTPUT], keep="nothing", client=client).run()
 
 
@@ -77,9 +78,9 @@ def draw(cooling, daylight, front, file):
     plt.savefig(file, dpi=90)
 
 
-def main(evaluations, folder="study"):
+def main(count, folder="study"):
     random.seed(1)
-    rows = search(int(evaluations), Path(folder))
+    rows = search(int(count), Path(folder))
     cooling, daylight = (np.array([row[name] for row in rows]) for name in (COOLING, DAYLIGHT))
     order = np.argsort(cooling)
     front = [place for rank, place in enumerate(order) if daylight[place] > daylight[order[:rank]].max(initial=0)]

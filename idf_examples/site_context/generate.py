@@ -64,6 +64,7 @@ GPUShading:SiteContext,
   ,                        !- Origin Longitude {{deg}}
   {elevation},                 !- Origin Elevation {{m}}
   ,                        !- Radius {{m}}
+  ,                        !- Horizon Radius {{m}}
   Office;                  !- Left Out Name 1
 """
 MESH = """

@@ -169,6 +169,24 @@ def test_a_geotiff_is_the_same_ground_as_its_numbers_in_ascii(run, bare, tmp_pat
     assert min(min(each.reference) for each in found) < 0.9
 
 
+def test_a_horizon_shades_like_the_hills_that_it_stands_for(run, bare, tmp_path):
+    """A ridge in the south and west, 3 km away and 1,500 to 1,650 m high."""
+    far, step, count = 4_000.0, 200.0, 41
+    rows = [[ELEVATION + (1500 + 7.5 * abs(column - 20) if min(column * step, (row - 1) * step) <= 1_000 else 0)
+             for column in range(count)] for row in range(count, 0, -1)]
+    (tmp_path / "hill.asc").write_text(
+        f"ncols {count}\nnrows {count}\nxllcenter {484_577 - far}\nyllcenter {4_398_917 - far}\ncellsize {step}\n"
+        + "\n".join(" ".join(map(str, row)) for row in rows))
+    open_, drawn, horizon = (run(bare + text, name) for name, text in (
+        ("open", ""), ("drawn", "GPUShading:SiteContext,Hill,,,,,,,hill.asc,UTM 13N,500;"),
+        ("horizon", "GPUShading:SiteContext,Hill,,,,,,,hill.asc,UTM 13N,500,,,,1000,20000;")))
+    assert any("horizon of what is within 20000 m" in line for line in horizon.our_lines)
+    totals = [results.Results(answer.folder).total(results.BEAM) for answer in (open_, drawn, horizon)]
+    print(totals)
+    assert totals[1] < 0.95 * totals[0]
+    assert totals[2] == pytest.approx(totals[1], rel=1e-3)
+
+
 LIGHT = """
 Daylighting:Controls,Light,Box,SplitFlux,,Continuous,0.3,0.2,,,,,,,Point,1.0,500;
 Daylighting:ReferencePoint,Point,Box,3,3,0.8;

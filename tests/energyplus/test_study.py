@@ -132,6 +132,12 @@ def test_runs_of_one_scene_share_its_shading(reference):
     assert len({row["scene"] for row in found.values()}) == 3  # without louvres, both are one box
 
 
+def test_all_scenes_are_checked_before_runs(reference):
+    checked = [path.stat().st_mtime_ns for path in (reference / "scenes").iterdir()]
+    done = [path.stat().st_mtime_ns for path in reference.glob("runs/*/record.json")]
+    assert len(checked) == len(done) == 6 and max(checked) < min(done)
+
+
 def test_the_table_is_the_same_with_one_worker_after_kills(place, reference):
     """The command is killed with all its processes, and then, of what resumes, each worker once."""
     command = Command(place, "killed", "--workers", "1", "--tries", "3")

@@ -5,48 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
-#include <numbers>
 #include <utility>
 #include <vector>
 
-#include "gpu_shading/error.h"
+#include "model/site/binary_file.h"
 
 // The format: https://flatgeobuf.org and its header.fbs and feature.fbs; the encoding of tables:
 // https://flatbuffers.dev/internals. Both are little-endian.
 namespace gpu_shading::energyplus::geojson {
 namespace {
-
-static_assert(std::endian::native == std::endian::little);
-
-Error damaged(std::string_view what) { return Error(fmt::format("is damaged: {}", what)); }
-
-// A file, or the bytes of one of its tables; what is beyond the end is an error.
-class Bytes {
- public:
-  explicit Bytes(std::vector<char> bytes) : bytes_(std::move(bytes)) {}
-
-  std::size_t size() const { return bytes_.size(); }
-
-  template <typename Value>
-  Value at(std::size_t place) const {
-    if (place > size() || size() - place < sizeof(Value)) throw damaged("an offset is too large");
-    Value value{};
-    std::memcpy(&value, bytes_.data() + place, sizeof(Value));
-    return value;
-  }
-
-  std::string text(std::size_t place, std::size_t length) const {
-    if (place > size() || size() - place < length) throw damaged("a text is too long");
-    return {bytes_.data() + place, length};
-  }
-
- private:
-  std::vector<char> bytes_;
-};
 
 struct Vector {
   std::size_t place = 0;
@@ -100,7 +69,7 @@ class Table {
 
   std::string text(std::size_t field) const {
     auto const vector = this->vector(field, 1);
-    return bytes_->text(vector.place, vector.count);
+    return std::string(bytes_->text(vector.place, vector.count));
   }
 
   Bytes const& bytes() const { return *bytes_; }
@@ -251,44 +220,36 @@ class GeometryReader {
   int depth_ = 0;
 };
 
-// Reads one value, and moves `place` behind it.
-Json read_value(Bytes const& bytes, ColumnType type, std::size_t& place) {
-  auto const next = [&]<typename Value>(Value value) {
-    value = bytes.at<Value>(place);
-    place += sizeof(Value);
-    return value;
-  };
+Json read_value(Cursor& values, ColumnType type) {
   switch (type) {
     case ColumnType::int8:
-      return next(std::int8_t{});
+      return values.next<std::int8_t>();
     case ColumnType::uint8:
-      return next(std::uint8_t{});
+      return values.next<std::uint8_t>();
     case ColumnType::boolean:
-      return next(std::uint8_t{}) != 0;
+      return values.next<std::uint8_t>() != 0;
     case ColumnType::int16:
-      return next(std::int16_t{});
+      return values.next<std::int16_t>();
     case ColumnType::uint16:
-      return next(std::uint16_t{});
+      return values.next<std::uint16_t>();
     case ColumnType::int32:
-      return next(std::int32_t{});
+      return values.next<std::int32_t>();
     case ColumnType::uint32:
-      return next(std::uint32_t{});
+      return values.next<std::uint32_t>();
     case ColumnType::int64:
-      return next(std::int64_t{});
+      return values.next<std::int64_t>();
     case ColumnType::uint64:
-      return next(std::uint64_t{});
+      return values.next<std::uint64_t>();
     case ColumnType::float32:
-      return next(float{});
+      return values.next<float>();
     case ColumnType::float64:
-      return next(double{});
+      return values.next<double>();
     case ColumnType::text:
     case ColumnType::json:
     case ColumnType::date:
     case ColumnType::binary: {
-      auto const length = next(std::uint32_t{});
-      auto text = bytes.text(place, length);
-      place += length;
-      return type == ColumnType::binary ? Json() : Json(std::move(text));
+      auto const text = values.text(values.next<std::uint32_t>());
+      return type == ColumnType::binary ? Json() : Json(text);
     }
   }
   throw damaged("a column has an unknown type");
@@ -299,56 +260,18 @@ Json read_properties(Table const& feature, std::vector<Column> const& common) {
   auto const& columns = own.empty() ? common : own;
   auto const values = feature.vector(1, 1);
   auto properties = Json::object();
-  for (auto place = values.place; place < values.place + values.count;) {
-    auto const column = feature.bytes().at<std::uint16_t>(place);
-    place += sizeof column;
+  for (Cursor each{feature.bytes(), values.place}; each.place < values.place + values.count;) {
+    auto const column = each.next<std::uint16_t>();
     if (column >= columns.size()) throw damaged("a property has no column");
-    properties[columns[column].name] = read_value(feature.bytes(), columns[column].type, place);
+    properties[columns[column].name] = read_value(each, columns[column].type);
   }
   return properties;
 }
 
-// A rectangle of the file's coordinates.
-struct Box {
-  double west;
-  double south;
-  double east;
-  double north;
-
-  bool meets(Box const& other) const {
-    return west <= other.east && other.west <= east && south <= other.north && other.south <= north;
-  }
-};
-
-// Boxes that together have the circle in them: a circle may cross the antimeridian.
-std::vector<Box> boxes_around(Nearby const& nearby, MapCoordinates const& coordinates) {
-  auto const place = coordinates.from_geographic(nearby.centre);
-  if (!coordinates.geographic()) {
-    // UTM's scale is 0.9996 and more, and by far less than this within a zone and beside it.
-    constexpr double margin = 1.01;
-    double const reach = nearby.radius * margin;
-    return {{place.x - reach, place.y - reach, place.x + reach, place.y + reach}};
-  }
-  constexpr double metres_of_degree = 110'000.0;  // less than anywhere on the ellipsoid
-  constexpr double turn = 360.0;
-  constexpr double pole = 89.0;
-  double const high = nearby.radius / metres_of_degree;
-  double const farthest = std::abs(place.y) + high;
-  double const wide =
-      farthest > pole ? turn : high / std::cos(farthest * std::numbers::pi / (turn / 2.0));
-  std::vector<Box> boxes;
-  for (double const shift : {-turn, 0.0, turn}) {
-    boxes.push_back(
-        {place.x - wide + shift, place.y - high, place.x + wide + shift, place.y + high});
-  }
-  return boxes;
-}
-
 class Reader {
  public:
-  explicit Reader(std::filesystem::path const& path)
-      : file_(path, std::ios::binary), size_(std::filesystem::file_size(path)) {
-    header_ = Bytes(read(magic_size + sizeof(std::uint32_t), table_size(magic_size)));
+  explicit Reader(std::filesystem::path const& path) : file_(path), size_(file_.size()) {
+    header_ = file_.read(magic_size + sizeof(std::uint32_t), table_size(magic_size));
     auto const header = Table::root(header_);
     type_ = header.number(header::geometry_type, GeometryType::unknown);
     columns_ = read_columns(header, header::columns);
@@ -387,7 +310,7 @@ class Reader {
   void read_near(Nearby const& nearby, MapCoordinates const& coordinates, UseFeature const& use) {
     if (levels_.empty()) return read_all(coordinates, use);
     std::uintmax_t read = 0;
-    for (auto const& [number, offset] : find(boxes_around(nearby, coordinates))) {
+    for (auto const& [number, offset] : find(nearby.boxes(coordinates))) {
       if (offset > size_ - features_) throw damaged("its index leads beyond the end");
       read += read_feature(features_ + offset, number + 1, coordinates, use);
       if (read > size_) throw damaged("its features overlap");
@@ -403,7 +326,7 @@ class Reader {
     Box box;
     std::uint64_t next;
   };
-  static_assert(sizeof(Node) == 40);
+  static_assert(sizeof(Node) == 40 && std::endian::native == std::endian::little);
 
   // The numbers of its nodes; the root's is 0.
   struct Level {
@@ -411,20 +334,9 @@ class Reader {
     std::uint64_t end;
   };
 
-  std::vector<char> read(std::uintmax_t place, std::size_t count) {
-    if (place > size_ || size_ - place < count) throw damaged("it ends too early");
-    std::vector<char> bytes(count);
-    file_.seekg(static_cast<std::streamoff>(place));
-    if (!file_.read(bytes.data(), static_cast<std::streamsize>(count))) {
-      throw Error("cannot be read");
-    }
-    return bytes;
-  }
-
   std::size_t table_size(std::uintmax_t place) {
-    constexpr std::size_t max_bytes = std::size_t{64} << 20U;
-    auto const size = Bytes(read(place, sizeof(std::uint32_t))).at<std::uint32_t>(0);
-    if (size > max_bytes) throw damaged("a table has more than 64 MiB");
+    auto const size = file_.read(place, sizeof(std::uint32_t)).at<std::uint32_t>(0);
+    if (size > max_piece) throw damaged("a table has more than 64 MiB");
     return size;
   }
 
@@ -457,13 +369,11 @@ class Reader {
       for (auto const first : firsts) {
         if (first < level.begin || first >= level.end) throw damaged("its index is inconsistent");
         auto const end = std::min<std::uint64_t>(first + node_size_, level.end);
-        Bytes const bytes(read(index_ + first * sizeof(Node),
-                               static_cast<std::size_t>(end - first) * sizeof(Node)));
+        auto const bytes = file_.read(index_ + first * sizeof(Node),
+                                      static_cast<std::size_t>(end - first) * sizeof(Node));
         for (auto number = first; number < end; ++number) {
           auto const node = bytes.at<Node>(static_cast<std::size_t>(number - first) * sizeof(Node));
-          if (std::none_of(boxes.begin(), boxes.end(),
-                           [&](Box const& box) { return box.meets(node.box); }))
-            continue;
+          if (!node.box.meets_any(boxes)) continue;
           if (level.end == levels_.back().end) {
             found.emplace_back(number - level.begin, node.next);
           } else {
@@ -485,7 +395,7 @@ class Reader {
   std::size_t read_feature(std::uintmax_t place, std::size_t number,
                            MapCoordinates const& coordinates, UseFeature const& use) {
     auto const size = table_size(place);
-    Bytes const bytes(read(place + sizeof(std::uint32_t), size));
+    auto const bytes = file_.read(place + sizeof(std::uint32_t), size);
     auto const feature = Table::root(bytes);
     Json json{{"type", "Feature"}, {"properties", read_properties(feature, columns_)}};
     if (auto const geometry = feature.table(0)) {
@@ -495,7 +405,7 @@ class Reader {
     return size;
   }
 
-  std::ifstream file_;
+  BinaryFile file_;
   std::uintmax_t size_;
   Bytes header_{{}};
   GeometryType type_ = GeometryType::unknown;

@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "gpu_shading/error.h"
 #include "model/idf/model_file.h"
 #include "model/site/flat_geobuf.h"
+#include "model/site/geo_package.h"
+#include "model/site/sqlite_file.h"
 #include "platform/files.h"
 #include "platform/naming.h"
 #include "platform/text.h"
@@ -94,15 +96,7 @@ MapCoordinates read_geojson(std::filesystem::path const& path,
   return used;
 }
 
-// Degrees of latitude and longitude.
-struct Extent {
-  double south = std::numeric_limits<double>::infinity();
-  double north = -std::numeric_limits<double>::infinity();
-  double west = std::numeric_limits<double>::infinity();
-  double east = -std::numeric_limits<double>::infinity();
-};
-
-void include(Json const& geometry, MapCoordinates const& coordinates, Extent& extent) {
+void include(Json const& geometry, MapCoordinates const& coordinates, GeographicExtent& extent) {
   for (auto const& part : member(geometry, "geometries")) include(part, coordinates, extent);
   std::vector<Json const*> left{&member(geometry, "coordinates")};
   while (!left.empty()) {
@@ -113,11 +107,7 @@ void include(Json const& geometry, MapCoordinates const& coordinates, Extent& ex
       for (auto const& each : next) left.push_back(&each);
       continue;
     }
-    auto const place = read_position(next, coordinates);
-    extent.south = std::min(extent.south, place.latitude);
-    extent.north = std::max(extent.north, place.latitude);
-    extent.west = std::min(extent.west, place.longitude);
-    extent.east = std::max(extent.east, place.longitude);
+    extent.include(read_position(next, coordinates));
   }
 }
 
@@ -167,10 +157,21 @@ GeographicPoint read_position(Json const& position, MapCoordinates const& coordi
   return coordinates.to_geographic({position[0].get<double>(), position[1].get<double>()});
 }
 
-bool Nearby::reaches(Json const& geometry, MapCoordinates const& coordinates) const {
+void GeographicExtent::include(GeographicPoint const& point) {
+  south = std::min(south, point.latitude);
+  north = std::max(north, point.latitude);
+  west = std::min(west, point.longitude);
+  east = std::max(east, point.longitude);
+}
+
+bool Box::meets_any(std::vector<Box> const& others) const {
+  return std::any_of(others.begin(), others.end(), [&](Box const& other) {
+    return west <= other.east && other.west <= east && south <= other.north && other.south <= north;
+  });
+}
+
+bool Nearby::reaches(GeographicExtent const& extent) const {
   constexpr double turn = 360.0;
-  Extent extent;
-  include(geometry, coordinates, extent);
   if (extent.south > extent.north) return false;
   double const middle = (extent.west + extent.east) / 2.0;
   double const longitude = centre.longitude + turn * std::round((middle - centre.longitude) / turn);
@@ -178,6 +179,35 @@ bool Nearby::reaches(Json const& geometry, MapCoordinates const& coordinates) co
                            .to_local({std::clamp(centre.latitude, extent.south, extent.north),
                                       std::clamp(longitude, extent.west, extent.east), 0.0});
   return std::hypot(nearest.x, nearest.y) <= radius && nearest.z > -radius;
+}
+
+bool Nearby::reaches(Json const& geometry, MapCoordinates const& coordinates) const {
+  GeographicExtent extent;
+  include(geometry, coordinates, extent);
+  return reaches(extent);
+}
+
+std::vector<Box> Nearby::boxes(MapCoordinates const& coordinates) const {
+  auto const place = coordinates.from_geographic(centre);
+  if (!coordinates.geographic()) {
+    // UTM's scale is 0.9996 and more, and by far less than this within a zone and beside it.
+    constexpr double margin = 1.01;
+    double const reach = radius * margin;
+    return {{place.x - reach, place.y - reach, place.x + reach, place.y + reach}};
+  }
+  constexpr double metres_of_degree = 110'000.0;  // less than anywhere on the ellipsoid
+  constexpr double turn = 360.0;
+  constexpr double pole = 89.0;
+  double const high = radius / metres_of_degree;
+  double const farthest = std::abs(place.y) + high;
+  double const wide =
+      farthest > pole ? turn : high / std::cos(farthest * std::numbers::pi / (turn / 2.0));
+  std::vector<Box> boxes;
+  for (double const shift : {-turn, 0.0, turn}) {
+    boxes.push_back(
+        {place.x - wide + shift, place.y - high, place.x + wide + shift, place.y + high});
+  }
+  return boxes;
 }
 
 void use_numbered(Json const& feature, std::size_t number, MapCoordinates const& coordinates,
@@ -201,8 +231,9 @@ MapCoordinates read_features(std::filesystem::path const& path,
     if (!nearby || nearby->reaches(feature.geometry, used)) use(feature, used);
   };
   return naming(path.string(), [&] {
-    return is_flat_geobuf(path) ? read_flat_geobuf(path, coordinates, nearby, use_near)
-                                : read_geojson(path, coordinates, use_near);
+    if (is_flat_geobuf(path)) return read_flat_geobuf(path, coordinates, nearby, use_near);
+    if (is_sqlite(path)) return read_geo_package(path, coordinates, nearby, use_near);
+    return read_geojson(path, coordinates, use_near);
   });
 }
 

@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gpu_shading/local_axes.h"
 #include "gpu_shading/map_coordinates.h"
@@ -38,12 +40,35 @@ struct Feature {
   Json const& properties;
 };
 
+// The extent of positions, in degrees.
+struct GeographicExtent {
+  double south = std::numeric_limits<double>::infinity();
+  double north = -std::numeric_limits<double>::infinity();
+  double west = std::numeric_limits<double>::infinity();
+  double east = -std::numeric_limits<double>::infinity();
+
+  void include(GeographicPoint const& point);
+};
+
+// A rectangle of a file's coordinates.
+struct Box {
+  double west;
+  double south;
+  double east;
+  double north;
+
+  bool meets_any(std::vector<Box> const& others) const;
+};
+
 // A circle on the ground. A feature is in it if the bounding box of its positions is, in part.
 struct Nearby {
   GeographicPoint centre;
   double radius;  // m
 
+  bool reaches(GeographicExtent const& extent) const;
   bool reaches(Json const& geometry, MapCoordinates const& coordinates) const;
+  // Together they have the circle in them, which may cross the antimeridian.
+  std::vector<Box> boxes(MapCoordinates const& coordinates) const;
 };
 
 using UseFeature = std::function<void(Feature const&, MapCoordinates const&)>;
@@ -52,10 +77,10 @@ using UseFeature = std::function<void(Feature const&, MapCoordinates const&)>;
 void use_numbered(Json const& feature, std::size_t number, MapCoordinates const& coordinates,
                   UseFeature const& use);
 
-// Calls use(feature, coordinates) for each feature of a file of GeoJSON or FlatGeobuf, which its
-// first bytes tell, or for those in the circle. Only one is in memory at a time. `coordinates`: if
-// empty, those that the file names (in GeoJSON the older "crs" member), or WGS84. Returns them.
-// Throws Error: "FILE: feature 3 (way/17): ...".
+// Calls use(feature, coordinates) for each feature of a file of GeoJSON, FlatGeobuf or GeoPackage,
+// which its first bytes tell, or for those in the circle. Only one is in memory at a time.
+// `coordinates`: if empty, those that the file names (in GeoJSON the older "crs" member), or WGS84.
+// Returns them. Throws Error: "FILE: feature 3 (way/17): ...".
 MapCoordinates read_features(std::filesystem::path const& path,
                              std::optional<MapCoordinates> const& coordinates,
                              std::optional<Nearby> const& nearby, UseFeature const& use);

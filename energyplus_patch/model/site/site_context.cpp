@@ -12,6 +12,7 @@
 #include "model/extensions/extension_fields.h"
 #include "model/idf/fields.h"
 #include "model/site/building_file.h"
+#include "model/site/horizon.h"
 #include "model/site/surroundings.h"
 #include "model/site/terrain_file.h"
 #include "platform/naming.h"
@@ -35,7 +36,8 @@ HeightRule read_heights(InputObject const& object) {
 struct Context {
   std::string name;
   std::string file;                       // file of buildings, as the user wrote it
-  std::optional<geojson::Nearby> nearby;  // of the buildings that are read
+  std::optional<geojson::Nearby> nearby;  // of what is drawn
+  std::optional<double> horizon;          // m, the radius of what is read
   std::optional<BuildingFile> buildings;
   std::optional<TerrainGrid> terrain;
   double clear_distance = 0.0;
@@ -47,6 +49,14 @@ Context read_context(InputObject const& object, std::filesystem::path const& fol
   Context context;
   context.name = object.name;
   context.left_out = read(object, field::left_out_name);
+  context.horizon = read(object, field::horizon_radius);
+  if (auto const radius = read(object, field::radius)) {
+    context.nearby = geojson::Nearby{origin, *radius};
+  }
+  if (context.horizon && !(context.nearby && context.nearby->radius < *context.horizon)) {
+    throw Error(fmt::format("{} is {:g} m, expected more than {}", field::horizon_radius.title,
+                            *context.horizon, field::radius.title));
+  }
   auto const buildings = read(object, field::buildings_file_name);
   auto const terrain = read(object, field::terrain_file_name);
   if (buildings.empty() && terrain.empty()) {
@@ -56,17 +66,17 @@ Context read_context(InputObject const& object, std::filesystem::path const& fol
   if (buildings.empty()) {
     expect_blank(object,
                  {field::buildings_coordinates, field::height_property, field::levels_property,
-                  field::storey_height, field::default_height, field::radius},
+                  field::storey_height, field::default_height},
                  "without Buildings File Name");
+    if (!context.horizon) expect_blank(object, {field::radius}, "without Buildings File Name");
   } else {
     auto const coordinates = read_map_coordinates(object, field::buildings_coordinates);
     auto const heights = read_heights(object);
     context.file = buildings;
-    if (auto const radius = read(object, field::radius)) {
-      context.nearby = geojson::Nearby{origin, *radius};
-    }
+    auto nearby = context.nearby;
+    if (context.horizon) nearby->radius = *context.horizon;
     context.buildings = naming(field::buildings_file_name.title, [&] {
-      return read_buildings(folder / buildings, heights, coordinates, context.nearby);
+      return read_buildings(folder / buildings, heights, coordinates, nearby);
     });
   }
   if (terrain.empty()) {
@@ -109,6 +119,7 @@ class Builder {
     if (context_.buildings) {
       naming(field::buildings_file_name.title, [&] { add_buildings(*context_.buildings); });
     }
+    if (context_.horizon) add_horizon();
     constexpr double near = 5e4;  // m
     if (extent_.distance() > near) {
       surroundings_.warnings.push_back(
@@ -140,11 +151,43 @@ class Builder {
     auto const name = upper(context_.name) + ":TERRAIN";
     add_name(name);
     auto polygons = ground(terrain, axes_, context_.clear_distance);
+    if (context_.horizon) take_into_horizon(polygons);
     describe(fmt::format("terrain of {} x {} nodes ({} cells drawn{})", terrain.columns,
                          terrain.rows, polygons.size(), describe_north(terrain.coordinates)));
     surroundings_.casters.reserve(surroundings_.casters.size() + polygons.size());
     for (auto& polygon : polygons) add(name, std::move(polygon));
     warn_of_elevation(terrain);
+  }
+
+  // Leaves what is within the radius.
+  void take_into_horizon(std::vector<Polygon>& polygons) {
+    std::erase_if(polygons, [&](Polygon const& polygon) {
+      double distance = std::numeric_limits<double>::infinity();
+      for (auto const& corner : polygon.outline) {
+        distance = std::min(distance, std::hypot(corner.x, corner.y));
+      }
+      if (distance <= context_.nearby->radius) return false;
+      if (distance <= *context_.horizon) horizon_.include(polygon.outline);
+      return true;
+    });
+  }
+
+  bool is_in_horizon(Building const& building) const {
+    if (!context_.horizon) return false;
+    geojson::GeographicExtent extent;
+    for (auto const& part : building.parts) {
+      for (auto const& corner : part.outline) extent.include(corner);
+    }
+    return !context_.nearby->reaches(extent);
+  }
+
+  void add_horizon() {
+    auto const name = upper(context_.name) + ":HORIZON";
+    add_name(name);
+    auto faces = horizon_.faces();
+    describe(fmt::format("horizon of what is within {:g} m ({} degrees)", *context_.horizon,
+                         faces.size()));
+    for (auto& face : faces) add(name, std::move(face));
   }
 
   std::string describe_north(MapCoordinates const& coordinates) const {
@@ -174,9 +217,16 @@ class Builder {
         continue;
       }
       auto const name = upper(context_.name + ":" + building.name);
-      add_name(name);
-      ++drawn;
+      bool const in_horizon = is_in_horizon(building);
+      if (!in_horizon) {
+        add_name(name);
+        ++drawn;
+      }
       for (auto part : building.parts) {
+        if (in_horizon) {
+          include_in_horizon(part);
+          continue;
+        }
         faces += naming(fmt::format("{}: {}", context_.file, building.label),
                         [&] { return add_part(name, std::move(part)); });
       }
@@ -189,9 +239,12 @@ class Builder {
                     describe_north(file.coordinates)));
   }
 
+  double ground_of(Footprint const& part) const {
+    return context_.terrain ? ground_below(part, *context_.terrain) : origin_.place.elevation;
+  }
+
   std::size_t add_part(std::string const& name, Footprint part) {
-    double const below =
-        context_.terrain ? ground_below(part, *context_.terrain) : origin_.place.elevation;
+    double const below = ground_of(part);
     part.base += below;
     part.top += below;
     auto faces = upright_prism(part, axes_);
@@ -200,6 +253,15 @@ class Builder {
     surroundings_.buildings.push_back({name, faces[0], base});
     for (auto& face : faces) add(name, std::move(face));
     return faces.size();
+  }
+
+  void include_in_horizon(Footprint const& part) {
+    double const top = part.top + ground_of(part);
+    Ring roof;
+    for (auto const& corner : part.outline) {
+      roof.push_back(axes_.to_local({corner.latitude, corner.longitude, top}));
+    }
+    horizon_.include(roof);
   }
 
   std::string describe_origin() const {
@@ -214,6 +276,7 @@ class Builder {
   LocalAxes axes_;
   Surroundings& surroundings_;
   Extent extent_;
+  Horizon horizon_;
   std::string described_;
 };
 

@@ -37,6 +37,7 @@ struct CityOrder {
   std::string weather;
   std::string folder;
   double radius = 200.0;  // m
+  std::optional<double> horizon;
   std::optional<double> default_height;
 };
 
@@ -196,9 +197,11 @@ std::string side_file_of(Placed const& run, CityOrder const& order) {
   if (map.find_first_of(",;!") != std::string::npos) {
     throw Error(fmt::format("{}: an IDF cannot name a file with , ; or ! in its path", map));
   }
-  text += fmt::format("{},City,{},,,,,{},,,,{:.9f},{:.9f},,{},{};\n", extension::site_context::type,
-                      map, order.default_height ? fmt::format("{}", *order.default_height) : "",
-                      run.place.latitude, run.place.longitude, order.radius, as_pattern(run.own));
+  text +=
+      fmt::format("{},City,{},,,,,{},,,,{:.9f},{:.9f},,{},{},{};\n", extension::site_context::type,
+                  map, order.default_height ? fmt::format("{}", *order.default_height) : "",
+                  run.place.latitude, run.place.longitude, order.radius,
+                  order.horizon ? fmt::format("{}", *order.horizon) : "", as_pattern(run.own));
   return text;
 }
 
@@ -254,7 +257,9 @@ void add_city(Program const& program) {
                         "neighbours (then: gpu_shading study DIR/plan.csv)",
                         {});
   auto const order = std::make_shared<CityOrder>();
-  command->add_option("footprints", order->footprints, "Buildings as GeoJSON or FlatGeobuf")
+  command
+      ->add_option("footprints", order->footprints,
+                   "Buildings as GeoJSON, FlatGeobuf or GeoPackage")
       ->required()
       ->type_name("FILE");
   command->add_option("--template", order->template_model, "A model to run at each building")
@@ -273,6 +278,10 @@ void add_city(Program const& program) {
   command->add_option("--radius", order->radius, "Distance of neighbours that shade, in m")
       ->check(CLI::Range(1.0, 1e6))
       ->capture_default_str();
+  command
+      ->add_option("--horizon", order->horizon,
+                   "Distance of buildings that shade as a horizon, in m (default: none)")
+      ->check(CLI::Range(1.0, 1e6));
   command
       ->add_option("--default-height", order->default_height,
                    "Height of buildings for which the map has none, in m")

@@ -42,6 +42,8 @@ def open_client(workers: int | None, scheduler: str | None, jobqueue: Mapping[st
     # What a dead worker was to do next is not blamed, because it is not sent ahead.
     dask.config.set({"distributed.scheduler.allowed-failures": tries - 1,
                      "distributed.scheduler.worker-saturation": 1.0,
+                     # Workers here are forked from a process that has imported Dask, which takes half a second.
+                     "distributed.worker.multiprocessing-method": "forkserver",
                      "distributed.worker.preload": [_WATCH_PARENT] if not (scheduler or jobqueue) else []})
     if scheduler:
         try:
@@ -52,7 +54,8 @@ def open_client(workers: int | None, scheduler: str | None, jobqueue: Mapping[st
         cluster = open_jobqueue(jobqueue)
     else:
         cluster = distributed.LocalCluster(n_workers=workers or os.cpu_count(), threads_per_worker=1,
-                                           dashboard_address="127.0.0.1:0", silence_logs=logging.CRITICAL)
+                                           dashboard_address="127.0.0.1:0", silence_logs=logging.CRITICAL,
+                                           env=dict(os.environ))
     return distributed.Client(cluster)
 
 

@@ -21,13 +21,21 @@ class Progress:
     def add(self, failed: bool) -> None:
         self._done += 1
         self._failed += failed
-        now, terminal = time.monotonic(), sys.stderr.isatty()
-        if terminal or now - self._said > _PATIENCE:
+        now = time.monotonic()
+        self._show(now, f"{self._bar()}{self._line(now)}" if sys.stderr.isatty() else self._line(now))
+
+    def add_check(self, done: int, total: int) -> None:
+        """Scenes, before runs begin."""
+        if done == total:
+            self._began = time.monotonic()
+        self._show(time.monotonic(), f"checked {done} of {total} scenes")
+
+    def _show(self, now: float, line: str) -> None:
+        if sys.stderr.isatty():
+            print(f"\r\033[K{line}", end="", file=sys.stderr, flush=True)
+        elif now - self._said > _PATIENCE:
             self._said = now
-            if terminal:
-                print(f"\r\033[K{self._bar()}{self._line(now)}", end="", file=sys.stderr, flush=True)
-            else:
-                say(self._line(now))
+            say(line)
 
     def end(self) -> None:
         if sys.stderr.isatty():

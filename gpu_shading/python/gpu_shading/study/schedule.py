@@ -29,29 +29,31 @@ class _Group:
 
 
 class Schedule:
-    """Asks for the hashes of scenes in the order of the plan; runs begin once those of all runs before them are known,
-    so that the first of a group is always the same."""
+    """Checks the distinct scenes first, so that errors of a model are not told hours later. Runs begin in the order of
+    the plan, so that the first of a group is always the same."""
 
     def __init__(self, jobs: Sequence[tasks.Job], folder: Path, todo: set[str], engine: Engine,
-                 finish: Callable[[tasks.Job, tasks.Outcome, int], None]) -> None:
+                 finish: Callable[[tasks.Job, tasks.Outcome, int], None], checked: Callable[[int, int], None]) -> None:
         self._jobs, self._folder, self._todo, self._engine, self._finish = jobs, folder, todo, engine, finish
+        self._checked = checked
         self._scenes: dict[str, tuple[tasks.Outcome, int]] = {}
         self._groups: dict[str, _Group] = {}
-        self._next = 0
 
     def run(self) -> None:
-        asked: set[str] = set()
+        first: dict[str, tasks.Job] = {}
         for job in self._jobs:
-            if job.scene_id not in asked:
-                asked.add(job.scene_id)
-                self._engine.submit(tasks.scene_of, job, then=partial(self._take_scene, job))
-        self._engine.run()
+            first.setdefault(job.scene_id, job)
 
-    def _take_scene(self, job: tasks.Job, outcome: tasks.Outcome, attempts: int) -> None:
-        self._scenes[job.scene_id] = outcome, attempts
-        while self._next < len(self._jobs) and self._jobs[self._next].scene_id in self._scenes:
-            self._begin(self._jobs[self._next])
-            self._next += 1
+        def take(scene_id: str, outcome: tasks.Outcome, attempts: int) -> None:
+            self._scenes[scene_id] = outcome, attempts
+            self._checked(len(self._scenes), len(first))
+
+        for scene_id, job in first.items():
+            self._engine.submit(tasks.scene_of, job, then=partial(take, scene_id))
+        self._engine.run()
+        for job in self._jobs:
+            self._begin(job)
+        self._engine.run()
 
     def _begin(self, job: tasks.Job) -> None:
         outcome, attempts = self._scenes[job.scene_id]

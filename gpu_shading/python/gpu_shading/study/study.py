@@ -81,7 +81,8 @@ class Study:
                     if self.task == "sample":
                         Sampling(engine, self.mode, self.shards, finish).run(done.missing())
                     else:
-                        Schedule(self.jobs, self.folder, {job.id for job in done.missing()}, engine, finish).run()
+                        Schedule(self.jobs, self.folder, {job.id for job in done.missing()}, engine, finish,
+                                 progress.add_check).run()
                 progress.end()
             done.write()
             return done.rows()

@@ -29,7 +29,7 @@ def write_tables(folder: Path, rows: Sequence[Row], times: Sequence[Row]) -> Non
     numbers = sorted({name for row in rows for name in row} - {*FIRST, *LAST})
     columns = [*FIRST, *numbers, *LAST]
     write_whole(folder / "runs.csv", _csv(columns, rows))
-    write_whole(folder / "times.csv", _csv(["run", "seconds", "attempts", "host"], times))
+    write_whole(folder / "times.csv", _csv(["run", "seconds", "cpu seconds", "attempts", "host"], times))
     if importlib.util.find_spec("pyarrow"):
         _write_parquet(folder / "runs.parquet", columns, rows)
 

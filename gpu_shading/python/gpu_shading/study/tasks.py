@@ -7,6 +7,7 @@ import ctypes
 import hashlib
 import json
 import os
+import resource
 import secrets
 import shutil
 import signal
@@ -184,16 +185,23 @@ def scene_of(job: Job) -> Outcome:
 def run(job: Job, scene: str, shading: str | None, is_first: bool) -> Outcome:
     """Runs the job, and renames its folder to runs/ID when it is complete. `shading`: the folder with the answers of
     the runs that share its shading, which the first of them writes."""
-    began = time.monotonic()
+    began, used = time.monotonic(), _processor_seconds()
     try:
         with work_folder(job) as folder:
             outcome = _run_in(job, folder, scene, shading, is_first)
             if not outcome.error:
-                outcome.times = {"seconds": round(time.monotonic() - began, 3), "host": socket.gethostname()}
+                outcome.times = {"seconds": round(time.monotonic() - began, 3),
+                                 "cpu seconds": round(_processor_seconds() - used, 3), "host": socket.gethostname()}
                 _publish(job, folder, outcome, shading if is_first else None)
             return outcome
     except (OSError, RunError, ValueError, sqlite3.Error) as error:
         return Outcome(str(error))
+
+
+def _processor_seconds() -> float:
+    """Of the programs that this worker has run; a worker has one thread."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def _run_in(job: Job, folder: Path, scene: str, shading: str | None, is_first: bool) -> Outcome:

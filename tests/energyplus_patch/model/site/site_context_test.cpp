@@ -72,13 +72,65 @@ TEST_F(SiteContext, WithoutTerrainTheGroundIsAtTheOrigin) {
 }
 
 TEST_F(SiteContext, WhatIsLeftOut) {
-  auto const found = read(location + "GPUShading:SiteContext,Town,town.geojson,,,,,,,,,,,,,B/*;");
+  auto const found = read(location + "GPUShading:SiteContext,Town,town.geojson,,,,,,,,,,,,,,B/*;");
   EXPECT_EQ(found.casters.size(), 5U);
   EXPECT_FALSE(found.types.contains("TOWN:B/2"));
   EXPECT_THAT(found.remarks[0], HasSubstr("1 building (5 walls and roofs, 1 left out)"));
   auto const clear = read(location + "GPUShading:SiteContext,Hill,,,,,,,hill.asc,,2000,,,Terrain;");
   EXPECT_EQ(clear.casters.size(), 0U);
   EXPECT_THAT(clear.remarks[0], HasSubstr("no part of it is left"));
+}
+
+TEST_F(SiteContext, WhatIsBeyondTheRadiusIsAHorizon) {
+  auto const found =
+      read(location + "GPUShading:SiteContext,Town,town.geojson,,,,,,,,,,,,100,1000;");
+  // The house b/2 is near, and a/1 stands 111.3 m to the east, from the east to 45 degrees north.
+  EXPECT_EQ(found.types.count("TOWN:A/1"), 0U);
+  EXPECT_EQ(found.types.at("TOWN:HORIZON"), "GPUShading:SiteContext");
+  ASSERT_EQ(found.casters.size(), 5U + 45U);
+  EXPECT_EQ(found.buildings.size(), 1U);
+  for (std::size_t i = 5; i < found.casters.size(); ++i) {
+    auto const& ring = found.casters[i].surface.polygon.outline;
+    EXPECT_EQ(found.casters[i].surface.name, "TOWN:HORIZON");
+    auto const middle = 0.5 * (ring[0] + ring[3]);
+    // The nearest wall has the largest angle.
+    EXPECT_NEAR(middle.x, 111.3, 0.1);
+    EXPECT_NEAR(middle.z, 10.0, 0.01);
+    EXPECT_EQ(ring[1].z, 0.0);
+  }
+  EXPECT_THAT(found.remarks[0], HasSubstr("1 building within 100 m (5 walls and roofs), horizon of "
+                                          "what is within 1000 m (45 degrees)"));
+  auto const far = read(location + "GPUShading:SiteContext,Town,town.geojson,,,,,,,,,,,,100,105;");
+  EXPECT_EQ(far.casters.size(), 5U);
+}
+
+TEST_F(SiteContext, TerrainBeyondTheRadiusIsAHorizon) {
+  auto const hill = [&](std::string const& radii) {
+    return read(location + "GPUShading:SiteContext,Hill,,,,,,,hill.asc,,,,,Terrain," + radii + ";");
+  };
+  // All cells have a corner at the origin.
+  EXPECT_EQ(hill("1,5000").casters.size(), 4U);
+  // Rising to the west, 1,113 m away.
+  write("hill.asc",
+        "ncols 3\nnrows 3\nxllcenter 19.98\nyllcenter -0.01\ncellsize 0.01\n"
+        "241.3 130 18.7\n241.3 130 18.7\n241.3 130 18.7\n");
+  auto const found = hill("500,5000");
+  ASSERT_EQ(found.casters.size(), 2U + 90U);
+  for (auto const& caster : found.casters) {
+    auto const& ring = caster.surface.polygon.outline;
+    if (caster.surface.name != "HILL:HORIZON") continue;
+    auto const middle = 0.5 * (ring[0] + ring[3]);
+    EXPECT_LT(middle.x, -1100.0);
+    EXPECT_NEAR(middle.z, -0.1 * middle.x, 1.0);
+  }
+}
+
+TEST_F(SiteContext, HorizonNeedsASmallerRadius) {
+  auto const town = [&](std::string const& radii) {
+    return refusal(location + "GPUShading:SiteContext,Town,town.geojson,,,,,,,,,,,," + radii + ";");
+  };
+  EXPECT_THAT(town("100,100"), HasSubstr("Horizon Radius is 100 m, expected more than Radius"));
+  EXPECT_THAT(town(",100"), HasSubstr("Horizon Radius is 100 m, expected more than Radius"));
 }
 
 TEST_F(SiteContext, OriginIsTheObjectsElseTheModels) {

@@ -1,0 +1,19 @@
+#include "model/site/binary_file.h"
+
+#include <fmt/format.h>
+
+namespace gpu_shading::energyplus::geojson {
+
+Error damaged(std::string_view what) { return Error(fmt::format("is damaged: {}", what)); }
+
+Bytes BinaryFile::read(std::uintmax_t place, std::size_t count) {
+  if (place > size_ || size_ - place < count) throw damaged("it ends too early");
+  std::vector<char> bytes(count);
+  file_.seekg(static_cast<std::streamoff>(place));
+  if (!file_.read(bytes.data(), static_cast<std::streamsize>(count))) {
+    throw Error("cannot be read");
+  }
+  return Bytes(std::move(bytes));
+}
+
+}  // namespace gpu_shading::energyplus::geojson

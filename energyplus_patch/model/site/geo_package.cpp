@@ -1,0 +1,224 @@
+#include "model/site/geo_package.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "gpu_shading/error.h"
+#include "model/site/sqlite_file.h"
+#include "platform/text.h"
+
+// The formats: https://www.geopackage.org/spec/ (clauses 2.1.3 and 3.1.3), ISO WKB of OGC 06-103r4,
+// and the nodes of R-trees in ext/rtree/rtree.c of SQLite.
+namespace gpu_shading::energyplus::geojson {
+namespace {
+
+using Ids = std::vector<std::int64_t>;
+
+class WkbReader {
+ public:
+  WkbReader(Bytes const& bytes, std::size_t place) : in_{bytes, place} {}
+
+  Json read(int depth = 0) {
+    constexpr int max_depth = 10;
+    constexpr std::uint32_t kinds = 1000;  // each with Z, M or both
+    if (depth > max_depth) throw damaged("its collections are nested");
+    in_.order = in_.next<std::uint8_t>() == 0 ? std::endian::big : std::endian::little;
+    auto const type = in_.next<std::uint32_t>();
+    constexpr std::array<std::size_t, 4> dimensions{2, 3, 3, 4};
+    if (type / kinds >= dimensions.size()) throw damaged("a geometry has an unknown type");
+    dimensions_ = dimensions.at(type / kinds);
+    switch (type % kinds) {
+      case 1:
+        return {{"type", "Point"}, {"coordinates", position()}};
+      case 2:
+        return {{"type", "LineString"}, {"coordinates", list([this] { return position(); })}};
+      case 3:
+        return {{"type", "Polygon"},
+                {"coordinates", list([this] { return list([this] { return position(); }); })}};
+      case 4:
+        return {{"type", "MultiPoint"}, {"coordinates", parts("coordinates", depth)}};
+      case 5:
+        return {{"type", "MultiLineString"}, {"coordinates", parts("coordinates", depth)}};
+      case 6:
+        return {{"type", "MultiPolygon"}, {"coordinates", parts("coordinates", depth)}};
+      case 7:
+        return {{"type", "GeometryCollection"},
+                {"geometries", list([&] { return read(depth + 1); })}};
+      default:
+        if (depth > 0) throw damaged("a geometry has an unknown type");
+        return {{"type", "of other kinds"}};
+    }
+  }
+
+ private:
+  template <typename Read>
+  Json list(Read const& read) {
+    auto const count = in_.next<std::uint32_t>();
+    auto values = Json::array();
+    for (std::uint32_t i = 0; i < count; ++i) values.push_back(read());
+    return values;
+  }
+
+  Json parts(char const* name, int depth) {
+    return list([&] { return member(read(depth + 1), name); });
+  }
+
+  Json position() {
+    auto place = Json::array();
+    for (std::size_t i = 0; i < dimensions_; ++i) {
+      auto const value = in_.next<double>();
+      if (i < 2) place.push_back(value);
+    }
+    return place;
+  }
+
+  Cursor in_;
+  std::size_t dimensions_ = 2;
+};
+
+Json read_geometry(Json const& blob) {
+  if (!blob.is_binary()) return nullptr;
+  auto const& binary = blob.get_binary();
+  Bytes const bytes({binary.begin(), binary.end()});
+  constexpr std::size_t flags_at = 3;
+  constexpr std::size_t header = 8;
+  if (bytes.text(0, 2) != "GP") throw damaged("a geometry is not of a GeoPackage");
+  auto const flags = bytes.at<std::uint8_t>(flags_at);
+  constexpr std::array<std::size_t, 5> envelopes{0, 4, 6, 6, 8};
+  auto const envelope = flags >> 1U & 7U;
+  if (envelope >= envelopes.size()) throw damaged("a geometry has an unknown envelope");
+  if ((flags & 16U) != 0) return nullptr;  // empty
+  return WkbReader(bytes, header + envelopes.at(envelope) * sizeof(double)).read();
+}
+
+class Package {
+ public:
+  explicit Package(std::filesystem::path const& path) : file_(path) {
+    std::vector<std::string> names;
+    for_each("gpkg_geometry_columns", [&](Json const& row) {
+      names.push_back(text_of(member(row, "table_name")));
+      geometry_ = text_of(member(row, "column_name"));
+      srs_ = member(row, "srs_id");
+    });
+    if (names.size() != 1) {
+      throw Error(fmt::format("has {} layers{}, expected a file with one", names.size(),
+                              names.empty() ? "" : ", such as " + printable(names.front())));
+    }
+    layer_ = table(names[0]);
+    index_ = file_.find("rtree_" + names[0] + "_" + geometry_ + "_node");
+  }
+
+  // Throws Error if they are not ours.
+  MapCoordinates coordinates() {
+    std::string name = "an unknown system";
+    for_each("gpkg_spatial_ref_sys", [&](Json const& row) {
+      if (member(row, "srs_id") != srs_) return;
+      name = fmt::format("{}:{}", text_of(member(row, "organization")),
+                         text_of(member(row, "organization_coordsys_id")));
+    });
+    try {
+      return MapCoordinates::parse(name);
+    } catch (Error const& error) {
+      throw Error(fmt::format("srs_id is {}", error.what()));
+    }
+  }
+
+  void read(std::optional<Nearby> const& nearby, MapCoordinates const& coordinates,
+            UseFeature const& use) {
+    std::optional<Ids> ids;
+    if (nearby && index_) ids = find(nearby->boxes(coordinates));
+    file_.read(
+        layer_,
+        [&](std::int64_t id, SqliteFile::Row const& row) {
+          auto properties = named(layer_, row);
+          Json feature{{"type", "Feature"},
+                       {"geometry", read_geometry(member(properties, geometry_))}};
+          properties.erase(geometry_);
+          feature["properties"] = std::move(properties);
+          use_numbered(feature, static_cast<std::size_t>(id), coordinates, use);
+        },
+        ids);
+  }
+
+ private:
+  SqliteFile::Table table(std::string const& name) {
+    auto const found = file_.find(name);
+    if (!found)
+      throw Error(
+          fmt::format("is not a GeoPackage of features: it has no table {}", printable(name)));
+    return *found;
+  }
+
+  static Json named(SqliteFile::Table const& table, SqliteFile::Row const& row) {
+    auto values = Json::object();
+    for (std::size_t i = 0; i < row.size(); ++i) values[table.columns[i]] = row[i];
+    return values;
+  }
+
+  void for_each(std::string const& name, std::function<void(Json const&)> const& use) {
+    auto const found = table(name);
+    file_.read(found, [&](std::int64_t, SqliteFile::Row const& row) { use(named(found, row)); });
+  }
+
+  // The sorted ids of the rows whose boxes meet one of the boxes.
+  Ids find(std::vector<Box> const& boxes) {
+    constexpr std::int64_t root = 1;
+    constexpr int max_depth = 40;
+    Ids nodes{root};
+    for (int level = 0, depth = 0; level <= depth; ++level) {
+      Ids next;
+      std::size_t found = 0;
+      file_.read(
+          *index_,
+          [&](std::int64_t, SqliteFile::Row const& row) {
+            ++found;
+            if (row.size() < 2 || !row[1].is_binary()) throw damaged("its index has no node");
+            auto const& node = row[1].get_binary();
+            Bytes const bytes({node.begin(), node.end()});
+            Cursor in{bytes, 0, std::endian::big};
+            auto const levels = in.next<std::uint16_t>();
+            if (level == 0) depth = levels;
+            if (depth > max_depth) throw damaged("its index is too deep");
+            auto const cells = in.next<std::uint16_t>();
+            for (int i = 0; i < cells; ++i) {
+              auto const id = in.next<std::int64_t>();
+              Box box{};
+              for (double* side : {&box.west, &box.east, &box.south, &box.north}) {
+                *side = in.next<float>();
+              }
+              if (box.meets_any(boxes)) next.push_back(id);
+            }
+          },
+          nodes);
+      if (found < nodes.size()) throw damaged("its index lacks a node");
+      std::sort(next.begin(), next.end());
+      next.erase(std::unique(next.begin(), next.end()), next.end());
+      nodes = std::move(next);
+    }
+    return nodes;
+  }
+
+  SqliteFile file_;
+  std::string geometry_;  // its column
+  Json srs_;
+  SqliteFile::Table layer_;
+  std::optional<SqliteFile::Table> index_;
+};
+
+}  // namespace
+
+MapCoordinates read_geo_package(std::filesystem::path const& path,
+                                std::optional<MapCoordinates> const& coordinates,
+                                std::optional<Nearby> const& nearby, UseFeature const& use) {
+  Package package(path);
+  auto const used = coordinates ? *coordinates : package.coordinates();
+  package.read(nearby, used, use);
+  return used;
+}
+
+}  // namespace gpu_shading::energyplus::geojson
