@@ -141,7 +141,7 @@ std::string encode_sheet(std::string const& name, PictureSheet const& sheet) {
   gpu_shading_sheet const all{static_cast<int>(sheet.items.size()),
                               pictures.data(),
                               captions.data(),
-                              scale.data(),
+                              sheet.scale ? scale.data() : nullptr,
                               columns,
                               is_animation(name) ? 1 : 0,
                               frames_per_second};

@@ -34,9 +34,10 @@ struct PictureSheet {
     std::string caption;  // lines
   };
   std::vector<Item> items;
+  bool scale = true;  // of sunlit fractions, beside them
 };
 
-// In rows or, in a .gif, one after another, with a scale of sunlit fractions beside them.
+// In rows or, in a .gif, one after another.
 std::string encode_sheet(std::string const& name, PictureSheet const& sheet);
 
 bool is_animation(std::filesystem::path const& path);

@@ -202,15 +202,15 @@ std::string encode_sheet(std::string const& name, PictureSheet const& sheet) {
   encoder_of(name);  // refuses a format before anything is drawn
   std::vector<std::unique_ptr<Bitmap>> pictures;
   std::vector<PictureSize> sizes;
-  std::ptrdiff_t breaks = 0;
+  CaptionSize captions;
   for (auto const& item : sheet.items) {
     auto const& picture = pictures.emplace_back(std::make_unique<Bitmap>(item.picture.c_str()));
     check(picture->GetLastStatus(), item.picture.string());
     sizes.push_back(
         {static_cast<int>(picture->GetWidth()), static_cast<int>(picture->GetHeight())});
-    breaks = std::max(breaks, std::ranges::count(item.caption, '\n'));
+    captions.add(item.caption);
   }
-  SheetLayout const layout(sizes, SheetLayout::max_columns, static_cast<int>(breaks) + 1);
+  SheetLayout const layout(sizes, SheetLayout::max_columns, captions, sheet.scale);
   Picture on(name, layout.sheet_width(), layout.sheet_height());
   on.fill(0, 0, layout.sheet_width(), layout.sheet_height(), {0xff, 0xff, 0xff});
   for (std::size_t i = 0; i < pictures.size(); ++i) {
@@ -223,7 +223,7 @@ std::string encode_sheet(std::string const& name, PictureSheet const& sheet) {
     on.paste(*pictures[i], layout.picture_left(i, sizes[i].width),
              layout.picture_top(i, sizes[i].height));
   }
-  add_scale(on, layout);
+  if (sheet.scale) add_scale(on, layout);
   return on.encode();
 }
 

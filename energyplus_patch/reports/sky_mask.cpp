@@ -61,6 +61,14 @@ std::vector<ShadeKind> kinds_of(SceneAssembly const& assembly, Scene const& scen
   return kinds;
 }
 
+void set_sunlit(BeamShare& share, double fraction) {
+  if (!share.faced) return;
+  float const before = 1.0F - share.sunlit;
+  share.sunlit = static_cast<float>(fraction);
+  if (before <= 0.0F) return;
+  for (auto& stopped : share.stopped) stopped *= (1.0F - share.sunlit) / before;
+}
+
 std::vector<SunDirection> SkyGrid::directions() const {
   std::vector<SunDirection> all;
   all.reserve(size());

@@ -36,6 +36,10 @@ struct BeamShare {
   bool operator==(BeamShare const&) const = default;
 };
 
+// Replaces the sunlit fraction, 0 .. 1, of a share that is faced, and what the kinds stop in
+// proportion.
+void set_sunlit(BeamShare& share, double fraction);
+
 // Directions at equal steps of azimuth and altitude.
 class SkyGrid {
  public:

@@ -147,24 +147,11 @@ std::vector<SurfaceId> may_be_mapped(SceneAssembly const& scene) {
   return ids;
 }
 
-std::vector<SurfaceId> choose_receivers(SceneAssembly const& scene, std::string const& pattern) {
-  if (pattern.empty()) return scene.shown_receivers();
-  std::vector<SurfaceId> chosen;
-  std::vector<std::string> names;
-  for (auto const id : may_be_mapped(scene)) {
-    auto const& name = scene.surfaces()[id].name;
-    names.push_back(name);
-    if (matches(pattern, name)) chosen.push_back(id);
-  }
-  if (chosen.empty()) {
-    throw Error(fmt::format("--receivers {}: no exterior or shading surface matches{}",
-                            in_quotes(pattern), did_you_mean(pattern, names)));
-  }
-  return chosen;
-}
-
 std::vector<MappedReceiver> make_grids(SceneAssembly const& scene, MapTask const& request) {
-  auto const chosen = choose_receivers(scene, request.receivers);
+  auto const& pattern = request.receivers;
+  auto const chosen = pattern.empty() ? scene.shown_receivers()
+                                      : choose_receivers(scene, may_be_mapped(scene), "--receivers",
+                                                         pattern, "exterior or shading surface");
   if (chosen.empty()) throw Error("the model has no exterior surface to map");
   std::vector<MappedReceiver> receivers;
   std::size_t cells = 0;

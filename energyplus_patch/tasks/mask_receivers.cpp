@@ -39,15 +39,7 @@ std::vector<SurfaceId> masked_receivers(SceneAssembly const& scene, std::string 
   auto const all = scene.shown_receivers();
   if (all.empty()) throw Error("the model has no exterior surface to draw a mask of");
   if (pattern.empty()) return windows_among(all, scene);
-  std::vector<SurfaceId> chosen;
-  std::vector<std::string> names;
-  for (auto const id : all) {
-    names.push_back(scene.surfaces()[id].name);
-    if (matches(pattern, names.back())) chosen.push_back(id);
-  }
-  if (!chosen.empty()) return chosen;
-  throw Error(fmt::format("--receiver {}: no exterior surface matches{}", in_quotes(pattern),
-                          did_you_mean(pattern, names)));
+  return choose_receivers(scene, all, "--receiver", pattern, "exterior surface");
 }
 
 std::vector<MaskedPlace> places_of(SceneAssembly const& scene, MaskTask const& task) {
@@ -97,15 +89,6 @@ std::vector<std::vector<double>> render_suns(MaskTask const& task, SceneAssembly
   }
   write_cache(answers, messages);
   return fractions;
-}
-
-// Replaces the rays' sunlit fraction, and what the kinds stop in proportion.
-void set_sunlit(BeamShare& share, double fraction) {
-  if (!share.faced) return;
-  float const before = 1.0F - share.sunlit;
-  share.sunlit = static_cast<float>(fraction);
-  if (before <= 0.0F) return;
-  for (auto& stopped : share.stopped) stopped *= (1.0F - share.sunlit) / before;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "answers/cache_folder.h"
 #include "gpu_shading/error.h"
 #include "model/extensions/extension_fields.h"
+#include "platform/text.h"
 #include "reports/remarks.h"
 #include "runs/run_times.h"
 #include "tasks/samples/take_samples.h"
@@ -65,6 +66,20 @@ CachedRenderer open_for_task(SceneAssembly& scene, std::vector<SurfaceId> const&
   scene.optics().update({});
   answers.deploy(scene.optics().deployments(), scene.positions());
   return answers;
+}
+
+std::vector<SurfaceId> choose_receivers(SceneAssembly const& scene,
+                                        std::vector<SurfaceId> const& among, std::string_view flag,
+                                        std::string const& pattern, std::string_view kind) {
+  std::vector<SurfaceId> chosen;
+  std::vector<std::string> names;
+  for (auto const id : among) {
+    names.push_back(scene.surfaces()[id].name);
+    if (matches(pattern, names.back())) chosen.push_back(id);
+  }
+  if (!chosen.empty()) return chosen;
+  throw Error(fmt::format("{} {}: no {} matches{}", flag, in_quotes(pattern), kind,
+                          did_you_mean(pattern, names)));
 }
 
 std::string perform(SamplesTask const& task, SceneAssembly& scene, Messages const& messages) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "answers/cached_renderer.h"
 #include "calculation/session.h"
@@ -22,6 +24,12 @@ std::string perform(ModulesTask const& task, SceneAssembly& scene, Messages cons
 // value and screens fully deployed.
 CachedRenderer open_for_task(SceneAssembly& scene, std::vector<SurfaceId> const& receivers,
                              Messages const& messages);
+
+// Those of some receivers whose names match the pattern of a flag. `kind`: of them all, for the
+// message. Throws Error where none does.
+std::vector<SurfaceId> choose_receivers(SceneAssembly const& scene,
+                                        std::vector<SurfaceId> const& among, std::string_view flag,
+                                        std::string const& pattern, std::string_view kind);
 
 // The scene that is rendered for a model, as JSON that the Python package reads: every surface with
 // its vertices, optics and part in the shading rule, in the order of the scene. Transmittances are

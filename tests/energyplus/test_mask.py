@@ -139,6 +139,46 @@ def test_trees_are_a_kind(tmp_path):
     assert float(south[0]["trees"]) > 0.05
 
 
+CURTAIN = ("Schedule:Compact,Season,,Through: 6/30,For: AllDays,Until: 24:00,0.25,"
+           "Through: 12/31,For: AllDays,Until: 24:00,0.75;\n"
+           "Shading:Site:Detailed,Curtain,Season,4, 500,-1,500, 500,-1,-50, -500,-1,-50, -500,-1,500;\n")
+
+
+@pytest.fixture(scope="module")
+def curtain(weather, tmp_path_factory):
+    """(a window behind a curtain that is thin from July on, a folder of its samples)"""
+    folder = tmp_path_factory.mktemp("curtain")
+    (folder / "room.idf").write_text(screened_room.model(objects=CURTAIN))
+    command = [energyplus.patched_prefix() / "gpu_shading", "sample", folder / "room.idf", "-w", weather, "-o",
+               folder / "samples", "--mode", "coarse"]
+    subprocess.run(command, capture_output=True, check=True)
+    return folder / "room.idf", folder / "samples"
+
+
+def test_hours_of_samples_have_schedules(curtain, weather, tmp_path):
+    model, samples = curtain
+    folder = draw(model, tmp_path / "masks", "-w", weather, "--receiver", "Window", "--step", "10", "--samples", samples)
+    rows = [row for row in rows_of(folder / "hours.csv") if row["sunlit fraction"]]
+    assert len(rows) > 80
+    for row in rows:
+        assert float(row["sunlit fraction"]) == pytest.approx(0.25 if int(row["month"]) <= 6 else 0.75, abs=2e-3)
+        assert float(row["sunlit fraction"]) + float(row["neighbours"]) == pytest.approx(1.0, abs=1e-3)
+
+
+def test_samples_of_another_model_are_refused(curtain, courtyard, weather, tmp_path):
+    model, samples = curtain
+    done = call(courtyard, "-w", weather, "-o", tmp_path / "a", "--samples", samples, "--step", "10")
+    assert "year.csv: has no receiver WEST COURT BACK WINDOW: of another model?" in done.stderr
+    moved = input_file.read(model)
+    moved.remove(lambda name: name == "site:location")
+    moved.add("Site:Location", ["Quito", -0.2, -78.5, -5, 2800])
+    moved.write(tmp_path / "moved.idf")
+    done = call(tmp_path / "moved.idf", "-o", tmp_path / "b", "--samples", samples, "--step", "10")
+    assert done.returncode == 1 and "of another site?" in done.stderr
+    done = call(model, "-o", tmp_path / "c", "--samples", tmp_path)
+    assert f"{tmp_path / 'year.csv'}" in done.stderr
+
+
 @pytest.mark.parametrize("projection", ["stereographic", "equidistant", "cylindrical"])
 def test_pictures(courtyard, tmp_path, projection):
     folder = draw(courtyard, tmp_path / "masks", "--receiver", "West Court*Window", "--projection", projection)

@@ -1,5 +1,7 @@
 """The Python package with models of EnergyPlus: scenes, runs and samples against what EnergyPlus reports."""
 
+import contextlib
+import io
 import json
 import re
 import subprocess
@@ -181,16 +183,22 @@ def test_the_page_says_what_is_so(gs, weather, courtyard, tmp_path, monkeypatch)
 
 
 def test_the_notebook_runs(gs, tmp_path, monkeypatch):
-    """Its cells one after another, as Jupyter would run them."""
+    """Its cells one after another, as Jupyter would run them, print the numbers that it is stored with."""
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")
     monkeypatch.chdir(NOTEBOOK.parent)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    names = {}
+    names, pictures = {}, 0
     for cell in json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"]:
         if cell["cell_type"] == "code":
-            exec(compile("".join(cell["source"]), NOTEBOOK.name, "exec"), names)
-            assert not cell["outputs"]
+            with contextlib.redirect_stdout(io.StringIO()) as printed:
+                exec(compile("".join(cell["source"]), NOTEBOOK.name, "exec"), names)
+            stored = "".join(line for output in cell["outputs"] for line in output.get("text", ()))
+            told, found = (re.findall(r"\d+(?:\.\d+)?", text) for text in (stored, printed.getvalue()))
+            # The last digit of a sum may depend on the device.
+            assert [float(value) for value in found] == pytest.approx([float(value) for value in told], abs=0.11)
+            pictures += sum("image/png" in output.get("data", ()) for output in cell["outputs"])
+    assert pictures == 2
     table = names["table"].reshape(4, 5, 4)
     # Deeper blades let less through, and so do those that are tilted more towards the low sun of winter.
     assert (np.diff(table[..., 2:], axis=0) < 0.01).all() and (np.diff(table[:, :, 3], axis=1) < 0.01).all()

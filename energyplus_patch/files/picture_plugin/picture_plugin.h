@@ -46,7 +46,7 @@ struct gpu_shading_sheet {
   int count;
   char const* const* pictures;  // files of our own
   char const* const* captions;
-  unsigned char const* scale;  // gpu_shading_scale_colours x red, green, blue
+  unsigned char const* scale;  // gpu_shading_scale_colours x red, green, blue; nullptr: none
   int columns;                 // of the combined picture
   int animated;                // not 0: an animation instead
   float frames_per_second;

@@ -45,9 +45,9 @@ Layout layout_of(std::vector<ImageBuf> const& pictures, gpu_shading_sheet const&
                        std::max(sizes.front().height, size.height)};
     }
   }
-  std::size_t lines = 1;
-  for (int i = 0; i < sheet.count; ++i) lines = std::max(lines, lines_of(sheet.captions[i]).size());
-  return {sizes, sheet.columns, static_cast<int>(lines)};
+  gpu_shading::CaptionSize captions;
+  for (int i = 0; i < sheet.count; ++i) captions.add(sheet.captions[i]);
+  return {sizes, sheet.columns, captions, sheet.scale != nullptr};
 }
 
 void check(bool done, ImageBuf const& image) {
@@ -204,7 +204,7 @@ extern "C" EXPORTED int gpu_shading_write_sheet(char const* path, char const* na
       for (std::size_t i = 0; i < each; ++i) {
         add_picture(frame, pictures[first + i], sheet->captions[first + i], i, layout);
       }
-      add_scale(frame, layout, sheet->scale);
+      if (sheet->scale != nullptr) add_scale(frame, layout, sheet->scale);
       frames.push_back(std::move(frame));
     }
     write_frames(path, name, frames, sheet->frames_per_second);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace gpu_shading {
@@ -12,15 +13,33 @@ struct PictureSize {
   int height = 0;
 };
 
+// The lines of the captions of a sheet, and the characters of the longest.
+struct CaptionSize {
+  int lines = 1;
+  int longest = 0;
+
+  void add(std::string_view caption) {
+    int number = 1;
+    for (auto end = caption.find('\n'); end != caption.npos; end = caption.find('\n')) {
+      longest = std::max(longest, static_cast<int>(end));
+      caption.remove_prefix(end + 1);
+      ++number;
+    }
+    longest = std::max(longest, static_cast<int>(caption.size()));
+    lines = std::max(lines, number);
+  }
+};
+
 // Lengths in a sheet of pictures in proportion to the largest of them, so that all sizes look
 // alike; pixels. Each picture has a cell, below the lines of its caption, in rows that are as high
-// as their highest picture; the scale is at the right.
+// as their highest picture; the scale, if there is one, is at the right.
 struct SheetLayout {
   static constexpr int max_columns = 4;
   static constexpr int scale_colours = 256;
   static constexpr int min_bar = scale_colours / 8;
 
-  SheetLayout(std::span<PictureSize const> pictures, int max_in_row, int lines)
+  SheetLayout(std::span<PictureSize const> pictures, int max_in_row, CaptionSize captions,
+              bool has_scale)
       : columns(std::min(static_cast<int>(pictures.size()), max_in_row)) {
     int longest = 1;
     for (std::size_t i = 0; i < pictures.size(); ++i) {
@@ -35,9 +54,11 @@ struct SheetLayout {
     text = std::max(min_text, longest / lines_of_longest);
     margin = text / 2;
     line = text + margin / 2;
-    caption = text + lines * line;
-    cell_width = width + 2 * margin;
+    caption = text + captions.lines * line;
+    // The mean width of DejaVu Sans's letters and digits is 0.58 of its height.
+    cell_width = std::max(width, 6 * captions.longest * text / 10) + 2 * margin;
     for (int const height : row_heights) row_tops.push_back(row_tops.back() + cell_height(height));
+    if (!has_scale) return;
     scale_width = 7 * text;
     // Where a bar and its numbers have room.
     scale_height = caption + 2 * text + margin + min_bar;

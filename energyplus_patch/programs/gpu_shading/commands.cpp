@@ -55,6 +55,31 @@ std::shared_ptr<ModelRun> Command::add_model(std::string const& weather) const {
   return run;
 }
 
+void Command::add_folder(std::filesystem::path& folder, std::string const& contents) const {
+  app_->add_option(
+          "-o,--output", folder,
+          fmt::format("Folder for the {0}: new, empty, or with earlier {0}, which are replaced",
+                      contents))
+      ->required()
+      ->type_name("DIR");
+}
+
+void Command::add_receivers(std::string const& flag, std::string& pattern,
+                            std::string const& which) const {
+  app_->add_option(flag, pattern,
+                   "Name of a surface, or a pattern in which * stands for any characters" + which)
+      ->type_name("PATTERN");
+}
+
+CLI::Option* Command::add_spacing(std::string const& flag, double& spacing,
+                                  std::string const& meaning) const {
+  constexpr double min_spacing = 0.001;
+  constexpr double max_spacing = 1000.0;
+  return app_->add_option(flag, spacing, meaning)
+      ->check(CLI::Range(min_spacing, max_spacing))
+      ->type_name("M");
+}
+
 void Command::refuse_ignored_flags() const {
   for (auto const& row : option_rows()) {
     if (row.audience > Audience::experts || contains(options_, row.name)) continue;

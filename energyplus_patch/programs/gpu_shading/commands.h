@@ -39,6 +39,14 @@ class Command {
   std::shared_ptr<ModelRun> add_model(
       std::string const& weather = "Weather file (default: one that comes with EnergyPlus)") const;
 
+  // -o: a folder that later calls may use again. `contents`: "maps"
+  void add_folder(std::filesystem::path& folder, std::string const& contents) const;
+  // A pattern of names. `which`: what it may also name, and the default.
+  void add_receivers(std::string const& flag, std::string& pattern, std::string const& which) const;
+  // m
+  CLI::Option* add_spacing(std::string const& flag, double& spacing,
+                           std::string const& meaning) const;
+
   void run(std::function<void()> const& action) const;
 
  private:

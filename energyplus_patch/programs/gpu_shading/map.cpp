@@ -168,17 +168,11 @@ void add_map(Program const& program) {
       command.add_model("Weather file: site, calendar and beam radiation (required)");
   auto const order = std::make_shared<MapOrder>();
   add_days(*command.operator->(), order->days);
-  command
-      ->add_option("--receivers", order->receivers,
-                   "Name of a surface, or a pattern in which * stands for any characters; also "
-                   "of shading surfaces (default: all surfaces that EnergyPlus shades)")
-      ->type_name("PATTERN");
-  constexpr double min_spacing = 0.001;
-  constexpr double max_spacing = 1000.0;
-  command->add_option("--spacing", order->spacing, "Largest side of a cell, m")
-      ->check(CLI::Range(min_spacing, max_spacing))
-      ->capture_default_str()
-      ->type_name("M");
+  command.add_receivers(
+      "--receivers", order->receivers,
+      "; also of shading surfaces (default: all surfaces that EnergyPlus shades)");
+  command.add_spacing("--spacing", order->spacing, "Largest side of a cell, m")
+      ->capture_default_str();
   constexpr int max_rays = 100;
   command
       ->add_option("--rays", order->rays_per_cell,
@@ -189,11 +183,7 @@ void add_map(Program const& program) {
   command->add_flag(
       "--common-scale", order->common_scale,
       "One colour scale for the pictures of all receivers; otherwise each has its own");
-  command
-      ->add_option("-o,--output", order->folder,
-                   "Folder for the maps: new, empty, or with earlier maps, which are replaced")
-      ->required()
-      ->type_name("DIR");
+  command.add_folder(order->folder, "maps");
   command.run([model, order] { draw_maps(*model, *order); });
 }
 

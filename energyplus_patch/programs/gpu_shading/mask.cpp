@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <map>
@@ -14,6 +15,7 @@
 #include "model/site/site_clock.h"
 #include "platform/console.h"
 #include "platform/files.h"
+#include "platform/naming.h"
 #include "platform/process.h"
 #include "platform/text.h"
 #include "programs/gpu_shading/commands.h"
@@ -22,6 +24,7 @@
 #include "reports/report.h"
 #include "runs/installation.h"
 #include "runs/short_runs.h"
+#include "tasks/samples/year_table.h"
 #include "tasks/task_file.h"
 
 namespace gpu_shading::energyplus {
@@ -35,7 +38,8 @@ struct MaskOrder {
   int step = 2;   // degrees
   int rays = 32;  // from a receiver in each direction
   double spacing = 0.0;
-  double beam = 300.0;  // W/m2
+  double beam = 300.0;            // W/m2
+  std::filesystem::path samples;  // a folder, or empty
   std::filesystem::path folder;
 };
 
@@ -101,6 +105,38 @@ std::vector<ReceiverMask> trace(ModelRun const& run, MaskOrder const& order, Mas
   return read_masks(task.file);
 }
 
+// The sunlit fractions of the site's hours from year.csv of a folder of samples.
+void take_samples(std::filesystem::path const& folder, MaskSite const& site,
+                  std::vector<ReceiverMask>& masks) {
+  auto const file = folder / "year.csv";
+  require_file(file);
+  naming(file.string(), [&] {
+    std::ifstream csv(file, std::ios::binary);
+    auto const sampled = read_hours_of_21st(csv);
+    for (std::size_t i = 0; i < site.hours.size(); ++i) {
+      auto const& [month, hour, sun, beam, marked] = site.hours[i];
+      auto const found = std::ranges::find_if(sampled.hours, [&](SampledHour const& one) {
+        return one.month == month && one.hour == hour;
+      });
+      // The sun of the 21st moves by up to half a degree from year to year.
+      constexpr double same_sun = 0.02;  // radians
+      if (found == sampled.hours.end() ||
+          glm::distance(to_vector(found->sun), to_vector(sun)) > same_sun) {
+        throw Error(fmt::format("has no sun at {:02}-21 {:02}:00 as at {}: of another site?", month,
+                                hour, site.name));
+      }
+      for (auto& mask : masks) {
+        auto const column = std::ranges::find(sampled.receivers, csv_field(mask.receiver.name));
+        if (column == sampled.receivers.end()) {
+          throw Error(fmt::format("has no receiver {}: of another model?", mask.receiver.name));
+        }
+        set_sunlit(mask.suns[i],
+                   found->fractions[static_cast<std::size_t>(column - sampled.receivers.begin())]);
+      }
+    }
+  });
+}
+
 std::vector<MaskSummary> summarise(std::vector<ReceiverMask> const& masks, SkyGrid const& grid) {
   FileNames names;
   std::map<std::string, int> points;
@@ -155,7 +191,8 @@ void draw_masks(ModelRun const& run, MaskOrder const& order) {
   ListedFolder folder(order.folder, "masks.json", "gpu_shading masks 1");
   auto const site = site_of(run, order);
   SkyGrid const grid(order.step);
-  auto const masks = trace(run, order, site);
+  auto masks = trace(run, order, site);
+  if (!order.samples.empty()) take_samples(order.samples, site, masks);
   auto const summaries = summarise(masks, grid);
   for (std::size_t i = 0; i < masks.size(); ++i) {
     folder.write(summaries[i].stem + ".csv",
@@ -196,11 +233,8 @@ void add_mask(Program const& program) {
   auto const model = command.add_model(
       "Weather file: site and mean beam of the hours (default: Site:Location and a clear sky)");
   auto const order = std::make_shared<MaskOrder>();
-  command
-      ->add_option("--receiver", order->receivers,
-                   "Name of a surface, or a pattern in which * stands for any characters (default: "
-                   "all windows, or all receivers without windows)")
-      ->type_name("PATTERN");
+  command.add_receivers("--receiver", order->receivers,
+                        " (default: all windows, or all receivers without windows)");
   command
       ->add_option("--projection", order->projection,
                    "Projection of the sky: around the zenith, or a cylinder as in PVsyst")
@@ -215,13 +249,15 @@ void add_mask(Program const& program) {
       ->check(CLI::Range(1, max_rays))
       ->capture_default_str()
       ->type_name("N");
-  constexpr double min_spacing = 0.001;
-  constexpr double max_spacing = 1000.0;
+  auto* const points = command.add_spacing(
+      "--points", order->spacing,
+      "Instead of whole receivers: masks of the points of a grid with this spacing, m");
   command
-      ->add_option("--points", order->spacing,
-                   "Instead of whole receivers: masks of the points of a grid with this spacing, m")
-      ->check(CLI::Range(min_spacing, max_spacing))
-      ->type_name("M");
+      ->add_option("--samples", order->samples,
+                   "Folder of gpu_shading sample, whose sunlit fractions the hours have, with "
+                   "schedules")
+      ->excludes(points)
+      ->type_name("DIR");
   constexpr double max_beam = 1400.0;
   command
       ->add_option("--beam", order->beam,
@@ -229,10 +265,7 @@ void add_mask(Program const& program) {
       ->check(CLI::Range(0.0, max_beam))
       ->capture_default_str()
       ->type_name("W/m2");
-  command
-      ->add_option("-o,--output", order->folder,
-                   "Folder for the masks: new, empty, or with earlier masks, which are replaced")
-      ->required();
+  command.add_folder(order->folder, "masks");
   command.run([model, order] { draw_masks(*model, *order); });
 }
 

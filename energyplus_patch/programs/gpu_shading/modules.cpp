@@ -138,11 +138,7 @@ void add_modules(Program const& program) {
       command.add_model("Weather file: site, calendar and beam radiation (required)");
   auto const order = std::make_shared<ModulesOrder>();
   add_days(*command.operator->(), order->days);
-  command
-      ->add_option("-o,--output", order->folder,
-                   "Folder for the results: new, empty, or with earlier ones, which are replaced")
-      ->required()
-      ->type_name("DIR");
+  command.add_folder(order->folder, "results");
   command.run([model, order] { shade_modules(*model, *order); });
 }
 

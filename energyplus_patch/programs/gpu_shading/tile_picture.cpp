@@ -95,7 +95,7 @@ std::string encode_views(PerforatedScreen const& screen, std::string const& name
   constexpr int size = 480;
   constexpr double oblique = 30.0;
   TemporaryFolder const temporary;
-  PictureSheet sheet;
+  PictureSheet sheet{.items = {}, .scale = false};
   for (double const angle : {0.0, oblique}) {
     auto const file = temporary.path() / fmt::format("{}.png", angle);
     write_whole_file(file, [&](std::ostream& out) {

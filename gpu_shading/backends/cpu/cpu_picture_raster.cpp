@@ -67,11 +67,6 @@ View in_pixels(PictureGrid const& grid) {
   return view;
 }
 
-View uncut(View view) {
-  view.cut = View().cut;
-  return view;
-}
-
 struct Rows {
   int first;
   int end;
@@ -283,8 +278,7 @@ std::vector<float> CpuPictureRaster::luminance(PictureGrid const& grid,
     int const side = side_of(grid);
     PixelMask lit;
     lit.start(side, rows.first, rows.end);
-    coverage_.pieces().each(shaded.receiver, uncut(pixels),
-                            [&](ProjectedPiece const& piece) { lit.light(piece.area(side)); });
+    light_all(lit, side);
     LuminanceTile luminance;
     luminance.start(side, rows.first, rows.end);
     coverage_.shade(lit, luminance, nullptr, pixels, casters);

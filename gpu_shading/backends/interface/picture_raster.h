@@ -70,9 +70,8 @@ class PictureRaster {
   virtual std::vector<float> through_bodies(PictureGrid const& grid, glm::dvec3 const& towards_sun,
                                             std::span<SurfaceId const> surfaces) = 0;
 
-  // The luminance, 0 .. 1, of a receiver's pixels behind those of its casters that are in front of
-  // the view's cut, by the rules by which a ViewBackend answers; 0 or 1 where all are opaque. Other
-  // pixels may have any.
+  // The luminance, 0 .. 1, of a receiver's plane behind those of its casters that are in front of
+  // the view's cut, by the rules by which a ViewBackend answers; 0 or 1 where all are opaque.
   virtual std::vector<float> luminance(PictureGrid const& grid, ShadedReceiver const& shaded) = 0;
 };
 

@@ -214,12 +214,14 @@ def map(model: _programs.Name, weather: _programs.Name, *, first: str | None = N
 
 def mask(model: _programs.Name, weather: _programs.Name | None = None, *, receiver: str | None = None,
          points: float | None = None, projection: Projection = "stereographic", step: int = 2, rays: int = 32,
-         beam: float = 300.0) -> Drawings[Mask]:
+         beam: float = 300.0, samples: _programs.Name | None = None) -> Drawings[Mask]:
     """Draws the shading masks of windows, or of the receivers whose names match a pattern, as `gpu_shading mask` does.
     `points`: draw masks of the points of a grid with this spacing, m. `step`: of azimuth and altitude, degrees. `beam`:
-    mark hours with at least this direct normal irradiance, W/m2, by the weather file or, without one, a clear sky."""
+    mark hours with at least this direct normal irradiance, W/m2, by the weather file or, without one, a clear sky.
+    `samples`: the folder of a sample() of the model, whose sunlit fractions the hours have, with schedules."""
     arguments = _programs.inputs(model, weather) + _programs.flags(
-        projection=projection, step=step, rays=rays, beam=beam, receiver=receiver, points=points)
+        projection=projection, step=step, rays=rays, beam=beam, receiver=receiver, points=points,
+        samples=None if samples is None else str(samples))
     with tempfile.TemporaryDirectory(prefix="gpu_shading_mask_") as temporary:
         folder = Path(temporary) / "masks"
         _programs.gpu_shading(["mask", *arguments, "-o", folder])

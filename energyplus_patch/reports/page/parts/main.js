@@ -24,7 +24,7 @@ function addKeys() {
   if (view instanceof ModelView && !mapped) keys.unshift(["dark: shaded at this hour", css(scaleColour(1).map((value) => 0.6 * value))]);
   if (kinds.has("opaque")) keys.push([mapped ? "casts shadows only, or has no map" : "casts shadows only", css(theme().caster)]);
   if (kinds.has("glass")) keys.push(["transmits", `#${theme().glass.toString(16)}80`]);
-  if (kinds.has("foliage")) keys.push(["Tree crown", `#${theme().foliage.toString(16)}80`]);
+  if (kinds.has("foliage")) keys.push(["tree crown", `#${theme().foliage.toString(16)}80`]);
   part("keys").replaceChildren(...keys.map(([text, colour]) => {
     const item = document.createElement("li");
     const box = document.createElement("span");
@@ -38,7 +38,7 @@ function addKeys() {
     const box = patternCanvas(content.styles.find((style) => style.kind === "screen"));
     box.className = "key";
     box.style.filter = isDark() && !printing ? "none" : "brightness(0.9)";
-    item.append(box, "Screen, holes not to scale");
+    item.append(box, "screen, holes not to scale");
     part("keys").append(item);
   }
 }
@@ -250,6 +250,13 @@ function chooseBeginning() {
   state.hour = hours.reduce((best, _, i) => away(i) < away(best) ? i : best, 0);
 }
 
+// From the side that a receiver faces; from the south if it faces up.
+function facingView(receiver) {
+  const [, azimuth = 180, tilt = 90] = content.receivers[receiver] || [];
+  const north = tilt > 1 && Math.cos(azimuth * Math.PI / 180) > 0.01;
+  return `${north ? "north" : "south"}-${azimuth > 180 ? "west" : "east"}`;
+}
+
 function addView() {
   const surfaces = readSurfaces();
   readMotions(surfaces);
@@ -313,6 +320,8 @@ function begin() {
   if (content.days.length > 0) {
     chooseBeginning();
     showTime();
+    part("from").value = facingView(state.receiver);
+    view.lookFrom(part("from").value);
   } else {
     part("controls").hidden = part("charts").hidden = part("moment").hidden = true;
   }

@@ -72,7 +72,10 @@ function skyAxes(projection) {
 // The sun at the hours of the page's days, by the receiver's sunlit fraction; `now`: the day and hour that are shown.
 function skySuns(receiver, now, projection, onGo) {
   const suns = [];
-  content.days.forEach((day, d) => day.hours.forEach(([hour, azimuth, altitude], h) => {
+  // Of many days some, so that dots do not cover each other.
+  const stride = Math.ceil(content.days.length / 26);
+  const shown = content.days.map((day, d) => [day, d]).filter(([, d]) => d === now[0] || d % stride === 0);
+  shown.forEach(([day, d]) => day.hours.forEach(([hour, azimuth, altitude], h) => {
     const percent = percentOf(receiver, d, h);
     const here = d === now[0] && h === now[1];
     if (percent === content.turnedAway && !here) return;

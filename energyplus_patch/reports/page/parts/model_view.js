@@ -100,13 +100,20 @@ class EdgeLines {
   }
 }
 
+// Crowns beside receivers: the camera must not stand in one.
+function crownsNear(receivers, surfaces) {
+  const {middle, radius} = boundsOf(receivers);
+  return surfaces.filter(({style, rings}) => content.styles[style].kind === "foliage"
+    && Math.hypot(...rings[0][0].map((value, axis) => value - middle[axis])) < 4 * radius);
+}
+
 class ModelView {
   constructor(canvas, surfaces) {
     this.canvas = canvas;
     this.surfaces = surfaces;
     this.onChoose = () => {};
     const receivers = surfaces.slice(0, content.receiverCount);
-    this.bounds = boundsOf(receivers.length ? receivers : surfaces);
+    this.bounds = boundsOf(receivers.length ? [...receivers, ...crownsNear(receivers, surfaces)] : surfaces);
     this.radius = this.bounds.radius;
     this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: true, preserveDrawingBuffer: true});
     this.renderer.setClearColor(0, 0);
@@ -260,8 +267,9 @@ class ModelView {
     this.draw();
   }
 
-  // `from`: a key of VIEWS, or "sun".
-  lookFrom(from) {
+  // `from`: a key of VIEWS, or "sun"; by default, the last one.
+  lookFrom(from = this.from) {
+    this.from = from;
     const direction = from === "sun" && this.sun ? this.sun : VIEWS[from] || VIEWS["south-east"];
     const narrow = Math.min(1, this.camera.aspect);
     const distance = 4.8 * this.radius / Math.max(narrow, 0.55);
@@ -282,7 +290,7 @@ class ModelView {
     } else if (zooms[event.key]) {
       offset.multiplyScalar(zooms[event.key]);
     } else if (event.key === "0") {
-      this.lookFrom("south-east");
+      this.lookFrom();
       return;
     } else {
       return;
