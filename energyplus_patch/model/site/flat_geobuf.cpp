@@ -438,7 +438,7 @@ class Reader {
       sizes.push_back((sizes.back() + node_size_ - 1) / node_size_);
       nodes += sizes.back();
     } while (sizes.back() != 1);
-    std::reverse(sizes.begin(), sizes.end());
+    std::ranges::reverse(sizes);
     std::uint64_t begin = 0;
     for (auto const size : sizes) {
       levels_.push_back({begin, begin + size});
@@ -461,8 +461,7 @@ class Reader {
                                static_cast<std::size_t>(end - first) * sizeof(Node)));
         for (auto number = first; number < end; ++number) {
           auto const node = bytes.at<Node>(static_cast<std::size_t>(number - first) * sizeof(Node));
-          if (std::none_of(boxes.begin(), boxes.end(),
-                           [&](Box const& box) { return box.meets(node.box); }))
+          if (std::ranges::none_of(boxes, [&](Box const& box) { return box.meets(node.box); }))
             continue;
           if (level.end == levels_.back().end) {
             found.emplace_back(number - level.begin, node.next);
@@ -472,11 +471,11 @@ class Reader {
         }
       }
       // Each node once, whatever leads to it.
-      std::sort(next.begin(), next.end());
+      std::ranges::sort(next);
       next.erase(std::unique(next.begin(), next.end()), next.end());
       firsts = std::move(next);
     }
-    std::sort(found.begin(), found.end());
+    std::ranges::sort(found);
     found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
   }
