@@ -211,7 +211,7 @@ void check_answers(SceneAnswers const& set, AnswerLimits const& limits) {
     if (receiver >= areas.size()) refuse();
   }
   // A question about interior surfaces is known by its hash only.
-  double const largest = areas.empty() ? 0.0 : *std::max_element(areas.begin(), areas.end());
+  double const largest = areas.empty() ? 0.0 : *std::ranges::max_element(areas);
   set.answers.for_each([&](AnswerStore::Direction const& direction) {
     for (ReceiverNumber number = 0; number < direction.projected_area.size(); ++number) {
       if (!direction.knows(number)) continue;

@@ -75,8 +75,7 @@ void bound_cache_folder(std::filesystem::path const& folder, std::uint64_t max_b
     bytes += file.bytes;
     files.push_back(file);
   });
-  std::sort(files.begin(), files.end(),
-            [](File const& a, File const& b) { return a.used < b.used; });
+  std::ranges::sort(files, {}, &File::used);
   for (auto const& file : files) {
     if (bytes <= max_bytes) return;
     if (file.path.filename() == kept.filename()) continue;

@@ -49,8 +49,8 @@ void AskedWindow::ask(Scene const& scene, InteriorKey const& key, glm::dvec3 con
   constexpr std::size_t most_surfaces = 64;
   constexpr std::size_t most_lists = 16;
   for (auto const surface : key.question.interiors) {
-    bool const known = std::any_of(listed_.begin(), listed_.end(),
-                                   [&](Listed const& one) { return one.surface == surface; });
+    bool const known =
+        std::ranges::any_of(listed_, [&](Listed const& one) { return one.surface == surface; });
     if (known || listed_.size() == most_surfaces) continue;
     listed_.push_back({surface, normal(scene[surface].polygon)});
     for (Asked& asked : asked_) asked.sides = sides(asked.towards_sun);
@@ -64,8 +64,7 @@ void AskedWindow::ask(Scene const& scene, InteriorKey const& key, glm::dvec3 con
 InteriorKey const* AskedWindow::foresee(glm::dvec3 const& towards_sun) const {
   if (glm::dot(normal_, towards_sun) <= 0.0) return nullptr;
   auto const now = sides(towards_sun);
-  auto const asked = std::find_if(asked_.begin(), asked_.end(),
-                                  [&](Asked const& one) { return one.sides == now; });
+  auto const asked = std::ranges::find(asked_, now, &Asked::sides);
   return asked == asked_.end() ? nullptr : &asked->key;
 }
 
@@ -176,8 +175,8 @@ std::vector<std::vector<Sunlit>> CachedRenderer::at(std::span<SunDirection const
   Directions directions;
   for (auto const sun : suns) {
     auto& direction = known_.answers.at(sun, state_);
-    bool const lacks_any = std::any_of(numbers.begin(), numbers.end(),
-                                       [&](auto number) { return !direction.knows(number); });
+    bool const lacks_any =
+        std::ranges::any_of(numbers, [&](auto number) { return !direction.knows(number); });
     if (lacks_any) recall(direction);
     direction.sampled = true;
     directions.push_back(&direction);
@@ -252,9 +251,8 @@ std::vector<Sunlit> const& CachedRenderer::interior(InteriorKey const& key, Aske
       foreseen.back().second.push_back(next);
     }
     for (auto& each : foreseen) {
-      auto const batch = std::find_if(batches.begin(), batches.end(), [&](auto const& known) {
-        return known.first == each.second;
-      });
+      auto const batch = std::ranges::find_if(
+          batches, [&](auto const& known) { return known.first == each.second; });
       if (batch != batches.end()) {
         batch->second.push_back(each.first);
       } else {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>

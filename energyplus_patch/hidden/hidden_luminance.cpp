@@ -88,7 +88,7 @@ std::optional<double> HiddenLuminance::seen_sky(glm::dvec3 const& point) const {
   upward.reserve(patches.size());
   for (auto const& patch : patches) upward.push_back({point, patch.direction});
   auto const hidden_pass = casters_.transmittances(upward);
-  if (std::all_of(hidden_pass.begin(), hidden_pass.end(), [](double p) { return p >= 1.0; })) {
+  if (std::ranges::all_of(hidden_pass, [](double p) { return p >= 1.0; })) {
     return std::nullopt;
   }
   auto const all_pass = casters_.transmittances_of_all(upward);

@@ -114,8 +114,7 @@ ReflectedShare HiddenReflections::sky_share(ReflectionRay const& ray, RayPath co
   std::vector<Ray> upward;
   for (auto const& patch : sky_patches_from_ground()) upward.push_back({ray.hit, patch.direction});
   auto const hidden_pass = casters_.transmittances(upward);
-  bool const free =
-      std::all_of(hidden_pass.begin(), hidden_pass.end(), [](double p) { return p >= 1.0; });
+  bool const free = std::ranges::all_of(hidden_pass, [](double p) { return p >= 1.0; });
   if (free && path.passed >= 1.0) return share;
   auto const all_pass = casters_.transmittances_of_all(upward);
   for (std::size_t i = 0; i < upward.size(); ++i) {

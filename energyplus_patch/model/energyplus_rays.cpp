@@ -106,13 +106,13 @@ std::vector<std::string> warn_of_rays(std::vector<InputObject> const& objects,
 
 bool has_daylighting(std::vector<InputObject> const& objects) {
   auto const& types = daylighting_types;
-  return std::any_of(objects.begin(), objects.end(), [&](InputObject const& object) {
-    return std::find(types.begin(), types.end(), object.type) != types.end();
+  return std::ranges::any_of(objects, [&](InputObject const& object) {
+    return std::ranges::find(types, object.type) != types.end();
   });
 }
 
 bool daylighting_can_be_answered(std::vector<InputObject> const& objects) {
-  return std::none_of(objects.begin(), objects.end(), [](InputObject const& object) {
+  return std::ranges::none_of(objects, [](InputObject const& object) {
     return object.type == "Daylighting:DELight:ComplexFenestration" ||
            object.type == "Construction:ComplexFenestrationState" ||
            (object.type == "Daylighting:Controls" &&

@@ -24,9 +24,8 @@ template <std::size_t N>
 int choice(InputObject const& object, std::string const& field, std::string_view title,
            std::array<std::string_view, N> const& known) {
   auto const& value = object[field];
-  auto const found = std::find_if(known.begin(), known.end(), [&](std::string_view candidate) {
-    return same_name(candidate, value);
-  });
+  auto const found = std::ranges::find_if(
+      known, [&](std::string_view candidate) { return same_name(candidate, value); });
   if (found == known.end()) {
     throw Error(fmt::format("{}: {} is \"{}\"", object.type, title, value));
   }
@@ -149,9 +148,7 @@ Outline to_world(GeometryRules const& rules, Ring vertices, Attachment attachmen
 }
 
 std::string warn_of_transform(std::vector<InputObject> const& objects) {
-  auto const transform =
-      std::find_if(objects.begin(), objects.end(),
-                   [](InputObject const& object) { return object.type == "GeometryTransform"; });
+  auto const transform = std::ranges::find(objects, "GeometryTransform", &InputObject::type);
   if (transform == objects.end() || !changes_shape(*transform)) return {};
   auto const rules = read_geometry_rules(objects);
   if (!rules.relative) return {};  // EnergyPlus ignores it

@@ -25,9 +25,9 @@ std::string_view reason_of(InputObject const& object, bool daylighting_answered)
   for (auto const& [type, reason] : forbidding_types) {
     if (object.type == type) return reason;
   }
-  bool const daylighting = object.type == "DaylightingDevice:LightWell" ||
-                           std::find(daylighting_types.begin(), daylighting_types.end(),
-                                     object.type) != daylighting_types.end();
+  bool const daylighting =
+      object.type == "DaylightingDevice:LightWell" ||
+      std::ranges::find(daylighting_types, object.type) != daylighting_types.end();
   return daylighting && !daylighting_answered ? "daylighting needs the surfaces themselves" : "";
 }
 
@@ -117,9 +117,7 @@ std::string describe(LeanInput const& lean, Names const& candidates, Mentions co
   if (candidates.size() > lean.left_out.size()) {
     text += fmt::format("; {} kept", candidates.size() - lean.left_out.size());
     if (!mentions.empty()) {
-      auto const first =
-          std::min_element(mentions.begin(), mentions.end(),
-                           [](auto const& a, auto const& b) { return a.first < b.first; });
+      auto const first = std::ranges::min_element(mentions, {}, &Mentions::value_type::first);
       text += fmt::format(" (such as {}, which {} names)", first->first, first->second);
     }
   }
@@ -179,7 +177,7 @@ LeanInput plan(std::vector<InputObject> const& objects, ShadingInput const& inpu
 }  // namespace
 
 bool LeanInput::is_placeholder(std::string const& surface) const {
-  return std::any_of(placeholders.begin(), placeholders.end(), [&](Placeholder const& each) {
+  return std::ranges::any_of(placeholders, [&](Placeholder const& each) {
     return each.name == surface || mirrored_name(each.name) == surface;
   });
 }

@@ -43,15 +43,16 @@ void remark_on_other_side_files(std::filesystem::path const& model, Model& made)
     auto name = entry->path().filename().string();
     if (name.ends_with(side_suffix)) names.push_back(std::move(name));
   }
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   if (names.empty()) return;
   made.remarks.push_back(fmt::format("not read, since it does not have the model's name, {}{}: {}",
                                      model.stem().string(), side_suffix, listed(names, 3)));
 }
 
 bool any_moves(PerforatedScreens const& screens) {
-  return std::any_of(screens.by_surface.begin(), screens.by_surface.end(),
-                     [](auto const& each) { return !each.second.deployment_schedule.empty(); });
+  return std::ranges::any_of(screens.by_surface, [](auto const& each) {
+    return !each.second.deployment_schedule.empty();
+  });
 }
 
 // Names of meshes and of surroundings, which cannot move.
@@ -109,7 +110,7 @@ void add_surrounding_objects(Choices const& choices, Model& model) {
   }
   if (model.own_environments.empty()) return;
   std::vector<std::string> names(model.own_environments.begin(), model.own_environments.end());
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   model.remarks.push_back(
       fmt::format("{} of the model stays, so that these surfaces get no view factors: {}",
                   local_environment, listed(names, 3)));
@@ -133,7 +134,7 @@ std::vector<std::string> kept(Names const& surfaces, LeanInput const& lean) {
   for (auto const& name : surfaces) {
     if (!lean.left_out.contains(name)) names.push_back(name);
   }
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   return names;
 }
 

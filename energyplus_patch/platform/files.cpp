@@ -28,6 +28,11 @@ void write_whole_file(std::filesystem::path const& path,
   files.commit();
 }
 
+void require_room(std::filesystem::path const& folder) {
+  constexpr std::size_t bytes = 4096;
+  write_whole_file(folder / "room.txt", [](std::ostream& out) { out << std::string(bytes, '.'); });
+}
+
 namespace {
 
 constexpr std::size_t max_bytes = 200;  // file systems allow 255, with what follows

@@ -23,6 +23,10 @@ std::string read_text_file(std::filesystem::path const& path);
 void write_whole_file(std::filesystem::path const& path,
                       std::function<void(std::ostream&)> const& write);
 
+// Throws Error if nothing can be written to a temporary folder: programs that do not say why they
+// failed may have failed of that.
+void require_room(std::filesystem::path const& folder);
+
 // Names for files in one folder, from text such as the names of surfaces.
 class FileNames {
  public:

@@ -21,7 +21,6 @@
 
 #include "platform/ending_signals.h"
 #include "platform/file_descriptor.h"
-#include "platform/files.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {
@@ -182,11 +181,6 @@ std::string get_variable(char const* name) {
 }
 
 void set_variable(char const* name, std::string const& value) { setenv(name, value.c_str(), 1); }
-
-void require_room(std::filesystem::path const& folder) {
-  constexpr std::size_t bytes = 4096;
-  write_whole_file(folder / "room.txt", [](std::ostream& out) { out << std::string(bytes, '.'); });
-}
 
 int run_process(std::vector<std::string> const& command,
                 std::vector<std::string> const& environment, std::filesystem::path const& output,

@@ -40,10 +40,6 @@ std::string get_variable(char const* name);
 // Sets one.
 void set_variable(char const* name, std::string const& value);
 
-// Throws Error if nothing can be written to a temporary folder: programs that do not say why they
-// failed may have failed of that.
-void require_room(std::filesystem::path const& folder);
-
 // A signal that asks this program to end, and came while another program ran for it. Caught where
 // nothing is left to clear away, by raise().
 class Interrupted : public Error {

@@ -7,7 +7,6 @@
 #include <memory>
 #include <system_error>
 
-#include "platform/files.h"
 #include "platform/process.h"
 #include "platform/wide_text.h"
 
@@ -86,11 +85,6 @@ std::string get_variable(char const* name) {
 
 void set_variable(char const* name, std::string const& value) {
   _wputenv_s(to_wide(name).c_str(), to_wide(value).c_str());
-}
-
-void require_room(std::filesystem::path const& folder) {
-  constexpr std::size_t bytes = 4096;
-  write_whole_file(folder / "room.txt", [](std::ostream& out) { out << std::string(bytes, '.'); });
 }
 
 int run_process(std::vector<std::string> const& command,

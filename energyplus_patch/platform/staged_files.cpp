@@ -55,7 +55,7 @@ Path StagedFiles::add(std::string const& name) {
       name == "." || name == "..") {
     fail(path, "it is not the name of a file");
   }
-  if (std::find(names_.begin(), names_.end(), name) != names_.end()) {
+  if (std::ranges::find(names_, name) != names_.end()) {
     fail(path, "it is written twice");
   }
   require_replaceable(path);

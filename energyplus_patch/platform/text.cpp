@@ -37,13 +37,12 @@ void add_escaped(std::string_view text, std::size_t i, std::string& line) {
 
 std::string upper(std::string_view text) {
   std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), [](char c) { return upper(c); });
+  std::ranges::transform(result, result.begin(), [](char c) { return upper(c); });
   return result;
 }
 
 bool same_name(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char x, char y) { return upper(x) == upper(y); });
+  return std::ranges::equal(a, b, [](char x, char y) { return upper(x) == upper(y); });
 }
 
 bool matches(std::string_view pattern, std::string_view name) {
@@ -262,8 +261,8 @@ std::string markup_text(std::string const& text) {
 }
 
 bool matches_any(std::vector<std::string> const& patterns, std::string_view name) {
-  return std::any_of(patterns.begin(), patterns.end(),
-                     [&](std::string const& pattern) { return matches(pattern, name); });
+  return std::ranges::any_of(patterns,
+                             [&](std::string const& pattern) { return matches(pattern, name); });
 }
 
 std::string listed(std::vector<std::string> const& names, std::size_t max) {

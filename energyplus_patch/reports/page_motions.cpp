@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 
 #include "scene/shade_motion.h"
 
@@ -37,9 +35,8 @@ std::vector<double> thinned(std::vector<double> const& all, std::size_t most) {
 }
 
 std::uint16_t nearest(std::vector<double> const& positions, double wanted) {
-  auto const found = std::min_element(positions.begin(), positions.end(), [&](double a, double b) {
-    return std::abs(a - wanted) < std::abs(b - wanted);
-  });
+  auto const found = std::ranges::min_element(
+      positions, {}, [&](double position) { return std::abs(position - wanted); });
   return static_cast<std::uint16_t>(found - positions.begin());
 }
 
@@ -57,7 +54,7 @@ void add_motions(RunPage& page, SceneAssembly const& assembly, std::span<Surface
   for (std::size_t i = 0; i < shades.size(); ++i) {
     auto const at_hours = positions_at_hours(page, i, shades[i].rest, known);
     auto all = at_hours;
-    std::sort(all.begin(), all.end());
+    std::ranges::sort(all);
     all.erase(std::unique(all.begin(), all.end()), all.end());
     PageMotion motion{shades[i].name, std::string(shades[i].unit()), {}, {}};
     motion.positions = thinned(all, std::max<std::size_t>(2, max_moved_vertices / vertices[i]));

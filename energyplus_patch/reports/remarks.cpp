@@ -26,7 +26,7 @@ void describe_surroundings(SceneAssembly const& scene, Messages const& messages)
   for (auto remark : surroundings.remarks) {
     messages.remark(remark);
     // Commas separate the file's fields.
-    std::replace(remark.begin(), remark.end(), ',', ';');
+    std::ranges::replace(remark, ',', ';');
     messages.eio(fmt::format("GPU Shading Surroundings,{}\n", remark));
   }
 }
@@ -63,7 +63,7 @@ void list_transmitting_surfaces(SceneAssembly const& scene, Messages const& mess
     if (first) messages.eio("! <GPU Shading Surface>, Surface Name, Transmittance\n");
     first = false;
     // Commas separate the file's fields.
-    std::replace(optics.begin(), optics.end(), ',', ';');
+    std::ranges::replace(optics, ',', ';');
     messages.eio(fmt::format("GPU Shading Surface,{},{}\n", surface.name, optics));
   }
 }
@@ -130,7 +130,7 @@ void describe_answers(SunQuestions const& answers, Options const& options,
   }
   auto const from_cache =
       rendered.has_cache() ? fmt::format(" rendered, {} from the cache", counts.recalled) : "";
-  auto const asked = std::count(answers.asked().begin(), answers.asked().end(), true);
+  auto const asked = std::ranges::count(answers.asked(), true);
   auto const& did = counts.rendering;
   messages.remark(
       fmt::format("shading rendered by {}, {}: {} receivers, {} casters, {} directions{}, {} "

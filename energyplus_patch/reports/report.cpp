@@ -44,21 +44,19 @@ std::vector<Row> collect(Renderer const& renderer, SurfaceId receiver, ReceiverN
     rows.push_back({receiver, direction.sun, direction.state, answer,
                     std::min(1.0, answer / (full * cosine))});
   });
-  std::sort(rows.begin(), rows.end(), [](Row const& a, Row const& b) {
-    return std::tuple(a.sun.azimuth, a.sun.altitude, a.state) <
-           std::tuple(b.sun.azimuth, b.sun.altitude, b.state);
+  std::ranges::sort(rows, {}, [](Row const& row) {
+    return std::tuple(row.sun.azimuth, row.sun.altitude, row.state);
   });
   return rows;
 }
 
 std::vector<Row> choose(std::vector<Row> const& rows) {
   std::vector<Row> shaded;
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(shaded),
-               [](Row const& row) { return row.fraction < 1.0 && !is_sky_patch(row.sun); });
+  std::ranges::copy_if(rows, std::back_inserter(shaded),
+                       [](Row const& row) { return row.fraction < 1.0 && !is_sky_patch(row.sun); });
   if (shaded.empty()) return {};
   auto const least = [&](auto const& measure) {
-    return *std::min_element(shaded.begin(), shaded.end(),
-                             [&](Row const& a, Row const& b) { return measure(a) < measure(b); });
+    return *std::ranges::min_element(shaded, {}, measure);
   };
   std::vector<Row> chosen{
       least([](Row const& row) { return row.fraction > 0.0 ? row.fraction : 2.0; }),
@@ -109,6 +107,13 @@ double degrees_clockwise(double radians) {
   return degrees < 0.0 ? degrees + 360.0 : degrees;
 }
 
+Facing facing_of(glm::dvec3 const& normal) {
+  constexpr double horizontal = 1e-6;  // sine of the tilt
+  bool const inclined = std::hypot(normal.x, normal.y) > horizontal;
+  return {inclined ? degrees_clockwise(std::atan2(normal.x, normal.y)) : 0.0,
+          glm::degrees(std::acos(std::clamp(normal.z, -1.0, 1.0)))};
+}
+
 Stages stages_of(RendererStatistics const& statistics) {
   double const passed =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - loaded).count();
@@ -149,7 +154,7 @@ std::size_t write_report(std::filesystem::path const& folder, CachedRenderer& re
                            degrees_clockwise(row.sun.azimuth), glm::degrees(row.sun.altitude),
                            row.projected_area, row.fraction, list(deployments.states[row.state]));
       }
-      if (std::find(shown.begin(), shown.end(), receiver) == shown.end()) continue;
+      if (std::ranges::find(shown, receiver) == shown.end()) continue;
       auto const chosen = choose(rows);
       pictures.insert(pictures.end(), chosen.begin(), chosen.end());
     }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <glm/vec3.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,13 @@ namespace gpu_shading::energyplus {
 
 // An azimuth in degrees, 0 .. 360, from radians of either sign.
 double degrees_clockwise(double radians);
+
+// Where a plane faces, in degrees: azimuth clockwise from north, 0 if it is horizontal, and tilt.
+struct Facing {
+  double azimuth = 0.0;
+  double tilt = 0.0;
+};
+Facing facing_of(glm::dvec3 const& normal);
 
 // Wall-clock seconds of a run by stage.
 using Stages = std::vector<std::pair<std::string, double>>;

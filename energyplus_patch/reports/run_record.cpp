@@ -172,7 +172,7 @@ void RunRecord::keep_day() {
   }
   for (std::size_t i = 0; i < receivers_.size(); ++i) day.whole.push_back(whole_hours(i));
   auto& period = this->period();
-  auto const found = std::find_if(period.days.begin(), period.days.end(), [&](Day const& other) {
+  auto const found = std::ranges::find_if(period.days, [&](Day const& other) {
     return other.month == day.month && other.day == day.day;
   });
   if (found != period.days.end()) {

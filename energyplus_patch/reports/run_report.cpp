@@ -12,7 +12,6 @@
 #include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
 #include <numeric>
-#include <string_view>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -94,7 +93,7 @@ class PageStyles {
 
   std::size_t number_of(Surface const& surface) {
     auto const style = style_of(surface);
-    auto const found = std::find(styles_.begin(), styles_.end(), style);
+    auto const found = std::ranges::find(styles_, style);
     if (found != styles_.end()) return static_cast<std::size_t>(found - styles_.begin());
     constexpr std::size_t max_styles = 1000;
     if (styles_.size() == max_styles) return 1;
@@ -109,14 +108,11 @@ class PageStyles {
 
 PageReceiver receiver_of(Surface const& surface, double beam, RunRecord::Months const& months,
                          bool window) {
-  auto const facing = normal(surface.polygon);
+  auto const facing = facing_of(normal(surface.polygon));
   PageReceiver receiver;
   receiver.area = area(surface.polygon);
-  constexpr double horizontal = 1e-6;
-  if (std::hypot(facing.x, facing.y) > horizontal) {
-    receiver.azimuth = degrees_clockwise(std::atan2(facing.x, facing.y));
-  }
-  receiver.tilt = glm::degrees(std::acos(std::clamp(facing.z, -1.0, 1.0)));
+  receiver.azimuth = facing.azimuth;
+  receiver.tilt = facing.tilt;
   receiver.beam = beam;
   receiver.months = months;
   receiver.window = window;
@@ -160,10 +156,9 @@ struct Surrounds {
     }
   }
   bool has(Polygon const& polygon) const {
-    return std::all_of(
-        polygon.outline.begin(), polygon.outline.end(), [&](glm::dvec3 const& point) {
-          return point.x >= low.x && point.y >= low.y && point.x <= high.x && point.y <= high.y;
-        });
+    return std::ranges::all_of(polygon.outline, [&](glm::dvec3 const& point) {
+      return point.x >= low.x && point.y >= low.y && point.x <= high.x && point.y <= high.y;
+    });
   }
 };
 
@@ -284,7 +279,7 @@ constexpr std::size_t max_skies = 300;
 
 std::uint8_t sky_code(BeamShare const& share) {
   if (!share.faced) return RunPage::behind;
-  auto const most = std::max_element(share.stopped.begin(), share.stopped.end());
+  auto const most = std::ranges::max_element(share.stopped);
   auto const level = std::lround((1.0F - share.sunlit) * (RunPage::sky_levels - 1));
   return static_cast<std::uint8_t>(RunPage::sky_levels * (most - share.stopped.begin()) +
                                    std::clamp(level, 0L, RunPage::sky_levels - 1L));
@@ -294,7 +289,7 @@ std::uint8_t sky_code(BeamShare const& share) {
 void add_skies(RunPage& page, SceneAssembly& assembly, RunRecord const& record) {
   std::vector<std::size_t> order(page.receivers.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     auto const& [first, second] = std::tie(page.receivers[a], page.receivers[b]);
     return std::pair(second.window, second.area) < std::pair(first.window, first.area);
   });

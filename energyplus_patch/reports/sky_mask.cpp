@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <numbers>
 #include <string>
 
 #include "model/extensions/extension_fields.h"

@@ -1,7 +1,5 @@
 #include "reports/view_factors.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -171,7 +169,7 @@ std::vector<int> in_millionths(std::vector<double> const& factors) {
     rounded.push_back(static_cast<int>(std::lround(factor * million)));
     rest -= rounded.back();
   }
-  *std::max_element(rounded.begin(), rounded.end()) += rest;
+  *std::ranges::max_element(rounded) += rest;
   return rounded;
 }
 

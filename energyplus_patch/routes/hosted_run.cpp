@@ -70,18 +70,12 @@ void print_failure(Action const& action) {
   if (!why.empty()) print_line("error: " + why);
 }
 
-void issue_messages(State state) {
-  auto const messages = std::exchange(hosted().messages, {});
-  for (auto const& line : messages.warnings) {
-    hosted().api->issue_warning(state, ("gpu_shading: " + line).c_str());
-  }
-  for (auto const& line : messages.remarks) {
-    hosted().api->issue_text(state, ("gpu_shading: " + line).c_str());
-  }
-}
-
-void tell_messages(State state) {
-  print_failure([&] { issue_messages(state); });
+void tell_messages(State /*state*/) {
+  print_failure([] {
+    auto const messages = std::exchange(hosted().messages, {});
+    for (auto const& line : messages.warnings) warn_hosted_run(line);
+    for (auto const& line : messages.remarks) tell_hosted_run(line);
+  });
 }
 
 void show_progress(int percent) {

@@ -16,7 +16,7 @@ using Path = std::filesystem::path;
 
 // As EnergyPlus reads a file name that was written on Windows.
 Path native(std::string text) {
-  std::replace(text.begin(), text.end(), '\\', '/');
+  std::ranges::replace(text, '\\', '/');
   return text;
 }
 

@@ -14,8 +14,7 @@ namespace {
 using Path = std::filesystem::path;
 
 bool is_ascii(std::string const& text) {
-  return std::all_of(text.begin(), text.end(),
-                     [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  return std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
 class Copies {

@@ -78,7 +78,7 @@ std::size_t row_of(RunTime const& time, int steps_per_hour) {
 }
 
 double schedule_value(RunTimes const& run, RunTime const& time, std::string const& name) {
-  auto const found = std::find(run.schedules.begin(), run.schedules.end(), name);
+  auto const found = std::ranges::find(run.schedules, name);
   if (found == run.schedules.end()) return 0.0;
   return std::clamp(time.schedules[static_cast<std::size_t>(found - run.schedules.begin())], 0.0,
                     1.0);
@@ -87,8 +87,8 @@ double schedule_value(RunTimes const& run, RunTime const& time, std::string cons
 std::vector<double> schedule_values(RunTimes const& run, RunTime const& time,
                                     std::vector<std::string> const& names) {
   std::vector<double> values(names.size());
-  std::transform(names.begin(), names.end(), values.begin(),
-                 [&](std::string const& name) { return schedule_value(run, time, name); });
+  std::ranges::transform(names, values.begin(),
+                         [&](std::string const& name) { return schedule_value(run, time, name); });
   return values;
 }
 

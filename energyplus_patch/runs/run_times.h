@@ -38,10 +38,7 @@ struct RunTimes {
   bool operator==(RunTimes const&) const = default;
 };
 
-// Days of a leap year, by which EnergyPlus indexes schedules.
-inline constexpr int schedule_days = 366;
-
-// 0 .. 365.
+// 0 .. 365: of a leap year, by which EnergyPlus indexes schedules.
 int day_of_schedule(int month, int day);
 
 // 0 .. 366 x 24 x steps - 1: the row of a schedule file of a leap year.

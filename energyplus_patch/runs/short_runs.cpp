@@ -175,10 +175,6 @@ RunTimes run_whole_year(EnergyPlusCall const& call, ModelEditor& model) {
   return times;
 }
 
-}  // namespace
-
-namespace {
-
 std::vector<DrawnSurface> draw(EnergyPlusCall const& call, Control control) {
   auto const model = edit_model(call.model);
   reduce_to_surfaces(*model, control);

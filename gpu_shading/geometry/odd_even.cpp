@@ -67,8 +67,7 @@ glm::ivec2 crossing(Edge const& a, Edge const& b) {
 }
 
 void add_parts(std::vector<Edge>& parts, Edge const& edge, std::vector<glm::ivec2>& points) {
-  std::sort(points.begin(), points.end(),
-            [](glm::ivec2 const& a, glm::ivec2 const& b) { return a.x < b.x; });
+  std::ranges::sort(points, {}, &glm::ivec2::x);
   glm::ivec2 from = edge.from;
   for (glm::ivec2 const& point : points) {
     if (point.x <= from.x || point.x >= edge.to.x) continue;
@@ -80,8 +79,8 @@ void add_parts(std::vector<Edge>& parts, Edge const& edge, std::vector<glm::ivec
 
 // Edges cut where they cross others, sorted by where they begin.
 std::vector<Edge> cut_at_crossings(std::vector<Edge> edges) {
-  auto const by_begin = [](Edge const& a, Edge const& b) { return a.from.x < b.from.x; };
-  std::sort(edges.begin(), edges.end(), by_begin);
+  auto const begin_of = [](Edge const& edge) { return edge.from.x; };
+  std::ranges::sort(edges, {}, begin_of);
   std::vector<std::vector<glm::ivec2>> points(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
     for (std::size_t k = i + 1; k < edges.size() && edges[k].from.x < edges[i].to.x; ++k) {
@@ -93,7 +92,7 @@ std::vector<Edge> cut_at_crossings(std::vector<Edge> edges) {
   std::vector<Edge> parts;
   parts.reserve(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) add_parts(parts, edges[i], points[i]);
-  std::sort(parts.begin(), parts.end(), by_begin);
+  std::ranges::sort(parts, {}, begin_of);
   return parts;
 }
 
@@ -116,7 +115,7 @@ class Sweep {
       columns.push_back(edge.from.x);
       columns.push_back(edge.to.x);
     }
-    std::sort(columns.begin(), columns.end());
+    std::ranges::sort(columns);
     columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
     for (std::size_t i = 0; i + 1 < columns.size(); ++i) advance(columns[i], columns[i + 1]);
     if (!columns.empty()) close_all(columns.back());

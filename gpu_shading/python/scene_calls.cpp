@@ -1,6 +1,5 @@
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "geometry/triangulation.h"
 #include "python/guard.h"

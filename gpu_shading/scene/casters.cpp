@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -53,7 +50,10 @@ Box bounds_of(Surface const& surface) {
 void sort_ids(std::vector<SurfaceId>& ids, std::size_t end) {
   constexpr std::size_t word_bits = 64;
   std::size_t const words = end / word_bits + 1;
-  if (ids.size() < words) return std::sort(ids.begin(), ids.end());
+  if (ids.size() < words) {
+    std::ranges::sort(ids);
+    return;
+  }
   static thread_local std::vector<std::uint64_t> marks;
   marks.assign(words, 0);
   for (SurfaceId const id : ids) marks[id / word_bits] |= std::uint64_t{1} << id % word_bits;
@@ -152,7 +152,7 @@ std::optional<Crowd> Casters::crowd_in_view(Scene const& scene, SurfaceId receiv
   Crowd crowd{std::move(found.casters),
               static_cast<double>(count) / static_cast<double>(level.size())};
   if (crowd.count() <= static_cast<double>(few)) return std::nullopt;
-  std::sort(crowd.sample.begin(), crowd.sample.end());
+  std::ranges::sort(crowd.sample);
   return crowd;
 }
 
@@ -175,8 +175,8 @@ std::optional<std::vector<std::uint32_t>> Casters::in_sector(Scene const& scene,
         positions.push_back(position);
       });
   if (positions.size() > max_count) return std::nullopt;
-  std::sort(positions.begin(), positions.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return casters_[a].id < casters_[b].id; });
+  std::ranges::sort(
+      positions, [&](std::uint32_t a, std::uint32_t b) { return casters_[a].id < casters_[b].id; });
   return positions;
 }
 

@@ -91,7 +91,7 @@ class Casters {
     bool is_in_front(std::uint32_t position, glm::dvec3 const& origin,
                      glm::dvec3 const& normal) const {
       auto const points = casters_.points(casters_.casters_[position]);
-      return std::any_of(points.begin(), points.end(), [&](glm::dvec3 const& point) {
+      return std::ranges::any_of(points, [&](glm::dvec3 const& point) {
         return glm::dot(normal, point - origin) > coplanar;
       });
     }

@@ -42,7 +42,7 @@ struct Detail {
 inline std::size_t best_turn(Detail const& detail) {
   constexpr double little = 0.1;
   constexpr double much = 2.0;
-  auto const least = std::min_element(detail.in_step.begin(), detail.in_step.end());
+  auto const least = std::ranges::min_element(detail.in_step);
   double const first = detail.in_step.front();
   if (first < little || first < much * *least) return 0;
   return static_cast<std::size_t>(least - detail.in_step.begin());

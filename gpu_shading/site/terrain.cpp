@@ -55,9 +55,8 @@ std::vector<Polygon> ground(TerrainGrid const& grid, LocalAxes const& axes, doub
   polygons.reserve(static_cast<std::size_t>(grid.rows - 1) *
                    static_cast<std::size_t>(grid.columns - 1));
   auto const is_clear = [&](Ring const& ring) {
-    return std::any_of(ring.begin(), ring.end(), [&](glm::dvec3 const& node) {
-      return std::hypot(node.x, node.y) < clear_distance;
-    });
+    return std::ranges::any_of(
+        ring, [&](glm::dvec3 const& node) { return std::hypot(node.x, node.y) < clear_distance; });
   };
   auto south = row_of(grid, 0, axes);
   for (int row = 1; row < grid.rows; ++row) {

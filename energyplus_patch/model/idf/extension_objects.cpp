@@ -62,7 +62,7 @@ bool accepts_text(FieldInfo const& field, std::string const& text) {
   if (field.kind == FieldKind::text || field.any_text) return true;
   if (field.words.empty()) return false;
   if (text.empty()) return !field.required;
-  return std::find(field.words.begin(), field.words.end(), text) != field.words.end();
+  return std::ranges::find(field.words, text) != field.words.end();
 }
 
 bool accepts_number(FieldInfo const& field) {
@@ -163,9 +163,8 @@ std::vector<InputObject> read_idf_extensions(std::string_view text) {
   auto objects = parse_idf(text);
   for (auto const& object : objects) {
     if (!is_extension(object.type) && !is_version(object.type)) foreign(object.type);
-    auto const cut =
-        std::find_if(object.fields.begin(), object.fields.end(),
-                     [](auto const& field) { return field.find('\n') != std::string::npos; });
+    auto const cut = std::ranges::find_if(
+        object.fields, [](auto const& field) { return field.find('\n') != std::string::npos; });
     if (!object.is_closed || cut != object.fields.end()) {
       auto const name = object.fields.empty() ? "" : " " + printable(object.fields.front());
       throw Error(fmt::format("{}{}: is not ended by ;", object.type, name));

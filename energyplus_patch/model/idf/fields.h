@@ -9,10 +9,19 @@
 
 #include "model/extensions/field.h"
 #include "model/idf/input_object.h"
+#include "platform/naming.h"
 
 // Reading an object's fields. Every function throws Error: field, value, what was expected; the
-// object is for the caller to name.
+// object is for the caller to name, as for_each_of() does.
 namespace gpu_shading::energyplus {
+
+// Calls `use` for every object of a type. Errors name the object.
+template <typename Use>
+void for_each_of(std::vector<InputObject> const& objects, std::string_view type, Use const& use) {
+  for (auto const& object : objects) {
+    if (object.type == type) naming(object.where(), [&] { use(object); });
+  }
+}
 
 // The field's value, or its default where it is blank.
 template <typename Value>

@@ -146,7 +146,7 @@ std::vector<InputObject> read_epjson(nlohmann::json const& model) {
   for (auto const& [type_name, instances] : model.items()) {
     if (is_extension(type_name)) {
       auto extensions = read_extensions(type_name, instances);
-      std::move(extensions.begin(), extensions.end(), std::back_inserter(objects));
+      std::ranges::move(extensions, std::back_inserter(objects));
       continue;
     }
     auto const* type = find_type(type_name);
@@ -225,10 +225,6 @@ bool is_epjson(std::filesystem::path const& path) {
 bool is_idf(std::filesystem::path const& path) {
   return same_name(path.extension().string(), ".idf") ||
          same_name(path.extension().string(), ".imf");
-}
-
-std::string rewrite_idf(std::string_view text, Rewrite const& rewrite) {
-  return rewrite_idf(text, parse_idf(text), rewrite);
 }
 
 std::string rewrite_idf(std::string_view text, std::vector<IdfObject> const& parsed,

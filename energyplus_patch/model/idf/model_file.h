@@ -55,7 +55,6 @@ struct Rewrite {
 // ShadowCalculation changed, or added where there is none, all its other fields kept; extension
 // objects and the surfaces that are left out taken out; placeholders and objects added. Everything
 // else stays as it is, to the byte in the case of an IDF. `parsed`: the text's objects.
-std::string rewrite_idf(std::string_view text, Rewrite const& rewrite);
 std::string rewrite_idf(std::string_view text, std::vector<IdfObject> const& parsed,
                         Rewrite const& rewrite);
 void rewrite_epjson(nlohmann::json& model, Rewrite const& rewrite);

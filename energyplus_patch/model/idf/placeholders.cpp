@@ -31,8 +31,7 @@ std::array<OwnSchedule, 3> const& schedules_of_ours() {
 
 OwnSchedule const& schedule_of_ours(std::string const& name) {
   auto const& schedules = schedules_of_ours();
-  return *std::find_if(schedules.begin(), schedules.end(),
-                       [&](OwnSchedule const& each) { return each.name == name; });
+  return *std::ranges::find(schedules, name, &OwnSchedule::name);
 }
 
 using Corner = std::array<double, 3>;
@@ -94,9 +93,8 @@ std::vector<std::string> own_schedules(std::vector<Placeholder> const& placehold
   std::vector<std::string> names;
   for (auto const& each : schedules_of_ours()) {
     bool const used =
-        std::any_of(placeholders.begin(), placeholders.end(),
-                    [&](Placeholder const& one) { return one.schedule == each.name; }) ||
-        std::find(leaf_schedules.begin(), leaf_schedules.end(), each.name) != leaf_schedules.end();
+        std::ranges::find(placeholders, each.name, &Placeholder::schedule) != placeholders.end() ||
+        std::ranges::find(leaf_schedules, each.name) != leaf_schedules.end();
     if (used) names.emplace_back(each.name);
   }
   return names;

@@ -10,7 +10,6 @@
 
 #include "gpu_shading/error.h"
 #include "model/idf/fields.h"
-#include "platform/naming.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {
@@ -178,20 +177,17 @@ std::vector<MovingShade> read_moving_shades(std::vector<InputObject> const& obje
                                             ShadingInput const& input, Names const& fixed) {
   std::vector<MovingShade> shades;
   std::map<std::string, std::string> taken;
-  for (auto const& object : objects) {
-    if (object.type != field::type) continue;
-    naming(object.where(), [&] {
-      MovingShade shade;
-      shade.name = object.name;
-      shade.where = object.where();
-      read_surfaces(object, input, fixed, taken, shade);
-      read_motion(object, shade);
-      read_range(object, shade);
-      read_control(object, shade);
-      refuse_actuated_constant(objects, shade);
-      shades.push_back(std::move(shade));
-    });
-  }
+  for_each_of(objects, field::type, [&](InputObject const& object) {
+    MovingShade shade;
+    shade.name = object.name;
+    shade.where = object.where();
+    read_surfaces(object, input, fixed, taken, shade);
+    read_motion(object, shade);
+    read_range(object, shade);
+    read_control(object, shade);
+    refuse_actuated_constant(objects, shade);
+    shades.push_back(std::move(shade));
+  });
   return shades;
 }
 
@@ -208,8 +204,8 @@ void set_rest(std::vector<MovingShade>& shades, std::string const& option,
       throw Error(fmt::format("{} {}: expected NAME=POSITION", option, in_quotes(part)));
     }
     auto const name = part.substr(0, equals);
-    auto const shade = std::find_if(shades.begin(), shades.end(),
-                                    [&](auto const& each) { return same_name(each.name, name); });
+    auto const shade =
+        std::ranges::find_if(shades, [&](auto const& each) { return same_name(each.name, name); });
     if (shade == shades.end()) {
       throw Error(fmt::format("{} {}: the model has no such {}{}", option, in_quotes(name),
                               field::type, did_you_mean(name, names)));

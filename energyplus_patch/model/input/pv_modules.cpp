@@ -8,7 +8,6 @@
 
 #include "gpu_shading/error.h"
 #include "model/idf/fields.h"
-#include "platform/naming.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {
@@ -77,23 +76,20 @@ std::vector<PvModules> read_pv_modules(std::vector<InputObject> const& objects,
   std::vector<PvModules> all;
   std::map<std::string, std::string> taken;
   std::vector<std::string> outdoors;
-  for (auto const& object : objects) {
-    if (object.type != field::type) continue;
+  for_each_of(objects, field::type, [&](InputObject const& object) {
     if (outdoors.empty()) outdoors = outdoor_surfaces(input);
-    naming(object.where(), [&] {
-      PvModules modules;
-      modules.name = object.name;
-      modules.where = object.where();
-      find_surfaces(object, outdoors, taken, modules);
-      read_cells(object, modules);
-      modules.gap = read(object, field::gap);
-      modules.columns = read(object, field::module_columns);
-      modules.rows = read(object, field::module_rows);
-      modules.string_length = read(object, field::modules_per_string);
-      modules.direction = read(object, field::string_direction);
-      all.push_back(std::move(modules));
-    });
-  }
+    PvModules modules;
+    modules.name = object.name;
+    modules.where = object.where();
+    find_surfaces(object, outdoors, taken, modules);
+    read_cells(object, modules);
+    modules.gap = read(object, field::gap);
+    modules.columns = read(object, field::module_columns);
+    modules.rows = read(object, field::module_rows);
+    modules.string_length = read(object, field::modules_per_string);
+    modules.direction = read(object, field::string_direction);
+    all.push_back(std::move(modules));
+  });
   return all;
 }
 

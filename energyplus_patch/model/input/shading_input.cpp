@@ -114,8 +114,9 @@ struct Named {
 
   bool contains(std::string const& name) const {
     return names.contains(upper(name)) ||
-           std::any_of(patterns.begin(), patterns.end(),
-                       [&](std::regex const& pattern) { return std::regex_match(name, pattern); });
+           std::ranges::any_of(patterns, [&](std::regex const& pattern) {
+             return std::regex_match(name, pattern);
+           });
   }
 };
 
@@ -125,7 +126,7 @@ bool depends_on_shading(std::string_view variable) {
   constexpr std::array<std::string_view, 4> starts{
       "Surface Outside Face Sunlit ", "Surface Outside Face Incident ", "Surface Anisotropic Sky ",
       "Debug Surface Solar Shading Model "};
-  return std::any_of(starts.begin(), starts.end(), [&](std::string_view start) {
+  return std::ranges::any_of(starts, [&](std::string_view start) {
     return same_name(variable.substr(0, start.size()), start);
   });
 }
@@ -133,8 +134,7 @@ bool depends_on_shading(std::string_view variable) {
 // Tables have rows for all surfaces.
 void read_table(InputObject const& object, ShadingInput& input) {
   input.all_surfaces_shown =
-      input.all_surfaces_shown ||
-      std::any_of(object.list.begin(), object.list.end(), depends_on_shading);
+      input.all_surfaces_shown || std::ranges::any_of(object.list, depends_on_shading);
 }
 
 // EnergyPlus treats the key of an output as a regular expression if it looks like one.
@@ -160,8 +160,8 @@ void read_output(InputObject const& object, ShadingInput& input, Named& named) {
 constexpr std::string_view mirrored_prefix = "Mir-";
 
 bool matches_key(std::string const& pattern, std::map<std::string, std::string> const& names) {
-  return std::any_of(names.begin(), names.end(),
-                     [&](auto const& entry) { return matches(pattern, entry.first); });
+  return std::ranges::any_of(names,
+                             [&](auto const& entry) { return matches(pattern, entry.first); });
 }
 
 }  // namespace
@@ -201,7 +201,7 @@ Casting ShadingInput::casting(std::string const& surface) const {
 
 bool ShadingInput::mirrored_shown() const {
   return all_surfaces_shown || !unreadable_key.empty() ||
-         std::any_of(wanted_shading.begin(), wanted_shading.end(), is_mirrored);
+         std::ranges::any_of(wanted_shading, is_mirrored);
 }
 
 std::string ShadingInput::base_surface(std::string const& surface) const {

@@ -126,10 +126,9 @@ TransparentShades read_transparent_shades(std::vector<InputObject> const& object
                                           ShadingInput const& input,
                                           std::filesystem::path const& folder) {
   TransparentShades shades;
-  for (auto const& object : objects) {
-    if (object.type != field::type) continue;
-    naming(object.where(), [&] { add_object(object, objects, input, folder, shades); });
-  }
+  for_each_of(objects, field::type, [&](InputObject const& object) {
+    add_object(object, objects, input, folder, shades);
+  });
   return shades;
 }
 

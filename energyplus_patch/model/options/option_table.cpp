@@ -85,7 +85,7 @@ std::string text_of(FieldInfo const& field, std::filesystem::path const& value) 
 // The paper's grid has an option of its own.
 std::string text_of(FieldInfo const& field, Update value) {
   if (value.sampling) value.sampling->paper_grid = false;
-  auto const found = std::find(updates().begin(), updates().end(), value);
+  auto const found = std::ranges::find(updates(), value);
   return std::string(field.words[static_cast<std::size_t>(found - updates().begin())]);
 }
 
@@ -306,7 +306,7 @@ std::string OptionRow::flag() const {
 std::string OptionRow::variable() const {
   if (audience == Audience::programs) return {};
   auto variable = upper(flag().substr(2));
-  std::replace(variable.begin(), variable.end(), '-', '_');
+  std::ranges::replace(variable, '-', '_');
   return variable;
 }
 

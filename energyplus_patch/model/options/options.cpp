@@ -19,8 +19,7 @@ namespace {
 namespace settings = extension::settings;
 
 bool is_one_of(std::string const& text, std::initializer_list<std::string_view> words) {
-  return std::any_of(words.begin(), words.end(),
-                     [&](std::string_view word) { return same_name(text, word); });
+  return std::ranges::any_of(words, [&](std::string_view word) { return same_name(text, word); });
 }
 
 // Flags without a value are switches, which accept the usual words for on and off.
@@ -76,7 +75,7 @@ void Choices::fill_from(Choices const& lower) {
 
 bool Choices::any() const {
   auto const rows = option_rows();
-  return std::any_of(rows.begin(), rows.end(), [&](OptionRow const& row) {
+  return std::ranges::any_of(rows, [&](OptionRow const& row) {
     return row.audience <= Audience::experts && row.text(*this, row.value);
   });
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
+#include "model/idf/model_file.h"
 #include "platform/naming.h"
 #include "platform/text.h"
 
@@ -14,7 +15,6 @@ namespace {
 using geojson::Json;
 using geojson::measure;
 using geojson::member;
-using geojson::text_of;
 using geojson::type_of;
 
 double height_of(Json const& properties, HeightRule const& rule) {

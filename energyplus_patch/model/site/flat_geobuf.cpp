@@ -350,7 +350,7 @@ class Reader {
       sizes.push_back((sizes.back() + node_size_ - 1) / node_size_);
       nodes += sizes.back();
     } while (sizes.back() != 1);
-    std::reverse(sizes.begin(), sizes.end());
+    std::ranges::reverse(sizes);
     std::uint64_t begin = 0;
     for (auto const size : sizes) {
       levels_.push_back({begin, begin + size});
@@ -382,11 +382,11 @@ class Reader {
         }
       }
       // Each node once, whatever leads to it.
-      std::sort(next.begin(), next.end());
+      std::ranges::sort(next);
       next.erase(std::unique(next.begin(), next.end()), next.end());
       firsts = std::move(next);
     }
-    std::sort(found.begin(), found.end());
+    std::ranges::sort(found);
     found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
   }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include "gpu_shading/error.h"
@@ -123,11 +122,6 @@ Json const& member(Json const& object, std::string const& name) {
 std::string type_of(Json const& object) {
   auto const& type = member(object, "type");
   return type.is_string() ? type.get<std::string>() : "";
-}
-
-std::string text_of(Json const& value) {
-  return value.is_string() ? value.get<std::string>()
-                           : value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::optional<double> measure(Json const& properties, std::string const& name,

@@ -20,7 +20,6 @@ using Json = nlohmann::json;
 // The member, or null.
 Json const& member(Json const& object, std::string const& name);
 std::string type_of(Json const& object);
-std::string text_of(Json const& value);
 
 // Limit of heights, m: more means a damaged file, or another unit.
 inline constexpr double max_height = 10'000.0;

@@ -225,7 +225,7 @@ void read_geometry(InputObject const& object, MeshFiles& files, AssetFolder cons
 }  // namespace
 
 bool needs_origin(std::vector<InputObject> const& objects) {
-  return std::any_of(objects.begin(), objects.end(), [](InputObject const& object) {
+  return std::ranges::any_of(objects, [](InputObject const& object) {
     return object.type == field::type && !object[field::latitude.key].empty();
   });
 }
@@ -233,10 +233,9 @@ bool needs_origin(std::vector<InputObject> const& objects) {
 void read_geometries(std::vector<InputObject> const& objects, AssetFolder const& folder,
                      std::optional<SiteOrigin> const& origin, Surroundings& surroundings) {
   MeshFiles files(objects, folder);
-  for (auto const& object : objects) {
-    if (object.type != field::type) continue;
-    naming(object.where(), [&] { read_geometry(object, files, folder, origin, surroundings); });
-  }
+  for_each_of(objects, field::type, [&](InputObject const& object) {
+    read_geometry(object, files, folder, origin, surroundings);
+  });
 }
 
 }  // namespace gpu_shading::energyplus

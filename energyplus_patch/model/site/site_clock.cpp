@@ -27,8 +27,8 @@ namespace chrono = std::chrono;
 constexpr double minutes_of_hour = 60.0;
 
 InputObject const* find(std::vector<InputObject> const& objects, std::string_view type) {
-  auto const found = std::find_if(objects.begin(), objects.end(),
-                                  [&](InputObject const& object) { return object.type == type; });
+  auto const found =
+      std::ranges::find_if(objects, [&](InputObject const& object) { return object.type == type; });
   return found == objects.end() ? nullptr : &*found;
 }
 

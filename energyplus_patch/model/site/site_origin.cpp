@@ -57,19 +57,16 @@ Statement read_location(std::vector<InputObject> const& objects) {
 SiteOrigin find_site_origin(std::vector<InputObject> const& objects) {
   Statement stated;
   std::string first;  // the object that gives it
-  for (auto const& object : objects) {
-    if (object.type != field::type) continue;
-    naming(object.where(), [&] {
-      auto const statement = read_statement(object);
-      if (statement.empty()) return;
-      if (!first.empty() && statement != stated) {
-        throw Error(
-            fmt::format("its origin differs from that of {}: a model has only one origin", first));
-      }
-      stated = statement;
-      if (first.empty()) first = object.title();
-    });
-  }
+  for_each_of(objects, field::type, [&](InputObject const& object) {
+    auto const statement = read_statement(object);
+    if (statement.empty()) return;
+    if (!first.empty() && statement != stated) {
+      throw Error(
+          fmt::format("its origin differs from that of {}: a model has only one origin", first));
+    }
+    stated = statement;
+    if (first.empty()) first = object.title();
+  });
   auto const location = read_location(objects);
   SiteOrigin origin;
   origin.source = stated.latitude ? first : "Site:Location";

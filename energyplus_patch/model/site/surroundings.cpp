@@ -16,8 +16,8 @@ namespace gpu_shading::energyplus {
 namespace {
 
 bool any_of_type(std::vector<InputObject> const& objects, std::string_view type) {
-  return std::any_of(objects.begin(), objects.end(),
-                     [&](InputObject const& object) { return object.type == type; });
+  return std::ranges::any_of(objects,
+                             [&](InputObject const& object) { return object.type == type; });
 }
 
 struct InnerPoint {
@@ -42,10 +42,8 @@ std::vector<InnerPoint> inner_points(Scene const& scene, ShadingInput const& inp
 
 bool is_near(Polygon const& roof, glm::dvec3 const& point) {
   auto const& outline = roof.outline;
-  auto const [west, east] = std::minmax_element(
-      outline.begin(), outline.end(), [](auto const& a, auto const& b) { return a.x < b.x; });
-  auto const [south, north] = std::minmax_element(
-      outline.begin(), outline.end(), [](auto const& a, auto const& b) { return a.y < b.y; });
+  auto const [west, east] = std::ranges::minmax_element(outline, {}, &glm::dvec3::x);
+  auto const [south, north] = std::ranges::minmax_element(outline, {}, &glm::dvec3::y);
   return west->x <= point.x && point.x <= east->x && south->y <= point.y && point.y <= north->y;
 }
 
@@ -105,9 +103,8 @@ std::vector<std::string> warn_of_own_buildings(std::vector<ContextBuilding> cons
   std::vector<std::string> lines;
   for (auto const& building : buildings) {
     if (lines.size() == max) break;
-    auto const inside = std::find_if(points.begin(), points.end(), [&](InnerPoint const& inner) {
-      return holds(building, inner.point);
-    });
+    auto const inside = std::ranges::find_if(
+        points, [&](InnerPoint const& inner) { return holds(building, inner.point); });
     if (inside == points.end() || !known.insert(building.name).second) continue;
     lines.push_back(
         fmt::format("{} encloses the model's {}: if it is the modelled building itself, leave it "

@@ -209,8 +209,7 @@ TerrainGrid read_terrain(std::filesystem::path const& path,
   return naming(path.string(), [&] {
     auto grid = tiff ? read_geotiff(path, coordinates)
                      : read_grid(text, coordinates.value_or(MapCoordinates()));
-    if (std::all_of(grid.elevations.begin(), grid.elevations.end(),
-                    [](double value) { return std::isnan(value); })) {
+    if (std::ranges::all_of(grid.elevations, [](double value) { return std::isnan(value); })) {
       throw Error("has no elevations: all cells are NODATA");
     }
     check_cells(grid);

@@ -45,13 +45,12 @@ class TileSizes {
     constexpr std::size_t max_sizes = 64;
     sizes_.emplace_back(width, height);
     if (sizes_.size() > max_sizes) {
-      throw Error(
-          fmt::format("the mesh's texture coordinates give tiles of more than {} sizes, from "
-                      "{:.4g} x {:.4g} m to {:.4g} x {:.4g} m: give Tile Width and Tile Height",
-                      max_sizes, std::min_element(sizes_.begin(), sizes_.end())->first,
-                      std::min_element(sizes_.begin(), sizes_.end())->second,
-                      std::max_element(sizes_.begin(), sizes_.end())->first,
-                      std::max_element(sizes_.begin(), sizes_.end())->second));
+      throw Error(fmt::format(
+          "the mesh's texture coordinates give tiles of more than {} sizes, from "
+          "{:.4g} x {:.4g} m to {:.4g} x {:.4g} m: give Tile Width and Tile Height",
+          max_sizes, std::ranges::min_element(sizes_)->first,
+          std::ranges::min_element(sizes_)->second, std::ranges::max_element(sizes_)->first,
+          std::ranges::max_element(sizes_)->second));
     }
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "gpu_shading/error.h"
+#include "model/idf/model_file.h"
 #include "model/site/geojson.h"
 #include "platform/text.h"
 
@@ -21,7 +22,7 @@ std::optional<double> length(Json const& properties, char const* name) {
 
 // Others than OpenStreetMap's own words are as good as none: semi_deciduous, semi_evergreen.
 std::optional<bool> is_evergreen(Json const& properties) {
-  auto const cycle = geojson::text_of(geojson::member(properties, "leaf_cycle"));
+  auto const cycle = text_of(geojson::member(properties, "leaf_cycle"));
   if (same_name(cycle, "evergreen")) return true;
   if (same_name(cycle, "deciduous")) return false;
   return std::nullopt;

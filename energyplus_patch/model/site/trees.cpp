@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -186,7 +185,7 @@ class Builder {
       schedule = season_schedule(latitude() < 0.0);
     }
     auto& known = surroundings_.leaf_schedules;
-    auto const found = std::find(known.begin(), known.end(), schedule);
+    auto const found = std::ranges::find(known, schedule);
     if (found != known.end()) return static_cast<int>(found - known.begin());
     known.push_back(schedule);
     return static_cast<int>(known.size() - 1);
@@ -241,7 +240,7 @@ void read_mapped(InputObject const& object, Builder& builder, std::filesystem::p
 }  // namespace
 
 bool needs_origin_for_trees(std::vector<InputObject> const& objects) {
-  return std::any_of(objects.begin(), objects.end(), [](InputObject const& object) {
+  return std::ranges::any_of(objects, [](InputObject const& object) {
     return object.type == field::type && !object[field::file_name.key].empty();
   });
 }
@@ -249,21 +248,18 @@ bool needs_origin_for_trees(std::vector<InputObject> const& objects) {
 void read_trees(std::vector<InputObject> const& objects, std::filesystem::path const& folder,
                 std::optional<SiteOrigin> const& origin, std::vector<TerrainGrid> const& terrains,
                 Surroundings& surroundings) {
-  for (auto const& object : objects) {
-    if (object.type != field::type) continue;
-    naming(object.where(), [&] {
-      auto const file = read(object, field::file_name);
-      Builder builder(object, surroundings);
-      if (file.empty()) {
-        read_single(object, builder, [&] {
-          return origin ? origin->place.latitude : find_site_origin(objects).place.latitude;
-        });
-      } else {
-        read_mapped(object, builder, folder, file, *origin, terrains);
-      }
-      surroundings.remarks.push_back(builder.describe(file));
-    });
-  }
+  for_each_of(objects, field::type, [&](InputObject const& object) {
+    auto const file = read(object, field::file_name);
+    Builder builder(object, surroundings);
+    if (file.empty()) {
+      read_single(object, builder, [&] {
+        return origin ? origin->place.latitude : find_site_origin(objects).place.latitude;
+      });
+    } else {
+      read_mapped(object, builder, folder, file, *origin, terrains);
+    }
+    surroundings.remarks.push_back(builder.describe(file));
+  });
 }
 
 }  // namespace gpu_shading::energyplus

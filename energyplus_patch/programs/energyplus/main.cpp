@@ -145,10 +145,7 @@ void check_conversion(RunSetup const& setup) {
   if (!setup.line.convert || !setup.has_model()) return;
   auto const& path = *setup.line.model;
   for (InputObject const& object : read_objects(path)) {
-    if (!same_name(std::string_view(object.type).substr(0, extension_prefix.size()),
-                   extension_prefix)) {
-      continue;
-    }
+    if (!is_extension(object.type)) continue;
     throw Error(
         fmt::format("{}: {} would be lost in the conversion: expected it in {}.gpu-shading.idf",
                     path.string(), object.type, path.stem().string()));

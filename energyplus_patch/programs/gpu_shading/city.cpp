@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -147,7 +146,7 @@ std::vector<Path> find_models(Path const& folder) {
     }
     if (models.empty()) throw Error("has no models (IDF or epJSON)");
   });
-  std::sort(models.begin(), models.end());
+  std::ranges::sort(models);
   return models;
 }
 
@@ -169,8 +168,9 @@ std::vector<Placed> place_models(CityOrder const& order, std::vector<Building> c
       run.place = found->second;
     }
     for (auto const& building : map) {
-      if (std::any_of(building.parts.begin(), building.parts.end(),
-                      [&](Footprint const& part) { return is_inside(part.outline, run.place); })) {
+      if (std::ranges::any_of(building.parts, [&](Footprint const& part) {
+            return is_inside(part.outline, run.place);
+          })) {
         run.own = building.name;
         break;
       }

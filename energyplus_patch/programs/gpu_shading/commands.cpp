@@ -13,7 +13,7 @@ namespace gpu_shading::energyplus {
 namespace {
 
 bool contains(OptionNames const& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+  return std::ranges::find(names, name) != names.end();
 }
 
 std::string help_of(OptionNames const& names, bool all) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
@@ -64,7 +63,7 @@ void copy_into(Path const& target, Path const& example) {
     if (entry.is_regular_file()) add(entry.path(), target / entry.path().filename());
   }
   add(weather, target / "weather.epw");
-  std::sort(copied.begin(), copied.end());
+  std::ranges::sort(copied);
   print_text(fmt::format("{}\n", fmt::join(copied, "\n")));
 }
 

@@ -21,8 +21,8 @@ namespace {
 
 std::vector<std::string> names_of(std::vector<CLI::App const*> const& commands) {
   std::vector<std::string> names(commands.size());
-  std::transform(commands.begin(), commands.end(), names.begin(),
-                 [](CLI::App const* command) { return command->get_name(); });
+  std::ranges::transform(commands, names.begin(),
+                         [](CLI::App const* command) { return command->get_name(); });
   return names;
 }
 
@@ -30,7 +30,7 @@ void refuse_mistyped_subcommand(CLI::App const& app, std::vector<std::string> co
   if (arguments.empty() || arguments.front().starts_with("-")) return;
   auto const& word = arguments.front();
   auto const names = names_of(app.get_subcommands({}));
-  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  if (std::ranges::find(names, word) != names.end()) return;
   throw Error(fmt::format("{}: no such subcommand{}", printable(word), did_you_mean(word, names)));
 }
 
@@ -75,8 +75,7 @@ void translate_help(CLI::App const& app, std::vector<std::string>& arguments) {
   bool const all = std::erase(arguments, "--help-all") > 0;
   bool const asks = !arguments.empty() && arguments.front() == "help";
   auto const names = names_of(app.get_subcommands({}));
-  if (asks && (arguments.size() == 1 ||
-               std::find(names.begin(), names.end(), arguments[1]) != names.end())) {
+  if (asks && (arguments.size() == 1 || std::ranges::find(names, arguments[1]) != names.end())) {
     arguments.erase(arguments.begin());
     arguments.emplace_back("--help");
   } else if (all && !asks) {
@@ -95,8 +94,7 @@ int run(std::vector<std::string> arguments) {
       "fractions for EnergyPlus with GPU shading",
       "gpu_shading"};
   app.require_subcommand(1);
-  bool const help_all =
-      std::find(arguments.begin(), arguments.end(), "--help-all") != arguments.end();
+  bool const help_all = std::ranges::find(arguments, "--help-all") != arguments.end();
   Program const program{app, flags, choices, help_all};
   bool right = true;
   add_devices(program, right);
@@ -118,12 +116,12 @@ int run(std::vector<std::string> arguments) {
   translate_help(app, arguments);
   if (!arguments.empty() && arguments.front() == "study") {
     if (given.front() == "help") run_study({"--help"});
-    given.erase(std::find(given.begin(), given.end(), "study"));
+    given.erase(std::ranges::find(given, "study"));
     run_study(given);
   }
   refuse_mistyped_subcommand(app, arguments);
   // CLI11 expects them in reverse order.
-  std::reverse(arguments.begin(), arguments.end());
+  std::ranges::reverse(arguments);
   try {
     app.parse(std::move(arguments));
   } catch (CLI::ExtrasError const&) {

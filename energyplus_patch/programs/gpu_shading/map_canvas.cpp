@@ -48,7 +48,7 @@ void MapCanvas::area(std::vector<glm::dvec2> const& outline, glm::dvec3 const& c
       if ((a.y > middle) == (b.y > middle)) continue;
       crossings.push_back(a.x + (middle - a.y) / (b.y - a.y) * (b.x - a.x));
     }
-    std::sort(crossings.begin(), crossings.end());
+    std::ranges::sort(crossings);
     for (std::size_t i = 1; i < crossings.size(); i += 2) {
       for (auto x = std::lround(crossings[i - 1]); x < std::lround(crossings[i]); ++x) {
         mix(static_cast<int>(x), y, colour, 1.0);

@@ -101,7 +101,7 @@ std::vector<double> crossings(MapGrid const& grid, double v) {
       found.push_back(a.x + (v - a.y) / (b.y - a.y) * (b.x - a.x));
     }
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   return found;
 }
 
@@ -375,9 +375,7 @@ Quantity quantity_of(std::string name, std::string unit, double top, MapGrid con
     sum += grid.cells()[i].area * (values[i].*field);
     area += grid.cells()[i].area;
   }
-  auto const [least, most] = std::minmax_element(
-      values.begin(), values.end(),
-      [&](MapValue const& a, MapValue const& b) { return a.*field < b.*field; });
+  auto const [least, most] = std::ranges::minmax_element(values, {}, field);
   return {std::move(name),
           std::move(unit),
           top,

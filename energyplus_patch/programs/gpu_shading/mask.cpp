@@ -1,12 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -145,12 +142,9 @@ std::vector<MaskSummary> summarise(std::vector<ReceiverMask> const& masks, SkyGr
     auto const normal = glm::normalize(mask.receiver.area);
     auto title = mask.receiver.name;
     if (mask.point) title += fmt::format(", point {}", ++points[title]);
-    double const azimuth = degrees_clockwise(std::atan2(normal.x, normal.y));
-    constexpr double vertical = 1e-6;
-    summaries.push_back({title, names.add(title, ""),
-                         std::hypot(normal.x, normal.y) > vertical ? azimuth : 0.0,
-                         glm::degrees(std::acos(std::clamp(normal.z, -1.0, 1.0))),
-                         sky_view(grid, mask.sky, normal)});
+    auto const [azimuth, tilt] = facing_of(normal);
+    summaries.push_back(
+        {title, names.add(title, ""), azimuth, tilt, sky_view(grid, mask.sky, normal)});
   }
   return summaries;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <glm/vec2.hpp>
 #include <iosfwd>
 #include <string>

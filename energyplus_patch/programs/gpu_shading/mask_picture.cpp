@@ -220,9 +220,7 @@ class MaskFigure {
       std::vector<SunDirection> analemma;
       for (int day = 1; day <= 366; day += 5) analemma.push_back(site_.sun(day, hour));
       draw_track(analemma, 0.8, soft);
-      auto const top = *std::max_element(
-          analemma.begin(), analemma.end(),
-          [](SunDirection const& a, SunDirection const& b) { return a.altitude < b.altitude; });
+      auto const top = *std::ranges::max_element(analemma, {}, &SunDirection::altitude);
       constexpr double lowest = 0.05;
       if (top.altitude < lowest) continue;
       auto const at = place(top);
@@ -245,8 +243,8 @@ class MaskFigure {
   void label_month(int month, std::vector<SunDirection> const& path) {
     constexpr int june = 6;
     if (month > june && month != month_count) return;
-    auto const rises = std::find_if(path.begin(), path.end(),
-                                    [](SunDirection const& sun) { return sun.altitude >= 0.0; });
+    auto const rises =
+        std::ranges::find_if(path, [](SunDirection const& sun) { return sun.altitude >= 0.0; });
     if (rises == path.end() || rises == path.begin() || flat()) return;
     auto const zenith = place(degrees(0.0, 90.0));
     auto const rim = place({rises->azimuth, 0.0});

@@ -1,11 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <glm/common.hpp>
 #include <set>
-#include <utility>
 
 #include "gpu_shading/image.h"
 #include "platform/text.h"

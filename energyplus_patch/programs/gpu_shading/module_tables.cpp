@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -55,8 +54,7 @@ class Summing {
         if (lit < clear) shaded[static_cast<std::size_t>(diodes_[k])] = true;
       }
       counts[s] += cells;
-      strings[s].blocks +=
-          static_cast<std::uint32_t>(std::count(shaded.begin(), shaded.end(), true));
+      strings[s].blocks += static_cast<std::uint32_t>(std::ranges::count(shaded, true));
     }
     for (std::size_t s = 0; s < strings.size(); ++s) {
       strings[s].sunlit = static_cast<float>(sums[s] / static_cast<double>(counts[s]));
@@ -121,11 +119,7 @@ void write_modules(std::vector<FieldLight> const& fields, std::ostream& csv) {
          "beam loss\n";
   for (auto const& light : fields) {
     auto const& axes = light.layout.axes();
-    constexpr double vertical = 1e-6;
-    double const azimuth = std::hypot(axes.normal.x, axes.normal.y) > vertical
-                               ? degrees_clockwise(std::atan2(axes.normal.x, axes.normal.y))
-                               : 0.0;
-    double const tilt = glm::degrees(std::acos(std::clamp(axes.normal.z, -1.0, 1.0)));
+    auto const [azimuth, tilt] = facing_of(axes.normal);
     for (std::size_t m = 0; m < light.layout.modules().size(); ++m) {
       auto const& module = light.layout.modules()[m];
       auto const place = axes.place((module.box.low + module.box.high) / 2.0);

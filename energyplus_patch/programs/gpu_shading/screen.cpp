@@ -229,7 +229,7 @@ SheetReflectance reflectance_of(NamedScreen const& named, ShadingInput const& sh
   auto const differs = [&](std::string const& surface) {
     return reflectance_of(surface, shading) != reflectance;
   };
-  auto const other = std::find_if(named.surfaces.begin(), named.surfaces.end(), differs);
+  auto const other = std::ranges::find_if(named.surfaces, differs);
   if (other != named.surfaces.end()) {
     print_line(
         fmt::format("warning: --bsdf {}: {} and {} have different reflectances; the file has "

@@ -53,8 +53,7 @@ void run_study(std::vector<std::string> const& arguments) {
   std::vector<std::string> words{"python3", find_command().string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv(words.size() + 1, nullptr);
-  std::transform(words.begin(), words.end(), argv.begin(),
-                 [](std::string& word) { return word.data(); });
+  std::ranges::transform(words, argv.begin(), [](std::string& word) { return word.data(); });
   execvp(argv.front(), argv.data());
   throw Error(fmt::format("study: python3: {}", std::strerror(errno)));
 }

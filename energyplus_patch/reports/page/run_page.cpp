@@ -94,7 +94,7 @@ std::size_t vertices_of(PageModules const& modules) {
 bool is_drawable(Polygon const& polygon) {
   auto const small = [](Ring const& ring) { return ring.size() <= max_in_ring; };
   return small(polygon.outline) && polygon.holes.size() <= max_in_ring &&
-         std::all_of(polygon.holes.begin(), polygon.holes.end(), small);
+         std::ranges::all_of(polygon.holes, small);
 }
 
 struct Extent {
@@ -113,7 +113,7 @@ Extent extent_of(std::vector<PageSurface> const& surfaces) {
   };
   for (auto const& surface : surfaces) {
     include(surface.polygon);
-    std::for_each(surface.moved.begin(), surface.moved.end(), include);
+    std::ranges::for_each(surface.moved, include);
   }
   if (!(low.x <= high.x)) return {};
   auto const size = high - low;
@@ -387,8 +387,8 @@ void simplify(RunPage& page) {
   std::iota(casters.begin(), casters.end(), first);
   std::vector<double> areas(page.surfaces.size(), 0.0);
   for (auto const i : casters) areas[i] = area(page.surfaces[i].polygon);
-  std::stable_sort(casters.begin(), casters.end(),
-                   [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
+  std::ranges::stable_sort(casters,
+                           [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
   std::vector<bool> kept(page.surfaces.size(), false);
   std::size_t vertices = vertices_of(page.modules);
   std::size_t drawn = 0;

@@ -1,7 +1,5 @@
 #include "routes/opengl/opengl_run.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cstdlib>
 #include <glm/trigonometric.hpp>

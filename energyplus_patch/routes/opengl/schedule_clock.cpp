@@ -68,7 +68,7 @@ std::optional<Moment> ScheduleClock::moment_of(glm::dvec3 const& towards_sun) co
 }
 
 std::size_t ScheduleClock::number_of(std::string const& schedule) const {
-  auto const found = std::find(days_.schedules.begin(), days_.schedules.end(), schedule);
+  auto const found = std::ranges::find(days_.schedules, schedule);
   if (found == days_.schedules.end()) {
     throw Error(fmt::format("EnergyPlus has no schedule \"{}\"", schedule));
   }

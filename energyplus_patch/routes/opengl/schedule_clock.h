@@ -31,13 +31,7 @@ class ScheduleClock {
   double value(std::string const& schedule, Moment moment) const;
 
  private:
-  struct Date {
-    int month;
-    int day;
-    bool operator<(Date const& other) const {
-      return month != other.month ? month < other.month : day < other.day;
-    }
-  };
+  using Date = std::pair<int, int>;  // month and day
 
   ScheduleDay const* find(HostedDay const& today) const;
   std::size_t number_of(std::string const& schedule) const;

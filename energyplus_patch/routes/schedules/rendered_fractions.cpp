@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <memory>
+#include <ostream>
 #include <set>
 #include <utility>
 
@@ -38,6 +41,29 @@ float fraction(Session& session, Receiver const& receiver, glm::dvec3 const& sun
   if (glm::dot(receiver.area, sun) <= 0.0) return 0.0F;
   return static_cast<float>(
       sunlit_fraction(session.projected_sunlit_area(receiver.id), receiver.area, sun));
+}
+
+constexpr int hours_of_day = 24;
+
+// Calls `row` for each timestep of a leap year with the table's fractions at that time, or nullptr.
+template <typename Row>
+void for_each_row(SunlitFractions const& table, Row const& row) {
+  constexpr std::array<int, 12> days{31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  std::size_t at = 0;
+  for (int month = 1; month <= static_cast<int>(days.size()); ++month) {
+    for (int day = 1; day <= days.at(static_cast<std::size_t>(month - 1)); ++day) {
+      for (int hour = 1; hour <= hours_of_day; ++hour) {
+        for (int step = 1; step <= table.steps_per_hour; ++step) {
+          RunTime const time{month, day, hour, step, {}, {}};
+          auto const number = row_of(time, table.steps_per_hour);
+          bool const known =
+              at < table.times.size() && row_of(table.times[at], table.steps_per_hour) == number;
+          row(known ? &table.fractions[at] : nullptr);
+          if (known) ++at;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -76,12 +102,31 @@ SunlitFractions render_fractions(Model model, std::vector<Surface> const& surfac
   return table;
 }
 
+void write_schedule_file(SunlitFractions const& table, std::ostream& out) {
+  for (std::size_t i = 0; i < table.surfaces.size(); ++i) {
+    out << (i == 0 ? "" : ",") << table.surfaces[i];
+  }
+  out << '\n';
+  std::string dark;
+  for (std::size_t i = 0; i < table.surfaces.size(); ++i) dark += i == 0 ? "0" : ",0";
+  for_each_row(table, [&](std::vector<float> const* fractions) {
+    if (fractions == nullptr) {
+      out << dark << '\n';
+      return;
+    }
+    fmt::memory_buffer line;
+    for (std::size_t i = 0; i < fractions->size(); ++i) {
+      fmt::format_to(std::back_inserter(line), "{}{:.7g}", i == 0 ? "" : ",", (*fractions)[i]);
+    }
+    out.write(line.data(), static_cast<std::streamsize>(line.size())) << '\n';
+  });
+}
+
 std::vector<std::string> unknown_schedules(Model const& model,
                                            std::vector<std::string> const& known) {
   std::vector<std::string> names;
   for (auto const& name : shade_schedules(model)) {
-    if (model.shading.actuated.contains(name) ||
-        std::find(known.begin(), known.end(), name) == known.end()) {
+    if (model.shading.actuated.contains(name) || std::ranges::find(known, name) == known.end()) {
       names.push_back(name);
     }
   }

@@ -23,8 +23,6 @@ using Say = std::function<void(std::string const&)>;
 ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choices,
                                  std::filesystem::path const& folder, Say const& say);
 
-inline constexpr int not_run = -1;
-
 // A whole run of an unmodified EnergyPlus library, with sunlit fractions rendered before it.
 // Returns its exit status. Throws Error.
 int run_scheduled(std::filesystem::path const& library, RunSetup const& setup);

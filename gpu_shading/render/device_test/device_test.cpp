@@ -29,7 +29,7 @@ struct Batch {
 Batch batch_of(ClosedForm const& form) {
   Batch batch;
   auto const add_once = [](auto& all, auto const& value, auto const& same) {
-    if (std::none_of(all.begin(), all.end(), same)) all.push_back(value);
+    if (std::ranges::none_of(all, same)) all.push_back(value);
   };
   for (ClosedForm::View const& view : form.views) {
     add_once(batch.suns, view.sun, [&](SunDirection const& sun) { return sun == view.sun; });
@@ -69,7 +69,7 @@ double error_of(ClosedForm const& form, Batch const& batch, Renderer& renderer) 
   auto const answers = answers_of(renderer, batch);
   double worst = 0.0;
   for (ClosedForm::View const& view : form.views) {
-    auto const sun = std::find(batch.suns.begin(), batch.suns.end(), view.sun);
+    auto const sun = std::ranges::find(batch.suns, view.sun);
     auto const& found =
         answers.at({static_cast<std::size_t>(sun - batch.suns.begin()), view.receiver});
     for (std::size_t i = 0; i < view.exact.size(); ++i) {
@@ -101,7 +101,7 @@ double milliseconds_of(ClosedForm const& form, Batch const& batch, Renderer& ren
 
 bool DeviceTest::right() const {
   return failure.empty() &&
-         std::all_of(kinds.begin(), kinds.end(), [](Kind const& kind) { return kind.right(); });
+         std::ranges::all_of(kinds, [](Kind const& kind) { return kind.right(); });
 }
 
 double DeviceTest::milliseconds() const {

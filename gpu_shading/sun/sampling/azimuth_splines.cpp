@@ -82,7 +82,7 @@ AzimuthSplines::AzimuthSplines(SunlitTable const& table, std::vector<AzimuthDay>
 
 std::vector<double> AzimuthSplines::weights_of(double declination) const {
   // The first and the last half of the year, from solstice to solstice.
-  auto const top = std::max_element(declinations_.begin(), declinations_.end());
+  auto const top = std::ranges::max_element(declinations_);
   auto const nearest_day = [&](auto from, auto to) {
     auto const nearest = std::min_element(from, to, [&](double a, double b) {
       return std::abs(a - declination) < std::abs(b - declination);

@@ -80,9 +80,8 @@ std::vector<glm::dvec3> Disagreement::distinct_normals() const {
   std::vector<glm::dvec3> normals;
   for (std::size_t i = 0; i < table_.receivers() && normals.size() < max_count; ++i) {
     auto const& normal = table_.normal(i);
-    bool const known = std::any_of(normals.begin(), normals.end(), [&](glm::dvec3 const& other) {
-      return glm::dot(normal, other) > alike;
-    });
+    bool const known = std::ranges::any_of(
+        normals, [&](glm::dvec3 const& other) { return glm::dot(normal, other) > alike; });
     if (!known && normal != glm::dvec3(0.0)) normals.push_back(normal);
   }
   return normals;

@@ -25,8 +25,7 @@ std::vector<Shared> shared_values(std::vector<double> const& ascending) {
     if (samples >= min_samples) shared.push_back({0.5 * (*from + *(to - 1)), samples});
     from = to;
   }
-  std::stable_sort(shared.begin(), shared.end(),
-                   [](Shared const& a, Shared const& b) { return a.samples > b.samples; });
+  std::ranges::stable_sort(shared, std::ranges::greater{}, &Shared::samples);
   return shared;
 }
 
@@ -37,15 +36,14 @@ std::vector<double> fraction_levels(std::span<double const> fractions) {
   // Levels closer together would part differences that do not matter.
   constexpr double min_distance = 5e-3;
   std::vector<double> ascending(fractions.begin(), fractions.end());
-  std::sort(ascending.begin(), ascending.end());
+  std::ranges::sort(ascending);
   std::vector<double> levels{0.0, 1.0};
   for (auto const& [value, samples] : shared_values(ascending)) {
-    bool const apart = std::all_of(levels.begin(), levels.end(), [value = value](double level) {
-      return std::abs(level - value) > min_distance;
-    });
+    bool const apart = std::ranges::all_of(
+        levels, [value = value](double level) { return std::abs(level - value) > min_distance; });
     if (apart && levels.size() < max_levels) levels.push_back(value);
   }
-  std::sort(levels.begin(), levels.end());
+  std::ranges::sort(levels);
   bool const all_above = levels.size() > 2 && ascending.front() > levels[1] - same_within;
   if (all_above) levels.erase(levels.begin());
   return levels;

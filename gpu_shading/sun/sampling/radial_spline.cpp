@@ -19,7 +19,7 @@ double radial(RadialKernel kernel, glm::dvec3 const& a, glm::dvec3 const& b) {
 // Values of the constant and the coordinates at each node; without z if it is 0 everywhere.
 MatrixXd linear_terms(std::vector<glm::dvec3> const& nodes) {
   bool const in_plane =
-      std::all_of(nodes.begin(), nodes.end(), [](glm::dvec3 const& node) { return node.z == 0.0; });
+      std::ranges::all_of(nodes, [](glm::dvec3 const& node) { return node.z == 0.0; });
   MatrixXd terms(static_cast<Index>(nodes.size()), in_plane ? 3 : 4);
   for (Index i = 0; i < terms.rows(); ++i) {
     auto const& node = nodes[static_cast<std::size_t>(i)];

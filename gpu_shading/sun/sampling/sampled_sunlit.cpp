@@ -104,8 +104,8 @@ class SampleRounds::Implementation {
     bool const usual = refined_ < usual_refinements;
     int const last = usual ? usual_refinements : usual_refinements + further_refinements;
     double const wanted = usual ? 0.0 : error_goal(sampling_.density);
-    bool const needed = std::any_of(expected_errors_.begin(), expected_errors_.end(),
-                                    [&](double error) { return error >= wanted; });
+    bool const needed =
+        std::ranges::any_of(expected_errors_, [&](double error) { return error >= wanted; });
     if (refined_ == last || !needed) return false;
     ++refined_;
     auto const max_count =
@@ -215,7 +215,7 @@ std::vector<Sunlit> SampledSunlit::at(SunDirection direction) const {
 
 bool SampledSunlit::knows(std::size_t receiver) const {
   auto const& lit = implementation_->table().lit(receiver);
-  return std::find(lit.begin(), lit.end(), true) != lit.end();
+  return std::ranges::find(lit, true) != lit.end();
 }
 
 std::vector<SunDirection> const& SampledSunlit::directions() const {

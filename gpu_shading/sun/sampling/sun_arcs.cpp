@@ -104,8 +104,7 @@ std::vector<AzimuthDay> sample_azimuths(double latitude, double step) {
       }
       before = azimuth;
     }
-    std::stable_sort(crossed.begin(), crossed.end(),
-                     [](auto const& a, auto const& b) { return a.first < b.first; });
+    std::ranges::stable_sort(crossed, {}, &std::pair<int, HourDirection>::first);
     AzimuthDay found{day, crossed.empty() ? 0 : crossed.front().first, {}};
     for (auto const& [multiple, direction] : crossed) {
       // Between the tropics, the sun may pass an azimuth twice a day; the grid has it once.

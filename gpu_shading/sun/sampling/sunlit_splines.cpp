@@ -121,7 +121,7 @@ SunlitSplines::SunlitSplines(SunlitTable const& table, Purpose purpose)
     auto const receiver = table.columns()[i].receiver;
     receivers_[i] = receiver;
     auto const& lit = table.lit(receiver);
-    if (std::find(lit.begin(), lit.end(), true) == lit.end()) continue;
+    if (std::ranges::find(lit, true) == lit.end()) continue;
     alike[{rounded(table.normal(receiver)), lit}].push_back(i);
   }
   std::vector<std::vector<std::size_t>> columns;

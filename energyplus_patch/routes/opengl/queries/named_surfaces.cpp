@@ -49,16 +49,15 @@ Ring drawn_ring(std::vector<Polygon> const& parts, Ring ring) {
 }
 
 bool has_all(std::vector<Polygon> const& parts, Ring const& ring) {
-  return std::all_of(ring.begin(), ring.end(), [&](glm::dvec3 const& vertex) {
+  return std::ranges::all_of(ring, [&](glm::dvec3 const& vertex) {
     return are_near(nearest_vertex(parts, vertex), vertex);
   });
 }
 
 bool has_all(std::vector<Polygon> const& parts, std::vector<Polygon> const& others) {
-  return std::all_of(others.begin(), others.end(), [&](Polygon const& other) {
+  return std::ranges::all_of(others, [&](Polygon const& other) {
     return has_all(parts, other.outline) &&
-           std::all_of(other.holes.begin(), other.holes.end(),
-                       [&](Ring const& hole) { return has_all(parts, hole); });
+           std::ranges::all_of(other.holes, [&](Ring const& hole) { return has_all(parts, hole); });
   });
 }
 

@@ -107,7 +107,7 @@ void Recorder::learn_surfaces(std::optional<DrawnRange> window) {
   for (auto const& surface : surfaces_) {
     if (surface.count > corners) asked.push_back(surface);  // known from a query that is gone
   }
-  std::sort(asked.begin(), asked.end());
+  std::ranges::sort(asked);
   asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
   surfaces_.clear();
   std::uint32_t at = 0;
@@ -126,13 +126,13 @@ void Recorder::learn_surfaces(std::optional<DrawnRange> window) {
 }
 
 std::size_t Recorder::surface_at(DrawnRange range) const {
-  auto const found = std::lower_bound(surfaces_.begin(), surfaces_.end(), range);
+  auto const found = std::ranges::lower_bound(surfaces_, range);
   bool const known = found != surfaces_.end() && *found == range;
   return known ? static_cast<std::size_t>(found - surfaces_.begin()) : surfaces_.size();
 }
 
 bool Recorder::knows_surfaces_of(Scene const& scene) const {
-  return std::all_of(scene.queries.begin(), scene.queries.end(), [&](Query query) {
+  return std::ranges::all_of(scene.queries, [&](Query query) {
     auto const asked = questions_.find(query);
     return asked == questions_.end() || asked->second.surface.count == 0 ||
            knows(asked->second.surface);
@@ -142,7 +142,7 @@ bool Recorder::knows_surfaces_of(Scene const& scene) const {
 // The vertices that a scene leaves out, which are a window's; empty if it leaves out none.
 std::optional<DrawnRange> Recorder::hidden(Scene const& scene) const {
   auto drawn = scene.drawn;
-  std::sort(drawn.begin(), drawn.end());
+  std::ranges::sort(drawn);
   drawn.push_back({static_cast<std::uint32_t>(vertices_.size()), 0});
   std::optional<DrawnRange> gap;
   std::uint32_t at = 0;

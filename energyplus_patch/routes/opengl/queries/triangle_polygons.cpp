@@ -106,7 +106,7 @@ std::vector<Polygon> polygons_of(std::span<glm::vec3 const> triangles) {
     if (polygons.empty()) break;
     // A hole may touch the outline at vertices, but not with all of its edges.
     auto const middle = (hole[0] + hole[1 % hole.size()]) / 2.0;
-    auto around = std::find_if(polygons.begin(), polygons.end(), [&](Polygon const& polygon) {
+    auto around = std::ranges::find_if(polygons, [&](Polygon const& polygon) {
       return polygons.size() == 1 || contains(polygon.outline, whole, middle);
     });
     if (around == polygons.end()) around = polygons.begin();

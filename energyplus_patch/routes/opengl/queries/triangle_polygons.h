@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
@@ -15,10 +16,7 @@ struct DrawnRange {
   std::uint32_t count = 0;
 
   std::uint32_t end() const { return first + count; }
-  bool operator==(DrawnRange const&) const = default;
-  bool operator<(DrawnRange const& other) const {
-    return first != other.first ? first < other.first : count < other.count;
-  }
+  auto operator<=>(DrawnRange const&) const = default;
 };
 
 // The polygons that triangles were made of: their outlines and holes, and more than one if the

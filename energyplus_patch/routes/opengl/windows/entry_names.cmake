@@ -28,7 +28,6 @@ function(write_entries file)
 
 char const* const gpu_shading_entry_names[] = {
 @strings@};
-int const gpu_shading_entry_count = @count@;
 void* gpu_shading_entry_table[@count@];
 
 // Windows's calling convention: four arguments in rcx, rdx, r8 and r9, or xmm0 to xmm3; r10 and r11 are free.

@@ -37,7 +37,7 @@ void DaylightReflections::add_horizontal(Illuminance& at) {
     return;
   }
   std::erase_if(first_hour_, [&](Illuminance* each) {
-    return std::find(possible.begin(), possible.end(), each) == possible.end();
+    return std::ranges::find(possible, each) == possible.end();
   });
   expect(!first_hour_.empty());
 }

@@ -94,9 +94,8 @@ std::size_t find_integer(Layout const& layout, std::size_t begin, std::size_t en
 
 void find_arrays(std::byte const* manager, ReflectionClasses const& classes, Layout& layout) {
   auto const places = arrays_in(words_of_block(manager), classes);
-  auto const found = std::find_if(places.begin(), places.end(), [&](Place const& place) {
-    return place.table == classes.receivers;
-  });
+  auto const found = std::ranges::find_if(
+      places, [&](Place const& place) { return place.table == classes.receivers; });
   expect(found != places.end());
   auto const header = read_value<ArrayHeader>(manager + found->offset);
   expect(header && header->size > 0 && header->data != nullptr && header->shift == 1);
@@ -181,7 +180,7 @@ void find_counts(Layout& layout) {
                    [&](std::byte const* element, std::int32_t value) {
                      auto const numbers = read_array<std::int32_t>(array_of(element, obstructions));
                      std::span const all(numbers.data, numbers.size);
-                     return value == std::find(all.begin(), all.end(), 0) - all.begin();
+                     return value == std::ranges::find(all, 0) - all.begin();
                    });
 }
 

@@ -57,7 +57,7 @@ bool SkyRatios::restore() const {
       places.push_back(data);
     }
     for (std::size_t i = 0; i < places.size(); ++i) {
-      std::copy(arrays_[i].values.begin(), arrays_[i].values.end(), places[i]);
+      std::ranges::copy(arrays_[i].values, places[i]);
     }
     return true;
   } catch (Unexpected const&) {

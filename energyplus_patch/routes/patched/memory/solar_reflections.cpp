@@ -246,8 +246,8 @@ bool SolarReflections::beam_specular(State& state, int hour) {
   if (!to_sun) return true;
   for (auto const& receiver : memory_.receivers) {
     auto const seen = images(receiver, *to_sun, hour);
-    bool const free = std::all_of(seen.begin(), seen.end(),
-                                  [](Image const& image) { return image.passed >= 1.0; });
+    bool const free =
+        std::ranges::all_of(seen, [](Image const& image) { return image.passed >= 1.0; });
     if (!free && !reflect_again(state, hour, receiver, *to_sun, seen)) return false;
   }
   return true;

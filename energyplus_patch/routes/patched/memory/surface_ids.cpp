@@ -71,8 +71,8 @@ std::byte* array_at(State& state, StoredResult const& path) {
 
 std::optional<StoredResult> find_stored_result(Symbol const& caller, Symbol const& callee) {
   auto const code = after_last_call(caller, callee);
-  auto const store = std::find_if(code.begin(), code.end(),
-                                  [](Instruction const& i) { return i.stores_result(); });
+  auto const store =
+      std::ranges::find_if(code, [](Instruction const& i) { return i.stores_result(); });
   if (store == code.end()) return std::nullopt;
 
   // Searches backwards for the loads of the array's address and of its holder's address.

@@ -10,6 +10,10 @@
 namespace gpu_shading::energyplus {
 namespace {
 
+std::string rewritten(std::string const& text, Rewrite const& rewrite) {
+  return rewrite_idf(text, parse_idf(text), rewrite);
+}
+
 using testing::HasSubstr;
 
 Rewrite const pixel_counting{"PixelCounting", ""};
@@ -25,8 +29,8 @@ TEST(RewriteIdf, OnlyTheMethodChanges) {
   std::string const before = "Version,9.6;\n! note\n";
   std::string const after = "\nZone,A;  !- last\n";
   auto const text =
-      rewrite_idf(before + "ShadowCalculation,PolygonClipping,Periodic,7,15000,,,Detailed;" + after,
-                  pixel_counting);
+      rewritten(before + "ShadowCalculation,PolygonClipping,Periodic,7,15000,,,Detailed;" + after,
+                pixel_counting);
   EXPECT_EQ(shadow_fields(text), (std::vector<std::string>{"PixelCounting", "Periodic", "7",
                                                            "15000", "", "", "Detailed"}));
   EXPECT_TRUE(text.starts_with(before));
@@ -34,13 +38,13 @@ TEST(RewriteIdf, OnlyTheMethodChanges) {
 }
 
 TEST(RewriteIdf, ModelWithoutShadowCalculationGetsOne) {
-  auto const text = rewrite_idf("Version,9.6;", {"PixelCounting", "Timestep"});
+  auto const text = rewritten("Version,9.6;", {"PixelCounting", "Timestep"});
   EXPECT_EQ(shadow_fields(text), (std::vector<std::string>{"PixelCounting", "Timestep"}));
 }
 
 TEST(RewriteIdf, ExtensionObjectsAreTakenOut) {
   auto const text =
-      rewrite_idf("A,1;\nGPUShading:Settings,\n  1024;  !- Resolution\nB,2;", pixel_counting);
+      rewritten("A,1;\nGPUShading:Settings,\n  1024;  !- Resolution\nB,2;", pixel_counting);
   EXPECT_THAT(text, Not(HasSubstr("GPUShading")));
   EXPECT_THAT(text, HasSubstr("A,1;"));
   EXPECT_THAT(text, HasSubstr("B,2;"));

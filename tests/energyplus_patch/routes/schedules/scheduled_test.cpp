@@ -10,7 +10,7 @@
 
 #include "gpu_shading/error.h"
 #include "platform/progress.h"
-#include "routes/schedules/sunlit_fractions.h"
+#include "routes/schedules/rendered_fractions.h"
 #include "runs/drawing.h"
 #include "runs/run_times.h"
 
