@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
+#include "model/idf/model_file.h"
 #include "model/site/geojson.h"
 #include "platform/text.h"
 
