@@ -64,7 +64,7 @@ Json to_json(SamplesTask const& task) {
   return {{"kind", "samples"},          {"asked", task.asked},
           {"latitude", task.latitude},  {"parts", task.parts.string()},
           {"shard", task.shard.number}, {"shards", task.shard.shards},
-          {"progress", task.progress}};
+          {"progress", task.progress},  {"wait", task.wait}};
 }
 
 Json run_to_json(RunTimes const& run) {
@@ -183,7 +183,8 @@ Task to_task(Json const& json) {
                        json.at("latitude"),
                        json.at("parts").get<std::string>(),
                        {json.at("shard"), json.at("shards")},
-                       json.at("progress")};
+                       json.at("progress"),
+                       json.at("wait")};
   }
   ViewsTask task{{}, json.at("folder").get<std::string>(), json.at("size"), json.at("range")};
   for (auto const& view : json.at("views")) {

@@ -71,10 +71,10 @@ Source read_source(ModelRun const& run) {
   return source;
 }
 
-std::string render(Source const& source, Path const& parts, Shard const& shard) {
+std::string render(Source const& source, Path const& parts, Shard const& shard, double wait) {
   StandardError const progress;
-  SamplesTask const task{source.asked(), source.latitude(), std::filesystem::absolute(parts), shard,
-                         progress.descriptor()};
+  SamplesTask const task{source.asked(), source.latitude(),     std::filesystem::absolute(parts),
+                         shard,          progress.descriptor(), wait};
   auto const reply = run_task(source.run, task);
   for (auto const& warning : reply.warnings) print_line("warning: " + warning);
   return reply.text;
@@ -154,6 +154,7 @@ struct SampleOrder {
   std::string mode = "medium";
   std::string folder;
   std::string shard;  // "3/8": render one share of one round; do not write tables
+  double wait = 0.0;  // s
   int merge = 0;      // write tables from the parts of this many shards; do not render
   bool sky = false;
 };
@@ -182,10 +183,10 @@ void sample(ModelRun run, SampleOrder const& order) {
   std::filesystem::path const folder = order.folder;
   auto const source = read_source(run);
   if (!order.shard.empty()) {
-    print_line(render(source, folder / "parts", parse_shard(order.shard)));
+    print_line(render(source, folder / "parts", parse_shard(order.shard), order.wait));
     return;
   }
-  if (order.merge == 0) print_line(render(source, folder / "parts", {}));
+  if (order.merge == 0) print_line(render(source, folder / "parts", {}, 0.0));
   put_together(source, SampleParts(folder / "parts", std::max(order.merge, 1)), folder);
 }
 
@@ -213,6 +214,11 @@ void add_sample(Program const& program) {
       "Render the I-th of N shares of one round and keep it in the folder; repeat for all shares, "
       "then for the next round, until all rounds are complete");
   shard->type_name("I/N");
+  command
+      ->add_option("--wait", order->wait,
+                   "With --shard: after each round, seconds to wait for the other shares and go on")
+      ->check(CLI::Range(0.0, 86400.0))
+      ->needs(shard);
   constexpr int max_shards = 10000;
   auto* const merge = command->add_option(
       "--merge", order->merge,

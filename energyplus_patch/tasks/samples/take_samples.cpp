@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <thread>
 #include <utility>
 
 #include "platform/progress.h"
@@ -35,6 +38,23 @@ std::vector<SunDirection> share(std::vector<SunDirection> const& directions, Sha
   return own;
 }
 
+// Until all shares of the round are there, or as long as the request allows.
+RenderedRound wait_for_round(SampleRequest const& request, SampleParts const& parts,
+                             SampledScene const& scene, int round,
+                             std::vector<SunDirection> const& directions) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds pause(50);
+  auto const end = Clock::now() + std::chrono::duration<double>(request.wait);
+  auto found = find_round(parts, scene, round, directions);
+  while (!found.missing.empty() && Clock::now() < end) {
+    std::this_thread::sleep_for(pause);
+    if (std::filesystem::exists(parts.file(round, found.missing.front()))) {
+      found = find_round(parts, scene, round, directions);
+    }
+  }
+  return found;
+}
+
 bool lacks(RenderedRound const& found, int shard) {
   return std::find(found.missing.begin(), found.missing.end(), shard) != found.missing.end();
 }
@@ -56,15 +76,18 @@ std::string take_samples(SampleRequest const& request, Sampling sampling, Sample
       auto answers = render(own, source, work, request.progress);
       parts.write({scene, device, round, request.shard, directions, answers});
       rendered += own.size();
-      if (request.shard.shards > 1) {
+      if (request.shard.shards > 1 && request.wait == 0.0) {
         return fmt::format("round {}: {} directions rendered, {} of {} shards left", round,
                            rendered, found.missing.size() - 1, request.shard.shards);
       }
       found.answers = std::move(answers);
       found.missing.clear();
     }
+    if (request.shard.shards > 1) found = wait_for_round(request, parts, scene, round, directions);
     if (!found.missing.empty()) {
-      return fmt::format("round {}: nothing to render, waiting for shards {}", round,
+      auto const done =
+          rendered == 0 ? "nothing to render" : fmt::format("{} directions rendered", rendered);
+      return fmt::format("round {}: {}, waiting for shards {}", round, done,
                          list_shards(found.missing));
     }
     rounds.add(found.answers);

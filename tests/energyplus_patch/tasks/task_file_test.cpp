@@ -29,7 +29,7 @@ TEST(TaskFile, TasksComeBackAsTheyWere) {
                 folder.path() / not_utf8,
                 640,
                 true},
-      SamplesTask{"medium samples", -std::acos(0.75), folder.path() / "parts", {3, 8}, 7},
+      SamplesTask{"medium samples", -std::acos(0.75), folder.path() / "parts", {3, 8}, 7, 0.5},
       MapTask{not_utf8,
               0.1,
               4,

@@ -110,6 +110,9 @@ class Engine:
         self._completed = importlib.import_module("distributed").as_completed([])
         self._tasks: dict[Any, _Task] = {}
 
+    def workers(self) -> int:
+        return len(self._client.scheduler_info(n_workers=-1)["workers"])
+
     def submit(self, function: Callable[..., Outcome], *arguments: Any, then: Callable[[Outcome, int], None],
                priority: int = 0) -> None:
         self._start(_Task(function, arguments, then, 1, priority))

@@ -40,8 +40,8 @@ def sample(job: Job, mode: str, words: list[str]) -> Outcome:
 
 
 class Sampling:
-    """Shards render their shares of a round; a round begins once all shares of the last one are there. Rounds of
-    several models run side by side."""
+    """Shards render their shares of a round; a round begins once all shares of the last one are there. EnergyPlus keeps
+    its scene for the next round where there are workers for all shards. Models are sampled side by side."""
 
     def __init__(self, engine: Engine, mode: str, shards: int, finish: Callable[[Job, Outcome, int], None]) -> None:
         self._engine, self._mode, self._shards, self._finish = engine, mode, shards, finish
@@ -72,5 +72,7 @@ class Sampling:
             else:
                 self._begin_round(job)
 
+        patience = 10 if self._engine.workers() >= self._shards else 0  # s
         for shard in range(1, self._shards + 1):
-            self._engine.submit(sample, job, self._mode, ["--shard", f"{shard}/{self._shards}"], then=take)
+            self._engine.submit(sample, job, self._mode,
+                                ["--shard", f"{shard}/{self._shards}", "--wait", f"{patience}"], then=take)

@@ -102,7 +102,7 @@ class Study:
             for job in {job.scene_id: job for job in self.jobs}.values():
                 engine.submit(tasks.scene_of, job, then=partial(note, job))
             engine.run()
-            workers = max(len(client.scheduler_info(n_workers=-1)["workers"]), 1)
+            workers = max(engine.workers(), 1)
         missing = done.missing()
         lines = [f"{len(self.jobs)} runs, {len(self.jobs) - len(missing)} of them done, with "
                  f"{len(set(scenes.values()))} distinct scenes"]

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <future>
 #include <glm/geometric.hpp>
 #include <sstream>
 
@@ -92,6 +93,27 @@ TEST(SampleParts, EightShardsMakeTheTableOfOne) {
   EXPECT_EQ(table_of(SampleParts(many.path(), 8)), table);
   EXPECT_THAT(table, HasSubstr("\n\"South, \"\"main\"\"\","));
   EXPECT_THAT(table, HasSubstr(",Leaves*Blind^2,"));
+}
+
+TEST(SampleParts, ShardsThatWaitGoThroughAllRounds) {
+  TemporaryFolder const one;
+  TemporaryFolder const many;
+  Rendered alone;
+  auto const line =
+      take_samples(request(one.path(), {1, 1}), coarse, scene, "device", alone.source());
+  auto const take = [&](int shard, double wait) {
+    auto each = request(many.path(), {shard, 2});
+    each.wait = wait;
+    Rendered rendered;
+    return take_samples(each, coarse, scene, "device", rendered.source());
+  };
+  EXPECT_THAT(take(1, 0.01), HasSubstr("directions rendered, waiting for shards 2"));
+  constexpr double long_enough = 60.0;
+  auto other = std::async(std::launch::async, take, 2, long_enough);
+  auto const rounds = line.substr(line.find("all "));
+  EXPECT_THAT(take(1, long_enough), HasSubstr(rounds));
+  EXPECT_THAT(other.get(), HasSubstr(rounds));
+  EXPECT_EQ(table_of(SampleParts(many.path(), 2)), table_of(SampleParts(one.path(), 1)));
 }
 
 std::string text_of(std::filesystem::path const& path) {
