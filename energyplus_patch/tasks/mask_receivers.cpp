@@ -10,7 +10,6 @@
 #include "gpu_shading/rays.h"
 #include "platform/naming.h"
 #include "platform/progress.h"
-#include "platform/text.h"
 #include "reports/map_grid.h"
 #include "reports/sky_mask.h"
 #include "tasks/perform_task.h"

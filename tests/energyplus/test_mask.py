@@ -157,7 +157,8 @@ def curtain(weather, tmp_path_factory):
 
 def test_hours_of_samples_have_schedules(curtain, weather, tmp_path):
     model, samples = curtain
-    folder = draw(model, tmp_path / "masks", "-w", weather, "--receiver", "Window", "--step", "10", "--samples", samples)
+    folder = draw(model, tmp_path / "masks", "-w", weather, "--receiver", "Window", "--step", "10", "--samples",
+                  samples)
     rows = [row for row in rows_of(folder / "hours.csv") if row["sunlit fraction"]]
     assert len(rows) > 80
     for row in rows:
