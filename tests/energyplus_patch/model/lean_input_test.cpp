@@ -15,10 +15,6 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-std::string rewritten(std::string const& text, Rewrite const& rewrite) {
-  return rewrite_idf(text, parse_idf(text), rewrite);
-}
-
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -151,7 +147,8 @@ TEST(LeanInput, MovingScreensPutUpAPlaceholderForTheSky) {
   EXPECT_EQ(lean.placeholders[4].name, "GPU SHADING PLACEHOLDER 5");
   Rewrite const rewrite{
       "PixelCounting", "", {}, own_schedules(lean.placeholders, {}), lean.placeholders};
-  auto const text = rewritten("ShadowCalculation,PixelCounting,Periodic;", rewrite);
+  std::string const own = "ShadowCalculation,PixelCounting,Periodic;";
+  auto const text = rewrite_idf(own, parse_idf(own), rewrite);
   auto const schedule = lean.placeholders[4].schedule;
   EXPECT_THAT(text, HasSubstr("Schedule:Compact," + schedule + ","));
   EXPECT_THAT(text, HasSubstr("GPU SHADING PLACEHOLDER 5"));
@@ -201,7 +198,8 @@ TEST(LeanInput, TheRestOfTheTextIsKept) {
   std::string const kept = "! note\nZone,A; ! last\n" + shade("Stays");
   std::string const gone = shade("Goes") + "ShadingProperty:Reflectance,goes,0.3;\n";
   Rewrite rewrite{"PixelCounting", "", {"GOES"}, {}, make_placeholders({}, {})};
-  auto const text = rewritten("ShadowCalculation,PixelCounting,Periodic;" + kept + gone, rewrite);
+  auto const model = "ShadowCalculation,PixelCounting,Periodic;" + kept + gone;
+  auto const text = rewrite_idf(model, parse_idf(model), rewrite);
   EXPECT_THAT(text, HasSubstr(kept));
   EXPECT_THAT(text, Not(HasSubstr("oes,")));
   EXPECT_EQ(read_idf(text).size(), 7U);  // with four placeholders
