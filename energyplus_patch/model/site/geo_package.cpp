@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gpu_shading/error.h"
+#include "model/idf/model_file.h"
 #include "model/site/sqlite_file.h"
 #include "platform/text.h"
 
