@@ -248,13 +248,12 @@ std::vector<double> Session::sky_multipliers(SkyWeather const& weather) {
     shades.insert(shades.end(), more.begin(), more.end());
   }
   if (!sky_multipliers_->knows(shades)) {
-    std::vector<SurfaceId> receivers;
-    for (SurfaceId id = 0; id < scene_.size(); ++id) {
-      if (answers_->asked()[id] || scene_.unshaded()[id]) receivers.push_back(id);
-    }
-    sky_multipliers_->renew(std::move(shades), receivers, [&](std::size_t patch, SurfaceId id) {
+    // EnergyPlus does not ask about surfaces that nothing shades.
+    auto const asked = answers_->asked();
+    sky_multipliers_->renew(std::move(shades), [&](std::size_t patch, SurfaceId id) {
+      if (!asked[id]) return std::optional<double>();
       answers_->set_sun(sky_patches()[patch]);
-      return rendered_area(id);
+      return std::optional(rendered_area(id));
     });
     answers_->set_sun(sun_);
   }

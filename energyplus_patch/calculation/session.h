@@ -90,8 +90,8 @@ class Session : public ShadingCalculation {
 
   // Whether sky_multipliers() are wanted in place of EnergyPlus's own.
   bool weighs_sky_patches() const { return scene_.model().options.sky == SkyModel::perez_patches; }
-  // SkyMultipliers::at() with the shades as they are now, by EnergyPlus's id; negative for surfaces
-  // that it did not ask about.
+  // SkyMultipliers::at() with the shades as they are now, by EnergyPlus's id; negative for
+  // placeholders.
   std::vector<double> sky_multipliers(SkyWeather const& weather);
 
   // The last direction to the sun at the first timestep of an hour, 1 .. 24; nothing if EnergyPlus

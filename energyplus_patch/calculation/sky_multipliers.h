@@ -2,7 +2,7 @@
 
 #include <functional>
 #include <glm/vec3.hpp>
-#include <span>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,19 +20,20 @@ class SkyMultipliers {
 
   // What each patch counts for a surface depends on what shades it: on `shades`, the values of
   // schedules and positions.
-  bool knows(std::vector<double> const& shades) const { return known_ && shades_ == shades; }
+  bool knows(std::vector<double> const& shades) const { return shades_ == shades; }
 
-  // Takes the sunlit areas of `receivers` from each of sky_patches(), normal to its rays, m2.
-  void renew(std::vector<double> shades, std::span<SurfaceId const> receivers,
-             std::function<double(std::size_t patch, SurfaceId receiver)> const& sunlit_area);
+  // Takes the sunlit area of a surface from one of sky_patches(), normal to its rays, m2; nothing
+  // if the surface is not shaded.
+  void renew(std::vector<double> shades,
+             std::function<std::optional<double>(std::size_t patch, SurfaceId surface)> const&
+                 sunlit_area);
 
-  // By surface; negative for one that is none of the receivers.
+  // By surface.
   std::vector<double> at(SkyWeather const& weather) const;
 
  private:
   std::vector<glm::dvec3> areas_;
-  bool known_ = false;
-  std::vector<double> shades_;
+  std::optional<std::vector<double>> shades_;
   std::vector<std::vector<double>> weights_;  // by surface and patch, sr
 };
 

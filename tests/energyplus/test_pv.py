@@ -78,6 +78,27 @@ def test_a_module_as_pvlib_s_cells_in_series():
     assert power.module_with[2, 0] / power.module_with[0, 0] < 0.5
 
 
+@pytest.mark.parametrize("shade", [1.0, 0.7, 0.2, 0.0])
+def test_halves_of_a_half_cut_module_are_in_parallel(shade):
+    cells = np.ones((1, 1, 20, 6))
+    cells[0, 0, :10] = shade
+    shaded = modules(cells)
+    [power] = gpu_shading.power(shaded, MODULE, half_cut=True)
+    light = pv._irradiance(shaded[0], shaded, 0.2)
+    rest = light.sky[0] + light.ground[0]
+    temperature = pvlib.temperature.faiman(light.beam[0] * (1 + shade) / 2 + rest, 20.0, 2.0)
+    volts = np.linspace(0.0, 45.0, 20001)
+    amps = sum(pvlib.pvsystem.i_from_v(volts, *(pvlib.pvsystem.calcparams_cec(
+        light.beam[0] * lit + rest, temperature, **{key: MODULE[key] for key in MODULE if key != "N_s"})[k]
+        for k in (0, 1, 2, 3, 4))) for lit in (1.0, shade)) / 2
+    expected = (volts * amps).max()
+    print(f"{power.module_with[0, 0]:.2f} W, by pvlib {expected:.2f} W")
+    assert power.module_with[0, 0] == pytest.approx(expected, rel=1e-3)
+    if shade == 0.0:
+        # The upper half goes on; in one series, all would be lost.
+        assert power.module_with[0, 0] / power.module_without[0, 0] > 0.9
+
+
 def test_levels_of_mismatch():
     cells = np.ones((2, 4, 10, 6))
     cells[1, 2, :, :] = 0.5  # one of four modules: no mismatch in itself
@@ -115,7 +136,7 @@ def test_wrong_parameters_are_named():
         gpu_shading.power(modules(np.ones((1, 1, 10, 6))), "No such")
     with pytest.raises(gpu_shading.InvalidInput, match="R_s, N_s missing"):
         gpu_shading.power(modules(np.ones((1, 1, 10, 6))), dict(list(MODULE.items())[:5], Adjust=0.0))
-    with pytest.raises(gpu_shading.InvalidInput, match="N_s is 72, but modules on Deck have 60 cells"):
+    with pytest.raises(gpu_shading.InvalidInput, match="N_s is 72, but modules on Deck have 10 x 6 cells, 60 in series"):
         gpu_shading.power(modules(np.ones((1, 1, 10, 6))), {**MODULE, "N_s": 72})
 
 

@@ -1,6 +1,6 @@
 """Power of photovoltaic modules with partly shaded cells, by pvlib: irradiance on the plane, one-diode model and
-reverse characteristic of cells are pvlib's. Cells of a module are in series, each bypass diode conducts at 0.5 V,
-modules of a string are in series, and each string has a maximum power point tracker of its own."""
+reverse characteristic of cells are pvlib's. Cells of a module are in series, or in two halves of which each pair of
+submodules is in parallel; each bypass diode conducts at 0.5 V, modules of a string are in series, and each string has a maximum power point tracker of its own."""
 
 from __future__ import annotations
 
@@ -94,16 +94,17 @@ class Power:
         return f"<Power of {self.name}: {self.energy:.1f} kWh, {self.loss:.1%} lost by mismatch>"
 
 
-def power(modules: Modules, module: str | Mapping[str, float], *, albedo: float = 0.2,
-          reverse: Mapping[str, float] = REVERSE) -> tuple[Power, ...]:
+def power(modules: Modules, module: str | Mapping[str, float], *, half_cut: bool = False,
+          albedo: float = 0.2, reverse: Mapping[str, float] = REVERSE) -> tuple[Power, ...]:
     """The power of each field of modules() with pvlib.
 
     `module`: the name of a module in pvlib's table of the CEC, or its parameters: alpha_sc, a_ref, I_L_ref, I_o_ref,
-    R_sh_ref, R_s, Adjust and N_s, which is the number of cells. `reverse`: of pvlib's bishop88(). The sky is Perez's,
+    R_sh_ref, R_s, Adjust and N_s, which is the number of cells in series. `half_cut`: the lower and the upper half of a
+    module's rows are in parallel, at each bypass diode. `reverse`: of pvlib's bishop88(). The sky is Perez's,
     whose circumsolar part is shaded like the beam, and the rest by each module's view of the sky. The temperature of
     cells is Faiman's, one for a surface.
     """
-    return tuple(_power(field, modules, _parameters(module), albedo, reverse) for field in modules)
+    return tuple(_power(field, modules, _parameters(module), 2 if half_cut else 1, albedo, reverse) for field in modules)
 
 
 def write_reductions(powers: Sequence[Power], file: _programs.Name) -> None:
@@ -166,11 +167,13 @@ def _irradiance(field: ModuleField, modules: Modules, albedo: float) -> _Irradia
     return _Irradiance(direct, beam, np.maximum(isotropic + horizon, 0.0), np.asarray(ground, float))
 
 
-def _power(field: ModuleField, modules: Modules, parameters: Mapping[str, float], albedo: float,
+def _power(field: ModuleField, modules: Modules, parameters: Mapping[str, float], halves: int, albedo: float,
            reverse: Mapping[str, float]) -> Power:
-    count = field.cells[0, 0].size
-    if parameters["N_s"] != count:
-        raise InvalidInput(f"module: N_s is {parameters['N_s']:g}, but modules on {field.name} have {count} cells")
+    rows, columns = field.cells.shape[2:]
+    count = rows * columns // halves
+    if parameters["N_s"] != count or rows % halves:
+        raise InvalidInput(f"module: N_s is {parameters['N_s']:g}, but modules on {field.name} have {rows} x {columns} "
+                           f"cells, {count} in series")
     light = _irradiance(field, modules, albedo)
     share = field.sky_view / field.unshaded_view
     times, number = field.cells.shape[:2]
@@ -183,9 +186,9 @@ def _power(field: ModuleField, modules: Modules, parameters: Mapping[str, float]
     diffuse = light.sky[:, None] * share + light.ground[:, None]
     mean = sunlit * light.beam + diffuse.mean(axis=1)
     cell = _pvlib("temperature").faiman(mean, modules.air, modules.wind)
-    columns = field.cells.shape[3]
-    diode = np.broadcast_to(np.arange(columns) // (columns // field.diodes), field.cells.shape[2:])
-    block = (np.arange(number)[:, None, None] * field.diodes + diode).ravel()
+    diode = np.arange(columns) // (columns // field.diodes)
+    half = np.arange(rows)[:, None] // (rows // halves)
+    block = ((np.arange(number)[:, None, None] * field.diodes + diode) * halves + half).ravel()
     for i in np.flatnonzero(mean > 0):
         lit = field.cells[i] / 65535
         cells = light.beam[i] * lit + diffuse[i][:, None, None]
@@ -193,10 +196,13 @@ def _power(field: ModuleField, modules: Modules, parameters: Mapping[str, float]
         strings_mean = np.bincount(field.strings, modules_mean) / of_strings
         level, place = _levels(cells.ravel())
         curves, current = _curves(np.concatenate([level, modules_mean, strings_mean, mean[i:i + 1]]), cell[i],
-                                  parameters, reverse)
-        counts = np.zeros((number * field.diodes, len(level)))
+                                  parameters, reverse, backwards=halves > 1)
+        counts = np.zeros((number * field.diodes * halves, len(level)))
         np.add.at(counts, (block, place), 1.0)
-        voltage = np.maximum(counts @ curves[:len(level)], _BYPASS).reshape(number, field.diodes, -1).sum(axis=1)
+        voltage = counts @ curves[:len(level)]
+        if halves > 1:
+            voltage = _in_parallel(voltage.reshape(number * field.diodes, halves, -1), current)
+        voltage = np.maximum(voltage, _BYPASS).reshape(number, field.diodes, -1).sum(axis=1)
         of_string = np.zeros((strings, voltage.shape[1]))
         np.add.at(of_string, field.strings, voltage)
         uniform = (count * curves[len(level):] * current).max(axis=1)
@@ -214,6 +220,17 @@ def _power(field: ModuleField, modules: Modules, parameters: Mapping[str, float]
                  field.positions, modules.steps_per_hour)
 
 
+def _in_parallel(voltage: Floats, current: Floats) -> Floats:
+    """Voltages of pairs in parallel at common currents. A half of a cell has the voltage of a whole one at half the
+    current, so that the current of a pair is the mean of what whole cells would have."""
+    found = voltage[:, 0].copy()
+    for i in np.flatnonzero((voltage[:, 0] != voltage[:, 1]).any(axis=1)):
+        volts = np.unique(np.maximum(voltage[i], _BYPASS))
+        mean = sum(np.interp(volts, each[::-1], current[::-1]) for each in voltage[i]) / 2
+        found[i] = np.interp(current, mean[::-1], volts[::-1])
+    return found
+
+
 def _levels(values: Floats) -> tuple[Floats, Integers]:
     """Irradiances that differ, each the mean of the cells that have it, and the one of each cell."""
     rounded = np.round(values * (_LEVELS / max(values.max(), 1e-9))).astype(int)
@@ -222,8 +239,8 @@ def _levels(values: Floats) -> tuple[Floats, Integers]:
 
 
 def _curves(irradiance: Floats, temperature: float, parameters: Mapping[str, float],
-            reverse: Mapping[str, float]) -> tuple[Floats, Floats]:
-    """(voltages of cells of each irradiance, at common currents)"""
+            reverse: Mapping[str, float], backwards: bool) -> tuple[Floats, Floats]:
+    """(voltages of cells of each irradiance, at common currents); `backwards`: at negative ones, too."""
     cells = parameters["N_s"]
     light, dark, series, shunt, thermal = _pvlib("pvsystem").calcparams_cec(
         np.maximum(irradiance, 1e-3), temperature, parameters["alpha_sc"], parameters["a_ref"] / cells,
@@ -238,6 +255,9 @@ def _curves(irradiance: Floats, temperature: float, parameters: Mapping[str, flo
                              open_circuit * np.sin(np.linspace(0.0, np.pi / 2, 240))])
     found, voltage, _ = _pvlib("singlediode").bishop88(points, light[:, None], dark, series, shunt[:, None], thermal,
                                                        **reverse)
-    current = np.linspace(0.0, float(light.max()), _POINTS)
+    brightest = float(light.max())
+    current = np.linspace(0.0, brightest, _POINTS)
+    if backwards:
+        current = np.concatenate([-current[:0:-1], current])
     return np.stack([np.interp(current, row[::-1], volts[::-1])
                      for row, volts in zip(found, voltage, strict=True)]), current

@@ -1,0 +1,92 @@
+"""Diffuse radiation by patches of the sky, against Radiance's gendaymtx behind the same shades, and EnergyPlus's own."""
+
+import re
+import subprocess
+
+import numpy as np
+import pytest
+import radiance
+import screened_room
+from output_files import values_of
+from shading_runs import energyplus
+from test_sample_sky import call, tables
+
+FLAG = "--gpu-shading-sky=perez-patches"
+SKY = "Surface Outside Face Incident Sky Diffuse Solar Radiation Rate per Area"
+BEAM, DIFFUSE, ALTITUDE = (
+    "Site Direct Solar Radiation Rate per Area", "Site Diffuse Solar Radiation Rate per Area", "Site Solar Altitude Angle")
+CANOPY = screened_room.ledge("Canopy", -2.0, 0.0, 2.7)
+WEA = "place Golden\nlatitude 39.74\nlongitude 105.18\ntime_zone 105\nsite_elevation 1829\nweather_data_file_units 1\n"
+HOURS = 8760
+
+
+@pytest.fixture(scope="module")
+def model(box):
+    """The box under a canopy, without its louvre."""
+    text = re.sub(r"Shading:Building:Detailed,[^;]*;", "", box).replace("Timestep,4;", "Timestep,1;")
+    return text.replace("PolygonClipping,", "PixelCounting,") + CANOPY + "Output:SQLite,Simple;\n" + "".join(
+        f"Output:Variable,*,{name},Timestep;\n" for name in (SKY, BEAM, DIFFUSE, ALTITUDE))
+
+
+def run(program, weather, folder, text, *options):
+    path = folder.with_suffix(".idf")
+    path.write_text(text)
+    return energyplus.run(program, path, weather, folder, ["--gpu-shading", *options])
+
+
+def series(done, name):
+    assert done.completed, done.why()
+    return {key: np.array(values) for key, values in values_of(done, name).items()}
+
+
+@pytest.fixture(scope="module")
+def year(patched, weather, model, tmp_path_factory):
+    return run(patched, weather, tmp_path_factory.mktemp("perez") / "year", model, FLAG)
+
+
+@pytest.fixture(scope="module")
+def site(year):
+    """Direct normal and diffuse horizontal irradiance, and whether the sun is up, by hour."""
+    beam, diffuse, altitude = (next(iter(series(year, name).values())) for name in (BEAM, DIFFUSE, ALTITUDE))
+    assert len(beam) == HOURS
+    return beam, diffuse, (altitude > 5) & (diffuse > 10)
+
+
+def test_level_roof_receives_the_horizontal_irradiance(year, site):
+    _, diffuse, up = site
+    assert series(year, SKY)["ROOF"][up] == pytest.approx(diffuse[up], rel=1e-9)
+
+
+@pytest.mark.skipif(radiance.is_missing(), reason="Radiance is missing: run scripts/setup")
+def test_sky_is_that_of_gendaymtx(patched, weather, model, year, site, tmp_path):
+    beam, diffuse, up = site
+    months = np.repeat(range(1, 13), [24 * days for days in (31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31)])
+    days = np.concatenate([np.repeat(range(1, 1 + np.sum(months == month) // 24), 24) for month in range(1, 13)])
+    (tmp_path / "sky.wea").write_text(WEA + "".join(
+        f"{months[h]} {days[h]} {h % 24 + 1} {beam[h]:.3f} {diffuse[h]:.3f}\n" for h in range(HOURS) if up[h]))
+    words = [radiance.FOLDER / "bin" / "gendaymtx", "-h", "-s", "-O1", "-m", "1", "-c", "1", "1", "1", "-g", "0", "0", "0",
+             tmp_path / "sky.wea"]
+    table = subprocess.run(words, capture_output=True, check=True, text=True).stdout
+    steps = np.count_nonzero(up)
+    radiances = np.array([float(row.split()[0]) for row in table.splitlines() if row.strip()]).reshape(-1, steps)[1:]
+    (tmp_path / "model.idf").write_text(model)
+    done = call(tmp_path / "model.idf", "-o", tmp_path / "patches")
+    assert done.returncode == 0, done.stderr
+    rows = [row for row in next(tables(tmp_path / "patches")) if row["sky"] == "Tregenza 145"]
+    ours = series(year, SKY)
+    theirs = series(run(patched, weather, tmp_path / "energyplus", model), SKY)
+    for name in ("ROOF", "SOUTH", "EAST", "NORTH", "WEST", "SOUTH WINDOW"):
+        expected = sum(float(row["solid_angle"]) * float(row["cosine"]) * float(row["sunlit_fraction"])
+                       * radiances[int(row["patch"]) - 1] for row in rows if row["receiver"] == name)
+        mean = expected.mean()
+        difference = ours[name][up] - expected
+        print(f"{name}: {mean:.1f} W/m2, ours {difference.mean() / mean:+.4f} (rms {difference.std() / mean:.4f}), "
+              f"EnergyPlus's {(theirs[name][up] - expected).mean() / mean:+.4f} "
+              f"(rms {(theirs[name][up] - expected).std() / mean:.4f})")
+    # TOLERANCES
+
+
+def test_other_methods_are_refused(patched, weather, model, tmp_path):
+    done = run(patched, weather, tmp_path / "run", model, FLAG, "--gpu-shading-method=scheduled")
+    assert not done.completed
+    assert "--gpu-shading-sky: perez-patches needs --gpu-shading-method patched" in done.errors
