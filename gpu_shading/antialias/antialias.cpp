@@ -167,6 +167,16 @@ TileGrid sample_grid(Tile const& tile, View const& view, ScreensInView const& sc
   return aliasing.none() ? usual : grid_for_blades(usual, aliasing);
 }
 
+std::optional<TileGrid> coarse_grid(Tile const& tile, View const& view,
+                                    SampledRepeats const& blades, int rows, double max_error) {
+  Aliasing aliasing(view, OutlineSpectrum(tile.lay.slope()));
+  aliasing.add(blades);
+  TileGrid const grid = grid_for_blades(golden_grid(rows, 1, tile.lay.slope()), aliasing);
+  double const squared = max_error * max_error;
+  if (aliasing.squared_error(grid, squared) > squared) return std::nullopt;
+  return grid;
+}
+
 bool edges_cut_rows(Tile const& tile, View const& view, ScreensInView const& screens) {
   // About half of the error for which a tile has so many pixels (TileSize).
   double const max_error = 2.0 * std::pow(tile.side, -1.5);

@@ -69,6 +69,11 @@ enum class SampleUse {
 TileGrid sample_grid(Tile const& tile, View const& view, ScreensInView const& screens,
                      SampledRepeats const& blades, SampleUse use);
 
+// A grid of so many rows, and as many columns, for samples that each take the same time; empty if
+// it aliases with `blades` by more than `max_error`.
+std::optional<TileGrid> coarse_grid(Tile const& tile, View const& view,
+                                    SampledRepeats const& blades, int rows, double max_error);
+
 // Whether the effective transmittance of sheets is too coarse for a tile, because the receiver's
 // edges cut rows of holes.
 bool edges_cut_rows(Tile const& tile, View const& view, ScreensInView const& screens);

@@ -94,8 +94,8 @@ double BladeSpectrum::squared_error(TileGrid const& grid, double enough) const {
   // multiples than pixels.
   constexpr int max_multiple = 512;
   double const pixels = static_cast<double>(grid.width) * grid.rows;
-  int const last = static_cast<int>(
-      std::clamp(4.0 * pixels / glm::length(first_), double{strongest}, double{max_multiple}));
+  int const last = static_cast<int>(std::clamp(4.0 * pixels / glm::length(first_),
+                                               double{strongest + at_once}, double{max_multiple}));
   double const amplitude = share_ / std::numbers::pi;
   double const wanted = enough / (amplitude * amplitude);
   double sum = 0.0;

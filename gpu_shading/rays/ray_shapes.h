@@ -41,7 +41,7 @@ class RayShapes {
  private:
   using Vertex = std::array<double, 3>;
 
-  struct Shape {
+  struct alignas(64) Shape {
     glm::dvec3 normal{0.0};
     glm::dvec3 centre{0.0};
     std::uint32_t first = 0;  // of vertices_

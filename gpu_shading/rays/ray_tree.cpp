@@ -52,8 +52,8 @@ RayPath::RayPath(Ray const& ray)
   std::array<int, 3> const order{(longest + 1) % 3, (longest + 2) % 3, longest};
   for (std::size_t i = 0; i < order.size(); ++i) {
     axes[i] = static_cast<std::size_t>(order[i]);
-    start[i] = origin[order[i]];
   }
+  move_to(origin);
   double const each = 1.0 / direction[longest];
   shear = {direction[order[0]] * each, direction[order[1]] * each};
 }

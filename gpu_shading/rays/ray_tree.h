@@ -17,6 +17,10 @@ namespace gpu_shading {
 struct RayPath {
   // Throws Error if the ray has no direction or a number that is not finite.
   explicit RayPath(Ray const& ray);
+  void move_to(glm::dvec3 const& other_origin) {
+    origin = other_origin;
+    for (std::size_t i = 0; i < axes.size(); ++i) start[i] = origin[static_cast<int>(axes[i])];
+  }
 
   glm::dvec3 origin;
   glm::dvec3 direction;  // of unit length
@@ -72,7 +76,8 @@ class RayTree {
   using Lanes [[gnu::vector_size(16)]] = float;
   using Hits [[gnu::vector_size(16)]] = std::int32_t;
 
-  struct Node {
+  // Along a cache's lines, because a large tree is seldom in the cache.
+  struct alignas(64) Node {
     std::array<std::array<Lanes, 3>, 2> sides;  // low and high, from the tree's centre
     std::array<std::uint32_t, width> children;  // nodes or, from `leaf` on, positions in order()
   };

@@ -36,10 +36,18 @@ double sample_cost(Detail const& detail, int side, bool transmits, std::size_t i
   return (1.5 + 1.4 * behind) * rows + 21.0 * crossed + 0.09 * passed;
 }
 
+// Edges behind a window: where one interior surface ends and the next begins.
+double behind(Question const& question) {
+  return static_cast<double>(std::min<std::size_t>(question.interiors.size(), 6));
+}
+
 }  // namespace
 
 QuestionBatch::QuestionBatch(Parts const& parts)
-    : parts_(parts), may_be_crowd_(parts.transmission.all_opaque()), at_once_(min_asked) {
+    : parts_(parts),
+      may_be_crowd_(parts.transmission.all_opaque()),
+      may_be_coarse_(!parts.backend.samples_pixels() && !parts.receivers.size().is_fixed()),
+      at_once_(min_asked) {
   parts_.backend.forget();
 }
 
@@ -74,6 +82,29 @@ void QuestionBatch::cull() {
   parts_.backend.add(std::move(views));
 }
 
+std::optional<Crowd> QuestionBatch::repeating_crowd(Asked const& asked, int& rows) const {
+  // Where the crowd begins and ends, and where an interior surface does.
+  double const outlines = 2.0 + behind(asked.question);
+  constexpr std::size_t max_sample = 32;
+  Receiver const& seen = *asked.receiver;
+  glm::dvec3 const& towards_sun = asked.question.towards_sun;
+  double const share = seen.area / (seen.frame->width * seen.frame->height);
+  auto const samples_for = [&](double edges) {
+    rows = parts_.receivers.size().rows_for(edges / share);
+    return static_cast<std::size_t>(0.5 * share * rows * rows);
+  };
+  auto crowd = parts_.casters.crowd_in_view(parts_.scene, asked.question.receiver, *seen.frame,
+                                            towards_sun, samples_for(outlines), max_sample);
+  if (!crowd) return std::nullopt;
+  SampledRepeats const repeats = repeats_among(parts_.scene, crowd->sample);
+  constexpr double nearly_all = 0.99;
+  if (repeats.share * static_cast<double>(repeats.found.size()) < nearly_all) return std::nullopt;
+  double const ends =
+      crowd->each * parts_.casters.length_of_ends(crowd->sample, *seen.frame, towards_sun);
+  if (crowd->count() < static_cast<double>(samples_for(outlines + ends))) return std::nullopt;
+  return crowd;
+}
+
 QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   Question const& question = asked.question;
   Receiver const& seen = *asked.receiver;
@@ -81,16 +112,22 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   Casters const& casters = parts_.casters;
   std::size_t const interiors = question.interiors.size();
   auto const lay_out = [&](Detail& detail, bool screened) {
-    // Where one interior surface ends and the next begins, there is an edge too.
-    detail.across += static_cast<double>(std::min<std::size_t>(interiors, 6));
+    detail.across += behind(question);
     found.side = parts_.receivers.side_for(seen, detail, screened);
     found.turn = best_turn(detail);
   };
   double const enough = parts_.receivers.size().enough();
   auto const few = may_be_crowd_ ? parts_.backend.few_casters(question.through) : std::nullopt;
   if (few) {
-    if (auto crowd = casters.crowd_in_view(parts_.scene, question.receiver, *seen.frame,
-                                           question.towards_sun, *few)) {
+    std::optional<Crowd> crowd;
+    if (may_be_coarse_ && asked.in_sector == nullptr)
+      crowd = repeating_crowd(asked, found.coarse_rows);
+    if (!crowd) {
+      found.coarse_rows = 0;
+      crowd = casters.crowd_in_view(parts_.scene, question.receiver, *seen.frame,
+                                    question.towards_sun, *few);
+    }
+    if (crowd) {
       found.crowd_count = crowd->count();
       Detail detail =
           casters.detail(crowd->sample, *seen.frame, question.towards_sun, enough / crowd->each);
@@ -147,6 +184,8 @@ void QuestionBatch::enqueue(Asked const& asked, Found found, std::vector<Receive
   if (found.crowd_count > 0.0) {
     view.crowd = &parts_.casters;
     view.crowd_count = found.crowd_count;
+    view.coarse_rows = found.coarse_rows;
+    view.max_aliasing = 0.7 * parts_.receivers.size().error();
   }
   Tile& tile = parts_.receivers.tile(view.receiver, found.side, {found.turn});
   view.tile = &tile;

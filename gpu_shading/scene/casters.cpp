@@ -1,6 +1,7 @@
 #include "scene/casters.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -121,8 +122,7 @@ InView Casters::in_view(Scene const& scene, SurfaceId receiver, PlaneFrame const
 
 std::optional<Crowd> Casters::crowd_in_view(Scene const& scene, SurfaceId receiver,
                                             PlaneFrame const& frame, glm::dvec3 const& towards_sun,
-                                            std::size_t few) const {
-  constexpr std::size_t max_sample = 512;
+                                            std::size_t few, std::size_t max_sample) const {
   if (casters_.size() <= few) return std::nullopt;
   Shadow shadow(frame, towards_sun);
   auto const& nodes = tree_.nodes();
@@ -210,6 +210,28 @@ Detail Casters::detail(std::span<SurfaceId const> in_view, PlaneFrame const& fra
     for (Ring const& hole : holes(caster)) shadow.add_edges(hole, detail);
   }
   return detail;
+}
+
+double Casters::length_of_ends(std::span<SurfaceId const> in_view, PlaneFrame const& frame,
+                               glm::dvec3 const& towards_sun) const {
+  Detail twice;  // there and back
+  Shadow const shadow(frame, towards_sun);
+  for (SurfaceId const id : in_view) {
+    auto const ring = points(casters_[position_of_[id]]);
+    auto const edge = [&](std::size_t i) { return ring[(i + 1) % ring.size()] - ring[i]; };
+    glm::dvec3 longest(0.0);
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      if (glm::dot(edge(i), edge(i)) > glm::dot(longest, longest)) longest = edge(i);
+    }
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      constexpr double in_line = 1e-3;
+      double const turn = glm::length(glm::cross(edge(i), longest));
+      if (turn <= in_line * glm::length(edge(i)) * glm::length(longest)) continue;
+      std::array const there_and_back{ring[i], ring[(i + 1) % ring.size()]};
+      shadow.add_edges(there_and_back, twice);
+    }
+  }
+  return 0.5 * twice.total();
 }
 
 bool Casters::is_in_view(Caster const& caster, PlaneFrame const& frame, Shadow& shadow) const {

@@ -72,7 +72,7 @@ class Casters {
   // than `few`.
   std::optional<Crowd> crowd_in_view(Scene const& scene, SurfaceId receiver,
                                      PlaneFrame const& frame, glm::dvec3 const& towards_sun,
-                                     std::size_t few) const;
+                                     std::size_t few, std::size_t max_sample = 512) const;
 
   // For searches by others: the tree, of the casters' boxes, and the caster at a position in it.
   Bvh const& tree() const { return tree_; }
@@ -120,6 +120,9 @@ class Casters {
   // Detail of the shadows of casters in view, up to `enough`.
   Detail detail(std::span<SurfaceId const> in_view, PlaneFrame const& frame,
                 glm::dvec3 const& towards_sun, double enough) const;
+  // Length of those edges that are not along the longest of their caster, as in Detail.
+  double length_of_ends(std::span<SurfaceId const> in_view, PlaneFrame const& frame,
+                        glm::dvec3 const& towards_sun) const;
 
  private:
   struct Caster {

@@ -1,5 +1,6 @@
 #include "view/tile_size.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gpu_shading {
@@ -43,6 +44,11 @@ TileSize TileSize::for_error(double error, int most) {
     size.enough_ *= 2.0;
   }
   return size;
+}
+
+int TileSize::rows_for(double across) const {
+  return static_cast<int>(
+      std::min(std::ceil(std::cbrt(std::max(across, 1.0) / (0.5 * error_ * error_))), 4096.0));
 }
 
 int TileSize::side(double along, double across) const {

@@ -29,6 +29,12 @@ class TileSize {
   // For edges as Detail counts them.
   int side(double along, double across) const;
 
+  // Rows of samples, as many across, that keep the error within 0.7 of the target where edges of
+  // this length are left to chance. Unless the size is fixed.
+  int rows_for(double across) const;
+  double error() const { return error_; }
+  bool is_fixed() const { return fixed_.has_value(); }
+
   // With perforated sheets in view, whose holes have edges of their own: at least half of the
   // maximum, were it not limited to 4096.
   int side_with_screens(int side) const { return std::max(side, fixed_ ? 1 : screened_); }

@@ -67,6 +67,7 @@ void CpuBackend::add(std::vector<ReceiverView> views) {
   for (ReceiverView const& view : views) {
     noted.push_back(note_screens(view, directions));
     if (view.crowd != nullptr && !crowd_) crowd_.emplace(scene_, *view.crowd, coverage_.pieces());
+    if (view.coarse_rows > 0 && !rays_) rays_.emplace(scene_, *view.crowd);
   }
   std::vector<std::vector<SheetInBeam>> sheets(directions.size());
   for_each_index(sheets.size(),
@@ -118,6 +119,9 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
   if (view.crowd != nullptr) {
     casters.crowd = &*crowd_;
     casters.question = {view.receiver, view.towards_sun};
+    if (view.coarse_rows > 0) casters.rays = &*rays_;
+    casters.coarse_rows = view.coarse_rows;
+    casters.max_aliasing = view.max_aliasing;
   }
   if (!view.at_pixels) casters.repeats = repeats_among(scene_, casters.surfaces);
   Samples const samples = view.at_pixels ? Samples::pixels : Samples::fine;

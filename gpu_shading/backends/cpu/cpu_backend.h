@@ -40,6 +40,7 @@ class CpuBackend : public ViewBackend {
   Scene const& scene_;
   Coverage coverage_;
   std::optional<CrowdRaster> crowd_;  // once there is one
+  std::optional<CrowdRays> rays_;     // once one repeats
   Transmission const& transmission_;
   RendererStatistics& statistics_;
   std::vector<ViewSums> sums_;

@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
 
 #include "backends/cpu/coverage.h"
+#include "backends/cpu/crowd_rays.h"
 #include "geometry/triangulation.h"
 #include "support/crowds.h"
 #include "support/random_scene.h"
@@ -48,6 +52,76 @@ TEST(CrowdRaster, CoversTheSamplesThatListedCastersCover) {
   scene.set_rule(thirds(scene));
   expect_as_listed(scene, "with a rule");
   expect_as_listed(mixed_crowd(5), "few");
+}
+
+std::uint64_t differing(PixelMask const& a, PixelMask const& b) {
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < a.words().size(); ++i) {
+    count += static_cast<std::uint64_t>(std::popcount(a.words()[i] ^ b.words()[i]));
+  }
+  return count;
+}
+
+TEST(CrowdRays, CoverTheSamplesThatTheRasterCovers) {
+  Scene scene = mixed_crowd(700);
+  scene.set_rule(thirds(scene));
+  Casters const casters(scene);
+  SurfacePieces const pieces(triangulate_all(scene));
+  CrowdRaster const raster(scene, casters, pieces);
+  CrowdRays const rays(scene, casters);
+  PlaneFrame const frame = *plane_frame(scene[0].polygon);
+  Tile const tile = make_tile(scene[0].polygon, frame, 128, 4096);
+  TileGrid const grid = pixels_of(tile);
+  for (int i = 0; i < 12; ++i) {
+    glm::dvec3 const towards_sun = to_vector(sun_at(100 + 14 * i, 4 + 6 * i));
+    if (glm::dot(frame.normal, towards_sun) <= 0.0) continue;
+    View const pixels = in_pixels(view_in_front(frame, tile.map, towards_sun), grid);
+    PixelMask expected;
+    expected.start(grid.columns(), 0, grid.rows);
+    light(expected, tile, grid);
+    PixelMask found = expected;
+    std::uint64_t const own = expected.lit();
+    raster.darken(expected, grid.side(), pixels, {0, towards_sun}, 1);
+    rays.darken(found, pixels, {0, towards_sun});
+    EXPECT_LT(expected.lit(), own);
+    // Spans are in single precision.
+    EXPECT_LE(differing(expected, found), 1U) << "direction " << i;
+  }
+}
+
+// Louvres wider than the window, which is lit above them where the sun is high.
+double lit_behind_louvres(glm::dvec3 const& towards_sun) {
+  double const slope = towards_sun.z / -towards_sun.y;
+  double const covered = std::min(1.0, 0.5 * (0.4 + slope));
+  return 1.0 - covered * (1.0 - std::min(1.0, 0.05 * slope));
+}
+
+TEST(RepeatingCrowd, MeetsTheTarget) {
+  constexpr int count = 3000;
+  Scene scene;
+  scene.add({"window", south_facing(0, 0, 0, 3, 2)});
+  double const depth = 1.0 / count;
+  for (int i = 0; i < count; ++i) {
+    double const height = 2.0 * (i + 0.5) / count;
+    scene.add({"louvre",
+               parallelogram({-2.0, -0.1 - depth, height}, {7, 0, 0}, {0, depth, 0.4 * depth})});
+  }
+  RendererOptions options;
+  options.device = on_cpu;
+  options.error = 1e-2;
+  Renderer renderer(scene, options);
+  std::vector<double> errors;
+  for (int i = 0; i < 200; ++i) {
+    SunDirection const sun = sun_at(105 + 0.75 * i, 5.0 + std::fmod(37.0 * i, 60.0));
+    glm::dvec3 const towards_sun = to_vector(sun);
+    double const whole = 6.0 * -towards_sun.y;
+    double const lit = sunlit(renderer, sun, 0).projected_area / whole;
+    errors.push_back(std::abs(lit - lit_behind_louvres(towards_sun)));
+  }
+  std::sort(errors.begin(), errors.end());
+  EXPECT_LE(errors[errors.size() * 99 / 100 - 1], options.error);
+  // Fewer samples than louvres: a raster of them all is more accurate.
+  EXPECT_GT(errors[errors.size() / 2], 0.05 * options.error);
 }
 
 TEST(CrowdInView, SamplesTheCastersInView) {
