@@ -1,6 +1,7 @@
 """Power of photovoltaic modules with partly shaded cells, by pvlib: irradiance on the plane, one-diode model and
 reverse characteristic of cells are pvlib's. Cells of a module are in series, or in two halves of which each pair of
-submodules is in parallel; each bypass diode conducts at 0.5 V, modules of a string are in series, and each string has a maximum power point tracker of its own."""
+submodules is in parallel; each bypass diode conducts at 0.5 V, modules of a string are in series, and each string has a
+maximum power point tracker of its own."""
 
 from __future__ import annotations
 
@@ -104,7 +105,8 @@ def power(modules: Modules, module: str | Mapping[str, float], *, half_cut: bool
     whose circumsolar part is shaded like the beam, and the rest by each module's view of the sky. The temperature of
     cells is Faiman's, one for a surface.
     """
-    return tuple(_power(field, modules, _parameters(module), 2 if half_cut else 1, albedo, reverse) for field in modules)
+    parameters = _parameters(module)
+    return tuple(_power(field, modules, parameters, 2 if half_cut else 1, albedo, reverse) for field in modules)
 
 
 def write_reductions(powers: Sequence[Power], file: _programs.Name) -> None:
