@@ -66,7 +66,8 @@ void CpuBackend::add(std::vector<ReceiverView> views) {
   noted.reserve(views.size());
   for (ReceiverView const& view : views) {
     noted.push_back(note_screens(view, directions));
-    if (view.crowd != nullptr && !crowd_) crowd_.emplace(scene_, *view.crowd, coverage_.pieces());
+    if (view.crowd == nullptr) continue;
+    if (!crowd_) crowd_.emplace(scene_, *view.crowd, coverage_.pieces());
     if (view.coarse_rows > 0 && !rays_) rays_.emplace(scene_, *view.crowd);
   }
   std::vector<std::vector<SheetInBeam>> sheets(directions.size());
