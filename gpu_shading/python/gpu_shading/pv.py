@@ -105,7 +105,8 @@ def power(modules: Modules, module: str | Mapping[str, float], *, half_cut: bool
     part is shaded like the beam, and the rest by each module's view of the sky. The temperature of cells is Faiman's,
     one for a surface.
     """
-    return tuple(_power(field, modules, _parameters(module), 2 if half_cut else 1, albedo, reverse) for field in modules)
+    halves = 2 if half_cut else 1
+    return tuple(_power(field, modules, _parameters(module), halves, albedo, reverse) for field in modules)
 
 
 def write_reductions(powers: Sequence[Power], file: _programs.Name) -> None:
