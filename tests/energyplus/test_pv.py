@@ -136,7 +136,7 @@ def test_wrong_parameters_are_named():
         gpu_shading.power(modules(np.ones((1, 1, 10, 6))), "No such")
     with pytest.raises(gpu_shading.InvalidInput, match="R_s, N_s missing"):
         gpu_shading.power(modules(np.ones((1, 1, 10, 6))), dict(list(MODULE.items())[:5], Adjust=0.0))
-    with pytest.raises(gpu_shading.InvalidInput, match="N_s is 72, but modules on Deck have 10 x 6 cells, 60"):
+    with pytest.raises(gpu_shading.InvalidInput, match="N_s is 72, but modules on Deck have 10 x 6 cells, 60 in"):
         gpu_shading.power(modules(np.ones((1, 1, 10, 6))), {**MODULE, "N_s": 72})
 
 

@@ -9,6 +9,7 @@ import sys
 import large_packages
 import numpy as np
 import pytest
+import radiance
 import screened_room
 from eso_file import EsoFile
 from shading_runs import energyplus
@@ -70,6 +71,33 @@ def test_sheet_of_holes_hides_its_solid_share(tmp_path):
     assert window["SHADES"] == pytest.approx(0.75, abs=0.004)
     assert window["SKY"] == pytest.approx(0.125, abs=0.004)
     assert window["GROUND"] == pytest.approx(0.125, abs=0.004)
+
+
+@pytest.mark.skipif(radiance.is_missing(), reason="Radiance is missing: run scripts/setup")
+@pytest.mark.parametrize("thickness", [1e-6, 0.003, 0.01])
+def test_thick_sheet_is_that_of_radiance(tmp_path, thickness):
+    pitch, diameter = 0.01, 0.007
+    sheet = (screened_room.rectangle("Screen", -0.4, -20.0, -12.0, 26.0, 15.0)
+             + f"GPUShading:PerforatedScreen,Sheet,Screen,Round,,Staggered60,{diameter},,{pitch},,{thickness};\n")
+    (tmp_path / "room.idf").write_text(screened_room.model(objects=sheet))
+    done = call(tmp_path / "room.idf", "--rays", 1_000_000, "--surroundings", tmp_path / "views.idf")
+    assert done.returncode == 0, done.stderr
+    with open(tmp_path / "views.csv", newline="", encoding="utf-8") as file:
+        window = next(row for row in csv.DictReader(file) if row["surface"] == "WINDOW")
+    found, error = float(window["SKY"]), float(window["standard error"])
+    everything = radiance.surfaces(energyplus.patched_prefix() / "gpu_shading", tmp_path / "room.idf")
+    building = radiance.Building(everything, (pitch, diameter, thickness), tmp_path, 400)
+    [points] = [points for name, points in building.points.items() if name.upper() == "WINDOW"]
+    (tmp_path / "dome.rad").write_text(
+        (tmp_path / "casters.rad").read_text()
+        + "void glow white\n0\n0\n4 1 1 1 0\nwhite source dome\n0\n0\n4 0 0 1 180\n")
+    rays = "".join(" ".join(map(repr, (*point, *normal))) + "\n" for point, normal in points)
+    lines = radiance.trace(tmp_path, "dome.rad", rays, "-I", "-ab", "1", "-ad", "4096", "-as", "0", "-aa", "0",
+                           "-lw", "1e-7", "-lr", "20", "-st", "0")
+    shares = np.array([float(line.split()[0]) for line in lines.splitlines()]) / np.pi
+    expected, noise = shares.mean(), shares.std() / np.sqrt(len(shares))
+    print(f"{thickness} m: {found:.5f}, Radiance {expected:.5f}, standard errors {error:.5f} and {noise:.5f}")
+    assert found == pytest.approx(expected, abs=3 * np.hypot(error, noise))
 
 
 def test_opaque_scene_is_that_of_pyviewfactor(tmp_path):

@@ -1,7 +1,7 @@
 """Power of photovoltaic modules with partly shaded cells, by pvlib: irradiance on the plane, one-diode model and
 reverse characteristic of cells are pvlib's. Cells of a module are in series, or in two halves of which each pair of
-submodules is in parallel; each bypass diode conducts at 0.5 V, modules of a string are in series, and each string has a
-maximum power point tracker of its own."""
+submodules is in parallel; each bypass diode conducts at 0.5 V, modules of a string are in series, and each string has
+a maximum power point tracker of its own."""
 
 from __future__ import annotations
 
@@ -100,13 +100,13 @@ def power(modules: Modules, module: str | Mapping[str, float], *, half_cut: bool
     """The power of each field of modules() with pvlib.
 
     `module`: the name of a module in pvlib's table of the CEC, or its parameters: alpha_sc, a_ref, I_L_ref, I_o_ref,
-    R_sh_ref, R_s, Adjust and N_s, which is the number of cells in series. `half_cut`: the lower and the upper half of a
-    module's rows are in parallel, at each bypass diode. `reverse`: of pvlib's bishop88(). The sky is Perez's,
-    whose circumsolar part is shaded like the beam, and the rest by each module's view of the sky. The temperature of
-    cells is Faiman's, one for a surface.
+    R_sh_ref, R_s, Adjust and N_s, the number of cells in series. `half_cut`: the lower and the upper half of a module's
+    rows are in parallel, at each bypass diode. `reverse`: of pvlib's bishop88(). The sky is Perez's, whose circumsolar
+    part is shaded like the beam, and the rest by each module's view of the sky. The temperature of cells is Faiman's,
+    one for a surface.
     """
-    parameters = _parameters(module)
-    return tuple(_power(field, modules, parameters, 2 if half_cut else 1, albedo, reverse) for field in modules)
+    halves = 2 if half_cut else 1
+    return tuple(_power(field, modules, _parameters(module), halves, albedo, reverse) for field in modules)
 
 
 def write_reductions(powers: Sequence[Power], file: _programs.Name) -> None:
