@@ -30,7 +30,8 @@ void Horizon::include(glm::dvec3 const& from, glm::dvec3 const& to) {
   double const first = azimuth_of(from);
   double const turn = std::remainder(azimuth_of(to) - first, 1.0 * degrees);
   double const low = std::min(first, first + turn) - 0.5;
-  for (double degree = std::ceil(low); degree <= low + std::abs(turn); degree += 1.0) {
+  auto const last = static_cast<int>(std::floor(low + std::abs(turn)));
+  for (auto degree = static_cast<int>(std::ceil(low)); degree <= last; ++degree) {
     auto const direction = at_azimuth(degree + 0.5);
     auto const edge = to - from;
     double const along = -cross(from, direction) / cross(edge, direction);

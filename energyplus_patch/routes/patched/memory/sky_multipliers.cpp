@@ -45,6 +45,7 @@ std::byte* find_sky_multipliers(State& state, SymbolTable const& symbols,
       for (auto const& array : arrays) std::ranges::fill(array.numbers, mark);
       call();
       std::vector<std::vector<double>> results;
+      results.reserve(arrays.size());
       for (auto const& array : arrays) {
         results.emplace_back(array.numbers.begin(), array.numbers.end());
       }
