@@ -16,7 +16,7 @@ struct DrawnRange {
   std::uint32_t count = 0;
 
   std::uint32_t end() const { return first + count; }
-  auto operator<=>(DrawnRange const&) const = default;
+  auto operator<=>(DrawnRange const&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 // The polygons that triangles were made of: their outlines and holes, and more than one if the
