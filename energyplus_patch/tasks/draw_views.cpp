@@ -146,12 +146,15 @@ std::string encode_with_marks(std::string const& name, Image image, ViewScale co
 
 SurfaceId find(Drawing const& drawing, std::string const& name) {
   auto const wanted = upper(name);
+  std::vector<std::string> names;
   for (SurfaceId const id : drawing.shown) {
     auto const& surface = drawing.renderer.scene()[id];
-    if (surface.name == wanted && area(surface.polygon) > 0.0) return id;
+    if (!(area(surface.polygon) > 0.0)) continue;
+    if (surface.name == wanted) return id;
+    names.push_back(surface.name);
   }
-  throw Error(
-      fmt::format("receiver {}: the model has no such surface; see gpu_shading check", name));
+  throw Error(fmt::format("receiver {}: the model has no such surface; see gpu_shading check{}",
+                          name, did_you_mean(name, names)));
 }
 
 // The sunlit fractions of some surfaces, 0 for those that face away from the sun.

@@ -119,6 +119,7 @@ def test_a_day_uses_its_canvas(view, tmp_path):
 
 @pytest.mark.parametrize("arguments, words", [
     (("--receiver", "Door", "--sun", "180,60"), ("receiver Door", "no such surface")),
+    (("--receiver", "Windwo", "--sun", "180,60"), ("receiver Windwo", "did you mean WINDOW?")),
     (("--receiver", "Window", "--sun", "180,-1"), ("sun altitude -1", "above 0")),
     (("--receiver", "Window"), ("--sun AZIMUTH,ALTITUDE", "--at", "--day")),
     (("--at", "noon"), ('--at "noon": expected month, day and time, as in "06-21 15:00"',)),
