@@ -111,16 +111,16 @@ void take_samples(std::filesystem::path const& folder, MaskSite const& site,
     std::ifstream csv(file, std::ios::binary);
     auto const sampled = read_hours_of_21st(csv);
     for (std::size_t i = 0; i < site.hours.size(); ++i) {
-      auto const& [month, hour, sun, beam, marked] = site.hours[i];
+      MaskHour const& wanted = site.hours[i];
       auto const found = std::ranges::find_if(sampled.hours, [&](SampledHour const& one) {
-        return one.month == month && one.hour == hour;
+        return one.month == wanted.month && one.hour == wanted.hour;
       });
       // The sun of the 21st moves by up to half a degree from year to year.
       constexpr double same_sun = 0.02;  // radians
       if (found == sampled.hours.end() ||
-          glm::distance(to_vector(found->sun), to_vector(sun)) > same_sun) {
-        throw Error(fmt::format("has no sun at {:02}-21 {:02}:00 as at {}: of another site?", month,
-                                hour, site.name));
+          glm::distance(to_vector(found->sun), to_vector(wanted.sun)) > same_sun) {
+        throw Error(fmt::format("has no sun at {:02}-21 {:02}:00 as at {}: of another site?",
+                                wanted.month, wanted.hour, site.name));
       }
       for (auto& mask : masks) {
         auto const column = std::ranges::find(sampled.receivers, csv_field(mask.receiver.name));

@@ -44,6 +44,7 @@ std::vector<std::vector<double>> areas(Scene const& scene, int threads, std::siz
   arena.execute([&] {
     Renderer renderer = renderer_of(scene, 256);
     std::vector<SunDirection> suns;
+    suns.reserve(36);
     for (int i = 0; i < 36; ++i) suns.push_back(sun_at(150 + 2 * i, 12 + i));
     for (std::size_t first = 0; first < suns.size(); first += at_once) {
       auto const answers = renderer.projected_sunlit_areas(std::span(suns).subspan(first, at_once),
@@ -66,7 +67,7 @@ TEST_P(OnThreads, AnswersAreTheSame) {
   EXPECT_GT(alone.front().front(), 0.0);
   EXPECT_LT(alone.front().front(), alone.front().back());
   for (int const threads : {1, 2, 16}) {
-    for (std::size_t const at_once : {1, 36}) {
+    for (std::size_t const at_once : {std::size_t{1}, std::size_t{36}}) {
       EXPECT_EQ(areas(scene, threads, at_once), alone) << threads << ", " << at_once;
     }
   }

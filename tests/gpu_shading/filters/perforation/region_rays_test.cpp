@@ -31,7 +31,8 @@ OpacityTile random_holes(int columns, int rows) {
       float const value = static_cast<double>(engine() % 1000) < 1000.0 * share ? 0.0F : 1.0F;
       for (int y = row; y < row + hole; ++y) {
         for (int x = column; x < column + hole; ++x) {
-          opacity[static_cast<std::size_t>(y * columns + x)] = value;
+          auto const before = static_cast<std::size_t>(y) * static_cast<std::size_t>(columns);
+          opacity[before + static_cast<std::size_t>(x)] = value;
         }
       }
     }
