@@ -63,8 +63,10 @@ struct Kind {
 double cost(Kind const& kind) {
   Renderer renderer = renderer_of(facade(kind.windows, kind.leaves, kind.transparent), 512);
   std::vector<SurfaceId> asked;
+  asked.reserve(static_cast<std::size_t>(kind.windows));
   for (int i = 0; i < kind.windows; ++i) asked.push_back(static_cast<SurfaceId>(2 * i));
   std::vector<SunDirection> suns;
+  suns.reserve(static_cast<std::size_t>(kind.directions));
   for (int i = 0; i < kind.directions; ++i) {
     suns.push_back(sun_at(130.0 + 100.0 * i / kind.directions, 25 + i % 40));
   }
