@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "antialias/antialias.h"
+#include "geometry/ring.h"
 
 namespace gpu_shading {
 namespace {
@@ -11,15 +12,6 @@ namespace {
 constexpr std::size_t max_vertices = 8;
 // The surfaces of a blade that is a box, and of a second one between it and the next.
 constexpr SurfaceId max_between = 12;
-
-glm::dvec3 longest_side(Ring const& ring) {
-  glm::dvec3 longest(0.0);
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    glm::dvec3 const edge = ring[(i + 1) % ring.size()] - ring[i];
-    if (glm::dot(edge, edge) > glm::dot(longest, longest)) longest = edge;
-  }
-  return longest;
-}
 
 bool is_moved(Ring const& ring, Ring const& other, glm::dvec3 const& step, double slack) {
   for (std::size_t i = 1; i < ring.size(); ++i) {

@@ -218,16 +218,13 @@ double Casters::length_of_ends(std::span<SurfaceId const> in_view, PlaneFrame co
   Shadow const shadow(frame, towards_sun);
   for (SurfaceId const id : in_view) {
     auto const ring = points(casters_[position_of_[id]]);
-    auto const edge = [&](std::size_t i) { return ring[(i + 1) % ring.size()] - ring[i]; };
-    glm::dvec3 longest(0.0);
+    glm::dvec3 const longest = longest_side(ring);
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      if (glm::dot(edge(i), edge(i)) > glm::dot(longest, longest)) longest = edge(i);
-    }
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      constexpr double in_line = 1e-3;
-      double const turn = glm::length(glm::cross(edge(i), longest));
-      if (turn <= in_line * glm::length(edge(i)) * glm::length(longest)) continue;
       std::array const there_and_back{ring[i], ring[(i + 1) % ring.size()]};
+      glm::dvec3 const edge = there_and_back[1] - there_and_back[0];
+      constexpr double in_line = 1e-3;
+      double const turn = glm::length(glm::cross(edge, longest));
+      if (turn <= in_line * glm::length(edge) * glm::length(longest)) continue;
       shadow.add_edges(there_and_back, twice);
     }
   }

@@ -20,6 +20,7 @@
 
 #include "support/exact.h"
 #include "support/pixels_on_cpu.h"
+#include "support/processor_time.h"
 #include "support/random_scene.h"
 #include "support/regular_shades.h"
 #include "support/regular_sheets.h"

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -21,6 +20,8 @@
 #include "gpu_shading/error.h"
 #include "gpu_shading/sun_direction.h"
 #include "platform/parallel.h"
+#include "support/crowds.h"
+#include "support/processor_time.h"
 #include "support/shapes.h"
 #include "table_main.h"
 
@@ -39,17 +40,6 @@ SunDirection direction(int i) {
 Scene window() {
   Scene scene;
   scene.add({"window", south_facing(0, 0, 0, window_width, window_height)});
-  return scene;
-}
-
-Scene louvres(int count) {
-  Scene scene = window();
-  double const depth = 1.0 / count;
-  for (int i = 0; i < count; ++i) {
-    double const height = window_height * (i + 0.5) / count;
-    scene.add({"louvre",
-               parallelogram({-0.5, -0.1 - depth, height}, {4, 0, 0}, {0, depth, 0.4 * depth})});
-  }
   return scene;
 }
 
@@ -94,12 +84,6 @@ Scene city(int buildings) {
     scene.add({"roof", level(x, y, height, width, depth)});
   }
   return scene;
-}
-
-double processor_seconds() {
-  std::timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 struct Result {
@@ -299,7 +283,7 @@ void print_table(int most, double least_target) {
   for (int const count : {20, 200, 1000, 8000, 32000, 200000, 1000000}) {
     if (count > most) continue;
     print_rows("leaves", count, leaves(count), least_target);
-    if (count <= 32000) print_rows("louvres", count, louvres(count), least_target);
+    if (count <= 32000) print_rows("louvres", count, fine_louvres(count, 0.5), least_target);
   }
   print_rows("city", 600, city(600), least_target);
 }

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "gpu_shading/device.h"
+#include "support/processor_time.h"
 #include "support/shapes.h"
 #include "table_main.h"
 
@@ -18,13 +18,6 @@ namespace {
 
 constexpr int directions = 40;
 constexpr double window_area = 6.0;
-
-// CPU time of all threads of this process.
-double processor_seconds() {
-  std::timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // A window of 3 x 2 m and its room.
 Scene window(bool room) {

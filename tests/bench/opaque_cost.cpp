@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <utility>
 #include <vector>
 
+#include "support/crowds.h"
+#include "support/processor_time.h"
 #include "support/shapes.h"
 #include "table_main.h"
 
@@ -15,25 +16,6 @@ namespace gpu_shading {
 namespace {
 
 constexpr int directions = 40;
-
-Scene louvres(int count) {
-  Scene scene;
-  scene.add({"window", south_facing(0, 0, 0, 3, 2)});
-  double const depth = 1.0 / count;
-  for (int i = 0; i < count; ++i) {
-    double const height = 2.0 * (i + 0.5) / count;
-    scene.add({"louvre",
-               parallelogram({-0.5, -0.1 - depth, height}, {4, 0, 0}, {0, depth, 0.4 * depth})});
-  }
-  return scene;
-}
-
-// CPU time of all threads of this process.
-double processor_seconds() {
-  std::timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 struct Cost {
   double seconds = 0.0;
@@ -59,11 +41,11 @@ Cost cost(Scene const& scene, DeviceChoice how) {
 }
 
 void print_table() {
-  std::printf("%s\n", Renderer(louvres(1), {}).device().renderer.c_str());
+  std::printf("%s\n", Renderer(fine_louvres(1, 0.5), {}).device().renderer.c_str());
   std::printf("          milliseconds a view (of processors)               difference of PSSF\n");
   std::printf("louvres         drawn            counted    drawn/counted     mean      most\n");
   for (int const count : {1, 20, 200, 1000, 8000, 32000}) {
-    Scene const scene = louvres(count);
+    Scene const scene = fine_louvres(count, 0.5);
     Cost const drawn = cost(scene, by_opengl);
     Cost const counted = cost(scene, on_cpu);
     double mean = 0.0;

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <random>
@@ -15,6 +14,7 @@
 
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
+#include "support/processor_time.h"
 #include "support/shapes.h"
 #include "table_main.h"
 
@@ -22,13 +22,6 @@ namespace gpu_shading {
 namespace {
 
 constexpr int receivers = 20;
-
-// CPU time of all threads of this process.
-double processor_seconds() {
-  std::timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // Sets the optics of a sheet's surface.
 using Finish = std::function<void(Surface&)>;

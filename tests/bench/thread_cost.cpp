@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <limits>
 #include <memory>
 #include <random>
@@ -16,17 +15,12 @@
 
 #include "gpu_shading/device.h"
 #include "gpu_shading/transmittance.h"
+#include "support/processor_time.h"
 #include "support/shapes.h"
 #include "table_main.h"
 
 namespace gpu_shading {
 namespace {
-
-double processor_seconds() {
-  std::timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // Windows in a row, each behind its share of leaves or, if there are none, under an overhang.
 Scene facade(int windows, int leaves, bool transparent) {

@@ -6,6 +6,18 @@
 
 namespace gpu_shading {
 
+Scene fine_louvres(int count, double beyond) {
+  Scene scene;
+  scene.add({"window", south_facing(0, 0, 0, 3, 2)});
+  double const depth = 1.0 / count;
+  for (int i = 0; i < count; ++i) {
+    double const height = 2.0 * (i + 0.5) / count;
+    scene.add({"louvre", parallelogram({-beyond, -0.1 - depth, height}, {3 + 2 * beyond, 0, 0},
+                                       {0, depth, 0.4 * depth})});
+  }
+  return scene;
+}
+
 Scene mixed_crowd(int count) {
   Scene scene;
   std::mt19937 generator{5};

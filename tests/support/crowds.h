@@ -8,6 +8,10 @@ namespace gpu_shading {
 // some of them through its plane or on it, some of them cast only when turned away.
 Scene mixed_crowd(int count);
 
+// Louvres all over a window of 3 m x 2 m (surface 0), 1 / count m deep and twice that apart, that
+// reach beyond it on both sides by so many metres.
+Scene fine_louvres(int count, double beyond);
+
 // Every third caster counts.
 ShadingRule thirds(Scene const& scene);
 

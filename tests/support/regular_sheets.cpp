@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
@@ -14,6 +13,7 @@
 
 #include "gpu_shading/error.h"
 #include "support/plane_ring.h"
+#include "support/processor_time.h"
 #include "support/shapes.h"
 
 namespace gpu_shading {
@@ -368,8 +368,6 @@ std::vector<RegularSheets::Sheet> random_pair(std::mt19937& generator, int numbe
   far.distance = near.distance + apart + near.thickness + far.thickness;
   return {near, far};
 }
-
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 std::vector<double> errors_behind(RegularSheets const& sheets, Renderer& renderer,
                                   std::span<SunDirection const> suns, double& seconds) {

@@ -69,9 +69,6 @@ class RegularSheets {
 std::vector<double> errors_behind(RegularSheets const& sheets, Renderer& renderer,
                                   std::span<SunDirection const> suns, double& seconds);
 
-// CPU time of all threads of this process.
-double processor_seconds();
-
 // A sheet with holes of any shape and arrangement, of 0.1 mm to 0.3 m, and a thickness of 0 to 4
 // holes; every other one is parallel to the receiver, and every fourth has its rows along it.
 RegularSheets::Sheet random_sheet(std::mt19937& generator, double least = 1e-4, double most = 0.3);

@@ -18,6 +18,9 @@ namespace gpu_shading::energyplus::geojson {
 
 Error damaged(std::string_view what);
 
+// Whether a file begins with these bytes, which tell its format.
+bool begins_with(std::filesystem::path const& path, std::string_view magic);
+
 // A part of a file; what is beyond the end is an error.
 class Bytes {
  public:

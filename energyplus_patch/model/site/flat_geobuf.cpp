@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
-#include <fstream>
 #include <utility>
 #include <vector>
 
@@ -421,10 +419,7 @@ class Reader {
 
 bool is_flat_geobuf(std::filesystem::path const& path) {
   // The bytes after these are those of the version's patch.
-  constexpr std::array magic{'f', 'g', 'b', '\x03', 'f', 'g', 'b'};
-  std::array<char, magic.size()> first{};
-  std::ifstream file(path, std::ios::binary);
-  return file.read(first.data(), first.size()) && first == magic;
+  return begins_with(path, "fgb\003fgb");
 }
 
 MapCoordinates read_flat_geobuf(std::filesystem::path const& path,

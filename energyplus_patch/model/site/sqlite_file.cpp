@@ -155,12 +155,7 @@ std::vector<StoredColumn> columns_of(std::string_view sql) {
 
 }  // namespace
 
-bool is_sqlite(std::filesystem::path const& path) {
-  std::array<char, magic.size()> first{};
-  std::ifstream file(path, std::ios::binary);
-  return file.read(first.data(), first.size()) &&
-         std::string_view(first.data(), first.size()) == magic;
-}
+bool is_sqlite(std::filesystem::path const& path) { return begins_with(path, magic); }
 
 SqliteFile::SqliteFile(std::filesystem::path const& path) : file_(path) {
   for (char const* suffix : {"-wal", "-journal"}) {

@@ -97,15 +97,7 @@ double lit_behind_louvres(glm::dvec3 const& towards_sun) {
 }
 
 TEST(RepeatingCrowd, MeetsTheTarget) {
-  constexpr int count = 3000;
-  Scene scene;
-  scene.add({"window", south_facing(0, 0, 0, 3, 2)});
-  double const depth = 1.0 / count;
-  for (int i = 0; i < count; ++i) {
-    double const height = 2.0 * (i + 0.5) / count;
-    scene.add({"louvre",
-               parallelogram({-2.0, -0.1 - depth, height}, {7, 0, 0}, {0, depth, 0.4 * depth})});
-  }
+  Scene const scene = fine_louvres(3000, 2.0);
   RendererOptions options;
   options.device = on_cpu;
   options.error = 1e-2;
