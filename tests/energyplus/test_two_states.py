@@ -3,9 +3,15 @@
 import subprocess
 from pathlib import Path
 
+import pytest
 from shading_runs import energyplus, input_file, results
 
 SOURCE = Path(__file__).resolve().parent / "hosts" / "two_states.c"
+
+# EnergyPlus alone, without us: of 750 such pairs of runs, some 1 % differ in cooling energy, by up to 6e-9 of it, and
+# in nothing else.
+COOLING = "Zone Air System Sensible Cooling Energy"
+OWN_SPREAD = 1e-7
 
 
 def test_states_at_the_same_time_answer_as_runs_of_their_own(patched, courtyard, box, weather, tmp_path):
@@ -25,4 +31,9 @@ def test_states_at_the_same_time_answer_as_runs_of_their_own(patched, courtyard,
     for path, folder in (models[:2], models[2:]):
         alone = energyplus.run(patched, path, weather, tmp_path / f"{path.stem}_alone", ["--gpu-shading", "-D"])
         assert alone.completed, alone.why()
-        assert results.Results(folder).values == results.Results(alone.folder).values
+        together, expected = (results.Results(place).values for place in (folder, alone.folder))
+        cooling, expected_cooling = together.pop(COOLING), expected.pop(COOLING)
+        assert together == expected
+        assert cooling.keys() == expected_cooling.keys()
+        for zone, values in cooling.items():
+            assert values == pytest.approx(expected_cooling[zone], rel=OWN_SPREAD)
