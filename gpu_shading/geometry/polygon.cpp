@@ -40,15 +40,6 @@ bool is_degenerate(Ring const& ring, glm::dvec3 const& newell_vector) {
   return !(glm::length(newell_vector) > thinnest * around * around);
 }
 
-glm::dvec3 longest_side(std::span<glm::dvec3 const> ring) {
-  glm::dvec3 longest(0.0);
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    glm::dvec3 const edge = ring[(i + 1) % ring.size()] - ring[i];
-    if (glm::dot(edge, edge) > glm::dot(longest, longest)) longest = edge;
-  }
-  return longest;
-}
-
 double area(Polygon const& polygon) {
   glm::dvec3 const outline = newell(polygon.outline);
   if (is_degenerate(polygon.outline, outline)) return 0.0;

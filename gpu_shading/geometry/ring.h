@@ -1,8 +1,5 @@
 #pragma once
 
-#include <glm/vec3.hpp>
-#include <span>
-
 #include "gpu_shading/scene.h"
 
 namespace gpu_shading {
@@ -18,8 +15,5 @@ glm::dvec3 newell(Ring const& ring);
 // Whether a ring with this Newell vector encloses too little area to have a plane: less than 1e-12
 // of its length squared.
 bool is_degenerate(Ring const& ring, glm::dvec3 const& newell_vector);
-
-// The longest of the vectors from each vertex to the next.
-glm::dvec3 longest_side(std::span<glm::dvec3 const> ring);
 
 }  // namespace gpu_shading

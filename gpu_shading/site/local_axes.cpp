@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <GeographicLib/Geocentric.hpp>
-#include <GeographicLib/LocalCartesian.hpp>
 #include <cmath>
+#include <glm/matrix.hpp>
 #include <vector>
 
 #include "gpu_shading/error.h"
@@ -12,8 +12,23 @@
 namespace gpu_shading {
 namespace {
 
-GeographicLib::LocalCartesian projection(GeographicPoint const& origin) {
-  return {origin.latitude, origin.longitude, origin.elevation, GeographicLib::Geocentric::WGS84()};
+// In axes that are fixed to the earth.
+struct Place {
+  glm::dvec3 point{0.0};
+  glm::dmat3 axes{1.0};  // columns: east, north, up
+};
+
+Place place_of(GeographicPoint const& position) {
+  Place place;
+  std::vector<double> rotation(9);  // row after row
+  GeographicLib::Geocentric::WGS84().Forward(position.latitude, position.longitude,
+                                             position.elevation, place.point.x, place.point.y,
+                                             place.point.z, rotation);
+  auto element = rotation.begin();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) place.axes[column][row] = *element++;
+  }
+  return place;
 }
 
 }  // namespace
@@ -29,33 +44,28 @@ LocalAxes::LocalAxes(GeographicPoint const& origin) : origin_(origin) {
   if (!std::isfinite(origin.elevation)) {
     throw Error(fmt::format("elevation is {} m, expected a number", origin.elevation));
   }
+  auto const place = place_of(origin);
+  centre_ = place.point;
+  axes_ = place.axes;
 }
 
 glm::dvec3 LocalAxes::to_local(GeographicPoint const& point) const {
-  glm::dvec3 local;
-  projection(origin_).Forward(point.latitude, point.longitude, point.elevation, local.x, local.y,
-                              local.z);
-  return local;
+  glm::dvec3 there;
+  GeographicLib::Geocentric::WGS84().Forward(point.latitude, point.longitude, point.elevation,
+                                             there.x, there.y, there.z);
+  return glm::transpose(axes_) * (there - centre_);
 }
 
 GeographicPoint LocalAxes::to_geographic(glm::dvec3 const& point) const {
+  auto const there = centre_ + axes_ * point;
   GeographicPoint position;
-  projection(origin_).Reverse(point.x, point.y, point.z, position.latitude, position.longitude,
-                              position.elevation);
+  GeographicLib::Geocentric::WGS84().Reverse(there.x, there.y, there.z, position.latitude,
+                                             position.longitude, position.elevation);
   return position;
 }
 
 glm::dmat3 LocalAxes::axes_at(GeographicPoint const& position) const {
-  glm::dvec3 local;
-  std::vector<double> rotation(9);  // row after row
-  projection(origin_).Forward(position.latitude, position.longitude, position.elevation, local.x,
-                              local.y, local.z, rotation);
-  glm::dmat3 axes;
-  auto element = rotation.begin();
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) axes[column][row] = *element++;
-  }
-  return axes;
+  return glm::transpose(axes_) * place_of(position).axes;
 }
 
 }  // namespace gpu_shading

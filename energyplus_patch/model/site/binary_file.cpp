@@ -14,12 +14,17 @@ bool begins_with(std::filesystem::path const& path, std::string_view magic) {
 
 Bytes BinaryFile::read(std::uintmax_t place, std::size_t count) {
   if (place > size_ || size_ - place < count) throw damaged("it ends too early");
-  std::vector<char> bytes(count);
-  file_.seekg(static_cast<std::streamoff>(place));
-  if (!file_.read(bytes.data(), static_cast<std::streamsize>(count))) {
-    throw Error("cannot be read");
+  constexpr std::size_t usual = std::size_t{32} << 10U;
+  if (place < begin_ || place + count > begin_ + window_.size()) {
+    window_.resize(std::min<std::uintmax_t>(std::max(count, usual), size_ - place));
+    file_.seekg(static_cast<std::streamoff>(place));
+    if (!file_.read(window_.data(), static_cast<std::streamsize>(window_.size()))) {
+      throw Error("cannot be read");
+    }
+    begin_ = place;
   }
-  return Bytes(std::move(bytes));
+  auto const first = window_.begin() + static_cast<std::ptrdiff_t>(place - begin_);
+  return Bytes({first, first + static_cast<std::ptrdiff_t>(count)});
 }
 
 }  // namespace gpu_shading::energyplus::geojson

@@ -80,6 +80,9 @@ class BinaryFile {
  private:
   std::ifstream file_;
   std::uintmax_t size_;
+  // What was read last, because features that are read one after another are often neighbours.
+  std::uintmax_t begin_ = 0;
+  std::vector<char> window_;
 };
 
 }  // namespace gpu_shading::energyplus::geojson

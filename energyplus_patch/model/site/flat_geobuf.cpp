@@ -187,7 +187,8 @@ class GeometryReader {
     spend(1 + to - from);
     auto places = Json::array();
     for (auto i = from; i < to; ++i) {
-      places.push_back({geometry.bytes().at<double>(xy.place + i * size),
+      places.push_back(
+          Json::array_t{geometry.bytes().at<double>(xy.place + i * size),
                         geometry.bytes().at<double>(xy.place + i * size + sizeof(double))});
     }
     return places;

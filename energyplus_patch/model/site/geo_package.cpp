@@ -99,19 +99,19 @@ Json read_geometry(Json const& blob) {
 
 class Package {
  public:
-  explicit Package(std::filesystem::path const& path) : file_(path) {
+  Package(std::filesystem::path const& path, std::string const& layer) : file_(path) {
     std::vector<std::string> names;
+    std::string read;
     for_each("gpkg_geometry_columns", [&](Json const& row) {
       names.push_back(text_of(member(row, "table_name")));
+      if (!layer.empty() && layer != names.back()) return;
+      read = names.back();
       geometry_ = text_of(member(row, "column_name"));
       srs_ = member(row, "srs_id");
     });
-    if (names.size() != 1) {
-      throw Error(fmt::format("has {} layers{}, expected a file with one", names.size(),
-                              names.empty() ? "" : ", such as " + printable(names.front())));
-    }
-    layer_ = table(names[0]);
-    index_ = file_.find("rtree_" + names[0] + "_" + geometry_ + "_node");
+    if (read.empty() || (layer.empty() && names.size() > 1)) throw unknown_layer(names, layer);
+    layer_ = table(read);
+    index_ = file_.find("rtree_" + read + "_" + geometry_ + "_node");
   }
 
   // Throws Error if they are not ours.
@@ -147,6 +147,17 @@ class Package {
   }
 
  private:
+  static Error unknown_layer(std::vector<std::string> const& names, std::string const& layer) {
+    constexpr std::size_t max_listed = 10;
+    std::string listed;
+    for (std::size_t i = 0; i < std::min(names.size(), max_listed); ++i) {
+      listed += (i == 0 ? ": " : ", ") + printable(names[i]);
+    }
+    auto const has = fmt::format("has {} layers{}", names.size(), listed);
+    if (!layer.empty()) return Error(fmt::format("{}, but not {}", has, printable(layer)));
+    return Error(has + ", expected one, or a name that ends in |layername=LAYER");
+  }
+
   SqliteFile::Table table(std::string const& name) {
     auto const found = file_.find(name);
     if (!found)
@@ -213,10 +224,10 @@ class Package {
 
 }  // namespace
 
-MapCoordinates read_geo_package(std::filesystem::path const& path,
+MapCoordinates read_geo_package(std::filesystem::path const& path, std::string const& layer,
                                 std::optional<MapCoordinates> const& coordinates,
                                 std::optional<Nearby> const& nearby, UseFeature const& use) {
-  Package package(path);
+  Package package(path, layer);
   auto const used = coordinates ? *coordinates : package.coordinates();
   package.read(nearby, used, use);
   return used;

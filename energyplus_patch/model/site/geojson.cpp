@@ -112,7 +112,7 @@ void include(Json const& geometry, MapCoordinates const& coordinates, Geographic
 
 }  // namespace
 
-Json const& member(Json const& object, std::string const& name) {
+Json const& member(Json const& object, std::string_view name) {
   static Json const none;
   if (!object.is_object()) return none;
   auto const found = object.find(name);
@@ -220,14 +220,21 @@ void use_numbered(Json const& feature, std::size_t number, MapCoordinates const&
 MapCoordinates read_features(std::filesystem::path const& path,
                              std::optional<MapCoordinates> const& coordinates,
                              std::optional<Nearby> const& nearby, UseFeature const& use) {
-  require_file(path);
+  constexpr std::string_view mark = "|layername=";
+  auto const name = path.string();
+  auto const end = name.find(mark);
+  std::filesystem::path const file(name.substr(0, end));
+  auto const layer = end == std::string::npos ? "" : name.substr(end + mark.size());
+  require_file(file);
   auto const use_near = [&](Feature const& feature, MapCoordinates const& used) {
     if (!nearby || nearby->reaches(feature.geometry, used)) use(feature, used);
   };
-  return naming(path.string(), [&] {
-    if (is_flat_geobuf(path)) return read_flat_geobuf(path, coordinates, nearby, use_near);
-    if (is_sqlite(path)) return read_geo_package(path, coordinates, nearby, use_near);
-    return read_geojson(path, coordinates, use_near);
+  return naming(file.string(), [&] {
+    if (is_sqlite(file)) return read_geo_package(file, layer, coordinates, nearby, use_near);
+    if (!layer.empty())
+      throw Error(fmt::format("is no GeoPackage, but layer {} is asked for", layer));
+    if (is_flat_geobuf(file)) return read_flat_geobuf(file, coordinates, nearby, use_near);
+    return read_geojson(file, coordinates, use_near);
   });
 }
 

@@ -18,7 +18,7 @@ namespace gpu_shading::energyplus::geojson {
 using Json = nlohmann::json;
 
 // The member, or null.
-Json const& member(Json const& object, std::string const& name);
+Json const& member(Json const& object, std::string_view name);
 std::string type_of(Json const& object);
 
 // Limit of heights, m: more means a damaged file, or another unit.
@@ -78,8 +78,9 @@ void use_numbered(Json const& feature, std::size_t number, MapCoordinates const&
 
 // Calls use(feature, coordinates) for each feature of a file of GeoJSON, FlatGeobuf or GeoPackage,
 // which its first bytes tell, or for those in the circle. Only one is in memory at a time.
-// `coordinates`: if empty, those that the file names (in GeoJSON the older "crs" member), or WGS84.
-// Returns them. Throws Error: "FILE: feature 3 (way/17): ...".
+// The name of a GeoPackage may end in "|layername=LAYER", as in GDAL and QGIS, which is needed
+// where it has several. `coordinates`: if empty, those that the file names (in GeoJSON the older
+// "crs" member), or WGS84. Returns them. Throws Error: "FILE: feature 3 (way/17): ...".
 MapCoordinates read_features(std::filesystem::path const& path,
                              std::optional<MapCoordinates> const& coordinates,
                              std::optional<Nearby> const& nearby, UseFeature const& use);

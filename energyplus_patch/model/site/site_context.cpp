@@ -44,7 +44,7 @@ struct Context {
   std::vector<std::string> left_out;
 };
 
-Context read_context(InputObject const& object, std::filesystem::path const& folder,
+Context read_context(InputObject const& object, std::filesystem::path const& folder, bool horizons,
                      GeographicPoint const& origin) {
   Context context;
   context.name = object.name;
@@ -74,7 +74,7 @@ Context read_context(InputObject const& object, std::filesystem::path const& fol
     auto const heights = read_heights(object);
     context.file = buildings;
     auto nearby = context.nearby;
-    if (context.horizon) nearby->radius = *context.horizon;
+    if (context.horizon && horizons) nearby->radius = *context.horizon;
     context.buildings = naming(field::buildings_file_name.title, [&] {
       return read_buildings(folder / buildings, heights, coordinates, nearby);
     });
@@ -309,11 +309,11 @@ std::optional<MapCoordinates> read_map_coordinates(InputObject const& object,
 }
 
 std::vector<TerrainGrid> read_site_contexts(std::vector<InputObject> const& objects,
-                                            std::filesystem::path const& folder, SiteOrigin& origin,
-                                            Surroundings& surroundings) {
+                                            std::filesystem::path const& folder, bool horizons,
+                                            SiteOrigin& origin, Surroundings& surroundings) {
   std::vector<Context> contexts;
   for_each_of(objects, field::type, [&](InputObject const& object) {
-    contexts.push_back(read_context(object, folder, origin.place));
+    contexts.push_back(read_context(object, folder, horizons, origin.place));
     constexpr double tallest_storey = 20.0;
     constexpr double tallest_building = 1000.0;
     auto const odd = lengths_beyond(object, {{field::storey_height, tallest_storey},

@@ -34,6 +34,9 @@ class LocalAxes {
 
  private:
   GeographicPoint origin_;
+  // Of the origin, in axes that are fixed to the earth: its position and the columns of axes_at.
+  glm::dvec3 centre_{0.0};
+  glm::dmat3 axes_{1.0};
 };
 
 }  // namespace gpu_shading

@@ -150,10 +150,22 @@ TEST_P(IndexedMap, DamagedFilesAreRefusedOrRead) {
   EXPECT_THAT(refusal_of([&] { read(path); }), HasSubstr("town: is damaged: "));
 }
 
+TEST(GeoPackage, ItsLayersAreReadByName) {
+  auto const file = (corpus / "geo_package" / "layers.gpkg").string();
+  EXPECT_EQ(names(read(file + "|layername=roads")), (std::vector<std::string>{"way/0", "way/1"}));
+  EXPECT_EQ(names(read(file + "|layername=houses")),
+            (std::vector<std::string>{"house/0", "house/1"}));
+}
+
 TEST(GeoPackage, WhatIsNotWholeIsRefused) {
   auto const folder = corpus / "geo_package";
   EXPECT_THAT(refusal_of([&] { read(folder / "layers.gpkg"); }),
-              HasSubstr("layers.gpkg: has 2 layers, such as roads, expected a file with one"));
+              HasSubstr("layers.gpkg: has 2 layers: roads, houses, expected one, or a name that "
+                        "ends in |layername=LAYER"));
+  EXPECT_THAT(refusal_of([&] { read(folder / "layers.gpkg|layername=rivers"); }),
+              HasSubstr("layers.gpkg: has 2 layers: roads, houses, but not rivers"));
+  EXPECT_THAT(refusal_of([&] { read(corpus / "geojson" / "town_gdal.geojson|layername=roads"); }),
+              HasSubstr("town_gdal.geojson: is no GeoPackage, but layer roads is asked for"));
   TemporaryFolder const temporary;
   auto const path = temporary.path() / "town.gpkg";
   std::filesystem::copy_file(folder / "town.gpkg", path);
