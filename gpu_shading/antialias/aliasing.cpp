@@ -38,7 +38,7 @@ Aliasing Aliasing::on_tile(TileMap const& from, TileMap const& to,
   glm::dmat2 const change = glm::transpose(from.matrix * glm::inverse(to.matrix));
   Aliasing other = *this;
   other.outline_ = outline;
-  for (BladeSpectrum& blades : other.blades_) blades.change(change, outline);
+  for (BladeSpectrum& blades : other.blades_) blades.change(change);
   for (AlikeScreens& each : other.screens_) each.holes.change(change, outline);
   for (HoleSpectrum::Frequency& frequency : other.first_) frequency.at = change * frequency.at;
   return other;

@@ -33,6 +33,7 @@ class Aliasing {
   // An error small enough to end the search for a grid of so many rows.
   static double small_enough(int rows) { return 0.015 / rows; }
 
+  std::size_t kinds_of_blades() const { return blades_.size(); }
   bool none() const { return screens_.empty() && blades_.empty(); }
   // Upper bound of the squared error of a grid, or any number above `enough`.
   double squared_error(TileGrid const& grid, double enough) const;

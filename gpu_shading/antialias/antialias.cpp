@@ -104,7 +104,7 @@ TileGrid usual_grid(Tile const& tile, SampleUse use) {
   constexpr int large = 128;
   int const rows = std::max((tile.side + 1) / 2, std::min(tile.side, 96 + tile.side * 3 / 8));
   int const columns_a_row = use == SampleUse::counting ? 4 : tile.side < large ? 9 : 17;
-  return golden_grid(rows, columns_a_row, tile.lay.slope());
+  return golden_grid(rows, columns_a_row, tile.lay.slope);
 }
 
 TileGrid grid_for_blades(TileGrid const& grid, Aliasing const& aliasing) {
@@ -149,7 +149,7 @@ double stretch_without_aliasing(ViewOnPixels const& view, Scene const& scene,
         TileMap const map = stretch == 1.0
                                 ? tile.map
                                 : fit_tile(view.frame, scene[view.receiver].polygon.outline,
-                                           tile.side, {tile.lay.turn, stretch});
+                                           tile.side, {tile.lay.slope, stretch});
         return aliasing.on_tile(tile.map, map, OutlineSpectrum(map, view.frame))
             .squared_error(grid, limit);
       });
@@ -157,7 +157,7 @@ double stretch_without_aliasing(ViewOnPixels const& view, Scene const& scene,
 
 TileGrid sample_grid(Tile const& tile, View const& view, ScreensInView const& screens,
                      SampledRepeats const& blades, SampleUse use) {
-  Aliasing aliasing(view, OutlineSpectrum(tile.lay.slope()));
+  Aliasing aliasing(view, OutlineSpectrum(tile.lay.slope));
   aliasing.add(blades);
   if (!screens.numbers.empty()) {
     add_sheets(tile, view, screens, aliasing);
@@ -167,14 +167,21 @@ TileGrid sample_grid(Tile const& tile, View const& view, ScreensInView const& sc
   return aliasing.none() ? usual : grid_for_blades(usual, aliasing);
 }
 
-std::optional<TileGrid> coarse_grid(Tile const& tile, View const& view,
-                                    SampledRepeats const& blades, int rows, double max_error) {
-  Aliasing aliasing(view, OutlineSpectrum(tile.lay.slope()));
+std::optional<TileGrid> grid_along(SampledRepeats const& blades, View const& view, double slope,
+                                   int rows, double max_error) {
+  constexpr std::size_t max_kinds = 6;
+  constexpr int columns_a_row = 9;
+  Aliasing aliasing(view, OutlineSpectrum(slope));
   aliasing.add(blades);
-  TileGrid const grid = grid_for_blades(golden_grid(rows, 1, tile.lay.slope()), aliasing);
+  if (aliasing.none() || aliasing.kinds_of_blades() > max_kinds) return std::nullopt;
   double const squared = max_error * max_error;
-  if (aliasing.squared_error(grid, squared) > squared) return std::nullopt;
-  return grid;
+  // Twice as many rows are still fewer than those of other tiles.
+  for (double const more : {1.0, 1.5, 2.25}) {
+    int const trial = static_cast<int>(more * rows);
+    TileGrid const grid = grid_for_blades(golden_grid(trial, columns_a_row, slope), aliasing);
+    if (aliasing.squared_error(grid, squared) <= squared) return grid;
+  }
+  return std::nullopt;
 }
 
 bool edges_cut_rows(Tile const& tile, View const& view, ScreensInView const& screens) {
@@ -189,7 +196,7 @@ bool edges_cut_rows(Tile const& tile, View const& view, ScreensInView const& scr
     if (!too_large || sheet.layers == solid_sheet || sheet.shape == SheetShape::image) return false;
     if (last != nullptr && alike(*last, screen)) return false;
     last = &screen;
-    HoleSpectrum const holes(screen, sheet, view, OutlineSpectrum(tile.lay.slope()));
+    HoleSpectrum const holes(screen, sheet, view, OutlineSpectrum(tile.lay.slope));
     return holes.squared_error_of_effect() > max_error * max_error;
   });
 }

@@ -21,9 +21,11 @@ namespace gpu_shading {
 struct Repeat {
   glm::dvec3 step{0.0};  // from the other one, m
   glm::dvec3 edge{0.0};  // the longest of its edges, m
+  glm::dvec3 side{0.0};  // the other side of a parallelogram with that edge and its area, m
 };
 
-// Empty if no surface shortly before it in the scene has the same shape and orientation.
+// Empty if no surface shortly before it in the scene has the same shape and orientation, but for
+// what rounding coordinates to 1e-5 m changes. The step is the mean of up to 1,024.
 std::optional<Repeat> repeat_of(Scene const& scene, SurfaceId id);
 
 // The repeats among a sample of the casters in view.
@@ -45,6 +47,11 @@ struct ViewOnPixels {
   std::span<SurfaceId const> casters;
   bool transmits;  // some caster transmits part of the beam
 };
+
+// The slope of a turn (TileLay) at which each row of samples on a tile runs nearly along blades and
+// passes a few of them. Empty if they are few.
+std::optional<double> slope_along(SampledRepeats const& blades, PlaneFrame const& frame,
+                                  glm::dvec3 const& towards_sun);
 
 // The stretch of the receiver's tile at which its pixels alias least; 1 where nothing repeats.
 double stretch_without_aliasing(ViewOnPixels const& view, Scene const& scene,
@@ -69,10 +76,10 @@ enum class SampleUse {
 TileGrid sample_grid(Tile const& tile, View const& view, ScreensInView const& screens,
                      SampledRepeats const& blades, SampleUse use);
 
-// A grid of so many rows, and as many columns, for samples that each take the same time; empty if
-// it aliases with `blades` by more than `max_error`.
-std::optional<TileGrid> coarse_grid(Tile const& tile, View const& view,
-                                    SampledRepeats const& blades, int rows, double max_error);
+// A grid of about so many rows, however many the blades, on a tile turned by slope_along(). Empty
+// if it aliases with them by more than `max_error`, or if their distances are of many kinds.
+std::optional<TileGrid> grid_along(SampledRepeats const& blades, View const& view, double slope,
+                                   int rows, double max_error);
 
 // Whether the effective transmittance of sheets is too coarse for a tile, because the receiver's
 // edges cut rows of holes.

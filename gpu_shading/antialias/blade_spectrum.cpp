@@ -18,20 +18,26 @@ glm::dvec2 in_tiles(View const& view, glm::dvec3 const& vector) {
          glm::dvec2(glm::dot(glm::dvec3(view.x), vector), glm::dot(glm::dvec3(view.y), vector));
 }
 
+struct Blades {
+  OutlineSpectrum outline;
+  glm::dvec2 first;  // the lowest frequency
+  double open;       // times pi
+};
+
 // The squared error that a vector of the grid's reciprocal lattice causes at a multiple of the
 // frequency, for blades in front of the whole receiver and without the factor 1 / pi.
-[[gnu::always_inline]] inline double squared_at(OutlineSpectrum const& outline,
-                                                glm::dvec2 const& at, double multiple,
-                                                TileGrid const& grid, double column, double row) {
-  double const error = outline.amplitude(at - grid.reciprocal(column, row)) / multiple;
+[[gnu::always_inline]] inline double squared_at(Blades const& blades, glm::dvec2 const& at,
+                                                double multiple, TileGrid const& grid,
+                                                double column, double row) {
+  double const strength = std::min(1.0 / multiple, blades.open);
+  double const error = blades.outline.amplitude(at - grid.reciprocal(column, row)) * strength;
   return column == 0.0 && row == 0.0 ? 0.0 : error * error;
 }
 
 // Of the vectors around a strong multiple.
-double near_strong(OutlineSpectrum const& outline, glm::dvec2 const& first, TileGrid const& grid,
-                   int multiple) {
+double near_strong(Blades const& blades, TileGrid const& grid, int multiple) {
   constexpr int around = 2;
-  glm::dvec2 const at = static_cast<double>(multiple) * first;
+  glm::dvec2 const at = static_cast<double>(multiple) * blades.first;
   double const middle = nearest_whole(at.x / grid.width);
   double const rows = at.y / grid.rows;
   double sum = 0.0;
@@ -39,7 +45,7 @@ double near_strong(OutlineSpectrum const& outline, glm::dvec2 const& first, Tile
     for (int across = -around; across <= around; ++across) {
       double const column = middle + across;
       double const row = nearest_whole(rows - column * grid.shear) + up;
-      sum += squared_at(outline, at, multiple, grid, column, row);
+      sum += squared_at(blades, at, multiple, grid, column, row);
     }
   }
   return sum;
@@ -48,17 +54,16 @@ double near_strong(OutlineSpectrum const& outline, glm::dvec2 const& first, Tile
 // Of the vectors next to some weak multiples, from one on. Written for the compiler to take several
 // at a time.
 constexpr int at_once = 32;
-[[gnu::always_inline]] inline double near_weak(OutlineSpectrum const& outline,
-                                               glm::dvec2 const& first, TileGrid const& grid,
+[[gnu::always_inline]] inline double near_weak(Blades const& blades, TileGrid const& grid,
                                                int from) {
   glm::dvec2 const cell(1.0 / grid.width, 1.0 / grid.rows);
   std::array<double, at_once> squared{};
   for (int i = 0; i < at_once; ++i) {
     auto const multiple = static_cast<double>(from + i);
-    glm::dvec2 const at = multiple * first;
+    glm::dvec2 const at = multiple * blades.first;
     double const column = nearest_whole(at.x * cell.x);
     double const row = nearest_whole(at.y * cell.y - column * grid.shear);
-    squared[static_cast<std::size_t>(i)] = squared_at(outline, at, multiple, grid, column, row);
+    squared[static_cast<std::size_t>(i)] = squared_at(blades, at, multiple, grid, column, row);
   }
   return std::accumulate(squared.begin(), squared.end(), 0.0);
 }
@@ -76,7 +81,14 @@ std::optional<BladeSpectrum> BladeSpectrum::make(Repeat const& repeat, double sh
   glm::dvec2 const first = glm::dvec2(edge.y, -edge.x) / turn;
   constexpr double max_cycles = 1e9;
   if (!(glm::length(first) < max_cycles)) return std::nullopt;
-  return BladeSpectrum(first, share, outline);
+  double const covered = std::abs(cross(in_tiles(view, repeat.side), edge) / turn);
+  double const open = std::min(covered, std::abs(1.0 - covered));
+  glm::dvec2 const along = glm::normalize(edge);
+  if (glm::length(edge) >= outline.chord(along)) return BladeSpectrum(first, share, open, outline);
+  // Pieces of blades, whose places may differ from blade to blade: a group is as wide as the
+  // receiver and as long as a piece.
+  glm::dvec2 const across = glm::normalize(step);
+  return BladeSpectrum(first, share, open, {outline.chord(across) * across, edge});
 }
 
 bool BladeSpectrum::merge(BladeSpectrum const& other) {
@@ -84,6 +96,7 @@ bool BladeSpectrum::merge(BladeSpectrum const& other) {
   if (std::min(glm::distance(first_, other.first_), glm::distance(first_, -other.first_)) > in_step)
     return false;
   share_ += other.share_;
+  open_ = std::max(open_, other.open_);
   return true;
 }
 
@@ -98,12 +111,13 @@ double BladeSpectrum::squared_error(TileGrid const& grid, double enough) const {
                                                double{strongest + at_once}, double{max_multiple}));
   double const amplitude = share_ / std::numbers::pi;
   double const wanted = enough / (amplitude * amplitude);
+  Blades const blades{outline_, first_, std::numbers::pi * open_};
   double sum = 0.0;
   for (int multiple = 1; multiple <= strongest; ++multiple) {
-    sum += near_strong(outline_, first_, grid, multiple);
+    sum += near_strong(blades, grid, multiple);
   }
   for (int from = strongest + 1; from <= last && sum < wanted; from += at_once) {
-    sum += run<near_weak>(outline_, first_, grid, from);
+    sum += run<near_weak>(blades, grid, from);
   }
   return amplitude * amplitude * sum;
 }

@@ -164,7 +164,8 @@ std::vector<BladeSpectrum> HoleSpectrum::sides_in_line() const {
     glm::dvec2 const index = lowest_across(side);
     if (index == glm::dvec2(0.0)) continue;
     double const share = per_area_ * glm::length(side) / glm::length(lowest_ * index);
-    found.emplace_back(basis_ * index, share, outline_);
+    constexpr double open = 0.5;
+    found.emplace_back(basis_ * index, share, open, outline_);
   }
   return found;
 }

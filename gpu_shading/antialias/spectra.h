@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
 #include <numbers>
 #include <optional>
@@ -25,10 +26,13 @@ inline double nearest_whole(double x) {
   return (x + rounding) - rounding;
 }
 
-// Upper limit of the Fourier transform of a receiver that fills its bounding rectangle. Frequencies
-// are in cycles per tile.
+// Upper limit of the Fourier transform of a receiver that fills its bounding rectangle, or of
+// another parallelogram. Frequencies are in cycles per tile.
 class OutlineSpectrum {
  public:
+  // Of a parallelogram, by its sides in tiles.
+  OutlineSpectrum(glm::dvec2 const& u, glm::dvec2 const& v)
+      : u_(std::numbers::pi * u), v_(std::numbers::pi * v) {}
   // On a tile that is not stretched, by the slope of its turn.
   explicit OutlineSpectrum(double slope) {
     double const c = 1.0 / std::sqrt(1.0 + slope * slope);
@@ -40,6 +44,20 @@ class OutlineSpectrum {
   OutlineSpectrum(TileMap const& map, PlaneFrame const& frame)
       : u_(0.5 * std::numbers::pi * frame.width * map.matrix[0]),
         v_(0.5 * std::numbers::pi * frame.height * map.matrix[1]) {}
+
+  // On a tile of another shape. `change`: of frequencies.
+  void change(glm::dmat2 const& change) {
+    glm::dmat2 const of_sides = glm::inverse(glm::transpose(change));
+    u_ = of_sides * u_;
+    v_ = of_sides * v_;
+  }
+
+  // The longest part within a rectangle of a line in a direction of length 1, in tiles.
+  double chord(glm::dvec2 const& direction) const {
+    double const u = std::abs(glm::dot(u_, direction)) / glm::dot(u_, u_);
+    double const v = std::abs(glm::dot(v_, direction)) / glm::dot(v_, v_);
+    return 1.0 / (std::numbers::pi * std::max(u, v));
+  }
 
   double amplitude(glm::dvec2 const& frequency) const {
     double const u = std::abs(glm::dot(u_, frequency));
@@ -64,9 +82,11 @@ class OutlineSpectrum {
 // tile: multiples of one.
 class BladeSpectrum {
  public:
-  // `first`: the lowest frequency. `share`: of the receiver, behind these blades.
-  BladeSpectrum(glm::dvec2 const& first, double share, OutlineSpectrum const& outline)
-      : outline_(outline), first_(first), share_(share) {}
+  // `first`: the lowest frequency. `share`: of the receiver, behind these blades. `open`: of the
+  // distance between two, what is open or, if that is less, covered. `outline`: of a group of
+  // blades.
+  BladeSpectrum(glm::dvec2 const& first, double share, double open, OutlineSpectrum const& outline)
+      : outline_(outline), first_(first), share_(share), open_(open) {}
 
   // Empty for blades in line, end to end, or too close together.
   static std::optional<BladeSpectrum> make(Repeat const& repeat, double share, View const& view,
@@ -76,10 +96,10 @@ class BladeSpectrum {
   // is not.
   bool merge(BladeSpectrum const& other);
 
-  // The same on a tile of another shape, with its outline. `change`: of frequencies.
-  void change(glm::dmat2 const& change, OutlineSpectrum const& outline) {
+  // The same on a tile of another shape. `change`: of frequencies.
+  void change(glm::dmat2 const& change) {
     first_ = change * first_;
-    outline_ = outline;
+    outline_.change(change);
   }
 
   // Upper bound of the squared error of the mean over a grid, or any number above `enough`.
@@ -89,6 +109,7 @@ class BladeSpectrum {
   OutlineSpectrum outline_;
   glm::dvec2 first_;
   double share_;
+  double open_;
 };
 
 // Whether two screens have the same holes and directions of holes, and so the same spectrum, as the

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <chrono>
 #include <cstddef>
 
 namespace gpu_shading {
@@ -22,6 +23,20 @@ void for_each_index(std::size_t count, Use const& use) {
     return;
   }
   for (std::size_t i = 0; i < count; ++i) use(i);
+}
+
+// The same for calls that may be short: this thread makes those that end before others would have
+// woken, which would then spin for as long again.
+template <typename Use>
+void for_each_short(std::size_t count, Use const& use) {
+  constexpr std::chrono::microseconds worth_waking{200};
+  auto const began = std::chrono::steady_clock::now();
+  std::size_t first = 0;
+  while (first < count) {
+    use(first++);
+    if (std::chrono::steady_clock::now() - began > worth_waking) break;
+  }
+  for_each_index(count - first, [&](std::size_t i) { use(first + i); });
 }
 
 }  // namespace gpu_shading

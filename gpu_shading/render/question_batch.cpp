@@ -44,16 +44,15 @@ double behind(Question const& question) {
 }  // namespace
 
 QuestionBatch::QuestionBatch(Parts const& parts)
-    : parts_(parts),
-      may_be_crowd_(parts.transmission.all_opaque()),
-      may_be_coarse_(!parts.backend.samples_pixels() && !parts.receivers.size().is_fixed()),
-      at_once_(min_asked) {
+    : parts_(parts), may_be_crowd_(parts.transmission.all_opaque()), at_once_(min_asked) {
   parts_.backend.forget();
+  parts_.receivers.forget_many_tiles();
 }
 
 void QuestionBatch::ask(Question const& question) {
   for (SurfaceId const id : question.interiors) parts_.receivers.surface(id);
-  Receiver const& seen = parts_.receivers[question.receiver];
+  Receiver const& seen = question.through ? parts_.receivers.window(question.receiver)
+                                          : parts_.receivers[question.receiver];
   if (!seen.frame || question.answers.empty()) return;
   double const cosine = glm::dot(seen.frame->normal, question.towards_sun);
   if (cosine <= edge_on) return;
@@ -68,7 +67,7 @@ void QuestionBatch::cull() {
   std::vector<Found> found(asked_.size());
   {
     Stopwatch const watch(parts_.statistics.cull_seconds);
-    for_each_index(asked_.size(), [&](std::size_t i) { found[i] = find(asked_[i]); });
+    for_each_short(asked_.size(), [&](std::size_t i) { found[i] = find(asked_[i]); });
   }
   if (parts_.backend.device().id.is_cpu()) {
     std::size_t casters = 1;
@@ -82,27 +81,30 @@ void QuestionBatch::cull() {
   parts_.backend.add(std::move(views));
 }
 
-std::optional<Crowd> QuestionBatch::repeating_crowd(Asked const& asked, int& rows) const {
-  // Where the crowd begins and ends, and where an interior surface does.
-  double const outlines = 2.0 + behind(asked.question);
-  constexpr std::size_t max_sample = 32;
-  Receiver const& seen = *asked.receiver;
+std::optional<QuestionBatch::Blades> QuestionBatch::blades(Asked const& asked) const {
+  TileSize const& size = parts_.receivers.size();
+  if (size.is_fixed()) return std::nullopt;
+  PlaneFrame const& frame = *asked.receiver->frame;
+  SurfaceId const receiver = asked.question.receiver;
   glm::dvec3 const& towards_sun = asked.question.towards_sun;
-  double const share = seen.area / (seen.frame->width * seen.frame->height);
-  auto const samples_for = [&](double edges) {
-    rows = parts_.receivers.size().rows_for(edges / share);
-    return static_cast<std::size_t>(0.5 * share * rows * rows);
-  };
-  auto crowd = parts_.casters.crowd_in_view(parts_.scene, asked.question.receiver, *seen.frame,
-                                            towards_sun, samples_for(outlines), max_sample);
+  int const rows = size.rows_along_edges();
+  // Fewer for each row than that are drawn as soon.
+  auto const few = 8 * static_cast<std::size_t>(rows);
+  constexpr std::size_t max_sample = 32;
+  auto crowd =
+      parts_.casters.crowd_in_view(parts_.scene, receiver, frame, towards_sun, few, max_sample);
   if (!crowd) return std::nullopt;
   SampledRepeats const repeats = repeats_among(parts_.scene, crowd->sample);
   constexpr double nearly_all = 0.99;
   if (repeats.share * static_cast<double>(repeats.found.size()) < nearly_all) return std::nullopt;
-  double const ends =
-      crowd->each * parts_.casters.length_of_ends(crowd->sample, *seen.frame, towards_sun);
-  if (crowd->count() < static_cast<double>(samples_for(outlines + ends))) return std::nullopt;
-  return crowd;
+  auto const slope = slope_along(repeats, frame, towards_sun);
+  if (!slope) return std::nullopt;
+  TileLay const lay{.slope = *slope, .for_grids = true};
+  Ring const& outline = parts_.scene[receiver].polygon.outline;
+  View const view = view_in_front(frame, fit_tile(frame, outline, size.most(), lay), towards_sun);
+  auto const grid = grid_along(repeats, view, *slope, rows, 0.7 * size.error());
+  if (!grid) return std::nullopt;
+  return Blades{std::move(*crowd), lay, *grid};
 }
 
 QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
@@ -114,26 +116,29 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   auto const lay_out = [&](Detail& detail, bool screened) {
     detail.across += behind(question);
     found.side = parts_.receivers.side_for(seen, detail, screened);
-    found.turn = best_turn(detail);
+    found.lay.slope = turn_slopes.at(best_turn(detail));
   };
   double const enough = parts_.receivers.size().enough();
   auto const few = may_be_crowd_ ? parts_.backend.few_casters(question.through) : std::nullopt;
   if (few) {
-    std::optional<Crowd> crowd;
-    if (may_be_coarse_ && asked.in_sector == nullptr)
-      crowd = repeating_crowd(asked, found.coarse_rows);
-    if (!crowd) {
-      found.coarse_rows = 0;
-      crowd = casters.crowd_in_view(parts_.scene, question.receiver, *seen.frame,
-                                    question.towards_sun, *few);
-    }
+    auto along = !parts_.backend.samples_pixels() && asked.in_sector == nullptr ? blades(asked)
+                                                                                : std::nullopt;
+    auto crowd = along ? std::move(along->crowd)
+                       : casters.crowd_in_view(parts_.scene, question.receiver, *seen.frame,
+                                               question.towards_sun, *few);
     if (crowd) {
       found.crowd_count = crowd->count();
-      Detail detail =
-          casters.detail(crowd->sample, *seen.frame, question.towards_sun, enough / crowd->each);
+      found.in_view.casters = std::move(crowd->sample);
+      if (along) {
+        found.side = parts_.receivers.size().most();
+        found.lay = along->lay;
+        found.grid = along->grid;
+        return found;
+      }
+      Detail detail = casters.detail(found.in_view.casters, *seen.frame, question.towards_sun,
+                                     enough / crowd->each);
       detail *= crowd->each;
       lay_out(detail, false);
-      found.in_view.casters = std::move(crowd->sample);
       return found;
     }
   }
@@ -184,10 +189,10 @@ void QuestionBatch::enqueue(Asked const& asked, Found found, std::vector<Receive
   if (found.crowd_count > 0.0) {
     view.crowd = &parts_.casters;
     view.crowd_count = found.crowd_count;
-    view.coarse_rows = found.coarse_rows;
-    view.max_aliasing = 0.7 * parts_.receivers.size().error();
+    view.grid = found.grid;
+    view.is_window = seen.is_window;
   }
-  Tile& tile = parts_.receivers.tile(view.receiver, found.side, {found.turn});
+  Tile& tile = parts_.receivers.tile(view.receiver, found.side, found.lay);
   view.tile = &tile;
   std::size_t const casters_drawn =
       view.crowd != nullptr ? static_cast<std::size_t>(view.crowd_count) : view.casters.size();
@@ -212,7 +217,7 @@ void QuestionBatch::stretch_tiles(std::vector<ReceiverView>& views) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (stretches[i] == 1.0) continue;
     Viewed& viewed = viewed_[first + i];
-    TileLay const lay{viewed.tile->lay.turn, stretches[i]};
+    TileLay const lay{viewed.tile->lay.slope, stretches[i]};
     viewed.tile = &parts_.receivers.tile(views[i].receiver, viewed.side, lay);
     views[i].tile = viewed.tile;
   }

@@ -69,20 +69,26 @@ class QuestionBatch {
     bool clear = false;  // nothing shades the receiver
     bool transmits = false;
     double crowd_count = 0.0;                         // of casters; 0: in_view has all
-    int coarse_rows = 0;                              // as ReceiverView has them
     std::optional<std::vector<LuminanceSums>> exact;  // where it costs less than samples
     // Of the tile, else.
     int side = 0;  // pixels
-    std::size_t turn = 0;
+    TileLay lay;
+    std::optional<TileGrid> grid;
+  };
+  // A sample of casters in view that repeat, and the few rows of samples that suffice on a tile
+  // turned along them.
+  struct Blades {
+    Crowd crowd;
+    TileLay lay;
+    TileGrid grid;
   };
 
   // Finds the casters in view for all questions since the last call, and has their views
   // rasterised.
   void cull();
   Found find(Asked const& asked) const;
-  // A sample of the casters in view where they repeat, and outnumber the samples that suffice then:
-  // half of a grid of so many rows and columns.
-  std::optional<Crowd> repeating_crowd(Asked const& asked, int& rows) const;
+  // Empty unless all casters in view repeat, and far outnumber these rows.
+  std::optional<Blades> blades(Asked const& asked) const;
   // Answers immediately if nothing is in view or the answer is known, otherwise adds the view.
   void enqueue(Asked const& asked, Found found, std::vector<ReceiverView>& views);
   // Replaces the tiles of the last views by stretched ones whose pixels do not alias.
@@ -94,7 +100,6 @@ class QuestionBatch {
 
   Parts parts_;
   bool may_be_crowd_;
-  bool may_be_coarse_;   // a crowd that repeats may be sampled coarsely
   std::size_t at_once_;  // questions whose casters are searched
   std::vector<Asked> asked_;
   std::vector<Viewed> viewed_;

@@ -43,6 +43,12 @@ Receiver& Receivers::find(SurfaceId id) {
   return receivers_.emplace(id, std::move(receiver)).first->second;
 }
 
+Receiver const& Receivers::window(SurfaceId id) {
+  Receiver& receiver = find(id);
+  receiver.is_window = true;
+  return receiver;
+}
+
 std::vector<std::uint32_t> const* Receivers::in_sector(SurfaceId id,
                                                        glm::dvec3 const& towards_sun) {
   // A sector is found in the time of a few searches, and is asked about at other days again.
@@ -72,11 +78,19 @@ int Receivers::side_for(Receiver const& receiver, Detail const& detail, bool scr
 
 Tile& Receivers::tile(SurfaceId id, int side, TileLay const& lay) {
   Receiver& receiver = find(id);
-  std::tuple const kind(side, lay.turn, lay.stretch);
+  std::tuple const kind(side, lay.slope, lay.stretch);
   auto const known = receiver.tiles.find(kind);
   if (known != receiver.tiles.end()) return known->second;
   Tile tile = make_tile(surface(id).polygon, *receiver.frame, side, max_side_, lay);
+  ++tiles_;
   return receiver.tiles.emplace(kind, std::move(tile)).first->second;
+}
+
+void Receivers::forget_many_tiles() {
+  constexpr std::size_t many = 10000;
+  if (tiles_ < many) return;
+  for (auto& [id, receiver] : receivers_) receiver.tiles.clear();
+  tiles_ = 0;
 }
 
 void Receivers::bound(SurfaceId id, Tile& tile) {

@@ -21,11 +21,12 @@ namespace gpu_shading {
 struct Receiver {
   std::optional<PlaneFrame> frame;  // empty if it has no area
   double area = 0.0;                // exact, m2
+  bool is_window = false;           // a question was about surfaces behind it
   // The number of questions about it, and once they are many, the casters by sector of the sky.
   std::size_t times = 0;
   std::unordered_map<int, std::optional<std::vector<std::uint32_t>>> in_sectors;
-  // Tiles created so far, by requested resolution, turn and stretch.
-  std::map<std::tuple<int, std::size_t, double>, Tile> tiles;
+  // Tiles created so far, by requested resolution, slope and stretch.
+  std::map<std::tuple<int, double, double>, Tile> tiles;
 };
 
 // The surfaces of a scene as receivers; scene and casters must outlive it. Their tiles are created
@@ -38,6 +39,7 @@ class Receivers {
 
   // Throws Error if there is no such surface.
   Receiver const& operator[](SurfaceId id) { return find(id); }
+  Receiver const& window(SurfaceId id);
   Surface const& surface(SurfaceId id) const;
 
   // Casters that include all in view of a receiver from this direction, which is in front of its
@@ -47,8 +49,10 @@ class Receivers {
   TileSize const& size() const { return size_; }
   // Pixels per side for the detail in view. The receiver must have an area.
   int side_for(Receiver const& receiver, Detail const& detail, bool screened) const;
-  // The address is valid for the lifetime of this object.
+  // The address is valid until forget_many_tiles().
   Tile& tile(SurfaceId id, int side, TileLay const& lay);
+  // Tiles that are turned along blades may be as many as directions.
+  void forget_many_tiles();
   // The tile of the bounding rectangle, for a receiver that turned out to have no pixels.
   void bound(SurfaceId id, Tile& tile);
 
@@ -59,6 +63,7 @@ class Receivers {
   Casters const& casters_;
   TileSize size_;
   int max_side_;
+  std::size_t tiles_ = 0;
   std::unordered_map<SurfaceId, Receiver> receivers_;
 };
 

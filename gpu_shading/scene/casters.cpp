@@ -75,13 +75,15 @@ Casters::Casters(Scene const& scene) {
   for (SurfaceId id = 0; id < scene.size(); ++id) boxes.push_back(bounds_of(scene[id]));
   tree_ = Bvh(boxes);
   casters_.reserve(tree_.order().size());
-  position_of_.resize(scene.size());
+  kinds_.reserve(tree_.order().size());
+  position_of_.resize(scene.size(), no_position);
   for (SurfaceId const id : tree_.order()) {
     position_of_[id] = static_cast<std::uint32_t>(casters_.size());
     add(id, scene[id]);
+    Kind& kind = kinds_.emplace_back();
+    if (!scene.rule().empty()) kind.role = scene.rule().roles[id];
+    kind.only_turned_away = scene[id].casting == Casting::turned_away;
   }
-  if (scene.rule().empty()) return;
-  for (Caster& caster : casters_) caster.role = scene.rule().roles[caster.id];
 }
 
 void Casters::add(SurfaceId id, Surface const& surface) {
@@ -95,8 +97,6 @@ void Casters::add(SurfaceId id, Surface const& surface) {
   caster.planar = off <= 1e-6;
   caster.warped = off > 1e-3;  // more than models' coordinates are rounded by
   caster.faces = surface.filter.faces();
-  caster.only_turned_away = surface.casting == Casting::turned_away;
-  any_turned_away_ = any_turned_away_ || caster.only_turned_away;
   points_.insert(points_.end(), ring.begin(), ring.end());
   caster.first_hole = holes_.size();
   caster.holes = surface.polygon.holes.size();
@@ -161,8 +161,7 @@ std::optional<std::vector<std::uint32_t>> Casters::in_sector(Scene const& scene,
                                                              SunSector const& sector) const {
   constexpr std::size_t max_count = 24;
   std::vector<std::uint32_t> positions;
-  std::optional<ShadingRule::Receiver> rule;
-  if (!scene.rule().empty()) rule.emplace(scene.rule(), receiver);
+  Counted const counted(*this, scene, receiver, frame.normal);
   SectorShadow const shadow(frame, sector);
   tree_.search(
       [&](glm::dvec3 const& centre, glm::dvec3 const& reach) {
@@ -170,9 +169,7 @@ std::optional<std::vector<std::uint32_t>> Casters::in_sector(Scene const& scene,
         return wanted ? Containment::intersecting : Containment::outside;
       },
       [&](std::uint32_t position, std::uint32_t, Containment) {
-        Caster const& caster = casters_[position];
-        if (caster.id == receiver || (rule && !rule->counts(caster.role))) return;
-        positions.push_back(position);
+        if (counted.at_some_sun(position)) positions.push_back(position);
       });
   if (positions.size() > max_count) return std::nullopt;
   std::ranges::sort(
@@ -185,9 +182,8 @@ InView Casters::in_view_of(std::span<std::uint32_t const> positions, PlaneFrame 
   InView found;
   Shadow shadow(frame, towards_sun);
   for (std::uint32_t const position : positions) {
-    Caster const& caster = casters_[position];
-    if (caster.only_turned_away && glm::dot(caster.normal, towards_sun) > in_the_sun) continue;
-    add_if_in_view(caster, false, frame, shadow, found);
+    if (!counts_at(position, towards_sun)) continue;
+    add_if_in_view(casters_[position], false, frame, shadow, found);
   }
   return found;
 }
@@ -210,25 +206,6 @@ Detail Casters::detail(std::span<SurfaceId const> in_view, PlaneFrame const& fra
     for (Ring const& hole : holes(caster)) shadow.add_edges(hole, detail);
   }
   return detail;
-}
-
-double Casters::length_of_ends(std::span<SurfaceId const> in_view, PlaneFrame const& frame,
-                               glm::dvec3 const& towards_sun) const {
-  Detail twice;  // there and back
-  Shadow const shadow(frame, towards_sun);
-  for (SurfaceId const id : in_view) {
-    auto const ring = points(casters_[position_of_[id]]);
-    glm::dvec3 const longest = longest_side(ring);
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      std::array const there_and_back{ring[i], ring[(i + 1) % ring.size()]};
-      glm::dvec3 const edge = there_and_back[1] - there_and_back[0];
-      constexpr double in_line = 1e-3;
-      double const turn = glm::length(glm::cross(edge, longest));
-      if (turn <= in_line * glm::length(edge) * glm::length(longest)) continue;
-      shadow.add_edges(there_and_back, twice);
-    }
-  }
-  return 0.5 * twice.total();
 }
 
 bool Casters::is_in_view(Caster const& caster, PlaneFrame const& frame, Shadow& shadow) const {

@@ -78,13 +78,13 @@ class Casters {
   Bvh const& tree() const { return tree_; }
   SurfaceId id(std::uint32_t position) const { return casters_[position].id; }
   // Whether some casters count only where the sun meets one of their faces.
-  bool any_turned_away() const { return any_turned_away_; }
+  bool any_turned_away() const { return std::ranges::any_of(kinds_, &Kind::only_turned_away); }
   // Which casters count for a receiver at one sun direction, wherever they are.
   class Counted {
    public:
     Counted(Casters const& casters, Scene const& scene, SurfaceId receiver,
             glm::dvec3 const& towards_sun)
-        : casters_(casters), receiver_(receiver), towards_sun_(towards_sun) {
+        : casters_(casters), receiver_(casters.position_of_[receiver]), towards_sun_(towards_sun) {
       if (!scene.rule().empty()) rule_.emplace(scene.rule(), receiver);
     }
     // Whether some vertex is clearly in front of a receiver's plane.
@@ -95,18 +95,23 @@ class Casters {
         return glm::dot(normal, point - origin) > coplanar;
       });
     }
+    // Otherwise all but the receiver count that need not be turned away from the sun.
+    bool by_rule() const { return rule_.has_value(); }
+    bool at_some_sun(std::uint32_t position) const {
+      return position != receiver_ && (!rule_ || rule_->counts(casters_.kinds_[position].role));
+    }
     bool operator()(std::uint32_t position) const {
-      Caster const& caster = casters_.casters_[position];
-      if (caster.id == receiver_ || (rule_ && !rule_->counts(caster.role))) return false;
-      return !caster.only_turned_away || glm::dot(caster.normal, towards_sun_) <= in_the_sun;
+      return at_some_sun(position) && casters_.counts_at(position, towards_sun_);
     }
 
    private:
     Casters const& casters_;
-    SurfaceId receiver_;
+    std::uint32_t receiver_;  // its position
     glm::dvec3 towards_sun_;
     std::optional<ShadingRule::Receiver> rule_;
   };
+
+  bool only_turned_away(std::uint32_t position) const { return kinds_[position].only_turned_away; }
 
   // Positions in the tree of casters among which are all that are in view from some sun direction
   // of a sector, in the order of their ids; empty where a search costs less than so many tests.
@@ -120,9 +125,6 @@ class Casters {
   // Detail of the shadows of casters in view, up to `enough`.
   Detail detail(std::span<SurfaceId const> in_view, PlaneFrame const& frame,
                 glm::dvec3 const& towards_sun, double enough) const;
-  // Length of those edges that are not along the longest of their caster, as in Detail.
-  double length_of_ends(std::span<SurfaceId const> in_view, PlaneFrame const& frame,
-                        glm::dvec3 const& towards_sun) const;
 
  private:
   struct Caster {
@@ -131,14 +133,23 @@ class Casters {
     std::size_t first = 0;
     std::size_t first_hole = 0;  // of holes_
     std::size_t holes = 0;
-    ShadingRule::Role role;
     glm::dvec3 normal{0.0};
     BeamFilter::Faces faces;
     bool planar = true;
     bool warped = false;
+  };
+  // What decides whether a caster counts, in less memory than all of it: a processor's cache can
+  // hold those of a crowd.
+  struct Kind {
+    ShadingRule::Role role;
     bool only_turned_away = false;
   };
   void add(SurfaceId id, Surface const& surface);
+  // Whether the caster at a position counts by the face that the sun meets.
+  bool counts_at(std::uint32_t position, glm::dvec3 const& towards_sun) const {
+    return !kinds_[position].only_turned_away ||
+           glm::dot(casters_[position].normal, towards_sun) <= in_the_sun;
+  }
   std::span<glm::dvec3 const> points(Caster const& caster) const {
     return {points_.data() + caster.first, caster.count};
   }
@@ -154,10 +165,12 @@ class Casters {
   // All in the tree's order, in which a search goes through them.
   Bvh tree_;
   std::vector<Caster> casters_;
+  std::vector<Kind> kinds_;
   std::vector<glm::dvec3> points_;
   std::vector<Ring> holes_;
-  std::vector<std::uint32_t> position_of_;  // of casters, by id
-  bool any_turned_away_ = false;
+  // Of casters, by id; of surfaces that cast nothing no_position.
+  static constexpr std::uint32_t no_position = 0xffffffff;
+  std::vector<std::uint32_t> position_of_;
 };
 
 }  // namespace gpu_shading

@@ -68,7 +68,7 @@ Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, 
   }
   if (net < fewest_pixels * tile.pixel_area) return bounding_tile(polygon, frame, tile.side);
   // A stretched tile is one of several of a receiver, and few views have the same.
-  int const places = lay.stretch == 1.0 ? 16 : 2;
+  int const places = lay.for_grids ? 1 : lay.stretch == 1.0 ? 16 : 2;
   place_lattice(tile, triangulate(polygon), frame, net, places);
   return tile.counted_pixels > 0 ? tile : bounding_tile(polygon, frame, tile.side);
 }

@@ -50,6 +50,8 @@ struct TileGrid {
 
   int columns() const { return width + static_cast<int>(std::ceil(shear * rows)); }
   int side() const { return std::max(columns(), rows); }
+  bool operator==(TileGrid const&) const = default;
+
   // A vector of the reciprocal lattice, in cycles per tile: waves that are the same at all places.
   glm::dvec2 reciprocal(double column, double row) const {
     return {column * width, (column * shear + row) * rows};

@@ -46,10 +46,7 @@ TileSize TileSize::for_error(double error, int most) {
   return size;
 }
 
-int TileSize::rows_for(double across) const {
-  return static_cast<int>(
-      std::min(std::ceil(std::cbrt(std::max(across, 1.0) / (0.5 * error_ * error_))), 4096.0));
-}
+int TileSize::rows_along_edges() const { return static_cast<int>(std::ceil(0.51 / error_)); }
 
 int TileSize::side(double along, double across) const {
   if (fixed_) return *fixed_;

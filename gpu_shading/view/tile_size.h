@@ -29,9 +29,9 @@ class TileSize {
   // For edges as Detail counts them.
   int side(double along, double across) const;
 
-  // Rows of samples, as many across, that keep the error within 0.7 of the target where edges of
-  // this length are left to chance. Unless the size is fixed.
-  int rows_for(double across) const;
+  // Rows of samples that keep the error within the target where an edge as long as the tile
+  // runs along them. Unless the size is fixed.
+  int rows_along_edges() const;
   double error() const { return error_; }
   bool is_fixed() const { return fixed_.has_value(); }
 

@@ -64,10 +64,10 @@ double TileMap::pixel_area(int resolution) const {
 }
 
 TileMap fit_tile(PlaneFrame const& frame, Ring const& outline, int resolution, TileLay const& lay) {
-  double const margin = std::min(1.0, resolution / 8.0);
+  double const margin = lay.for_grids ? 0.0 : std::min(1.0, resolution / 8.0);
   double const filled = 2.0 * (1.0 - 2.0 * margin / resolution);
   glm::dmat2 const to_square(1.0 / frame.width, 0.0, 0.0, 1.0 / frame.height);
-  glm::dmat2 const turn = turn_by(lay.slope());
+  glm::dmat2 const turn = turn_by(lay.slope);
   glm::dmat2 const turned = turn * to_square;
   glm::dvec2 const size = outline_bounds(frame, outline, turned).size();
   glm::dmat2 const scale(filled / size.x, 0.0, 0.0, filled / size.y);

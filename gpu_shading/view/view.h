@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
@@ -28,12 +27,12 @@ struct TileMap {
 
 // How a tile's pixels lie on its receiver.
 struct TileLay {
-  std::size_t turn = 0;  // by which slope of turn_slopes
+  double slope = turn_slopes.front();  // of the turn
   // By which the square is longer along u and shorter along v, for another lattice of samples,
   // which aliases with other periods. A tile that is stretched has a wider margin, two ways.
   double stretch = 1.0;
-
-  double slope() const { return turn_slopes[turn]; }
+  // Of use to grids of other samples alone than the tile's pixels: without a margin.
+  bool for_grids = false;
 };
 
 TileMap fit_tile(PlaneFrame const& frame, Ring const& outline, int resolution,

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -275,26 +276,33 @@ void print_rows(char const* kind, int count, Scene const& scene, double least_ta
   }
 }
 
-void print_table(int most, double least_target) {
+// `kind`: of scenes; all if empty.
+void print_table(int most, double least_target, std::string_view kind) {
   limit_threads(1);
   std::printf("CPU, Embree %s\n", RTC_VERSION_STRING);
   std::printf(
       "scene      number  target      ours p99 error     rays    single   packets  ours / \n");
+  auto const print = [&](char const* of, int count, auto const& scene_of) {
+    if (kind.empty() || kind == of) print_rows(of, count, scene_of(count), least_target);
+  };
   for (int const count : {20, 200, 1000, 8000, 32000, 200000, 1000000}) {
     if (count > most) continue;
-    print_rows("leaves", count, leaves(count), least_target);
-    if (count <= 32000) print_rows("louvres", count, fine_louvres(count, 0.5), least_target);
+    print("leaves", count, leaves);
+    if (count > 32000) continue;
+    print("louvres", count, [](int louvres) { return fine_louvres(louvres, 0.5); });
+    print("pieces", count, pieces_of_louvres);
   }
-  print_rows("city", 600, city(600), least_target);
+  print("city", 600, city);
 }
 
 }  // namespace
 }  // namespace gpu_shading
 
-// embree_peer [MOST CASTERS [LEAST TARGET]]
+// embree_peer [MOST CASTERS [LEAST TARGET [KIND]]]
 int main(int count, char** arguments) {
   int const most = count > 1 ? std::atoi(arguments[1]) : 1000000;
   double const least_target = count > 2 ? std::atof(arguments[2]) : 1e-4;
+  char const* const kind = count > 3 ? arguments[3] : "";
   return gpu_shading::print_or_say_why("embree_peer",
-                                       [&] { gpu_shading::print_table(most, least_target); });
+                                       [&] { gpu_shading::print_table(most, least_target, kind); });
 }

@@ -1,5 +1,6 @@
 #include "support/crowds.h"
 
+#include <cmath>
 #include <random>
 
 #include "support/shapes.h"
@@ -14,6 +15,25 @@ Scene fine_louvres(int count, double beyond) {
     double const height = 2.0 * (i + 0.5) / count;
     scene.add({"louvre", parallelogram({-beyond, -0.1 - depth, height}, {3 + 2 * beyond, 0, 0},
                                        {0, depth, 0.4 * depth})});
+  }
+  return scene;
+}
+
+Scene pieces_of_louvres(int count) {
+  constexpr int louvres = 20;
+  Scene scene;
+  scene.add({"window", south_facing(0, 0, 0, 3, 2)});
+  auto const rounded = [](double coordinate) { return std::round(coordinate * 1e5) * 1e-5; };
+  int const pieces = count / louvres;
+  double const pitch = 3.0 / pieces;
+  for (int louvre = 0; louvre < louvres; ++louvre) {
+    double const z = 2.0 - 0.1 * louvre;
+    for (int piece = 0; piece < pieces; ++piece) {
+      double const from = rounded((piece + 0.025) * pitch);
+      double const to = rounded((piece + 0.975) * pitch);
+      scene.add(
+          {"piece", parallelogram({from, -0.13, z - 0.04}, {to - from, 0, 0}, {0, 0.08, 0.04})});
+    }
   }
   return scene;
 }

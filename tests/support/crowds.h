@@ -12,6 +12,10 @@ Scene mixed_crowd(int count);
 // reach beyond it on both sides by so many metres.
 Scene fine_louvres(int count, double beyond);
 
+// A window of 3 m x 2 m (surface 0) behind so many pieces of 20 louvres, in coordinates that are
+// rounded to 1e-5 m, as the example's box with louvres has them.
+Scene pieces_of_louvres(int count);
+
 // Every third caster counts.
 ShadingRule thirds(Scene const& scene);
 

@@ -88,21 +88,15 @@ void in_rows(int rows, int threads, Use use) {
   });
 }
 
-// Where a view is sampled, and whether it is ShadeCounts that counts shades there, or rays that
-// look for the crowd.
+// Where a view is sampled, and whether it is ShadeCounts that counts shades there.
 struct Sampled {
   TileGrid grid;
   bool counting = false;
-  bool by_rays = false;
 };
 
 Sampled sampled(Tile const& tile, View const& view, CastersInView const& casters, Samples samples) {
   if (samples == Samples::pixels) return {pixels_of(tile)};
-  if (casters.rays != nullptr) {
-    auto const coarse =
-        coarse_grid(tile, view, casters.repeats, casters.coarse_rows, casters.max_aliasing);
-    if (coarse) return {*coarse, false, true};
-  }
+  if (casters.grid) return {*casters.grid};
   bool const counting = can_be_counted(casters);
   SampleUse const use = casters.opaque() ? SampleUse::coverage
                         : counting       ? SampleUse::counting
@@ -212,13 +206,16 @@ void Coverage::shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* pa
   casters.bodies.shade(shaded, mask, pixels);
 }
 
-void Coverage::darken(PixelMask& mask, int side, View const& pixels, CastersInView const& casters,
-                      int threads, bool by_rays) const {
-  if (by_rays) return casters.rays->darken(mask, pixels, casters.question);
-  if (casters.crowd != nullptr) {
-    return casters.crowd->darken(mask, side, pixels, casters.question, threads);
+void Coverage::darken(PixelMask& mask, Tile const& tile, TileGrid const& grid, View const& pixels,
+                      CastersInView const& casters, int threads) const {
+  if (casters.crowd == nullptr) {
+    return cover(mask, grid.side(), pixels, casters, {}, [](ConvexArea const&, Shade const&) {});
   }
-  cover(mask, side, pixels, casters, {}, [](ConvexArea const&, Shade const&) {});
+  auto const& [receiver, towards_sun] = casters.question;
+  LitCrowds::Key const key{receiver, towards_sun, tile.lay.slope, grid, mask.first_row()};
+  if (casters.known != nullptr && casters.known->take(key, mask)) return;
+  casters.crowd->darken(mask, grid.side(), pixels, casters.question, threads);
+  if (casters.known != nullptr) casters.known->keep(key, mask);
 }
 
 // Sums over a grid's samples, row by row. `own` takes the number of those that are the receiver's.
@@ -228,7 +225,6 @@ struct Coverage::Rows {
   TileGrid const& grid;
   View pixels;
   CastersInView const& casters;
-  bool by_rays;
   int threads;
 
   // Calls use(mask, first, end) for parts of the rows, in any order and by any threads, with the
@@ -262,7 +258,7 @@ struct Coverage::Rows {
   double lit(std::uint64_t& own) const {
     std::atomic<std::uint64_t> sum = 0;
     own = each([&](PixelMask& mask, int /*first*/, int /*end*/) {
-      coverage.darken(mask, grid.side(), pixels, casters, threads, by_rays);
+      coverage.darken(mask, tile, grid, pixels, casters, threads);
       sum += mask.lit();
     });
     return static_cast<double>(sum);
@@ -331,7 +327,7 @@ struct Coverage::Rows {
 
 LuminanceSums Coverage::sums(Tile const& tile, View const& view, CastersInView const& casters,
                              Samples samples, int threads) const {
-  auto const [grid, counting, by_rays] = sampled(tile, view, casters, samples);
+  auto const [grid, counting] = sampled(tile, view, casters, samples);
   View const pixels = in_pixels(view, grid);
   bool const by_schedules = any_scheduled(casters.shades);
   CastersInView in_parts = casters;
@@ -342,7 +338,7 @@ LuminanceSums Coverage::sums(Tile const& tile, View const& view, CastersInView c
     projected = areas(grid.side(), pixels, casters, order, threads);
     in_parts.areas = projected;
   }
-  Rows const rows{*this, tile, grid, pixels, in_parts, by_rays, threads};
+  Rows const rows{*this, tile, grid, pixels, in_parts, threads};
   std::uint64_t own = 0;
   LuminanceSums sums;
   if (casters.opaque()) {
@@ -391,7 +387,7 @@ std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& v
                                                  View const& behind,
                                                  std::span<SurfaceId const> interiors) const {
   static thread_local PixelMask lit;
-  auto const [grid, counting, by_rays] = sampled(tile, view, casters, samples);
+  auto const [grid, counting] = sampled(tile, view, casters, samples);
   View const pixels = in_pixels(view, grid);
   lit.start(grid.columns(), 0, grid.rows);
   light(lit, tile, grid);
@@ -400,7 +396,7 @@ std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& v
   auto const pieces = interior_pieces(grid, in_pixels(behind, grid), interiors);
   std::vector<LuminanceSums> sums(interiors.size());
   if (casters.opaque()) {
-    darken(lit, grid.side(), pixels, casters, 1, by_rays);
+    darken(lit, tile, grid, pixels, casters, 1);
     each_band(grid, lit, pieces, [&](Band const& band) { add_lit(lit, band, sums); });
   } else {
     static thread_local LuminanceTile shaded;

@@ -6,7 +6,7 @@
 
 #include "antialias/antialias.h"
 #include "backends/cpu/crowd_raster.h"
-#include "backends/cpu/crowd_rays.h"
+#include "backends/cpu/lit_crowds.h"
 #include "backends/cpu/passed_schedules.h"
 #include "backends/cpu/surface_pieces.h"
 #include "backends/interface/view_backend.h"
@@ -38,10 +38,8 @@ struct CastersInView {
   // Where `surfaces` are only a sample: rasterises all of them, which are opaque.
   CrowdRaster const* crowd = nullptr;
   CrowdQuestion question = {};
-  // As ReceiverView has them.
-  CrowdRays const* rays = nullptr;
-  int coarse_rows = 0;
-  double max_aliasing = 0.0;
+  LitCrowds* known = nullptr;         // of a window, about which there will be another question
+  std::optional<TileGrid> grid = {};  // the best samples, where they are known
 
   bool opaque() const { return shades.empty() && bodies.empty(); }
 };
@@ -97,8 +95,8 @@ class Coverage {
   void each_area(int side, View const& pixels, CastersInView const& casters,
                  std::span<std::size_t const> order, Range const& positions, Use use) const;
   // Of opaque casters. On so many threads, if they are a crowd.
-  void darken(PixelMask& mask, int side, View const& pixels, CastersInView const& casters,
-              int threads, bool by_rays) const;
+  void darken(PixelMask& mask, Tile const& tile, TileGrid const& grid, View const& pixels,
+              CastersInView const& casters, int threads) const;
 
   // Where each piece of the interior surfaces is.
   std::vector<InteriorPiece> interior_pieces(TileGrid const& grid, View const& pixels,

@@ -68,7 +68,6 @@ void CpuBackend::add(std::vector<ReceiverView> views) {
     noted.push_back(note_screens(view, directions));
     if (view.crowd == nullptr) continue;
     if (!crowd_) crowd_.emplace(scene_, *view.crowd, coverage_.pieces());
-    if (view.coarse_rows > 0 && !rays_) rays_.emplace(scene_, *view.crowd);
   }
   std::vector<std::vector<SheetInBeam>> sheets(directions.size());
   for_each_index(sheets.size(),
@@ -95,8 +94,7 @@ void CpuBackend::add(std::vector<ReceiverView> views) {
 
 std::vector<ViewSums> CpuBackend::finish() { return std::exchange(sums_, {}); }
 
-ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& screens,
-                             int threads) const {
+ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& screens, int threads) {
   Tile const& tile = *view.tile;
   std::vector<SurfaceId> flat;
   std::vector<Shade> shades;
@@ -120,11 +118,10 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
   if (view.crowd != nullptr) {
     casters.crowd = &*crowd_;
     casters.question = {view.receiver, view.towards_sun};
-    if (view.coarse_rows > 0) casters.rays = &*rays_;
-    casters.coarse_rows = view.coarse_rows;
-    casters.max_aliasing = view.max_aliasing;
+    casters.grid = view.grid;
+    if (view.is_window) casters.known = &lit_crowds_;
   }
-  if (!view.at_pixels) casters.repeats = repeats_among(scene_, casters.surfaces);
+  if (!view.at_pixels && !view.grid) casters.repeats = repeats_among(scene_, casters.surfaces);
   Samples const samples = view.at_pixels ? Samples::pixels : Samples::fine;
   ViewSums sums;
   sums.receiver_pixels = tile.counted_pixels;

@@ -34,13 +34,13 @@ class CpuBackend : public ViewBackend {
   };
 
   ViewScreens note_screens(ReceiverView const& view, std::vector<ScreensAtDirection>& directions);
-  ViewSums sums_of(ReceiverView const& view, ScreensInView const& screens, int threads) const;
+  ViewSums sums_of(ReceiverView const& view, ScreensInView const& screens, int threads);
 
   DeviceInfo device_;
   Scene const& scene_;
   Coverage coverage_;
   std::optional<CrowdRaster> crowd_;  // once there is one
-  std::optional<CrowdRays> rays_;     // once one repeats
+  LitCrowds lit_crowds_;
   Transmission const& transmission_;
   RendererStatistics& statistics_;
   std::vector<ViewSums> sums_;

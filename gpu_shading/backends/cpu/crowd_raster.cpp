@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "platform/instructions.h"
@@ -17,18 +18,13 @@
 namespace gpu_shading {
 namespace {
 
-constexpr std::size_t lanes = 8;
-constexpr std::size_t corners = 4;
+constexpr std::size_t lanes = crowd_lanes;
+constexpr std::size_t corners = std::tuple_size_v<CrowdCorners>;
 // Columns by which an area may be wider than its corners, because spans are in single precision.
 constexpr double spare = 1e-2;
 
 template <typename T>
 using Lanes = std::array<T, lanes>;
-
-// The corners of some casters.
-struct Corners {
-  std::array<std::array<double const*, 3>, corners> at;  // by axis
-};
 
 struct Window {
   double columns = 0.0;
@@ -61,10 +57,10 @@ struct Projected {
   return static_cast<std::int32_t>(after_centre);
 }
 
-[[gnu::always_inline]] inline void project(Corners const& from, View const& view,
+[[gnu::always_inline]] inline void project(CrowdCorners const& from, View const& view,
                                            Window const& window, Projected& to) {
   for (std::size_t corner = 0; corner < corners; ++corner) {
-    auto const& at = from.at[corner];
+    auto const& at = from[corner];
     for (std::size_t i = 0; i < lanes; ++i) {
       double const x = at[0][i] - view.origin.x;
       double const y = at[1][i] - view.origin.y;
@@ -141,6 +137,27 @@ ConvexArea area_of(Projected const& projected, std::size_t lane, int side) {
   return area;
 }
 
+constexpr std::uint32_t none = ~std::uint32_t{0};
+
+// The upper nodes of a tree, down to those of few casters, in the order in which a search looks at
+// them: the rest would lie between them.
+std::vector<Bvh::Node> upper(std::vector<Bvh::Node> const& nodes) {
+  std::vector<Bvh::Node> found;
+  if (nodes.empty()) return found;
+  found.push_back(nodes.front());
+  std::vector<std::uint32_t> waiting{0};
+  while (!waiting.empty()) {
+    Bvh::Node& node = found[waiting.back()];
+    waiting.pop_back();
+    if (node.count <= lanes) continue;
+    auto const place = static_cast<std::uint32_t>(found.size());
+    auto const children = std::exchange(node.children, place);
+    found.insert(found.end(), {nodes[children], nodes[children + 1]});
+    waiting.insert(waiting.end(), {place, place + 1});
+  }
+  return found;
+}
+
 // Nodes of a tree that together have all of its casters, so many or more if the tree has them.
 std::vector<std::uint32_t> branches(std::vector<Bvh::Node> const& nodes, std::size_t count) {
   std::vector<std::uint32_t> found{0};
@@ -170,18 +187,21 @@ struct CrowdRaster::Search {
 };
 
 CrowdRaster::CrowdRaster(Scene const& scene, Casters const& casters, SurfacePieces const& pieces)
-    : scene_(scene), casters_(casters), pieces_(pieces) {
-  auto const& order = casters.tree().order();
-  for (auto& corner : corners_) {
-    for (auto& axis : corner) axis.resize(order.size() + at_once);
-  }
-  several_.resize(order.size());
-  for (std::size_t position = 0; position < order.size(); ++position) {
-    auto const found = pieces.corners_of_only_piece(order[position]);
-    several_[position] = found.empty() ? 1 : 0;
-    for (std::size_t corner = 0; corner < found.size(); ++corner) {
-      for (int axis = 0; axis < 3; ++axis) {
-        corners_[corner][axis][position] = found[corner][axis];
+    : scene_(scene), casters_(casters), pieces_(pieces), nodes_(upper(casters.tree().nodes())) {
+  blocks_.reserve(nodes_.size() / 2 + 1);
+  for (Bvh::Node& node : nodes_) {
+    if (node.count > lanes) continue;
+    node.children = static_cast<std::uint32_t>(blocks_.size());
+    Block& block = blocks_.emplace_back();
+    for (std::uint32_t lane = 0; lane < node.count; ++lane) {
+      std::uint32_t const position = node.first + lane;
+      auto const found = pieces.corners_of_only_piece(casters.id(position));
+      block.several[lane] = found.empty();
+      block.only_turned_away[lane] = casters.only_turned_away(position);
+      for (std::size_t corner = 0; corner < found.size(); ++corner) {
+        for (int axis = 0; axis < 3; ++axis) {
+          block.corners[corner][static_cast<std::size_t>(axis)][lane] = found[corner][axis];
+        }
       }
     }
   }
@@ -189,8 +209,7 @@ CrowdRaster::CrowdRaster(Scene const& scene, Casters const& casters, SurfacePiec
 
 void CrowdRaster::darken(PixelMask& mask, int side, View const& pixels,
                          CrowdQuestion const& question, int threads) const {
-  auto const& nodes = casters_.tree().nodes();
-  if (nodes.empty()) return;
+  if (nodes_.empty()) return;
   auto const search_in = [&](PixelMask& of) {
     return Search{of,
                   side,
@@ -206,7 +225,7 @@ void CrowdRaster::darken(PixelMask& mask, int side, View const& pixels,
   // Several branches for each thread, far apart, so that all have about as much to do. Parts of the
   // rows instead would each meet the casters at their ends.
   auto const parts = static_cast<std::size_t>(threads);
-  std::vector<std::uint32_t> const roots = branches(nodes, 16 * parts);
+  std::vector<std::uint32_t> const roots = branches(nodes_, 16 * parts);
   std::vector<PixelMask> masks(parts, mask);
   // A thread that waits must not begin with another view, which would take the memory of this.
   tbb::this_task_arena::isolate([&] {
@@ -222,7 +241,6 @@ void CrowdRaster::darken(PixelMask& mask, int side, View const& pixels,
 }
 
 void CrowdRaster::darken_below(Search& search, std::uint32_t root) const {
-  auto const& nodes = casters_.tree().nodes();
   PixelMask const& mask = search.mask;
   View const& pixels = search.pixels;
   glm::dvec3 const x(pixels.x);
@@ -231,11 +249,16 @@ void CrowdRaster::darken_below(Search& search, std::uint32_t root) const {
   glm::dvec3 const abs_x = glm::abs(x);
   glm::dvec3 const abs_y = glm::abs(y);
   glm::dvec3 const abs_normal = glm::abs(normal);
+  // Casters are fetched from memory while those before them are rasterised.
+  std::array<std::uint32_t, 8> pending;
+  pending.fill(none);
+  std::size_t fetched = 0;
   std::uint32_t waiting[64];
   int count = 0;
   waiting[count++] = root;
   while (count > 0) {
-    Bvh::Node const& node = nodes[waiting[--count]];
+    std::uint32_t const next = waiting[--count];
+    Bvh::Node const& node = nodes_[next];
     glm::dvec3 const centre = node.centre - pixels.origin;
     glm::dvec3 const size = glm::abs(centre) + node.reach;
     constexpr double rounding = 1e-12;
@@ -251,19 +274,21 @@ void CrowdRaster::darken_below(Search& search, std::uint32_t root) const {
     int const first_column = first_beyond(column - columns, 0.0, search.window.columns);
     int const end_column = first_beyond(column + columns, 0.0, search.window.columns);
     if (first_column >= end_column) continue;
-    constexpr int few_words = 8;
+    constexpr int few_words = 256;  // to look through
     int const words = (end_column - first_column) / PixelMask::word_bits + 1;
     if ((end_row - first_row) * words <= few_words &&
         !mask.any_lit(first_row, end_row, first_column, end_column)) {
       continue;
     }
-    if (node.count <= at_once) {
-      darken_some(search, node.first, node.count);
+    if (node.count <= lanes) {
+      prefetch(blocks_[node.children]);
+      darken_some(search, std::exchange(pending[fetched++ % pending.size()], next));
     } else {
       waiting[count++] = node.children;
       waiting[count++] = node.children + 1;
     }
   }
+  for (std::uint32_t const leaf : pending) darken_some(search, leaf);
 }
 
 template <typename Use>
@@ -277,22 +302,27 @@ void CrowdRaster::each_area(Search const& search, std::uint32_t position, Use us
                [&](ProjectedPiece const& piece) { use(piece.area(search.side)); });
 }
 
-void CrowdRaster::darken_some(Search& search, std::uint32_t first, std::uint32_t count) const {
-  Projected projected;
-  Corners from;
-  for (std::size_t corner = 0; corner < corners; ++corner) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      from.at[corner][axis] = corners_[corner][axis].data() + first;
-    }
+void CrowdRaster::prefetch(Block const& block) {
+  constexpr std::size_t line = 64;
+  for (std::size_t at = 0; at < sizeof(Block); at += line) {
+    __builtin_prefetch(reinterpret_cast<char const*>(&block) + at);
   }
-  run<project>(from, search.pixels, search.window, projected);
+}
+
+void CrowdRaster::darken_some(Search& search, std::uint32_t leaf) const {
+  if (leaf == none) return;
+  std::uint32_t const first = nodes_[leaf].first;
+  std::uint32_t const count = nodes_[leaf].count;
+  Block const& block = blocks_[nodes_[leaf].children];
+  Projected projected;
+  run<project>(block.corners, search.pixels, search.window, projected);
   bool found_edges = false;
   auto const one_by_one = [&](std::uint32_t position) {
     each_area(search, position, [&](ConvexArea const& area) { search.mask.darken(area); });
   };
   for (std::uint32_t i = 0; i < count; ++i) {
     std::uint32_t const position = first + i;
-    if (several_[position] != 0) {
+    if (block.several[i]) {
       one_by_one(position);
       continue;
     }
@@ -306,7 +336,9 @@ void CrowdRaster::darken_some(Search& search, std::uint32_t first, std::uint32_t
     }
     if (!found_edges) run<find_edges>(projected);
     found_edges = true;
-    if (projected.twice_area[i] == 0.0 || !search.counted(position)) continue;
+    if (projected.twice_area[i] == 0.0) continue;
+    bool const asks = block.only_turned_away[i] || search.counted.by_rule();
+    if (asks && !search.counted(position)) continue;
     search.mask.darken(area_of(projected, i, search.side));
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -7,12 +8,18 @@
 #include <vector>
 
 #include "backends/cpu/surface_pieces.h"
+#include "geometry/bvh.h"
 #include "gpu_shading/scene.h"
 #include "scene/casters.h"
 #include "view/pixel_mask.h"
 #include "view/view.h"
 
 namespace gpu_shading {
+
+// Casters that are projected at once.
+inline constexpr std::size_t crowd_lanes = 8;
+// The corners of so many casters, by corner and axis.
+using CrowdCorners = std::array<std::array<std::array<double, crowd_lanes>, 3>, 4>;
 
 // The question for which a crowd of casters is searched.
 struct CrowdQuestion {
@@ -35,12 +42,18 @@ class CrowdRaster {
               int threads) const;
 
  private:
-  static constexpr std::size_t at_once = 8;
-
   struct Search;
 
+  // The casters of a leaf: what a search reads of them lies together in memory.
+  struct alignas(64) Block {
+    CrowdCorners corners{};
+    std::array<bool, crowd_lanes> several{};  // more than one piece
+    std::array<bool, crowd_lanes> only_turned_away{};
+  };
+
   void darken_below(Search& search, std::uint32_t root) const;
-  void darken_some(Search& search, std::uint32_t first, std::uint32_t count) const;
+  static void prefetch(Block const& block);
+  void darken_some(Search& search, std::uint32_t leaf) const;
   // Calls use(area) for the pieces of a caster that may shade the receiver.
   template <typename Use>
   void each_area(Search const& search, std::uint32_t position, Use use) const;
@@ -48,8 +61,8 @@ class CrowdRaster {
   Scene const& scene_;
   Casters const& casters_;
   SurfacePieces const& pieces_;
-  std::vector<double> corners_[4][3];  // by axis, and by position in the tree
-  std::vector<std::uint8_t> several_;  // positions whose casters are more than one piece
+  std::vector<Bvh::Node> nodes_;  // with more casters, and leaves, whose `children` is a block
+  std::vector<Block> blocks_;
 };
 
 }  // namespace gpu_shading

@@ -39,10 +39,9 @@ struct ReceiverView {
   // them in `casters` how many there are about.
   Casters const* crowd = nullptr;
   double crowd_count = 0.0;
-  // Where the crowd repeats: rows of samples, as many across, that suffice if they alias within
-  // `max_aliasing` with it. 0: not known.
-  int coarse_rows = 0;
-  double max_aliasing = 0.0;
+  bool is_window = false;  // there are questions about the surfaces behind it
+  // Where the crowd repeats: the samples that suffice.
+  std::optional<TileGrid> grid = {};
 
   // Area of a pixel normal to the beam, m2; on a bounding tile, of all that is seen through it.
   double pixel_area() const { return tile->map.pixel_area(tile->side) * cosine; }

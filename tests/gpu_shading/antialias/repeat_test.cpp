@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "antialias/antialias.h"
+#include "support/crowds.h"
 #include "support/random_scene.h"
 #include "support/shapes.h"
 
@@ -23,6 +25,15 @@ TEST(Repeats, OfLouvresAreTheirDistance) {
     EXPECT_LT(glm::distance(repeat->step, step), 1e-9);
     EXPECT_NEAR(glm::length(repeat->edge), 7.0, 1e-9);
   }
+}
+
+// Rounded to a two-hundredth of their distance, as in files.
+TEST(Repeats, OfRoundedPiecesAreTheirMeanDistance) {
+  Scene const scene = pieces_of_louvres(32000);
+  auto const repeat = repeat_of(scene, 1600);
+  ASSERT_TRUE(repeat);
+  EXPECT_LT(glm::distance(repeat->step, {3.0 / 1600, 0.0, 0.0}), 2e-8);
+  EXPECT_LT(glm::distance(glm::abs(repeat->side), {0.95 * 3.0 / 1600, 0.0, 0.0}), 1e-5);
 }
 
 // The upper side of a box is not a repeat of its lower side, which faces the other way.

@@ -3,15 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <random>
+#include <utility>
 #include <vector>
 
 #include "backends/cpu/coverage.h"
-#include "backends/cpu/crowd_rays.h"
 #include "geometry/triangulation.h"
 #include "support/crowds.h"
 #include "support/random_scene.h"
+#include "support/regular_shades.h"
 #include "support/shapes.h"
 
 namespace gpu_shading {
@@ -54,66 +55,194 @@ TEST(CrowdRaster, CoversTheSamplesThatListedCastersCover) {
   expect_as_listed(mixed_crowd(5), "few");
 }
 
-std::uint64_t differing(PixelMask const& a, PixelMask const& b) {
-  std::uint64_t count = 0;
-  for (std::size_t i = 0; i < a.words().size(); ++i) {
-    count += static_cast<std::uint64_t>(std::popcount(a.words()[i] ^ b.words()[i]));
-  }
-  return count;
+double percentile_99(std::vector<double> errors) {
+  std::sort(errors.begin(), errors.end());
+  return errors[errors.size() * 99 / 100 - 1];
 }
 
-TEST(CrowdRays, CoverTheSamplesThatTheRasterCovers) {
-  Scene scene = mixed_crowd(700);
-  scene.set_rule(thirds(scene));
-  Casters const casters(scene);
-  SurfacePieces const pieces(triangulate_all(scene));
-  CrowdRaster const raster(scene, casters, pieces);
-  CrowdRays const rays(scene, casters);
-  PlaneFrame const frame = *plane_frame(scene[0].polygon);
-  Tile const tile = make_tile(scene[0].polygon, frame, 128, 4096);
-  TileGrid const grid = pixels_of(tile);
-  for (int i = 0; i < 12; ++i) {
-    glm::dvec3 const towards_sun = to_vector(sun_at(100 + 14 * i, 4 + 6 * i));
-    if (glm::dot(frame.normal, towards_sun) <= 0.0) continue;
-    View const pixels = in_pixels(view_in_front(frame, tile.map, towards_sun), grid);
-    PixelMask expected;
-    expected.start(grid.columns(), 0, grid.rows);
-    light(expected, tile, grid);
-    PixelMask found = expected;
-    std::uint64_t const own = expected.lit();
-    raster.darken(expected, grid.side(), pixels, {0, towards_sun}, 1);
-    rays.darken(found, pixels, {0, towards_sun});
-    EXPECT_LT(expected.lit(), own);
-    // Spans are in single precision.
-    EXPECT_LE(differing(expected, found), 1U) << "direction " << i;
-  }
+double percentile_99_of_errors(std::vector<double> const& found,
+                               std::vector<double> const& expected) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < found.size(); ++i) errors.push_back(std::abs(found[i] - expected[i]));
+  return percentile_99(std::move(errors));
 }
 
-// Louvres wider than the window, which is lit above them where the sun is high.
-double lit_behind_louvres(glm::dvec3 const& towards_sun) {
-  double const slope = towards_sun.z / -towards_sun.y;
-  double const covered = std::min(1.0, 0.5 * (0.4 + slope));
-  return 1.0 - covered * (1.0 - std::min(1.0, 0.05 * slope));
+Renderer renderer_within(double error, Scene const& scene) {
+  RendererOptions options;
+  options.device = on_cpu;
+  options.error = error;
+  return Renderer(scene, options);
+}
+
+std::vector<double> lit_fractions(Scene const& scene, std::vector<SunDirection> const& suns,
+                                  double error) {
+  Renderer renderer = renderer_within(error, scene);
+  SurfaceId const receiver = 0;
+  auto const answers = renderer.projected_sunlit_areas(suns, {&receiver, 1});
+  glm::dvec3 const normal = plane_frame(scene[0].polygon)->normal;
+  double const whole = area(scene[0].polygon);
+  std::vector<double> fractions;
+  for (std::size_t i = 0; i < suns.size(); ++i) {
+    double const cosine = glm::dot(normal, to_vector(suns[i]));
+    fractions.push_back(answers[i].front().projected_area / (cosine * whole));
+  }
+  return fractions;
 }
 
 TEST(RepeatingCrowd, MeetsTheTarget) {
-  Scene const scene = fine_louvres(3000, 2.0);
+  std::vector<SunDirection> const suns = spread_suns(400);
+  for (bool const upright : {false, true}) {
+    for (auto const& [count, target] :
+         {std::pair(500, 1e-2), {3000, 1e-2}, {20000, 1e-2}, {5000, 1e-3}, {20000, 1e-3}}) {
+      SCOPED_TRACE(testing::Message()
+                   << count << (upright ? " fins at " : " louvres at ") << target);
+      RegularShades const shades{count, upright};
+      std::vector<double> expected;
+      for (SunDirection const sun : suns) expected.push_back(shades.sunlit_fraction(sun));
+      std::vector<double> const lit = lit_fractions(shades.scene(), suns, target);
+      EXPECT_LE(percentile_99_of_errors(lit, expected), target);
+    }
+  }
+}
+
+// Long battens in front of a window, at places along a direction in its plane.
+Scene battens(std::vector<double> const& places, double turn, double width) {
+  Scene scene;
+  scene.add({"window", south_facing(0, 0, 0, 3, 2)});
+  glm::dvec3 const along(std::cos(turn), 0.0, std::sin(turn));
+  glm::dvec3 const across(-std::sin(turn), 0.0, std::cos(turn));
+  for (double const place : places) {
+    glm::dvec3 const corner = glm::dvec3(1.5, -0.2, 1.0) - 6.0 * along + place * across;
+    scene.add({"batten", parallelogram(corner, 12.0 * along, width * across)});
+  }
+  return scene;
+}
+
+TEST(RepeatingCrowd, MeetsTheTargetWhereverItsBladesAre) {
+  constexpr int count = 2000;
+  constexpr double target = 1e-2;
+  std::mt19937 generator{3};
+  std::vector<double> even;
+  std::vector<double> random;
+  std::vector<double> groups;
+  for (int i = 0; i < count; ++i) {
+    even.push_back(6.0 * i / count - 3.0);
+    random.push_back(6.0 * static_cast<double>(generator()) / std::mt19937::max() - 3.0);
+    groups.push_back(even.back() + (i / 100 % 2 == 0 ? 0.0 : 0.2 / count));
+  }
+  std::vector<std::pair<char const*, Scene>> scenes;
+  scenes.emplace_back("inclined", battens(even, 0.5, 3.0 / count));
+  scenes.emplace_back("upright and random", battens(random, 1.5707963, 3.0 / count));
+  scenes.emplace_back("level and random", battens(random, 0.0, 3.0 / count));
+  scenes.emplace_back("in groups", battens(groups, 0.0, 2.0 / count));
+  Scene crossed = battens(even, 0.0, 1.0 / count);
+  Scene const others = battens(even, 1.2, 1.0 / count);
+  for (SurfaceId id = 1; id < others.size(); ++id) crossed.add(others[id]);
+  scenes.emplace_back("crossed", std::move(crossed));
+  std::vector<SunDirection> const suns = spread_suns(100);
+  for (auto const& [name, scene] : scenes) {
+    std::vector<double> const expected = lit_fractions(scene, suns, 2e-5);
+    std::vector<double> const lit = lit_fractions(scene, suns, target);
+    EXPECT_LE(percentile_99_of_errors(lit, expected), target) << name;
+  }
+}
+
+// Rows of samples run along pieces that are much shorter than the receiver.
+TEST(RepeatingCrowd, MeetsTheTargetBehindPieces) {
+  std::vector<SunDirection> const suns = spread_suns(200);
+  Scene const scene = pieces_of_louvres(8000);
+  std::vector<double> const expected = lit_fractions(scene, suns, 2e-5);
+  for (double const target : {1e-2, 1e-3}) {
+    std::vector<double> const lit = lit_fractions(scene, suns, target);
+    EXPECT_LE(percentile_99_of_errors(lit, expected), target);
+  }
+}
+
+// A room behind the window, whose edges are level, as louvres and their rows of samples are.
+struct Room {
+  Scene scene;
+  InteriorQuestion question{0, {}};
+
+  explicit Room(Scene const& shaded) : scene(shaded) {
+    add(parallelogram({-1, 0, -1}, {5, 0, 0}, {0, 4, 0}));
+    add(parallelogram({-1, 0, 3}, {0, 4, 0}, {5, 0, 0}));
+    add(parallelogram({-1, 4, -1}, {5, 0, 0}, {0, 0, 4}));
+    add(parallelogram({-1, 0, -1}, {0, 4, 0}, {0, 0, 4}));
+    add(parallelogram({4, 0, -1}, {0, 0, 4}, {0, 4, 0}));
+  }
+  void add(Polygon const& polygon) {
+    question.interiors.push_back(static_cast<SurfaceId>(scene.size()));
+    Surface surface{"inside", polygon};
+    surface.casting = Casting::never;
+    scene.add(surface);
+  }
+};
+
+TEST(RepeatingCrowd, MeetsTheTargetBehindAWindow) {
+  Room const room(RegularShades{20000, false}.scene());
+  std::vector<SunDirection> const suns = spread_suns(50);
+  // Of the window's area, of each sun and surface.
+  auto const inside = [&](double error) {
+    auto const answers =
+        renderer_within(error, room.scene).interior_sunlit_areas(suns, {&room.question, 1});
+    glm::dvec3 const normal = plane_frame(room.scene[0].polygon)->normal;
+    double const whole = area(room.scene[0].polygon);
+    std::vector<double> fractions;
+    for (std::size_t i = 0; i < suns.size(); ++i) {
+      double const cosine = glm::dot(normal, to_vector(suns[i]));
+      for (Sunlit const& lit : answers[i][0]) {
+        fractions.push_back(lit.projected_area / (cosine * whole));
+      }
+    }
+    return fractions;
+  };
+  std::vector<double> const expected = inside(2e-5);
+  for (double const target : {1e-2, 1e-3}) {
+    EXPECT_LE(percentile_99_of_errors(inside(target), expected), target);
+  }
+}
+
+TEST(LitCrowds, AnswerAsIfTheWindowHadNotBeenAskedAbout) {
+  Room const room(mixed_crowd(20000));
+  std::vector<SunDirection> const suns = spread_suns(8);
   RendererOptions options;
   options.device = on_cpu;
-  options.error = 1e-2;
-  Renderer renderer(scene, options);
-  std::vector<double> errors;
-  for (int i = 0; i < 200; ++i) {
-    SunDirection const sun = sun_at(105 + 0.75 * i, 5.0 + std::fmod(37.0 * i, 60.0));
-    glm::dvec3 const towards_sun = to_vector(sun);
-    double const whole = 6.0 * -towards_sun.y;
-    double const lit = sunlit(renderer, sun, 0).projected_area / whole;
-    errors.push_back(std::abs(lit - lit_behind_louvres(towards_sun)));
+  Renderer alone(room.scene, options);
+  Renderer both(room.scene, options);
+  SurfaceId const window = room.question.window;
+  auto const lit = alone.projected_sunlit_areas(suns, {&window, 1});
+  auto const expected = alone.interior_sunlit_areas(suns, {&room.question, 1});
+  for (int times = 0; times < 2; ++times) {
+    auto const lit_again = both.projected_sunlit_areas(suns, {&window, 1});
+    auto const inside = both.interior_sunlit_areas(suns, {&room.question, 1});
+    for (std::size_t i = 0; i < suns.size(); ++i) {
+      EXPECT_EQ(lit_again[i][0].projected_area, lit[i][0].projected_area);
+      for (std::size_t k = 0; k < room.question.interiors.size(); ++k) {
+        EXPECT_EQ(inside[i][0][k].projected_area, expected[i][0][k].projected_area);
+      }
+    }
   }
-  std::sort(errors.begin(), errors.end());
-  EXPECT_LE(errors[errors.size() * 99 / 100 - 1], options.error);
-  // Fewer samples than louvres: a raster of them all is more accurate.
-  EXPECT_GT(errors[errors.size() / 2], 0.05 * options.error);
+}
+
+TEST(LitCrowds, KeepEachMaskOnceAndTheNewest) {
+  PixelMask mask;
+  mask.start(64, 0, 1 << 15);
+  mask.words()[7] = 5;
+  LitCrowds crowds;
+  LitCrowds::Key key{3, {0, -1, 0}, 0.5, {64, 1 << 15, 0.0}, 0};
+  for (SurfaceId receiver = 0; receiver < 300; ++receiver) {
+    key.receiver = receiver;
+    crowds.keep(key, mask);
+  }
+  PixelMask found;
+  ASSERT_TRUE(crowds.take(key, found));
+  EXPECT_EQ(found.words()[7], 5U);
+  EXPECT_FALSE(crowds.take(key, found));
+  key.receiver = 0;
+  EXPECT_FALSE(crowds.take(key, found)) << "300 masks of 256 KiB";
+  key.receiver = 100;
+  key.towards_sun.z = 1e-9;
+  EXPECT_FALSE(crowds.take(key, found));
 }
 
 TEST(CrowdInView, SamplesTheCastersInView) {

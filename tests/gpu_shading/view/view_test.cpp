@@ -66,7 +66,7 @@ TEST(View, AStretchedTileHoldsTheReceiverAndNearlyAsManyOfItsPixels) {
   PlaneFrame const frame = *plane_frame(square);
   double const pixel = fit_tile(frame, square.outline, 512).pixel_area(512);
   for (double const stretch : {0.9, 0.97, 1.04, 1.1}) {
-    TileMap const map = fit_tile(frame, square.outline, 512, {0, stretch});
+    TileMap const map = fit_tile(frame, square.outline, 512, {.stretch = stretch});
     glm::dvec2 const u = map(frame, {2, 0, 0}) - map(frame, {0, 0, 0});
     glm::dvec2 const v = map(frame, {0, 2, 0}) - map(frame, {0, 0, 0});
     EXPECT_NEAR(glm::length(u) / glm::length(v), stretch * stretch, 1e-9);
