@@ -1,6 +1,8 @@
 #version 450 core
 // Outputs 0 and the transmittance of a crown along the ray through the face of its box that is
-// towards the sun, as CrownSolid::inside finds the path.
+// towards the sun, as CrownSolid::inside finds the path. The faces of a mesh output factors whose
+// product is the transmittance: a path is the sum of the distances at which its ray leaves the mesh,
+// less those at which it enters.
 
 in vec3 position;
 in float kept;
@@ -8,6 +10,7 @@ flat in vec3 along;
 flat in float rise;
 flat in vec3 solid;
 flat in float extinction;
+flat in float hand;
 
 out vec4 fragment;
 
@@ -43,7 +46,19 @@ vec2 inside() {
   return along.z > 0.0 ? vec2(ends.x, min(ends.y, first)) : vec2(max(ends.x, last), ends.y);
 }
 
+// Of the ray through a mesh's face, from the middle of the crown.
+float distance_kept() {
+  float squared = dot(along, along);  // the inverse of the mesh's reach
+  float distance = dot(position, along) / squared;
+  if (rise > 0.0) distance = max(distance, min(distance - kept / rise, inversesqrt(squared)));
+  return (gl_FrontFacing ? hand : -hand) * distance;
+}
+
 void main() {
+  if (solid == vec3(0.0)) {
+    fragment = vec4(vec3(0.0), exp(-extinction * distance_kept()));
+    return;
+  }
   vec2 path = inside();
   if (rise > 0.0) path.x = max(path.x, -kept / rise);
   float passed = exp(-extinction * max(0.0, path.y - path.x));

@@ -55,32 +55,19 @@ bool any_moves(PerforatedScreens const& screens) {
   });
 }
 
-// Names of meshes and of surroundings, which cannot move.
-Names fixed_surfaces(Surroundings const& surroundings) {
-  Names names;
-  for (auto const& [name, type] : surroundings.types) names.insert(name);
-  return names;
-}
-
 // What a run with moving shades needs.
 void prepare_for_moving_shades(Model& model) {
   if (model.moving_shades.empty()) return;
   auto const& first = model.moving_shades.front();
   auto& options = model.options;
-  if (options.update.sampling) {
-    throw Error(fmt::format("{}: --gpu-shading-update {}: expected timestep with moving shades",
-                            first.where, name_of(options.update)));
-  }
-  if (options.mode == Mode::require) {
-    throw Error(fmt::format("{}: --gpu-shading=require: moving shades are rendered on the CPU",
-                            first.where));
-  }
   options.update.every_timestep = true;
-  options.device.device = DeviceId{};
+  // Single directions keep no GPU busy.
+  if (options.mode != Mode::require && !options.device.device) options.device.device = DeviceId{};
   for (auto const& shade : model.moving_shades) model.remarks.push_back(shade.describe());
   model.remarks.emplace_back(
-      "with moving shades, shading is computed at every timestep, on the CPU");
-  if (!model.shading.detailed_sky) {
+      "with moving shades, shading is computed at every timestep, on the CPU unless a GPU is named "
+      "or required");
+  if (!model.shading.detailed_sky && options.sky == SkyModel::energyplus) {
     model.warnings.push_back(fmt::format(
         "{}: with SimpleSkyDiffuseModeling, the diffuse light of the sky is that of the position "
         "at rest; ShadowCalculation: Sky Diffuse Modeling Algorithm = DetailedSkyDiffuseModeling "
@@ -192,13 +179,12 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   model.shading = read_shading_input(objects);
   auto const folder = choices.folder.value_or(path.parent_path());
   AssetFolder const assets(folder, choices.assets.value_or(Assets::restricted));
-  model.surroundings = read_surroundings(objects, assets);
+  model.surroundings = read_surroundings(objects, assets, reader.horizons);
   add_surroundings(model.surroundings, model.shading);
   model.shades = read_transparent_shades(objects, model.shading, folder);
   model.screens = read_perforated_screens(objects, model.shading, model.shades, assets);
   check_textures(model.surroundings, model.screens);
-  model.moving_shades =
-      read_moving_shades(objects, model.shading, fixed_surfaces(model.surroundings));
+  model.moving_shades = read_moving_shades(objects, model.shading, model.surroundings.types);
   model.surrounding_groups = read_surrounding_groups(objects);
   model.own_environments = surfaces_with_environment(objects);
   if (choices.positions) {
@@ -231,7 +217,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   return model;
 }
 
-Model read_model(std::filesystem::path const& path, Choices const& choices) {
+Model read_model(std::filesystem::path const& path, Choices const& choices, Reader const& reader) {
   auto objects = read_objects(path);
   if (!objects.empty() && std::ranges::all_of(objects, is_extension, &InputObject::type)) {
     throw Error(
@@ -239,7 +225,7 @@ Model read_model(std::filesystem::path const& path, Choices const& choices) {
                     "--gpu-shading-file",
                     path.string(), extension_prefix));
   }
-  return understand(std::move(objects), path, choices);
+  return understand(std::move(objects), path, choices, reader);
 }
 
 Rewrite rewrite_for(Model const& model) {

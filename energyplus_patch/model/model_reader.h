@@ -52,6 +52,7 @@ struct Reader {
   bool reflections = false;     // rays of solar reflections can be answered
   // Those of daylighting can be answered in models with solar reflections, too.
   bool reflections_in_daylight = false;
+  bool horizons = true;  // of sites; false to check a model without reading all that is far away
 };
 
 // Reads a model's objects together with those of its side file, and resolves all options.
@@ -61,7 +62,8 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
                  Choices const& choices, Reader const& reader = {});
 
 // The same, from the model's file (.idf, .imf or .epJSON).
-Model read_model(std::filesystem::path const& path, Choices const& choices);
+Model read_model(std::filesystem::path const& path, Choices const& choices,
+                 Reader const& reader = {});
 
 // The input that EnergyPlus reads in place of the model's file.
 Rewrite rewrite_for(Model const& model);

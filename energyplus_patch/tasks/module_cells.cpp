@@ -25,8 +25,8 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-// Cells times times: 800 MB of answers.
-constexpr std::size_t max_values = 400'000'000;
+// Cells times times: 8 GB of answers.
+constexpr std::size_t max_values = 4'000'000'000;
 
 // A rectangle of a field: the field, a module, or a cell. Its parts, if any, are [first, first +
 // parts) of all rectangles, its cells [first_cell, first_cell + cells) of the field.

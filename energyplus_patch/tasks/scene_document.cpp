@@ -86,9 +86,16 @@ Document to_json(PerforatedScreen const& screen) {
 }
 
 Document to_json(Crown const& crown) {
-  constexpr std::array shapes{"ellipsoid", "cone", "cylinder", "half ellipsoid"};
+  constexpr std::array shapes{"ellipsoid", "cone", "cylinder", "half ellipsoid", "mesh"};
   constexpr std::array angles{"spherical", "planophile", "erectophile"};
+  Document mesh;
+  if (crown.mesh) {
+    for (CrownMesh::Triangle const& triangle : crown.mesh->triangles()) {
+      for (auto const& corner : triangle) mesh.push_back({corner.x, corner.y, corner.z});
+    }
+  }
   return {{"height", crown.height},
+          {"mesh", std::move(mesh)},
           {"leaf_density", crown.leaf_density},
           {"shape", shapes.at(static_cast<std::size_t>(crown.shape))},
           {"leaf_angles", angles.at(static_cast<std::size_t>(crown.leaf_angles))},

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "backends/open_backend.h"
@@ -19,6 +20,7 @@
 #include "pictures/colours.h"
 #include "pictures/picture_frame.h"
 #include "pictures/shadow_map.h"
+#include "rays/mesh_path.h"
 
 namespace gpu_shading {
 namespace {
@@ -105,9 +107,18 @@ struct CrownLook {
   glm::dvec3 facing;  // where the ray leaves it
   double passes;      // of what is behind
 
-  // `position`: anywhere on the ray.
-  CrownLook(Crowns::Entry const& crown, glm::dvec3 const& towards_eye, glm::dvec3 const& position)
+  // `position`: anywhere on the ray. `mesh`: of a crown that has one.
+  CrownLook(Crowns::Entry const& crown, MeshPaths const* mesh, glm::dvec3 const& towards_eye,
+            glm::dvec3 const& position)
       : facing(towards_eye), passes(1.0) {
+    if (mesh != nullptr) {
+      double const before = glm::length(crown.half[0] + crown.half[1] + crown.half[2]);
+      auto const path = (*mesh)(RayPath({position - 2.0 * before * towards_eye, towards_eye,
+                                         std::numeric_limits<double>::infinity()}));
+      passes = std::exp(-crown.extinction(towards_eye, {}) * path.length);
+      facing = path.facing;
+      return;
+    }
     glm::dvec3 const start = crown.in_cube(position - crown.centre);
     glm::dvec3 const step = crown.in_cube(towards_eye);
     RayPart const path = crown.solid.inside(start, step);
@@ -154,7 +165,9 @@ class SceneView::Implementation {
     find_middle();
     std::vector<Mesh> meshes = triangulate_all(scene_);
     for (Crowns::Entry const& crown : transmission_.crowns().entries()) {
+      trees_.try_emplace(scene_[crown.surface].name, crown.surface);
       meshes[crown.surface] = body_mesh(scene_[crown.surface].polygon, crown.crown);
+      if (crown.crown.mesh) crown_meshes_.try_emplace(crown.surface, crown);
     }
     raster_ = open_picture_raster({scene_, meshes, transmission_}, device);
   }
@@ -190,7 +203,9 @@ class SceneView::Implementation {
     constexpr double dark = 0.6;
     auto const look = [&](SurfaceId id, std::size_t sample) {
       Crowns::Entry const& crown = transmission_.crowns()[transmission_.crowns().number(id)];
-      return CrownLook(crown, axes.towards_sun,
+      auto const mesh = crown_meshes_.find(id);
+      return CrownLook(crown, mesh == crown_meshes_.end() ? nullptr : &mesh->second,
+                       axes.towards_sun,
                        positions.on_plane(axes.towards_sun, crown.centre, sample));
     };
     auto const colour = [&](std::uint32_t number, std::size_t sample) -> Colour {
@@ -314,18 +329,23 @@ class SceneView::Implementation {
     std::map<SurfaceId, PictureFrame> parts;
     PictureFrame receivers;
     for_each_point([&](SurfaceId id, glm::dvec3 const& point) {
-      parts[id].include(axes(point - middle_));
+      auto const tree = trees_.find(scene_[id].name);
+      parts[tree == trees_.end() ? id : tree->second].include(axes(point - middle_));
       if (id < fractions.size() && fractions[id]) receivers.include(axes(point - middle_));
     });
     if (receivers.empty()) throw Error("there is no receiver to view");
-    // What begins nearby is shown whole, unless it goes far.
+    auto const overlap = [](PictureFrame const& one, PictureFrame const& other) {
+      return glm::all(glm::greaterThan(one.high, other.low)) &&
+             glm::all(glm::lessThan(one.low, other.high));
+    };
+    // What begins nearby is shown whole, unless it goes far. Trees are, with their trunks, and so
+    // are those that would otherwise be cut off.
     PictureFrame const near = receivers.widened(0.5 * receivers.longer());
     PictureFrame const limit = receivers.widened(receivers.longer());
+    PictureFrame const far = receivers.widened(3.0 * receivers.longer());
     PictureFrame frame = receivers;
     for (auto const& [id, part] : parts) {
-      bool const is_near = glm::all(glm::greaterThan(part.high, near.low)) &&
-                           glm::all(glm::lessThan(part.low, near.high));
-      if (!is_near) continue;
+      if (is_crown(id) || !overlap(part, near)) continue;
       bool const is_small = glm::all(glm::greaterThan(part.low, limit.low)) &&
                             glm::all(glm::lessThan(part.high, limit.high));
       PictureFrame const& within = is_small ? limit : near;
@@ -333,7 +353,17 @@ class SceneView::Implementation {
       frame.include(glm::min(part.high, within.high));
     }
     for (auto const& point : included_) frame.include(axes(point - middle_));
-    return frame.widened(scene_border * frame.longer());
+    auto const with_border = [&] { return frame.widened(scene_border * frame.longer()); };
+    for (PictureFrame seen; seen.low != frame.low || seen.high != frame.high;) {
+      seen = frame;
+      for (auto const& [id, part] : parts) {
+        if (!is_crown(id) || !overlap(part, far)) continue;
+        if (!overlap(part, near) && !overlap(part, with_border())) continue;
+        frame.include(part.low);
+        frame.include(part.high);
+      }
+    }
+    return with_border();
   }
 
   std::vector<Colour> colours(std::span<std::optional<double> const> fractions,
@@ -352,9 +382,11 @@ class SceneView::Implementation {
 
   Scene const& scene_;
   Transmission transmission_;
-  std::vector<SurfaceId> shown_;  // those that transmit last
-  std::size_t opaque_ = 0;        // how many do not
-  std::vector<bool> has_holes_;   // by surface
+  std::map<SurfaceId, MeshPaths> crown_meshes_;
+  std::map<std::string, SurfaceId> trees_;  // their crowns, whose names trunks share
+  std::vector<SurfaceId> shown_;            // those that transmit last
+  std::size_t opaque_ = 0;                  // how many do not
+  std::vector<bool> has_holes_;             // by surface
   glm::dvec3 middle_{0.0};
   double lowest_ = 0.0;  // height of the lowest surface
   double reach_ = 1.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "filters/perforation/sheet_rays.h"
 #include "filters/transmission.h"
 #include "gpu_shading/rays.h"
+#include "rays/mesh_path.h"
 #include "rays/ray_shapes.h"
 #include "rays/ray_tree.h"
 
@@ -92,6 +94,7 @@ class RayCrowns {
       Box& box = boxes[static_cast<std::size_t>(number)];
       for (glm::dvec3 const& corner : crowns_[number].corners()) box.include(corner);
       box = with_margin(box);
+      if (crowns_[number].crown.mesh) meshes_.try_emplace(number, crowns_[number]);
     }
     tree_ = RayTree(boxes);
   }
@@ -102,8 +105,16 @@ class RayCrowns {
   void search(RayPath const& ray, double const& limit, std::span<double const> deployments,
               Skips const& skips, Met const& met) const {
     tree_.search(ray, limit, [&](std::uint32_t place) {
-      Crowns::Entry const& crown = crowns_[static_cast<int>(tree_.order()[place])];
+      auto const number = static_cast<int>(tree_.order()[place]);
+      Crowns::Entry const& crown = crowns_[number];
       if (skips(crown.surface)) return;
+      if (crown.crown.mesh) {
+        MeshPaths::Path const path = meshes_.at(number)(ray);
+        if (path.length == 0.0 || path.begin > limit) return;
+        met(crown.surface, path.begin,
+            std::exp(-crown.extinction(ray.direction, deployments) * path.length));
+        return;
+      }
       RayPart part = crown.solid.inside(crown.in_cube(ray.origin - crown.centre),
                                         crown.in_cube(ray.direction));
       part = {std::max(part.begin, 0.0), std::min(part.end, ray.length)};
@@ -115,6 +126,7 @@ class RayCrowns {
 
  private:
   Crowns const& crowns_;
+  std::map<int, MeshPaths> meshes_;  // by number
   RayTree tree_;
 };
 

@@ -12,8 +12,9 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent), str(HERE.parents[1] / "scripts")]
+sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parents[1] / "scripts")]
 
+import generate  # noqa: E402
 from common import case_study  # noqa: E402
 from shading_runs import results  # noqa: E402
 
@@ -47,6 +48,7 @@ def shade(name, corners):
 VARIANTS = {
     "none": TREE.sub("", MODEL),
     "trees, with leaves by the season": MODEL,
+    "the same, the oak a mesh": generate.model(),
     "trees, with leaves all year": MODEL.replace("Deciduous", "Evergreen"),
     "opaque boxes": TREE.sub("", MODEL) + boxes(),
 }
@@ -65,6 +67,7 @@ def main():
             path.parent.mkdir()
             path.write_text(text, encoding="utf-8")
             shutil.copy(HERE / "trees.geojson", path.parent)
+            (path.parent / "oak.obj").write_text(generate.crown(), encoding="utf-8")
             done = case_study.run_year(path, WEATHER, name)
             values = results.Results(done.folder, "Monthly")
             cells = (values.total(results.SOLAR, "WINDOW"), values.total(HEATING, "OFFICE"),

@@ -1,12 +1,14 @@
-// Cost of a sun direction for 100 receivers behind 1,000 trees, beside as many boxes of five sides,
-// on the CPU and drawn by OpenGL.
+// Cost of a sun direction for 100 receivers behind 1,000 trees, ellipsoids and meshes of as many
+// triangles as in the example, beside as many boxes of five sides, on the CPU and drawn by OpenGL.
 
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <numeric>
+#include <optional>
 #include <vector>
 
+#include "support/crown_meshes.h"
 #include "support/shapes.h"
 #include "table_main.h"
 
@@ -17,7 +19,7 @@ constexpr int directions = 20;
 constexpr int receivers = 100;
 constexpr int trees = 1000;
 
-Scene street(bool crowns, double crown_density) {
+Scene street(std::optional<Crown> crown) {
   Scene scene;
   for (int i = 0; i < receivers; ++i) {
     auto const place = std::div(i, 20);
@@ -29,8 +31,9 @@ Scene street(bool crowns, double crown_density) {
     constexpr double side = 3.5;
     constexpr double height = 6.0;
     Surface plan{"tree", level(corner.x, corner.y, corner.z, side, side)};
-    if (crowns) {
-      plan.filter.set(Crown{.height = height, .leaf_density = crown_density});
+    if (crown) {
+      crown->height = height;
+      plan.filter.set(*crown);
       scene.add(plan);
       continue;
     }
@@ -68,7 +71,10 @@ void print_table() {
     char const* name;
     Scene scene;
   };
-  for (Row const& row : {Row{"crowns", street(true, 1.2)}, Row{"boxes", street(false, 0.0)}}) {
+  constexpr int sides = 12;
+  Crown const mesh{.shape = CrownShape::mesh, .leaf_density = 1.2, .mesh = ball_mesh(sides)};
+  for (Row const& row : {Row{"crowns", street(Crown{.leaf_density = 1.2})},
+                         Row{"meshes", street(mesh)}, Row{"boxes", street(std::nullopt)}}) {
     std::printf("%-8s %8.1f", row.name, milliseconds(row.scene, on_cpu));
     std::fflush(stdout);
     std::printf(" %8.1f\n", milliseconds(row.scene, {numbered_device(0), false}));

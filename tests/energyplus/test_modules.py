@@ -256,10 +256,12 @@ def test_modules_that_cannot_be_read_are_left_out_of_the_page(patched, weather, 
 
 
 def test_files_and_errors(patched, weather, tmp_path):
-    shaded = Shaded(EXAMPLE.read_text(), weather, tmp_path, "--from", "12-21", "--to", "12-21")
+    text = EXAMPLE.read_text().replace("6, 10, 3;", "6, 10, 3, , , , , , , Yes;")
+    shaded = Shaded(text, weather, tmp_path, "--from", "12-21", "--to", "12-21")
     about = json.loads((shaded.folder / "modules.json").read_text())
     assert about["format"] == "gpu_shading modules 1"
-    assert [field["surface"] for field in about["fields"]] == ["ROW 1", "ROW 2", "ROW 3"]
+    assert [(field["surface"], field["half_cut"]) for field in about["fields"]] == [
+        (f"ROW {i}", True) for i in (1, 2, 3)]
     assert set(about["files"]) == {"modules.csv", "strings.csv", "times.csv", *(
         f"ROW_{i}{ending}" for i in (1, 2, 3) for ending in (".npy", ".png", ".svg", "_string_1.png", "_string_1.svg"))}
     (tmp_path / "none.idf").write_text(HALL)

@@ -24,13 +24,15 @@ MODULE = {"alpha_sc": 0.0039, "a_ref": 1.56, "I_L_ref": 9.31, "I_o_ref": 2.1e-10
           "Adjust": -3.2, "N_s": 60}
 
 
-def modules(cells, strings=None, beam=800.0, sky_view=None):
+def modules(cells, strings=None, beam=800.0, sky_view=None, half_cut=False):
     """Level modules at noon of an equinox on the equator, the sun in the zenith."""
     cells = np.round(65535 * np.asarray(cells, float)).astype(np.uint16)
     times, number = cells.shape[:2]
     field = pv_modules.ModuleField(
-        "Deck", cells, np.zeros(number, int) if strings is None else np.array(strings), np.zeros((number, 2), int),
-        180.0, 0.0, np.ones(number) if sky_view is None else np.array(sky_view), 1.0, 3, 1.6, Picture(b""))
+        "Deck", cells, np.zeros(number, int) if strings is None else np.array(strings),
+        np.array([(i, 0) for i in range(number)]),
+        180.0, 0.0, np.ones(number) if sky_view is None else np.array(sky_view), 1.0, 3, half_cut, 1.6,
+        Picture(b""))
     row = {"month": "3", "day": "21", "hour": "12", "timestep": "1", "sun azimuth [deg]": "180",
            "sun altitude [deg]": "89.9", "beam [W/m2]": str(beam), "diffuse [W/m2]": "100", "air [C]": "20",
            "wind [m/s]": "2"}
@@ -82,8 +84,8 @@ def test_a_module_as_pvlib_s_cells_in_series():
 def test_halves_of_a_half_cut_module_are_in_parallel(shade):
     cells = np.ones((1, 1, 20, 6))
     cells[0, 0, :10] = shade
-    shaded = modules(cells)
-    [power] = gpu_shading.power(shaded, MODULE, half_cut=True)
+    shaded = modules(cells, half_cut=True)
+    [power] = gpu_shading.power(shaded, MODULE)
     light = pv._irradiance(shaded[0], shaded, 0.2)
     rest = light.sky[0] + light.ground[0]
     temperature = pvlib.temperature.faiman(light.beam[0] * (1 + shade) / 2 + rest, 20.0, 2.0)
@@ -123,6 +125,23 @@ def test_levels_of_mismatch():
     frame = pytest.importorskip("pandas") and power.frame()
     assert frame["surface", 1, "with"].to_numpy() == pytest.approx(power.surface_with)
     assert frame.shape == (2, 2 * (1 + 2 + 4))
+
+
+def test_tables_are_written_as_parquet(tmp_path):
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip("fastparquet")
+    shaded = modules(np.linspace(0.25, 1.0, 2 * 4 * 60).reshape(2, 4, 10, 6), strings=[0, 0, 1, 1])
+    [power] = gpu_shading.power(shaded, MODULE)
+    shaded.write(tmp_path / "modules.parquet")
+    power.write(tmp_path / "power.parquet")
+    again = pandas.read_parquet(tmp_path / "modules.parquet")
+    assert again.to_numpy() == pytest.approx(shaded[0].cells.mean(axis=(2, 3)) / 65535)
+    assert list(again.columns) == ["Deck 1 1 1", "Deck 1 2 1", "Deck 2 3 1", "Deck 2 4 1"]
+    again = pandas.read_parquet(tmp_path / "power.parquet")
+    assert again["string 2 with"].to_numpy() == pytest.approx(power.string_with[:, 1])
+    with pytest.raises(gpu_shading.InvalidInput, match=r"expected a name that ends in \.parquet"):
+        power.write(tmp_path / "power.csv")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["modules.parquet", "power.parquet"]
 
 
 def test_a_darker_sky_is_mismatch_too():

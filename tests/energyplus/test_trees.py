@@ -14,6 +14,7 @@ from test_daylighting import FACTORS, blacken, factors, without_louvres
 from test_site import shade
 
 HALF = case.SIZE / 2
+EXAMPLE = energyplus.REPOSITORY / "idf_examples" / "trees"
 # Foot, height, diameter and crown base, m; leaf area density, m2/m3.
 OAK = ((0.5, -2.8, 0.0), 9.0, 5.0, 2.0, 0.6)
 ELM = ((-3.0, -4.0, 0.0), 8.0, 4.0, 1.5, 0.4)
@@ -25,11 +26,14 @@ def tree(name, foot, height, diameter, base, density, schedule="", cycle="Evergr
             f"{density},0;\n")
 
 
-def sunlit_fraction(trees, azimuth, altitude, share=1.0):
-    """Over points of the window: the product of exp(-0.5 density x chord of the ellipsoid)."""
+def sunlit_fraction(trees, azimuth, altitude, share=1.0, hides=None):
+    """Over points of the window: the product of exp(-0.5 density x chord of the ellipsoid).
+
+    `hides(points, sun)`: where other objects block the beam.
+    """
     a, h = math.radians(azimuth), math.radians(altitude)
     sun = np.array([math.sin(a) * math.cos(h), math.cos(a) * math.cos(h), math.sin(h)])
-    side = (np.arange(120) + 0.5) / 120 * case.SIZE
+    side = (np.arange(360) + 0.5) / 360 * case.SIZE
     x, z = np.meshgrid(side - HALF, side + 1.0)
     points = np.stack([x, np.zeros_like(x), z], axis=-1)
     passed = np.ones_like(x)
@@ -40,6 +44,8 @@ def sunlit_fraction(trees, azimuth, altitude, share=1.0):
         b, c = p @ d, (p * p).sum(-1) - 1
         chord = 2 * np.sqrt(np.maximum(0.0, b * b - c * (d @ d))) / (d @ d)
         passed *= np.exp(-0.5 * density * share * chord)
+    if hides is not None:
+        passed[hides(points, sun)] = 0.0
     return passed.mean()
 
 
@@ -56,10 +62,10 @@ def run(patched, weather, tmp_path):
     return call
 
 
-def compare(done, trees, share=1.0):
+def compare(done, trees, share=1.0, hides=None):
     rows = [row for row in timesteps(done.folder) if row[1] > 1 and 95 < row[0] < 265]
     found = np.array([area / case.SIZE**2 for _, _, area in rows])
-    expected = np.array([sunlit_fraction(trees, azimuth, altitude, share) for azimuth, altitude, _ in rows])
+    expected = np.array([sunlit_fraction(trees, azimuth, altitude, share, hides) for azimuth, altitude, _ in rows])
     print(f"{len(rows)} times, least {expected.min():.2f}, largest difference {np.abs(found - expected).max():.1e}")
     assert expected.min() < 0.75 and len(rows) > 20
     assert found == pytest.approx(expected, abs=2e-3)
@@ -70,6 +76,44 @@ def test_a_window_behind_trees_is_as_integrated(run):
     done = run(text, "trees")
     compare(done, [OAK, ELM])
     assert any("GPUShading:Tree Oak: 1 tree" in line for line in done.our_lines)
+
+
+# Y and height of a ridge of terrain from west to east behind the tree, m.
+@pytest.mark.parametrize("y, height", [(-30.0, 17.0), (-6.0, 7.0)], ids=["far", "near"])
+def test_a_window_behind_trees_and_terrain_is_as_integrated(run, tmp_path, y, height):
+    """Nodes of the terrain 2 m apart: level, but for a row with the ridge, whose sides are 2 m wide."""
+    metre = 111_132.954 - 559.822 * math.cos(2 * math.radians(33.65)) + 1.175 * math.cos(4 * math.radians(33.65))
+    south, step, rows, half = y - 20, 2.0, 21, 400.0
+    table = [[315 + (height if row == 10 else 0)] * 3 for row in range(rows)]
+    east = half / (metre * math.cos(math.radians(33.65)))
+    (tmp_path / "ridge.asc").write_text(
+        f"ncols 3\nnrows {rows}\nxllcenter {-84.42 - east:.12f}\nyllcenter {33.65 + south / metre:.12f}\n"
+        f"dx {east:.12f}\ndy {step / metre:.12f}\n" + "\n".join(" ".join(map(str, row)) for row in table))
+
+    def hides(points, sun):
+        top = points[..., 2] + sun[2] / -sun[1] * -(y - points[..., 1])
+        return (sun[1] < 0) & (top < height)
+
+    text = case.model("south", False, False) + tree("Oak", *OAK) + "GPUShading:SiteContext,Ridge,,,,,,,ridge.asc;\n"
+    text = text.replace("21 August,8,21,", "21 December,12,21,")
+    done = run(text, "ridge")
+    compare(done, [OAK], hides=hides)
+    suns = [row[:2] for row in timesteps(done.folder) if row[1] > 1 and 95 < row[0] < 265]
+    alone = [sunlit_fraction([], *sun, hides=hides) for sun in suns]
+    assert any(0.1 < part < 0.9 and sunlit_fraction([OAK], *sun, hides=hides) < 0.9 * part
+               for sun, part in zip(suns, alone, strict=True)), "the ridge and the crown never shade together"
+
+
+def test_a_window_behind_a_tree_and_a_screen_is_as_integrated(run):
+    """A thin sheet with square holes half as wide as their pitch, small beside the crown."""
+    sheet = shade("Sheet", [(-30, -0.3, 10), (-30, -0.3, 0), (30, -0.3, 0), (30, -0.3, 10)])
+    screen = "GPUShading:PerforatedScreen,Holes,Sheet,Square,,Straight,0.005,,0.01,,1e-6;\n"
+    done = run(case.model("south", False, False) + tree("Oak", *OAK) + sheet + screen, "screen")
+    rows = [row for row in timesteps(done.folder) if row[1] > 1 and 95 < row[0] < 265]
+    found = np.array([area / case.SIZE**2 for _, _, area in rows])
+    expected = np.array([sunlit_fraction([OAK], azimuth, altitude) / 4 for azimuth, altitude, _ in rows])
+    assert expected.min() < 0.75 / 4 and len(rows) > 20
+    assert found == pytest.approx(expected, abs=2e-3)
 
 
 def test_leaves_follow_their_schedule_and_the_season(run):
@@ -114,3 +158,18 @@ def test_trees_of_a_map_are_listed(patched, tmp_path):
                             check=True).stdout
     assert "GPUShading:Tree Street: trees.geojson: 3 trees" in listed
     assert "STREET:NODE/1" in listed and "leaves by GPU SHADING NORTHERN LEAVES" in listed
+
+
+def test_the_examples_mesh_shades_like_its_oak(patched, weather, tmp_path):
+    """The generator's mesh is closed, fills the box of the crown that it replaces, and shades the window like it."""
+    subprocess.run([EXAMPLE / "generate.py", tmp_path], check=True)
+    fractions = []
+    for path in (EXAMPLE / "trees.idf", tmp_path / "trees_mesh.idf"):
+        model = tmp_path / path.name
+        model.write_text(path.read_text() + "Output:Variable,Window,Surface Outside Face Sunlit Fraction,Timestep;\n")
+        done = energyplus.run(patched, model, weather, tmp_path / path.stem, ["-D", "--gpu-shading"])
+        assert done.completed, done.why() + done.text("eplusout.err")
+        fractions.append(np.array(values_of(done, "Surface Outside Face Sunlit Fraction")["WINDOW"]))
+    oak, mesh = fractions
+    assert (oak < 0.8).sum() > 5
+    assert 0.001 < np.abs(oak - mesh).mean() < 0.05

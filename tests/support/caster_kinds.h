@@ -13,6 +13,7 @@
 
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
+#include "support/crown_meshes.h"
 #include "support/random_scene.h"
 #include "support/shapes.h"
 
@@ -33,9 +34,16 @@ inline std::vector<CasterKind> const& caster_kinds() {
     FilterFactor const mesh = PerforatedSheet{std::make_shared<PerforatedScreen const>(
         HolePattern({.size = 0.1, .pitch = 0.14}), Sheet{.thickness = 0.01})};
     FilterFactor const crown = Crown{.height = 0.8, .leaf_density = 2.0};
+    FilterFactor const meshed =
+        Crown{.shape = CrownShape::mesh, .height = 0.8, .leaf_density = 2.0, .mesh = ball_mesh(12)};
     return std::vector<CasterKind>{
-        {"opaque", {}},         {"transparent", {{glass}}},        {"screen", {{mesh}}},
-        {"scheduled", {{}, 0}}, {"scheduled screen", {{mesh}, 0}}, {"crown", {{crown}}},
+        {"opaque", {}},
+        {"transparent", {{glass}}},
+        {"screen", {{mesh}}},
+        {"scheduled", {{}, 0}},
+        {"scheduled screen", {{mesh}, 0}},
+        {"crown", {{crown}}},
+        {"meshed crown", {{meshed}}},
     };
   }();
   return kinds;

@@ -56,6 +56,11 @@ void read_cells(InputObject const& object, PvModules& modules) {
     throw Error(fmt::format("{} is {}, expected a divisor of {} {}", field::bypass_diodes.title,
                             modules.diodes, field::cell_columns.title, modules.cell_columns));
   }
+  modules.half_cut = read(object, field::half_cut) == field::HalfCut::yes;
+  if (modules.half_cut && modules.cell_rows % 2 != 0) {
+    throw Error(fmt::format("{} is {}, expected an even number for {}", field::cell_rows.title,
+                            modules.cell_rows, field::half_cut.title));
+  }
   double const shorter = std::min(modules.width, modules.length);
   if (2.0 * modules.frame >= shorter) {
     throw Error(fmt::format("{} is {}, expected less than half of the module's shorter side, {} m",

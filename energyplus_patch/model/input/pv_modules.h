@@ -30,6 +30,7 @@ struct PvModules {
   std::optional<int> rows = std::nullopt;
   std::optional<int> string_length = std::nullopt;
   Direction direction = Direction::rows;
+  bool half_cut = false;
 
   // "GPUShading:PVModules M: 3 surfaces, modules of 1 m x 1.65 m with 6 x 10 cells"
   std::string describe() const;

@@ -59,14 +59,15 @@ std::optional<TextureAxes> Surroundings::texture_of(SurfaceId surface) const {
   return casters[surface - first].texture;
 }
 
-Surroundings read_surroundings(std::vector<InputObject> const& objects, AssetFolder const& folder) {
+Surroundings read_surroundings(std::vector<InputObject> const& objects, AssetFolder const& folder,
+                               bool horizons) {
   Surroundings surroundings;
   std::optional<SiteOrigin> origin;
   std::vector<TerrainGrid> terrains;
   if (any_of_type(objects, extension::site_context::type) || needs_origin(objects) ||
       needs_origin_for_trees(objects)) {
     origin = find_site_origin(objects);
-    terrains = read_site_contexts(objects, folder.path, *origin, surroundings);
+    terrains = read_site_contexts(objects, folder.path, horizons, *origin, surroundings);
   }
   read_geometries(objects, folder, origin, surroundings);
   read_trees(objects, folder.path, origin, terrains, surroundings);

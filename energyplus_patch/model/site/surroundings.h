@@ -69,18 +69,19 @@ class Extent {
   glm::dvec3 high_{0.0};
 };
 
-// Reads every such object and its files. `folder`: where relative file names start. Names are in
-// upper case: "CONTEXT:FEATURE", "CONTEXT:TERRAIN", "GEOMETRY:MATERIAL:MESH", "TREE:FEATURE".
-// Throws Error, naming object, field and value, and for errors in files the feature or the
-// position.
-Surroundings read_surroundings(std::vector<InputObject> const& objects, AssetFolder const& folder);
+// Reads every such object and its files. `folder`: where relative file names start. `horizons`:
+// whether buildings beyond a Radius are read. Names are in upper case: "CONTEXT:FEATURE",
+// "CONTEXT:TERRAIN", "GEOMETRY:MATERIAL:MESH", "TREE:FEATURE". Throws Error, naming object, field
+// and value, and for errors in files the feature or the position.
+Surroundings read_surroundings(std::vector<InputObject> const& objects, AssetFolder const& folder,
+                               bool horizons = true);
 
 // Reads every GPUShading:SiteContext, terrain first, because buildings stand on the terrain of the
 // same object. If the origin is to be at the terrain's elevation, that is determined here. Returns
 // the terrains. Throws Error.
 std::vector<TerrainGrid> read_site_contexts(std::vector<InputObject> const& objects,
-                                            std::filesystem::path const& folder, SiteOrigin& origin,
-                                            Surroundings& surroundings);
+                                            std::filesystem::path const& folder, bool horizons,
+                                            SiteOrigin& origin, Surroundings& surroundings);
 
 // Empty if the field is blank. Throws Error, naming field and value.
 std::optional<MapCoordinates> read_map_coordinates(InputObject const& object,

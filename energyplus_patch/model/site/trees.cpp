@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <numbers>
 #include <utility>
 
@@ -54,6 +55,8 @@ CrownShape shape_of(field::CrownShape shape) {
       return CrownShape::cone;
     case field::CrownShape::cylinder:
       return CrownShape::cylinder;
+    case field::CrownShape::mesh:
+      return CrownShape::mesh;
     case field::CrownShape::ellipsoid:
       break;
   }
@@ -73,9 +76,11 @@ LeafAngles angles_of(field::LeafAngles angles) {
 }
 
 // Of the box around it.
-double share_of_box(CrownShape shape) {
+double share_of_box(Crown const& crown) {
   using std::numbers::pi;
-  switch (shape) {
+  switch (crown.shape) {
+    case CrownShape::mesh:
+      return crown.mesh->volume() / 8.0;
     case CrownShape::cone:
       return pi / 12.0;
     case CrownShape::cylinder:
@@ -87,6 +92,13 @@ double share_of_box(CrownShape shape) {
   return pi / 6.0;
 }
 
+// Whether a mesh is the outline of crowns.
+bool is_outline(Surroundings const& surroundings, OutsideCaster const& caster,
+                std::vector<std::string> const& names) {
+  auto const& name = caster.surface.name;
+  return matches_any(names, name) && surroundings.types.at(name) == extension::geometry::type;
+}
+
 // Where a tree stands, and its own sizes.
 struct Standing {
   std::string name;
@@ -96,11 +108,46 @@ struct Standing {
   bool evergreen = false;
 };
 
+// The triangles of meshes as the outline of a crown.
+std::shared_ptr<CrownMesh const> read_outline(InputObject const& object,
+                                              Surroundings const& surroundings) {
+  auto const name = read(object, field::crown_mesh_name);
+  std::vector<CrownMesh::Triangle> triangles;
+  glm::dvec3 low(HUGE_VAL);
+  glm::dvec3 high(-HUGE_VAL);
+  for (auto const& caster : surroundings.casters) {
+    if (!is_outline(surroundings, caster, std::vector{name})) continue;
+    auto const& ring = caster.surface.polygon.outline;
+    triangles.push_back({ring[0], ring[1], ring[2]});
+    for (auto const& point : ring) {
+      low = glm::min(low, point);
+      high = glm::max(high, point);
+    }
+  }
+  return naming(fmt::format("{}: {}", field::crown_mesh_name.title, printable(name)), [&] {
+    if (triangles.empty()) throw Error("expected the name of a mesh of a GPUShading:Geometry");
+    glm::dvec3 half = 0.5 * (high - low);
+    half.x = half.y = std::max(half.x, half.y);
+    for (auto& triangle : triangles) {
+      for (auto& point : triangle) {
+        point = glm::clamp((point - 0.5 * (low + high)) / half, -1.0, 1.0);
+      }
+    }
+    return std::make_shared<CrownMesh const>(std::move(triangles));
+  });
+}
+
 // Creates the casters of one object.
 class Builder {
  public:
   Builder(InputObject const& object, Surroundings& surroundings)
-      : object_(object), surroundings_(surroundings) {}
+      : object_(object), surroundings_(surroundings) {
+    if (shape_of(read(object, field::crown_shape)) == CrownShape::mesh) {
+      mesh_ = read_outline(object, surroundings);
+    } else {
+      expect_blank(object, {field::crown_mesh_name}, "without the shape Mesh");
+    }
+  }
 
   void add(Standing const& tree, std::function<double()> const& latitude) {
     double const height = tree.height ? *tree.height : needed(object_, field::height);
@@ -136,10 +183,11 @@ class Builder {
                  std::function<double()> const& latitude) {
     Crown crown;
     crown.shape = shape_of(read(object_, field::crown_shape));
+    crown.mesh = mesh_;
     crown.height = height - base;
     crown.leaf_angles = angles_of(read(object_, field::leaf_angles));
     double const box = diameter * diameter * crown.height;
-    double const sphere = std::cbrt(6.0 / std::numbers::pi * share_of_box(crown.shape) * box);
+    double const sphere = std::cbrt(6.0 / std::numbers::pi * share_of_box(crown) * box);
     constexpr double projection = 0.5;
     crown.wood_density =
         read(object_, field::wood_area_density).value_or(without_leaves() / (projection * sphere));
@@ -193,6 +241,7 @@ class Builder {
 
   InputObject const& object_;
   Surroundings& surroundings_;
+  std::shared_ptr<CrownMesh const> mesh_;
   Extent extent_;
   std::size_t trees_ = 0;
 };
@@ -248,7 +297,11 @@ bool needs_origin_for_trees(std::vector<InputObject> const& objects) {
 void read_trees(std::vector<InputObject> const& objects, std::filesystem::path const& folder,
                 std::optional<SiteOrigin> const& origin, std::vector<TerrainGrid> const& terrains,
                 Surroundings& surroundings) {
+  std::vector<std::string> outlines;
   for_each_of(objects, field::type, [&](InputObject const& object) {
+    if (auto const name = read(object, field::crown_mesh_name); !name.empty()) {
+      outlines.push_back(name);
+    }
     auto const file = read(object, field::file_name);
     Builder builder(object, surroundings);
     if (file.empty()) {
@@ -259,6 +312,9 @@ void read_trees(std::vector<InputObject> const& objects, std::filesystem::path c
       read_mapped(object, builder, folder, file, *origin, terrains);
     }
     surroundings.remarks.push_back(builder.describe(file));
+  });
+  std::erase_if(surroundings.casters, [&](OutsideCaster const& caster) {
+    return is_outline(surroundings, caster, outlines);
   });
 }
 

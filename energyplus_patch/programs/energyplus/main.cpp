@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 #include <malloc.h>
 #include <unistd.h>
 
@@ -50,6 +51,20 @@ void* load(Path const& library) {
   return handle;
 }
 
+// Modules that Python plugins import (ctypes) find Python's symbols globally only: the official
+// program is linked with EnergyPlus's library.
+void* load_energyplus(Path const& library) {
+  void* const handle = load(library);
+  link_map const* loaded = nullptr;
+  if (dlinfo(handle, RTLD_DI_LINKMAP, &loaded) != 0) throw Error(dlerror());
+  for (; loaded != nullptr; loaded = loaded->l_next) {
+    auto const name = Path(loaded->l_name).filename().string();
+    if (name.find("python3.") == std::string::npos) continue;
+    dlopen(loaded->l_name, RTLD_NOW | RTLD_NOLOAD | RTLD_GLOBAL);
+  }
+  return handle;
+}
+
 template <typename Function>
 Function* find(void* library, char const* name) {
   void* const function = dlsym(library, name);
@@ -67,7 +82,7 @@ constexpr char const* run_energyplus =
 [[noreturn]] void run_library(char** argv) {
   std::vector<std::string> arguments;
   for (char** argument = argv; *argument != nullptr; ++argument) arguments.emplace_back(*argument);
-  void* const library = load(find_energyplus_library(own_folder()));
+  void* const library = load_energyplus(find_energyplus_library(own_folder()));
   std::exit(find<RunEnergyPlus>(library, run_energyplus)(arguments, {}));
 }
 
@@ -132,7 +147,9 @@ void warn_of_extensions(RunSetup const& setup) {
 void check_model(RunSetup& setup) {
   if (!setup.has_model()) return;
   auto& choices = setup.choices;
-  auto const model = read_model(*setup.line.model, choices);
+  Reader reader;
+  reader.horizons = false;
+  auto const model = read_model(*setup.line.model, choices, reader);
   if (model.options.mode == Mode::off) return;
   check_supported(model.shading, model.file, read_version(own_folder()));
   prepare_folders(model.options, !choices.task);
@@ -304,6 +321,7 @@ int run_shaded(char const* program, std::vector<std::string> arguments, Choices 
   auto const texts = to_flags(choices);
   Words const flags(texts);
   auto const method = choices.method.value_or(Method::automatic);
+  void* const library = load_energyplus(energyplus);
   Module const module;
   if (method == Method::scheduled) return run_scheduled(energyplus, module, arguments, flags);
   if (method == Method::opengl) {
@@ -311,7 +329,6 @@ int run_shaded(char const* program, std::vector<std::string> arguments, Choices 
     throw Error(module.message());
   }
 
-  void* const library = load(energyplus);
   int const installed = module.install(energyplus.c_str(), flags.count(), flags.data());
   if (installed == gpu_shading_cannot_patch && method == Method::automatic) {
     return run_unpatched(energyplus, module, arguments, flags, choices.task.has_value());

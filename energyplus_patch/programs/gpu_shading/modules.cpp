@@ -65,6 +65,7 @@ Json describe(FieldLight const& light) {
           {"cell_columns", spec.cell_columns},
           {"cell_rows", spec.cell_rows},
           {"bypass_diodes", spec.diodes},
+          {"half_cut", spec.half_cut},
           {"module_area", spec.width * spec.length},
           {"module_width", spec.width},
           {"landscape", spec.orientation == PvModules::Orientation::landscape}};

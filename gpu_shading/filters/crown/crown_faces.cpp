@@ -31,6 +31,13 @@ std::vector<double> levels_of(CrownShape shape, int sides) {
 
 std::vector<Polygon> crown_faces(Polygon const& plan, Crown const& crown, int sides) {
   Crowns::Entry const entry = Crowns::entry_of(0, plan, crown);
+  std::vector<Polygon> faces;
+  if (entry.crown.mesh) {
+    for (CrownMesh::Triangle const& triangle : entry.faces()) {
+      faces.push_back({Ring(triangle.begin(), triangle.end()), {}});
+    }
+    return faces;
+  }
   auto const corner = [&](int side, double z) {
     double const angle = 2.0 * pi * side / sides;
     double const radius = radius_at(entry.solid, z);
@@ -38,7 +45,6 @@ std::vector<Polygon> crown_faces(Polygon const& plan, Crown const& crown, int si
            radius * std::sin(angle) * entry.half[1] + z * entry.half[2];
   };
   auto const is_point = [&](double z) { return radius_at(entry.solid, z) < 1e-6; };
-  std::vector<Polygon> faces;
   std::vector<double> const levels = levels_of(crown.shape, sides);
   for (std::size_t level = 1; level < levels.size(); ++level) {
     double const low = levels[level - 1];

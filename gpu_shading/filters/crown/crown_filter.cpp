@@ -23,6 +23,14 @@ void add_values(FilterDigest& digest, Crown const& kind) {
   digest.add(static_cast<double>(kind.leaf_angles));
   digest.add(kind.wood_density);
   digest.add(static_cast<double>(kind.deployment));
+  if (!kind.mesh) return;
+  digest.add_shared(kind.mesh.get(), [&](FilterDigest& shared) {
+    for (CrownMesh::Triangle const& triangle : kind.mesh->triangles()) {
+      for (glm::dvec3 const& corner : triangle) {
+        for (int axis = 0; axis < 3; ++axis) shared.add(corner[axis]);
+      }
+    }
+  });
 }
 
 }  // namespace gpu_shading

@@ -89,9 +89,10 @@ template <Sides sides>
 class CrownRays {
  public:
   CrownRays(CrownInBeam const& crown, View const& pixels)
-      : crown_(crown), solid_(crown.crown->solid) {
+      : crown_(crown), pixels_(pixels), solid_(crown.crown->solid) {
     glm::dvec3 const x(pixels.x);
     glm::dvec3 const y(pixels.y);
+    anticlockwise_ = glm::dot(glm::cross(x, y), crown.towards_sun) > 0.0;
     double const xx = glm::dot(x, x);
     double const xy = glm::dot(x, y);
     double const yy = glm::dot(y, y);
@@ -123,6 +124,7 @@ class CrownRays {
   void shade(LuminanceTile& shaded, int first_row, int end_row) const {
     int const first = std::max(first_row, pixel(low_.y));
     int const end = std::min(end_row, pixel(high_.y));
+    if (crown_.crown->crown.mesh) return shade_by_mesh(shaded, first, end);
     for (int row = first; row < end; ++row) shade(row, shaded.columns(), shaded.row(row));
   }
 
@@ -205,18 +207,69 @@ class CrownRays {
     double const x = column + 0.5 - centre_.x;
     double const y = row + 0.5 - centre_.y;
     RayPart path = solid_.inside(x * across_ + y * up_, along_);
-    double const height = height_ + x * rise_across_ + y * rise_up_;
-    if (rise_ > 0.0) {
-      path.begin = std::max(path.begin, -height / rise_);
-    } else if (height <= 0.0) {
-      return 1.0F;
-    }
+    path.begin = std::max(path.begin, kept_from(column, row));
     return static_cast<float>(std::exp(-crown_.extinction * path.length()));
   }
 
+  // Where the ray of a pixel leaves what the view cuts off, in metres from the middle of the box.
+  double kept_from(int column, int row) const {
+    double const x = column + 0.5 - centre_.x;
+    double const y = row + 0.5 - centre_.y;
+    double const height = height_ + x * rise_across_ + y * rise_up_;
+    if (rise_ > 0.0) return -height / rise_;
+    return height <= 0.0 ? HUGE_VAL : -HUGE_VAL;
+  }
+
+  // A path is the sum of the distances at which its ray leaves the mesh, less those at which it
+  // enters.
+  void shade_by_mesh(LuminanceTile& shaded, int first_row, int end_row) const {
+    int const left = std::max(0, pixel(low_.x));
+    int const right = std::min(shaded.columns(), pixel(high_.x));
+    if (left >= right || first_row >= end_row) return;
+    auto const columns = static_cast<std::size_t>(right - left);
+    std::vector<double> lengths(columns * static_cast<std::size_t>(end_row - first_row));
+    auto const lengths_of = [&](int row) {
+      return std::span(lengths).subspan(static_cast<std::size_t>(row - first_row) * columns,
+                                        columns);
+    };
+    double const reach = crown_.crown->reach();
+    for (CrownMesh::Triangle const& face : crown_.crown->faces()) {
+      CrownMesh::Triangle corners;
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        glm::dvec3 const p = face[i] - pixels_.origin;
+        corners[i] = {at(pixels_.x, p), at(pixels_.y, p),
+                      glm::dot(face[i] - crown_.crown->centre, crown_.towards_sun)};
+      }
+      auto const [lowest, highest] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+      int const end = std::min(end_row, pixel(highest));
+      for (int row = std::max(first_row, pixel(lowest)); row < end; ++row) {
+        auto const crossing = FaceCrossing::of(corners, row + 0.5);
+        if (!crossing) continue;
+        double const sign = crossing->anticlockwise == anticlockwise_ ? 1.0 : -1.0;
+        std::span<double> const to = lengths_of(row);
+        int const last = std::min(right, pixel(crossing->high));
+        for (int column = std::max(left, pixel(crossing->low)); column < last; ++column) {
+          double const distance = std::max(crossing->distance_at(column + 0.5),
+                                           std::min(kept_from(column, row), reach));
+          to[static_cast<std::size_t>(column - left)] += sign * distance;
+        }
+      }
+    }
+    for (int row = first_row; row < end_row; ++row) {
+      std::span<float> const luminance =
+          shaded.row(row).subspan(static_cast<std::size_t>(left), columns);
+      std::span<double const> const by = lengths_of(row);
+      for (std::size_t i = 0; i < columns; ++i) {
+        luminance[i] *= static_cast<float>(std::exp(-crown_.extinction * std::max(0.0, by[i])));
+      }
+    }
+  }
+
   CrownInBeam const& crown_;
+  View const& pixels_;
   CrownSolid const& solid_;
-  glm::dvec2 centre_{0.0};  // pixels
+  bool anticlockwise_ = true;  // faces towards the sun in the pixels
+  glm::dvec2 centre_{0.0};     // pixels
   glm::dvec2 low_{HUGE_VAL};
   glm::dvec2 high_{-HUGE_VAL};
   // In the cube: steps by a column, by a row, and by a metre towards the sun.

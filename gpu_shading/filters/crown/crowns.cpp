@@ -46,6 +46,8 @@ CrownSolid solid_of(CrownShape shape) {
       return {0.0, 0.0, -1.0};
     case CrownShape::half_ellipsoid:  // x^2 + y^2 + ((1 + z) / 2)^2 <= 1
       return {0.25, 0.5, -0.75};
+    case CrownShape::mesh:
+      return {0.0, 0.0, 0.0};
     case CrownShape::ellipsoid:
       break;
   }
@@ -100,6 +102,22 @@ std::array<glm::dvec3, 8> Crowns::Entry::corners() const {
   return corners;
 }
 
+std::vector<CrownMesh::Triangle> Crowns::Entry::faces() const {
+  std::vector<CrownMesh::Triangle> faces = crown.mesh->triangles();
+  for (CrownMesh::Triangle& face : faces) {
+    for (glm::dvec3& p : face) p = centre + p.x * half[0] + p.y * half[1] + p.z * half[2];
+  }
+  return faces;
+}
+
+double Crowns::Entry::reach() const {
+  double reach = 0.0;
+  for (CrownMesh::Triangle const& face : faces()) {
+    for (glm::dvec3 const& corner : face) reach = std::max(reach, glm::distance(corner, centre));
+  }
+  return reach;
+}
+
 double Crowns::Entry::extinction(glm::dvec3 const& towards_sun,
                                  std::span<double const> deployments) const {
   auto const place = static_cast<std::size_t>(crown.deployment);
@@ -136,6 +154,14 @@ Crowns::Entry Crowns::entry_of(SurfaceId id, Polygon const& polygon, Crown const
               0.5 * (ring[0] + ring[2]) + 0.5 * crown.height * normal,
               {0.5 * (ring[1] - ring[0]), 0.5 * (ring[2] - ring[1]), 0.5 * crown.height * normal},
               solid_of(crown.shape)};
+  if ((crown.shape == CrownShape::mesh) != (crown.mesh != nullptr)) {
+    throw Error("a crown of the shape mesh needs a mesh, and others have none");
+  }
+  if (crown.mesh) {
+    constexpr double largest = 40.0;  // m2/m2
+    check("density times reach", (crown.leaf_density + crown.wood_density) * entry.reach(), 0.0,
+          largest);
+  }
   return entry;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,7 +31,20 @@ struct CrownSolid {
   // Where a ray that may run both ways is inside, by its position at 0 and its change per metre.
   RayPart inside(glm::dvec3 const& position, glm::dvec3 const& step) const;
 };
-CrownSolid solid_of(CrownShape shape);
+CrownSolid solid_of(CrownShape shape);  // empty of a mesh
+
+// Where a line at a height y crosses a triangle whose corners are (x, y, distance). Two triangles
+// have the same ends at an edge that they share, so that no ray passes between them or meets both.
+struct FaceCrossing {
+  double low;  // it covers x from here, up to less than `high`
+  double high;
+  double distance;     // at `low`
+  double slope;        // of the distance
+  bool anticlockwise;  // the triangle, with y left of x
+
+  static std::optional<FaceCrossing> of(CrownMesh::Triangle const& corners, double y);
+  double distance_at(double x) const { return distance + (x - low) * slope; }
+};
 
 // The scene's crowns, numbered from 0 in its order.
 class Crowns {
@@ -46,6 +60,10 @@ class Crowns {
     // From the scene into the cube; of a vector.
     glm::dvec3 in_cube(glm::dvec3 const& vector) const;
     std::array<glm::dvec3, 8> corners() const;
+    // Of its mesh, in the scene.
+    std::vector<CrownMesh::Triangle> faces() const;
+    // Of its farthest vertex from the centre, if it has a mesh.
+    double reach() const;
     // Of the beam, per metre of path. `deployments`: shares of leaves, 1 beyond the end.
     double extinction(glm::dvec3 const& towards_sun, std::span<double const> deployments) const;
   };

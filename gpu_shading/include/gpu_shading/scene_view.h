@@ -41,8 +41,9 @@ class SceneView {
   // `fractions`: one entry per surface of the scene. Receivers have their sunlit fraction, 0 .. 1,
   // and are drawn in fraction_colour(); other surfaces have none and are grey by their tilt to the
   // sun. The picture frames the receivers and surfaces near them, up to three times the receivers'
-  // size; `size` is the number of pixels on its longer side. Throws Error if there is no receiver,
-  // or if the size is out of range (1 .. DeviceInfo::max_resolution).
+  // size, and cuts off no tree within seven times. `size` is the number of pixels on its longer
+  // side. Throws Error if there is no receiver, or if the size is out of range
+  // (1 .. DeviceInfo::max_resolution).
   Image draw(SunDirection sun, std::span<std::optional<double> const> fractions, int size);
 
   // The same from the direction of `camera`, also an azimuth and an altitude. Shaded parts are

@@ -48,7 +48,7 @@ _CALLS: dict[str, list[Any]] = {
     "transmittance_glazing": [c_void_p, c_size_t, _MADE],
     "transmittance_simple_glazing": [c_double, c_double, _MADE],
     "transmittance_at": [c_void_p, c_void_p, c_size_t, c_void_p],
-    "filter_crown": [c_int, c_double, c_double, c_int, c_double, _MADE],
+    "filter_crown": [c_int, c_double, c_double, c_int, c_double, c_void_p, c_size_t, _MADE],
     "screen_pattern": [c_int, c_int, c_void_p, POINTER(SheetRecord), _MADE],
     "screen_tile": [c_double, c_double, c_int, c_int, c_void_p, c_double, POINTER(SheetRecord), _MADE],
     "screen_sizes": [c_void_p, c_void_p],

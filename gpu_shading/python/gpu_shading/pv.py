@@ -95,18 +95,16 @@ class Power:
         return f"<Power of {self.name}: {self.energy:.1f} kWh, {self.loss:.1%} lost by mismatch>"
 
 
-def power(modules: Modules, module: str | Mapping[str, float], *, half_cut: bool = False,
-          albedo: float = 0.2, reverse: Mapping[str, float] = REVERSE) -> tuple[Power, ...]:
+def power(modules: Modules, module: str | Mapping[str, float], *, albedo: float = 0.2,
+          reverse: Mapping[str, float] = REVERSE) -> tuple[Power, ...]:
     """The power of each field of modules() with pvlib.
 
     `module`: the name of a module in pvlib's table of the CEC, or its parameters: alpha_sc, a_ref, I_L_ref, I_o_ref,
-    R_sh_ref, R_s, Adjust and N_s, the number of cells in series. `half_cut`: the lower and the upper half of a module's
-    rows are in parallel, at each bypass diode. `reverse`: of pvlib's bishop88(). The sky is Perez's, whose circumsolar
-    part is shaded like the beam, and the rest by each module's view of the sky. The temperature of cells is Faiman's,
-    one for a surface.
+    R_sh_ref, R_s, Adjust and N_s, the number of cells in series. `reverse`: of pvlib's bishop88(). The sky is Perez's,
+    whose circumsolar part is shaded like the beam, and the rest by each module's view of the sky. The temperature of
+    cells is Faiman's, one for a surface.
     """
-    halves = 2 if half_cut else 1
-    return tuple(_power(field, modules, _parameters(module), halves, albedo, reverse) for field in modules)
+    return tuple(_power(field, modules, _parameters(module), albedo, reverse) for field in modules)
 
 
 def write_reductions(powers: Sequence[Power], file: _programs.Name) -> None:
@@ -169,11 +167,12 @@ def _irradiance(field: ModuleField, modules: Modules, albedo: float) -> _Irradia
     return _Irradiance(direct, beam, np.maximum(isotropic + horizon, 0.0), np.asarray(ground, float))
 
 
-def _power(field: ModuleField, modules: Modules, parameters: Mapping[str, float], halves: int, albedo: float,
+def _power(field: ModuleField, modules: Modules, parameters: Mapping[str, float], albedo: float,
            reverse: Mapping[str, float]) -> Power:
     rows, columns = field.cells.shape[2:]
+    halves = 2 if field.half_cut else 1
     count = rows * columns // halves
-    if parameters["N_s"] != count or rows % halves:
+    if parameters["N_s"] != count:
         raise InvalidInput(f"module: N_s is {parameters['N_s']:g}, but modules on {field.name} have {rows} x {columns} "
                            f"cells, {count} in series")
     light = _irradiance(field, modules, albedo)

@@ -42,6 +42,8 @@ class ModuleField:
     unshaded_view: float
     diodes: int
     """Bypass diodes of a module; each protects as many columns of cells."""
+    half_cut: bool
+    """Whether the lower and the upper half of the rows are in parallel, at each bypass diode."""
     module_area: float
     """m2."""
     picture: Picture
@@ -148,8 +150,8 @@ def _field(path: Path, about: dict[str, Any], rows: list[dict[str, str]]) -> Mod
         about["surface"], cells, np.array([int(row["string"]) - 1 for row in rows]),
         np.array([[int(row["column"]) - 1, int(row["row"]) - 1] for row in rows]), float(rows[0]["azimuth [deg]"]),
         float(rows[0]["tilt [deg]"]), np.array([float(row["sky view factor"]) for row in rows]),
-        float(rows[0]["unshaded view factor"]), about["bypass_diodes"], about["module_area"],
-        _picture(path / f"{about['files']}.png"))
+        float(rows[0]["unshaded view factor"]), about["bypass_diodes"], about["half_cut"],
+        about["module_area"], _picture(path / f"{about['files']}.png"))
 
 
 def _frame(values: Floats, times: NDArray[np.datetime64], columns: list[Any], names: list[str]) -> Any:

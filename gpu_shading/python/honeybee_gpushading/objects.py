@@ -166,7 +166,7 @@ class Tree(ExtensionObject):
     height: float | None = None
     crown_diameter: float | None = None
     crown_base_height: float | None = None
-    crown_shape: Literal["Ellipsoid", "HalfEllipsoid", "Cone", "Cylinder"] | None = None
+    crown_shape: Literal["Ellipsoid", "HalfEllipsoid", "Cone", "Cylinder", "Mesh"] | None = None
     trunk_diameter: float | None = None
     leaf_cycle: Literal["Deciduous", "Evergreen"] | None = None
     leaf_schedule: Any = None
@@ -175,6 +175,7 @@ class Tree(ExtensionObject):
     leaf_angles: Literal["Spherical", "Planophile", "Erectophile"] | None = None
     file_name: str | None = None
     coordinates: str | None = None
+    crown_mesh_name: str | None = None
 
     def moved(self, move: Any) -> Tree:
         """With a function that changes a Point3D; trees of a file stay where the map has them."""

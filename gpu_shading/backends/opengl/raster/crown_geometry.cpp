@@ -2,6 +2,7 @@
 
 #include <array>
 #include <glm/geometric.hpp>
+#include <numeric>
 
 #include "backends/opengl/gl/check.h"
 #include "backends/opengl/gl/draw.h"
@@ -24,9 +25,26 @@ struct BoxVertex {
 static_assert(sizeof(BoxVertex) ==
               sizeof(SplitDouble) + 6 * sizeof(glm::vec3) + sizeof(std::int32_t));
 
+// In a cube of the world's axes.
+void add_mesh(Crowns::Entry const& crown, glm::dvec3 const& scene_origin,
+              std::vector<BoxVertex>& vertices) {
+  double const reach = crown.reach();
+  auto const scale = static_cast<float>(1.0 / reach);
+  for (CrownMesh::Triangle const& face : crown.faces()) {
+    for (glm::dvec3 const& corner : face) {
+      vertices.push_back({SplitDouble(corner - scene_origin),
+                          glm::vec3((corner - crown.centre) / reach),
+                          {{{scale, 0.0F, 0.0F}, {0.0F, scale, 0.0F}, {0.0F, 0.0F, scale}}},
+                          glm::vec3(0.0F),
+                          glm::vec3(0.0F),
+                          static_cast<std::int32_t>(crown.surface)});
+    }
+  }
+}
+
 // The corners of each face in order, as Crowns::Entry numbers them.
-void add_faces(Crowns::Entry const& crown, glm::dvec3 const& scene_origin,
-               std::vector<BoxVertex>& vertices) {
+void add_box(Crowns::Entry const& crown, glm::dvec3 const& scene_origin,
+             std::vector<BoxVertex>& vertices) {
   auto const corners = crown.corners();
   std::array<glm::vec3, 3> to_cube{};
   for (std::size_t axis = 0; axis < to_cube.size(); ++axis) {
@@ -40,7 +58,8 @@ void add_faces(Crowns::Entry const& crown, glm::dvec3 const& scene_origin,
     for (unsigned const fixed : {0U, 1U << axis}) {
       glm::vec3 facing(0.0F);
       facing[static_cast<int>(axis)] = fixed == 0 ? -1.0F : 1.0F;
-      for (unsigned const number : {fixed, fixed | a, fixed | a | b, fixed | b}) {
+      for (unsigned const number :
+           {fixed, fixed | a, fixed | a | b, fixed, fixed | a | b, fixed | b}) {
         auto const side = [&](unsigned of) { return (number >> of & 1U) != 0 ? 1.0F : -1.0F; };
         vertices.push_back({SplitDouble(corners.at(number) - scene_origin),
                             {side(0), side(1), side(2)},
@@ -62,7 +81,11 @@ CrownGeometry::CrownGeometry(Crowns const& crowns, glm::dvec3 const& scene_origi
   gl::require_vertex_storage("crowns of trees");
   program_ = gl::Program::link("crowns", shaders::crown_vert, shaders::crown_frag);
   std::vector<BoxVertex> vertices;
-  for (Crowns::Entry const& crown : crowns_.entries()) add_faces(crown, scene_origin, vertices);
+  for (Crowns::Entry const& crown : crowns_.entries()) {
+    first_vertex_.push_back(static_cast<std::uint32_t>(vertices.size()));
+    (crown.crown.mesh ? add_mesh : add_box)(crown, scene_origin, vertices);
+  }
+  first_vertex_.push_back(static_cast<std::uint32_t>(vertices.size()));
   vertices_ = gl::Buffer::create();
   vertices_.set(std::span<BoxVertex const>(vertices));
   draw_indices_ = gl::Buffer::create();
@@ -90,14 +113,13 @@ CrownGeometry::CrownGeometry(Crowns const& crowns, glm::dvec3 const& scene_origi
 void CrownGeometry::add_to(DrawList& list, DirectionTables const& tables, std::uint32_t view,
                            std::span<CrownInBeam const> crowns) const {
   std::vector<std::uint32_t> indices;
-  indices.reserve(crowns.size() * indices_of_crown);
   for (CrownInBeam const& crown : crowns) {
     list.set_extinction(tables.first_shade + crown.crown->surface, crown.extinction);
     auto const number = static_cast<std::size_t>(crown.crown - crowns_.entries().data());
-    for (std::size_t face = 0; face < faces; ++face) {
-      auto const first = static_cast<std::uint32_t>(4 * (number * faces + face));
-      for (std::uint32_t const corner : {0U, 1U, 2U, 0U, 2U, 3U}) indices.push_back(first + corner);
-    }
+    std::size_t const known = indices.size();
+    indices.resize(known + first_vertex_[number + 1] - first_vertex_[number]);
+    std::iota(indices.begin() + static_cast<std::ptrdiff_t>(known), indices.end(),
+              first_vertex_[number]);
   }
   list.add_crown_draw(indices, view);
 }

@@ -31,11 +31,9 @@ class CrownGeometry {
   void draw(gl::StorageBuffer const& shades) const;
 
  private:
-  static constexpr std::size_t faces = 6;
-  static constexpr std::size_t indices_of_crown = 6 * faces;
-
   Crowns const& crowns_;
-  std::size_t draws_ = 0;  // as uploaded
+  std::vector<std::uint32_t> first_vertex_;  // of each crown, and the end
+  std::size_t draws_ = 0;                    // as uploaded
   gl::Program program_;
   gl::Buffer vertices_;
   gl::Buffer draw_indices_;

@@ -35,7 +35,8 @@ TEST(PvModules, HaveSixtyCellsAndThreeDiodesByDefault) {
             "GPUShading:PVModules M: 2 surfaces, modules of 1 m x 1.65 m with 6 x 10 cells");
   EXPECT_EQ(modules.diodes, 3);
   EXPECT_EQ(modules.frame, 0.02);
-  EXPECT_FALSE(modules.columns || modules.string_length);
+  EXPECT_FALSE(modules.columns || modules.string_length || modules.half_cut);
+  EXPECT_TRUE(read_modules("GPUShading:PVModules,M,Row 1,1,1,,,,,,,,,,,Yes;").front().half_cut);
   EXPECT_EQ(read_modules("GPUShading:PVModules,M,roof,1,1;").front().surfaces.front(), "ROOF");
 }
 
@@ -46,6 +47,8 @@ TEST(PvModules, WrongOnesAreNamedWithFieldAndValue) {
   expect_error(head + "Row 3,1,1;", "did you mean ROW");
   expect_error(head + "Row 1,0,1;", "Module Width is \"0\"");
   expect_error(head + "Row 1,1,1,,6,10,4;", "Bypass Diodes is 4, expected a divisor of Cell");
+  expect_error(head + "Row 1,1,1,,6,11,,,,,,,,Yes;",
+               "Cell Rows is 11, expected an even number for Half Cut");
   expect_error(head + "Row 1,1,1,,,,,0.5;", "Frame Width is 0.5, expected less than half");
   expect_error(head + "Row 1,1,1;GPUShading:PVModules,N,Row*,1,1;", "ROW 1 is named by M already");
 }

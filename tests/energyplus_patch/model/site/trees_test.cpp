@@ -66,6 +66,29 @@ TEST_F(Trees, BlankDensitiesTransmitWhatWasMeasured) {
   EXPECT_EQ(blank.height, 6.0);
 }
 
+// A tetrahedron of 4 x 4 x 3 m in a file becomes the outline of a crown of 6 x 6 x 6 m.
+TEST_F(Trees, TakeTheirOutlineFromAMesh) {
+  std::string const vertices = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 3\n";
+  write("crown.obj", vertices + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  write("open.obj", vertices + "f 1 3 2\nf 1 2 4\nf 1 4 3\n");
+  std::string const here = "Site:Location,Here,50,8,1,200;";
+  std::string const tree = "GPUShading:Tree,T,10,0,0,8,6,2,Mesh,0,,,,,,,,G:*;";
+  auto const found = read(here + "GPUShading:Geometry,G,crown.obj,m,Z;" + tree);
+  ASSERT_EQ(found.casters.size(), 1U);  // the mesh itself casts no shadow
+  auto const& surface = found.casters[0].surface;
+  EXPECT_EQ(surface.polygon.outline[0], glm::dvec3(7, -3, 2));
+  auto const* const crown = surface.filter.find<Crown>();
+  ASSERT_NE(crown->mesh, nullptr);
+  EXPECT_NEAR(crown->mesh->volume(), 8.0 / 6.0, 1e-12);
+  double const sphere = std::cbrt(6.0 / pi * 6.0 * 6.0 * 6.0 / 6.0);
+  EXPECT_NEAR(through_sphere(sphere, 0.5 * crown->wood_density), 0.46, 1e-6);
+  EXPECT_THAT(refusal(here + "GPUShading:Geometry,G,open.obj,m,Z;" + tree),
+              HasSubstr("GPUShading:Tree T: Crown Mesh Name: G:*: the edge from"));
+  EXPECT_THAT(refusal(here + tree), HasSubstr("Crown Mesh Name: G:*: expected the name of a mesh"));
+  EXPECT_THAT(refusal(here + "GPUShading:Tree,T,10,0,0,8,6,2,Cone,0,,,,,,,,G:*;"),
+              HasSubstr("Crown Mesh Name"));
+}
+
 TEST_F(Trees, LeavesFollowTheSeasonOrASchedule) {
   auto const schedules = [&](std::string const& text) { return read(text).leaf_schedules; };
   std::string const north = "Site:Location,Here,50,8,1,200;";

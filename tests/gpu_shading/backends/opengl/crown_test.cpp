@@ -14,6 +14,7 @@
 #include "gpu_shading/perforated_screen.h"
 #include "gpu_shading/transmittance.h"
 #include "support/caster_kinds.h"
+#include "support/crown_meshes.h"
 
 namespace gpu_shading {
 namespace {
@@ -165,6 +166,49 @@ TEST_P(CrownAreas, OtherShapesFollowTheirPoints) {
           << static_cast<int>(each.shape) << ' ' << altitude;
     }
   }
+}
+
+// A mesh of 14,160 triangles in an ellipsoid, also where a roof cuts it.
+TEST_P(CrownAreas, FineMeshesAreAsTheirShape) {
+  for (double const roof : {0.0, 4.2}) {
+    auto const stopped = [&](Crown const& crown, SunDirection sun) {
+      Scene scene;
+      scene.add({"roof", level(-20, -20, roof, 40, 40)});
+      scene.add(crown_at({0.5, 0.2, 1.0}, 4.0, 3.0, crown));
+      return area_in_shade(std::move(scene), sun, GetParam());
+    };
+    for (auto const& [azimuth, altitude] : some_suns) {
+      SunDirection const sun = sun_at(azimuth, altitude);
+      Crown crown{.height = 6.0, .leaf_density = 0.9, .wood_density = 0.1};
+      double const expected = stopped(crown, sun);
+      crown.shape = CrownShape::mesh;
+      crown.mesh = ball_mesh(120);
+      EXPECT_NEAR(stopped(crown, sun) / expected, 1.0, 3e-3) << roof << ' ' << altitude;
+    }
+  }
+}
+
+// From the zenith and from the south, a box is what its sides say.
+TEST_P(CrownAreas, MeshesOfBoxesAreInClosedForm) {
+  constexpr double density = 0.7;
+  Scene scene;
+  add_ground(scene);
+  scene.add(crown_at({0, 0, 2}, 4, 3,
+                     {.shape = CrownShape::mesh,
+                      .height = 5,
+                      .leaf_density = density,
+                      .mesh = std::make_shared<CrownMesh const>(
+                          box_triangles(glm::dvec3(-1.0), glm::dvec3(1.0)))}));
+  EXPECT_NEAR(area_in_shade(scene, sun_at(180, 90), GetParam(), 4096) /
+                  (4.0 * 3.0 * (1.0 - std::exp(-0.5 * density * 5.0))),
+              1.0, 3e-3);
+  // At 45 degrees: through the whole depth in the middle, less towards both ends.
+  double const through = 3.0 * std::sqrt(2.0);
+  double const k = 0.5 * density;
+  double const slope = through - (1.0 - std::exp(-k * through)) / k;
+  double const expected =
+      4.0 * ((5.0 - 3.0) * std::sqrt(0.5) * (1.0 - std::exp(-k * through)) + slope);
+  EXPECT_NEAR(area_in_shade(scene, sun_at(180, 45), GetParam(), 4096) / expected, 1.0, 3e-3);
 }
 
 // A roof through the middle of a crown: the half above it counts.

@@ -108,6 +108,22 @@ TEST_P(SceneViews, ShowsNeighboursWhole) {
   }
 }
 
+TEST_P(SceneViews, CutsOffNoTree) {
+  Case beside;
+  // From above, beside a receiver of 4 m: a tree nearby, one behind it that the picture would cut
+  // off, and one outside of the picture.
+  for (double const from : {5.0, 7.5, 13.0}) {
+    Surface tree{"tree " + std::to_string(from), level(from, 0, 0, 3, 3)};
+    tree.filter.set(Crown{.height = 2.0});
+    beside.all.push_back(beside.scene.add(tree));
+    beside.fractions.emplace_back(std::nullopt);
+  }
+  SceneView view(beside.scene, beside.all, GetParam());
+  auto const image = view.draw(sun_at(180, 90), beside.fractions, 500);
+  double const metres = 10.5;
+  EXPECT_NEAR(image.height, 500 * (4 + 0.08 * metres) / (1.08 * metres), 2.0);
+}
+
 TEST_P(SceneViews, SaysWhatItCannotDraw) {
   Case const some;
   SceneView view(some.scene, some.all, GetParam());

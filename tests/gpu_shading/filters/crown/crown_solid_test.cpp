@@ -14,6 +14,7 @@
 #include "geometry/plane_frame.h"
 #include "gpu_shading/error.h"
 #include "gpu_shading/rays.h"
+#include "support/crown_meshes.h"
 #include "support/shapes.h"
 #include "view/tile.h"
 
@@ -39,6 +40,8 @@ bool is_inside(CrownShape shape, glm::dvec3 const& p) {
       return radius <= 1.0;
     case CrownShape::half_ellipsoid:
       return radius * radius + up * up <= 1.0;
+    case CrownShape::mesh:
+      break;
   }
   return false;
 }
@@ -151,7 +154,11 @@ Scene random_crown(std::mt19937& engine, CrownShape shape) {
   scene.add({"receiver", level(-3, -3, 2.5, 6, 5)});
   Surface crown{"crown",
                 level(between(-6, 2), between(-6, 2), between(0, 6), between(1, 6), between(1, 6))};
-  crown.filter.set(Crown{shape, between(1, 6), between(0.1, 2)});
+  static auto const ball = ball_mesh(16);
+  crown.filter.set(Crown{.shape = shape,
+                         .height = between(1, 6),
+                         .leaf_density = between(0.1, 2),
+                         .mesh = shape == CrownShape::mesh ? ball : nullptr});
   scene.add(crown);
   return scene;
 }
@@ -160,8 +167,9 @@ TEST(CrownPixels, PassWhatTheirRaysDo) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::size_t dimmed = 0;
-  for (int i = 0; i < 200; ++i) {
-    Scene const scene = random_crown(engine, shapes.at(static_cast<std::size_t>(i) % 4));
+  for (int i = 0; i < 250; ++i) {
+    Scene const scene = random_crown(
+        engine, i < 200 ? shapes.at(static_cast<std::size_t>(i) % 4) : CrownShape::mesh);
     // Now and then along the axis, or nearly so: in parallel to a cylinder's sides.
     int const steps = i / 20;
     double const altitude = i % 20 < 4 ? 90.0 - 0.5 * steps : 10.0 + 75.0 * uniform(engine);
@@ -195,6 +203,48 @@ TEST(CrownPixels, PassWhatTheirRaysDo) {
     }
   }
   EXPECT_GT(dimmed, 100000U);
+}
+
+// Two boxes, one through the side of which the ray passes, and a face that is turned.
+TEST(CrownMeshes, PathsThroughBoxesAreInClosedForm) {
+  auto triangles = box_triangles({-1.0, -1.0, -1.0}, {1.0, 1.0, -0.5});
+  for (auto const& triangle : box_triangles({-0.5, -0.25, 0.5}, {1.0, 0.75, 1.0})) {
+    triangles.push_back(triangle);
+  }
+  std::swap(triangles[3][0], triangles[3][1]);
+  auto const mesh = std::make_shared<CrownMesh const>(triangles);
+  EXPECT_NEAR(mesh->volume(), 2.0 + 0.75, 1e-12);
+  Scene scene;
+  scene.add(crown_of(4.0, {.shape = CrownShape::mesh, .height = 8.0, .mesh = mesh}));
+  RayScene const rays(scene, {});
+  // The slab is from z 2 to 4, and the box from x -1 to 2, y -0.5 to 1.5 and z 8 to 10.
+  auto const path = [&](glm::dvec3 const& from, glm::dvec3 const& towards, double length) {
+    return -2.0 * std::log(rays.transmittance({from, towards, length}));
+  };
+  EXPECT_NEAR(path({0, 0, 0}, {0, 0, 1}, HUGE_VAL), 4.0, 1e-12);
+  EXPECT_NEAR(path({-1.5, 0, 20}, {0, 0, -1}, HUGE_VAL), 2.0, 1e-12);
+  EXPECT_NEAR(path({0, 0, 3}, {0, 0, 1}, 6.0), 1.0 + 1.0, 1e-12);
+  EXPECT_NEAR(path({-9, 1.4, 9}, {1, 0, 0}, HUGE_VAL), 3.0, 1e-12);
+  EXPECT_NEAR(path({-9, 1.6, 9}, {1, 0, 0}, HUGE_VAL), 0.0, 1e-12);
+  EXPECT_NEAR(path({-2, 0, 1}, {0.6, 0, 0.8}, HUGE_VAL), 2.0 / 0.8, 1e-12);
+  // Along the diagonal of faces, where two of their triangles meet, and through corners.
+  EXPECT_NEAR(path({0, 0, 20}, glm::normalize(glm::dvec3(-1e-9, 1e-9, -1)), HUGE_VAL), 4.0, 1e-6);
+  EXPECT_NEAR(path({-4, -4, 0}, glm::normalize(glm::dvec3(1, 1, 1)), HUGE_VAL), std::sqrt(12.0),
+              1e-9);
+}
+
+TEST(CrownMeshes, OpenOnesAreErrors) {
+  auto triangles = box_triangles(glm::dvec3(-1.0), glm::dvec3(1.0));
+  triangles.pop_back();
+  try {
+    CrownMesh const open(triangles);
+    FAIL();
+  } catch (Error const& error) {
+    EXPECT_STREQ(error.what(),
+                 "the edge from (-1, -1, 1) to (-1, 1, 1) of a crown's mesh belongs to 1 triangle, "
+                 "expected 2 in a closed mesh");
+  }
+  EXPECT_THROW(CrownMesh(box_triangles(glm::dvec3(-1.0), glm::dvec3(1.1))), Error);
 }
 
 TEST(Crowns, MistakesAreNamed) {
