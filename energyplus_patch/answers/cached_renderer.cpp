@@ -112,6 +112,12 @@ void CachedRenderer::deploy(std::vector<double> const& shares,
   deployed_ = true;
 }
 
+glm::dvec3 CachedRenderer::area_vector(SurfaceId id) const {
+  auto const& polygon = current_->scene()[id].polygon;
+  double const size = gpu_shading::area(polygon);
+  return size > 0.0 ? size * normal(polygon) : glm::dvec3(0.0);
+}
+
 Renderer& CachedRenderer::renderer_in(std::uint32_t state) {
   auto const& both = known_.states[state];
   auto const middle = both.end() - static_cast<std::ptrdiff_t>(positions_);
@@ -328,16 +334,19 @@ CachedRenderer open_renderer(SceneAssembly const& scene, std::span<SurfaceId con
     auto const hash = scene.hash(renderer.scene(), renderer.device());
     AnswerLimits limits{{}, scene.optics().factor_names().size()};
     for (SurfaceId id = 0; id < renderer.scene().size(); ++id) {
-      limits.areas.push_back(area(renderer.scene()[id].polygon));
+      // An awning is largest as it is drawn.
+      double const drawn = id < scene.surfaces().size() ? area(scene.surfaces()[id].polygon) : 0.0;
+      limits.areas.push_back(std::max(drawn, area(renderer.scene()[id].polygon)));
     }
     cache.emplace(*options.cache, hash, std::move(limits), messages.remark);
   }
-  // By the device that was opened.
-  rendering.device = DeviceChoice{renderer.device().id};
-  CachedRenderer answers(std::move(renderer), std::move(cache), receivers, scene.rest_positions(),
-                         [&scene, rendering](MovedRenderers::Positions const& positions) {
-                           return Renderer(scene.scene_at(positions), rendering);
-                         });
+  CachedRenderer answers(
+      std::move(renderer), std::move(cache), receivers, scene.rest_positions(),
+      [&scene, rendering](MovedRenderers::Positions const& positions, DeviceId const& opened) {
+        auto moved = rendering;
+        moved.device = DeviceChoice{opened};
+        return Renderer(scene.scene_at(positions), moved);
+      });
   answers.deploy(scene.optics().deployments(), scene.positions());
   return answers;
 }

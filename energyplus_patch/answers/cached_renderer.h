@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -81,6 +82,9 @@ class CachedRenderer {
   // shades. Together they are the state that answers are kept by.
   void deploy(std::vector<double> const& shares, std::vector<double> const& positions = {});
   std::uint32_t state() const { return state_; }
+  // A surface's unit normal times its net area (m2), with the shades as they are now; 0 if it is
+  // rolled up.
+  glm::dvec3 area_vector(SurfaceId id) const;
 
   // The renderer of a state, for pictures. Valid until the next call of this or of deploy().
   Renderer& renderer_in(std::uint32_t state);

@@ -16,7 +16,7 @@ namespace gpu_shading::energyplus {
 class MovedRenderers {
  public:
   using Positions = std::vector<double>;
-  using Open = std::function<Renderer(Positions const&)>;
+  using Open = std::function<Renderer(Positions const&, DeviceId const&)>;
 
   // `resting`: with the shades at `rest`. `open`: needed only if other positions are asked for.
   MovedRenderers(Renderer resting, Positions rest, Open open)
@@ -32,8 +32,11 @@ class MovedRenderers {
     if (positions == rest_) return *resting_;
     auto found = moved_.find(positions);
     if (found == moved_.end()) {
-      if (moved_.size() >= max_renderers) close_oldest();
-      found = moved_.emplace(positions, Moved{std::make_unique<Renderer>(open_(positions))}).first;
+      // The CPU also if it took over from a GPU.
+      auto const device = resting_->device().id;
+      if (moved_.size() >= (device.is_cpu() ? max_renderers : max_on_gpu)) close_oldest();
+      found = moved_.emplace(positions, Moved{std::make_unique<Renderer>(open_(positions, device))})
+                  .first;
     }
     found->second.used = ++uses_;
     return *found->second.renderer;
@@ -48,6 +51,7 @@ class MovedRenderers {
 
  private:
   static constexpr std::size_t max_renderers = 200;
+  static constexpr std::size_t max_on_gpu = 16;  // each has a context, and targets in its memory
   struct Moved {
     std::unique_ptr<Renderer> renderer;
     std::uint64_t used = 0;

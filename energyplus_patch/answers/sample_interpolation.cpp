@@ -7,17 +7,13 @@
 
 namespace gpu_shading::energyplus {
 
-SampleInterpolation::SampleInterpolation(Sampling sampling, std::vector<glm::dvec3> areas,
-                                         CachedRenderer& rendered)
-    : sampling_(sampling), areas_(std::move(areas)), rendered_(&rendered) {}
-
 void SampleInterpolation::sample(State& state, std::vector<SurfaceId> receivers) {
   std::erase_if(receivers, [&](SurfaceId id) { return state.places.contains(id); });
   std::vector<glm::dvec3> areas;
   areas.reserve(receivers.size());
   for (auto const id : receivers) {
     state.places[id] = {state.batches.size(), areas.size()};
-    areas.push_back(areas_[id]);
+    areas.push_back(rendered_->area_vector(id));
   }
   state.batches.emplace_back(
       sampling_, latitude_, std::move(areas),
@@ -35,8 +31,8 @@ void SampleInterpolation::sample(State& state, std::vector<SurfaceId> receivers)
 // more than twice the better one.
 bool SampleInterpolation::worth_samples(State& state, SunDirection sun) {
   if (states_.size() == 1 || !state.batches.empty()) return true;
-  if (!last_rendered_ || !(*last_rendered_ == sun)) ++state.rendered;
-  last_rendered_ = sun;
+  if (!state.last_rendered || !(*state.last_rendered == sun)) ++state.rendered;
+  state.last_rendered = sun;
   return state.rendered > max_directions(sampling_.density);
 }
 
@@ -70,7 +66,7 @@ std::vector<Sunlit> const* SampleInterpolation::find_interior(InteriorKey const&
   auto found = state.interiors.find(key.hash);
   if (found == state.interiors.end()) {
     // The area lit on an interior surface is a fraction of what the window could let in.
-    std::vector<glm::dvec3> areas(key.question.interiors.size(), areas_[window]);
+    std::vector<glm::dvec3> areas(key.question.interiors.size(), rendered_->area_vector(window));
     auto const source = [&](std::span<SunDirection const> suns) {
       return rendered_->interior_at(suns, key);
     };

@@ -13,12 +13,12 @@
 namespace gpu_shading::energyplus {
 
 // Answers at the sun's positions from samples (--gpu-shading-update sampled:...), by the state of
-// the screens' deployments.
+// the screens' deployments and of the moving shades' positions.
 class SampleInterpolation {
  public:
-  // `areas`: unit normal times net area (m2) of every surface that may be a receiver, by its id.
   // What is sampled comes from `rendered`, which has to outlive this.
-  SampleInterpolation(Sampling sampling, std::vector<glm::dvec3> areas, CachedRenderer& rendered);
+  SampleInterpolation(Sampling sampling, CachedRenderer& rendered)
+      : sampling_(sampling), rendered_(&rendered) {}
 
   struct Question {
     SunDirection sun;
@@ -26,9 +26,9 @@ class SampleInterpolation {
   };
 
   // nullptr where the answer has to be rendered: for patches of the sky, for directions that the
-  // sun never has, for receivers that the sun faces at no sample, and for a state of deployments
-  // that few directions are asked of. The first direction has the samples taken, of all receivers
-  // so far; others that turn up later have theirs taken together. Valid until the next call.
+  // sun never has, for receivers that the sun faces at no sample, and for a state that few
+  // directions are asked of. The first direction has the samples taken, of all receivers so far;
+  // others that turn up later have theirs taken together. Valid until the next call.
   Sunlit const* find(SurfaceId receiver, Question const& question);
 
   // The same of interior surfaces that the sun reaches through a window, sampled at the window's
@@ -60,17 +60,16 @@ class SampleInterpolation {
     std::vector<std::vector<Sunlit>> rows;
     std::unordered_map<std::uint64_t, Interior> interiors;  // by InteriorKey::hash
     std::size_t rendered = 0;  // directions, before it is worth samples
+    std::optional<SunDirection> last_rendered = std::nullopt;
   };
 
   void sample(State& state, std::vector<SurfaceId> receivers);
   bool worth_samples(State& state, SunDirection sun);
 
   Sampling sampling_;
-  std::vector<glm::dvec3> areas_;
   CachedRenderer* rendered_;
   double latitude_ = 0.0;
   std::map<std::uint32_t, State> states_;
-  std::optional<SunDirection> last_rendered_;
   std::size_t sampled_ = 0;
   double expected_error_ = 0.0;
   std::size_t answered_ = 0;

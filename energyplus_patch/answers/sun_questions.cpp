@@ -23,7 +23,7 @@ SunQuestions::SunQuestions(Site site) : site_(std::move(site)), asked_(site_.are
 
 void SunQuestions::open(CachedRenderer rendered) {
   rendered_.emplace(std::move(rendered));
-  if (site_.sampling) sampled_.emplace(*site_.sampling, site_.areas, *rendered_);
+  if (site_.sampling) sampled_.emplace(*site_.sampling, *rendered_);
 }
 
 void SunQuestions::close() {

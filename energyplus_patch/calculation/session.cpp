@@ -84,7 +84,7 @@ void Session::start(Simulation simulation) {
   }
   if (auto const& shades = scene_.model().moving_shades; !shades.empty()) {
     control_.emplace(scene_);
-    step_error_.emplace(shades);
+    step_error_.emplace();
     add_outputs(simulation);
   }
   if (weighs_sky_patches()) {
@@ -160,14 +160,32 @@ void Session::move_shades(std::optional<SunDirection> sun) {
     outputs_[entries.size() - 1] = {each.position, static_cast<double>(each.state)};
   }
   if (moment_.timestep > 0) position_record_.note(day_, moment_, std::move(entries));
-  if (sun && !day_.warm_up) step_error_->note(*sun, positions, exact);
+  corners_ = around(scene_.model().moving_shades, positions, exact);
+  if (sun && !day_.warm_up) step_error_->note(*sun, corners_, exact);
   bool const moved = positions != scene_.positions();
-  scene_.set_positions(std::move(positions));
-  answers_->deploy(scene_.optics().deployments(), scene_.positions());
+  stand(positions);
   if (!moved || !scene_.hides_moving_shades()) return;
   obstructions_.reset();
   luminance_.reset();
   renew_reflections();
+}
+
+void Session::stand(std::vector<double> const& positions) {
+  scene_.set_positions(positions);
+  answers_->deploy(scene_.optics().deployments(), scene_.positions());
+}
+
+template <typename Function>
+void Session::interpolate(Function const& function) {
+  if (corners_.size() < 2 || sky_patch_) {
+    function(1.0);
+    return;
+  }
+  for (auto const& [positions, weight] : corners_) {
+    stand(positions);
+    function(weight);
+  }
+  stand(corners_.front().positions);
 }
 
 void Session::end_time() {
@@ -229,7 +247,8 @@ double Session::projected_sunlit_area(SurfaceId receiver) {
     return static_cast<float>(area(polygon) * std::max(facing, 0.0));
   }
   auto const id = in_scene(receiver);
-  double rendered = rendered_area(id);
+  double rendered = 0.0;
+  interpolate([&](double weight) { rendered += weight * rendered_area(id); });
   if (pv_loss_ && !sky_patch_) rendered = with_pv_loss(id, rendered);
   if (record_) record_->note(id, rendered);
   return static_cast<float>(rendered * scene_.area_ratio(id));
@@ -293,9 +312,12 @@ std::vector<double> Session::interior_areas(SurfaceId window,
   std::vector<SurfaceId> ids(interiors.size());
   std::transform(interiors.begin(), interiors.end(), ids.begin(),
                  [&](SurfaceId interior) { return in_scene(interior); });
-  auto const rounded =
-      answers.interior_areas(InteriorKey({in_scene(window), ids}), scene_.optics().factors());
-  std::vector<double> areas(rounded.begin(), rounded.end());
+  InteriorKey const key({in_scene(window), ids});
+  std::vector<double> areas(interiors.size(), 0.0);
+  interpolate([&](double weight) {
+    auto const there = answers.interior_areas(key, scene_.optics().factors());
+    for (std::size_t i = 0; i < areas.size(); ++i) areas[i] += weight * there[i];
+  });
   keep_largest(areas);
   return areas;
 }
@@ -368,8 +390,8 @@ void Session::describe_step_error() {
   });
   if (!found) return;
   messages_.remark(fmt::format(
-      "rounding the positions of moving shades to steps changes the sunlit fraction of the surface "
-      "most affected by about {:.4f} on average, {:.4f} at most; estimated at {} timesteps",
+      "interpolating between steps of moving shades changes the sunlit fraction of the surface "
+      "most affected by about {:.2g} on average, {:.2g} at most; estimated at {} timesteps",
       found->mean, found->most, found->timesteps));
 }
 

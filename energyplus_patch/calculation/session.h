@@ -115,6 +115,10 @@ class Session : public ShadingCalculation {
   double now(std::vector<double>& day, RunRecord::Beam const& of_day) const;
   void add_outputs(Simulation const& simulation);
   double rendered_area(SurfaceId id);
+  void stand(std::vector<double> const& positions);
+  // Calls it at each of the positions around those of this time, with its weight.
+  template <typename Function>
+  void interpolate(Function const& function);
   double with_pv_loss(SurfaceId id, double projected_area);
   double of_drawn(SurfaceId id, double projected_area) const;
   void renew_reflections();
@@ -134,6 +138,8 @@ class Session : public ShadingCalculation {
   std::optional<StepError> step_error_;
   std::optional<PvLoss> pv_loss_;  // with --gpu-shading-pv
   std::optional<SkyMultipliers> sky_multipliers_;
+  // Where the moving shades are between steps: the beam is interpolated.
+  std::vector<WeightedPositions> corners_;
   SunDirection sun_;
   bool sky_patch_ = false;  // the sun is a patch of the sky
   bool undecided_ = false;  // the control waits for the sun of this timestep

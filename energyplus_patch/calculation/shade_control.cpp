@@ -147,6 +147,7 @@ ShadeControl::Trial& ShadeControl::trial(std::size_t index, double position) {
   if (found == trials_.end()) {
     if (trials_.size() >= max_trials) trials_.clear();
     auto options = renderer_options(scene_.model().options);
+    options.device.device = DeviceId{};  // of one direction and few receivers
     auto scene = scene_.scene_at(positions, ShadeOptics::Radiation::solar, index);
     found = trials_.try_emplace(std::move(key), std::move(scene), options).first;
   }

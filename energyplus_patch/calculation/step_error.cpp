@@ -12,22 +12,39 @@ constexpr double negligible = 1e-6;
 
 }  // namespace
 
-void StepError::note(SunDirection sun, std::vector<double> const& stood,
-                     std::vector<double> const& exact) {
-  Sample sample{sun, stood, stood};
-  for (std::size_t i = 0; i < shades_.size(); ++i) {
-    auto const& shade = shades_[i];
+std::vector<WeightedPositions> around(std::vector<MovingShade> const& shades,
+                                      std::vector<double> const& stood,
+                                      std::vector<double> const& exact) {
+  struct Between {
+    double share;  // of the way to the next position on the grid
+    std::size_t shade;
+    double next;
+  };
+  std::vector<Between> between;
+  for (std::size_t i = 0; i < shades.size(); ++i) {
+    auto const& shade = shades[i];
     double const off = exact[i] - stood[i];
     if (std::abs(off) <= negligible * shade.step) continue;
-    double const beyond =
-        std::clamp(stood[i] + std::copysign(shade.step, off), shade.minimum, shade.maximum);
-    if (beyond == stood[i]) continue;
-    sample.beyond[i] = beyond;
-    sample.share = std::max(sample.share, std::min(off / (beyond - stood[i]), 1.0));
+    double const next = shade.neighbour(stood[i], off > 0.0);
+    if (next == stood[i]) continue;
+    between.push_back({std::min(off / (next - stood[i]), 1.0), i, next});
   }
-  if (sample.share <= 0.0) return;
+  std::stable_sort(between.begin(), between.end(),
+                   [](Between const& a, Between const& b) { return a.share > b.share; });
+  std::vector<WeightedPositions> corners{{stood}};
+  for (auto const& each : between) {
+    corners.back().weight -= each.share;
+    corners.push_back({corners.back().positions, each.share});
+    corners.back().positions[each.shade] = each.next;
+  }
+  return corners;
+}
+
+void StepError::note(SunDirection sun, std::vector<WeightedPositions> const& corners,
+                     std::vector<double> const& exact) {
+  if (corners.size() < 2) return;
   if (noted_++ % stride_ != 0) return;
-  samples_.push_back(std::move(sample));
+  samples_.push_back({sun, corners, exact});
   if (samples_.size() < max_samples) return;
   // Every second one is kept, so that they stay spread over the run.
   for (std::size_t i = 0; 2 * i < samples_.size(); ++i) samples_[i] = samples_[2 * i];
@@ -39,12 +56,13 @@ std::optional<StepError::Estimate> StepError::estimate(Fractions const& fraction
   if (samples_.empty()) return std::nullopt;
   Estimate found;
   for (auto const& sample : samples_) {
-    auto const here = fractions(sample.sun, sample.stood);
-    auto const there = fractions(sample.sun, sample.beyond);
-    double most = 0.0;
-    for (std::size_t i = 0; i < here.size(); ++i) {
-      most = std::max(most, sample.share * std::abs(there[i] - here[i]));
+    auto errors = fractions(sample.sun, sample.exact);
+    for (auto const& [positions, weight] : sample.corners) {
+      auto const there = fractions(sample.sun, positions);
+      for (std::size_t i = 0; i < errors.size(); ++i) errors[i] -= weight * there[i];
     }
+    double most = 0.0;
+    for (double const error : errors) most = std::max(most, std::abs(error));
     found.mean += most;
     found.most = std::max(found.most, most);
   }

@@ -10,17 +10,25 @@
 
 namespace gpu_shading::energyplus {
 
-// Estimates what it changes that moving shades stand at steps, not exactly where they should. At
-// some timesteps of a run, sunlit fractions are taken to be linear between the step at which the
-// shades stood and the next one on the other side of where they should have stood.
+// Positions of all moving shades on their step grids, and the weight of the answers there.
+struct WeightedPositions {
+  std::vector<double> positions;
+  double weight = 1.0;
+};
+
+// Positions on the grids to interpolate linearly between for `exact`, by the simplex around it (one
+// more than the shades between steps). The first is `stood`, the nearest on the grids. Only this
+// one if all shades stand exactly there.
+std::vector<WeightedPositions> around(std::vector<MovingShade> const& shades,
+                                      std::vector<double> const& stood,
+                                      std::vector<double> const& exact);
+
+// Measures the error of interpolating between positions at some timesteps of a run.
 class StepError {
  public:
-  // Refers to the shades.
-  explicit StepError(std::vector<MovingShade> const& shades) : shades_(shades) {}
-
-  // A timestep: positions, and those before they were rounded. Timesteps at which nothing was
-  // rounded do not count.
-  void note(SunDirection sun, std::vector<double> const& stood, std::vector<double> const& exact);
+  // A timestep: what was interpolated between, and for which positions.
+  void note(SunDirection sun, std::vector<WeightedPositions> const& corners,
+            std::vector<double> const& exact);
 
   // Sunlit fractions of the same receivers, in order.
   using Fractions =
@@ -30,18 +38,16 @@ class StepError {
     double most = 0.0;
     std::size_t timesteps = 0;
   };
-  // None: nothing was rounded.
+  // None: nothing was interpolated.
   std::optional<Estimate> estimate(Fractions const& fractions) const;
 
  private:
   struct Sample {
     SunDirection sun;
-    std::vector<double> stood;
-    std::vector<double> beyond;
-    double share = 0.0;  // of the way from the one to the other
+    std::vector<WeightedPositions> corners;
+    std::vector<double> exact;
   };
 
-  std::vector<MovingShade> const& shades_;
   std::vector<Sample> samples_;
   std::size_t stride_ = 1;  // of timesteps from one sample to the next
   std::size_t noted_ = 0;

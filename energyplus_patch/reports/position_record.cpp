@@ -48,9 +48,6 @@ void PositionRecord::write(StagedFiles& files, std::vector<MovingShade> const& s
 void PositionRecord::describe(std::vector<MovingShade> const& shades,
                               Messages const& messages) const {
   if (rows_.empty()) return;
-  messages.eio(
-      "! <GPU Shading Moving Shade>, Name, Unit, Lowest Position, Highest Position, Moves, "
-      "Timesteps\n");
   for (std::size_t i = 0; i < shades.size(); ++i) {
     double low = rows_.front().entries[i].position;
     double high = low;
@@ -63,8 +60,8 @@ void PositionRecord::describe(std::vector<MovingShade> const& shades,
       if (position != before) ++moves;
       before = position;
     }
-    messages.eio(fmt::format("GPU Shading Moving Shade,{},{},{:.6g},{:.6g},{},{}\n", shades[i].name,
-                             shades[i].unit(), low, high, moves, rows_.size()));
+    messages.remark(fmt::format("moving shade {}: {:.6g} to {:.6g} {}, moved at {} of {} timesteps",
+                                shades[i].name, low, high, shades[i].unit(), moves, rows_.size()));
   }
 }
 

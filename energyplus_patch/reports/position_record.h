@@ -33,7 +33,8 @@ class PositionRecord {
   // positions.csv: environment number, month, day, hour, timestep, and the position and state of
   // each shade.
   void write(StagedFiles& files, std::vector<MovingShade> const& shades) const;
-  // In EnergyPlus's .eio file, the range of positions and the number of moves.
+  // The range of positions and the number of moves of each shade. EnergyPlus has closed its .eio
+  // file at the end of a run.
   void describe(std::vector<MovingShade> const& shades, Messages const& messages) const;
 
  private:

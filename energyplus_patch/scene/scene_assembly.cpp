@@ -127,6 +127,14 @@ Surface SceneAssembly::placed(SurfaceId id, std::vector<double> const& positions
   return surface;
 }
 
+std::optional<TextureAxes> SceneAssembly::texture_of(SurfaceId id,
+                                                     std::vector<double> const& positions) const {
+  auto const drawn = model_.surroundings.texture_of(id);
+  auto const shade = moving_shade_of(id);
+  if (!drawn || !shade) return drawn;
+  return moved(*drawn, model_.moving_shades[*shade], positions.at(*shade));
+}
+
 std::vector<SurfaceId> SceneAssembly::shading_surfaces() const {
   std::vector<SurfaceId> ids;
   for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
@@ -182,7 +190,7 @@ Scene SceneAssembly::scene_at(std::vector<double> const& positions,
   Scene scene;
   for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
     auto surface = placed(id, positions);
-    optics_.apply(surface, model_.surroundings.texture_of(id), radiation);
+    optics_.apply(surface, texture_of(id, positions), radiation);
     if (opaque && moving_shade_of(id) == opaque) surface.filter = {};
     scene.add(std::move(surface));
   }
@@ -205,7 +213,7 @@ Scene SceneAssembly::hidden_casters() const {
   Scene scene;
   for (auto id = static_cast<SurfaceId>(size()); id < surfaces_.size(); ++id) {
     auto surface = placed(id, positions_);
-    optics_.apply(surface, model_.surroundings.texture_of(id), ShadeOptics::Radiation::light);
+    optics_.apply(surface, texture_of(id, positions_), ShadeOptics::Radiation::light);
     if (surface.casting != Casting::never) scene.add(std::move(surface));
   }
   return scene;

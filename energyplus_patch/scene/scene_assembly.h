@@ -103,6 +103,7 @@ class SceneAssembly {
 
  private:
   Surface placed(SurfaceId id, std::vector<double> const& positions) const;
+  std::optional<TextureAxes> texture_of(SurfaceId id, std::vector<double> const& positions) const;
   void find_moving_shades();
 
   Model model_;

@@ -188,6 +188,13 @@ Polygon moved(Polygon const& drawn, MovingShade const& shade, double position) {
   });
 }
 
+TextureAxes moved(TextureAxes const& drawn, MovingShade const& shade, double position) {
+  auto const& [origin, u, v] = drawn;
+  auto const corners =
+      moved(Polygon{{origin, origin + u, origin + v}, {}}, shade, position).outline;
+  return {corners[0], corners[1] - corners[0], corners[2] - corners[0]};
+}
+
 double facing_position(Polygon const& drawn, MovingShade const& shade,
                        glm::dvec3 const& towards_sun) {
   auto const axis = rotation_axis(drawn, shade).direction;

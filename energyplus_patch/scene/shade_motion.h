@@ -5,12 +5,16 @@
 
 #include "gpu_shading/polygon.h"
 #include "model/input/moving_shades.h"
+#include "model/input/screen_maker.h"
 
 // Where the surfaces of a GPUShading:MovingShade stand at its positions.
 namespace gpu_shading::energyplus {
 
 // The polygon of a surface, from where it is drawn.
 Polygon moved(Polygon const& drawn, MovingShade const& shade, double position);
+
+// Where texture coordinates of a mesh lie then. With Slide and Rotate.
+TextureAxes moved(TextureAxes const& drawn, MovingShade const& shade, double position);
 
 // Of Fold, from the panels as they are drawn. Throws Error.
 MovingShade::Track fold_track(std::vector<Polygon> const& drawn, MovingShade const& shade);

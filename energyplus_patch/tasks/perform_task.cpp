@@ -20,10 +20,6 @@ namespace {
 
 // Each position of a screen, and each share of leaves, would need samples of its own.
 void refuse_changing_bodies(SceneAssembly const& scene) {
-  if (auto const& shades = scene.model().moving_shades; !shades.empty()) {
-    throw Error(fmt::format("{}: samples cannot be taken of a model with moving shades",
-                            shades.front().where));
-  }
   auto const& optics = scene.optics();
   auto const& leaves = scene.model().surroundings.leaf_schedules;
   for (auto const& name : optics.deployment_names()) {
@@ -42,14 +38,13 @@ void refuse_changing_bodies(SceneAssembly const& scene) {
 
 SampledScene sampled_scene(SamplesTask const& task, SceneAssembly const& scene,
                            CachedRenderer const& answers) {
-  auto const areas = scene.areas();
   SampledScene sampled;
   sampled.asked = task.asked;
   sampled.hash = to_text(scene.hash(answers.renderer().scene(), {}));
   sampled.fineness = describe_fineness(scene.model().options);
   sampled.schedules = scene.optics().factor_names();
   for (auto const id : answers.known().receivers) {
-    sampled.receivers.push_back({scene.surfaces()[id].name, areas[id]});
+    sampled.receivers.push_back({scene.surfaces()[id].name, answers.area_vector(id)});
   }
   return sampled;
 }

@@ -167,6 +167,11 @@ std::string perform(SurroundingsTask const& task, SceneAssembly& scene, Messages
         "with the sky than they see of it: {}",
         listed(cut_off, 3)));
   }
+  if (auto const& shades = scene.model().moving_shades; !shades.empty()) {
+    messages.warning(
+        fmt::format("{}: view factors for long-wave exchange are those of the position at rest",
+                    shades.front().where));
+  }
   write_whole_file(task.file, [&](std::ostream& out) { out << editor->text(); });
   if (!task.table.empty()) {
     write_whole_file(task.table,

@@ -135,8 +135,8 @@ def test_names_of_other_surfaces_are_explained(call, box, model, surface, reason
 def test_unknown_fields_list_the_known(call, model, tmp_path):
     (tmp_path / "side.epJSON").write_text('{"GPUShading:Settings": {"S": {"resolutoin": 64}}}')
     done = call("check", "model.idf", "--gpu-shading-file", "side.epJSON")
-    assert done.stderr.endswith('"resolutoin": no such field; known: resolution, update_frequency, device, error; '
-                                'did you mean resolution?\n')
+    assert done.stderr.endswith('"resolutoin": no such field; known: resolution, update_frequency, device, error, '
+                                'sky_model; did you mean resolution?\n')
 
 
 @pytest.fixture

@@ -5,8 +5,10 @@ import csv
 import json
 import math
 import re
+import shutil
 import sqlite3
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -62,10 +64,11 @@ def moving(pattern, motion, **fields):
 
 @pytest.fixture
 def run(patched, weather, tmp_path):
-    def call(text, *options, name="model"):
+    def call(text, *options, name="model", year=False):
         path = tmp_path / f"{name}.idf"
         path.write_text(text)
-        done = energyplus.run(patched, path, weather, tmp_path / name, ["--gpu-shading", "-D", *options])
+        days = [] if year else ["-D"]
+        done = energyplus.run(patched, path, weather, tmp_path / name, ["--gpu-shading", *days, *options])
         assert done.completed, done.why() + done.errors + done.text("eplusout.err")
         return done
 
@@ -90,6 +93,17 @@ def assert_same(one, other, most=SAME):
 
 def constant(value):
     return f"Schedule:Constant,Position,,{value};\n"
+
+
+def of_hours(*ends):
+    """A schedule of (hour, position) for every day, each until the hour."""
+    parts = ",".join(f"Until: {hour}:00,{position}" for hour, position in ends)
+    return f"Schedule:Compact,Position,,Through: 12/31,For: AllDays,{parts};\n"
+
+
+def by_the_hour(position):
+    """of_hours() of position(hour) for hours 1 to 23, and 0 for the last."""
+    return of_hours(*((hour, position(hour)) for hour in range(1, 24)), (24, 0))
 
 
 def moved(points, move):
@@ -133,16 +147,20 @@ def sun(done):
     return {time: (azimuth[time], altitude[time]) for time in azimuth}
 
 
+def suns_before_the_window(done):
+    """(time, angle in radians from the south to the west, altitude in degrees) where the sun lights a south window."""
+    for time, (azimuth, altitude) in sun(done).items():
+        g = math.radians(azimuth - 180.0)
+        if altitude > 2.0 and math.cos(g) > 0.05:
+            yield time, g, altitude
+
+
 def test_an_awning_extends_as_its_closed_form_says(run):
-    hours = "".join(f"Until: {hour}:00,{hour % 5 * 0.25}," for hour in range(1, 24))
-    schedule = f"Schedule:Compact,Position,,Through: 12/31,For: AllDays,{hours}Until: 24:00,0;\n"
+    schedule = by_the_hour(lambda hour: hour % 5 * 0.25)
     done = run(room(surface("Awning", AWNING), moving("Awning", "Extend", dy=-1, schedule="Position"), schedule, DAYS))
     fractions, shares = series(done, FRACTION), series(done, "Schedule Value", "POSITION")
     compared = 0
-    for time, (azimuth, altitude) in sun(done).items():
-        g = math.radians(azimuth - 180.0)
-        if altitude <= 2.0 or math.cos(g) <= 0.05:
-            continue
+    for time, g, altitude in suns_before_the_window(done):
         drop = 1.2 * shares[time] * math.tan(math.radians(altitude)) / math.cos(g)
         assert abs(fractions[time] - max(0.0, 1.0 - drop / window_with_shades.SIZE)) < 2e-4
         compared += shares[time] > 0.0
@@ -169,19 +187,15 @@ def folded_cover(turn, run_east):
 
 
 def test_panels_fold_as_their_closed_form_says(run):
-    hours = "".join(f"Until: {hour}:00,{hour * 25 % 100}," for hour in range(1, 24))
-    schedule = f"Schedule:Compact,Position,,Through: 12/31,For: AllDays,{hours}Until: 24:00,0;\n"
+    schedule = by_the_hour(lambda hour: hour * 25 % 100)
     shade = moving("Panel *", "Fold", dx=1, schedule="Position", step=0.5)
     done = run(room(PANELS, shade, schedule, DAYS))
     fractions, turns = series(done, FRACTION), series(done, "Schedule Value", "POSITION")
     compared = set()
-    for time, (azimuth, altitude) in sun(done).items():
-        g = math.radians(azimuth - 180.0)
-        if altitude <= 2.0 or math.cos(g) <= 0.05:
-            continue
+    for time, g, _ in suns_before_the_window(done):
         # From the south-west, light moves to the east.
         cover = folded_cover(math.radians(min(turns[time], 90.0)), math.tan(g))
-        assert abs(fractions[time] - (1.0 - cover)) < 2e-4, (time, turns[time], azimuth)
+        assert abs(fractions[time] - (1.0 - cover)) < 2e-4, (time, turns[time], g)
         compared.add(turns[time])
     assert len(compared) >= 4
 
@@ -219,10 +233,11 @@ def cut_off(profile):
     return 90.0
 
 
-def test_block_beam_turns_slats_to_the_cut_off_angle(run):
+@pytest.mark.parametrize("device", ["cpu", "0"])
+def test_block_beam_turns_slats_to_the_cut_off_angle(run, device):
     shade = moving("Slat *", "Rotate", step=1, control="BlockBeam", receiver="Window", maximum=90)
     winter = room(FULL, shade).replace("21 August,8,21,", "21 December,12,21,")
-    done = run(winter, *REPORT)
+    done = run(winter, f"--gpu-shading-device={device}", *REPORT)
     fractions = series(done, FRACTION)
     lit = [fractions[time] for time in sorted(fractions)]
     compared = 0
@@ -265,20 +280,41 @@ def test_position_and_state_are_output_variables(run):
     assert "GPU Shading Moving Shade Position [deg]" in done.text("eplusout.eso")
 
 
+def test_between_steps_fractions_are_interpolated(run):
+    """The shadow of an awning is as long as the awning: interpolated between rolled up and extended, it is exact."""
+    schedule = by_the_hour(lambda hour: f"{hour * 0.17 % 1:.2f}")
+    shade = moving("Awning", "Extend", dy=-1, step=1, schedule="Position")
+    done = run(room(surface("Awning", AWNING), shade, schedule, DAYS).replace("21 August,8,21,", "21 December,12,21,"))
+    fractions, shares = series(done, FRACTION), series(done, "Schedule Value", "POSITION")
+    compared = set()
+    for time, g, altitude in suns_before_the_window(done):
+        drop = 1.2 * math.tan(math.radians(altitude)) / math.cos(g)
+        assert drop < window_with_shades.SIZE
+        assert abs(fractions[time] - (1.0 - shares[time] * drop / window_with_shades.SIZE)) < 2e-4
+        compared.add(shares[time])
+    assert len(compared) > 7
+
+
 def test_the_error_of_the_step_is_stated(run):
-    steps = "".join(f"Until: {hour}:00,{7.3 * hour % 45:.2f}," for hour in range(1, 24))
-    schedule = f"Schedule:Compact,Position,,Through: 12/31,For: AllDays,{steps}Until: 24:00,0;\n"
-    coarse, fine = (run(room(slats(), moving("Slat *", "Rotate", step=step, schedule="Position"), schedule),
-                        name=f"step {step}") for step in (5, 0.01))
-    one, other = series(coarse, FRACTION), series(fine, FRACTION)
-    up = [abs(one[time] - other[time]) for time, (_, altitude) in sun(fine).items() if altitude > 0.0]
-    found = re.search(r"most affected by about ([\d.]+) on average, ([\d.]+) at most", coarse.text("eplusout.err"))
-    mean, most = map(float, found.groups())
-    rounded = [value for value in up if value > 0.0]
-    # The window is not always the surface most affected; in the shade, nothing is.
-    assert sum(up) / len(up) <= mean * 1.2 <= 4.0 * sum(rounded) / len(rounded)
-    assert max(up) * 0.5 <= most <= max(up) * 2.0
-    assert "most affected" not in fine.text("eplusout.err")  # All are on its grid.
+    schedule = by_the_hour(lambda hour: f"{7.3 * hour % 45:.2f}")
+    fractions, statements = {}, {}
+    for step in (20, 5, 0.01):
+        done = run(room(slats(), moving("Slat *", "Rotate", step=step, schedule="Position"), schedule),
+                   name=f"step {step}")
+        fractions[step], statements[step] = series(done, FRACTION), done.text("eplusout.err")
+    up = [time for time, (_, altitude) in sun(done).items() if altitude > 0.0]
+    means = []
+    for step in (20, 5):
+        errors = [abs(fractions[step][time] - fractions[0.01][time]) for time in up]
+        found = re.search(r"most affected by about (\S+) on average, (\S+) at most", statements[step])
+        mean, most = map(float, found.groups())
+        # The window is not always the surface most affected; in the shade, nothing is.
+        assert sum(errors) / len(errors) <= mean * 1.2
+        assert max(errors) * 0.5 <= most <= max(errors) * 3.0
+        means.append(sum(errors) / len(errors))
+    # It falls with the square of the step, while rounding would change the fraction by some per cent.
+    assert means[1] < means[0] / 4.0 and means[0] < 1e-3
+    assert "most affected" not in statements[0.01]  # All are on its grid.
 
 
 def test_track_sun_faces_the_profile_angle(run):
@@ -293,23 +329,78 @@ def test_track_sun_faces_the_profile_angle(run):
         assert abs(position - (90.0 - profile)) <= 0.51, (azimuth, altitude)
 
 
-def test_an_ems_that_overrides_the_schedule_moves_the_shade_as_the_schedule_would(run):
-    steps = "".join(f"Until: {hour}:00,{hour * 7 % 60}," for hour in range(1, 24))
-    schedule = f"Schedule:Compact,Position,,Through: 12/31,For: AllDays,{steps}Until: 24:00,0;\n"
+@pytest.fixture
+def with_plugins(patched, official, tmp_path):
+    """A patched EnergyPlus that can run Python plugins: that of PyPI lacks their standard library and pyenergyplus."""
+    api = energyplus.REPOSITORY / ".venv" / "EnergyPlus-lbnl" / "pyenergyplus"
+    if not api.is_dir():
+        pytest.skip(f"{api} is missing: scripts/setup could not fetch pyenergyplus-lbnl")
+    stdlib = "import sys, sysconfig; print(sysconfig.get_path('stdlib'), sys.version_info[:2] == (3, 12))"
+    pyenv = sorted((Path.home() / ".pyenv" / "versions").glob("3.12*/bin/python3.12"))
+    for python in filter(None, [shutil.which("python3.12"), *pyenv]):
+        found = subprocess.run([python, "-c", stdlib], capture_output=True, text=True, check=False).stdout.split()
+        if found[1:] == ["True"]:
+            break
+    else:
+        pytest.skip("Python 3.12, whose standard library EnergyPlus's plugins need, is not installed")
+    source = tmp_path / "EnergyPlus"
+    source.mkdir()
+    for path in official.parent.resolve().iterdir():
+        (source / path.name).symlink_to(path)
+    (source / "python_lib").symlink_to(found[0])
+    (source / "pyenergyplus").symlink_to(api)
+    program = energyplus.REPOSITORY / "scripts" / "patch_energyplus"
+    subprocess.run([program, source, tmp_path / "patched"], check=True, capture_output=True)
+    return tmp_path / "patched" / "energyplus"
+
+
+PLUGIN = """
+from pyenergyplus.plugin import EnergyPlusPlugin
+
+class Turn(EnergyPlusPlugin):
+    def on_begin_zone_timestep_before_init_heat_balance(self, state):
+        exchange = self.api.exchange
+        angle = exchange.get_actuator_handle(state, "Schedule:Compact", "Schedule Value", "Position")
+        hour = exchange.hour(state)
+        exchange.set_actuator_value(state, angle, (hour + 1) * 7 % 60 if hour < 23 else 0)
+        return 0
+"""
+STEPS = by_the_hour(lambda hour: hour * 7 % 60)
+RESTING = of_hours((24, 0))
+
+
+def ems():
     program = "EnergyManagementSystem:Program,Turn"
     for hour in range(24):
         program += f",\n  IF Hour == {hour},SET Angle = {(hour + 1) * 7 % 60 if hour < 23 else 0},ENDIF"
-    ems = ("Schedule:Compact,Position,,Through: 12/31,For: AllDays,Until: 24:00,0;\n"
-           + "EnergyManagementSystem:Actuator,Angle,Position,Schedule:Compact,Schedule Value;\n"
-           + "EnergyManagementSystem:ProgramCallingManager,Caller,BeginZoneTimestepBeforeInitHeatBalance,Turn;\n"
-           + program + ";\n")
-    shade = CASES["centre line"][1]
-    scheduled = run(room(slats(), shade, schedule, DAYS), *REPORT)
-    overridden = run(room(slats(), shade, ems, DAYS), *REPORT, name="ems")
+    return ("EnergyManagementSystem:Actuator,Angle,Position,Schedule:Compact,Schedule Value;\n"
+            + "EnergyManagementSystem:ProgramCallingManager,Caller,BeginZoneTimestepBeforeInitHeatBalance,Turn;\n"
+            + program + ";\n")
+
+
+def assert_moves_as_scheduled(scheduled, overridden):
     one, two = ([row["Shade position [deg]"] for row in rows(each)] for each in (scheduled, overridden))
     assert len(set(one)) > 10
     assert two == one
     assert_same(scheduled, overridden)
+
+
+def test_an_ems_that_overrides_the_schedule_moves_the_shade_as_the_schedule_would(run):
+    shade = CASES["centre line"][1]
+    assert_moves_as_scheduled(run(room(slats(), shade, STEPS, DAYS), *REPORT),
+                              run(room(slats(), shade, RESTING, ems(), DAYS), *REPORT, name="ems"))
+
+
+def test_a_python_plugin_that_overrides_the_schedule_moves_the_shade_as_the_schedule_would(
+        run, with_plugins, weather, tmp_path):
+    shade = CASES["centre line"][1]
+    path = tmp_path / "plugin.idf"
+    path.write_text(room(slats(), shade, RESTING, "PythonPlugin:Instance,Turner,Yes,turn,Turn;\n"
+                         "PythonPlugin:SearchPaths,Paths,Yes,Yes,No;\n", DAYS))
+    (tmp_path / "turn.py").write_text(PLUGIN)
+    plugin = energyplus.run(with_plugins, path, weather, tmp_path / "plugin", ["--gpu-shading", "-D", *REPORT])
+    assert plugin.completed, plugin.why() + plugin.errors + plugin.text("eplusout.err")
+    assert_moves_as_scheduled(run(room(slats(), shade, STEPS, DAYS), *REPORT), plugin)
 
 
 def test_a_cache_keeps_positions_apart(run, tmp_path):
@@ -322,14 +413,53 @@ def test_a_cache_keeps_positions_apart(run, tmp_path):
     assert "0 views drawn" in run(one, *cache, name="again").text("eplusout.err")
 
 
-def test_the_sky_follows_with_detailed_modeling(run):
+def test_a_cache_keeps_the_fractions_of_an_awning_that_rests_rolled_up(run, tmp_path):
+    cache = ("--gpu-shading-cache", str(tmp_path / "cache"))
+    text = room(surface("Awning", AWNING), moving("Awning", "Extend", dy=-1, rest=0, schedule="Position"),
+                constant(0.8), "Output:Variable,Awning,Surface Outside Face Sunlit Fraction,Timestep;\n")
+    run(text, *cache)
+    assert " 0 views drawn" in run(text, *cache, name="again").text("eplusout.err")
+
+
+@pytest.mark.parametrize("name, position", [("slide", 1.5), ("given axis", -60)])
+def test_a_mesh_moves_with_its_texture(run, tmp_path, name, position):
+    """A panel with holes 0.2 m apart, as a mesh, and the same panel drawn where it stands."""
+    _, shade, _, there = CASES[name]
+    screen = "GPUShading:PerforatedScreen,Holes,Panel*,Texture,holes.png,,,,,,0.02;\n"
+    pixels = np.zeros((20, 20), dtype=np.uint8)
+    pixels[5:12, 8:16] = 255
+    Image.fromarray(255 - pixels).save(tmp_path / "holes.png")
+
+    def mesh(points):
+        lines = [f"v {x:.9f} {y:.9f} {z:.9f}" for x, y, z in points]
+        # Upwards and eastwards from the lower corner on the west side, as PANEL is drawn.
+        lines += [f"vt {u} {v}" for u, v in ((0, 11.5), (0, 0), (5, 0), (5, 11.5))]
+        return "\n".join([*lines, "f 1/1 2/2 3/3 4/4", ""])
+
+    numbers = list(map(float, re.findall(r"-?\d+\.\d{12}", there)))
+    (tmp_path / "drawn.obj").write_text(mesh(PANEL))
+    (tmp_path / "there.obj").write_text(mesh(zip(*[iter(numbers)] * 3, strict=True)))
+
+    def text(file, *more):
+        return room(f"GPUShading:Geometry,Panel,{file},m,Z;\n", screen, *more)
+
+    moves = run(text("drawn.obj", shade.replace(",Panel,", ",Panel*,"), constant(position)))
+    assert_same(moves, run(text("there.obj"), name="there"))
+
+
+PEREZ = ("--gpu-shading-sky=perez-patches",)
+
+
+@pytest.mark.parametrize("options", [(), PEREZ], ids=["EnergyPlus", "Perez"])
+def test_the_sky_follows_the_motion(run, options):
     """The diffuse light of the sky on the window at a constant position, and in a model that stands there."""
     variable = "Surface Outside Face Incident Sky Diffuse Solar Radiation Rate per Area"
     output = f"Output:Variable,Window,{variable},Timestep;\n"
     varying = "Schedule:Compact,Leaves,,Through: 12/31,For: AllDays,Until: 12:00,0,Until: 24:00,0.001;\n"
     far = surface("Far", [(500, 500, 0), (501, 500, 0), (501, 500, 1), (500, 500, 1)]).replace("Far,,", "Far,Leaves,")
-    moves = run(room(slats(), CASES["centre line"][1], constant(35), output, detailed=True))
-    there = run(room(slats(35), varying, far, output, detailed=True), name="there")
+    detailed = not options
+    moves = run(room(slats(), CASES["centre line"][1], constant(35), output, detailed=detailed), *options)
+    there = run(room(slats(35), varying, far, output, detailed=detailed), *options, name="there")
     first, second = series(moves, variable), series(there, variable)
     assert max(first.values()) > 20.0
     assert max(abs(first[time] - second[time]) for time in first) < 1e-3 * max(first.values())
@@ -413,9 +543,7 @@ MOVES = """() => {
 
 
 def test_the_page_moves_its_shades(run, tmp_path):
-    steps = "".join(f"Until: {hour}:00,{hour * 7 % 60}," for hour in range(1, 24))
-    schedule = f"Schedule:Compact,Position,,Through: 12/31,For: AllDays,{steps}Until: 24:00,0;\n"
-    done = run(room(slats(), CASES["centre line"][1], schedule), *REPORT)
+    done = run(room(slats(), CASES["centre line"][1], STEPS), *REPORT)
     page = done.folder / "report" / "index.html"
     content = content_of(page)
     [motion] = content["motions"]
@@ -441,12 +569,95 @@ def test_the_page_moves_its_shades(run, tmp_path):
         assert seen["rise"] == pytest.approx(0.2 * math.sin(math.radians(turn)), abs=2 * geometry["step"])
 
 
-def test_what_does_not_follow_is_refused_or_stated(patched, weather, tmp_path, run):
+def test_a_sky_that_does_not_follow_is_stated(run):
     text = room(slats(), CASES["centre line"][1], constant(35))
     assert "diffuse light of the sky is that of the position at rest" in run(text).text("eplusout.err")
-    path = tmp_path / "model.idf"
-    for options, message in ((["--gpu-shading-update", "sampled:coarse"], "expected timestep with moving shades"),
-                             (["--gpu-shading=require"], "moving shades are rendered on the CPU")):
-        done = energyplus.run(patched, path, weather, tmp_path / message.split()[0], ["--gpu-shading", "-D", *options])
-        assert not done.completed
-        assert message in done.errors
+
+
+DRAWN = {
+    "more positions than contexts": slats() + moving("Slat *", "Rotate", step=0.5, schedule="Position")
+    + "GPUShading:PerforatedScreen,Mesh,Slat 1,Round,,Straight,0.05,,0.1,,0.001;\n"
+    + of_hours(*((hour, hour * 3.5) for hour in range(1, 25))),
+    "control": slats() + moving("Slat *", "Rotate", step=1, control="TrackSun", minimum=-90, maximum=90, rest=0),
+}
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_opengl_draws_each_position_as_the_cpu_does(run, name):
+    drawn, counted = (run(room(DRAWN[name]), f"--gpu-shading-device={device}", *REPORT, name=device)
+                      for device in ("0", "cpu"))
+    assert "shading rendered by CPU" not in drawn.text("eplusout.err")
+    assert rows(drawn) == rows(counted) and len({row["Shade position [deg]"] for row in rows(drawn)}) > 10
+    # The renderer's target.
+    assert_same(drawn, counted, 1e-3)
+
+
+def test_a_run_from_samples_is_within_its_stated_error(run):
+    """Of a window, and of a slat, whose own normal turns."""
+    output = ("RunPeriod,Year,1,1,,12,31,;\n"
+              "Output:Variable,Window,Surface Outside Face Beam Solar Incident Angle Cosine Value,Timestep;\n"
+              "Output:Variable,Slat 0,Surface Outside Face Sunlit Fraction,Timestep;\n")
+    schedule = of_hours((11, 0), (13, 40), (24, 20))
+    text = room(slats(), moving("Slat *", "Rotate", step=20, schedule="Position"), schedule, output)
+    text = text.replace("No,No,No,Yes,No", "No,No,No,No,Yes")
+    sampled = run(text, "--gpu-shading-update=sampled:coarse", year=True, name="sampled")
+    rendered = run(text, year=True, name="rendered")
+    found = re.search(r"(\d+) directions of the sun answered from samples at (\d+), .* sunlit fraction ([\d.]+)",
+                      sampled.text("eplusout.err"))
+    answered, samples, stated = int(found[1]), int(found[2]), float(found[3])
+    assert samples >= 3 * 238 and answered > 10 * samples
+    cosines = series(rendered, "Surface Outside Face Beam Solar Incident Angle Cosine Value")
+    for receiver in ("WINDOW", "SLAT 0"):
+        one, other = (series(done, FRACTION, receiver) for done in (sampled, rendered))
+        errors = [abs(one[time] - other[time]) for time in other if cosines[time] > 0.05]
+        assert len({round(other[time], 3) for time in other}) > 100
+        assert 0.0 < sum(errors) / len(errors) <= stated, receiver
+
+
+def sample(patched, weather, folder, *options, output="samples"):
+    return subprocess.run([patched.parent / "gpu_shading", "sample", "model.idf", "-w", weather, "-o", output,
+                           "--mode", "coarse", *options], cwd=folder, capture_output=True, text=True)
+
+
+def test_samples_are_taken_at_each_position(patched, weather, tmp_path):
+    def window(table):
+        with open(table, newline="") as file:
+            return {row["time"]: float(row["WINDOW"]) for row in csv.DictReader(file)}
+
+    def folder(name, text):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "model.idf").write_text(text)
+        return tmp_path / name
+
+    shade = moving("Slat *", "Rotate", maximum=60, step=30, schedule="Position") + constant(0)
+    moves = folder("moves", room(slats(), shade))
+    done = sample(patched, weather, moves)
+    assert done.returncode == 0, done.stderr
+    assert sorted(path.name for path in (moves / "samples").iterdir()) == ["Shade_0", "Shade_30", "Shade_60"]
+    there = folder("there", room(slats(30)))
+    assert sample(patched, weather, there).returncode == 0
+    one, other = window(moves / "samples/Shade_30/year.csv"), window(there / "samples/year.csv")
+    assert one.keys() == other.keys() and len(set(other.values())) > 1000
+    assert max(abs(one[time] - other[time]) for time in one) < 1e-4
+    assert json.loads((moves / "samples/Shade_30/samples.json").read_text())["positions"] == "Shade=30"
+
+    single = sample(patched, weather, moves, "--gpu-shading-positions=Shade=30", output="single")
+    assert single.returncode == 0, single.stderr
+    assert (moves / "single/year.csv").read_bytes() == (moves / "samples/Shade_30/year.csv").read_bytes()
+    mask = subprocess.run([patched.parent / "gpu_shading", "mask", "model.idf", "-w", weather, "-o", "mask",
+                           "--gpu-shading-positions=Shade=30", "--samples", "samples/Shade_30", "--receiver", "Window"],
+                          cwd=moves, capture_output=True, text=True)
+    assert mask.returncode == 0, mask.stderr
+    with open(moves / "mask/hours.csv", newline="") as file:
+        hours = list(csv.DictReader(file))
+    assert len(hours) > 50
+    for row in hours:
+        [fraction] = {value for when, value in one.items()
+                      if when[5:] == f"{int(row['month']):02}-21 {int(row['hour']):02}:00"}
+        if row["sunlit fraction"]:
+            assert float(row["sunlit fraction"]) == pytest.approx(fraction, abs=1e-4)
+
+    many = folder("many", room(slats(), moving("Slat *", "Rotate", step=0.5, schedule="Position"), constant(0)))
+    refused = sample(patched, weather, many)
+    assert refused.returncode != 0
+    assert "181 or more positions to sample, expected at most 100" in refused.stderr

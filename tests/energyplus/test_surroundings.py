@@ -65,6 +65,22 @@ def test_street_is_that_of_the_closed_form(street):
         assert window[name] == pytest.approx(value, abs=3 * window["standard error"])
 
 
+def test_factors_of_receivers_are_reciprocal(tmp_path):
+    facing = ("BuildingSurface:Detailed,Facing,Wall,Outer Wall,Room,,Outdoors,,SunExposed,WindExposed,,4,"
+              "5,-3,4, 5,-3,-1, -2,-3,-1, -2,-3,4;\nGPUShading:SurroundingGroup,Facing Group,Facing;\n")
+    rows = factors(tmp_path, facing)[0]
+    x1, z1, x2, z2 = screened_room.generate.WINDOW
+    window = (x2 - x1) * (z2 - z1)
+    areas = {"FRONT": 6 * 3 - window, "WINDOW": window}
+    there = sum(area * rows[name]["FACING GROUP"] for name, area in areas.items())
+    back = 7 * 5 * rows["FACING"]["BUILDING"]
+    noise = np.hypot(7 * 5 * rows["FACING"]["standard error"],
+                     np.hypot(*(area * rows[name]["standard error"] for name, area in areas.items())))
+    print(f"{there:.4f} and {back:.4f} m2, standard error {noise:.4f}")
+    assert there > 5
+    assert there == pytest.approx(back, abs=3 * noise)
+
+
 def test_sheet_of_holes_hides_its_solid_share(tmp_path):
     window = factors(tmp_path, SCREEN)[0]["WINDOW"]
     # Square holes of half the pitch.
@@ -215,6 +231,23 @@ def test_less_sky_than_seen_is_said(patched, weather, tmp_path):
     lines = " ".join(done.text("eplusout.err").replace("** ~~~ **", "").split())
     assert "so that these surfaces exchange less with the sky than they see of it: ROOF" in lines
     assert "long-wave exchange by view factors of" in lines
+
+
+def test_shades_that_move_are_taken_at_rest_and_that_is_said(patched, weather, tmp_path):
+    resting = "Shading:Building:Detailed,Panel,,4, 50,-0.3,4, 50,-0.3,0, -50,-0.3,0, -50,-0.3,4;\n"
+    moving = ("GPUShading:MovingShade,Slider,Panel,Slide,,0,0,1,,,,0,20,1,5,Schedule,Open;\n"
+              "Schedule:Constant,Open,Any,20;\n")
+    views = {}
+    for name, objects in (("still", resting), ("moves", resting + moving),
+                          ("there", resting.replace("0.3,4", "0.3,9").replace("0.3,0", "0.3,5"))):
+        (tmp_path / name).mkdir()
+        views[name] = factors(tmp_path / name, objects)[0]["WINDOW"]["SKY"]
+    assert views["moves"] == pytest.approx(views["there"], abs=0.01)
+    assert abs(views["moves"] - views["still"]) > 0.1
+    done = run(patched, weather, tmp_path / "run", screened_room.model(objects=resting + moving) + OUTPUTS, [FLAG])
+    lines = " ".join(done.text("eplusout.err").replace("** ~~~ **", "").split())
+    assert ("GPUShading:MovingShade Slider: view factors for long-wave exchange are those of the position at rest"
+            in lines)
 
 
 def test_groups_alone_do_nothing(patched, weather, tmp_path):

@@ -24,16 +24,27 @@ constexpr double max_steps = 10'000.0;
 // Of a step, so that decimal fractions are on the grid.
 constexpr double rounding = 1e-6;
 
-void read_surfaces(InputObject const& object, ShadingInput const& input, Names const& fixed,
-                   std::map<std::string, std::string>& taken, MovingShade& shade) {
+using ByName = std::map<std::string, std::string>;
+
+void read_surfaces(InputObject const& object, ShadingInput const& input, ByName const& surroundings,
+                   ByName& taken, MovingShade& shade) {
   auto const pattern = read(object, field::surface_name);
   auto const refuse = [&](std::string const& why) {
     throw Error(fmt::format("{} is {}: {}", field::surface_name.title, in_quotes(pattern), why));
   };
   for (auto const& [surface, unused] : input.shading_surfaces) {
     if (!matches(pattern, surface)) continue;
-    if (fixed.contains(surface)) {
-      refuse(fmt::format("{} is part of a mesh or map, expected Shading:... objects", surface));
+    if (auto const outside = surroundings.find(surface); outside != surroundings.end()) {
+      if (outside->second != extension::geometry::type) {
+        refuse(fmt::format("{} is part of a {}, which cannot move", surface, outside->second));
+      }
+      // The faces of a mesh have no axes and edges of their own.
+      bool const together =
+          shade.motion == Motion::slide || (shade.turns() && shade.axis == Axis::given);
+      if (!together) {
+        refuse(
+            fmt::format("{} is a mesh, expected Motion Slide, or Rotate with Axis Given", surface));
+      }
     }
     auto const [place, added] = taken.try_emplace(surface, object.name);
     if (!added) refuse(fmt::format("{} is named by {} already", surface, place->second));
@@ -149,6 +160,12 @@ double MovingShade::nearest(double position) const {
   return last ? maximum : std::min(on_grid, maximum);
 }
 
+double MovingShade::neighbour(double position, bool above) const {
+  double const steps = (position - minimum) / step;
+  double const to = above ? std::floor(steps + rounding) + 1.0 : std::ceil(steps - rounding) - 1.0;
+  return nearest(minimum + step * to);
+}
+
 std::vector<double> MovingShade::positions() const {
   std::vector<double> all;
   auto const steps = static_cast<int>(std::floor((maximum - minimum) / step + rounding));
@@ -174,15 +191,15 @@ std::string MovingShade::describe() const {
 }
 
 std::vector<MovingShade> read_moving_shades(std::vector<InputObject> const& objects,
-                                            ShadingInput const& input, Names const& fixed) {
+                                            ShadingInput const& input, ByName const& surroundings) {
   std::vector<MovingShade> shades;
-  std::map<std::string, std::string> taken;
+  ByName taken;
   for_each_of(objects, field::type, [&](InputObject const& object) {
     MovingShade shade;
     shade.name = object.name;
     shade.where = object.where();
-    read_surfaces(object, input, fixed, taken, shade);
     read_motion(object, shade);
+    read_surfaces(object, input, surroundings, taken, shade);
     read_range(object, shade);
     read_control(object, shade);
     refuse_actuated_constant(objects, shade);

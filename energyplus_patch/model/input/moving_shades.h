@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,8 @@ struct MovingShade {
 
   // The nearest position at which the surfaces can stand.
   double nearest(double position) const;
+  // The next one above or below a position, or the end of the range.
+  double neighbour(double position, bool above) const;
   // All of these, in order.
   std::vector<double> positions() const;
   bool turns() const { return motion == Motion::rotate; }
@@ -56,9 +59,10 @@ struct MovingShade {
 };
 
 // Reads every GPUShading:MovingShade of a model. Throws Error, naming object, field and value.
-// `fixed`: names of shading surfaces that cannot move, because they are parts of a mesh or map.
+// `surroundings`: the types of shading surfaces that EnergyPlus does not see, by name.
 std::vector<MovingShade> read_moving_shades(std::vector<InputObject> const& objects,
-                                            ShadingInput const& input, Names const& fixed);
+                                            ShadingInput const& input,
+                                            std::map<std::string, std::string> const& surroundings);
 
 // Sets positions at rest: "Louvres=40,Awning=0.5". Throws Error, naming `option`.
 void set_rest(std::vector<MovingShade>& shades, std::string const& option,

@@ -25,7 +25,6 @@ constexpr std::array<std::string_view, 3> mode_words{"auto", "require", "off"};
 constexpr std::array<std::string_view, 3> lean_words{"auto", "on", "off"};
 constexpr std::array<std::string_view, 4> method_words{"auto", "patched", "opengl", "scheduled"};
 constexpr std::array<std::string_view, 2> assets_words{"restricted", "any"};
-constexpr std::array<std::string_view, 2> sky_words{"energyplus", "perez-patches"};
 constexpr std::array<std::string_view, 2> switch_words{"off", "on"};
 constexpr std::array<std::string_view, 1> off_word{"off"};
 
@@ -33,7 +32,6 @@ constexpr FieldInfo mode_value = choice(mode_words, "");
 constexpr FieldInfo lean_value = choice(lean_words, "auto");
 constexpr FieldInfo method_value = choice(method_words, "auto");
 constexpr FieldInfo assets_value = choice(assets_words, "restricted");
-constexpr FieldInfo sky_value = choice(sky_words, "energyplus");
 constexpr FieldInfo switch_value = choice(switch_words, "off");
 constexpr FieldInfo path_value{.key = "", .title = ""};
 constexpr FieldInfo text_value{.key = "", .title = ""};
@@ -177,17 +175,16 @@ std::span<OptionRow const> option_rows() {
                       "pictures of what the sun sees, all answers and the time of each stage"}),
       at<&Choices::maps>({.name = "maps",
                           .value = switch_value,
-                          .meaning = "Before the run, map sunlit hours and beam energy "
-                                     "(`gpu_shading map`) and shade photovoltaic modules "
-                                     "(`gpu_shading modules`) into the report, whose page shows "
-                                     "them",
+                          .meaning = "Before the run, write `gpu_shading map` and `gpu_shading "
+                                     "modules` into the report, whose page shows them",
                           .bare = "on"}),
       at<&Choices::sky>(
           {.name = "sky",
-           .value = sky_value,
-           .meaning = "Diffuse radiation of the sky. `energyplus`: its isotropic, circumsolar and "
-                      "horizon parts. `perez-patches`: by the all-weather model of Perez et al. "
-                      "(1993) from each patch of the sky, at every zone timestep"}),
+           .value = settings::sky_model,
+           .meaning = "Diffuse radiation. `energyplus`: in its isotropic, circumsolar and horizon "
+                      "parts. `perez-patches`: by patch of the sky (Perez et al. 1993), at every "
+                      "zone timestep",
+           .in_settings = true}),
       at<&Choices::surroundings>(
           {.name = "surroundings",
            .value = switch_value,
@@ -222,7 +219,8 @@ std::span<OptionRow const> option_rows() {
            .value = text_value,
            .placeholder = "NAME=POSITION,...",
            .default_text = "as in the model",
-           .meaning = "Positions at rest of moving shades, which pictures, maps and masks show"}),
+           .meaning =
+               "Positions at rest of moving shades, which pictures, maps, masks and samples show"}),
       at<&Choices::threads>({.name = "threads",
                              .value = threads_value,
                              .placeholder = "N",

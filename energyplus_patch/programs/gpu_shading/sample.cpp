@@ -48,8 +48,9 @@ struct Source {
 
   double latitude() const { return glm::radians(site.latitude); }
   std::string asked() const {
-    return fmt::format("{} samples at latitude {} of model {}, extensions {}", mode, site.latitude,
-                       model_hash, extensions ? extensions_hash : "none");
+    return fmt::format("{} samples at latitude {} of model {}, extensions {}{}", mode,
+                       site.latitude, model_hash, extensions ? extensions_hash : "none",
+                       run.choices.positions ? ", positions " + *run.choices.positions : "");
   }
 };
 
@@ -110,6 +111,7 @@ Json describe(Source const& source, SampleSet const& set, RunTimes const& year) 
   if (source.extensions) {
     json["inputs"]["extensions"] = describe_file(*source.extensions, source.extensions_hash);
   }
+  if (auto const& positions = source.run.choices.positions) json["positions"] = *positions;
   auto const& errors = set.samples.expected_errors();
   for (std::size_t i = 0; i < set.scene.receivers.size(); ++i) {
     auto const& [name, area] = set.scene.receivers[i];
@@ -173,14 +175,36 @@ Shard parse_shard(std::string const& text) {
   return {static_cast<int>(*number), static_cast<int>(*shards)};
 }
 
+// "Louvres=40,Awning=0.5" for every combination of the positions of moving shades; empty without
+// any.
+std::vector<std::string> all_positions(ModelRun const& run) {
+  auto const shades = read_model(run.model, run.choices).moving_shades;
+  if (shades.empty()) return {};
+  std::vector<std::string> all{""};
+  for (auto const& shade : shades) {
+    std::vector<std::string> longer;
+    for (auto const& before : all) {
+      for (double const position : shade.positions()) {
+        longer.push_back(
+            fmt::format("{}{}{}={:.9g}", before, before.empty() ? "" : ",", shade.name, position));
+      }
+    }
+    all = std::move(longer);
+    constexpr std::size_t max_positions = 100;
+    if (all.size() <= max_positions) continue;
+    throw Error(
+        fmt::format("{}: {} or more positions to sample, expected at most {}: name positions by "
+                    "--gpu-shading-positions, or use a larger Step",
+                    shade.where, all.size(), max_positions));
+  }
+  return all;
+}
+
 // Renders the samples that --gpu-shading-update sampled:... uses, without a year's run, and writes
 // samples.csv, year.csv and, last, samples.json, each completely or not at all; rendered parts are
 // in parts/.
-void sample(ModelRun run, SampleOrder const& order) {
-  std::vector<std::string> flags{"--gpu-shading-update=sampled:" + order.mode};
-  run.choices.update = take_flags(flags).update;
-  run.choices.paper_grid = false;
-  std::filesystem::path const folder = order.folder;
+void sample_into(std::filesystem::path const& folder, ModelRun const& run,
+                 SampleOrder const& order) {
   auto const source = read_source(run);
   if (!order.shard.empty()) {
     print_line(render(source, folder / "parts", parse_shard(order.shard), order.wait));
@@ -188,6 +212,21 @@ void sample(ModelRun run, SampleOrder const& order) {
   }
   if (order.merge == 0) print_line(render(source, folder / "parts", {}, 0.0));
   put_together(source, SampleParts(folder / "parts", std::max(order.merge, 1)), folder);
+}
+
+void sample(ModelRun run, SampleOrder const& order) {
+  std::vector<std::string> flags{"--gpu-shading-update=sampled:" + order.mode};
+  run.choices.update = take_flags(flags).update;
+  run.choices.paper_grid = false;
+  std::vector<std::string> positions;
+  if (!run.choices.positions) positions = all_positions(run);
+  if (positions.empty()) sample_into(order.folder, run, order);
+  FileNames names;
+  for (auto const& each : positions) {
+    run.choices.positions = each;
+    print_line(each);
+    sample_into(Path(order.folder) / names.add(each, ""), run, order);
+  }
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "reports/position_record.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -73,15 +72,16 @@ TEST(PositionRecord, HasARowForEachTimestepAfterTheWarmUp) {
 }
 
 TEST(PositionRecord, CountsMoves) {
-  std::string eio;
-  Messages const messages{[](auto const&) {}, [](auto const&) {},
-                          [&](std::string const& line) { eio += line; }};
+  std::string remarks;
+  Messages const messages{
+      [](auto const&) {}, [&](std::string const& line) { remarks += line + '\n'; }, {}};
   record_of_three().describe(louvres_and_awning(), messages);
-  EXPECT_THAT(eio, testing::HasSubstr("Louvres, south,deg,10,80,1,3\n"));
-  EXPECT_THAT(eio, testing::HasSubstr("Awning,share,0.25,1,2,3\n"));
-  eio.clear();
+  EXPECT_EQ(remarks,
+            "moving shade Louvres, south: 10 to 80 deg, moved at 1 of 3 timesteps\n"
+            "moving shade Awning: 0.25 to 1 share, moved at 2 of 3 timesteps\n");
+  remarks.clear();
   PositionRecord().describe(louvres_and_awning(), messages);
-  EXPECT_EQ(eio, "");
+  EXPECT_EQ(remarks, "");
 }
 
 }  // namespace

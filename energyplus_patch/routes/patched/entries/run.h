@@ -35,10 +35,11 @@ Installation& installation();
 // its shading functions is handed the state; so this is the thread's.
 struct Run {
   State* state = nullptr;
-  std::optional<Model> model;   // once the input is read
-  std::ostream* eio = nullptr;  // once EnergyPlus has written its own line on shading
-  Session* session = nullptr;   // while EnergyPlus has one
-  std::string unwritten;        // why its output is not complete, "" where it is
+  std::optional<Model> model;  // once the input is read
+  // Once EnergyPlus has written its own line on shading; closed when it ends.
+  std::ostream* eio = nullptr;
+  Session* session = nullptr;  // while EnergyPlus has one
+  std::string unwritten;       // why its output is not complete, "" where it is
 };
 Run& this_run();
 

@@ -11,11 +11,12 @@ namespace {
 
 constexpr char const* surfaces =
     "Shading:Building:Detailed,Slat 1;Shading:Building:Detailed,Slat 2;"
-    "Shading:Building:Detailed,Mesh;";
+    "Shading:Building:Detailed,Mesh;Shading:Building:Detailed,City;";
 
 std::vector<MovingShade> read_shades(std::string const& idf) {
   auto const objects = read_idf(surfaces + idf);
-  return read_moving_shades(objects, read_shading_input(objects), {"MESH"});
+  return read_moving_shades(objects, read_shading_input(objects),
+                            {{"MESH", "GPUShading:Geometry"}, {"CITY", "GPUShading:SiteContext"}});
 }
 
 void expect_error(std::string const& idf, std::string const& message) {
@@ -65,7 +66,8 @@ TEST(MovingShades, WrongOnesAreNamedWithFieldAndValue) {
   std::string const head = "GPUShading:MovingShade,S,";
   expect_error(head + "Blind,Rotate,,,,,,,,,,,,,T;",
                "GPUShading:MovingShade S: Surface Name is \"Blind\": no shading surface");
-  expect_error(head + "Mesh,Rotate,,,,,,,,,,,,,T;", "MESH is part of a mesh or map");
+  expect_error(head + "Mesh,Rotate,,,,,,,,,,,,,T;", "MESH is a mesh, expected Motion Slide, or");
+  expect_error(head + "City,Slide,,1,,,,,,,,,,,T;", "CITY is part of a GPUShading:SiteContext");
   expect_error(head + "Slat 1,Rotate,,,,,,,,,,,,,T;" + head + "Slat *,Rotate,,,,,,,,,,,,,T;", "S");
   expect_error(head + "Slat 1,Slide,,,,,,,,,,,,,T;", "Direction X, Y and Z are 0");
   expect_error(head + "Slat 1,Rotate,,1,0,0;", "expected blanks with Axis CentreLine");
