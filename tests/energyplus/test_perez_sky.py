@@ -90,6 +90,55 @@ def test_sky_is_that_of_gendaymtx(patched, weather, model, year, site, tmp_path)
             assert their_rms > 3 * rms
 
 
+def days(text, more):
+    """Two days of spring, with a canopy and shades that change at noon."""
+    found = re.sub(r"RunPeriod,[^;]*;", "RunPeriod,Days,4,2,,4,3;", text.replace(CANOPY, ""))
+    assert found.count("RunPeriod,Days") == 1
+    return found + more
+
+
+NOON = "Schedule:Compact,Changes,,Through: 12/31,For: AllDays,Until: 12:00,{},Until: 24:00,{};\n"
+OAK = "GPUShading:Tree,Oak,3,-3,0,7,5,1,Ellipsoid,0,Evergreen,{},{},0;\n"
+SHALLOW = screened_room.ledge("Canopy", -0.5, 0.0, 2.7)
+SAIL = CANOPY + "GPUShading:TransparentShade,Sail,Canopy,Constant,{};\n"
+# What changes, and what it is before and after noon.
+CHANGES = {
+    "position": (CANOPY + NOON.format(0.25, 1)
+                 + "GPUShading:MovingShade,Awning,Canopy,Extend,,0,-1,0,,,,,,,,,Changes;\n", SHALLOW, CANOPY),
+    "transmittance": (CANOPY.replace("Canopy,,", "Canopy,Changes,") + NOON.format(0.6, 0.1),
+                      SAIL.format(0.6), SAIL.format(0.1)),
+    "leaves": (OAK.format("Changes", 0.8) + NOON.format(0.25, 1), OAK.format("", 0.2), OAK.format("", 0.8)),
+    "leaves and position": (
+        SHALLOW.replace("Canopy", "Awning") + OAK.format("Changes", 0.8) + NOON.format(0.25, 1)
+        + "GPUShading:MovingShade,Awning,Awning,Extend,,0,-1,0,,,,,,,,,Changes;\n",
+        OAK.format("", 0.2) + screened_room.ledge("Awning", -0.125, 0.0, 2.7),
+        OAK.format("", 0.8) + SHALLOW.replace("Canopy", "Awning")),
+}
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_shades_count_as_they_are_at_the_time(patched, weather, model, tmp_path, name):
+    runs = [run(patched, weather, tmp_path / str(i), days(model, text), FLAG) for i, text in enumerate(CHANGES[name])]
+    assert "position at rest" not in runs[0].text("eplusout.err")
+    changing, before, after = (series(done, SKY) for done in runs)
+    morning = np.arange(48) % 24 < 12
+    for wall in ("SOUTH", "SOUTH WINDOW", "WEST"):
+        expected = np.where(morning, before[wall], after[wall])
+        difference = np.abs(changing[wall] - expected).max()
+        print(f"{wall}: largest difference {difference:.1e} of {expected.max():.1f} W/m2, "
+              f"{np.abs(before[wall] - after[wall]).max():.1f} between the two")
+        assert difference < 1e-5
+    assert np.abs(before["SOUTH WINDOW"] - after["SOUTH WINDOW"]).max() > 5
+
+
+def test_settings_of_the_model_choose_the_sky(patched, weather, model, tmp_path):
+    text = days(model, CANOPY)
+    flag, settings, plain = (
+        series(run(patched, weather, tmp_path / str(i), text + more, *options), SKY)["SOUTH"].tolist()
+        for i, (more, *options) in enumerate([("", FLAG), ("GPUShading:Settings,,,,,perez-patches;\n",), ("",)]))
+    assert flag == settings != plain
+
+
 def test_other_methods_are_refused(patched, weather, model, tmp_path):
     done = run(patched, weather, tmp_path / "run", model, FLAG, "--gpu-shading-method=scheduled")
     assert not done.completed
