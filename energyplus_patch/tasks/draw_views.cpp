@@ -101,8 +101,21 @@ double round_length(double max_length) {
   return power;
 }
 
-// An image of 3 channels with an arrow to the north in its lower left corner and a bar of a round
-// length beside it, as the bytes of a file; the ending of `name` is its format. Throws Error.
+// How many pixels of a part of an image differ from its upper left corner's.
+std::ptrdiff_t count_drawn(Image const& image, glm::ivec2 const& low, glm::ivec2 const& high) {
+  std::ptrdiff_t drawn = 0;
+  for (int y = std::max(low.y, 0); y < std::min(high.y, image.height); ++y) {
+    for (int x = std::max(low.x, 0); x < std::min(high.x, image.width); ++x) {
+      auto const pixel = image.pixels.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * image.width + x);
+      if (!std::equal(pixel, pixel + 3, image.pixels.begin())) ++drawn;
+    }
+  }
+  return drawn;
+}
+
+// An image of 3 channels with an arrow to the north and a bar of a round length beside it, as the
+// bytes of a file; the ending of `name` is its format. They stand in the lower left corner, or in
+// the right one if less is drawn there. Throws Error.
 std::string encode_with_marks(std::string const& name, Image image, ViewScale const& scale) {
   int const shorter = std::min(image.width, image.height);
   int const font = std::clamp(shorter / 28, 10, 40);
@@ -112,13 +125,19 @@ std::string encode_with_marks(std::string const& name, Image image, ViewScale co
 
   constexpr double longest = 0.25;  // of the picture's width
   double const metres = round_length(longest * image.width / scale.pixels_per_metre);
-  glm::dvec2 const left(5.6 * font, image.height - 1.2 * font);
-  glm::dvec2 const right = left + glm::dvec2(metres * scale.pixels_per_metre, 0.0);
-  lighten(image, {0, image.height - static_cast<int>(5.4 * font)},
-          {static_cast<int>(right.x + font), image.height});
+  double const bar = metres * scale.pixels_per_metre;
+  glm::ivec2 const plate(static_cast<int>(bar + 6.6 * font), static_cast<int>(5.4 * font));
+  glm::ivec2 const size(image.width, image.height);
+  glm::ivec2 low(0, size.y - plate.y);
+  if (count_drawn(image, size - plate, size) < count_drawn(image, low, low + plate)) {
+    low = size - plate;
+  }
+  lighten(image, low, low + plate);
+  glm::dvec2 const left(low.x + 5.6 * font, image.height - 1.2 * font);
+  glm::dvec2 const right = left + glm::dvec2(bar, 0.0);
 
   // A compass is round from above; from elsewhere it is as flat as the ground.
-  glm::dvec2 const middle(2.6 * font, image.height - 2.6 * font);
+  glm::dvec2 const middle(low.x + 2.6 * font, image.height - 2.6 * font);
   glm::dvec2 const north = glm::dvec2(scale.north_right, -scale.north_up) / scale.pixels_per_metre;
   auto const tip = middle + arm * north;
   draw_line(image, middle - arm * north, tip, thick);

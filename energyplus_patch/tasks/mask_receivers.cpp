@@ -126,7 +126,8 @@ std::string perform(MaskTask const& task, SceneAssembly& scene, Messages const& 
     progress.at(i + 1);
   }
   write_masks(task.file, masks);
-  return fmt::format("{} masks of {} directions", masks.size(), directions.size());
+  return fmt::format("{} mask{} of {} directions", masks.size(), masks.size() == 1 ? "" : "s",
+                     directions.size());
 }
 
 }  // namespace gpu_shading::energyplus

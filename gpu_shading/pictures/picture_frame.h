@@ -41,6 +41,10 @@ struct PictureFrame {
     low = glm::min(low, position);
     high = glm::max(high, position);
   }
+  void include(PictureFrame const& other) {
+    low = glm::min(low, other.low);
+    high = glm::max(high, other.high);
+  }
   double longer() const { return std::max(high.x - low.x, high.y - low.y); }
   PictureFrame widened(double by) const { return {low - by, high + by}; }
 };

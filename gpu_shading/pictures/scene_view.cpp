@@ -138,6 +138,11 @@ struct CrownLook {
   }
 };
 
+bool overlap(PictureFrame const& one, PictureFrame const& other) {
+  return glm::all(glm::greaterThan(one.high, other.low)) &&
+         glm::all(glm::lessThan(one.low, other.high));
+}
+
 Mesh body_mesh(Polygon const& plan, Crown const& crown) {
   constexpr int sides = 32;
   Mesh mesh;
@@ -196,8 +201,9 @@ class SceneView::Implementation {
     PictureGrid grid = make_grid(frame, axes, middle_, reach_, size);
     Samples const seen = take_samples(grid);
     SunAxes const from_sun(to_vector(sun));
-    ShadowMap const shadows(*raster_, shown_, opaque_, find_frame(from_sun, fractions), from_sun,
-                            middle_, reach_);
+    ShadowMap const shadows(*raster_, shown_, opaque_,
+                            find_frame_from_sun(from_sun, axes, frame, fractions), from_sun, middle_,
+                            reach_);
     SampledPositions const positions(scene_, axes, frame, grid, middle_);
     auto const normals = normals_of_shown();
     constexpr double dark = 0.6;
@@ -324,20 +330,36 @@ class SceneView::Implementation {
     reach_ = std::max(1.0, glm::distance(all.low, all.high));
   }
 
-  PictureFrame find_frame(SunAxes const& axes,
-                          std::span<std::optional<double> const> fractions) const {
+  // By surface; the trunk of a tree is with its crown.
+  std::map<SurfaceId, PictureFrame> find_parts(SunAxes const& axes) const {
     std::map<SurfaceId, PictureFrame> parts;
-    PictureFrame receivers;
     for_each_point([&](SurfaceId id, glm::dvec3 const& point) {
       auto const tree = trees_.find(scene_[id].name);
       parts[tree == trees_.end() ? id : tree->second].include(axes(point - middle_));
-      if (id < fractions.size() && fractions[id]) receivers.include(axes(point - middle_));
     });
+    return parts;
+  }
+
+  // With every tree that a camera sees, so that none is without its shadow.
+  PictureFrame find_frame_from_sun(SunAxes const& from_sun, SunAxes const& camera,
+                                   PictureFrame const& seen,
+                                   std::span<std::optional<double> const> fractions) const {
+    auto frame = find_frame(from_sun, fractions);
+    auto const parts = find_parts(from_sun);
+    for (auto const& [id, part] : find_parts(camera)) {
+      if (is_crown(id) && overlap(part, seen)) frame.include(parts.at(id));
+    }
+    return frame;
+  }
+
+  PictureFrame find_frame(SunAxes const& axes,
+                          std::span<std::optional<double> const> fractions) const {
+    auto const parts = find_parts(axes);
+    PictureFrame receivers;
+    for (auto const& [id, part] : parts) {
+      if (id < fractions.size() && fractions[id]) receivers.include(part);
+    }
     if (receivers.empty()) throw Error("there is no receiver to view");
-    auto const overlap = [](PictureFrame const& one, PictureFrame const& other) {
-      return glm::all(glm::greaterThan(one.high, other.low)) &&
-             glm::all(glm::lessThan(one.low, other.high));
-    };
     // What begins nearby is shown whole, unless it goes far. Trees are, with their trunks, and so
     // are those that would otherwise be cut off.
     PictureFrame const near = receivers.widened(0.5 * receivers.longer());
@@ -359,8 +381,7 @@ class SceneView::Implementation {
       for (auto const& [id, part] : parts) {
         if (!is_crown(id) || !overlap(part, far)) continue;
         if (!overlap(part, near) && !overlap(part, with_border())) continue;
-        frame.include(part.low);
-        frame.include(part.high);
+        frame.include(part);
       }
     }
     return with_border();

@@ -178,6 +178,7 @@ def test_samples_of_another_model_are_refused(curtain, courtyard, weather, tmp_p
     assert done.returncode == 1 and "of another site?" in done.stderr
     done = call(model, "-o", tmp_path / "c", "--samples", tmp_path)
     assert f"{tmp_path / 'year.csv'}" in done.stderr
+    assert not (tmp_path / "c").exists()
 
 
 @pytest.mark.parametrize("projection", ["stereographic", "equidistant", "cylindrical"])

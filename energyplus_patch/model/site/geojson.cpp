@@ -168,11 +168,12 @@ bool Nearby::reaches(GeographicExtent const& extent) const {
   constexpr double turn = 360.0;
   if (extent.south > extent.north) return false;
   double const middle = (extent.west + extent.east) / 2.0;
+  auto const& centre = axes_.origin();
   double const longitude = centre.longitude + turn * std::round((middle - centre.longitude) / turn);
-  auto const nearest = LocalAxes({centre.latitude, centre.longitude, 0.0})
-                           .to_local({std::clamp(centre.latitude, extent.south, extent.north),
-                                      std::clamp(longitude, extent.west, extent.east), 0.0});
-  return std::hypot(nearest.x, nearest.y) <= radius && nearest.z > -radius;
+  auto const nearest =
+      axes_.to_local({std::clamp(centre.latitude, extent.south, extent.north),
+                      std::clamp(longitude, extent.west, extent.east), 0.0});
+  return std::hypot(nearest.x, nearest.y) <= radius_ && nearest.z > -radius_;
 }
 
 bool Nearby::reaches(Json const& geometry, MapCoordinates const& coordinates) const {
@@ -182,17 +183,17 @@ bool Nearby::reaches(Json const& geometry, MapCoordinates const& coordinates) co
 }
 
 std::vector<Box> Nearby::boxes(MapCoordinates const& coordinates) const {
-  auto const place = coordinates.from_geographic(centre);
+  auto const place = coordinates.from_geographic(axes_.origin());
   if (!coordinates.geographic()) {
     // UTM's scale is 0.9996 and more, and by far less than this within a zone and beside it.
     constexpr double margin = 1.01;
-    double const reach = radius * margin;
+    double const reach = radius_ * margin;
     return {{place.x - reach, place.y - reach, place.x + reach, place.y + reach}};
   }
   constexpr double metres_of_degree = 110'000.0;  // less than anywhere on the ellipsoid
   constexpr double turn = 360.0;
   constexpr double pole = 89.0;
-  double const high = radius / metres_of_degree;
+  double const high = radius_ / metres_of_degree;
   double const farthest = std::abs(place.y) + high;
   double const wide =
       farthest > pole ? turn : high / std::cos(farthest * std::numbers::pi / (turn / 2.0));

@@ -60,14 +60,21 @@ struct Box {
 };
 
 // A circle on the ground. A feature is in it if the bounding box of its positions is, in part.
-struct Nearby {
-  GeographicPoint centre;
-  double radius;  // m
+class Nearby {
+ public:
+  // In metres.
+  Nearby(GeographicPoint const& centre, double radius)
+      : axes_({centre.latitude, centre.longitude, 0.0}), radius_(radius) {}
 
+  double radius() const { return radius_; }
   bool reaches(GeographicExtent const& extent) const;
   bool reaches(Json const& geometry, MapCoordinates const& coordinates) const;
   // Together they have the circle in them, which may cross the antimeridian.
   std::vector<Box> boxes(MapCoordinates const& coordinates) const;
+
+ private:
+  LocalAxes axes_;
+  double radius_;
 };
 
 using UseFeature = std::function<void(Feature const&, MapCoordinates const&)>;

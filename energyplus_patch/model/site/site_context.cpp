@@ -53,7 +53,7 @@ Context read_context(InputObject const& object, std::filesystem::path const& fol
   if (auto const radius = read(object, field::radius)) {
     context.nearby = geojson::Nearby{origin, *radius};
   }
-  if (context.horizon && !(context.nearby && context.nearby->radius < *context.horizon)) {
+  if (context.horizon && !(context.nearby && context.nearby->radius() < *context.horizon)) {
     throw Error(fmt::format("{} is {:g} m, expected more than {}", field::horizon_radius.title,
                             *context.horizon, field::radius.title));
   }
@@ -74,7 +74,7 @@ Context read_context(InputObject const& object, std::filesystem::path const& fol
     auto const heights = read_heights(object);
     context.file = buildings;
     auto nearby = context.nearby;
-    if (context.horizon && horizons) nearby->radius = *context.horizon;
+    if (context.horizon && horizons) nearby = geojson::Nearby(origin, *context.horizon);
     context.buildings = naming(field::buildings_file_name.title, [&] {
       return read_buildings(folder / buildings, heights, coordinates, nearby);
     });
@@ -166,7 +166,7 @@ class Builder {
       for (auto const& corner : polygon.outline) {
         distance = std::min(distance, std::hypot(corner.x, corner.y));
       }
-      if (distance <= context_.nearby->radius) return false;
+      if (distance <= context_.nearby->radius()) return false;
       if (distance <= *context_.horizon) horizon_.include(polygon.outline);
       return true;
     });
@@ -233,7 +233,7 @@ class Builder {
     }
     describe(
         fmt::format("{} building{}{} ({} walls and roofs{}{}{})", drawn, drawn == 1 ? "" : "s",
-                    context_.nearby ? fmt::format(" within {:g} m", context_.nearby->radius) : "",
+                    context_.nearby ? fmt::format(" within {:g} m", context_.nearby->radius()) : "",
                     faces, left_out == 0 ? "" : fmt::format(", {} left out", left_out),
                     file.others == 0 ? "" : fmt::format(", {} features without area", file.others),
                     describe_north(file.coordinates)));

@@ -105,8 +105,7 @@ std::vector<ReceiverMask> trace(ModelRun const& run, MaskOrder const& order, Mas
 // The sunlit fractions of the site's hours from year.csv of a folder of samples.
 void take_samples(std::filesystem::path const& folder, MaskSite const& site,
                   std::vector<ReceiverMask>& masks) {
-  auto const file = folder / "year.csv";
-  require_file(file);
+  auto const file = folder / year_file;
   naming(file.string(), [&] {
     std::ifstream csv(file, std::ios::binary);
     auto const sampled = read_hours_of_21st(csv);
@@ -182,6 +181,7 @@ void write_pictures(std::vector<ReceiverMask> const& masks,
 
 void draw_masks(ModelRun const& run, MaskOrder const& order) {
   require_model(run.model);
+  if (!order.samples.empty()) require_file(order.samples / year_file);
   ListedFolder folder(order.folder, "masks.json", "gpu_shading masks 1");
   auto const site = site_of(run, order);
   SkyGrid const grid(order.step);

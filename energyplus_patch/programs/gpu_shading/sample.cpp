@@ -20,6 +20,7 @@
 #include "scene/digest.h"
 #include "tasks/samples/sample_parts.h"
 #include "tasks/samples/sample_set.h"
+#include "tasks/samples/year_table.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -144,7 +145,7 @@ void put_together(Source const& source, SampleParts const& parts, Path const& fo
     print("{}\n", (folder / name).string());
   };
   write("samples.csv", [&](std::ostream& out) { write_samples(set, out); });
-  write("year.csv", [&](std::ostream& out) { write_year(set, year, out); });
+  write(year_file, [&](std::ostream& out) { write_year(set, year, out); });
   write("samples.json",
         [&](std::ostream& out) { out << describe(source, set, year).dump(2) << '\n'; });
   print_line(fmt::format("{} directions of {} receivers, {} times of the year",

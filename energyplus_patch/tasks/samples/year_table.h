@@ -8,6 +8,9 @@
 
 namespace gpu_shading::energyplus {
 
+// In a folder of samples.
+constexpr char const* year_file = "year.csv";
+
 // A full hour of standard time on the 21st of a month.
 struct SampledHour {
   int month = 0;  // 1 .. 12

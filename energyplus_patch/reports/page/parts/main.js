@@ -24,6 +24,7 @@ function addKeys() {
   if (view instanceof ModelView && !mapped) keys.unshift(["dark: shaded at this hour", css(scaleColour(1).map((value) => 0.6 * value))]);
   if (kinds.has("opaque")) keys.push([mapped ? "casts shadows only, or has no map" : "casts shadows only", css(theme().caster)]);
   if (kinds.has("glass")) keys.push(["transmits", `#${theme().glass.toString(16)}80`]);
+  if (content.terrain && view instanceof ModelView) keys.push(["terrain", css(theme().ground)]);
   if (kinds.has("foliage")) keys.push(["tree crown", `#${theme().foliage.toString(16)}80`]);
   part("keys").replaceChildren(...keys.map(([text, colour]) => {
     const item = document.createElement("li");
