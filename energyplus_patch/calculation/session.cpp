@@ -312,7 +312,7 @@ std::vector<double> Session::interior_areas(SurfaceId window,
   std::vector<SurfaceId> ids(interiors.size());
   std::transform(interiors.begin(), interiors.end(), ids.begin(),
                  [&](SurfaceId interior) { return in_scene(interior); });
-  InteriorKey const key({in_scene(window), ids});
+  InteriorKey const key({in_scene(window), std::move(ids)});
   std::vector<double> areas(interiors.size(), 0.0);
   interpolate([&](double weight) {
     auto const there = answers.interior_areas(key, scene_.optics().factors());

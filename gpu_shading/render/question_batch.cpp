@@ -71,7 +71,7 @@ void QuestionBatch::cull() {
   }
   if (parts_.backend.device().id.is_cpu()) {
     std::size_t casters = 1;
-    for (Found const& each : found) casters += each.in_view.casters.size();
+    for (Found const& each : found) casters += each.casters;
     at_once_ = std::clamp(max_casters * asked_.size() / casters, min_asked, max_asked);
   }
   std::vector<ReceiverView> views;
@@ -147,44 +147,49 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
           ? casters.in_view_of(*asked.in_sector, *seen.frame, question.towards_sun)
           : casters.in_view(parts_.scene, question.receiver, *seen.frame, question.towards_sun);
   InView& in_view = found.in_view;
-  found.clear = !question.through && in_view.casters.empty();
-  if (found.clear) return found;
+  found.casters = in_view.casters.size();
+  found.answered = !question.through && in_view.casters.empty();
+  if (found.answered) {
+    question.answers.front().projected_area = seen.area * asked.cosine;
+    return found;
+  }
   found.transmits = parts_.transmission.any_transmits(in_view.casters);
   bool const screened = parts_.transmission.any_screen(in_view.casters);
   bool const may_be_exact =
       !parts_.samples_only && !in_view.warped && !parts_.transmission.any_body(in_view.casters);
-  auto const exact = [&](double max_steps) {
-    return exact_sums(parts_.scene, parts_.transmission,
-                      {question.receiver, *seen.frame, question.towards_sun, in_view.casters,
-                       question.through, question.interiors},
-                      max_steps);
+  auto const answer_exactly = [&](double max_steps) {
+    auto const sums = exact_sums(parts_.scene, parts_.transmission,
+                                 {question.receiver, *seen.frame, question.towards_sun,
+                                  in_view.casters, question.through, question.interiors},
+                                 max_steps);
+    if (!sums) return false;
+    answer(asked, *sums, 1.0);
+    found.in_view = {};
+    return true;
   };
-  if (may_be_exact) found.exact = exact(few_steps);
-  if (found.exact) return found;
+  found.answered = may_be_exact && answer_exactly(few_steps);
+  if (found.answered) return found;
   Detail detail = casters.detail(in_view.casters, *seen.frame, question.towards_sun, enough);
   lay_out(detail, screened);
   double const max_steps = sample_cost(detail, found.side, found.transmits, interiors);
-  if (may_be_exact && max_steps > few_steps) found.exact = exact(max_steps);
+  found.answered = may_be_exact && max_steps > few_steps && answer_exactly(max_steps);
   return found;
 }
 
 void QuestionBatch::enqueue(Asked const& asked, Found found, std::vector<ReceiverView>& views) {
   Question const& question = asked.question;
   Receiver const& seen = *asked.receiver;
-  InView& in_view = found.in_view;
-  if (found.clear) {
-    Sunlit& clear = question.answers.front();
-    clear.projected_area = seen.area * asked.cosine;
-    ++parts_.statistics.receivers_clear;
-    return;
-  }
-  if (found.exact) {
-    answer(asked, *found.exact, 1.0);
-    if (!question.through) count(in_view.casters.size(), found.transmits);
+  if (found.answered) {
+    if (question.through) return;
+    if (found.casters == 0) {
+      ++parts_.statistics.receivers_clear;
+    } else {
+      count(found.casters, found.transmits);
+    }
     return;
   }
   ReceiverView view{question.receiver,    &*seen.frame,     nullptr,
-                    question.towards_sun, asked.cosine,     std::move(in_view.casters),
+                    question.towards_sun, asked.cosine,     std::move(found.in_view.casters),
                     found.transmits,      question.through, question.interiors};
   if (found.crowd_count > 0.0) {
     view.crowd = &parts_.casters;
@@ -243,7 +248,8 @@ void QuestionBatch::finish() {
   if (!again.empty()) finish();
 }
 
-void QuestionBatch::answer(Asked const& asked, std::span<LuminanceSums const> parts, double whole) {
+void QuestionBatch::answer(Asked const& asked, std::span<LuminanceSums const> parts,
+                           double whole) const {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     asked.question.answers[i] = sunlit(parts[i], asked, whole);
   }

@@ -65,13 +65,13 @@ class QuestionBatch {
 
   // The result of culling for a question.
   struct Found {
-    InView in_view;      // of a crowd a sample
-    bool clear = false;  // nothing shades the receiver
+    bool answered = false;  // nothing shades the receiver, or exactly for less than samples cost
+    std::size_t casters = 0;
     bool transmits = false;
-    double crowd_count = 0.0;                         // of casters; 0: in_view has all
-    std::optional<std::vector<LuminanceSums>> exact;  // where it costs less than samples
-    // Of the tile, else.
-    int side = 0;  // pixels
+    // If it is not answered:
+    InView in_view;            // of a crowd a sample
+    double crowd_count = 0.0;  // of casters; 0: in_view has all
+    int side = 0;              // of the tile, pixels
     TileLay lay;
     std::optional<TileGrid> grid;
   };
@@ -86,15 +86,17 @@ class QuestionBatch {
   // Finds the casters in view for all questions since the last call, and has their views
   // rasterised.
   void cull();
+  // Answers the question if that costs little. What that takes is free again before the next one,
+  // or its memory would be scattered.
   Found find(Asked const& asked) const;
   // Empty unless all casters in view repeat, and far outnumber these rows.
   std::optional<Blades> blades(Asked const& asked) const;
-  // Answers immediately if nothing is in view or the answer is known, otherwise adds the view.
+  // Adds the view, or counts what was answered.
   void enqueue(Asked const& asked, Found found, std::vector<ReceiverView>& views);
   // Replaces the tiles of the last views by stretched ones whose pixels do not alias.
   void stretch_tiles(std::vector<ReceiverView>& views);
   // `whole`: the sum over all of a receiver that is sunlit.
-  void answer(Asked const& asked, std::span<LuminanceSums const> parts, double whole);
+  void answer(Asked const& asked, std::span<LuminanceSums const> parts, double whole) const;
   Sunlit sunlit(LuminanceSums const& sums, Asked const& asked, double whole) const;
   void count(std::size_t casters, bool transmits);
 

@@ -180,6 +180,7 @@ std::optional<std::vector<std::uint32_t>> Casters::in_sector(Scene const& scene,
 InView Casters::in_view_of(std::span<std::uint32_t const> positions, PlaneFrame const& frame,
                            glm::dvec3 const& towards_sun) const {
   InView found;
+  found.casters.reserve(positions.size());
   Shadow shadow(frame, towards_sun);
   for (std::uint32_t const position : positions) {
     if (!counts_at(position, towards_sun)) continue;

@@ -118,6 +118,7 @@ InteriorAreas calculate_interior_pssas(PenumbraObject* self, std::vector<unsigne
   InteriorAreas areas;
   if (windows.size() != 1) throw Error("EnergyPlus asks for interior areas of several windows");
   auto const answers = self->session->interior_areas(windows.front(), interiors);
+  areas.reserve(interiors.size());
   for (std::size_t i = 0; i < interiors.size(); ++i) {
     areas[interiors[i]] += static_cast<float>(answers[i]);
   }
