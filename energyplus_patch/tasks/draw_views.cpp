@@ -106,7 +106,8 @@ std::ptrdiff_t count_drawn(Image const& image, glm::ivec2 const& low, glm::ivec2
   std::ptrdiff_t drawn = 0;
   for (int y = std::max(low.y, 0); y < std::min(high.y, image.height); ++y) {
     for (int x = std::max(low.x, 0); x < std::min(high.x, image.width); ++x) {
-      auto const pixel = image.pixels.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * image.width + x);
+      auto const pixel =
+          image.pixels.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * image.width + x);
       if (!std::equal(pixel, pixel + 3, image.pixels.begin())) ++drawn;
     }
   }
@@ -115,7 +116,7 @@ std::ptrdiff_t count_drawn(Image const& image, glm::ivec2 const& low, glm::ivec2
 
 // An image of 3 channels with an arrow to the north and a bar of a round length beside it, as the
 // bytes of a file; the ending of `name` is its format. They stand in the lower left corner, or in
-// the right one if less is drawn there. Throws Error.
+// the right one if less than half as much is drawn there. Throws Error.
 std::string encode_with_marks(std::string const& name, Image image, ViewScale const& scale) {
   int const shorter = std::min(image.width, image.height);
   int const font = std::clamp(shorter / 28, 10, 40);
@@ -129,7 +130,7 @@ std::string encode_with_marks(std::string const& name, Image image, ViewScale co
   glm::ivec2 const plate(static_cast<int>(bar + 6.6 * font), static_cast<int>(5.4 * font));
   glm::ivec2 const size(image.width, image.height);
   glm::ivec2 low(0, size.y - plate.y);
-  if (count_drawn(image, size - plate, size) < count_drawn(image, low, low + plate)) {
+  if (2 * count_drawn(image, size - plate, size) < count_drawn(image, low, low + plate)) {
     low = size - plate;
   }
   lighten(image, low, low + plate);

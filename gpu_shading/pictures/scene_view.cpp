@@ -202,8 +202,8 @@ class SceneView::Implementation {
     Samples const seen = take_samples(grid);
     SunAxes const from_sun(to_vector(sun));
     ShadowMap const shadows(*raster_, shown_, opaque_,
-                            find_frame_from_sun(from_sun, axes, frame, fractions), from_sun, middle_,
-                            reach_);
+                            find_frame_from_sun(from_sun, axes, frame, fractions), from_sun,
+                            middle_, reach_);
     SampledPositions const positions(scene_, axes, frame, grid, middle_);
     auto const normals = normals_of_shown();
     constexpr double dark = 0.6;

@@ -170,9 +170,8 @@ bool Nearby::reaches(GeographicExtent const& extent) const {
   double const middle = (extent.west + extent.east) / 2.0;
   auto const& centre = axes_.origin();
   double const longitude = centre.longitude + turn * std::round((middle - centre.longitude) / turn);
-  auto const nearest =
-      axes_.to_local({std::clamp(centre.latitude, extent.south, extent.north),
-                      std::clamp(longitude, extent.west, extent.east), 0.0});
+  auto const nearest = axes_.to_local({std::clamp(centre.latitude, extent.south, extent.north),
+                                       std::clamp(longitude, extent.west, extent.east), 0.0});
   return std::hypot(nearest.x, nearest.y) <= radius_ && nearest.z > -radius_;
 }
 
