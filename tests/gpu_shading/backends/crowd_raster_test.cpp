@@ -98,6 +98,7 @@ TEST(RepeatingCrowd, MeetsTheTarget) {
                    << count << (upright ? " fins at " : " louvres at ") << target);
       RegularShades const shades{count, upright};
       std::vector<double> expected;
+      expected.reserve(suns.size());
       for (SunDirection const sun : suns) expected.push_back(shades.sunlit_fraction(sun));
       std::vector<double> const lit = lit_fractions(shades.scene(), suns, target);
       EXPECT_LE(percentile_99_of_errors(lit, expected), target);
