@@ -129,6 +129,7 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
     if (crowd) {
       found.crowd_count = crowd->count();
       found.in_view.casters = std::move(crowd->sample);
+      found.casters = found.in_view.casters.size();
       if (along) {
         found.side = parts_.receivers.size().most();
         found.lay = along->lay;
