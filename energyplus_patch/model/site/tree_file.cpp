@@ -28,6 +28,14 @@ std::optional<bool> is_evergreen(Json const& properties) {
   return std::nullopt;
 }
 
+std::string taxon_of(Json const& properties) {
+  for (auto const* name : {"genus", "species", "taxon"}) {
+    auto const& value = geojson::member(properties, name);
+    if (value.is_string() && !value.get<std::string>().empty()) return value.get<std::string>();
+  }
+  return "";
+}
+
 }  // namespace
 
 TreeFile read_tree_file(std::filesystem::path const& path,
@@ -53,6 +61,7 @@ TreeFile read_tree_file(std::filesystem::path const& path,
                            tree.height = length(feature.properties, "height");
                            tree.crown_diameter = length(feature.properties, "diameter_crown");
                            tree.evergreen = is_evergreen(feature.properties);
+                           tree.taxon = taxon_of(feature.properties);
                            if (type == "Point") return add(places);
                            if (!places.is_array()) throw Error("its coordinates are not positions");
                            for (auto const& position : places) add(position);

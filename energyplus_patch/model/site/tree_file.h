@@ -18,6 +18,7 @@ struct MappedTree {
   std::optional<double> height;
   std::optional<double> crown_diameter;
   std::optional<bool> evergreen;
+  std::string taxon;  // its genus or species, or ""
 };
 
 struct TreeFile {

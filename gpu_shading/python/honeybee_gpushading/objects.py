@@ -176,6 +176,7 @@ class Tree(ExtensionObject):
     file_name: str | None = None
     coordinates: str | None = None
     crown_mesh_name: str | None = None
+    genus: str | None = None
 
     def moved(self, move: Any) -> Tree:
         """With a function that changes a Point3D; trees of a file stay where the map has them."""
