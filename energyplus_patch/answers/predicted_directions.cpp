@@ -33,6 +33,11 @@ std::size_t number_of_patch(SunDirection sun) {
   return altitude * patch_azimuths + azimuth;
 }
 
+bool are_same(SunDirection a, SunDirection b) {
+  return std::abs(a.altitude - b.altitude) <= rounding &&
+         glm::distance(to_vector(a), to_vector(b)) < rounding;
+}
+
 }  // namespace
 
 std::optional<PredictedDirections::DayStep> PredictedDirections::find(SunDirection sun) const {
@@ -51,7 +56,11 @@ SunDirection PredictedDirections::snap_to_known(SunDirection sun, Latitude const
     ahead_ = std::span(sky()).subspan(patch + 1, patches - 1);
     return sky()[patch];
   }
-  if (auto const found = find(sun)) {
+  if (!ahead_.empty() && are_same(ahead_.front(), sun)) {
+    ++met_;
+    sun = ahead_.front();
+    ahead_ = ahead_.subspan(1);
+  } else if (auto const found = find(sun)) {
     auto const& day = days_[found->day];
     ++met_;
     ahead_ = std::span(day).subspan(found->step + 1);
@@ -87,20 +96,21 @@ void PredictedDirections::predict_day(SunDirection sun, double latitude) {
   learn_step(now, latitude);
   if (!step_) return;
   Day day{sun};
+  std::vector<std::size_t> added{0};  // steps
   for (now.hour_angle += *step_; now.hour_angle <= pi; now.hour_angle += *step_) {
     auto const next = to_direction(now, latitude);
     if (next.altitude <= 0.0) break;
     // The first day was predicted from its second direction on, and is repeated.
     auto const known = find(next);
-    if (!known) ++predicted_;
+    if (!known) added.push_back(day.size());
     day.push_back(known ? days_[known->day][known->step] : next);
   }
+  predicted_ += added.size() - 1;
   if (day.size() == 1) return;
   days_.push_back(std::move(day));
   auto const& kept = days_.back();
-  for (std::size_t step = 0; step < kept.size(); ++step) {
-    if (!find(kept[step]))
-      by_altitude_.emplace(kept[step].altitude, DayStep{days_.size() - 1, step});
+  for (auto const step : added) {
+    by_altitude_.emplace(kept[step].altitude, DayStep{days_.size() - 1, step});
   }
   ahead_ = std::span(kept).subspan(1);
 }
