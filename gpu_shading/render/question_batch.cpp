@@ -143,15 +143,20 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
       return found;
     }
   }
-  found.in_view =
-      asked.in_sector != nullptr
-          ? casters.in_view_of(*asked.in_sector, *seen.frame, question.towards_sun)
-          : casters.in_view(parts_.scene, question.receiver, *seen.frame, question.towards_sun);
+  // Kept from one question to the next.
+  static thread_local std::vector<SurfaceId> spare;
+  auto& memory = spare;
+  found.in_view = asked.in_sector != nullptr
+                      ? casters.in_view_of(*asked.in_sector, *seen.frame, question.towards_sun,
+                                           std::move(memory))
+                      : casters.in_view(parts_.scene, question.receiver, *seen.frame,
+                                        question.towards_sun, std::move(memory));
   InView& in_view = found.in_view;
   found.casters = in_view.casters.size();
   found.answered = !question.through && in_view.casters.empty();
   if (found.answered) {
     question.answers.front().projected_area = seen.area * asked.cosine;
+    memory = std::move(in_view.casters);
     return found;
   }
   found.transmits = parts_.transmission.any_transmits(in_view.casters);
@@ -165,7 +170,7 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
                                  max_steps);
     if (!sums) return false;
     answer(asked, *sums, 1.0);
-    found.in_view = {};
+    memory = std::move(in_view.casters);
     return true;
   };
   found.answered = may_be_exact && answer_exactly(few_steps);

@@ -13,17 +13,17 @@ namespace gpu_shading {
 namespace {
 
 // Sectors along each axis: even parts of t / (1 + |t|), t being a tangent.
-constexpr int sectors = 16;
+constexpr int sectors = 32;
 
 int sector_of(double tangent) {
   double const share = tangent / (1.0 + std::abs(tangent));
   return std::clamp(static_cast<int>(0.5 * (share + 1.0) * sectors), 0, sectors - 1);
 }
 
-// The tangent at which a sector begins.
+// The tangent at which a sector begins: that of edge_on for the first, and beyond the last.
 double start_of(int sector) {
   double const share = 2.0 * sector / sectors - 1.0;
-  return share / (1.0 - std::abs(share));
+  return share / std::max(1.0 - std::abs(share), edge_on);
 }
 
 }  // namespace
@@ -34,13 +34,14 @@ Surface const& Receivers::surface(SurfaceId id) const {
 }
 
 Receiver& Receivers::find(SurfaceId id) {
-  auto const known = receivers_.find(id);
-  if (known != receivers_.end()) return known->second;
   Polygon const& polygon = surface(id).polygon;
+  auto& known = receivers_[id];
+  if (known) return *known;
   Receiver receiver;
   receiver.area = area(polygon);
   if (receiver.area > 0.0) receiver.frame = plane_frame(polygon);
-  return receivers_.emplace(id, std::move(receiver)).first->second;
+  known = std::make_unique<Receiver>(std::move(receiver));
+  return *known;
 }
 
 Receiver const& Receivers::window(SurfaceId id) {
@@ -59,14 +60,13 @@ std::vector<std::uint32_t> const* Receivers::in_sector(SurfaceId id,
   double const cosine = glm::dot(frame.normal, towards_sun);
   int const u = sector_of(glm::dot(frame.u, towards_sun) / cosine);
   int const v = sector_of(glm::dot(frame.v, towards_sun) / cosine);
-  // The outer ones have no end.
-  if (std::min(u, v) == 0 || std::max(u, v) == sectors - 1) return nullptr;
-  auto const [known, added] = receiver.in_sectors.try_emplace(u * sectors + v);
-  if (added) {
+  if (receiver.in_sectors.empty()) receiver.in_sectors.resize(std::size_t{sectors} * sectors);
+  auto& known = receiver.in_sectors[static_cast<std::size_t>(u * sectors + v)];
+  if (!known.searched) {
     SunSector const sector{{start_of(u), start_of(v)}, {start_of(u + 1), start_of(v + 1)}};
-    known->second = casters_.in_sector(scene_, id, frame, sector);
+    known = {true, casters_.in_sector(scene_, id, frame, sector)};
   }
-  return known->second ? &*known->second : nullptr;
+  return known.casters ? &*known.casters : nullptr;
 }
 
 int Receivers::side_for(Receiver const& receiver, Detail const& detail, bool screened) const {
@@ -89,7 +89,9 @@ Tile& Receivers::tile(SurfaceId id, int side, TileLay const& lay) {
 void Receivers::forget_many_tiles() {
   constexpr std::size_t many = 10000;
   if (tiles_ < many) return;
-  for (auto& [id, receiver] : receivers_) receiver.tiles.clear();
+  for (auto const& receiver : receivers_) {
+    if (receiver) receiver->tiles.clear();
+  }
   tiles_ = 0;
 }
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <map>
+#include <memory>
 #include <optional>
 #include <tuple>
-#include <unordered_map>
 #include <vector>
 
 #include "filters/transmission.h"
@@ -22,9 +22,14 @@ struct Receiver {
   std::optional<PlaneFrame> frame;  // empty if it has no area
   double area = 0.0;                // exact, m2
   bool is_window = false;           // a question was about surfaces behind it
-  // The number of questions about it, and once they are many, the casters by sector of the sky.
+  // The number of questions about it, and once they are many, the casters by sector of the sky, if
+  // they are known and few.
+  struct InSector {
+    bool searched = false;
+    std::optional<std::vector<std::uint32_t>> casters;
+  };
   std::size_t times = 0;
-  std::unordered_map<int, std::optional<std::vector<std::uint32_t>>> in_sectors;
+  std::vector<InSector> in_sectors;
   // Tiles created so far, by requested resolution, slope and stretch.
   std::map<std::tuple<int, double, double>, Tile> tiles;
 };
@@ -35,7 +40,11 @@ class Receivers {
  public:
   // `max_side`: pixels of the largest tile.
   Receivers(Scene const& scene, Casters const& casters, TileSize const& size, int max_side)
-      : scene_(scene), casters_(casters), size_(size), max_side_(max_side) {}
+      : scene_(scene),
+        casters_(casters),
+        size_(size),
+        max_side_(max_side),
+        receivers_(scene.size()) {}
 
   // Throws Error if there is no such surface.
   Receiver const& operator[](SurfaceId id) { return find(id); }
@@ -64,7 +73,7 @@ class Receivers {
   TileSize size_;
   int max_side_;
   std::size_t tiles_ = 0;
-  std::unordered_map<SurfaceId, Receiver> receivers_;
+  std::vector<std::unique_ptr<Receiver>> receivers_;  // by id, once they are asked about
 };
 
 }  // namespace gpu_shading

@@ -104,8 +104,9 @@ void Casters::add(SurfaceId id, Surface const& surface) {
 }
 
 InView Casters::in_view(Scene const& scene, SurfaceId receiver, PlaneFrame const& frame,
-                        glm::dvec3 const& towards_sun) const {
-  InView found;
+                        glm::dvec3 const& towards_sun, std::vector<SurfaceId> reused) const {
+  reused.clear();
+  InView found{std::move(reused)};
   Shadow shadow(frame, towards_sun);
   Counted const counted(*this, scene, receiver, towards_sun);
   tree_.search([&](glm::dvec3 const& centre,
@@ -159,7 +160,7 @@ std::optional<Crowd> Casters::crowd_in_view(Scene const& scene, SurfaceId receiv
 std::optional<std::vector<std::uint32_t>> Casters::in_sector(Scene const& scene, SurfaceId receiver,
                                                              PlaneFrame const& frame,
                                                              SunSector const& sector) const {
-  constexpr std::size_t max_count = 24;
+  constexpr std::size_t max_count = 32;
   std::vector<std::uint32_t> positions;
   Counted const counted(*this, scene, receiver, frame.normal);
   SectorShadow const shadow(frame, sector);
@@ -178,9 +179,9 @@ std::optional<std::vector<std::uint32_t>> Casters::in_sector(Scene const& scene,
 }
 
 InView Casters::in_view_of(std::span<std::uint32_t const> positions, PlaneFrame const& frame,
-                           glm::dvec3 const& towards_sun) const {
-  InView found;
-  found.casters.reserve(positions.size());
+                           glm::dvec3 const& towards_sun, std::vector<SurfaceId> reused) const {
+  reused.clear();
+  InView found{std::move(reused)};
   Shadow shadow(frame, towards_sun);
   for (std::uint32_t const position : positions) {
     if (!counts_at(position, towards_sun)) continue;

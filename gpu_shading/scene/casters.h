@@ -65,8 +65,9 @@ class Casters {
   // The casters that may shade the receiver: some part of them is clearly in front of its plane,
   // that part projected along the sun's rays onto the plane overlaps its bounding rectangle, and
   // the rule allows it. `towards_sun` must be in front of the plane.
+  // The memory of `reused`, if any, is.
   InView in_view(Scene const& scene, SurfaceId receiver, PlaneFrame const& frame,
-                 glm::dvec3 const& towards_sun) const;
+                 glm::dvec3 const& towards_sun, std::vector<SurfaceId> reused = {}) const;
 
   // A sample of in_view() at a cost that hardly depends on their number; empty if they are no more
   // than `few`.
@@ -120,7 +121,7 @@ class Casters {
                                                       SunSector const& sector) const;
   // in_view() of these alone.
   InView in_view_of(std::span<std::uint32_t const> positions, PlaneFrame const& frame,
-                    glm::dvec3 const& towards_sun) const;
+                    glm::dvec3 const& towards_sun, std::vector<SurfaceId> reused = {}) const;
 
   // Detail of the shadows of casters in view, up to `enough`.
   Detail detail(std::span<SurfaceId const> in_view, PlaneFrame const& frame,

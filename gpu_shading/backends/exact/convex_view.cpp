@@ -64,10 +64,10 @@ class Pieces {
 
 class ConvexView {
  public:
-  std::optional<std::vector<LuminanceSums>> answer(Scene const& scene,
-                                                   Transmission const& transmission,
-                                                   ExactQuestion const& question,
-                                                   Projection const& projection);
+  std::optional<std::span<LuminanceSums const>> answer(Scene const& scene,
+                                                       Transmission const& transmission,
+                                                       ExactQuestion const& question,
+                                                       Projection const& projection);
 
  private:
   // A caster that lets light pass by a schedule, which has a bit in a set of them.
@@ -109,6 +109,7 @@ class ConvexView {
   LuminanceSums sums_of_sets(double whole);
 
   std::vector<glm::dvec2> places_;
+  ConvexPolygon outline_;
   ConvexPolygon ring_;
   Pieces receiver_;
   Pieces casters_;
@@ -122,6 +123,7 @@ class ConvexView {
   std::size_t sets_ = 1;
   bool dark_ = false;
   int cuts_ = 0;
+  std::vector<LuminanceSums> sums_;
 };
 
 template <typename LayOut>
@@ -129,14 +131,13 @@ bool ConvexView::add_polygon(Polygon const& polygon, ConvexPolygon const* within
                              LayOut const& place, Pieces& to) {
   place(polygon.outline);
   if (places_.empty() || (within != nullptr && within->is_clear_of(places_))) return true;
-  if (!ring_.take(places_)) return false;
-  ConvexPolygon const outline = ring_;
+  if (!outline_.take(places_)) return false;
   Piece& first = to.add(1.0);
   if (within == nullptr) {
-    first.shape = outline;
+    first.shape = outline_;
     first.is_all = true;
   } else {
-    Meeting const found = intersect(*within, outline, first.shape);
+    Meeting const found = intersect(*within, outline_, first.shape);
     first.is_all = found == Meeting::within;
     if (found == Meeting::apart) {
       to.drop_last_piece();
@@ -146,7 +147,7 @@ bool ConvexView::add_polygon(Polygon const& polygon, ConvexPolygon const* within
   for (Ring const& hole : polygon.holes) {
     place(hole);
     if (places_.empty()) continue;
-    if (!ring_.take(places_) || !outline.contains(ring_)) return false;
+    if (!ring_.take(places_) || !outline_.contains(ring_)) return false;
     std::size_t const before = to.unended().size();
     Piece& piece = to.add(-1.0);
     if (within == nullptr) {
@@ -326,10 +327,10 @@ LuminanceSums ConvexView::sums_of_sets(double whole) {
   return sums;
 }
 
-std::optional<std::vector<LuminanceSums>> ConvexView::answer(Scene const& scene,
-                                                             Transmission const& transmission,
-                                                             ExactQuestion const& question,
-                                                             Projection const& projection) {
+std::optional<std::span<LuminanceSums const>> ConvexView::answer(Scene const& scene,
+                                                                 Transmission const& transmission,
+                                                                 ExactQuestion const& question,
+                                                                 Projection const& projection) {
   if (question.casters.size() > most_in_view) return std::nullopt;
   receiver_.clear();
   casters_.clear();
@@ -353,12 +354,12 @@ std::optional<std::vector<LuminanceSums>> ConvexView::answer(Scene const& scene,
   if (!add_casters(scene, transmission, question, projection)) return std::nullopt;
   Pieces& parts = question.through ? interiors_ : receiver_;
   if (dark_) {
-    return std::vector<LuminanceSums>(question.through ? question.interiors.size() : 1);
+    sums_.assign(question.through ? question.interiors.size() : 1, {});
+    return sums_;
   }
   if (question.through && !add_interiors(scene, question, projection)) return std::nullopt;
   sets_ = std::size_t{1} << scheduled_.size();
-  std::vector<LuminanceSums> sums;
-  sums.reserve(parts.polygons());
+  sums_.resize(parts.polygons());
   for (std::size_t i = 0; i < parts.polygons(); ++i) {
     std::fill_n(areas_.begin(), sets_, 0.0);
     for (Piece const& piece : parts[i]) {
@@ -368,17 +369,17 @@ std::optional<std::vector<LuminanceSums>> ConvexView::answer(Scene const& scene,
       if (hidden.interior != i) continue;
       if (!spread(hidden.piece)) return std::nullopt;
     }
-    sums.push_back(sums_of_sets(whole));
+    sums_[i] = sums_of_sets(whole);
   }
-  return sums;
+  return sums_;
 }
 
 }  // namespace
 
-std::optional<std::vector<LuminanceSums>> convex_sums(Scene const& scene,
-                                                      Transmission const& transmission,
-                                                      ExactQuestion const& question,
-                                                      Projection const& projection) {
+std::optional<std::span<LuminanceSums const>> convex_sums(Scene const& scene,
+                                                          Transmission const& transmission,
+                                                          ExactQuestion const& question,
+                                                          Projection const& projection) {
   // Kept from one question to the next, so that memory is asked for but once; behind a pointer, or
   // the address is looked up again wherever it is used.
   static thread_local auto const view = std::make_unique<ConvexView>();

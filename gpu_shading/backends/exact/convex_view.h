@@ -1,7 +1,7 @@
 #pragma once
 
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "backends/exact/exact_view.h"
 #include "backends/exact/projection.h"
@@ -12,9 +12,9 @@ namespace gpu_shading {
 // Holes are polygons of negative area. Empty where it cannot answer: outlines or holes that are not
 // convex, holes that reach out of their outlines or overlap, many casters in one place, and
 // interior surfaces in front of one another.
-std::optional<std::vector<LuminanceSums>> convex_sums(Scene const& scene,
-                                                      Transmission const& transmission,
-                                                      ExactQuestion const& question,
-                                                      Projection const& projection);
+std::optional<std::span<LuminanceSums const>> convex_sums(Scene const& scene,
+                                                          Transmission const& transmission,
+                                                          ExactQuestion const& question,
+                                                          Projection const& projection);
 
 }  // namespace gpu_shading

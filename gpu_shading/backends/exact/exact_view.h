@@ -3,7 +3,6 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "backends/interface/view_backend.h"
 #include "filters/transmission.h"
@@ -27,10 +26,11 @@ struct ExactQuestion {
 // intersected (convex_sums), and others swept (swept_sums). In parts of the receiver's own area, so
 // that 1 is all of it. Exact to about 1e-12.
 //
-// Empty if a sweep would take more than `most_steps`, or if neither can answer.
-std::optional<std::vector<LuminanceSums>> exact_sums(Scene const& scene,
-                                                     Transmission const& transmission,
-                                                     ExactQuestion const& question,
-                                                     double most_steps);
+// Empty if a sweep would take more than `most_steps`, or if neither can answer. Valid until the
+// thread's next question.
+std::optional<std::span<LuminanceSums const>> exact_sums(Scene const& scene,
+                                                         Transmission const& transmission,
+                                                         ExactQuestion const& question,
+                                                         double most_steps);
 
 }  // namespace gpu_shading

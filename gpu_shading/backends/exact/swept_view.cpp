@@ -224,18 +224,19 @@ class Outlines {
 struct Workspace {
   Outlines outlines;
   Light light;
+  std::vector<LuminanceSums> sums;
 };
 
 }  // namespace
 
-std::optional<std::vector<LuminanceSums>> swept_sums(Scene const& scene,
-                                                     Transmission const& transmission,
-                                                     ExactQuestion const& question,
-                                                     Projection const& projection,
-                                                     double most_steps) {
+std::optional<std::span<LuminanceSums const>> swept_sums(Scene const& scene,
+                                                         Transmission const& transmission,
+                                                         ExactQuestion const& question,
+                                                         Projection const& projection,
+                                                         double most_steps) {
   // Behind a pointer, or the address is looked up again wherever it is used.
   static thread_local auto const workspace = std::make_unique<Workspace>();
-  auto& [outlines, light] = *workspace;
+  auto& [outlines, light, sums] = *workspace;
   outlines.start(projection);
   light.start(question.through ? question.interiors.size() : 1);
   outlines.add_receiver(scene[question.receiver].polygon, question.frame);
@@ -256,7 +257,11 @@ std::optional<std::vector<LuminanceSums>> swept_sums(Scene const& scene,
       }
     }
   }
-  return outlines.sweep().sweep(most_steps, light) ? light.result() : std::nullopt;
+  if (!outlines.sweep().sweep(most_steps, light)) return std::nullopt;
+  auto found = light.result();
+  if (!found) return std::nullopt;
+  sums = std::move(*found);
+  return sums;
 }
 
 }  // namespace gpu_shading

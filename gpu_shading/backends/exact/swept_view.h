@@ -1,7 +1,7 @@
 #pragma once
 
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "backends/exact/exact_view.h"
 #include "backends/exact/projection.h"
@@ -11,10 +11,10 @@ namespace gpu_shading {
 // As exact_sums(), of any outlines and any number of casters: a sweep of all edges (EdgeSweep).
 // Empty if it would take more than `most_steps`, behind very many combinations of schedules, or
 // where interior surfaces pass through one another.
-std::optional<std::vector<LuminanceSums>> swept_sums(Scene const& scene,
-                                                     Transmission const& transmission,
-                                                     ExactQuestion const& question,
-                                                     Projection const& projection,
-                                                     double most_steps);
+std::optional<std::span<LuminanceSums const>> swept_sums(Scene const& scene,
+                                                         Transmission const& transmission,
+                                                         ExactQuestion const& question,
+                                                         Projection const& projection,
+                                                         double most_steps);
 
 }  // namespace gpu_shading

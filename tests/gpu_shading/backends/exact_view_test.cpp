@@ -39,10 +39,12 @@ class ExactQuestions {
       std::vector<SurfaceId> const& interiors = {}) {
     PlaneFrame const frame = plane_frame(scene_[receiver].polygon).value();
     InView const in_view = casters_.in_view(scene_, receiver, frame, to_vector(sun));
-    return exact_sums(
+    auto const found = exact_sums(
         scene_, transmission_,
         {receiver, frame, to_vector(sun), in_view.casters, !interiors.empty(), interiors},
         most_steps);
+    if (!found) return std::nullopt;
+    return std::vector(found->begin(), found->end());
   }
 
   // By intersections, and by a sweep; false if the first cannot answer.
