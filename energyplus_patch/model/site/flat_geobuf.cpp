@@ -138,85 +138,87 @@ std::vector<Column> read_columns(Table const& table, std::size_t field) {
 // Reads the geometry of one feature.
 class GeometryReader {
  public:
-  explicit GeometryReader(Bytes const& bytes) : left_(bytes.size()) {}
+  GeometryReader(Bytes const& bytes, MapCoordinates const& coordinates)
+      : coordinates_(coordinates), left_(bytes.size()) {}
 
-  Json read(Table const& geometry, GeometryType otherwise) {
-    auto type = geometry.number(6, GeometryType::unknown);
-    if (type == GeometryType::unknown) type = otherwise;
-    switch (type) {
-      case GeometryType::point: {
-        auto places = positions(geometry);
-        return {{"type", "Point"}, {"coordinates", places.empty() ? Json() : places[0]}};
-      }
-      case GeometryType::multi_point:
-        return {{"type", "MultiPoint"}, {"coordinates", positions(geometry)}};
-      case GeometryType::polygon:
-        return {{"type", "Polygon"}, {"coordinates", rings(geometry)}};
-      case GeometryType::multi_polygon: {
-        auto polygons = Json::array();
-        for (auto const& part : geometry.tables(7)) polygons.push_back(rings(part));
-        return {{"type", "MultiPolygon"}, {"coordinates", std::move(polygons)}};
-      }
-      case GeometryType::collection: {
-        constexpr int max_depth = 10;
-        auto parts = Json::array();
-        if (++depth_ > max_depth) throw damaged("its collections are nested");
-        for (auto const& part : geometry.tables(7)) {
-          spend(1);
-          parts.push_back(read(part, GeometryType::unknown));
-        }
-        --depth_;
-        return {{"type", "GeometryCollection"}, {"geometries", std::move(parts)}};
-      }
-      default:
-        return {{"type", "of other kinds"}};
+  Geometry read(Table const& table, GeometryType otherwise) {
+    auto const type = type_of(table, otherwise);
+    if (type == GeometryType::point || type == GeometryType::multi_point) {
+      geometry_.points = positions(table, 0, count(table));
+    } else {
+      add_areas(table, type);
     }
+    return std::move(geometry_);
   }
 
  private:
+  static GeometryType type_of(Table const& table, GeometryType otherwise) {
+    auto const type = table.number(6, GeometryType::unknown);
+    return type == GeometryType::unknown ? otherwise : type;
+  }
+
+  void add_areas(Table const& table, GeometryType type) {
+    if (type == GeometryType::polygon) {
+      geometry_.areas.push_back(area(table));
+    } else if (type == GeometryType::multi_polygon) {
+      for (auto const& part : table.tables(7)) geometry_.areas.push_back(area(part));
+    } else if (type == GeometryType::collection) {
+      constexpr int max_depth = 10;
+      if (++depth_ > max_depth) throw damaged("its collections are nested");
+      for (auto const& part : table.tables(7)) {
+        spend(1);
+        add_areas(part, type_of(part, GeometryType::unknown));
+      }
+      --depth_;
+    }
+  }
+
   // Parts may share bytes, but no more is read than the feature could have.
   void spend(std::size_t count) {
     if (count > left_) throw damaged("its parts overlap");
     left_ -= count;
   }
 
-  Json positions(Table const& geometry, std::size_t from, std::size_t to) {
+  static std::size_t count(Table const& table) { return table.vector(1, sizeof(double)).count / 2; }
+
+  std::vector<GeographicPoint> positions(Table const& table, std::size_t from, std::size_t to) {
     constexpr std::size_t size = 2 * sizeof(double);
-    auto const xy = geometry.vector(1, sizeof(double));
+    auto const xy = table.vector(1, sizeof(double));
     if (from > to || to > xy.count / 2) throw damaged("a ring ends beyond its positions");
     spend(1 + to - from);
-    auto places = Json::array();
+    std::vector<GeographicPoint> points;
+    points.reserve(to - from);
     for (auto i = from; i < to; ++i) {
-      places.push_back(
-          Json::array_t{geometry.bytes().at<double>(xy.place + i * size),
-                        geometry.bytes().at<double>(xy.place + i * size + sizeof(double))});
+      auto const place = xy.place + i * size;
+      points.push_back(coordinates_.to_geographic(
+          {table.bytes().at<double>(place), table.bytes().at<double>(place + sizeof(double))}));
     }
-    return places;
+    return points;
   }
 
-  Json positions(Table const& geometry) {
-    return positions(geometry, 0, geometry.vector(1, sizeof(double)).count / 2);
-  }
-
-  Json rings(Table const& geometry) {
-    auto rings = Json::array();
-    auto const ends = geometry.vector(0, sizeof(std::uint32_t));
-    if (ends.count == 0) {
-      rings.push_back(positions(geometry));
-      return rings;
-    }
+  Footprint area(Table const& table) {
+    Footprint area;
+    auto const ends = table.vector(0, sizeof(std::uint32_t));
     std::size_t from = 0;
-    for (std::size_t i = 0; i < ends.count; ++i) {
+    for (std::size_t i = 0; i < std::max<std::size_t>(ends.count, 1); ++i) {
       std::size_t const to =
-          geometry.bytes().at<std::uint32_t>(ends.place + i * sizeof(std::uint32_t));
-      rings.push_back(positions(geometry, from, to));
+          ends.count == 0 ? count(table)
+                          : table.bytes().at<std::uint32_t>(ends.place + i * sizeof(std::uint32_t));
+      auto ring = positions(table, from, to);
+      if (i == 0) {
+        area.outline = std::move(ring);
+      } else {
+        area.holes.push_back(std::move(ring));
+      }
       from = to;
     }
-    return rings;
+    return area;
   }
 
+  MapCoordinates const& coordinates_;
   std::size_t left_;
   int depth_ = 0;
+  Geometry geometry_;
 };
 
 Json read_value(Cursor& values, ColumnType type) {
@@ -396,11 +398,11 @@ class Reader {
     auto const size = table_size(place);
     auto const bytes = file_.read(place + sizeof(std::uint32_t), size);
     auto const feature = Table::root(bytes);
-    Json json{{"type", "Feature"}, {"properties", read_properties(feature, columns_)}};
-    if (auto const geometry = feature.table(0)) {
-      json["geometry"] = GeometryReader(bytes).read(*geometry, type_);
-    }
-    use_numbered(json, number, coordinates, use);
+    auto const read = [&] {
+      auto const geometry = feature.table(0);
+      return geometry ? GeometryReader(bytes, coordinates).read(*geometry, type_) : Geometry{};
+    };
+    use_numbered("", read_properties(feature, columns_), number, read, use);
     return size;
   }
 

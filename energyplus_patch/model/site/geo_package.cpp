@@ -22,9 +22,26 @@ using Ids = std::vector<std::int64_t>;
 
 class WkbReader {
  public:
-  WkbReader(Bytes const& bytes, std::size_t place) : in_{bytes, place} {}
+  WkbReader(Bytes const& bytes, std::size_t place, MapCoordinates const& coordinates)
+      : in_{bytes, place}, coordinates_(coordinates) {}
 
-  Json read(int depth = 0) {
+  Geometry read() {
+    add(0);
+    return std::move(geometry_);
+  }
+
+ private:
+  enum class Kind : std::uint8_t {
+    point = 1,
+    line,
+    polygon,
+    multi_point,
+    multi_line,
+    multi_polygon,
+    collection
+  };
+
+  void add(int depth) {
     constexpr int max_depth = 10;
     constexpr std::uint32_t kinds = 1000;  // each with Z, M or both
     if (depth > max_depth) throw damaged("its collections are nested");
@@ -33,57 +50,64 @@ class WkbReader {
     constexpr std::array<std::size_t, 4> dimensions{2, 3, 3, 4};
     if (type / kinds >= dimensions.size()) throw damaged("a geometry has an unknown type");
     dimensions_ = dimensions.at(type / kinds);
-    switch (type % kinds) {
-      case 1:
-        return {{"type", "Point"}, {"coordinates", position()}};
-      case 2:
-        return {{"type", "LineString"}, {"coordinates", list([this] { return position(); })}};
-      case 3:
-        return {{"type", "Polygon"},
-                {"coordinates", list([this] { return list([this] { return position(); }); })}};
-      case 4:
-        return {{"type", "MultiPoint"}, {"coordinates", parts("coordinates", depth)}};
-      case 5:
-        return {{"type", "MultiLineString"}, {"coordinates", parts("coordinates", depth)}};
-      case 6:
-        return {{"type", "MultiPolygon"}, {"coordinates", parts("coordinates", depth)}};
-      case 7:
-        return {{"type", "GeometryCollection"},
-                {"geometries", list([&] { return read(depth + 1); })}};
-      default:
-        if (depth > 0) throw damaged("a geometry has an unknown type");
-        return {{"type", "of other kinds"}};
+    switch (static_cast<Kind>(type % kinds)) {
+      case Kind::point:
+        geometry_.points.push_back(position());
+        return;
+      case Kind::line:
+        for (auto count = in_.next<std::uint32_t>(); count > 0; --count) coordinates();
+        return;
+      case Kind::polygon:
+        geometry_.areas.push_back(area());
+        return;
+      case Kind::multi_point:
+      case Kind::multi_line:
+      case Kind::multi_polygon:
+        for (auto count = in_.next<std::uint32_t>(); count > 0; --count) add(depth + 1);
+        return;
+      case Kind::collection:
+        for (auto count = in_.next<std::uint32_t>(); count > 0; --count) add(depth + 1);
+        geometry_.points.clear();  // points in collections are none, as in GeoJSON
+        return;
     }
+    if (depth > 0) throw damaged("a geometry has an unknown type");
   }
 
- private:
-  template <typename Read>
-  Json list(Read const& read) {
-    auto const count = in_.next<std::uint32_t>();
-    auto values = Json::array();
-    for (std::uint32_t i = 0; i < count; ++i) values.push_back(read());
-    return values;
+  MapPoint coordinates() {
+    MapPoint const point{in_.next<double>(), in_.next<double>()};
+    for (std::size_t i = 2; i < dimensions_; ++i) in_.next<double>();
+    return point;
   }
 
-  Json parts(char const* name, int depth) {
-    return list([&] { return member(read(depth + 1), name); });
+  GeographicPoint position() { return coordinates_.to_geographic(coordinates()); }
+
+  std::vector<GeographicPoint> positions() {
+    std::vector<GeographicPoint> points;
+    for (auto count = in_.next<std::uint32_t>(); count > 0; --count) points.push_back(position());
+    return points;
   }
 
-  Json position() {
-    auto place = Json::array();
-    for (std::size_t i = 0; i < dimensions_; ++i) {
-      auto const value = in_.next<double>();
-      if (i < 2) place.push_back(value);
+  Footprint area() {
+    Footprint area;
+    auto const rings = in_.next<std::uint32_t>();
+    for (std::uint32_t i = 0; i < rings; ++i) {
+      if (i == 0) {
+        area.outline = positions();
+      } else {
+        area.holes.push_back(positions());
+      }
     }
-    return place;
+    return area;
   }
 
   Cursor in_;
+  MapCoordinates const& coordinates_;
   std::size_t dimensions_ = 2;
+  Geometry geometry_;
 };
 
-Json read_geometry(Json const& blob) {
-  if (!blob.is_binary()) return nullptr;
+Geometry read_blob(Json const& blob, MapCoordinates const& coordinates) {
+  if (!blob.is_binary()) return {};
   auto const& binary = blob.get_binary();
   Bytes const bytes({binary.begin(), binary.end()});
   constexpr std::size_t flags_at = 3;
@@ -93,8 +117,8 @@ Json read_geometry(Json const& blob) {
   constexpr std::array<std::size_t, 5> envelopes{0, 4, 6, 6, 8};
   auto const envelope = flags >> 1U & 7U;
   if (envelope >= envelopes.size()) throw damaged("a geometry has an unknown envelope");
-  if ((flags & 16U) != 0) return nullptr;  // empty
-  return WkbReader(bytes, header + envelopes.at(envelope) * sizeof(double)).read();
+  if ((flags & 16U) != 0) return {};  // empty
+  return WkbReader(bytes, header + envelopes.at(envelope) * sizeof(double), coordinates).read();
 }
 
 class Package {
@@ -136,12 +160,9 @@ class Package {
     file_.read(
         layer_,
         [&](std::int64_t id, SqliteFile::Row const& row) {
-          auto properties = named(layer_, row);
-          Json feature{{"type", "Feature"},
-                       {"geometry", read_geometry(member(properties, geometry_))}};
-          properties.erase(geometry_);
-          feature["properties"] = std::move(properties);
-          use_numbered(feature, static_cast<std::size_t>(id), coordinates, use);
+          auto const properties = named(layer_, row);
+          auto const read = [&] { return read_blob(member(properties, geometry_), coordinates); };
+          use_numbered("", properties, static_cast<std::size_t>(id), read, use);
         },
         ids);
   }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <initializer_list>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "gpu_shading/error.h"
@@ -20,16 +22,73 @@
 namespace gpu_shading::energyplus::geojson {
 namespace {
 
-std::string name_of(Json const& feature) {
-  auto const usable = [](Json const& value) {
-    return value.is_number() || (value.is_string() && !value.get<std::string>().empty());
-  };
-  if (auto const& id = member(feature, "id"); usable(id)) return text_of(id);
-  for (char const* property : {"@id", "id", "osm_id", "name"}) {
-    auto const& value = member(member(feature, "properties"), property);
-    if (usable(value)) return text_of(value);
+std::string name_in(Json const& object, std::initializer_list<char const*> members) {
+  for (char const* name : members) {
+    auto const& value = member(object, name);
+    if (value.is_number() || (value.is_string() && !value.get<std::string>().empty()))
+      return text_of(value);
   }
   return {};
+}
+
+GeographicPoint read_position(Json const& position, MapCoordinates const& coordinates) {
+  if (!position.is_array() || position.size() < 2 || !position[0].is_number() ||
+      !position[1].is_number()) {
+    throw Error(
+        fmt::format("a position is {}, expected two numbers",
+                    printable(position.dump(-1, ' ', false, Json::error_handler_t::replace))));
+  }
+  return coordinates.to_geographic({position[0].get<double>(), position[1].get<double>()});
+}
+
+std::vector<GeographicPoint> read_positions(Json const& positions,
+                                            MapCoordinates const& coordinates,
+                                            char const* expected) {
+  if (!positions.is_array()) throw Error(fmt::format("its coordinates are not {}", expected));
+  std::vector<GeographicPoint> points;
+  points.reserve(positions.size());
+  for (auto const& position : positions) points.push_back(read_position(position, coordinates));
+  return points;
+}
+
+Footprint read_area(Json const& rings, MapCoordinates const& coordinates) {
+  constexpr char const* expected = "rings of positions";
+  if (!rings.is_array() || rings.empty())
+    throw Error(fmt::format("its coordinates are not {}", expected));
+  Footprint area;
+  area.outline = read_positions(rings[0], coordinates, expected);
+  for (std::size_t i = 1; i < rings.size(); ++i) {
+    area.holes.push_back(read_positions(rings[i], coordinates, expected));
+  }
+  return area;
+}
+
+void add_areas(Json const& geometry, MapCoordinates const& coordinates,
+               std::vector<Footprint>& areas) {
+  auto const type = type_of(geometry);
+  auto const& places = member(geometry, "coordinates");
+  if (type == "Polygon") {
+    areas.push_back(read_area(places, coordinates));
+  } else if (type == "MultiPolygon") {
+    if (!places.is_array()) throw Error("its coordinates are not polygons");
+    for (auto const& polygon : places) areas.push_back(read_area(polygon, coordinates));
+  } else if (type == "GeometryCollection") {
+    for (auto const& part : member(geometry, "geometries")) add_areas(part, coordinates, areas);
+  }
+}
+
+Geometry read_geometry(Json const& json, MapCoordinates const& coordinates) {
+  Geometry geometry;
+  auto const type = type_of(json);
+  auto const& places = member(json, "coordinates");
+  if (type == "Point") {
+    geometry.points = {read_position(places, coordinates)};
+  } else if (type == "MultiPoint") {
+    geometry.points = read_positions(places, coordinates, "positions");
+  } else {
+    add_areas(json, coordinates, geometry.areas);
+  }
+  return geometry;
 }
 
 // The older standard's member: {"crs": {"type": "name", "properties": {"name": "..."}}}.
@@ -86,28 +145,19 @@ MapCoordinates read_geojson(std::filesystem::path const& path,
   auto const root = parse_features(path, [](Json const& /*feature*/) {});
   auto const used = coordinates ? *coordinates : stated_coordinates(root);
   std::size_t number = 0;
-  auto const add = [&](Json const& feature) { use_numbered(feature, ++number, used, use); };
+  auto const add = [&](Json const& feature) {
+    bool const bare = type_of(feature) != "Feature";
+    auto const read = [&] {
+      return read_geometry(bare ? feature : member(feature, "geometry"), used);
+    };
+    use_numbered(name_in(feature, {"id"}), member(feature, "properties"), ++number, read, use);
+  };
   if (type_of(root) == "FeatureCollection") {
     parse_features(path, add);
   } else {
     add(root);
   }
   return used;
-}
-
-void include(Json const& geometry, MapCoordinates const& coordinates, GeographicExtent& extent) {
-  for (auto const& part : member(geometry, "geometries")) include(part, coordinates, extent);
-  std::vector<Json const*> left{&member(geometry, "coordinates")};
-  while (!left.empty()) {
-    auto const& next = *left.back();
-    left.pop_back();
-    if (!next.is_array()) continue;
-    if (next.empty() || next[0].is_array()) {
-      for (auto const& each : next) left.push_back(&each);
-      continue;
-    }
-    extent.include(read_position(next, coordinates));
-  }
 }
 
 }  // namespace
@@ -141,16 +191,6 @@ std::optional<double> measure(Json const& properties, std::string const& name,
   return parsed;
 }
 
-GeographicPoint read_position(Json const& position, MapCoordinates const& coordinates) {
-  if (!position.is_array() || position.size() < 2 || !position[0].is_number() ||
-      !position[1].is_number()) {
-    throw Error(
-        fmt::format("a position is {}, expected two numbers",
-                    printable(position.dump(-1, ' ', false, Json::error_handler_t::replace))));
-  }
-  return coordinates.to_geographic({position[0].get<double>(), position[1].get<double>()});
-}
-
 void GeographicExtent::include(GeographicPoint const& point) {
   south = std::min(south, point.latitude);
   north = std::max(north, point.latitude);
@@ -175,9 +215,12 @@ bool Nearby::reaches(GeographicExtent const& extent) const {
   return std::hypot(nearest.x, nearest.y) <= radius_ && nearest.z > -radius_;
 }
 
-bool Nearby::reaches(Json const& geometry, MapCoordinates const& coordinates) const {
+bool Nearby::reaches(Geometry const& geometry) const {
   GeographicExtent extent;
-  include(geometry, coordinates, extent);
+  for (auto const& point : geometry.points) extent.include(point);
+  for (auto const& area : geometry.areas) {
+    for (auto const& corner : area.outline) extent.include(corner);
+  }
   return reaches(extent);
 }
 
@@ -204,17 +247,19 @@ std::vector<Box> Nearby::boxes(MapCoordinates const& coordinates) const {
   return boxes;
 }
 
-void use_numbered(Json const& feature, std::size_t number, MapCoordinates const& coordinates,
-                  UseFeature const& use) {
-  bool const bare = type_of(feature) != "Feature";
-  Feature each{name_of(feature), fmt::format("feature {}", number),
-               bare ? feature : member(feature, "geometry"), member(feature, "properties")};
-  if (each.name.empty()) {
-    each.name = std::to_string(number);
+void use_numbered(std::string id, Json const& properties, std::size_t number,
+                  std::function<Geometry()> const& read_geometry, UseFeature const& use) {
+  if (id.empty()) id = name_in(properties, {"@id", "id", "osm_id", "name"});
+  Feature feature{std::move(id), fmt::format("feature {}", number), {}, properties};
+  if (feature.name.empty()) {
+    feature.name = std::to_string(number);
   } else {
-    each.label += fmt::format(" ({})", each.name);
+    feature.label += fmt::format(" ({})", feature.name);
   }
-  naming(each.label, [&] { use(each, coordinates); });
+  naming(feature.label, [&] {
+    feature.geometry = read_geometry();
+    use(feature);
+  });
 }
 
 MapCoordinates read_features(std::filesystem::path const& path,
@@ -226,8 +271,8 @@ MapCoordinates read_features(std::filesystem::path const& path,
   std::filesystem::path const file(name.substr(0, end));
   auto const layer = end == std::string::npos ? "" : name.substr(end + mark.size());
   require_file(file);
-  auto const use_near = [&](Feature const& feature, MapCoordinates const& used) {
-    if (!nearby || nearby->reaches(feature.geometry, used)) use(feature, used);
+  auto const use_near = [&](Feature& feature) {
+    if (!nearby || nearby->reaches(feature.geometry)) use(feature);
   };
   return naming(file.string(), [&] {
     if (is_sqlite(file)) return read_geo_package(file, layer, coordinates, nearby, use_near);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gpu_shading/footprint.h"
 #include "gpu_shading/local_axes.h"
 #include "gpu_shading/map_coordinates.h"
 
@@ -28,14 +29,19 @@ inline constexpr double max_height = 10'000.0;
 std::optional<double> measure(Json const& properties, std::string const& name,
                               std::string_view expected);
 
-GeographicPoint read_position(Json const& position, MapCoordinates const& coordinates);
+// What is not in it is of other kinds, as lines are.
+struct Geometry {
+  std::vector<GeographicPoint> points;  // of a Point or MultiPoint
+  // Of Polygons, also in collections, without heights.
+  std::vector<Footprint> areas;
+};
 
 // A member of a FeatureCollection, or a single feature or geometry.
 struct Feature {
   // Its id, or its property @id, id, osm_id or name, or its number, from 1.
   std::string name;
   std::string label;  // for messages: "feature 3 (way/17)"
-  Json const& geometry;
+  Geometry geometry;
   Json const& properties;
 };
 
@@ -68,7 +74,7 @@ class Nearby {
 
   double radius() const { return radius_; }
   bool reaches(GeographicExtent const& extent) const;
-  bool reaches(Json const& geometry, MapCoordinates const& coordinates) const;
+  bool reaches(Geometry const& geometry) const;
   // Together they have the circle in them, which may cross the antimeridian.
   std::vector<Box> boxes(MapCoordinates const& coordinates) const;
 
@@ -77,13 +83,14 @@ class Nearby {
   double radius_;
 };
 
-using UseFeature = std::function<void(Feature const&, MapCoordinates const&)>;
+using UseFeature = std::function<void(Feature&)>;
 
-// The feature or bare geometry with this number, named and labelled.
-void use_numbered(Json const& feature, std::size_t number, MapCoordinates const& coordinates,
-                  UseFeature const& use);
+// Names and labels a feature by its number, and reads its geometry as that of this feature. `id`:
+// "" if it has none.
+void use_numbered(std::string id, Json const& properties, std::size_t number,
+                  std::function<Geometry()> const& read_geometry, UseFeature const& use);
 
-// Calls use(feature, coordinates) for each feature of a file of GeoJSON, FlatGeobuf or GeoPackage,
+// Calls use(feature) for each feature of a file of GeoJSON, FlatGeobuf or GeoPackage,
 // which its first bytes tell, or for those in the circle. Only one is in memory at a time.
 // The name of a GeoPackage may end in "|layername=LAYER", as in GDAL and QGIS, which is needed
 // where it has several. `coordinates`: if empty, those that the file names (in GeoJSON the older

@@ -42,30 +42,23 @@ TreeFile read_tree_file(std::filesystem::path const& path,
                         std::optional<MapCoordinates> const& coordinates) {
   constexpr std::size_t most = 100'000;
   TreeFile file;
-  geojson::read_features(path, coordinates, std::nullopt,
-                         [&](geojson::Feature const& feature, MapCoordinates const& used) {
-                           auto const type = geojson::type_of(feature.geometry);
-                           auto const& places = geojson::member(feature.geometry, "coordinates");
-                           MappedTree tree;
-                           tree.name = feature.name;
-                           auto const add = [&](Json const& position) {
-                             tree.place = geojson::read_position(position, used);
-                             if (file.trees.size() == most)
-                               throw Error(fmt::format("more than {} trees", most));
-                             file.trees.push_back(tree);
-                           };
-                           if (type != "Point" && type != "MultiPoint") {
-                             ++file.others;
-                             return;
-                           }
-                           tree.height = length(feature.properties, "height");
-                           tree.crown_diameter = length(feature.properties, "diameter_crown");
-                           tree.evergreen = is_evergreen(feature.properties);
-                           tree.taxon = taxon_of(feature.properties);
-                           if (type == "Point") return add(places);
-                           if (!places.is_array()) throw Error("its coordinates are not positions");
-                           for (auto const& position : places) add(position);
-                         });
+  geojson::read_features(path, coordinates, std::nullopt, [&](geojson::Feature& feature) {
+    if (feature.geometry.points.empty()) {
+      ++file.others;
+      return;
+    }
+    MappedTree tree;
+    tree.name = feature.name;
+    tree.height = length(feature.properties, "height");
+    tree.crown_diameter = length(feature.properties, "diameter_crown");
+    tree.evergreen = is_evergreen(feature.properties);
+    tree.taxon = taxon_of(feature.properties);
+    for (auto const& point : feature.geometry.points) {
+      tree.place = point;
+      if (file.trees.size() == most) throw Error(fmt::format("more than {} trees", most));
+      file.trees.push_back(tree);
+    }
+  });
   if (file.trees.empty()) throw Error(fmt::format("{}: has no Point", path.string()));
   return file;
 }
