@@ -38,8 +38,10 @@ bool ConvexPolygon::take(std::span<glm::dvec2 const> ring) {
   bool rising = before.y > 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     glm::dvec2 const edge = vertices[i + 1 < count ? i + 1 : 0] - vertices[i];
-    double const scale = glm::dot(before, before) + glm::dot(edge, edge);
-    if (cross(before, edge) < -straight * scale) return false;
+    double const turn = cross(before, edge);
+    if (turn < 0.0 && turn < -straight * (glm::dot(before, before) + glm::dot(edge, edge))) {
+      return false;
+    }
     bool const rises = edge.y > 0.0;
     if (rises != rising) ++turns;
     rising = rises;

@@ -29,7 +29,7 @@ void for_each_index(std::size_t count, Use const& use) {
 // woken, which would then spin for as long again.
 template <typename Use>
 void for_each_short(std::size_t count, Use const& use) {
-  constexpr std::chrono::microseconds worth_waking{200};
+  constexpr std::chrono::microseconds worth_waking{1000};
   auto const began = std::chrono::steady_clock::now();
   std::size_t first = 0;
   while (first < count) {
