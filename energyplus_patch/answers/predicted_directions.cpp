@@ -97,11 +97,13 @@ void PredictedDirections::predict_day(SunDirection sun, double latitude) {
   if (!step_) return;
   Day day{sun};
   std::vector<std::size_t> added{0};  // steps
+  bool may_be_known = true;
   for (now.hour_angle += *step_; now.hour_angle <= pi; now.hour_angle += *step_) {
     auto const next = to_direction(now, latitude);
     if (next.altitude <= 0.0) break;
     // The first day was predicted from its second direction on, and is repeated.
-    auto const known = find(next);
+    auto const known = may_be_known ? find(next) : std::nullopt;
+    may_be_known = known.has_value();
     if (!known) added.push_back(day.size());
     day.push_back(known ? days_[known->day][known->step] : next);
   }
