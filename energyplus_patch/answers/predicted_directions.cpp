@@ -34,8 +34,9 @@ std::size_t number_of_patch(SunDirection sun) {
 }
 
 bool are_same(SunDirection a, SunDirection b) {
-  return std::abs(a.altitude - b.altitude) <= rounding &&
-         glm::distance(to_vector(a), to_vector(b)) < rounding;
+  double const higher = std::abs(a.altitude - b.altitude);
+  if (higher + std::abs(a.azimuth - b.azimuth) < rounding) return true;
+  return higher <= rounding && glm::distance(to_vector(a), to_vector(b)) < rounding;
 }
 
 }  // namespace
