@@ -146,11 +146,12 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   // Kept from one question to the next.
   static thread_local std::vector<SurfaceId> spare;
   auto& memory = spare;
+  auto reused = std::exchange(memory, {});
   found.in_view = asked.in_sector != nullptr
                       ? casters.in_view_of(*asked.in_sector, *seen.frame, question.towards_sun,
-                                           std::move(memory))
+                                           std::move(reused))
                       : casters.in_view(parts_.scene, question.receiver, *seen.frame,
-                                        question.towards_sun, std::move(memory));
+                                        question.towards_sun, std::move(reused));
   InView& in_view = found.in_view;
   found.casters = in_view.casters.size();
   found.answered = !question.through && in_view.casters.empty();

@@ -61,7 +61,8 @@ std::vector<std::uint32_t> const* Receivers::in_sector(SurfaceId id,
   int const u = sector_of(glm::dot(frame.u, towards_sun) / cosine);
   int const v = sector_of(glm::dot(frame.v, towards_sun) / cosine);
   if (receiver.in_sectors.empty()) receiver.in_sectors.resize(std::size_t{sectors} * sectors);
-  auto& known = receiver.in_sectors[static_cast<std::size_t>(u * sectors + v)];
+  auto const row = std::size_t{sectors} * static_cast<std::size_t>(u);
+  auto& known = receiver.in_sectors[row + static_cast<std::size_t>(v)];
   if (!known.searched) {
     SunSector const sector{{start_of(u), start_of(v)}, {start_of(u + 1), start_of(v + 1)}};
     known = {true, casters_.in_sector(scene_, id, frame, sector)};

@@ -1,9 +1,7 @@
 #include "model/site/tree_genera.h"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
-#include <ranges>
+#include <iterator>
 
 #include "platform/text.h"
 
@@ -44,7 +42,12 @@ TreeGenus const* find_genus(std::string const& taxon) {
 }
 
 std::string list_genera() {
-  return fmt::format("{}", fmt::join(genera | std::views::transform(&TreeGenus::name), ", "));
+  std::string list;
+  for (auto const& genus : genera) {
+    if (!list.empty()) list += ", ";
+    list += genus.name;
+  }
+  return list;
 }
 
 }  // namespace gpu_shading::energyplus
