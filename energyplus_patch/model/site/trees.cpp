@@ -181,7 +181,7 @@ class Builder {
                             from.empty() ? "" : from + ": ", trees_, trees_ == 1 ? "" : "s",
                             extent_.describe());
     if (unknown_ > 0) {
-      text += fmt::format("; {} without the density of their genus, as of {}", unknown_,
+      text += fmt::format("; {} of a genus of unknown density, such as {}", unknown_,
                           fmt::join(unknown_genera_, ", "));
     }
     return text;

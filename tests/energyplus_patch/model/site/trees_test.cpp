@@ -137,7 +137,7 @@ TEST_F(Trees, OfAFileHaveTheirGenera) {
   EXPECT_EQ(found.casters[0].surface.filter.find<Crown>()->deployment, -1);
   EXPECT_EQ(found.casters[1].surface.filter.find<Crown>()->deployment, 0);
   EXPECT_THAT(found.remarks,
-              ElementsAre(HasSubstr("1 without the density of their genus, as of Larix")));
+              ElementsAre(HasSubstr("1 of a genus of unknown density, such as Larix")));
 }
 
 // A tetrahedron of 4 x 4 x 3 m in a file becomes the outline of a crown of 6 x 6 x 6 m.
