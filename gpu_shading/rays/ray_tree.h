@@ -109,16 +109,16 @@ class RayTree {
     Hits meet(Node const& node, double limit) const {
       Lanes enters{};
       auto const up_to = static_cast<float>(limit) * (1.0F + rounding);
-      Lanes leaves = {up_to, up_to, up_to, up_to};
+      Lanes exits = {up_to, up_to, up_to, up_to};
       for (std::size_t axis = 0; axis < 3; ++axis) {
         Lanes const near =
             (node.sides[near_[axis]][axis] - origin_[axis]) * inverse_[axis] - margin_[axis];
         Lanes const far =
             (node.sides[1 - near_[axis]][axis] - origin_[axis]) * inverse_[axis] + margin_[axis];
         enters = near > enters ? near : enters;
-        leaves = far < leaves ? far : leaves;
+        exits = far < exits ? far : exits;
       }
-      return (enters <= leaves) & 1;
+      return (enters <= exits) & 1;
     }
 
    private:
