@@ -88,8 +88,8 @@ def test_is_drawn_alike_by_all_back_ends(build):
     done = subprocess.run([build / "tests/gpu_shading/backends/opengl/gl_tests", "--gtest_filter=Of/CheckedDevice.*"],
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
-    # Two tests of each of six kinds.
-    assert "[  PASSED  ] 12 tests" in done.stdout, done.stdout
+    # Two tests of each of eight kinds.
+    assert "[  PASSED  ] 16 tests" in done.stdout, done.stdout
 
 
 def test_reaches_check_cache_and_page(build, box, weather, tmp_path):
