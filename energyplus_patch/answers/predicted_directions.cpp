@@ -42,11 +42,10 @@ bool are_same(SunDirection a, SunDirection b) {
 }  // namespace
 
 std::optional<PredictedDirections::DayStep> PredictedDirections::find(SunDirection sun) const {
-  auto const towards_sun = to_vector(sun);
   auto const last = by_altitude_.upper_bound(sun.altitude + rounding);
   for (auto found = by_altitude_.lower_bound(sun.altitude - rounding); found != last; ++found) {
     auto const [day, step] = found->second;
-    if (glm::distance(to_vector(days_[day][step]), towards_sun) < rounding) return found->second;
+    if (are_same(days_[day][step], sun)) return found->second;
   }
   return std::nullopt;
 }
@@ -97,22 +96,21 @@ void PredictedDirections::predict_day(SunDirection sun, double latitude) {
   learn_step(now, latitude);
   if (!step_) return;
   Day day{sun};
-  std::vector<std::size_t> added{0};  // steps
-  bool may_be_known = true;
+  std::size_t known_steps = 0;  // after the first
   for (now.hour_angle += *step_; now.hour_angle <= pi; now.hour_angle += *step_) {
     auto const next = to_direction(now, latitude);
     if (next.altitude <= 0.0) break;
     // The first day was predicted from its second direction on, and is repeated.
-    auto const known = may_be_known ? find(next) : std::nullopt;
-    may_be_known = known.has_value();
-    if (!known) added.push_back(day.size());
+    auto const known = known_steps + 1 == day.size() ? find(next) : std::nullopt;
+    if (known) ++known_steps;
     day.push_back(known ? days_[known->day][known->step] : next);
   }
-  predicted_ += added.size() - 1;
+  predicted_ += day.size() - 1 - known_steps;
   if (day.size() == 1) return;
   days_.push_back(std::move(day));
   auto const& kept = days_.back();
-  for (auto const step : added) {
+  for (std::size_t step = 0; step < kept.size(); ++step) {
+    if (step > 0 && step <= known_steps) continue;
     by_altitude_.emplace(kept[step].altitude, DayStep{days_.size() - 1, step});
   }
   ahead_ = std::span(kept).subspan(1);

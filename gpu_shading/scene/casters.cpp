@@ -213,8 +213,7 @@ Detail Casters::detail(std::span<SurfaceId const> in_view, PlaneFrame const& fra
 bool Casters::is_in_view(Caster const& caster, PlaneFrame const& frame, Shadow& shadow) const {
   auto const ring = points(caster);
   bool const thick = caster.faces.inside != caster.faces.outside;
-  bool const thin = !thick && caster.faces.inside == 0.0;
-  double const body = thin ? 0.0 : body_above(caster.faces, caster.normal, frame);
+  double const body = body_above(caster.faces, caster.normal, frame);
   shadow.clear();
   bool clearly_in_front = false;
   bool cut = false;
@@ -234,7 +233,7 @@ bool Casters::is_in_view(Caster const& caster, PlaneFrame const& frame, Shadow& 
     double const height = height_above(frame, vertex) + body;
     clearly_in_front = clearly_in_front || height > coplanar;
     if (height > clearance) {
-      shadow.include(thin ? vertex : vertex + caster.faces.inside * caster.normal);
+      shadow.include(vertex + caster.faces.inside * caster.normal);
       if (thick) shadow.include(vertex + caster.faces.outside * caster.normal);
     } else {
       cut = true;
