@@ -12,9 +12,12 @@ namespace {
 
 constexpr std::uintmax_t max_bytes = std::uintmax_t{1} << 30U;
 
+// What follows a folder that is not there is only tidied by the first pass, as missing/../link to
+// link: the second follows it.
 std::filesystem::path resolved(std::filesystem::path const& path) {
   std::error_code failure;
   auto found = std::filesystem::weakly_canonical(path, failure);
+  if (!failure) found = std::filesystem::weakly_canonical(found, failure);
   return failure ? path : found;
 }
 

@@ -226,8 +226,9 @@ TEST_F(MeshFile, FilesThatItNamesAreInItsFolder) {
   auto const faces = "v 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl Wood\nf 1 2 3\n";
   EXPECT_EQ(refusal("model/in.obj", std::string("mtllib sub/in.mtl\n") + faces), "accepted");
   EXPECT_EQ(refusal("model/none.obj", std::string("mtllib none.mtl\n") + faces), "accepted");
-  for (auto const& name : {std::string("../out.mtl"), std::string("link.mtl"),
-                           (folder_.path() / "out.mtl").string()}) {
+  for (auto const& name :
+       {std::string("../out.mtl"), std::string("link.mtl"), std::string("missing/../link.mtl"),
+        (folder_.path() / "out.mtl").string()}) {
     auto const text = "mtllib " + name + "\n" + faces;
     EXPECT_THAT(refusal("model/out.obj", text), HasSubstr("out.mtl, which is outside its folder"))
         << name;
