@@ -27,12 +27,21 @@ double ConvexPolygon::area() const {
 }
 
 bool ConvexPolygon::take(std::span<glm::dvec2 const> ring) {
-  // By which a corner may turn the other way, of the squares of its sides: rounding.
-  constexpr double straight = 1e-13;
   if (ring.size() < 3 || ring.size() > max_ring) return false;
   std::copy(ring.begin(), ring.end(), vertices.begin());
   count = ring.size();
+  set_bounds(*this);
+  turn_counterclockwise();
+  return is_convex();
+}
+
+void ConvexPolygon::turn_counterclockwise() {
   if (area() < 0.0) std::reverse(vertices.begin(), vertices.begin() + static_cast<long>(count));
+}
+
+bool ConvexPolygon::is_convex() const {
+  // By which a corner may turn the other way, of the squares of its sides: rounding.
+  constexpr double straight = 1e-13;
   glm::dvec2 before = vertices[0] - vertices[count - 1];
   int turns = 0;  // of an edge to the other side: twice in a ring that goes around once
   bool rising = before.y > 0.0;
@@ -47,22 +56,7 @@ bool ConvexPolygon::take(std::span<glm::dvec2 const> ring) {
     rising = rises;
     before = edge;
   }
-  set_bounds(*this);
   return turns <= 2;
-}
-
-bool ConvexPolygon::is_clear_of(std::span<glm::dvec2 const> ring) const {
-  bool left = true;
-  bool right = true;
-  bool below = true;
-  bool above = true;
-  for (glm::dvec2 const& vertex : ring) {
-    left = left && vertex.x <= low.x;
-    right = right && vertex.x >= high.x;
-    below = below && vertex.y <= low.y;
-    above = above && vertex.y >= high.y;
-  }
-  return left || right || below || above;
 }
 
 bool ConvexPolygon::contains(ConvexPolygon const& other) const {

@@ -35,10 +35,11 @@ struct ConvexPolygon {
   // vertices.
   static constexpr std::size_t max_ring = 8;
   bool take(std::span<glm::dvec2 const> ring);
+  // For vertices in either direction, and of a ring that may not be convex.
+  void turn_counterclockwise();
+  bool is_convex() const;
 
   bool contains(ConvexPolygon const& other) const;
-  // Only if all of a ring is on one side of the bounds.
-  bool is_clear_of(std::span<glm::dvec2 const> ring) const;
   bool may_meet(ConvexPolygon const& other) const {
     return low.x < other.high.x && other.low.x < high.x && low.y < other.high.y &&
            other.low.y < high.y;

@@ -22,7 +22,7 @@ Ring without_repeats(Ring const& ring) {
   return distinct;
 }
 
-glm::dvec3 newell(Ring const& ring) {
+glm::dvec3 newell(std::span<glm::dvec3 const> ring) {
   glm::dvec3 sum(0.0);
   for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
     sum += glm::cross(ring[i] - ring[0], ring[i + 1] - ring[0]);

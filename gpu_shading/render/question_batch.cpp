@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "antialias/antialias.h"
-#include "backends/exact/exact_view.h"
 #include "platform/parallel.h"
 #include "platform/stopwatch.h"
 
@@ -45,6 +44,13 @@ double behind(Question const& question) {
 
 QuestionBatch::QuestionBatch(Parts const& parts)
     : parts_(parts), may_be_crowd_(parts.transmission.all_opaque()), at_once_(min_asked) {
+  start();
+}
+
+void QuestionBatch::start() {
+  asked_.clear();
+  viewed_.clear();
+  at_once_ = min_asked;
   parts_.backend.forget();
   parts_.receivers.forget_many_tiles();
 }
@@ -56,26 +62,27 @@ void QuestionBatch::ask(Question const& question) {
   if (!seen.frame || question.answers.empty()) return;
   double const cosine = glm::dot(seen.frame->normal, question.towards_sun);
   if (cosine <= edge_on) return;
-  auto const* const in_sector = parts_.receivers.in_sector(question.receiver, question.towards_sun);
-  asked_.push_back({question, &seen, cosine, in_sector});
+  asked_.push_back({question, &seen, cosine,
+                    parts_.receivers.in_sector(question.receiver, question.towards_sun),
+                    parts_.receivers.behind(question.receiver, question.interiors)});
   if (asked_.size() < at_once_) return;
   cull();
   if (viewed_.size() >= max_viewed) finish();
 }
 
 void QuestionBatch::cull() {
-  std::vector<Found> found(asked_.size());
+  found_.resize(asked_.size());
   {
     Stopwatch const watch(parts_.statistics.cull_seconds);
-    for_each_short(asked_.size(), [&](std::size_t i) { found[i] = find(asked_[i]); });
+    for_each_short(asked_.size(), [&](std::size_t i) { found_[i] = find(asked_[i]); });
   }
   if (parts_.backend.device().id.is_cpu()) {
     std::size_t casters = 1;
-    for (Found const& each : found) casters += each.casters;
+    for (Found const& each : found_) casters += each.casters;
     at_once_ = std::clamp(max_casters * asked_.size() / casters, min_asked, max_asked);
   }
   std::vector<ReceiverView> views;
-  for (std::size_t i = 0; i < asked_.size(); ++i) enqueue(asked_[i], std::move(found[i]), views);
+  for (std::size_t i = 0; i < asked_.size(); ++i) enqueue(asked_[i], std::move(found_[i]), views);
   asked_.clear();
   if (parts_.backend.samples_pixels()) stretch_tiles(views);
   parts_.backend.add(std::move(views));
@@ -118,6 +125,24 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
     found.side = parts_.receivers.side_for(seen, detail, screened);
     found.lay.slope = turn_slopes.at(best_turn(detail));
   };
+  bool const tried =
+      asked.in_sector != nullptr && asked.in_sector->all_flat && !parts_.samples_only;
+  if (tried) {
+    static thread_local std::vector<RelativePolygon const*> counted;
+    auto& polygons = counted;
+    polygons.clear();
+    for (std::size_t i = 0; i < asked.in_sector->positions.size(); ++i) {
+      if (casters.counts_at(asked.in_sector->positions[i], question.towards_sun)) {
+        polygons.push_back(asked.in_sector->polygons[i]);
+      }
+    }
+    if (auto const in_view = answer_exactly(asked, polygons, few_steps)) {
+      found.answered = true;
+      found.casters = *in_view;
+      found.transmits = asked.in_sector->any_transmits;
+      return found;
+    }
+  }
   double const enough = parts_.receivers.size().enough();
   auto const few = may_be_crowd_ ? parts_.backend.few_casters(question.through) : std::nullopt;
   if (few) {
@@ -148,8 +173,8 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   auto& memory = spare;
   auto reused = std::exchange(memory, {});
   found.in_view = asked.in_sector != nullptr
-                      ? casters.in_view_of(*asked.in_sector, *seen.frame, question.towards_sun,
-                                           std::move(reused))
+                      ? casters.in_view_of(asked.in_sector->positions, *seen.frame,
+                                           question.towards_sun, std::move(reused))
                       : casters.in_view(parts_.scene, question.receiver, *seen.frame,
                                         question.towards_sun, std::move(reused));
   InView& in_view = found.in_view;
@@ -164,23 +189,51 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   bool const screened = parts_.transmission.any_screen(in_view.casters);
   bool const may_be_exact =
       !parts_.samples_only && !in_view.warped && !parts_.transmission.any_body(in_view.casters);
-  auto const answer_exactly = [&](double max_steps) {
-    auto const sums = exact_sums(parts_.scene, parts_.transmission,
-                                 {question.receiver, *seen.frame, question.towards_sun,
-                                  in_view.casters, question.through, question.interiors},
-                                 max_steps);
-    if (!sums) return false;
-    answer(asked, *sums, 1.0);
+  auto const answer_of = [&](double most_steps) {
+    if (static_cast<double>(in_view.casters.size()) > most_steps) return false;
+    if (!answer_exactly(asked, relative(in_view.casters, seen), most_steps)) return false;
     memory = std::move(in_view.casters);
     return true;
   };
-  found.answered = may_be_exact && answer_exactly(few_steps);
+  found.answered = may_be_exact && !tried && answer_of(few_steps);
   if (found.answered) return found;
   Detail detail = casters.detail(in_view.casters, *seen.frame, question.towards_sun, enough);
   lay_out(detail, screened);
-  double const max_steps = sample_cost(detail, found.side, found.transmits, interiors);
-  found.answered = may_be_exact && max_steps > few_steps && answer_exactly(max_steps);
+  double const most_steps = sample_cost(detail, found.side, found.transmits, interiors);
+  found.answered = may_be_exact && most_steps > few_steps && answer_of(most_steps);
   return found;
+}
+
+std::optional<std::size_t> QuestionBatch::answer_exactly(Asked const& asked,
+                                                         RelativePolygons casters,
+                                                         double most_steps) const {
+  Receiver const& seen = *asked.receiver;
+  auto const found = exact_sums(parts_.scene, parts_.transmission,
+                                {seen.outline, *seen.frame, asked.question.towards_sun, casters,
+                                 asked.question.through, asked.interiors},
+                                most_steps);
+  if (!found) return std::nullopt;
+  answer(asked, found->sums, 1.0);
+  return found->casters;
+}
+
+RelativePolygons QuestionBatch::relative(std::span<SurfaceId const> casters,
+                                         Receiver const& receiver) const {
+  // Kept from one question to the next.
+  struct Workspace {
+    std::vector<RelativePolygon> polygons;
+    std::vector<RelativePolygon const*> pointers;
+  };
+  static thread_local auto const workspace = std::make_unique<Workspace>();
+  auto& [polygons, pointers] = *workspace;
+  if (polygons.size() < casters.size()) polygons.resize(casters.size());
+  pointers.clear();
+  for (std::size_t i = 0; i < casters.size(); ++i) {
+    polygons[i].set(casters[i], parts_.scene[casters[i]].polygon, *receiver.frame,
+                    RelativePolygon::Side::in_front);
+    pointers.push_back(&polygons[i]);
+  }
+  return pointers;
 }
 
 void QuestionBatch::enqueue(Asked const& asked, Found found, std::vector<ReceiverView>& views) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "backends/exact/exact_view.h"
 #include "backends/interface/view_backend.h"
 #include "filters/transmission.h"
 #include "gpu_shading/renderer.h"
@@ -39,8 +40,10 @@ class QuestionBatch {
     bool samples_only;  // no view is answered without samples
   };
 
-  // Only one at a time; unfinished work of an earlier batch is discarded.
+  // Only one of a back end's at a time.
   explicit QuestionBatch(Parts const& parts);
+  // Begins anew, in the memory of before; unfinished work is discarded.
+  void start();
 
   // Throws Error for unknown surfaces.
   void ask(Question const& question);
@@ -51,8 +54,9 @@ class QuestionBatch {
   struct Asked {
     Question question;
     Receiver const* receiver;
-    double cosine;                                // of the angle of incidence
-    std::vector<std::uint32_t> const* in_sector;  // casters, if they are known
+    double cosine;                        // of the angle of incidence
+    Receiver::InSector const* in_sector;  // casters, if they are known
+    RelativePolygons interiors;
   };
   // A question whose view is being rasterised.
   struct Viewed {
@@ -89,6 +93,11 @@ class QuestionBatch {
   // Answers the question if that costs little. What that takes is free again before the next one,
   // or its memory would be scattered.
   Found find(Asked const& asked) const;
+  // Without samples; the number of casters, if it can.
+  std::optional<std::size_t> answer_exactly(Asked const& asked, RelativePolygons casters,
+                                            double most_steps) const;
+  // Valid until the thread's next question.
+  RelativePolygons relative(std::span<SurfaceId const> casters, Receiver const& receiver) const;
   // Empty unless all casters in view repeat, and far outnumber these rows.
   std::optional<Blades> blades(Asked const& asked) const;
   // Adds the view, or counts what was answered.
@@ -104,6 +113,7 @@ class QuestionBatch {
   bool may_be_crowd_;
   std::size_t at_once_;  // questions whose casters are searched
   std::vector<Asked> asked_;
+  std::vector<Found> found_;  // for each of them
   std::vector<Viewed> viewed_;
 };
 

@@ -40,6 +40,9 @@ Receiver& Receivers::find(SurfaceId id) {
   Receiver receiver;
   receiver.area = area(polygon);
   if (receiver.area > 0.0) receiver.frame = plane_frame(polygon);
+  if (receiver.frame) {
+    receiver.outline.set(id, polygon, *receiver.frame, RelativePolygon::Side::within);
+  }
   known = std::make_unique<Receiver>(std::move(receiver));
   return *known;
 }
@@ -50,8 +53,23 @@ Receiver const& Receivers::window(SurfaceId id) {
   return receiver;
 }
 
-std::vector<std::uint32_t> const* Receivers::in_sector(SurfaceId id,
-                                                       glm::dvec3 const& towards_sun) {
+std::span<RelativePolygon const* const> Receivers::behind(SurfaceId id,
+                                                          std::span<SurfaceId const> interiors) {
+  auto& known = find(id).seen_through;
+  auto const same = std::ranges::find_if(known, [&](Receiver::Interiors const& other) {
+    return std::ranges::equal(other.polygons, interiors, {}, &RelativePolygon::id);
+  });
+  if (same != known.end()) return same->pointers;
+  Receiver::Interiors& added = known.emplace_back();
+  for (SurfaceId const interior : interiors) {
+    added.polygons.emplace_back(interior, surface(interior).polygon, *find(id).frame,
+                                RelativePolygon::Side::behind);
+  }
+  for (RelativePolygon const& polygon : added.polygons) added.pointers.push_back(&polygon);
+  return added.pointers;
+}
+
+Receiver::InSector const* Receivers::in_sector(SurfaceId id, glm::dvec3 const& towards_sun) {
   // A sector is found in the time of a few searches, and is asked about at other days again.
   constexpr std::size_t few = 100;
   Receiver& receiver = find(id);
@@ -60,14 +78,37 @@ std::vector<std::uint32_t> const* Receivers::in_sector(SurfaceId id,
   double const cosine = glm::dot(frame.normal, towards_sun);
   int const u = sector_of(glm::dot(frame.u, towards_sun) / cosine);
   int const v = sector_of(glm::dot(frame.v, towards_sun) / cosine);
-  if (receiver.in_sectors.empty()) receiver.in_sectors.resize(std::size_t{sectors} * sectors);
+  if (receiver.sectors.empty()) receiver.sectors.resize(std::size_t{sectors} * sectors);
   auto const row = std::size_t{sectors} * static_cast<std::size_t>(u);
-  auto& known = receiver.in_sectors[row + static_cast<std::size_t>(v)];
+  auto& known = receiver.sectors[row + static_cast<std::size_t>(v)];
   if (!known.searched) {
-    SunSector const sector{{start_of(u), start_of(v)}, {start_of(u + 1), start_of(v + 1)}};
-    known = {true, casters_.in_sector(scene_, id, frame, sector)};
+    known = {true, search(id, {{start_of(u), start_of(v)}, {start_of(u + 1), start_of(v + 1)}})};
   }
   return known.casters ? &*known.casters : nullptr;
+}
+
+std::optional<Receiver::InSector> Receivers::search(SurfaceId id, SunSector const& sector) {
+  constexpr std::size_t most = std::size_t{1} << 18U;  // some 60 MB
+  if (in_front_ > most) return std::nullopt;
+  Receiver& receiver = find(id);
+  auto positions = casters_.in_sector(scene_, id, *receiver.frame, sector);
+  if (!positions) return std::nullopt;
+  Receiver::InSector found;
+  for (std::uint32_t const position : *positions) {
+    SurfaceId const caster = casters_.id(position);
+    auto const [place, is_new] = receiver.in_front.try_emplace(caster);
+    if (is_new) {
+      ++in_front_;
+      place->second.set(caster, scene_[caster].polygon, *receiver.frame,
+                        RelativePolygon::Side::in_front);
+    }
+    found.polygons.push_back(&place->second);
+    found.all_flat =
+        found.all_flat && !casters_.is_warped(position) && !transmission_.any_body({&caster, 1});
+    found.any_transmits = found.any_transmits || transmission_.transmits(caster);
+  }
+  found.positions = std::move(*positions);
+  return found;
 }
 
 int Receivers::side_for(Receiver const& receiver, Detail const& detail, bool screened) const {

@@ -3,15 +3,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <tuple>
+#include <unordered_map>
 #include <vector>
 
 #include "filters/transmission.h"
 #include "gpu_shading/scene.h"
 #include "scene/casters.h"
+#include "scene/relative_polygon.h"
 #include "view/tile.h"
 #include "view/tile_size.h"
 
@@ -20,16 +24,30 @@ namespace gpu_shading {
 // Properties of a receiver that do not depend on the sun direction.
 struct Receiver {
   std::optional<PlaneFrame> frame;  // empty if it has no area
-  double area = 0.0;                // exact, m2
-  bool is_window = false;           // a question was about surfaces behind it
-  // The number of questions about it, and once they are many, the casters by sector of the sky, if
-  // they are known and few.
+  RelativePolygon outline;
+  double area = 0.0;       // exact, m2
+  bool is_window = false;  // a question was about surfaces behind it
+  // The casters that may shade it from a sector of the sky.
   struct InSector {
-    bool searched = false;
-    std::optional<std::vector<std::uint32_t>> casters;
+    std::vector<std::uint32_t> positions;  // as Casters has them
+    std::vector<RelativePolygon const*> polygons;
+    bool all_flat = true;  // neither warped nor with a body
+    bool any_transmits = false;
   };
+  struct Sector {
+    bool searched = false;
+    std::optional<InSector> casters;  // if they are few
+  };
+  // The number of questions about it, and the sectors, once they are many.
   std::size_t times = 0;
-  std::vector<InSector> in_sectors;
+  std::vector<Sector> sectors;
+  std::unordered_map<SurfaceId, RelativePolygon> in_front;  // that were in a sector
+  // Of a window: the interior surfaces of each question about other ones.
+  struct Interiors {
+    std::vector<RelativePolygon> polygons;
+    std::vector<RelativePolygon const*> pointers;
+  };
+  std::list<Interiors> seen_through;
   // Tiles created so far, by requested resolution, slope and stretch.
   std::map<std::tuple<int, double, double>, Tile> tiles;
 };
@@ -39,9 +57,11 @@ struct Receiver {
 class Receivers {
  public:
   // `max_side`: pixels of the largest tile.
-  Receivers(Scene const& scene, Casters const& casters, TileSize const& size, int max_side)
+  Receivers(Scene const& scene, Casters const& casters, Transmission const& transmission,
+            TileSize const& size, int max_side)
       : scene_(scene),
         casters_(casters),
+        transmission_(transmission),
         size_(size),
         max_side_(max_side),
         receivers_(scene.size()) {}
@@ -49,11 +69,14 @@ class Receivers {
   // Throws Error if there is no such surface.
   Receiver const& operator[](SurfaceId id) { return find(id); }
   Receiver const& window(SurfaceId id);
+  // What is behind the plane of a receiver that has one.
+  std::span<RelativePolygon const* const> behind(SurfaceId id,
+                                                 std::span<SurfaceId const> interiors);
   Surface const& surface(SurfaceId id) const;
 
   // Casters that include all in view of a receiver from this direction, which is in front of its
   // plane; null if they must be searched for.
-  std::vector<std::uint32_t> const* in_sector(SurfaceId id, glm::dvec3 const& towards_sun);
+  Receiver::InSector const* in_sector(SurfaceId id, glm::dvec3 const& towards_sun);
 
   TileSize const& size() const { return size_; }
   // Pixels per side for the detail in view. The receiver must have an area.
@@ -67,12 +90,16 @@ class Receivers {
 
  private:
   Receiver& find(SurfaceId id);
+  // Empty if they are many.
+  std::optional<Receiver::InSector> search(SurfaceId id, SunSector const& sector);
 
   Scene const& scene_;
   Casters const& casters_;
+  Transmission const& transmission_;
   TileSize size_;
   int max_side_;
   std::size_t tiles_ = 0;
+  std::size_t in_front_ = 0;                          // polygons in front of all receivers
   std::vector<std::unique_ptr<Receiver>> receivers_;  // by id, once they are asked about
 };
 

@@ -83,10 +83,10 @@ class Renderer::Implementation {
   RendererStatistics const& statistics() const { return statistics_; }
 
  private:
-  QuestionBatch new_batch() {
+  QuestionBatch& new_batch() {
     check_process();
-    return QuestionBatch({scene_, casters_, transmission_, *receivers_, *backend_, statistics_,
-                          options_.samples_only});
+    batch_->start();
+    return *batch_;
   }
 
   // A context of OpenGL's does not survive a fork; the CPU's back end does.
@@ -109,6 +109,7 @@ class Renderer::Implementation {
   RendererStatistics statistics_;
   std::unique_ptr<ViewBackend> backend_;
   std::optional<Receivers> receivers_;
+  std::optional<QuestionBatch> batch_;
   std::unique_ptr<PictureRaster> picture_raster_;  // once asked for
 };
 
@@ -121,14 +122,17 @@ Renderer::Implementation::Implementation(Scene scene, RendererOptions options,
   Stopwatch const watch(statistics_.seconds);
   std::vector<Mesh> const meshes = triangulate_all(scene_);
   backend_ = open({scene_, meshes, transmission_, statistics_});
-  receivers_.emplace(scene_, casters_, tile_size(options_, device()), device().max_resolution);
+  receivers_.emplace(scene_, casters_, transmission_, tile_size(options_, device()),
+                     device().max_resolution);
+  batch_.emplace(QuestionBatch::Parts{scene_, casters_, transmission_, *receivers_, *backend_,
+                                      statistics_, options_.samples_only});
 }
 
 std::vector<std::vector<Sunlit>> Renderer::Implementation::projected_sunlit_areas(
     std::span<SunDirection const> suns, std::span<SurfaceId const> receivers) {
   Stopwatch const watch(statistics_.seconds);
   std::vector<std::vector<Sunlit>> answers(suns.size(), std::vector<Sunlit>(receivers.size()));
-  QuestionBatch batch = new_batch();
+  QuestionBatch& batch = new_batch();
   for (std::size_t direction = 0; direction < suns.size(); ++direction) {
     ++statistics_.directions;
     glm::dvec3 const towards_sun = to_vector(suns[direction]);
@@ -147,7 +151,7 @@ std::vector<std::vector<std::vector<Sunlit>>> Renderer::Implementation::interior
   unlit.reserve(questions.size());
   for (InteriorQuestion const& question : questions) unlit.emplace_back(question.interiors.size());
   std::vector<std::vector<std::vector<Sunlit>>> answers(suns.size(), unlit);
-  QuestionBatch batch = new_batch();
+  QuestionBatch& batch = new_batch();
   for (std::size_t direction = 0; direction < suns.size(); ++direction) {
     glm::dvec3 const towards_sun = to_vector(suns[direction]);
     for (std::size_t i = 0; i < questions.size(); ++i) {

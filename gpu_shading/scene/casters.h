@@ -113,6 +113,12 @@ class Casters {
   };
 
   bool only_turned_away(std::uint32_t position) const { return kinds_[position].only_turned_away; }
+  // Whether the caster at a position counts by the face that the sun meets.
+  bool counts_at(std::uint32_t position, glm::dvec3 const& towards_sun) const {
+    return !kinds_[position].only_turned_away ||
+           glm::dot(casters_[position].normal, towards_sun) <= in_the_sun;
+  }
+  bool is_warped(std::uint32_t position) const { return casters_[position].warped; }
 
   // Positions in the tree of casters among which are all that are in view from some sun direction
   // of a sector, in the order of their ids; empty where a search costs less than so many tests.
@@ -146,11 +152,6 @@ class Casters {
     bool only_turned_away = false;
   };
   void add(SurfaceId id, Surface const& surface);
-  // Whether the caster at a position counts by the face that the sun meets.
-  bool counts_at(std::uint32_t position, glm::dvec3 const& towards_sun) const {
-    return !kinds_[position].only_turned_away ||
-           glm::dot(casters_[position].normal, towards_sun) <= in_the_sun;
-  }
   std::span<glm::dvec3 const> points(Caster const& caster) const {
     return {points_.data() + caster.first, caster.count};
   }

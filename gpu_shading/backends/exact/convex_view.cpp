@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -16,8 +18,7 @@ namespace {
 
 constexpr std::size_t most_casters = 10;
 constexpr std::size_t most_scheduled = 6;
-constexpr std::size_t most_in_view = 16;  // with those whose shadows miss it
-constexpr int most_cuts = 150;            // a sweep would cost less
+constexpr int most_cuts = 150;  // a sweep would cost less
 // Of the receiver's rectangle: areas that are due to rounding.
 constexpr double nothing = 1e-15;
 
@@ -62,12 +63,23 @@ class Pieces {
   std::vector<std::size_t> ends_;
 };
 
+// The bounds of a ring's projection, and its first vertices as far as there is room.
+void project(std::span<glm::dvec3 const> ring, Projection const& projection, ConvexPolygon& to) {
+  to.low = glm::dvec2(std::numeric_limits<double>::infinity());
+  to.high = -to.low;
+  to.count = std::min(ring.size(), ConvexPolygon::max_ring);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    glm::dvec2 const place = projection(ring[i]);
+    to.low = glm::min(to.low, place);
+    to.high = glm::max(to.high, place);
+    if (i < to.count) to.vertices[i] = place;
+  }
+}
+
 class ConvexView {
  public:
-  std::optional<std::span<LuminanceSums const>> answer(Scene const& scene,
-                                                       Transmission const& transmission,
-                                                       ExactQuestion const& question,
-                                                       Projection const& projection);
+  std::optional<ExactAnswer> answer(Scene const& scene, Transmission const& transmission,
+                                    ExactQuestion const& question, Projection const& projection);
 
  private:
   // A caster that lets light pass by a schedule, which has a bit in a set of them.
@@ -82,12 +94,11 @@ class ConvexView {
   };
   static constexpr std::size_t most_sets = std::size_t{1} << most_scheduled;
 
-  // Adds the polygon's parts within another as pieces, by laying out each ring. False if it cannot.
-  template <typename LayOut>
-  bool add_polygon(Polygon const& polygon, ConvexPolygon const* within, LayOut const& place,
-                   Pieces& to);
-  bool add_casters(Scene const& scene, Transmission const& transmission,
-                   ExactQuestion const& question, Projection const& projection);
+  // Adds the polygon's parts within another as pieces. False if it cannot.
+  bool add_polygon(RelativePolygon const& polygon, ConvexPolygon const* within,
+                   Projection const& projection, Pieces& to);
+  bool add_casters(Transmission const& transmission, ExactQuestion const& question,
+                   Projection const& projection);
   bool add_interiors(Scene const& scene, ExactQuestion const& question,
                      Projection const& projection);
   bool are_disjoint(std::span<Piece const> one, std::span<Piece const> other);
@@ -108,7 +119,6 @@ class ConvexView {
   }
   LuminanceSums sums_of_sets(double whole);
 
-  std::vector<glm::dvec2> places_;
   ConvexPolygon outline_;
   ConvexPolygon ring_;
   Pieces receiver_;
@@ -126,12 +136,19 @@ class ConvexView {
   std::vector<LuminanceSums> sums_;
 };
 
-template <typename LayOut>
-bool ConvexView::add_polygon(Polygon const& polygon, ConvexPolygon const* within,
-                             LayOut const& place, Pieces& to) {
-  place(polygon.outline);
-  if (places_.empty() || (within != nullptr && within->is_clear_of(places_))) return true;
-  if (!outline_.take(places_)) return false;
+bool ConvexView::add_polygon(RelativePolygon const& polygon, ConvexPolygon const* within,
+                             Projection const& projection, Pieces& to) {
+  auto const is_seen = [&](std::size_t ring, ConvexPolygon& place) {
+    project(polygon.ring(ring), projection, place);
+    return within == nullptr ? place.count > 0 : place.may_meet(*within);
+  };
+  auto const is_known = [&](std::size_t ring, ConvexPolygon& place) {
+    if (polygon.ring(ring).size() > ConvexPolygon::max_ring) return false;
+    place.turn_counterclockwise();
+    return (ring == 0 && polygon.is_convex()) || (place.count >= 3 && place.is_convex());
+  };
+  if (!is_seen(0, outline_)) return true;
+  if (!is_known(0, outline_)) return false;
   Piece& first = to.add(1.0);
   if (within == nullptr) {
     first.shape = outline_;
@@ -144,10 +161,10 @@ bool ConvexView::add_polygon(Polygon const& polygon, ConvexPolygon const* within
       return true;
     }
   }
-  for (Ring const& hole : polygon.holes) {
-    place(hole);
-    if (places_.empty()) continue;
-    if (!ring_.take(places_) || !outline_.contains(ring_)) return false;
+  for (std::size_t hole = 1; hole < polygon.rings(); ++hole) {
+    project(polygon.ring(hole), projection, ring_);
+    if (ring_.count == 0) continue;
+    if (!is_known(hole, ring_) || !outline_.contains(ring_)) return false;
     std::size_t const before = to.unended().size();
     Piece& piece = to.add(-1.0);
     if (within == nullptr) {
@@ -178,17 +195,15 @@ bool ConvexView::are_disjoint(std::span<Piece const> one, std::span<Piece const>
   return common < nothing;
 }
 
-bool ConvexView::add_casters(Scene const& scene, Transmission const& transmission,
-                             ExactQuestion const& question, Projection const& projection) {
+bool ConvexView::add_casters(Transmission const& transmission, ExactQuestion const& question,
+                             Projection const& projection) {
   ConvexPolygon const& receiver = receiver_[0].front().shape;
-  for (SurfaceId const id : question.casters) {
-    Polygon const& polygon = scene[id].polygon;
-    auto const place = [&](Ring const& ring) { projection.project(ring, 1.0, places_); };
-    if (!add_polygon(polygon, &receiver, place, casters_)) return false;
+  for (RelativePolygon const* const caster : question.casters) {
+    if (!add_polygon(*caster, &receiver, projection, casters_)) return false;
     if (casters_.unended().empty()) continue;
     casters_.end();
     if (casters_.polygons() > most_casters) return false;
-    Shade const shade = transmission.shade(id, question.towards_sun);
+    Shade const shade = transmission.shade(caster->id(), question.towards_sun);
     changes_.push_back(static_cast<double>(shade.transmittance) - 1.0);
     bool const is_scheduled = shade.transmittance > 0.0F && shade.schedule != Shade::unscheduled;
     bits_.push_back(is_scheduled ? std::size_t{1} << scheduled_.size() : 0);
@@ -206,10 +221,8 @@ bool ConvexView::add_casters(Scene const& scene, Transmission const& transmissio
 bool ConvexView::add_interiors(Scene const& scene, ExactQuestion const& question,
                                Projection const& projection) {
   ConvexPolygon const& window = receiver_[0].front().shape;
-  for (SurfaceId const id : question.interiors) {
-    Polygon const& polygon = scene[id].polygon;
-    auto const place = [&](Ring const& ring) { projection.project(ring, -1.0, places_); };
-    if (!add_polygon(polygon, &window, place, interiors_)) return false;
+  for (RelativePolygon const* const interior : question.interiors) {
+    if (!add_polygon(*interior, &window, projection, interiors_)) return false;
     interiors_.end();
     std::size_t const last = interiors_.polygons() - 1;
     if (interiors_[last].empty()) continue;
@@ -220,7 +233,7 @@ bool ConvexView::add_interiors(Scene const& scene, ExactQuestion const& question
       is_alone = false;
       for (std::size_t const k : {i, last}) {
         if (depths_[k]) continue;
-        Ring const& outline = scene[question.interiors[k]].polygon.outline;
+        Ring const& outline = scene[question.interiors[k]->id()].polygon.outline;
         depths_[k] = depth_of(outline, question.frame, question.towards_sun);
         if (!depths_[k]) return false;
       }
@@ -327,11 +340,9 @@ LuminanceSums ConvexView::sums_of_sets(double whole) {
   return sums;
 }
 
-std::optional<std::span<LuminanceSums const>> ConvexView::answer(Scene const& scene,
-                                                                 Transmission const& transmission,
-                                                                 ExactQuestion const& question,
-                                                                 Projection const& projection) {
-  if (question.casters.size() > most_in_view) return std::nullopt;
+std::optional<ExactAnswer> ConvexView::answer(Scene const& scene, Transmission const& transmission,
+                                              ExactQuestion const& question,
+                                              Projection const& projection) {
   receiver_.clear();
   casters_.clear();
   interiors_.clear();
@@ -342,8 +353,7 @@ std::optional<std::span<LuminanceSums const>> ConvexView::answer(Scene const& sc
   hidden_.clear();
   dark_ = false;
   cuts_ = 0;
-  auto const lay_out = [&](Ring const& ring) { projection.lay_out(ring, question.frame, places_); };
-  if (!add_polygon(scene[question.receiver].polygon, nullptr, lay_out, receiver_) ||
+  if (!add_polygon(question.receiver, nullptr, projection, receiver_) ||
       receiver_.unended().empty()) {
     return std::nullopt;
   }
@@ -351,11 +361,11 @@ std::optional<std::span<LuminanceSums const>> ConvexView::answer(Scene const& sc
   double whole = 0.0;
   for (Piece const& piece : receiver_[0]) whole += piece.sign * piece.shape.area();
   if (whole <= nothing || (question.through && receiver_[0].size() > 1)) return std::nullopt;
-  if (!add_casters(scene, transmission, question, projection)) return std::nullopt;
+  if (!add_casters(transmission, question, projection)) return std::nullopt;
   Pieces& parts = question.through ? interiors_ : receiver_;
   if (dark_) {
     sums_.assign(question.through ? question.interiors.size() : 1, {});
-    return sums_;
+    return ExactAnswer{sums_, casters_.polygons()};
   }
   if (question.through && !add_interiors(scene, question, projection)) return std::nullopt;
   sets_ = std::size_t{1} << scheduled_.size();
@@ -371,15 +381,14 @@ std::optional<std::span<LuminanceSums const>> ConvexView::answer(Scene const& sc
     }
     sums_[i] = sums_of_sets(whole);
   }
-  return sums_;
+  return ExactAnswer{sums_, casters_.polygons()};
 }
 
 }  // namespace
 
-std::optional<std::span<LuminanceSums const>> convex_sums(Scene const& scene,
-                                                          Transmission const& transmission,
-                                                          ExactQuestion const& question,
-                                                          Projection const& projection) {
+std::optional<ExactAnswer> convex_sums(Scene const& scene, Transmission const& transmission,
+                                       ExactQuestion const& question,
+                                       Projection const& projection) {
   // Kept from one question to the next, so that memory is asked for but once; behind a pointer, or
   // the address is looked up again wherever it is used.
   static thread_local auto const view = std::make_unique<ConvexView>();

@@ -12,9 +12,7 @@ namespace gpu_shading {
 // Holes are polygons of negative area. Empty where it cannot answer: outlines or holes that are not
 // convex, holes that reach out of their outlines or overlap, many casters in one place, and
 // interior surfaces in front of one another.
-std::optional<std::span<LuminanceSums const>> convex_sums(Scene const& scene,
-                                                          Transmission const& transmission,
-                                                          ExactQuestion const& question,
-                                                          Projection const& projection);
+std::optional<ExactAnswer> convex_sums(Scene const& scene, Transmission const& transmission,
+                                       ExactQuestion const& question, Projection const& projection);
 
 }  // namespace gpu_shading

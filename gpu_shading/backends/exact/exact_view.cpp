@@ -6,13 +6,11 @@
 
 namespace gpu_shading {
 
-std::optional<std::span<LuminanceSums const>> exact_sums(Scene const& scene,
-                                                         Transmission const& transmission,
-                                                         ExactQuestion const& question,
-                                                         double most_steps) {
+std::optional<ExactAnswer> exact_sums(Scene const& scene, Transmission const& transmission,
+                                      ExactQuestion const& question, double most_steps) {
   if (static_cast<double>(question.casters.size()) > most_steps) return std::nullopt;
   Projection const projection(question.frame, question.towards_sun);
-  if (auto sums = convex_sums(scene, transmission, question, projection)) return sums;
+  if (auto found = convex_sums(scene, transmission, question, projection)) return found;
   return swept_sums(scene, transmission, question, projection, most_steps);
 }
 

@@ -191,29 +191,19 @@ class Outlines {
     count_ = 0;
   }
 
-  void add_receiver(Polygon const& receiver, PlaneFrame const& frame) {
-    each_ring(receiver, [&](Ring const& ring) { projection_->lay_out(ring, frame, places_); });
-  }
-  // `side`: as Projection has it.
-  void add(Polygon const& shape, double side) {
-    each_ring(shape, [&](Ring const& ring) { projection_->project(ring, side, places_); });
+  void add(RelativePolygon const& polygon) {
+    for (std::size_t i = 0; i < polygon.rings(); ++i) {
+      places_.clear();
+      for (glm::dvec3 const& place : polygon.ring(i)) places_.push_back((*projection_)(place));
+      sweep_.add(places_, count_);
+    }
+    ++count_;
   }
   void add_nothing() { ++count_; }
 
   EdgeSweep& sweep() { return sweep_; }
 
  private:
-  template <typename Place>
-  void each_ring(Polygon const& polygon, Place const& place) {
-    place(polygon.outline);
-    sweep_.add(places_, count_);
-    for (Ring const& hole : polygon.holes) {
-      place(hole);
-      sweep_.add(places_, count_);
-    }
-    ++count_;
-  }
-
   EdgeSweep sweep_;
   Projection const* projection_ = nullptr;
   std::uint32_t count_ = 0;  // of polygons
@@ -229,29 +219,27 @@ struct Workspace {
 
 }  // namespace
 
-std::optional<std::span<LuminanceSums const>> swept_sums(Scene const& scene,
-                                                         Transmission const& transmission,
-                                                         ExactQuestion const& question,
-                                                         Projection const& projection,
-                                                         double most_steps) {
+std::optional<ExactAnswer> swept_sums(Scene const& scene, Transmission const& transmission,
+                                      ExactQuestion const& question, Projection const& projection,
+                                      double most_steps) {
   // Behind a pointer, or the address is looked up again wherever it is used.
   static thread_local auto const workspace = std::make_unique<Workspace>();
   auto& [outlines, light, sums] = *workspace;
   outlines.start(projection);
   light.start(question.through ? question.interiors.size() : 1);
-  outlines.add_receiver(scene[question.receiver].polygon, question.frame);
-  for (SurfaceId const id : question.casters) {
-    light.add(transmission.shade(id, question.towards_sun));
-    outlines.add(scene[id].polygon, 1.0);
+  outlines.add(question.receiver);
+  for (RelativePolygon const* const caster : question.casters) {
+    light.add(transmission.shade(caster->id(), question.towards_sun));
+    outlines.add(*caster);
     if (outlines.sweep().expected_steps() > most_steps) return std::nullopt;
   }
   if (question.through) {
-    for (SurfaceId const id : question.interiors) {
-      Polygon const& shape = scene[id].polygon;
-      auto const depth = depth_of(shape.outline, question.frame, question.towards_sun);
+    for (RelativePolygon const* const interior : question.interiors) {
+      Ring const& outline = scene[interior->id()].polygon.outline;
+      auto const depth = depth_of(outline, question.frame, question.towards_sun);
       light.add(depth.value_or(Depth{}));
       if (depth) {
-        outlines.add(shape, -1.0);
+        outlines.add(*interior);
       } else {
         outlines.add_nothing();
       }
@@ -261,7 +249,7 @@ std::optional<std::span<LuminanceSums const>> swept_sums(Scene const& scene,
   auto found = light.result();
   if (!found) return std::nullopt;
   sums = std::move(*found);
-  return sums;
+  return ExactAnswer{sums, question.casters.size()};
 }
 
 }  // namespace gpu_shading

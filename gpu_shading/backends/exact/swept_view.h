@@ -11,10 +11,8 @@ namespace gpu_shading {
 // As exact_sums(), of any outlines and any number of casters: a sweep of all edges (EdgeSweep).
 // Empty if it would take more than `most_steps`, behind very many combinations of schedules, or
 // where interior surfaces pass through one another.
-std::optional<std::span<LuminanceSums const>> swept_sums(Scene const& scene,
-                                                         Transmission const& transmission,
-                                                         ExactQuestion const& question,
-                                                         Projection const& projection,
-                                                         double most_steps);
+std::optional<ExactAnswer> swept_sums(Scene const& scene, Transmission const& transmission,
+                                      ExactQuestion const& question, Projection const& projection,
+                                      double most_steps);
 
 }  // namespace gpu_shading

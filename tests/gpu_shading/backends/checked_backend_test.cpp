@@ -68,7 +68,7 @@ class Rig {
         casters_(scene_),
         transmission_(scene_),
         meshes_(triangulate_all(scene_)),
-        receivers_(scene_, casters_, TileSize::fixed(resolution), 4096) {}
+        receivers_(scene_, casters_, transmission_, TileSize::fixed(resolution), 4096) {}
 
   BackendInput input() { return {scene_, meshes_, transmission_, statistics_}; }
   using Keep = CheckedBackend::Keep;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <map>
 #include <memory>
@@ -37,36 +38,32 @@ class ExactQuestions {
   std::optional<std::vector<LuminanceSums>> operator()(
       SunDirection sun, SurfaceId receiver, double most_steps = unlimited,
       std::vector<SurfaceId> const& interiors = {}) {
-    PlaneFrame const frame = plane_frame(scene_[receiver].polygon).value();
-    InView const in_view = casters_.in_view(scene_, receiver, frame, to_vector(sun));
-    auto const found = exact_sums(
-        scene_, transmission_,
-        {receiver, frame, to_vector(sun), in_view.casters, !interiors.empty(), interiors},
-        most_steps);
+    Asked const asked(*this, sun, receiver, interiors);
+    auto const found = exact_sums(scene_, transmission_, asked.question(), most_steps);
     if (!found) return std::nullopt;
-    return std::vector(found->begin(), found->end());
+    return std::vector(found->sums.begin(), found->sums.end());
   }
 
   // By intersections, and by a sweep; false if the first cannot answer.
   bool agree(SunDirection sun, SurfaceId receiver, std::vector<SurfaceId> const& interiors = {}) {
     constexpr double same = 1e-12;
-    PlaneFrame const frame = plane_frame(scene_[receiver].polygon).value();
-    InView const in_view = casters_.in_view(scene_, receiver, frame, to_vector(sun));
-    ExactQuestion const question{receiver,           frame,    to_vector(sun), in_view.casters,
-                                 !interiors.empty(), interiors};
-    Projection const projection(frame, to_vector(sun));
-    auto const convex = convex_sums(scene_, transmission_, question, projection);
-    if (!convex) return false;
-    auto const swept = swept_sums(scene_, transmission_, question, projection, unlimited);
-    if (!swept || convex->size() != swept->size()) {
+    Asked const asked(*this, sun, receiver, interiors);
+    ExactQuestion const question = asked.question();
+    Projection const projection(question.frame, question.towards_sun);
+    auto const by_intersections = convex_sums(scene_, transmission_, question, projection);
+    if (!by_intersections) return false;
+    auto const by_sweep = swept_sums(scene_, transmission_, question, projection, unlimited);
+    auto const convex = by_intersections->sums;
+    auto const swept = by_sweep ? by_sweep->sums : std::span<LuminanceSums const>();
+    if (convex.size() != swept.size()) {
       ADD_FAILURE() << "the sweep has another number of parts";
       return true;
     }
-    for (std::size_t i = 0; i < swept->size(); ++i) {
-      EXPECT_NEAR((*convex)[i].unscheduled, (*swept)[i].unscheduled, same) << i;
+    for (std::size_t i = 0; i < swept.size(); ++i) {
+      EXPECT_NEAR(convex[i].unscheduled, swept[i].unscheduled, same) << i;
       std::map<std::vector<std::pair<int, int>>, double> differences;
-      for (auto const& [powers, sum] : (*convex)[i].scheduled) differences[powers] += sum;
-      for (auto const& [powers, sum] : (*swept)[i].scheduled) differences[powers] -= sum;
+      for (auto const& [powers, sum] : convex[i].scheduled) differences[powers] += sum;
+      for (auto const& [powers, sum] : swept[i].scheduled) differences[powers] -= sum;
       for (auto const& [powers, difference] : differences) EXPECT_NEAR(difference, 0.0, same) << i;
     }
     return true;
@@ -87,6 +84,37 @@ class ExactQuestions {
   }
 
  private:
+  // A question, and the polygons that it is about.
+  class Asked {
+   public:
+    Asked(ExactQuestions const& from, SunDirection sun, SurfaceId receiver,
+          std::vector<SurfaceId> const& interiors)
+        : frame_(plane_frame(from.scene_[receiver].polygon).value()), towards_sun_(to_vector(sun)) {
+      auto const add = [&](SurfaceId id, RelativePolygon::Side side) {
+        return &polygons_.emplace_back(id, from.scene_[id].polygon, frame_, side);
+      };
+      receiver_ = add(receiver, RelativePolygon::Side::within);
+      InView const in_view = from.casters_.in_view(from.scene_, receiver, frame_, towards_sun_);
+      for (SurfaceId const id : in_view.casters) {
+        casters_.push_back(add(id, RelativePolygon::Side::in_front));
+      }
+      for (SurfaceId const id : interiors) {
+        interiors_.push_back(add(id, RelativePolygon::Side::behind));
+      }
+    }
+    ExactQuestion question() const {
+      return {*receiver_, frame_, towards_sun_, casters_, !interiors_.empty(), interiors_};
+    }
+
+   private:
+    PlaneFrame frame_;
+    glm::dvec3 towards_sun_;
+    std::deque<RelativePolygon> polygons_;
+    RelativePolygon const* receiver_;
+    std::vector<RelativePolygon const*> casters_;
+    std::vector<RelativePolygon const*> interiors_;
+  };
+
   Scene const& scene_;
   Casters casters_;
   Transmission transmission_;

@@ -80,8 +80,8 @@ TEST_P(CheckedDevice, DiffersByMuchLessThanTheTolerance) {
   // Back ends know tiles by their addresses.
   std::deque<Receivers> all_receivers;
   for (int const resolution : {64, 192, 512}) {
-    Receivers& receivers = all_receivers.emplace_back(scene, casters, TileSize::fixed(resolution),
-                                                      both.device().max_resolution);
+    Receivers& receivers = all_receivers.emplace_back(
+        scene, casters, transmission, TileSize::fixed(resolution), both.device().max_resolution);
     QuestionBatch batch({scene, casters, transmission, receivers, both, statistics, true});
     std::vector<Sunlit> answer(1);
     std::vector<Sunlit> inside(20);
