@@ -16,6 +16,30 @@ void set_bounds(ConvexPolygon& polygon) {
   }
 }
 
+// Of a cut along an axis.
+struct Limit {
+  int axis;
+  double at;
+  double side;  // 1: what is above it stays; -1: what is below
+};
+
+void cut(ConvexPolygon const& from, Limit const& limit, ConvexPolygon& to) {
+  to.count = 0;
+  glm::dvec2 last = from.vertices[from.count - 1];
+  double last_inside = limit.side * (last[limit.axis] - limit.at);
+  for (glm::dvec2 const& vertex : from.ring()) {
+    double const inside = limit.side * (vertex[limit.axis] - limit.at);
+    if ((inside > 0.0) != (last_inside > 0.0)) {
+      glm::dvec2& crossing = to.vertices[to.count++];
+      crossing = last + last_inside / (last_inside - inside) * (vertex - last);
+      crossing[limit.axis] = limit.at;
+    }
+    if (inside > 0.0) to.vertices[to.count++] = vertex;
+    last = vertex;
+    last_inside = inside;
+  }
+}
+
 }  // namespace
 
 double ConvexPolygon::area() const {
@@ -70,6 +94,15 @@ bool ConvexPolygon::contains(ConvexPolygon const& other) const {
   return true;
 }
 
+bool ConvexPolygon::is_rectangle() const {
+  constexpr double rounding = 1e-13;
+  glm::dvec2 const most = rounding * (high - low);
+  return count == 4 && std::ranges::all_of(ring(), [&](glm::dvec2 const& vertex) {
+    glm::dvec2 const off = glm::min(vertex - low, high - vertex);
+    return off.x <= most.x && off.y <= most.y;
+  });
+}
+
 Meeting intersect(ConvexPolygon const& polygon, ConvexPolygon const& other, ConvexPolygon& common) {
   if (polygon.count + other.count > ConvexPolygon::max_vertices) return Meeting::too_many;
   if (!polygon.may_meet(other)) return Meeting::apart;
@@ -108,6 +141,35 @@ Meeting intersect(ConvexPolygon const& polygon, ConvexPolygon const& other, Conv
     common.count = from->count;
   }
   set_bounds(common);
+  return whole ? Meeting::within : Meeting::across;
+}
+
+Meeting intersect_rectangle(ConvexPolygon const& rectangle, ConvexPolygon const& other,
+                            ConvexPolygon& common) {
+  if (!rectangle.may_meet(other)) return Meeting::apart;
+  ConvexPolygon other_half;
+  ConvexPolygon const* from = &other;
+  auto const cut_at = [&](Limit const& limit) {
+    ConvexPolygon& to = from == &common ? other_half : common;
+    cut(*from, limit, to);
+    from = &to;
+    return to.count >= 3;
+  };
+  for (int axis = 0; axis < 2; ++axis) {
+    double const low = rectangle.low[axis];
+    double const high = rectangle.high[axis];
+    if (other.low[axis] < low && !cut_at({axis, low, 1.0})) return Meeting::apart;
+    if (other.high[axis] > high && !cut_at({axis, high, -1.0})) return Meeting::apart;
+  }
+  if (from != &common) {
+    std::copy_n(from->vertices.begin(), from->count, common.vertices.begin());
+    common.count = from->count;
+  }
+  set_bounds(common);
+  constexpr double rounding = 1e-14;
+  glm::dvec2 const size = rectangle.high - rectangle.low;
+  bool const whole = common.low == rectangle.low && common.high == rectangle.high &&
+                     common.area() >= (1.0 - rounding) * size.x * size.y;
   return whole ? Meeting::within : Meeting::across;
 }
 

@@ -40,6 +40,8 @@ struct ConvexPolygon {
   bool is_convex() const;
 
   bool contains(ConvexPolygon const& other) const;
+  // Whether it is its own bounds, but for rounding.
+  bool is_rectangle() const;
   bool may_meet(ConvexPolygon const& other) const {
     return low.x < other.high.x && other.low.x < high.x && low.y < other.high.y &&
            other.low.y < high.y;
@@ -56,5 +58,8 @@ enum class Meeting {
 // Sets `common` to the part of a polygon that is inside of another, unless they are apart:
 // Sutherland & Hodgman (1974).
 Meeting intersect(ConvexPolygon const& polygon, ConvexPolygon const& other, ConvexPolygon& common);
+// The same for a polygon that is a rectangle, at less cost.
+Meeting intersect_rectangle(ConvexPolygon const& rectangle, ConvexPolygon const& other,
+                            ConvexPolygon& common);
 
 }  // namespace gpu_shading

@@ -122,6 +122,7 @@ class ConvexView {
   ConvexPolygon outline_;
   ConvexPolygon ring_;
   Pieces receiver_;
+  bool is_rectangle_ = false;  // the receiver's outline
   Pieces casters_;
   Pieces interiors_;
   std::vector<std::optional<Depth>> depths_;  // of interior surfaces
@@ -154,7 +155,8 @@ bool ConvexView::add_polygon(RelativePolygon const& polygon, ConvexPolygon const
     first.shape = outline_;
     first.is_all = true;
   } else {
-    Meeting const found = intersect(*within, outline_, first.shape);
+    Meeting const found = is_rectangle_ ? intersect_rectangle(*within, outline_, first.shape)
+                                        : intersect(*within, outline_, first.shape);
     first.is_all = found == Meeting::within;
     if (found == Meeting::apart) {
       to.drop_last_piece();
@@ -358,6 +360,7 @@ std::optional<ExactAnswer> ConvexView::answer(Scene const& scene, Transmission c
     return std::nullopt;
   }
   receiver_.end();
+  is_rectangle_ = receiver_[0].front().shape.is_rectangle();
   double whole = 0.0;
   for (Piece const& piece : receiver_[0]) whole += piece.sign * piece.shape.area();
   if (whole <= nothing || (question.through && receiver_[0].size() > 1)) return std::nullopt;
