@@ -80,35 +80,40 @@ Receiver::InSector const* Receivers::in_sector(SurfaceId id, glm::dvec3 const& t
   int const v = sector_of(glm::dot(frame.v, towards_sun) / cosine);
   if (receiver.sectors.empty()) receiver.sectors.resize(std::size_t{sectors} * sectors);
   auto const row = std::size_t{sectors} * static_cast<std::size_t>(u);
-  auto& known = receiver.sectors[row + static_cast<std::size_t>(v)];
-  if (!known.searched) {
-    known = {true, search(id, {{start_of(u), start_of(v)}, {start_of(u + 1), start_of(v + 1)}})};
+  std::uint16_t& known = receiver.sectors[row + static_cast<std::size_t>(v)];
+  if (known == Receiver::unknown) {
+    known = search(id, {{start_of(u), start_of(v)}, {start_of(u + 1), start_of(v + 1)}});
   }
-  return known.casters ? &*known.casters : nullptr;
+  return known == Receiver::many ? nullptr : &receiver.in_sectors[known - Receiver::first];
 }
 
-std::optional<Receiver::InSector> Receivers::search(SurfaceId id, SunSector const& sector) {
+std::uint16_t Receivers::search(SurfaceId id, SunSector const& sector) {
   constexpr std::size_t most = std::size_t{1} << 18U;  // some 60 MB
-  if (in_front_ > most) return std::nullopt;
   Receiver& receiver = find(id);
-  auto positions = casters_.in_sector(scene_, id, *receiver.frame, sector);
-  if (!positions) return std::nullopt;
-  Receiver::InSector found;
-  for (std::uint32_t const position : *positions) {
-    SurfaceId const caster = casters_.id(position);
-    auto const [place, is_new] = receiver.in_front.try_emplace(caster);
-    if (is_new) {
-      ++in_front_;
-      place->second.set(caster, scene_[caster].polygon, *receiver.frame,
-                        RelativePolygon::Side::in_front);
+  auto positions =
+      in_front_ > most ? std::nullopt : casters_.in_sector(scene_, id, *receiver.frame, sector);
+  if (!positions) return Receiver::many;
+  auto const same =
+      std::ranges::find(receiver.in_sectors, *positions, &Receiver::InSector::positions);
+  auto const number = static_cast<std::size_t>(same - receiver.in_sectors.begin());
+  if (same == receiver.in_sectors.end()) {
+    Receiver::InSector& added = receiver.in_sectors.emplace_back();
+    for (std::uint32_t const position : *positions) {
+      SurfaceId const caster = casters_.id(position);
+      auto const [place, is_new] = receiver.in_front.try_emplace(caster);
+      if (is_new) {
+        ++in_front_;
+        place->second.set(caster, scene_[caster].polygon, *receiver.frame,
+                          RelativePolygon::Side::in_front);
+      }
+      added.polygons.push_back(&place->second);
+      added.all_flat =
+          added.all_flat && !casters_.is_warped(position) && !transmission_.any_body({&caster, 1});
+      added.any_transmits = added.any_transmits || transmission_.transmits(caster);
     }
-    found.polygons.push_back(&place->second);
-    found.all_flat =
-        found.all_flat && !casters_.is_warped(position) && !transmission_.any_body({&caster, 1});
-    found.any_transmits = found.any_transmits || transmission_.transmits(caster);
+    added.positions = std::move(*positions);
   }
-  found.positions = std::move(*positions);
-  return found;
+  return static_cast<std::uint16_t>(Receiver::first + number);
 }
 
 int Receivers::side_for(Receiver const& receiver, Detail const& detail, bool screened) const {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <glm/vec3.hpp>
 #include <list>
 #include <map>
@@ -27,20 +28,21 @@ struct Receiver {
   RelativePolygon outline;
   double area = 0.0;       // exact, m2
   bool is_window = false;  // a question was about surfaces behind it
-  // The casters that may shade it from a sector of the sky.
+  // The casters that may shade it from sectors of the sky.
   struct InSector {
     std::vector<std::uint32_t> positions;  // as Casters has them
     std::vector<RelativePolygon const*> polygons;
     bool all_flat = true;  // neither warped nor with a body
     bool any_transmits = false;
   };
-  struct Sector {
-    bool searched = false;
-    std::optional<InSector> casters;  // if they are few
-  };
-  // The number of questions about it, and the sectors, once they are many.
+  // The number of questions about it, and once they are many, the casters by sector: neighbours
+  // have the same ones.
   std::size_t times = 0;
-  std::vector<Sector> sectors;
+  static constexpr std::uint16_t unknown = 0;  // of `sectors`
+  static constexpr std::uint16_t many = 1;
+  static constexpr std::uint16_t first = 2;  // of `in_sectors`
+  std::vector<std::uint16_t> sectors;
+  std::deque<InSector> in_sectors;
   std::unordered_map<SurfaceId, RelativePolygon> in_front;  // that were in a sector
   // Of a window: the interior surfaces of each question about other ones.
   struct Interiors {
@@ -90,8 +92,8 @@ class Receivers {
 
  private:
   Receiver& find(SurfaceId id);
-  // Empty if they are many.
-  std::optional<Receiver::InSector> search(SurfaceId id, SunSector const& sector);
+  // The number of a sector's casters, as Receiver::sectors has it.
+  std::uint16_t search(SurfaceId id, SunSector const& sector);
 
   Scene const& scene_;
   Casters const& casters_;
