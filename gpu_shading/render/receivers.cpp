@@ -12,11 +12,11 @@
 namespace gpu_shading {
 namespace {
 
-// Sectors along each axis: even parts of t / (1 + |t|), t being a tangent.
+// Sectors along each axis: even parts of t / (1 + |t|), t = sine / cosine being a tangent.
 constexpr int sectors = 32;
 
-int sector_of(double tangent) {
-  double const share = tangent / (1.0 + std::abs(tangent));
+int sector_of(double sine, double cosine) {
+  double const share = sine / (cosine + std::abs(sine));
   return std::clamp(static_cast<int>(0.5 * (share + 1.0) * sectors), 0, sectors - 1);
 }
 
@@ -76,8 +76,8 @@ Receiver::InSector const* Receivers::in_sector(SurfaceId id, glm::dvec3 const& t
   if (++receiver.times <= few) return nullptr;
   PlaneFrame const& frame = *receiver.frame;
   double const cosine = glm::dot(frame.normal, towards_sun);
-  int const u = sector_of(glm::dot(frame.u, towards_sun) / cosine);
-  int const v = sector_of(glm::dot(frame.v, towards_sun) / cosine);
+  int const u = sector_of(glm::dot(frame.u, towards_sun), cosine);
+  int const v = sector_of(glm::dot(frame.v, towards_sun), cosine);
   if (receiver.sectors.empty()) receiver.sectors.resize(std::size_t{sectors} * sectors);
   auto const row = std::size_t{sectors} * static_cast<std::size_t>(u);
   std::uint16_t& known = receiver.sectors[row + static_cast<std::size_t>(v)];

@@ -14,10 +14,9 @@
 namespace gpu_shading {
 namespace {
 
-bool is_flat_and_convex(std::span<glm::dvec3 const> ring) {
+bool is_flat_and_convex(std::span<glm::dvec3 const> ring, glm::dvec3 const& normal) {
   constexpr double flat = 1e-11;  // deviation
   if (ring.size() < 3 || ring.size() > ConvexPolygon::max_ring) return false;
-  glm::dvec3 const normal = newell(ring);
   double const most = flat * glm::length(normal);
   // Seen along the axis that its normal is nearest to.
   glm::dvec3 const size = glm::abs(normal);
@@ -40,7 +39,8 @@ void RelativePolygon::set(SurfaceId id, Polygon const& polygon, PlaneFrame const
   ends_.clear();
   add(polygon.outline, frame, side);
   for (Ring const& hole : polygon.holes) add(hole, frame, side);
-  is_convex_ = is_flat_and_convex(ring(0));
+  normal_ = newell(ring(0));
+  is_convex_ = is_flat_and_convex(ring(0), normal_);
   bool const is_caster = side == Side::in_front;
   if (is_caster && std::ranges::none_of(ring(0), [](auto const& p) { return p.z > coplanar; })) {
     ends_.assign(1, 0);

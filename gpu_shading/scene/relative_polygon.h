@@ -40,12 +40,15 @@ class RelativePolygon {
   }
   // The outline is flat and convex, so that it is from wherever it is seen.
   bool is_convex() const { return is_convex_; }
+  // The outline's vector by Newell, of twice its area.
+  glm::dvec3 const& normal() const { return normal_; }
 
  private:
   void add(Ring const& ring, PlaneFrame const& frame, Side side);
 
   SurfaceId id_ = 0;
   bool is_convex_ = false;
+  glm::dvec3 normal_{0.0};
   std::vector<glm::dvec3> points_;
   std::vector<std::uint32_t> ends_;
 };

@@ -63,13 +63,15 @@ class Pieces {
   std::vector<std::size_t> ends_;
 };
 
-// The bounds of a ring's projection, and its first vertices as far as there is room.
-void project(std::span<glm::dvec3 const> ring, Projection const& projection, ConvexPolygon& to) {
+// The bounds of a ring's projection, and its first vertices as far as there is room, or all of them
+// in reverse.
+void project(std::span<glm::dvec3 const> ring, Projection const& projection, bool reverse,
+             ConvexPolygon& to) {
   to.low = glm::dvec2(std::numeric_limits<double>::infinity());
   to.high = -to.low;
   to.count = std::min(ring.size(), ConvexPolygon::max_ring);
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    glm::dvec2 const place = projection(ring[i]);
+    glm::dvec2 const place = projection(ring[reverse ? ring.size() - 1 - i : i]);
     to.low = glm::min(to.low, place);
     to.high = glm::max(to.high, place);
     if (i < to.count) to.vertices[i] = place;
@@ -139,17 +141,15 @@ class ConvexView {
 
 bool ConvexView::add_polygon(RelativePolygon const& polygon, ConvexPolygon const* within,
                              Projection const& projection, Pieces& to) {
-  auto const is_seen = [&](std::size_t ring, ConvexPolygon& place) {
-    project(polygon.ring(ring), projection, place);
-    return within == nullptr ? place.count > 0 : place.may_meet(*within);
-  };
-  auto const is_known = [&](std::size_t ring, ConvexPolygon& place) {
-    if (polygon.ring(ring).size() > ConvexPolygon::max_ring) return false;
+  auto const becomes_convex = [&](std::size_t ring, ConvexPolygon& place) {
+    if (place.count < 3 || place.count < polygon.ring(ring).size()) return false;
     place.turn_counterclockwise();
-    return (ring == 0 && polygon.is_convex()) || (place.count >= 3 && place.is_convex());
+    return place.is_convex();
   };
-  if (!is_seen(0, outline_)) return true;
-  if (!is_known(0, outline_)) return false;
+  project(polygon.ring(0), projection, polygon.is_convex() && projection.turns(polygon.normal()),
+          outline_);
+  if (within == nullptr ? outline_.count == 0 : !outline_.may_meet(*within)) return true;
+  if (!polygon.is_convex() && !becomes_convex(0, outline_)) return false;
   Piece& first = to.add(1.0);
   if (within == nullptr) {
     first.shape = outline_;
@@ -164,9 +164,9 @@ bool ConvexView::add_polygon(RelativePolygon const& polygon, ConvexPolygon const
     }
   }
   for (std::size_t hole = 1; hole < polygon.rings(); ++hole) {
-    project(polygon.ring(hole), projection, ring_);
+    project(polygon.ring(hole), projection, false, ring_);
     if (ring_.count == 0) continue;
-    if (!is_known(hole, ring_) || !outline_.contains(ring_)) return false;
+    if (!becomes_convex(hole, ring_) || !outline_.contains(ring_)) return false;
     std::size_t const before = to.unended().size();
     Piece& piece = to.add(-1.0);
     if (within == nullptr) {

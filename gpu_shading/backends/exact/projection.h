@@ -19,6 +19,10 @@ class Projection {
   glm::dvec2 operator()(glm::dvec3 const& place) const {
     return glm::dvec2(place) - place.z * slide_;
   }
+  // Whether a flat ring with this vector by Newell is projected clockwise.
+  bool turns(glm::dvec3 const& normal) const {
+    return normal.z + glm::dot(slide_, glm::dvec2(normal)) < 0.0;
+  }
 
  private:
   glm::dvec2 slide_;
