@@ -49,6 +49,29 @@ double AnswerStore::Direction::area(ReceiverNumber receiver,
                                   : unscheduled + through_schedules(parts->second, factors);
 }
 
+std::vector<Sunlit> AnswerStore::Direction::sunlit(Interior const& answers) const {
+  std::vector<Sunlit> found(answers.count);
+  for (std::uint32_t i = 0; i < answers.count; ++i) {
+    found[i].projected_area = interior_area[answers.first + i];
+    auto const parts = interior_scheduled.find(answers.first + i);
+    if (parts != interior_scheduled.end()) found[i].scheduled = parts->second;
+  }
+  return found;
+}
+
+std::vector<float> AnswerStore::Direction::areas(Interior const& answers,
+                                                 std::span<double const> factors) const {
+  auto const first = interior_area.begin() + answers.first;
+  std::vector<float> areas(first, first + answers.count);
+  if (interior_scheduled.empty()) return areas;
+  for (std::uint32_t i = 0; i < answers.count; ++i) {
+    auto const parts = interior_scheduled.find(answers.first + i);
+    if (parts == interior_scheduled.end()) continue;
+    areas[i] = static_cast<float>(areas[i] + through_schedules(parts->second, factors));
+  }
+  return areas;
+}
+
 bool AnswerStore::make_room() {
   if (bytes_ + sizeof(Direction) <= max_bytes_) return false;
   directions_.clear();
@@ -90,11 +113,22 @@ void AnswerStore::copy(Direction const& from, ReceiverNumber known, Direction& d
   keep(direction, receiver, from.sunlit(known));
 }
 
-std::vector<Sunlit> const& AnswerStore::keep_interior(Direction& direction,
-                                                      std::uint64_t window_and_list,
-                                                      std::vector<Sunlit> answers) {
-  for (auto const& answer : answers) bytes_ += sizeof answer + bytes_of(answer.scheduled);
-  return direction.interior[window_and_list] = std::move(answers);
+AnswerStore::Direction::Interior const& AnswerStore::keep_interior(Direction& direction,
+                                                                   std::uint64_t window_and_list,
+                                                                   std::vector<Sunlit> answers) {
+  auto& areas = direction.interior_area;
+  auto const first = static_cast<std::uint32_t>(areas.size());
+  bytes_ += sizeof(Direction::Interior) + answers.size() * sizeof areas.front();
+  for (auto& answer : answers) {
+    areas.push_back(static_cast<float>(answer.projected_area));
+    if (answer.scheduled.empty()) continue;
+    bytes_ += bytes_of(answer.scheduled);
+    direction.interior_scheduled[static_cast<std::uint32_t>(areas.size()) - 1] =
+        std::move(answer.scheduled);
+  }
+  auto& kept = direction.interior[window_and_list];
+  kept = {first, static_cast<std::uint32_t>(answers.size())};
+  return kept;
 }
 
 }  // namespace gpu_shading::energyplus

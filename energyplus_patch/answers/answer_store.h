@@ -64,7 +64,15 @@ class AnswerStore {
     std::vector<float> projected_area;  // by receiver; not a number, or too short, where unknown
     // Parts that pass scheduled shades, of the receivers that have such in view.
     std::unordered_map<ReceiverNumber, std::vector<ScheduledPart>> scheduled;
-    std::unordered_map<std::uint64_t, std::vector<Sunlit>> interior;  // by window and list
+    // What the sun lights of a list of interior surfaces through a window: places in
+    // `interior_area`, and in `interior_scheduled` of the parts that pass scheduled shades.
+    struct Interior {
+      std::uint32_t first = 0;
+      std::uint32_t count = 0;
+    };
+    std::unordered_map<std::uint64_t, Interior> interior;  // by window and list
+    std::vector<float> interior_area;
+    std::unordered_map<std::uint32_t, std::vector<ScheduledPart>> interior_scheduled;
     bool recalled = false;  // some of it is from earlier runs (DiskCache)
     bool asked = false;     // by EnergyPlus
     bool sampled = false;   // as a sample; a direction that is neither was rendered ahead
@@ -77,6 +85,8 @@ class AnswerStore {
     Sunlit sunlit(ReceiverNumber receiver) const;
     // The same with the schedules' values.
     double area(ReceiverNumber receiver, std::span<double const> factors) const;
+    std::vector<Sunlit> sunlit(Interior const& answers) const;
+    std::vector<float> areas(Interior const& answers, std::span<double const> factors) const;
   };
 
   explicit AnswerStore(std::size_t max_bytes = default_max_bytes) : max_bytes_(max_bytes) {}
@@ -93,7 +103,7 @@ class AnswerStore {
   Direction const* find(SunDirection sun, std::uint32_t state) const;
 
   void keep(Direction& direction, ReceiverNumber receiver, Sunlit answer);
-  std::vector<Sunlit> const& keep_interior(Direction& direction, std::uint64_t window_and_list,
+  Direction::Interior const& keep_interior(Direction& direction, std::uint64_t window_and_list,
                                            std::vector<Sunlit> answers);
 
   // Keeps what another direction knows of a receiver, whose number is another there.

@@ -118,8 +118,8 @@ void add(Writer& writer, AnswerStore::Direction const& direction) {
   writer.add_count(direction.interior.size());
   for (auto const& [question, answers] : direction.interior) {
     writer.add(question);
-    writer.add_count(answers.size());
-    for (auto const& answer : answers) {
+    writer.add_count(answers.count);
+    for (auto const& answer : direction.sunlit(answers)) {
       writer.add(answer.projected_area);
       add(writer, answer.scheduled);
     }
@@ -199,7 +199,8 @@ void add_answers(SceneAnswers const& from, SceneAnswers& to) {
       }
     }
     for (auto const& [question, answers] : direction.interior) {
-      if (!there.interior.contains(question)) to.answers.keep_interior(there, question, answers);
+      if (there.interior.contains(question)) continue;
+      to.answers.keep_interior(there, question, direction.sunlit(answers));
     }
   });
 }
@@ -218,7 +219,7 @@ void check_answers(SceneAnswers const& set, AnswerLimits const& limits) {
       if (!limits.allow(direction.sunlit(number), areas[set.receivers[number]])) refuse();
     }
     for (auto const& [question, answers] : direction.interior) {
-      for (auto const& answer : answers) {
+      for (auto const& answer : direction.sunlit(answers)) {
         if (!limits.allow(answer, largest)) refuse();
       }
     }

@@ -230,17 +230,21 @@ std::size_t CachedRenderer::render(Directions const& directions,
 }
 
 // nullptr: unknown.
-std::vector<Sunlit> const* CachedRenderer::find_interior(Direction& direction, std::uint64_t hash) {
+AnswerStore::Direction::Interior const* CachedRenderer::find_interior(Direction& direction,
+                                                                      std::uint64_t hash) {
   auto const known = direction.interior.find(hash);
   if (known != direction.interior.end()) return &known->second;
   return cache_ ? cache_->recall_interior(known_, direction, hash) : nullptr;
 }
 
-std::vector<Sunlit> const& CachedRenderer::interior(InteriorKey const& key, AskedSun const& asked) {
+std::vector<float> CachedRenderer::interior(InteriorKey const& key, AskedSun const& asked,
+                                            std::span<double const> factors) {
   auto const& scene = renderer().scene();
   auto const window = key.question.window;
   auto& direction = direction_at(asked.sun);
-  if (auto const* const known = find_interior(direction, key.hash)) return *known;
+  if (auto const* const known = find_interior(direction, key.hash)) {
+    return direction.areas(*known, factors);
+  }
   windows_.try_emplace(window, scene, window).first->second.ask(scene, key, to_vector(asked.sun));
   // Questions by the directions at which they are unknown: of most windows, these are the same.
   std::vector<std::pair<Directions, std::vector<InteriorKey const*>>> batches;
@@ -267,27 +271,25 @@ std::vector<Sunlit> const& CachedRenderer::interior(InteriorKey const& key, Aske
     }
   }
   for (auto const& [directions, questions] : batches) render_interiors(directions, questions);
-  if (auto const* const known = find_interior(direction, key.hash)) return *known;
-  render_interiors({&direction}, {&key});
-  return *find_interior(direction, key.hash);
+  if (find_interior(direction, key.hash) == nullptr) render_interiors({&direction}, {&key});
+  return direction.areas(*find_interior(direction, key.hash), factors);
 }
 
 std::vector<std::vector<Sunlit>> CachedRenderer::interior_at(std::span<SunDirection const> suns,
                                                              InteriorKey const& key) {
   make_room();
-  std::vector<std::vector<Sunlit> const*> found;
+  Directions directions;
   Directions unknown;
   for (auto const sun : suns) {
     auto& direction = known_.answers.at(sun, state_);
-    found.push_back(find_interior(direction, key.hash));
-    if (found.back() == nullptr) unknown.push_back(&direction);
+    directions.push_back(&direction);
+    if (find_interior(direction, key.hash) == nullptr) unknown.push_back(&direction);
   }
   render_interiors(unknown, {&key});
-  auto next = unknown.begin();
   std::vector<std::vector<Sunlit>> rows;
-  rows.reserve(found.size());
-  for (auto const* row : found) {
-    rows.push_back(row == nullptr ? *find_interior(**next++, key.hash) : *row);
+  rows.reserve(directions.size());
+  for (auto* const direction : directions) {
+    rows.push_back(direction->sunlit(*find_interior(*direction, key.hash)));
   }
   return rows;
 }

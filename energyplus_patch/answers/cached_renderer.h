@@ -97,8 +97,8 @@ class CachedRenderer {
   // Areas that the sun lights inside through a window, in the order of the question's surfaces.
   // Unknown ones are rendered with what will probably be asked about all windows at the directions
   // ahead.
-  // Valid until the next call.
-  std::vector<Sunlit> const& interior(InteriorKey const& key, AskedSun const& asked);
+  std::vector<float> interior(InteriorKey const& key, AskedSun const& asked,
+                              std::span<double const> factors);
 
   // For samples: answers by direction, in order.
   std::vector<std::vector<Sunlit>> at(std::span<SunDirection const> suns,
@@ -128,7 +128,7 @@ class CachedRenderer {
   Direction& direction_at(SunDirection sun);
   void recall(Direction& direction);
   std::size_t render(Directions const& directions, std::span<ReceiverNumber const> receivers);
-  std::vector<Sunlit> const* find_interior(Direction& direction, std::uint64_t hash);
+  Direction::Interior const* find_interior(Direction& direction, std::uint64_t hash);
   // Renders these, which are unknown, and keeps their answers.
   void render_interiors(Directions const& directions,
                         std::vector<InteriorKey const*> const& questions);

@@ -83,15 +83,14 @@ void DiskCache::recall(SceneAnswers& run, AnswerStore::Direction& direction) {
   }
 }
 
-std::vector<Sunlit> const* DiskCache::recall_interior(SceneAnswers& run,
-                                                      AnswerStore::Direction& direction,
-                                                      std::uint64_t window_and_list) {
+AnswerStore::Direction::Interior const* DiskCache::recall_interior(
+    SceneAnswers& run, AnswerStore::Direction& direction, std::uint64_t window_and_list) {
   auto const* const found = find(run, direction);
   if (found == nullptr) return nullptr;
   auto const answers = found->interior.find(window_and_list);
   if (answers == found->interior.end()) return nullptr;
   note_recalled(direction);
-  return &run.answers.keep_interior(direction, window_and_list, answers->second);
+  return &run.answers.keep_interior(direction, window_and_list, found->sunlit(answers->second));
 }
 
 void DiskCache::store(SceneAnswers const& run) {

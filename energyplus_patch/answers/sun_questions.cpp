@@ -90,7 +90,7 @@ std::vector<float> SunQuestions::interior_areas(InteriorKey const& key,
                                                 std::span<double const> factors) {
   if (sky_) return std::vector<float>(key.question.interiors.size(), 0.0F);
   auto areas = sampled_interior_areas(key, factors);
-  if (areas.empty()) areas = areas_of(rendered_->interior(key, asked_sun()), factors);
+  if (areas.empty()) areas = rendered_->interior(key, asked_sun(), factors);
   auto const factor = static_cast<float>(for_this_sun(key.question.window));
   for (float& area : areas) area *= factor;
   return areas;

@@ -66,7 +66,7 @@ void expect_some_answers(SceneAnswers const& set) {
   EXPECT_FALSE(half->knows(0));
   EXPECT_EQ(half->area(1, std::vector<double>{0.5, 1.0, 0.5}), 2.5 + 0.5 * 0.5 * 0.125 + 0.125);
   ASSERT_TRUE(half->interior.contains(99));
-  auto const& interior = half->interior.at(99);
+  auto const interior = half->sunlit(half->interior.at(99));
   ASSERT_EQ(interior.size(), 2U);
   EXPECT_EQ(interior[0].projected_area, 0.75);
   ASSERT_EQ(interior[1].scheduled.size(), 2U);
@@ -152,7 +152,7 @@ TEST(DiskCache, RecallsWhatARunHasStoredWhateverItsNumbers) {
   EXPECT_FALSE(direction.knows(1));
   auto const* const interior = cache.recall_interior(run, direction, 99);
   ASSERT_TRUE(interior != nullptr);
-  EXPECT_EQ(interior->front().projected_area, 0.75);
+  EXPECT_EQ(direction.interior_area[interior->first], 0.75F);
   EXPECT_EQ(cache.recall_interior(run, direction, 98), nullptr);
   EXPECT_EQ(cache.directions_recalled(), 1U);
 

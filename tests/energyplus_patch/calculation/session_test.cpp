@@ -568,7 +568,7 @@ TEST(Session, CachedInteriorsAreNotRenderedAgain) {
   odd.states = known.states;
   known.answers.for_each([&](AnswerStore::Direction const& direction) {
     for (auto const& [question, answers] : direction.interior) {
-      std::vector<Sunlit> changed(answers.size());
+      std::vector<Sunlit> changed(answers.count);
       for (auto& answer : changed) answer.projected_area = 0.125;
       odd.answers.keep_interior(odd.answers.at(direction.sun, direction.state), question, changed);
     }
