@@ -89,7 +89,10 @@ class AnswerStore {
     std::vector<float> areas(Interior const& answers, std::span<double const> factors) const;
   };
 
-  explicit AnswerStore(std::size_t max_bytes = default_max_bytes) : max_bytes_(max_bytes) {}
+  explicit AnswerStore(std::size_t max_bytes = default_max_bytes) : max_bytes_(max_bytes) {
+    // Most directions are new: the fewer others are met where one would be, the fewer are read.
+    directions_.max_load_factor(0.25F);
+  }
 
   // Forgets everything, and returns true, when full. To be called before answers are added: their
   // memory may exceed the bound by what is added until the next call.

@@ -127,16 +127,35 @@ Renderer& CachedRenderer::renderer_in(std::uint32_t state) {
 
 // Directions that are held across this call are lost.
 void CachedRenderer::make_room() {
-  if (known_.answers.make_room()) last_ = nullptr;
+  if (!known_.answers.make_room()) return;
+  last_ = nullptr;
+  ahead_.clear();
 }
 
 // Most questions are about the direction of the one before: only the first of them looks it up.
 AnswerStore::Direction& CachedRenderer::direction_at(SunDirection sun) {
   if (last_ == nullptr || last_->state != state_ || !(last_->sun == sun)) {
     make_room();
-    last_ = &known_.answers.at(sun, state_);
+    last_ = directions_ahead({&sun, 1}).front();
+    ahead_.pop_back();
   }
   return *last_;
+}
+
+// Those that are known need not be searched for again.
+CachedRenderer::Directions CachedRenderer::directions_ahead(std::span<SunDirection const> suns) {
+  Directions directions;
+  directions.reserve(suns.size());
+  bool follows = true;
+  for (auto const sun : suns) {
+    auto const place = directions.size();
+    follows = follows && place < ahead_.size();
+    auto* const next = follows ? ahead_[ahead_.size() - 1 - place] : nullptr;
+    follows = follows && next->state == state_ && next->sun == sun;
+    directions.push_back(follows ? next : &known_.answers.at(sun, state_));
+  }
+  if (!follows) ahead_.assign(directions.rbegin(), directions.rend());
+  return directions;
 }
 
 void CachedRenderer::recall(Direction& direction) {
@@ -149,12 +168,8 @@ double CachedRenderer::area(SurfaceId receiver, AskedSun const& asked,
   auto& direction = direction_at(asked.sun);
   if (!direction.knows(number)) recall(direction);
   if (!direction.knows(number)) {
-    Directions directions;
-    for (auto const sun : first_of(asked.ahead, known_.receivers.size())) {
-      auto& next = known_.answers.at(sun, state_);
-      recall(next);
-      directions.push_back(&next);
-    }
+    auto directions = directions_ahead(first_of(asked.ahead, known_.receivers.size()));
+    for (auto* const next : directions) recall(*next);
     directions.push_back(&direction);
     // EnergyPlus asks about some receivers never, which shows at the sky's patches.
     std::vector<ReceiverNumber> wanted(known_.receivers.size());
@@ -249,8 +264,8 @@ std::vector<float> CachedRenderer::interior(InteriorKey const& key, AskedSun con
   // Questions by the directions at which they are unknown: of most windows, these are the same.
   std::vector<std::pair<Directions, std::vector<InteriorKey const*>>> batches;
   std::vector<std::pair<Direction*, glm::dvec3>> ahead{{&direction, to_vector(asked.sun)}};
-  for (auto const sun : first_of(asked.ahead, windows_.size())) {
-    ahead.emplace_back(&known_.answers.at(sun, state_), to_vector(sun));
+  for (auto* const next : directions_ahead(first_of(asked.ahead, windows_.size()))) {
+    ahead.emplace_back(next, to_vector(next->sun));
   }
   for (auto const& [other, asked_window] : windows_) {
     std::vector<std::pair<InteriorKey const*, Directions>> foreseen;

@@ -126,6 +126,8 @@ class CachedRenderer {
   ReceiverNumber number_of(SurfaceId receiver);
   void make_room();
   Direction& direction_at(SunDirection sun);
+  // The directions of some suns, which follow the last one that was asked about.
+  Directions directions_ahead(std::span<SunDirection const> suns);
   void recall(Direction& direction);
   std::size_t render(Directions const& directions, std::span<ReceiverNumber const> receivers);
   Direction::Interior const* find_interior(Direction& direction, std::uint64_t hash);
@@ -141,6 +143,7 @@ class CachedRenderer {
   std::size_t positions_ = 0;  // at the end of a state
   bool deployed_ = false;
   Direction* last_ = nullptr;                           // asked about last
+  Directions ahead_;                                    // known to follow, the next at the end
   std::vector<std::optional<ReceiverNumber>> numbers_;  // of receivers, by surface
   std::vector<bool> asked_;                             // by receiver's number
   std::unordered_map<SurfaceId, AskedWindow> windows_;

@@ -41,13 +41,19 @@ bool are_same(SunDirection a, SunDirection b) {
 
 }  // namespace
 
-std::optional<PredictedDirections::DayStep> PredictedDirections::find(SunDirection sun) const {
-  auto const last = by_altitude_.upper_bound(sun.altitude + rounding);
-  for (auto found = by_altitude_.lower_bound(sun.altitude - rounding); found != last; ++found) {
-    auto const [day, step] = found->second;
-    if (are_same(days_[day][step], sun)) return found->second;
+std::span<SunDirection const> PredictedDirections::find(SunDirection sun, double latitude) const {
+  constexpr double near = 2.0 * rounding;  // of two directions in single precision
+  auto const now = to_hour_direction(sun, latitude);
+  auto const last = by_declination_.upper_bound(now.declination + near);
+  auto found = by_declination_.lower_bound(now.declination - near);
+  for (; found != last; ++found) {
+    auto const& day = found->second;
+    double const step = std::round((now.hour_angle - day.first.hour_angle) / day.step);
+    if (!(step >= 0.0 && step < static_cast<double>(day.directions.size()))) continue;
+    auto const rest = std::span(day.directions).subspan(static_cast<std::size_t>(step));
+    if (are_same(rest.front(), sun)) return rest;
   }
-  return std::nullopt;
+  return {};
 }
 
 SunDirection PredictedDirections::snap_to_known(SunDirection sun, Latitude const& latitude) {
@@ -56,18 +62,14 @@ SunDirection PredictedDirections::snap_to_known(SunDirection sun, Latitude const
     ahead_ = std::span(sky()).subspan(patch + 1, patches - 1);
     return sky()[patch];
   }
-  if (!ahead_.empty() && are_same(ahead_.front(), sun)) {
+  bool const as_predicted = !ahead_.empty() && are_same(ahead_.front(), sun);
+  if (!as_predicted) ahead_ = by_declination_.empty() ? ahead_.first(0) : find(sun, latitude());
+  if (!ahead_.empty()) {
     ++met_;
     sun = ahead_.front();
     ahead_ = ahead_.subspan(1);
-  } else if (auto const found = find(sun)) {
-    auto const& day = days_[found->day];
-    ++met_;
-    ahead_ = std::span(day).subspan(found->step + 1);
-    sun = day[found->step];
-  } else {
-    ahead_ = {};
-    if (latitude && !predictions_fail()) predict_day(sun, latitude());
+  } else if (latitude && !predictions_fail()) {
+    predict_day(sun, latitude());
   }
   last_ = sun;
   return sun;
@@ -95,25 +97,22 @@ void PredictedDirections::predict_day(SunDirection sun, double latitude) {
   auto now = to_hour_direction(sun, latitude);
   learn_step(now, latitude);
   if (!step_) return;
-  Day day{sun};
+  Day day{now, *step_, {sun}};
+  auto& directions = day.directions;
   std::size_t known_steps = 0;  // after the first
   for (now.hour_angle += *step_; now.hour_angle <= pi; now.hour_angle += *step_) {
     auto const next = to_direction(now, latitude);
     if (next.altitude <= 0.0) break;
     // The first day was predicted from its second direction on, and is repeated.
-    auto const known = known_steps + 1 == day.size() ? find(next) : std::nullopt;
-    if (known) ++known_steps;
-    day.push_back(known ? days_[known->day][known->step] : next);
+    auto const known = known_steps + 1 == directions.size() ? find(next, latitude)
+                                                            : std::span<SunDirection const>();
+    if (!known.empty()) ++known_steps;
+    directions.push_back(known.empty() ? next : known.front());
   }
-  predicted_ += day.size() - 1 - known_steps;
-  if (day.size() == 1) return;
-  days_.push_back(std::move(day));
-  auto const& kept = days_.back();
-  for (std::size_t step = 0; step < kept.size(); ++step) {
-    if (step > 0 && step <= known_steps) continue;
-    by_altitude_.emplace(kept[step].altitude, DayStep{days_.size() - 1, step});
-  }
-  ahead_ = std::span(kept).subspan(1);
+  predicted_ += directions.size() - 1 - known_steps;
+  if (directions.size() == 1) return;
+  auto const kept = by_declination_.emplace(day.first.declination, std::move(day));
+  ahead_ = std::span(kept->second.directions).subspan(1);
 }
 
 }  // namespace gpu_shading::energyplus

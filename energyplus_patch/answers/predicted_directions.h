@@ -1,6 +1,5 @@
 #pragma once
 
-#include <deque>
 #include <functional>
 #include <map>
 #include <optional>
@@ -31,19 +30,19 @@ class PredictedDirections {
   std::span<SunDirection const> ahead() const { return ahead_; }
 
  private:
-  using Day = std::vector<SunDirection>;
-  struct DayStep {
-    std::size_t day;
-    std::size_t step;
+  struct Day {
+    HourDirection first;
+    double step = 0.0;  // of the hour angle
+    std::vector<SunDirection> directions;
   };
 
-  std::optional<DayStep> find(SunDirection sun) const;
+  // That direction and those after it on the day of which it is one; empty if there is none.
+  std::span<SunDirection const> find(SunDirection sun, double latitude) const;
   bool predictions_fail() const;
   void predict_day(SunDirection sun, double latitude);
   void learn_step(HourDirection now, double latitude);
 
-  std::deque<Day> days_;
-  std::multimap<double, DayStep> by_altitude_;
+  std::multimap<double, Day> by_declination_;
   std::span<SunDirection const> ahead_;
   std::optional<SunDirection> last_;  // of a day
   std::optional<double> step_;        // step of the hour angle, radians
