@@ -98,9 +98,9 @@ bool ConvexPolygon::is_rectangle() const {
   constexpr double rounding = 1e-13;
   glm::dvec2 const most = rounding * (high - low);
   return count == 4 && std::ranges::all_of(ring(), [&](glm::dvec2 const& vertex) {
-    glm::dvec2 const off = glm::min(vertex - low, high - vertex);
-    return off.x <= most.x && off.y <= most.y;
-  });
+           glm::dvec2 const off = glm::min(vertex - low, high - vertex);
+           return off.x <= most.x && off.y <= most.y;
+         });
 }
 
 Meeting intersect(ConvexPolygon const& polygon, ConvexPolygon const& other, ConvexPolygon& common) {
