@@ -52,7 +52,7 @@ void QuestionBatch::start() {
   viewed_.clear();
   at_once_ = min_asked;
   parts_.backend.forget();
-  parts_.receivers.forget_many_tiles();
+  parts_.receivers.forget_many();
 }
 
 void QuestionBatch::ask(Question const& question) {
@@ -127,21 +127,12 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   };
   bool const tried =
       asked.in_sector != nullptr && asked.in_sector->all_flat && !parts_.samples_only;
-  if (tried) {
-    static thread_local std::vector<RelativePolygon const*> counted;
-    auto& polygons = counted;
-    polygons.clear();
-    for (std::size_t i = 0; i < asked.in_sector->positions.size(); ++i) {
-      if (casters.counts_at(asked.in_sector->positions[i], question.towards_sun)) {
-        polygons.push_back(asked.in_sector->polygons[i]);
-      }
-    }
-    if (auto const in_view = answer_exactly(asked, polygons, few_steps)) {
-      found.answered = true;
-      found.casters = *in_view;
-      found.transmits = asked.in_sector->any_transmits;
-      return found;
-    }
+  auto const counted = tried ? answer_in_sector(asked) : std::nullopt;
+  if (counted) {
+    found.answered = true;
+    found.casters = *counted;
+    found.transmits = asked.in_sector->any_transmits;
+    return found;
   }
   double const enough = parts_.receivers.size().enough();
   auto const few = may_be_crowd_ ? parts_.backend.few_casters(question.through) : std::nullopt;
@@ -202,6 +193,18 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   double const most_steps = sample_cost(detail, found.side, found.transmits, interiors);
   found.answered = may_be_exact && most_steps > few_steps && answer_of(most_steps);
   return found;
+}
+
+std::optional<std::size_t> QuestionBatch::answer_in_sector(Asked const& asked) const {
+  static thread_local std::vector<RelativePolygon const*> kept;
+  auto& counted = kept;
+  counted.clear();
+  for (std::size_t i = 0; i < asked.in_sector->positions.size(); ++i) {
+    if (parts_.casters.counts_at(asked.in_sector->positions[i], asked.question.towards_sun)) {
+      counted.push_back(asked.in_sector->polygons[i]);
+    }
+  }
+  return answer_exactly(asked, counted, few_steps);
 }
 
 std::optional<std::size_t> QuestionBatch::answer_exactly(Asked const& asked,

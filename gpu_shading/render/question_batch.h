@@ -93,7 +93,9 @@ class QuestionBatch {
   // Answers the question if that costs little. What that takes is free again before the next one,
   // or its memory would be scattered.
   Found find(Asked const& asked) const;
-  // Without samples; the number of casters, if it can.
+  // Without samples; the number of casters, if it can. Of a sector that is known, all of which are
+  // flat, or of these.
+  std::optional<std::size_t> answer_in_sector(Asked const& asked) const;
   std::optional<std::size_t> answer_exactly(Asked const& asked, RelativePolygons casters,
                                             double most_steps) const;
   // Valid until the thread's next question.

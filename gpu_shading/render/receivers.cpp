@@ -60,6 +60,7 @@ std::span<RelativePolygon const* const> Receivers::behind(SurfaceId id,
     return std::ranges::equal(other.polygons, interiors, {}, &RelativePolygon::id);
   });
   if (same != known.end()) return same->pointers;
+  ++behind_;
   Receiver::Interiors& added = known.emplace_back();
   for (SurfaceId const interior : interiors) {
     added.polygons.emplace_back(interior, surface(interior).polygon, *find(id).frame,
@@ -133,13 +134,16 @@ Tile& Receivers::tile(SurfaceId id, int side, TileLay const& lay) {
   return receiver.tiles.emplace(kind, std::move(tile)).first->second;
 }
 
-void Receivers::forget_many_tiles() {
+void Receivers::forget_many() {
   constexpr std::size_t many = 10000;
-  if (tiles_ < many) return;
+  if (tiles_ < many && behind_ < many + receivers_.size()) return;
   for (auto const& receiver : receivers_) {
-    if (receiver) receiver->tiles.clear();
+    if (!receiver) continue;
+    receiver->tiles.clear();
+    receiver->seen_through.clear();
   }
   tiles_ = 0;
+  behind_ = 0;
 }
 
 void Receivers::bound(SurfaceId id, Tile& tile) {

@@ -83,10 +83,11 @@ class Receivers {
   TileSize const& size() const { return size_; }
   // Pixels per side for the detail in view. The receiver must have an area.
   int side_for(Receiver const& receiver, Detail const& detail, bool screened) const;
-  // The address is valid until forget_many_tiles().
+  // The address is valid until forget_many().
   Tile& tile(SurfaceId id, int side, TileLay const& lay);
-  // Tiles that are turned along blades may be as many as directions.
-  void forget_many_tiles();
+  // Tiles that are turned along blades may be as many as directions, and lists of interior surfaces
+  // as many as questions.
+  void forget_many();
   // The tile of the bounding rectangle, for a receiver that turned out to have no pixels.
   void bound(SurfaceId id, Tile& tile);
 
@@ -102,6 +103,7 @@ class Receivers {
   int max_side_;
   std::size_t tiles_ = 0;
   std::size_t in_front_ = 0;                          // polygons in front of all receivers
+  std::size_t behind_ = 0;                            // lists of interior surfaces of all receivers
   std::vector<std::unique_ptr<Receiver>> receivers_;  // by id, once they are asked about
 };
 

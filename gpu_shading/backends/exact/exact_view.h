@@ -30,9 +30,9 @@ struct ExactAnswer {
 };
 
 // The luminance of a receiver, or of each interior surface, without samples: outlines are projected
-// onto its plane along the sun's rays; then a few convex ones are
-// intersected (convex_sums), and others swept (swept_sums). In parts of the receiver's own area, so
-// that 1 is all of it. Exact to about 1e-12.
+// onto its plane along the sun's rays; then a few convex ones are intersected (convex_sums), and
+// others swept (swept_sums). In parts of the receiver's own area, so that 1 is all of it. Exact to
+// about 1e-12.
 //
 // Empty if a sweep would take more than `most_steps`, or if neither can answer. Valid until the
 // thread's next question.
