@@ -136,10 +136,7 @@ Meeting intersect(ConvexPolygon const& polygon, ConvexPolygon const& other, Conv
     from = &to;
   }
   bool const whole = from == &polygon;
-  if (from != &common) {
-    std::copy_n(from->vertices.begin(), from->count, common.vertices.begin());
-    common.count = from->count;
-  }
+  if (from != &common) common = *from;
   set_bounds(common);
   return whole ? Meeting::within : Meeting::across;
 }
@@ -161,10 +158,7 @@ Meeting intersect_rectangle(ConvexPolygon const& rectangle, ConvexPolygon const&
     if (other.low[axis] < low && !cut_at({axis, low, 1.0})) return Meeting::apart;
     if (other.high[axis] > high && !cut_at({axis, high, -1.0})) return Meeting::apart;
   }
-  if (from != &common) {
-    std::copy_n(from->vertices.begin(), from->count, common.vertices.begin());
-    common.count = from->count;
-  }
+  if (from != &common) common = *from;
   set_bounds(common);
   constexpr double rounding = 1e-14;
   glm::dvec2 const size = rectangle.high - rectangle.low;

@@ -62,9 +62,10 @@ void QuestionBatch::ask(Question const& question) {
   if (!seen.frame || question.answers.empty()) return;
   double const cosine = glm::dot(seen.frame->normal, question.towards_sun);
   if (cosine <= edge_on) return;
-  asked_.push_back({question, &seen, cosine,
-                    parts_.receivers.in_sector(question.receiver, question.towards_sun),
-                    parts_.receivers.behind(question.receiver, question.interiors)});
+  asked_.push_back(
+      {question, &seen, cosine, parts_.receivers.in_sector(question.receiver, question.towards_sun),
+       question.through ? parts_.receivers.behind(question.receiver, question.interiors)
+                        : std::span<RelativePolygon const>()});
   if (asked_.size() < at_once_) return;
   cull();
   if (viewed_.size() >= max_viewed) finish();
@@ -207,8 +208,7 @@ std::optional<std::size_t> QuestionBatch::answer_in_sector(Asked const& asked) c
   return answer_exactly(asked, counted, few_steps);
 }
 
-std::optional<std::size_t> QuestionBatch::answer_exactly(Asked const& asked,
-                                                         RelativePolygons casters,
+std::optional<std::size_t> QuestionBatch::answer_exactly(Asked const& asked, Polygons casters,
                                                          double most_steps) const {
   Receiver const& seen = *asked.receiver;
   auto const found = exact_sums(parts_.scene, parts_.transmission,
@@ -220,8 +220,8 @@ std::optional<std::size_t> QuestionBatch::answer_exactly(Asked const& asked,
   return found->casters;
 }
 
-RelativePolygons QuestionBatch::relative(std::span<SurfaceId const> casters,
-                                         Receiver const& receiver) const {
+QuestionBatch::Polygons QuestionBatch::relative(std::span<SurfaceId const> casters,
+                                                Receiver const& receiver) const {
   // Kept from one question to the next.
   struct Workspace {
     std::vector<RelativePolygon> polygons;

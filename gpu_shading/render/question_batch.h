@@ -56,7 +56,7 @@ class QuestionBatch {
     Receiver const* receiver;
     double cosine;                        // of the angle of incidence
     Receiver::InSector const* in_sector;  // casters, if they are known
-    RelativePolygons interiors;
+    std::span<RelativePolygon const> interiors;
   };
   // A question whose view is being rasterised.
   struct Viewed {
@@ -96,10 +96,11 @@ class QuestionBatch {
   // Without samples; the number of casters, if it can. Of a sector that is known, all of which are
   // flat, or of these.
   std::optional<std::size_t> answer_in_sector(Asked const& asked) const;
-  std::optional<std::size_t> answer_exactly(Asked const& asked, RelativePolygons casters,
+  using Polygons = std::span<RelativePolygon const* const>;
+  std::optional<std::size_t> answer_exactly(Asked const& asked, Polygons casters,
                                             double most_steps) const;
   // Valid until the thread's next question.
-  RelativePolygons relative(std::span<SurfaceId const> casters, Receiver const& receiver) const;
+  Polygons relative(std::span<SurfaceId const> casters, Receiver const& receiver) const;
   // Empty unless all casters in view repeat, and far outnumber these rows.
   std::optional<Blades> blades(Asked const& asked) const;
   // Adds the view, or counts what was answered.

@@ -53,21 +53,21 @@ Receiver const& Receivers::window(SurfaceId id) {
   return receiver;
 }
 
-std::span<RelativePolygon const* const> Receivers::behind(SurfaceId id,
-                                                          std::span<SurfaceId const> interiors) {
-  auto& known = find(id).seen_through;
-  auto const same = std::ranges::find_if(known, [&](Receiver::Interiors const& other) {
-    return std::ranges::equal(other.polygons, interiors, {}, &RelativePolygon::id);
+std::span<RelativePolygon const> Receivers::behind(SurfaceId id,
+                                                   std::span<SurfaceId const> interiors) {
+  Receiver& receiver = find(id);
+  auto& known = receiver.seen_through;
+  auto const same = std::ranges::find_if(known, [&](auto const& other) {
+    return std::ranges::equal(other, interiors, {}, &RelativePolygon::id);
   });
-  if (same != known.end()) return same->pointers;
+  if (same != known.end()) return *same;
   ++behind_;
-  Receiver::Interiors& added = known.emplace_back();
+  auto& added = known.emplace_back();
   for (SurfaceId const interior : interiors) {
-    added.polygons.emplace_back(interior, surface(interior).polygon, *find(id).frame,
-                                RelativePolygon::Side::behind);
+    added.emplace_back(interior, surface(interior).polygon, *receiver.frame,
+                       RelativePolygon::Side::behind);
   }
-  for (RelativePolygon const& polygon : added.polygons) added.pointers.push_back(&polygon);
-  return added.pointers;
+  return added;
 }
 
 Receiver::InSector const* Receivers::in_sector(SurfaceId id, glm::dvec3 const& towards_sun) {

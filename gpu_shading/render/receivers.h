@@ -45,11 +45,7 @@ struct Receiver {
   std::deque<InSector> in_sectors;
   std::unordered_map<SurfaceId, RelativePolygon> in_front;  // that were in a sector
   // Of a window: the interior surfaces of each question about other ones.
-  struct Interiors {
-    std::vector<RelativePolygon> polygons;
-    std::vector<RelativePolygon const*> pointers;
-  };
-  std::list<Interiors> seen_through;
+  std::list<std::vector<RelativePolygon>> seen_through;
   // Tiles created so far, by requested resolution, slope and stretch.
   std::map<std::tuple<int, double, double>, Tile> tiles;
 };
@@ -71,9 +67,8 @@ class Receivers {
   // Throws Error if there is no such surface.
   Receiver const& operator[](SurfaceId id) { return find(id); }
   Receiver const& window(SurfaceId id);
-  // What is behind the plane of a receiver that has one.
-  std::span<RelativePolygon const* const> behind(SurfaceId id,
-                                                 std::span<SurfaceId const> interiors);
+  // What is behind the plane of a receiver that has one. Valid until forget_many().
+  std::span<RelativePolygon const> behind(SurfaceId id, std::span<SurfaceId const> interiors);
   Surface const& surface(SurfaceId id) const;
 
   // Casters that include all in view of a receiver from this direction, which is in front of its

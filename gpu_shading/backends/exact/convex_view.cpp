@@ -223,8 +223,8 @@ bool ConvexView::add_casters(Transmission const& transmission, ExactQuestion con
 bool ConvexView::add_interiors(Scene const& scene, ExactQuestion const& question,
                                Projection const& projection) {
   ConvexPolygon const& window = receiver_[0].front().shape;
-  for (RelativePolygon const* const interior : question.interiors) {
-    if (!add_polygon(*interior, &window, projection, interiors_)) return false;
+  for (RelativePolygon const& interior : question.interiors) {
+    if (!add_polygon(interior, &window, projection, interiors_)) return false;
     interiors_.end();
     std::size_t const last = interiors_.polygons() - 1;
     if (interiors_[last].empty()) continue;
@@ -235,7 +235,7 @@ bool ConvexView::add_interiors(Scene const& scene, ExactQuestion const& question
       is_alone = false;
       for (std::size_t const k : {i, last}) {
         if (depths_[k]) continue;
-        Ring const& outline = scene[question.interiors[k]->id()].polygon.outline;
+        Ring const& outline = scene[question.interiors[k].id()].polygon.outline;
         depths_[k] = depth_of(outline, question.frame, question.towards_sun);
         if (!depths_[k]) return false;
       }

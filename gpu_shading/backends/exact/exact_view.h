@@ -12,16 +12,14 @@
 
 namespace gpu_shading {
 
-using RelativePolygons = std::span<RelativePolygon const* const>;
-
 // A receiver at one direction of the sun, and what may shade it.
 struct ExactQuestion {
   RelativePolygon const& receiver;
   PlaneFrame const& frame;
-  glm::dvec3 towards_sun{0.0};  // in front of the receiver
-  RelativePolygons casters;     // flat, and no perforated screens
-  bool through = false;         // the receiver is a window, and the sun may reach these behind it:
-  RelativePolygons interiors;
+  glm::dvec3 towards_sun{0.0};                      // in front of the receiver
+  std::span<RelativePolygon const* const> casters;  // flat, and no perforated screens
+  bool through = false;  // the receiver is a window, and the sun may reach these behind it:
+  std::span<RelativePolygon const> interiors;
 };
 
 struct ExactAnswer {

@@ -234,12 +234,12 @@ std::optional<ExactAnswer> swept_sums(Scene const& scene, Transmission const& tr
     if (outlines.sweep().expected_steps() > most_steps) return std::nullopt;
   }
   if (question.through) {
-    for (RelativePolygon const* const interior : question.interiors) {
-      Ring const& outline = scene[interior->id()].polygon.outline;
+    for (RelativePolygon const& interior : question.interiors) {
+      Ring const& outline = scene[interior.id()].polygon.outline;
       auto const depth = depth_of(outline, question.frame, question.towards_sun);
       light.add(depth.value_or(Depth{}));
       if (depth) {
-        outlines.add(*interior);
+        outlines.add(interior);
       } else {
         outlines.add_nothing();
       }

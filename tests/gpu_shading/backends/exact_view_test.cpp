@@ -99,7 +99,7 @@ class ExactQuestions {
         casters_.push_back(add(id, RelativePolygon::Side::in_front));
       }
       for (SurfaceId const id : interiors) {
-        interiors_.push_back(add(id, RelativePolygon::Side::behind));
+        interiors_.emplace_back(id, from.scene_[id].polygon, frame_, RelativePolygon::Side::behind);
       }
     }
     ExactQuestion question() const {
@@ -112,7 +112,7 @@ class ExactQuestions {
     std::deque<RelativePolygon> polygons_;
     RelativePolygon const* receiver_;
     std::vector<RelativePolygon const*> casters_;
-    std::vector<RelativePolygon const*> interiors_;
+    std::vector<RelativePolygon> interiors_;
   };
 
   Scene const& scene_;
