@@ -7,6 +7,7 @@
 
 #include "antialias/aliasing.h"
 #include "gpu_shading/perforated_screen.h"
+#include "view/tile_size.h"
 
 namespace gpu_shading {
 namespace {
@@ -102,8 +103,10 @@ TileGrid usual_grid(Tile const& tile, SampleUse use) {
   if (use == SampleUse::luminance) return pixels_of(tile);
   // Smaller tiles have too few edges to alias with 9 columns to a row.
   constexpr int large = 128;
-  int const rows = std::max((tile.side + 1) / 2, std::min(tile.side, 96 + tile.side * 3 / 8));
-  int const columns_a_row = use == SampleUse::counting ? 4 : tile.side < large ? 9 : 17;
+  int const rows = TileSize::rows_on(tile.side);
+  if (use == SampleUse::counting) return golden_grid(rows, 4, tile.lay.slope);
+  constexpr int min_columns = 2048;
+  int const columns_a_row = std::max(tile.side < large ? 9 : 17, min_columns / rows);
   return golden_grid(rows, columns_a_row, tile.lay.slope);
 }
 
@@ -170,7 +173,8 @@ TileGrid sample_grid(Tile const& tile, View const& view, ScreensInView const& sc
 std::optional<TileGrid> grid_along(SampledRepeats const& blades, View const& view, double slope,
                                    int rows, double max_error) {
   constexpr std::size_t max_kinds = 6;
-  constexpr int columns_a_row = 9;
+  // Blades run along the rows, so that columns need not be fine.
+  int const columns_a_row = std::clamp(8192 / rows, 1, 9);
   Aliasing aliasing(view, OutlineSpectrum(slope));
   aliasing.add(blades);
   if (aliasing.none() || aliasing.kinds_of_blades() > max_kinds) return std::nullopt;

@@ -66,9 +66,7 @@ enum class SampleUse {
 
 // The grid on which the CPU samples a tile. A row's span costs the same however fine its columns
 // are, and its ends are nearly exact with many of them: only the number of rows matters.
-// - Coverage: as many rows as a small tile has pixels, down to half as many on a large one, and 9
-// or
-//   17 times as many columns.
+// - Coverage: TileSize::rows_on() rows, and 9 or 17 times as many columns, at least 576.
 // - Counting: these rows, and 4 times as many columns.
 // - Luminance: the tile's pixels.
 // - Perforated sheets: nearly as many samples as the tile has pixels.

@@ -96,8 +96,10 @@ std::optional<QuestionBatch::Blades> QuestionBatch::blades(Asked const& asked) c
   SurfaceId const receiver = asked.question.receiver;
   glm::dvec3 const& towards_sun = asked.question.towards_sun;
   int const rows = size.rows_along_edges();
-  // Fewer for each row than that are drawn as soon.
-  auto const few = 8 * static_cast<std::size_t>(rows);
+  constexpr int most_rows = 8192;  // more take too much memory
+  if (rows > most_rows) return std::nullopt;
+  // Fewer are drawn as soon.
+  auto const few = std::min<std::size_t>(3 * static_cast<std::size_t>(rows), 4000);
   constexpr std::size_t max_sample = 32;
   auto crowd =
       parts_.casters.crowd_in_view(parts_.scene, receiver, frame, towards_sun, few, max_sample);
@@ -157,6 +159,11 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
                                      enough / crowd->each);
       detail *= crowd->each;
       lay_out(detail, false);
+      if (!parts_.receivers.size().is_fixed() && !parts_.backend.samples_pixels()) {
+        auto const shadow =
+            casters.crowd_shadow(found.in_view.casters, *seen.frame, question.towards_sun);
+        found.side = parts_.receivers.size().side_behind_crowd(shadow.area, shadow.thickness);
+      }
       return found;
     }
   }

@@ -210,6 +210,22 @@ Detail Casters::detail(std::span<SurfaceId const> in_view, PlaneFrame const& fra
   return detail;
 }
 
+CrowdShadow Casters::crowd_shadow(std::span<SurfaceId const> sample, PlaneFrame const& frame,
+                                  glm::dvec3 const& towards_sun) const {
+  Shadow const shadow(frame, towards_sun);
+  double areas = 0.0;
+  double squares = 0.0;
+  double edges = 0.0;
+  for (SurfaceId const id : sample) {
+    auto const [area, longest_edge] = shadow.size(points(casters_[position_of_[id]]));
+    areas += area;
+    squares += area * area;
+    edges += area * longest_edge;
+  }
+  if (areas == 0.0) return {};
+  return {squares / areas, squares / edges};
+}
+
 bool Casters::is_in_view(Caster const& caster, PlaneFrame const& frame, Shadow& shadow) const {
   auto const ring = points(caster);
   bool const thick = caster.faces.inside != caster.faces.outside;

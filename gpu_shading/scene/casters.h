@@ -49,6 +49,13 @@ struct Crowd {
   double count() const { return each * static_cast<double>(sample.size()); }
 };
 
+// The shadow of a typical caster of a crowd, with areas and lengths in the receiver's rectangle as
+// the unit: means over their shadows' area, as it is seen before that of others hides it.
+struct CrowdShadow {
+  double area = 0.0;
+  double thickness = 0.0;  // its area over its longest edge
+};
+
 // A rectangle of sun directions over a receiver, by the tangents of their angles to its normal
 // towards its u and its v axis.
 struct SunSector {
@@ -132,6 +139,10 @@ class Casters {
   // Detail of the shadows of casters in view, up to `enough`.
   Detail detail(std::span<SurfaceId const> in_view, PlaneFrame const& frame,
                 glm::dvec3 const& towards_sun, double enough) const;
+
+  // Without holes.
+  CrowdShadow crowd_shadow(std::span<SurfaceId const> sample, PlaneFrame const& frame,
+                           glm::dvec3 const& towards_sun) const;
 
  private:
   struct Caster {

@@ -78,6 +78,29 @@ class Shadow {
     }
   }
 
+  struct Size {
+    double area = 0.0;
+    double longest_edge = 0.0;
+  };
+
+  // Of a ring, in the rectangle's area and lengths of its sides, also where it is outside of it.
+  Size size(std::span<glm::dvec3 const> ring) const {
+    Size size;
+    if (ring.empty()) return size;
+    glm::dvec2 const first = in_rectangle(ring.front());
+    glm::dvec2 from = in_rectangle(ring.back());
+    for (glm::dvec3 const& vertex : ring) {
+      glm::dvec2 const to = in_rectangle(vertex);
+      glm::dvec2 const a = from - first;
+      glm::dvec2 const b = to - first;
+      size.area += 0.5 * (a.x * b.y - a.y * b.x);
+      size.longest_edge = std::max(size.longest_edge, glm::length(to - from));
+      from = to;
+    }
+    size.area = std::abs(size.area);
+    return size;
+  }
+
   // How much of a box may cast a shadow on the rectangle; intersecting where rounding decides.
   Containment classify(glm::dvec3 const& centre, glm::dvec3 const& reach) const {
     glm::dvec3 const c = centre - origin_;

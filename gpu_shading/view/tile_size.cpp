@@ -24,11 +24,20 @@ double expected_error(double along, double across, double side) {
   return std::sqrt(chance + even * even / (side * side)) / side;
 }
 
+// In 99 % of cases.
+double crowd_error(double area, double thickness, double rows) {
+  constexpr double deviations = 2.576;  // of a normal distribution
+  double const distance = 1.0 / (rows * thickness);
+  double const cubed = distance * distance * distance;
+  double const missed = cubed * distance / (3.0 + 1.6 * cubed);
+  return 0.5 * deviations * std::sqrt(area * missed);
+}
+
 }  // namespace
 
 TileSize TileSize::fixed(int side) {
   TileSize size;
-  size.fixed_ = size.least_ = size.most_ = side;
+  size.fixed_ = size.least_ = size.most_ = size.largest_ = side;
   return size;
 }
 
@@ -38,12 +47,23 @@ TileSize TileSize::for_error(double error, int most) {
   size.error_ = error;
   size.least_ = limit(64.0, error, std::min(most, largest));
   size.most_ = limit(512.0, error, std::min(most, largest));
+  size.largest_ = std::min(most, largest);
   size.screened_ = (limit(512.0, error, most) + 1) / 2;
   for (size.enough_ = 1.0; expected_error(0.0, size.enough_, size.most_) < error ||
                            expected_error(size.enough_, 0.0, size.most_) < error;) {
     size.enough_ *= 2.0;
   }
   return size;
+}
+
+int TileSize::side_behind_crowd(double area, double thickness) const {
+  // At least for one large caster, which a sample of the crowd may have missed.
+  int side = this->side(0.0, 1.0);
+  auto const max_side = std::min(4 * most_, largest_);
+  while (side < max_side && crowd_error(area, thickness, rows_on(side)) > error_) {
+    side = round_up(side + 1);
+  }
+  return std::min(side, max_side);
 }
 
 int TileSize::rows_along_edges() const { return static_cast<int>(std::ceil(0.51 / error_)); }

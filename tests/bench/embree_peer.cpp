@@ -250,7 +250,7 @@ std::optional<Result> fewest_rays(Peer const& peer, bool packets, double target,
 void print_rows(char const* kind, int count, Scene const& scene, double least_target) {
   RendererOptions options;
   options.device = on_cpu;
-  options.resolution = 4096;
+  options.resolution = 16384;
   options.samples_only = true;
   std::vector<double> const exact = rendered(scene, options).fractions;
   Peer const peer(scene);

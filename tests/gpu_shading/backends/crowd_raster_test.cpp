@@ -159,6 +159,56 @@ TEST(RepeatingCrowd, MeetsTheTargetBehindPieces) {
   }
 }
 
+// Parallelograms of one size, turned at random, in clumps: balls with so many each, or all over the
+// box in front of the window if there is one clump.
+Scene random_crowd(int clumps, int in_each, glm::dvec2 const& size) {
+  Scene scene;
+  scene.add({"window", south_facing(0, 0, 0, 3, 2)});
+  std::mt19937 generator{7};
+  auto const between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(generator);
+  };
+  for (int clump = 0; clump < clumps; ++clump) {
+    glm::dvec3 const middle(between(-0.5, 3.5), between(-2.0, -0.5), between(-0.5, 4.0));
+    for (int i = 0; i < in_each;) {
+      glm::dvec3 place(between(-1, 1), between(-1, 1), between(-1, 1));
+      if (clumps == 1) {
+        place = glm::dvec3(1.5, -1.2, 1.75) + place * glm::dvec3(2.0, 0.9, 2.25);
+      } else {
+        if (glm::length(place) > 1.0) continue;
+        place = middle + 0.3 * place;
+      }
+      glm::dvec3 const long_side(between(-1, 1), between(-1, 1), between(-1, 1));
+      glm::dvec3 const other(between(-1, 1), between(-1, 1), between(-1, 1));
+      glm::dvec3 const side = glm::cross(long_side, other);
+      scene.add({"leaf", parallelogram(place, size.x * glm::normalize(long_side),
+                                       size.y * glm::normalize(side))});
+      ++i;
+    }
+  }
+  return scene;
+}
+
+TEST(RandomCrowd, MeetsTheTarget) {
+  std::vector<std::pair<char const*, Scene>> scenes;
+  scenes.emplace_back("leaves", random_crowd(1, 40000, {0.02, 0.02}));
+  scenes.emplace_back("small leaves", random_crowd(1, 200000, {0.009, 0.009}));
+  scenes.emplace_back("crowns", random_crowd(40, 3000, {0.015, 0.01}));
+  scenes.emplace_back("twigs", random_crowd(1, 60000, {0.3, 0.0013}));
+  Scene walls = random_crowd(1, 100000, {0.01, 0.01});
+  Scene const large = random_crowd(1, 30, {1.0, 0.4});
+  for (SurfaceId id = 1; id < large.size(); ++id) walls.add(large[id]);
+  scenes.emplace_back("leaves and a few walls", std::move(walls));
+  std::vector<SunDirection> const suns = spread_suns(100);
+  for (auto const& [name, scene] : scenes) {
+    std::vector<double> const expected = lit_fractions(scene, suns, 2e-5);
+    for (double const target : {1e-2, 1e-3}) {
+      std::vector<double> const lit = lit_fractions(scene, suns, target);
+      EXPECT_LE(percentile_99_of_errors(lit, expected), target) << name;
+    }
+  }
+}
+
 // A room behind the window, whose edges are level, as louvres and their rows of samples are.
 struct Room {
   Scene scene;

@@ -35,6 +35,24 @@ TEST(TileSize, LimitsFollowTheErrorUpToWhatTheDeviceCan) {
   EXPECT_EQ(TileSize::for_error(1e-5, 2048).side(1e9, 1e9), 2048);
 }
 
+TEST(TileSize, BehindACrowdFollowsTheSizeOfItsCasters) {
+  TileSize const coarse = TileSize::for_error(1e-2, 16384);
+  TileSize const fine = TileSize::for_error(1e-3, 16384);
+  // Rows miss most of what is much smaller: 0.5 x 2.58 sqrt(a / (1.6 rows h)) = 1e-2 for squares of
+  // 1e-3 at 10 rows, fewer than for one large caster, and of 4e-3 at 41.
+  EXPECT_EQ(coarse.side_behind_crowd(1e-6, 1e-3), coarse.side(0.0, 1.0));
+  EXPECT_EQ(coarse.side_behind_crowd(1.6e-5, 4e-3), 48);
+  // Within four times the maximum, and what the device can.
+  EXPECT_EQ(fine.side_behind_crowd(1.0, 1e-3), 2048);
+  EXPECT_EQ(TileSize::for_error(1e-3, 700).side_behind_crowd(1.0, 1e-3), 700);
+  for (double size = 1e-4; size < 0.1; size *= 1.3) {
+    EXPECT_LE(coarse.side_behind_crowd(size * size, size),
+              fine.side_behind_crowd(size * size, size));
+    EXPECT_LE(coarse.side_behind_crowd(size * size, size),
+              coarse.side_behind_crowd(size * size, 0.5 * size));
+  }
+}
+
 TEST(TileSize, FixedIsFixed) {
   EXPECT_EQ(TileSize::fixed(300).side(5.0, 7.0), 300);
   EXPECT_EQ(TileSize::fixed(300).side_with_screens(300), 300);
