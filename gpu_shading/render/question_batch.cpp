@@ -98,8 +98,8 @@ std::optional<QuestionBatch::Blades> QuestionBatch::blades(Asked const& asked) c
   int const rows = size.rows_along_edges();
   constexpr int most_rows = 8192;  // more take too much memory
   if (rows > most_rows) return std::nullopt;
-  // Fewer are drawn as soon.
-  auto const few = std::min<std::size_t>(3 * static_cast<std::size_t>(rows), 4000);
+  // Fewer are drawn as soon, or far more exactly in a few times as long.
+  auto const few = static_cast<std::size_t>(std::min(rows * rows / 16, 4000));
   constexpr std::size_t max_sample = 32;
   auto crowd =
       parts_.casters.crowd_in_view(parts_.scene, receiver, frame, towards_sun, few, max_sample);
