@@ -30,7 +30,8 @@ glm::dvec3 longest_side(Ring const& ring) {
 bool is_moved(Ring const& ring, Ring const& other, glm::dvec3 const& by, double slack) {
   if (other.size() != ring.size()) return false;
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    if (glm::distance(ring[i], other[i] + by) > slack) return false;
+    glm::dvec3 const off = ring[i] - other[i] - by;
+    if (glm::dot(off, off) > slack * slack) return false;
   }
   return true;
 }
