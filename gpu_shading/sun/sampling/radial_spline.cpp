@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "platform/parallel.h"
+
 namespace gpu_shading {
 namespace {
 
@@ -112,7 +114,8 @@ MatrixXd RadialSpline::release_limits(MatrixXd const& values) const {
   auto const n = values.rows();
   MatrixXd released = values;
   if (n < 2) return released;
-  for (Index j = 0; j < values.cols(); ++j) release(inverse_, released.col(j));
+  for_each_index(static_cast<std::size_t>(values.cols()),
+                 [&](std::size_t j) { release(inverse_, released.col(static_cast<Index>(j))); });
   return released;
 }
 
