@@ -22,7 +22,8 @@ namespace gpu_shading::energyplus {
 struct EndingRegistry {
   struct Folder {
     std::atomic<bool> taken = false;
-    std::atomic<bool> complete = false;
+    std::atomic<bool> complete = false;  // the path
+    std::atomic<bool> made = false;
     std::array<char, PATH_MAX> path{};
   };
 
@@ -111,7 +112,12 @@ void clean_up_now() noexcept {
     if (pid_t const id = process; id > 0) end_process(id);
   }
   for (auto const& folder : all.folders) {
-    if (folder.complete) delete_folder(folder.path.data());
+    if (!folder.complete) continue;
+    if (folder.made) {
+      delete_folder(folder.path.data());
+    } else {
+      rmdir(folder.path.data());
+    }
   }
 }
 
@@ -131,10 +137,15 @@ FolderAtSignals::FolderAtSignals(std::filesystem::path const& folder) : slot_(no
   for (std::size_t i = 0; i < folders.size(); ++i) {
     if (folders[i].taken.exchange(true)) continue;
     std::memcpy(folders[i].path.data(), path.c_str(), path.size() + 1);
+    folders[i].made = false;
     folders[i].complete = true;
     slot_ = i;
     return;
   }
+}
+
+void FolderAtSignals::is_made() noexcept {
+  if (slot_ != no_slot) ending_registry().folders.at(slot_).made = true;
 }
 
 FolderAtSignals::~FolderAtSignals() {

@@ -19,13 +19,16 @@ void clean_up_now() noexcept;
 void take_file_limit_as_error();
 bool takes_file_limit_as_error() noexcept;
 
-// A folder that is deleted if a signal ends this process. Not on Windows.
+// A folder that this process is about to make, and that is deleted if a signal ends it: with all
+// that is in it once it is made, and before only if it is empty. Not on Windows.
 class FolderAtSignals {
  public:
   explicit FolderAtSignals(std::filesystem::path const& folder);
   FolderAtSignals(FolderAtSignals const&) = delete;
   FolderAtSignals& operator=(FolderAtSignals const&) = delete;
   ~FolderAtSignals();
+
+  void is_made() noexcept;
 
  private:
   std::size_t slot_;

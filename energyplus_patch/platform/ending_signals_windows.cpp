@@ -9,6 +9,7 @@ void clean_up_now() noexcept {}
 void take_file_limit_as_error() {}
 bool takes_file_limit_as_error() noexcept { return false; }
 FolderAtSignals::FolderAtSignals(std::filesystem::path const& /*folder*/) : slot_(0) {}
+void FolderAtSignals::is_made() noexcept {}
 FolderAtSignals::~FolderAtSignals() = default;
 ProcessAtSignals::ProcessAtSignals(int /*process*/) : slot_(0) {}
 ProcessAtSignals::~ProcessAtSignals() = default;

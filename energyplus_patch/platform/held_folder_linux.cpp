@@ -52,11 +52,12 @@ void HeldFolder::delete_if_abandoned(Path const& path) {
 }
 
 bool HeldFolder::make(Path const& parent) {
+  at_signals_.emplace(path_);
   if (mkdir(path_.c_str(), S_IRWXU) != 0) {
     if (errno == EEXIST) return false;
     fail(parent, {errno, std::generic_category()});
   }
-  at_signals_.emplace(path_);
+  at_signals_->is_made();
   auto const file =
       std::make_shared<FileDescriptor>(open_lock(path_ / lock_name, O_RDWR | O_CREAT | O_EXCL));
   if (!file->is_open()) {

@@ -142,6 +142,28 @@ INSTANTIATE_TEST_SUITE_P(Signals, EndingSignals,
                          testing::Values(SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM, SIGXCPU,
                                          SIGXFSZ));
 
+// The folder may be another process's until it is made, but an empty one is of no use to it.
+TEST_F(EndingSignals, DeleteFoldersThatAreBeingMadeIfTheyAreEmpty) {
+  auto const in_parent = [&](char const* name) { return parent.path() / name; };
+  for (auto const* const name : {"other", "empty", "own"}) fs::create_directory(in_parent(name));
+  for (auto const* const name : {"other", "own"}) std::ofstream(in_parent(name) / "file") << name;
+  int const ended = kill_once(
+      [&] {
+        clean_up_at_signals();
+        FolderAtSignals const other(in_parent("other"));
+        FolderAtSignals const empty(in_parent("empty"));
+        FolderAtSignals own(in_parent("own"));
+        own.is_made();
+        std::ofstream(ready) << "ready";
+        while (true) pause();
+      },
+      [&] { return fs::exists(ready); }, SIGTERM);
+  EXPECT_EQ(ended, SIGTERM);
+  EXPECT_TRUE(fs::exists(in_parent("other") / "file"));
+  EXPECT_FALSE(fs::exists(in_parent("empty")));
+  EXPECT_FALSE(fs::exists(in_parent("own")));
+}
+
 TEST_F(EndingSignals, EndProgramsFirst) {
   auto const log = parent.path() / "log";
   int const ended = kill_once(
