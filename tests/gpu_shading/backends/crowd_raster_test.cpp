@@ -189,7 +189,7 @@ Scene random_crowd(int clumps, int in_each, glm::dvec2 const& size) {
   return scene;
 }
 
-TEST(RandomCrowd, MeetsTheTarget) {
+TEST(RandomCrowd, MeetsTheTargetWhereverItsCastersAre) {
   std::vector<std::pair<char const*, Scene>> scenes;
   scenes.emplace_back("leaves", random_crowd(1, 40000, {0.02, 0.02}));
   scenes.emplace_back("small leaves", random_crowd(1, 200000, {0.009, 0.009}));
