@@ -101,12 +101,11 @@ TileGrid golden_grid(int rows, int columns_a_row, double slope) {
 // Where neither blades nor holes are known.
 TileGrid usual_grid(Tile const& tile, SampleUse use) {
   if (use == SampleUse::luminance) return pixels_of(tile);
-  // Smaller tiles have too few edges to alias with 9 columns to a row.
-  constexpr int large = 128;
   int const rows = TileSize::rows_on(tile.side);
   if (use == SampleUse::counting) return golden_grid(rows, 4, tile.lay.slope);
-  constexpr int min_columns = 2048;
-  int const columns_a_row = std::max(tile.side < large ? 9 : 17, min_columns / rows);
+  // As fine on small tiles, where casters of a crowd may be much smaller than a row's height.
+  constexpr int large = 128;
+  int const columns_a_row = tile.side < large ? 2048 / rows : 17;
   return golden_grid(rows, columns_a_row, tile.lay.slope);
 }
 

@@ -66,7 +66,7 @@ enum class SampleUse {
 
 // The grid on which the CPU samples a tile. A row's span costs the same however fine its columns
 // are, and its ends are nearly exact with many of them: only the number of rows matters.
-// - Coverage: TileSize::rows_on() rows, and 9 or 17 times as many columns, at least 576.
+// - Coverage: TileSize::rows_on() rows, and 17 times as many columns; some 2,048 on a small tile.
 // - Counting: these rows, and 4 times as many columns.
 // - Luminance: the tile's pixels.
 // - Perforated sheets: nearly as many samples as the tile has pixels.
