@@ -95,9 +95,12 @@ std::optional<QuestionBatch::Blades> QuestionBatch::blades(Asked const& asked) c
   PlaneFrame const& frame = *asked.receiver->frame;
   SurfaceId const receiver = asked.question.receiver;
   glm::dvec3 const& towards_sun = asked.question.towards_sun;
-  int const rows = size.rows_along_edges();
+  double const error = parts_.receivers.error_on_rectangle(*asked.receiver);
+  // Within the error where an edge as long as the tile runs along them.
+  double const enough_rows = std::ceil(0.51 / error);
   constexpr int most_rows = 8192;  // more take too much memory
-  if (rows > most_rows) return std::nullopt;
+  if (enough_rows > most_rows) return std::nullopt;
+  auto const rows = static_cast<int>(enough_rows);
   // Fewer are drawn as soon, or far more exactly in a few times as long.
   auto const few = static_cast<std::size_t>(std::min(rows * rows / 16, 4000));
   constexpr std::size_t max_sample = 32;
@@ -112,7 +115,7 @@ std::optional<QuestionBatch::Blades> QuestionBatch::blades(Asked const& asked) c
   TileLay const lay{.slope = *slope, .for_grids = true};
   Ring const& outline = parts_.scene[receiver].polygon.outline;
   View const view = view_in_front(frame, fit_tile(frame, outline, size.most(), lay), towards_sun);
-  auto const grid = grid_along(repeats, view, *slope, rows, 0.7 * size.error());
+  auto const grid = grid_along(repeats, view, *slope, rows, 0.7 * error);
   if (!grid) return std::nullopt;
   return Blades{std::move(*crowd), lay, *grid};
 }
@@ -160,9 +163,9 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
       detail *= crowd->each;
       lay_out(detail, false);
       if (!parts_.receivers.size().is_fixed() && !parts_.backend.samples_pixels()) {
-        auto const shadow =
-            casters.crowd_shadow(found.in_view.casters, *seen.frame, question.towards_sun);
-        found.side = parts_.receivers.size().side_behind_crowd(shadow.area, shadow.thickness);
+        found.side = parts_.receivers.side_for(
+            seen, casters.crowd_shadow(found.in_view.casters, *seen.frame, question.towards_sun),
+            behind(question));
       }
       return found;
     }

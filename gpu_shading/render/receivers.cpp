@@ -26,6 +26,11 @@ double start_of(int sector) {
   return share / std::max(1.0 - std::abs(share), edge_on);
 }
 
+// A receiver has its share of its rectangle's edges and pixels.
+double share_of_rectangle(Receiver const& receiver) {
+  return receiver.area / (receiver.frame->width * receiver.frame->height);
+}
+
 }  // namespace
 
 Surface const& Receivers::surface(SurfaceId id) const {
@@ -118,10 +123,19 @@ std::uint16_t Receivers::search(SurfaceId id, SunSector const& sector) {
 }
 
 int Receivers::side_for(Receiver const& receiver, Detail const& detail, bool screened) const {
-  // The receiver has its share of the rectangle's edges and pixels.
-  double const share = receiver.area / (receiver.frame->width * receiver.frame->height);
+  double const share = share_of_rectangle(receiver);
   int const side = size_.side(detail.along / share, detail.across / share);
   return screened ? size_.side_with_screens(side) : side;
+}
+
+int Receivers::side_for(Receiver const& receiver, CrowdShadow const& crowd,
+                        double interior_edges) const {
+  double const share = share_of_rectangle(receiver);
+  return size_.side_behind_crowd(crowd.area / share, crowd.thickness, interior_edges / share);
+}
+
+double Receivers::error_on_rectangle(Receiver const& receiver) const {
+  return size_.error() * share_of_rectangle(receiver);
 }
 
 Tile& Receivers::tile(SurfaceId id, int side, TileLay const& lay) {

@@ -78,6 +78,12 @@ class Receivers {
   TileSize const& size() const { return size_; }
   // Pixels per side for the detail in view. The receiver must have an area.
   int side_for(Receiver const& receiver, Detail const& detail, bool screened) const;
+  // Behind a crowd that lies at random, with edges of interior surfaces so long, in sides of the
+  // receiver's rectangle.
+  int side_for(Receiver const& receiver, CrowdShadow const& crowd, double interior_edges) const;
+  // The target error of a sunlit fraction, as one of the receiver's rectangle. Unless the size of
+  // tiles is fixed.
+  double error_on_rectangle(Receiver const& receiver) const;
   // The address is valid until forget_many().
   Tile& tile(SurfaceId id, int side, TileLay const& lay);
   // Tiles that are turned along blades may be as many as directions, and lists of interior surfaces

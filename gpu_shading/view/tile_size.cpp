@@ -56,17 +56,15 @@ TileSize TileSize::for_error(double error, int most) {
   return size;
 }
 
-int TileSize::side_behind_crowd(double area, double thickness) const {
+int TileSize::side_behind_crowd(double area, double thickness, double other_edges) const {
   // At least for one large caster, which a sample of the crowd may have missed.
-  int side = this->side(0.0, 1.0);
+  int side = this->side(0.0, 1.0 + other_edges);
   auto const max_side = std::min(4 * most_, largest_);
   while (side < max_side && crowd_error(area, thickness, rows_on(side)) > error_) {
     side = round_up(side + 1);
   }
   return std::min(side, max_side);
 }
-
-int TileSize::rows_along_edges() const { return static_cast<int>(std::ceil(0.51 / error_)); }
 
 int TileSize::side(double along, double across) const {
   if (fixed_) return *fixed_;

@@ -30,25 +30,22 @@ class TileSize {
   int side(double along, double across) const;
 
   // For a crowd of casters that lie at random, whose shadows have this mean area and thickness,
-  // with the receiver's rectangle as the unit, on the CPU. Between the same limits as side(), but
-  // up to four times its maximum. Unless the size is fixed.
+  // with the receiver's rectangle as the unit, and other edges across it, on the CPU. Between the
+  // same limits as side(), but up to four times its maximum. Unless the size is fixed.
   //
   // A shadow of area a and thickness h is met by rows of distance d with an error of a sqrt(g(d /
   // h)), where g grows to d / h where rows are far apart, since most miss it, and with a power of
   // about 4 where they are near, as of shapes that taper off. With as many samples lit as dark,
   // where the error is largest, the fraction's error is 0.5 sqrt(a g). Fitted to 8,000 to 1,000,000
   // random leaves, targets of 1e-2 and 1e-3 (tests/bench/embree_peer).
-  int side_behind_crowd(double area, double thickness) const;
+  int side_behind_crowd(double area, double thickness, double other_edges) const;
 
   // The rows by which the CPU samples a tile of so many pixels.
   static int rows_on(int side) {
     return std::max((side + 1) / 2, std::min(side, 96 + side * 3 / 8));
   }
 
-  // Rows of samples that keep the error within the target where an edge as long as the tile
-  // runs along them. Unless the size is fixed.
-  int rows_along_edges() const;
-  double error() const { return error_; }
+  double error() const { return error_; }  // 0 if the size is fixed
   bool is_fixed() const { return fixed_.has_value(); }
 
   // With perforated sheets in view, whose holes have edges of their own: at least half of the

@@ -40,16 +40,16 @@ TEST(TileSize, BehindACrowdFollowsTheSizeOfItsCasters) {
   TileSize const fine = TileSize::for_error(1e-3, 16384);
   // Rows miss most of what is much smaller: 0.5 x 2.58 sqrt(a / (1.6 rows h)) = 1e-2 for squares of
   // 1e-3 at 10 rows, fewer than for one large caster, and of 4e-3 at 41.
-  EXPECT_EQ(coarse.side_behind_crowd(1e-6, 1e-3), coarse.side(0.0, 1.0));
-  EXPECT_EQ(coarse.side_behind_crowd(1.6e-5, 4e-3), 48);
+  EXPECT_EQ(coarse.side_behind_crowd(1e-6, 1e-3, 0.0), coarse.side(0.0, 1.0));
+  EXPECT_EQ(coarse.side_behind_crowd(1.6e-5, 4e-3, 0.0), 48);
   // Within four times the maximum, and what the device can.
-  EXPECT_EQ(fine.side_behind_crowd(1.0, 1e-3), 2048);
-  EXPECT_EQ(TileSize::for_error(1e-3, 700).side_behind_crowd(1.0, 1e-3), 700);
+  EXPECT_EQ(fine.side_behind_crowd(1.0, 1e-3, 0.0), 2048);
+  EXPECT_EQ(TileSize::for_error(1e-3, 700).side_behind_crowd(1.0, 1e-3, 0.0), 700);
   for (double size = 1e-4; size < 0.1; size *= 1.3) {
-    EXPECT_LE(coarse.side_behind_crowd(size * size, size),
-              fine.side_behind_crowd(size * size, size));
-    EXPECT_LE(coarse.side_behind_crowd(size * size, size),
-              coarse.side_behind_crowd(size * size, 0.5 * size));
+    EXPECT_LE(coarse.side_behind_crowd(size * size, size, 0.0),
+              fine.side_behind_crowd(size * size, size, 0.0));
+    EXPECT_LE(coarse.side_behind_crowd(size * size, size, 0.0),
+              coarse.side_behind_crowd(size * size, 0.5 * size, 0.0));
   }
 }
 
