@@ -31,24 +31,39 @@ struct Blades {
                                                 double column, double row) {
   double const strength = std::min(1.0 / multiple, blades.open);
   double const error = blades.outline.amplitude(at - grid.reciprocal(column, row)) * strength;
-  return column == 0.0 && row == 0.0 ? 0.0 : error * error;
+  return (column == 0.0) & (row == 0.0) ? 0.0 : error * error;
 }
 
+// The vectors around one: two rows and two columns each way.
+struct Around {
+  static constexpr int reach = 2;
+  static constexpr int side = 2 * reach + 1;
+  static constexpr int count = side * side;
+  std::array<double, count> columns{};
+  std::array<double, count> rows{};
+};
+constexpr Around around = [] {
+  Around made;
+  for (int i = 0; i < Around::count; ++i) {
+    made.columns[static_cast<std::size_t>(i)] = i % Around::side - Around::reach;
+    made.rows[static_cast<std::size_t>(i)] = i / Around::side - Around::reach;
+  }
+  return made;
+}();
+
 // Of the vectors around a strong multiple.
-double near_strong(Blades const& blades, TileGrid const& grid, int multiple) {
-  constexpr int around = 2;
+[[gnu::always_inline]] inline double near_strong(Blades const& blades, TileGrid const& grid,
+                                                 int multiple) {
   glm::dvec2 const at = static_cast<double>(multiple) * blades.first;
   double const middle = nearest_whole(at.x / grid.width);
   double const rows = at.y / grid.rows;
-  double sum = 0.0;
-  for (int up = -around; up <= around; ++up) {
-    for (int across = -around; across <= around; ++across) {
-      double const column = middle + across;
-      double const row = nearest_whole(rows - column * grid.shear) + up;
-      sum += squared_at(blades, at, multiple, grid, column, row);
-    }
+  std::array<double, Around::count> squared{};
+  for (std::size_t i = 0; i < Around::count; ++i) {
+    double const column = middle + around.columns[i];
+    double const row = nearest_whole(rows - column * grid.shear) + around.rows[i];
+    squared[i] = squared_at(blades, at, multiple, grid, column, row);
   }
-  return sum;
+  return std::accumulate(squared.begin(), squared.end(), 0.0);
 }
 
 // Of the vectors next to some weak multiples, from one on. Written for the compiler to take several
@@ -114,7 +129,7 @@ double BladeSpectrum::squared_error(TileGrid const& grid, double enough) const {
   Blades const blades{outline_, first_, std::numbers::pi * open_};
   double sum = 0.0;
   for (int multiple = 1; multiple <= strongest; ++multiple) {
-    sum += near_strong(blades, grid, multiple);
+    sum += run<near_strong>(blades, grid, multiple);
   }
   for (int from = strongest + 1; from <= last && sum < wanted; from += at_once) {
     sum += run<near_weak>(blades, grid, from);

@@ -16,10 +16,18 @@
 
 namespace gpu_shading {
 
-// Casters that are projected at once.
+// Casters that are projected at once, and boxes that are looked at.
 inline constexpr std::size_t crowd_lanes = 8;
-// The corners of so many casters, by corner and axis.
-using CrowdCorners = std::array<std::array<std::array<double, crowd_lanes>, 3>, 4>;
+// So many points, by axis.
+using CrowdPoints = std::array<std::array<double, crowd_lanes>, 3>;
+// The corners of so many casters.
+using CrowdCorners = std::array<CrowdPoints, 4>;
+
+// So many boxes along the axes.
+struct CrowdBoxes {
+  CrowdPoints centre{};
+  CrowdPoints reach{};
+};
 
 // The question for which a crowd of casters is searched.
 struct CrowdQuestion {
@@ -44,16 +52,32 @@ class CrowdRaster {
  private:
   struct Search;
 
-  // The casters of a leaf: what a search reads of them lies together in memory.
-  struct alignas(64) Block {
+  // A branch by its index, or a leaf by `leaf` and its index.
+  using Node = std::uint32_t;
+  static constexpr Node leaf = Node{1} << 31U;
+
+  struct alignas(64) Branch {
+    CrowdBoxes boxes;
+    std::array<Node, crowd_lanes> children{};
+    std::uint32_t count = 0;
+  };
+
+  // What a search reads of its casters lies together in memory.
+  struct alignas(64) Leaf {
     CrowdCorners corners{};
     std::array<bool, crowd_lanes> several{};  // more than one piece
     std::array<bool, crowd_lanes> only_turned_away{};
+    std::uint32_t first = 0;  // position in the casters' tree
+    std::uint32_t count = 0;
   };
 
-  void darken_below(Search& search, std::uint32_t root) const;
-  static void prefetch(Block const& block);
-  void darken_some(Search& search, std::uint32_t leaf) const;
+  // Adds what is below a node of the casters' tree.
+  Node add(std::uint32_t of_tree);
+  Node add_leaf(Bvh::Node const& of_tree);
+  // Nodes that together have all casters, so many or more if there are.
+  std::vector<Node> nodes(std::size_t count) const;
+  void darken_below(Search& search, Node root) const;
+  void darken(Search& search, Leaf const& some) const;
   // Calls use(area) for the pieces of a caster that may shade the receiver.
   template <typename Use>
   void each_area(Search const& search, std::uint32_t position, Use use) const;
@@ -61,8 +85,9 @@ class CrowdRaster {
   Scene const& scene_;
   Casters const& casters_;
   SurfacePieces const& pieces_;
-  std::vector<Bvh::Node> nodes_;  // with more casters, and leaves, whose `children` is a block
-  std::vector<Block> blocks_;
+  Node root_ = 0;
+  std::vector<Branch> branches_;
+  std::vector<Leaf> leaves_;
 };
 
 }  // namespace gpu_shading

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "gpu_shading/perforated_screen.h"
+#include "support/crowds.h"
 #include "support/random_scene.h"
 #include "support/shapes.h"
 
@@ -36,6 +37,16 @@ TEST(Instructions, DISABLED_PrintAnswers) {
     }
     Renderer renderer = renderer_of(scene, 300, on_cpu);
     std::printf("answer %a\n", sunlit(renderer, random.sun, 0).projected_area);
+  }
+  RendererOptions options;
+  options.device = on_cpu;
+  options.error = 1e-2;
+  for (Scene const& crowd : {mixed_crowd(5000), fine_louvres(3000, 0.5)}) {
+    Renderer renderer(crowd, options);
+    for (int i = 0; i < 10; ++i) {
+      SunDirection const sun = sun_at(110 + 14 * i, 5 + 5 * i);
+      std::printf("answer %a\n", sunlit(renderer, sun, 0).projected_area);
+    }
   }
 }
 
