@@ -98,9 +98,9 @@ AnswerStore::Direction const* AnswerStore::find(SunDirection sun, std::uint32_t 
 void AnswerStore::keep(Direction& direction, ReceiverNumber receiver, Sunlit answer) {
   auto& areas = direction.projected_area;
   if (receiver >= areas.size()) {
-    auto const before = areas.capacity();
+    auto const before = areas.size();
     areas.resize(receiver + std::size_t{1}, std::numeric_limits<float>::quiet_NaN());
-    bytes_ += (areas.capacity() - before) * sizeof areas.front();
+    bytes_ += (areas.size() - before) * sizeof areas.front();
   }
   areas[receiver] = static_cast<float>(answer.projected_area);
   if (answer.scheduled.empty()) return;
@@ -119,12 +119,13 @@ AnswerStore::Direction::Interior const& AnswerStore::keep_interior(Direction& di
   auto& areas = direction.interior_area;
   auto const first = static_cast<std::uint32_t>(areas.size());
   bytes_ += sizeof(Direction::Interior) + answers.size() * sizeof areas.front();
-  for (auto& answer : answers) {
-    areas.push_back(static_cast<float>(answer.projected_area));
-    if (answer.scheduled.empty()) continue;
-    bytes_ += bytes_of(answer.scheduled);
-    direction.interior_scheduled[static_cast<std::uint32_t>(areas.size()) - 1] =
-        std::move(answer.scheduled);
+  areas.resize(first + answers.size());
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    auto const place = static_cast<std::uint32_t>(first + i);
+    areas[place] = static_cast<float>(answers[i].projected_area);
+    if (answers[i].scheduled.empty()) continue;
+    bytes_ += bytes_of(answers[i].scheduled);
+    direction.interior_scheduled[place] = std::move(answers[i].scheduled);
   }
   auto& kept = direction.interior[window_and_list];
   kept = {first, static_cast<std::uint32_t>(answers.size())};

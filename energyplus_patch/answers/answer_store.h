@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/container/flat_map.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -58,21 +59,25 @@ class AnswerStore {
  public:
   static constexpr std::size_t default_max_bytes = std::size_t{512} << 20U;
 
+  // Directions are many, and most have little in each map.
+  template <typename Key, typename Value>
+  using Map = boost::container::flat_map<Key, Value>;
+
   struct Direction {
     SunDirection sun;
     std::uint32_t state = 0;            // DeploymentStates
     std::vector<float> projected_area;  // by receiver; not a number, or too short, where unknown
     // Parts that pass scheduled shades, of the receivers that have such in view.
-    std::unordered_map<ReceiverNumber, std::vector<ScheduledPart>> scheduled;
+    Map<ReceiverNumber, std::vector<ScheduledPart>> scheduled;
     // What the sun lights of a list of interior surfaces through a window: places in
     // `interior_area`, and in `interior_scheduled` of the parts that pass scheduled shades.
     struct Interior {
       std::uint32_t first = 0;
       std::uint32_t count = 0;
     };
-    std::unordered_map<std::uint64_t, Interior> interior;  // by window and list
+    Map<std::uint64_t, Interior> interior;  // by window and list
     std::vector<float> interior_area;
-    std::unordered_map<std::uint32_t, std::vector<ScheduledPart>> interior_scheduled;
+    Map<std::uint32_t, std::vector<ScheduledPart>> interior_scheduled;
     bool recalled = false;  // some of it is from earlier runs (DiskCache)
     bool asked = false;     // by EnergyPlus
     bool sampled = false;   // as a sample; a direction that is neither was rendered ahead

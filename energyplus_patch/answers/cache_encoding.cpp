@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <string_view>
 #include <unordered_map>
 
@@ -11,7 +12,7 @@ namespace gpu_shading::energyplus {
 namespace {
 
 constexpr std::string_view magic = "GPUSHADE";
-constexpr std::uint32_t format_version = 2;
+constexpr std::uint32_t format_version = 3;
 constexpr std::size_t checksum_bytes = sizeof(Hash);
 constexpr char const* damaged = "is damaged";
 
@@ -131,7 +132,7 @@ void take_direction(Reader& reader, SceneAnswers& set) {
   sun.azimuth = reader.take<double>();
   sun.altitude = reader.take<double>();
   auto const state = reader.take<std::uint32_t>();
-  if (state >= set.states.size()) throw Error(damaged);
+  if (state >= set.states.size() || set.answers.find(sun, state) != nullptr) throw Error(damaged);
   auto& direction = set.answers.at(sun, state);
   auto const areas = reader.take_list<float>();
   if (areas.size() > set.receivers.size()) throw Error(damaged);
@@ -148,8 +149,12 @@ void take_direction(Reader& reader, SceneAnswers& set) {
     }
     set.answers.keep(direction, receiver, std::move(answer));
   }
+  std::optional<std::uint64_t> before;
   for (auto left = reader.take_count(sizeof(std::uint64_t)); left > 0; --left) {
     auto const question = reader.take<std::uint64_t>();
+    // Out of order, adding each would take as long as there are others.
+    if (before && question <= *before) throw Error(damaged);
+    before = question;
     std::vector<Sunlit> answers(reader.take_count(sizeof(double) + sizeof(std::uint64_t)));
     for (auto& answer : answers) {
       answer.projected_area = reader.take<double>();

@@ -237,6 +237,7 @@ std::size_t CachedRenderer::render(Directions const& directions,
   }
   auto rendered = current_->projected_sunlit_areas(suns_of(unknown), surfaces);
   for (std::size_t i = 0; i < unknown.size(); ++i) {
+    unknown[i]->projected_area.reserve(known_.receivers.size());
     for (std::size_t k = 0; k < wanted.size(); ++k) {
       known_.answers.keep(*unknown[i], wanted[k], std::move(rendered[i][k]));
     }

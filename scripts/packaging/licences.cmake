@@ -1,7 +1,7 @@
 # The licences of the libraries that our programs are made of or linked with, as Debian's packages
 # state them. Elsewhere the libraries' own packages have them.
 set(linked libassimp-dev libcli11-dev libeigen3-dev libelf-dev libepoxy-dev libfmt-dev
-           libgeographiclib-dev libgeotiff-dev libglm-dev libjs-three libopenimageio-dev libseccomp-dev libtbb-dev libtiff-dev
+           libgeographiclib-dev libgeotiff-dev libglm-dev libjs-three libmimalloc-dev libopenimageio-dev libseccomp-dev libtbb-dev libtiff-dev
            libxxhash-dev libzycore-dev libzydis-dev nlohmann-json3-dev)
 # That of libboost-dev is about the package, not about Boost.
 file(GLOB boost /usr/share/doc/libboost1.*-dev)

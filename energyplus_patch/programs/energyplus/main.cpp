@@ -4,7 +4,6 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <link.h>
-#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -350,9 +349,6 @@ int launch(RunSetup& setup, char** argv) {
     run_official(argv);
   }
   auto& choices = setup.choices;
-  // As it starts, EnergyPlus deletes a tree of millions of small objects: lists of small chunks,
-  // which glibc merges again and again, take longer than they save.
-  mallopt(M_MXFAST, 0);
   if (line.version) fmt::print("gpu_shading {}\n", GPU_SHADING_VERSION);
   if (line.help) fmt::print("{}", options_help());
   check_files(line);

@@ -1,5 +1,3 @@
-#include <malloc.h>
-
 #include <memory>
 #include <string>
 #include <string_view>
@@ -101,10 +99,6 @@ void set_model(PenumbraObject* self) {
     };
   }
   begin(session, std::move(simulation), installed.task ? &*installed.task : nullptr);
-  // The launcher had set this to 0 for EnergyPlus's start. As it simulates, it frees small objects
-  // of the sizes that it asks for again.
-  constexpr int usual = 64 * sizeof(std::size_t) / 4;
-  mallopt(M_MXFAST, usual);
 }
 
 void set_sun_position(PenumbraObject* self, float azimuth, float altitude) {
