@@ -44,9 +44,12 @@ struct Around {
 };
 constexpr Around around = [] {
   Around made;
-  for (int i = 0; i < Around::count; ++i) {
-    made.columns[static_cast<std::size_t>(i)] = i % Around::side - Around::reach;
-    made.rows[static_cast<std::size_t>(i)] = i / Around::side - Around::reach;
+  std::size_t next = 0;
+  for (int row = -Around::reach; row <= Around::reach; ++row) {
+    for (int column = -Around::reach; column <= Around::reach; ++column) {
+      made.rows[next] = row;
+      made.columns[next++] = column;
+    }
   }
   return made;
 }();
