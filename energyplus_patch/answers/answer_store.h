@@ -1,6 +1,5 @@
 #pragma once
 
-#include <bit>
 #include <boost/container/flat_map.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -96,10 +95,8 @@ class AnswerStore {
   };
 
   explicit AnswerStore(std::size_t max_bytes = default_max_bytes) : max_bytes_(max_bytes) {
-    // Most directions are new: the fewer others are met where one would be, the fewer are read. A
-    // year has some thousands.
+    // Most directions are new: the fewer others are met where one would be, the fewer are read.
     directions_.max_load_factor(0.25F);
-    directions_.reserve(std::size_t{1} << 14U);
   }
 
   // Forgets everything, and returns true, when full. To be called before answers are added: their
@@ -139,12 +136,9 @@ class AnswerStore {
   };
   struct Hash {
     std::size_t operator()(Key const& key) const {
-      constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;
-      // -0.0 is 0.0.
-      auto const azimuth = std::bit_cast<std::uint64_t>(key.sun.azimuth + 0.0);
-      auto const altitude = std::bit_cast<std::uint64_t>(key.sun.altitude + 0.0);
-      std::uint64_t const mixed = (azimuth * odd ^ altitude) * odd;
-      return (mixed ^ mixed >> 32U) + key.state;
+      std::hash<double> const hash;
+      constexpr std::size_t odd = 0x9e3779b97f4a7c15;
+      return (hash(key.sun.azimuth) * odd ^ hash(key.sun.altitude)) * odd ^ key.state;
     }
   };
 
