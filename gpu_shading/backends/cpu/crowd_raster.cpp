@@ -25,6 +25,7 @@ constexpr double spare = 1e-2;
 
 template <typename T>
 using Lanes = std::array<T, lanes>;
+using OfCorners = std::array<Lanes<double>, corners>;
 
 struct Window {
   double columns = 0.0;
@@ -34,9 +35,9 @@ struct Window {
 
 // Some casters, projected. Computed as area_in_front() does, to the bit.
 struct Projected {
-  alignas(64) std::array<Lanes<double>, corners> x;
-  alignas(64) std::array<Lanes<double>, corners> y;
-  alignas(64) std::array<Lanes<double>, corners> height;  // above the receiver's plane
+  alignas(64) OfCorners x;
+  alignas(64) OfCorners y;
+  alignas(64) OfCorners height;  // above the receiver's plane
   alignas(64) Lanes<double> least_height;
   alignas(64) Lanes<double> most_height;
   alignas(64) Lanes<std::int32_t> first_row;
@@ -51,8 +52,6 @@ struct Projected {
 
 [[gnu::always_inline]] inline double least(double a, double b) { return b < a ? b : a; }
 [[gnu::always_inline]] inline double most(double a, double b) { return a < b ? b : a; }
-
-using OfCorners = std::array<Lanes<double>, corners>;
 
 [[gnu::always_inline]] inline double least_of(OfCorners const& values, std::size_t i) {
   return least(least(values[0][i], values[1][i]), least(values[2][i], values[3][i]));
@@ -226,7 +225,6 @@ struct CrowdRaster::Search {
   View const& pixels;
   Window window;
   Casters::Counted counted;
-  std::vector<Node> waiting{};
 };
 
 CrowdRaster::CrowdRaster(Scene const& scene, Casters const& casters, SurfacePieces const& pieces)
@@ -338,11 +336,12 @@ void CrowdRaster::darken_below(Search& search, Node root) const {
   // Casters are fetched from memory while those before them are rasterised.
   std::array<Leaf const*, 8> pending{};
   std::size_t fetched = 0;
-  std::vector<Node>& waiting = search.waiting;
-  waiting.assign(1, root);
-  while (!waiting.empty()) {
-    Node const next = waiting.back();
-    waiting.pop_back();
+  // Of at most 11 levels, all but one node of each.
+  Node waiting[128];
+  int count = 0;
+  waiting[count++] = root;
+  while (count > 0) {
+    Node const next = waiting[--count];
     if ((next & leaf) != 0) {
       Leaf const& some = leaves_[next ^ leaf];
       prefetch(some);
@@ -362,7 +361,7 @@ void CrowdRaster::darken_below(Search& search, Node root) const {
           !mask.any_lit(met.first_row[i], met.end_row[i], met.first_column[i], met.end_column[i])) {
         continue;
       }
-      waiting.push_back(branch.children[i]);
+      waiting[count++] = branch.children[i];
     }
   }
   for (Leaf const* const some : pending) {
