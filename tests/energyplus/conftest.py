@@ -1,5 +1,7 @@
 """Whole runs of EnergyPlus. They need build/EnergyPlus (scripts/build) and skip, saying so, without it."""
 
+import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -89,3 +91,27 @@ def windows_official(wine, tmp_path_factory):
 def windows_patched(wine, windows_official, tmp_path_factory):
     """The program of a folder that patch_energyplus.cmd made of it."""
     return windows.patch_energyplus(wine, windows_official.parent, tmp_path_factory.mktemp("patched") / "Energy Plüs")
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    """Mounts a file system of so many kB, with a file that leaves only some of it."""
+    mounted = []
+
+    def mount(size, free):
+        folder = tmp_path / f"disk{len(mounted)}"
+        folder.mkdir()
+        done = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}k", "tmpfs", folder],
+                              capture_output=True, text=True)
+        if done.returncode != 0:
+            pytest.skip(f"no small file system can be mounted: {done.stderr.strip()}")
+        mounted.append(folder)
+        return folder, lambda: fill(folder, free)
+
+    def fill(folder, free):
+        status = os.statvfs(folder)
+        (folder / "full").write_bytes(b"\0" * (status.f_bavail * status.f_frsize - 1024 * free))
+
+    yield mount
+    for folder in mounted:
+        subprocess.run(["umount", folder], check=True)

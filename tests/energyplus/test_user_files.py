@@ -31,30 +31,6 @@ def program(patched):
     return call
 
 
-@pytest.fixture
-def small_disk(tmp_path):
-    """Mounts a file system of so many kB, with a file that leaves only some of it."""
-    mounted = []
-
-    def mount(size, free):
-        folder = tmp_path / f"disk{len(mounted)}"
-        folder.mkdir()
-        done = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}k", "tmpfs", folder],
-                              capture_output=True, text=True)
-        if done.returncode != 0:
-            pytest.skip(f"no small file system can be mounted: {done.stderr.strip()}")
-        mounted.append(folder)
-        return folder, lambda: fill(folder, free)
-
-    def fill(folder, free):
-        status = os.statvfs(folder)
-        (folder / "full").write_bytes(b"\0" * (status.f_bavail * status.f_frsize - 1024 * free))
-
-    yield mount
-    for folder in mounted:
-        subprocess.run(["umount", folder], check=True)
-
-
 def contents(folder):
     return {path.relative_to(folder): path.read_bytes() for path in sorted(folder.rglob("*"))
             if path.is_file() and path.name != "full" and STAGE not in str(path)}

@@ -19,7 +19,7 @@ from gpu_shading._library import __version__, limit_threads
 from gpu_shading._programs import measures, prefix
 from gpu_shading.crown import Crown
 from gpu_shading.drawings import Drawings, Map, Mask, MaskHour, Picture, Sheet, map, mask, screen, view
-from gpu_shading.errors import DeviceError, Error, InvalidInput, RunError
+from gpu_shading.errors import DeviceError, Error, FileError, InvalidInput, RunError
 from gpu_shading.model import check
 from gpu_shading.optics import Screen, Transmittance
 from gpu_shading.pv import Power, power, write_reductions
@@ -33,7 +33,7 @@ from gpu_shading.scene import Scene, Surface
 from gpu_shading.study import Case, Study
 
 __all__ = [
-    "Case", "Crown", "DeviceError", "Drawings", "Error", "Hits", "InvalidInput", "Map", "Mask", "MaskHour",
+    "Case", "Crown", "DeviceError", "Drawings", "Error", "FileError", "Hits", "InvalidInput", "Map", "Mask", "MaskHour",
     "ModuleField", "Modules", "Picture", "Power", "Rays", "Renderer", "Rule", "Run", "RunError", "Scene", "Screen",
     "Sheet", "Study", "Summary", "Surface", "Transmittance", "__version__", "check", "limit_threads", "map", "mask",
     "measures", "modules", "power", "prefix", "read_modules", "read_samples", "run", "sample", "screen", "view",

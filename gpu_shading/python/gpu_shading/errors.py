@@ -9,6 +9,10 @@ class InvalidInput(Error, ValueError):
     """A value, an array or a model that is refused."""
 
 
+class FileError(Error, OSError):
+    """A file that cannot be written."""
+
+
 class DeviceError(Error, RuntimeError):
     """The device that was asked for is not there, or was lost."""
 
