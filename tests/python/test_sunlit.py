@@ -185,3 +185,36 @@ def test_threads_that_share_a_renderer_get_their_own_answers():
     with ThreadPoolExecutor(4) as pool:
         found = list(pool.map(lambda share: scene.sunlit(SUNS, deployments=[share]), np.tile(shares, 4)))
     assert all(np.array_equal(one, other) for one, other in zip(found, expected * 4, strict=True))
+
+
+def test_below_the_horizon_there_is_no_sun_unless_asked_for():
+    scene = gpu_shading.Scene(receivers={"window": window()}, casters=[])
+    scene.add(window() + [3, 0, 0], name="fenced", receives=True, casts="never")
+    scene.add([[2, -1, 0], [6, -1, 0], [6, -1, 9], [2, -1, 9]], schedule="hedge")
+    suns = np.array([[180.0, 20.0], [180.0, -20.0], [180.0, 0.0], [180.0, -0.01], [180.0, -60.0]])
+    factors = [[0.5], [0.25], [0.75], [0.125], [1.0]]
+    found = scene.sunlit(suns, factors=factors)
+    assert found == pytest.approx(np.array([[1, 0.5], [0, 0], [1, 0.75], [0, 0], [0, 0]]), abs=1e-6)
+    vectors = [towards(*sun) for sun in suns]
+    renderer = scene.renderer()
+    assert renderer.sunlit(vectors, factors=factors) == pytest.approx(found, abs=1e-12)
+    asked = renderer.sunlit(suns, factors=factors, below_horizon=True)
+    assert asked[[1, 3]] == pytest.approx(np.array([[1, 0.25], [1, 0.125]]), abs=1e-6)
+    areas = renderer.projected_areas(suns, factors=factors)
+    assert (areas[[1, 3, 4]] == 0).all() and (areas[[0, 2]] > 0).all()
+    assert renderer.projected_areas(suns, factors=factors, below_horizon=True)[1, 0] == pytest.approx(
+        np.cos(np.radians(20)) * scene.areas[0])
+    inside = gpu_shading.Scene(receivers={"window": window(), "wall": window() + [0, 3, 0]})
+    assert inside.renderer().interior_areas(suns, 0, [1])[:, 0] == pytest.approx([0, 0, scene.areas[0], 0, 0], abs=0.05)
+
+
+def test_where_a_surface_looks():
+    scene = gpu_shading.Scene(receivers={"window": window(), "clockwise": window()[::-1]})
+    scene.add([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], name="roof", receives=True)
+    scene.add([[0, 0, 0], [0, 1, 0], [1, 1, 0], [1, 0, 0]], name="soffit")
+    scene.add([[0, 0, 0], [0, 1, 0], [-1, 1, 1], [-1, 0, 1]], name="east")
+    assert scene.facing[:2] == pytest.approx(np.array([[180, 90], [0, 90]]))
+    assert scene.facing[2:4, 1] == pytest.approx([0, 180])
+    assert scene.facing[4] == pytest.approx([90, 45])
+    lit = scene.sunlit([[180, 30]])[0]
+    assert lit[0] == pytest.approx(1.0, abs=1e-6) and lit[1] == 0.0

@@ -100,7 +100,9 @@ class Renderer {
   // the whole beam pass.
   void set_deployments(std::vector<double> shares);
 
-  // Returns the sunlit area of each receiver, in order, for one sun direction.
+  // Returns the sunlit area of each receiver, in order, for one sun direction. There is no ground
+  // but the scene's: a direction below the horizon is answered as any other. A receiver that faces
+  // away, as one does whose vertices run clockwise, has none.
   std::vector<Sunlit> projected_sunlit_areas(SunDirection sun,
                                              std::span<SurfaceId const> receivers);
 

@@ -25,6 +25,7 @@ Values = Mapping[str, float] | ArrayLike
 Receivers = Sequence[int] | Sequence[str] | Sequence[int | str]
 
 _MIN_COSINE = 1e-5  # EnergyPlus's: with less, the sun is behind a surface
+_ON_HORIZON = 1e-9  # radians, for the rounding of vectors
 _MAX_DIRECTIONS = 1024  # in one call of the library, between which Python may stop
 _FIRST_DIRECTIONS = 64
 _LONG_CALL = 0.25  # s
@@ -56,24 +57,26 @@ class Renderer:
 
     @overload
     def sunlit(self, directions: ArrayLike, *, receivers: Receivers | None = None, factors: Values | None = None,
-               deployments: Values | None = None, labelled: Literal[False] = False,
+               deployments: Values | None = None, below_horizon: bool = False, labelled: Literal[False] = False,
                progress: bool = False) -> Floats: ...
 
     @overload
     def sunlit(self, directions: ArrayLike, *, receivers: Receivers | None = None, factors: Values | None = None,
-               deployments: Values | None = None, labelled: Literal[True],
+               deployments: Values | None = None, below_horizon: bool = False, labelled: Literal[True],
                progress: bool = False) -> xarray.DataArray: ...
 
     def sunlit(self, directions: ArrayLike, *, receivers: Receivers | None = None, factors: Values | None = None,
-               deployments: Values | None = None, labelled: bool = False,
+               deployments: Values | None = None, below_horizon: bool = False, labelled: bool = False,
                progress: bool = False) -> Floats | xarray.DataArray:
-        """Sunlit fractions, 0 to 1, of shape directions x receivers.
+        """Sunlit fractions, 0 to 1, of shape directions x receivers: 0 where the sun is below the horizon or behind the
+        receiver. A receiver whose vertices run clockwise faces the other way (Scene.facing).
 
         `directions`: of shape (..., 2), azimuth clockwise from north and altitude from the horizon in degrees, or
         (..., 3), vectors to the sun. `receivers`: indices or names of surfaces; all that receive if None.
         `factors`: values of the scene's schedules, 0 to 1, by name or in their order, or a row of them for each
         direction; required if the scene has schedules. `deployments`: the deployed part of screens, 0 to 1, by name or
-        in order; 1 if not given. `labelled`: return an xarray DataArray with the names of receivers and the azimuths
+        in order; 1 if not given. `below_horizon`: light comes from there, too, since nothing but the scene hides it.
+        `labelled`: return an xarray DataArray with the names of receivers and the azimuths
         and altitudes of directions. `progress`: show a bar (needs tqdm).
 
         Many directions in one call are faster than one call each. Arrays of a wrong shape or with values out of range
@@ -81,7 +84,7 @@ class Renderer:
         """
         angles, shape = suns(directions)
         wanted = self._wanted(receivers)
-        areas = self._ask("renderer_sunlit", angles, wanted, factors, deployments, progress=progress)
+        areas = self._ask("renderer_sunlit", angles, wanted, factors, deployments, below_horizon, progress=progress)
         vectors = self._vectors[wanted]
         facing = unit_vectors(angles) @ vectors.T
         lit = facing > _MIN_COSINE * np.linalg.norm(vectors, axis=1)
@@ -90,20 +93,23 @@ class Renderer:
         return self._labelled(limited, angles, shape, wanted) if labelled else limited
 
     def projected_areas(self, directions: ArrayLike, *, receivers: Receivers | None = None,
-                        factors: Values | None = None, deployments: Values | None = None) -> Floats:
+                        factors: Values | None = None, deployments: Values | None = None,
+                        below_horizon: bool = False) -> Floats:
         """Sunlit areas normal to the beam, m2, of shape directions x receivers; arguments as in sunlit."""
         angles, shape = suns(directions)
         wanted = self._wanted(receivers)
-        return self._ask("renderer_sunlit", angles, wanted, factors, deployments).reshape(*shape, len(wanted))
+        return self._ask("renderer_sunlit", angles, wanted, factors, deployments, below_horizon).reshape(
+            *shape, len(wanted))
 
     def interior_areas(self, directions: ArrayLike, window: int, interiors: Sequence[int], *,
-                       factors: Values | None = None, deployments: Values | None = None) -> Floats:
+                       factors: Values | None = None, deployments: Values | None = None,
+                       below_horizon: bool = False) -> Floats:
         """Areas normal to the beam, m2, of each of `interiors` that the sun lights through `window` alone; of shape
-        directions x interiors."""
+        directions x interiors. Arguments as in sunlit."""
         angles, shape = suns(directions)
         through = int(indices([window], len(self._vectors), "window")[0])
         wanted = indices(interiors, len(self._vectors), "interiors")
-        return self._ask("renderer_interior", angles, wanted, factors, deployments, through).reshape(
+        return self._ask("renderer_interior", angles, wanted, factors, deployments, below_horizon, through).reshape(
             *shape, len(wanted))
 
     def _wanted(self, receivers: Receivers | None) -> NDArray[np.uint32]:
@@ -138,9 +144,18 @@ class Renderer:
         return made
 
     def _ask(self, question: str, angles: Floats, wanted: NDArray[np.uint32],
-             factors: Values | None, deployments: Values | None, *window: int, progress: bool = False) -> Floats:
+             factors: Values | None, deployments: Values | None, below_horizon: bool, *window: int,
+             progress: bool = False) -> Floats:
         table = self._factor_table(factors, len(angles))
         shares = self._shares(deployments)
+        asked = np.flatnonzero((angles[:, 1] > -_ON_HORIZON) | below_horizon)
+        results = np.zeros((len(angles), len(wanted)))
+        results[asked] = self._render(question, angles[asked], wanted, table if len(table) == 1 else table[asked],
+                                      shares, *window, progress=progress)
+        return results
+
+    def _render(self, question: str, angles: Floats, wanted: NDArray[np.uint32], table: Floats, shares: Floats,
+                *window: int, progress: bool) -> Floats:
         results = np.empty((len(angles), len(wanted)))
         max_step = max(1, min(_MAX_DIRECTIONS, _MAX_ANSWERS // max(1, len(wanted))))
         first, step = 0, min(max_step, _FIRST_DIRECTIONS)
@@ -156,7 +171,7 @@ class Renderer:
                 step = min(max_step, 2 * step) if time.monotonic() - began < _LONG_CALL else max(1, step // 2)
             lines = _library.text("renderer_warnings", self._handle).splitlines()
         for line in lines:
-            warnings.warn(line, RuntimeWarning, stacklevel=4)
+            warnings.warn(line, RuntimeWarning, stacklevel=5)
         return results
 
 

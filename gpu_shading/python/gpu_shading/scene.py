@@ -204,6 +204,15 @@ class Scene:
         vectors, areas = self._area_vectors(), self.areas[:, None]
         return np.divide(vectors, areas, out=np.zeros_like(vectors), where=areas > 0.0)
 
+    @property
+    def facing(self) -> Floats:
+        """Where each surface looks, degrees: azimuth of its normal, and tilt, 0 upwards to 180 downwards. A window that
+        looks into its own building was given clockwise, and is never lit."""
+        x, y, z = self.normals.T
+        angles = np.degrees(np.column_stack([np.arctan2(x, y), np.arctan2(np.hypot(x, y), z)]))
+        turned: Floats = np.remainder(angles, 360.0)
+        return turned
+
     def index(self, name: str) -> int:
         """The index of the first surface of that name."""
         for index, surface in enumerate(self._surfaces):
@@ -213,25 +222,26 @@ class Scene:
 
     @overload
     def sunlit(self, directions: ArrayLike, *, receivers: Receivers | None = None, factors: Values | None = None,
-               deployments: Values | None = None, device: str = "auto", labelled: Literal[False] = False,
-               progress: bool = False) -> Floats: ...
+               deployments: Values | None = None, below_horizon: bool = False, device: str = "auto",
+               labelled: Literal[False] = False, progress: bool = False) -> Floats: ...
 
     @overload
     def sunlit(self, directions: ArrayLike, *, receivers: Receivers | None = None, factors: Values | None = None,
-               deployments: Values | None = None, device: str = "auto", labelled: Literal[True],
-               progress: bool = False) -> xarray.DataArray: ...
+               deployments: Values | None = None, below_horizon: bool = False, device: str = "auto",
+               labelled: Literal[True], progress: bool = False) -> xarray.DataArray: ...
 
     def sunlit(self, directions: ArrayLike, *, receivers: Receivers | None = None, factors: Values | None = None,
-               deployments: Values | None = None, device: str = "auto", labelled: bool = False,
-               progress: bool = False) -> Floats | xarray.DataArray:
+               deployments: Values | None = None, below_horizon: bool = False, device: str = "auto",
+               labelled: bool = False, progress: bool = False) -> Floats | xarray.DataArray:
         """Sunlit fractions, 0 to 1: the sunlit area over the area, each part weighted by what the shades in front of
-        it let pass; 0 where the sun is behind the receiver. See Renderer.sunlit, which answers."""
+        it let pass; 0 where the sun is below the horizon or behind the receiver, as it always is behind one that
+        `facing` shows to look into its building. See Renderer.sunlit, which answers."""
         renderer = self.renderer(device=device)
         if labelled:
             return renderer.sunlit(directions, receivers=receivers, factors=factors, deployments=deployments,
-                                   labelled=True, progress=progress)
+                                   below_horizon=below_horizon, labelled=True, progress=progress)
         return renderer.sunlit(directions, receivers=receivers, factors=factors, deployments=deployments,
-                               progress=progress)
+                               below_horizon=below_horizon, progress=progress)
 
     def add_mesh(self, mesh: Any, *, name: str, **surface: Any) -> list[int]:
         """Adds the faces of a trimesh.Trimesh, a PyVista PolyData, or of any object with `vertices` and `faces`, and
