@@ -18,6 +18,7 @@ from dask.distributed import Client
 from platypus import NSGAII, Problem, Real
 
 import gpu_shading
+from gpu_shading import _files
 
 MODEL = Path(__file__).with_name("box_with_louvres.idf")
 WEATHER = gpu_shading.prefix() / "WeatherData" / "USA_CO_Golden-NREL.724666_TMY3.epw"
@@ -75,7 +76,8 @@ def draw(cooling, daylight, front, file):
     plt.plot(daylight[front], cooling[front], "o-", markersize=3)
     plt.xlabel("mean illuminance of the sensor, lux")
     plt.ylabel("cooling of the year, kWh")
-    plt.savefig(file, dpi=90)
+    with _files.staged(file) as temporary:
+        plt.savefig(temporary, dpi=90)
 
 
 def main(count, folder="study"):

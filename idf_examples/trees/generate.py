@@ -7,7 +7,7 @@
 import argparse
 import math
 import re
-import shutil
+import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -48,10 +48,15 @@ def model():
 
 
 def write(folder):
-    (folder / "trees_mesh.idf").write_text(model(), encoding="utf-8")
-    (folder / "oak.obj").write_text(crown(), encoding="utf-8")
+    contents = {"trees_mesh.idf": model(), "oak.obj": crown()}
     if folder.resolve() != HERE:
-        shutil.copy(HERE / "trees.geojson", folder)
+        contents["trees.geojson"] = (HERE / "trees.geojson").read_text(encoding="utf-8")
+    for name in contents:
+        if (folder / name).exists():
+            sys.exit(f"{folder / name} exists; expected a folder without it")
+    for name, text in contents.items():
+        with open(folder / name, "x", encoding="utf-8") as file:
+            file.write(text)
 
 
 def main():

@@ -329,6 +329,8 @@ def write_file(path, contents):
     path = Path(path)
     if path.is_symlink():
         raise NotOurs(f"{path} is a link: give the file itself")
+    if path.exists() and not path.is_file():
+        raise NotOurs(f"{path} is not a file")
     if isinstance(contents, str):
         contents = contents.encode("utf-8")
     beside = path.with_name(f".{path.name}.{secrets.token_hex(4)}")

@@ -1,11 +1,14 @@
 """What the Python package writes is there as a whole or not at all, and the user's files are as they were."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
+import types
 
+import numpy as np
 import pytest
 from shading_runs import energyplus
 
@@ -133,3 +136,119 @@ def test_what_a_killed_process_left_is_deleted_by_the_next(files, tmp_path):
     while list(tmp_path.glob(".gpu_shading-*/a")) and time.monotonic() < deadline:
         files.write_whole(tmp_path / "b", "whole")
     assert sorted(path.name for path in tmp_path.iterdir()) == [".gpu_shading-01234567", "b"]
+
+
+TALL = [[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]]
+
+
+def scene_file(name):
+    def write(folder, number):
+        import gpu_shading
+
+        scene = gpu_shading.Scene(receivers=[np.array(TALL) + [i, 0, 0] for i in range(400)])
+        scene.save(folder / name, np.full((3, 400), 0.25 * number), times=["9", "12", "15"])
+
+    return write
+
+
+def picture(folder, number):
+    from gpu_shading.drawings import Picture
+
+    Picture(bytes([number]) * 100_000).save(folder / "a.png")
+
+
+def pv_powers(number):
+    field = types.SimpleNamespace(name="Roof", clock=np.ones((4000, 4), int), reduction=np.full(4000, 0.1 * number),
+                                  beam_reduction=np.full(4000, 0.2 * number))
+    return [field]
+
+
+def reductions(folder, number):
+    import gpu_shading
+
+    gpu_shading.write_reductions(pv_powers(number), folder / "pv.csv")
+
+
+def table(folder, number):
+    pytest.importorskip("pandas")
+    pytest.importorskip("fastparquet")
+    from gpu_shading import pv_modules
+
+    values = np.random.default_rng(number).random((4000, 4))
+    pv_modules._write(pv_modules._frame(values, np.arange(4000).astype("datetime64[m]"),
+                                        [("Roof", i) for i in range(4)], ["surface", "module"]), folder / "pv.parquet")
+
+
+def samples(name):
+    def write(folder, number):
+        xarray = pytest.importorskip("xarray")
+        pytest.importorskip("h5netcdf" if name.endswith(".nc") else "fastparquet")
+        import gpu_shading
+
+        values = np.random.default_rng(number).random((4000, 4))
+        data = xarray.Dataset({"sunlit_fraction": (("time", "receiver"), values)},
+                              coords={"time": np.arange(4000), "receiver": list("abcd")})
+        gpu_shading.write_samples(data, folder / name)
+
+    return write
+
+
+def sun_hours(folder, number):
+    pytest.importorskip("ladybug")
+    import honeybee_gpushading
+
+    grids = tuple(types.SimpleNamespace(identifier=f"grid_{i}", count=4000) for i in range(3))
+    values = ((0.1 * number,) * 4000,) * 3
+    honeybee_gpushading.SunHours(grids, values, values).write(folder)
+
+
+WRITERS = {"glb": scene_file("a.glb"), "vtp": scene_file("a.vtp"), "pvd": scene_file("a.pvd"), "picture": picture,
+           "reductions": reductions, "modules": table, "nc": samples("a.nc"), "parquet": samples("a.parquet"),
+           "sun hours": sun_hours}
+
+
+@pytest.mark.parametrize("kind", WRITERS)
+def test_writers_onto_a_full_disk_leave_the_old_files(kind, files, small_disk):
+    folder, fill = small_disk(2000, 16)
+    WRITERS[kind](folder, 1)
+    before = everything(folder)
+    assert len(before) >= {"pvd": 4, "sun hours": 12}.get(kind, 1)
+    fill()
+    with pytest.raises(files.FileError) as error:
+        WRITERS[kind](folder, 2)
+    text = str(error.value)
+    assert text.startswith(f"{folder}/") and ": cannot be written (" in text and "\n" not in text, text
+    assert everything(folder) == before
+    (folder / "full").unlink()
+    WRITERS[kind](folder, 2)
+    after = everything(folder)
+    assert after.keys() == before.keys() and after != before
+
+
+@pytest.mark.parametrize("kind", WRITERS)
+def test_writers_do_not_write_through_links(kind, files, tmp_path):
+    for name in ("first", "second"):
+        (tmp_path / name).mkdir()
+    WRITERS[kind](tmp_path / "first", 1)
+    for made in [path for path in (tmp_path / "first").rglob("*") if path.is_file()]:
+        place = tmp_path / "second" / made.relative_to(tmp_path / "first")
+        place.parent.mkdir(exist_ok=True)
+        mine = tmp_path / f"mine {made.name}"
+        mine.write_text("mine")
+        place.symlink_to(mine)
+        with pytest.raises(files.FileError, match="it is a link"):
+            WRITERS[kind](tmp_path / "second", 2)
+        assert mine.read_text() == "mine" and place.is_symlink()
+        place.unlink()
+
+
+def test_the_package_has_no_other_way_to_write_a_file():
+    """Whatever writes by itself does so where `staged` has said. Studies write models into folders of their own."""
+    writing = re.compile(r"""write_text|write_bytes|to_(csv|parquet|netcdf|json)\(|savefig|\.save\(|savetxt|np\.save
+                             |copy(file|2)?\(|\bopen\(.*["'][rb]*[wxa+]""", re.VERBOSE)
+    found = [f"{path.name}:{number}: {line.strip()}"
+             for path in sorted(PACKAGE.rglob("*.py")) if path.name not in ("_files.py", "measure.py")
+             and "study" not in path.parts
+             for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+             if writing.search(line) and "temporary" not in line and ".copy()" not in line and "as room:" not in line]
+    assert found == []

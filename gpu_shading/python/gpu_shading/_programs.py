@@ -8,6 +8,7 @@ import importlib.util
 import os
 import re
 import subprocess
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from gpu_shading.errors import InvalidInput, RunError
 Name = str | os.PathLike[str]
 _PACKAGE = Path(__file__).resolve().parent
 _LIBRARY = "libgpu_shading_python.so"
+_WARNING = "gpu_shading: warning: "
 _MARKER = ".gpu_shading_prefix.json"  # of patch_energyplus
 
 
@@ -107,11 +109,14 @@ def environment() -> dict[str, str]:
 
 
 def gpu_shading(arguments: Sequence[str | Path]) -> str:
-    """What the gpu_shading program prints. Raises RunError with its message."""
+    """What the gpu_shading program prints. Its warnings become Python's; raises RunError with its message."""
     done = subprocess.run([prefix() / "gpu_shading", *arguments], capture_output=True,
                           stdin=subprocess.DEVNULL)
     if done.returncode != 0:
         raise RunError(last_message(done.stderr.decode(errors="replace"), "gpu_shading", done.returncode))
+    for line in done.stderr.decode(errors="replace").splitlines():
+        if line.startswith(_WARNING):
+            warnings.warn(line.removeprefix(_WARNING), RuntimeWarning, stacklevel=3)
     return done.stdout.decode(errors="replace")
 
 

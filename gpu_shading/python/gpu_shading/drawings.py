@@ -4,7 +4,6 @@ each result."""
 from __future__ import annotations
 
 import base64
-import csv
 import importlib
 import tempfile
 from collections.abc import Sequence
@@ -17,6 +16,8 @@ from numpy.typing import NDArray
 
 from gpu_shading import _html, _programs
 from gpu_shading._arrays import Floats
+from gpu_shading._files import write_whole
+from gpu_shading._reading import rows_of
 from gpu_shading.errors import InvalidInput
 
 Projection = Literal["stereographic", "equidistant", "cylindrical"]
@@ -30,8 +31,8 @@ class Picture:
     png: bytes
 
     def save(self, file: _programs.Name) -> None:
-        """Writes the .png."""
-        Path(file).write_bytes(self.png)
+        """Writes or replaces the .png, as a whole or not at all."""
+        write_whole(file, self.png)
 
     @property
     def pixels(self) -> NDArray[np.uint8]:
@@ -203,7 +204,7 @@ def map(model: _programs.Name, weather: _programs.Name, *, first: str | None = N
         folder = Path(temporary) / "maps"
         _programs.gpu_shading(["map", *arguments, "-o", folder])
         made = []
-        for row in _rows(folder / "maps.csv"):
+        for row in rows_of(folder / "maps.csv"):
             hours, energy = np.load(folder / f"{row['files']}.npy").astype(np.float64)
             made.append(Map(row["receiver"], hours, energy, float(row["sunlit mean [h]"]),
                             float(row["beam mean [kWh/m2]"]), _picture(folder / f"{row['files']}.png"),
@@ -226,9 +227,9 @@ def mask(model: _programs.Name, weather: _programs.Name | None = None, *, receiv
         folder = Path(temporary) / "masks"
         _programs.gpu_shading(["mask", *arguments, "-o", folder])
         hours: dict[str, list[MaskHour]] = {}
-        for row in _rows(folder / "hours.csv"):
+        for row in rows_of(folder / "hours.csv"):
             hours.setdefault(row["receiver"], []).append(_hour(row))
-        return Drawings([_mask(folder, row, step, hours[row["receiver"]]) for row in _rows(folder / "masks.csv")])
+        return Drawings([_mask(folder, row, step, hours[row["receiver"]]) for row in rows_of(folder / "masks.csv")])
 
 
 def screen(model: _programs.Name, name: str | None = None) -> Drawings[Sheet]:
@@ -246,11 +247,6 @@ def _pair(angles: tuple[float, float] | None) -> str | None:
     return None if angles is None else f"{angles[0]},{angles[1]}"
 
 
-def _rows(file: Path) -> list[dict[str, str]]:
-    with open(file, newline="", encoding="utf-8", errors="replace") as lines:
-        return list(csv.DictReader(lines))
-
-
 def _picture(file: Path) -> Picture:
     # Installations without the picture formats write none.
     return Picture(file.read_bytes() if file.is_file() else b"")
@@ -258,7 +254,7 @@ def _picture(file: Path) -> Picture:
 
 def _centres(file: Path, shape: tuple[int, ...]) -> Floats:
     centres = np.full((*shape, 3), np.nan)
-    for cell in _rows(file):
+    for cell in rows_of(file):
         centres[int(cell["row"]), int(cell["column"])] = [float(cell[f"{axis} [m]"]) for axis in "xyz"]
     return centres
 
@@ -279,7 +275,7 @@ def _hour(row: dict[str, str]) -> MaskHour:
 def _mask(folder: Path, row: dict[str, str], step: int, hours: list[MaskHour]) -> Mask:
     azimuths, altitudes = (np.arange(0.5 * step, most, step) for most in (360.0, 90.0))
     sky = np.full((len(altitudes), len(azimuths)), np.nan)
-    for cell in _rows(folder / f"{row['files']}.csv"):
+    for cell in rows_of(folder / f"{row['files']}.csv"):
         sky[int(float(cell["altitude [deg]"]) // step), int(float(cell["azimuth [deg]"]) // step)] = float(
             cell["sunlit fraction"])
     horizon = np.loadtxt(folder / f"{row['files']}.hor")[:, 1]
@@ -290,7 +286,7 @@ def _mask(folder: Path, row: dict[str, str], step: int, hours: list[MaskHour]) -
 
 
 def _sheet(folder: Path, stem: str, text: str) -> Sheet:
-    rows = _rows(folder / f"{stem}_tau.csv")
+    rows = rows_of(folder / f"{stem}_tau.csv")
     values = np.array([[float(row[key]) for key in list(row)[:3]] for row in rows])
     theta, phi = np.unique(values[:, 0]), np.unique(values[:, 1])
     tau = np.full((len(theta), len(phi)), np.nan)

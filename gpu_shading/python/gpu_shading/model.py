@@ -5,12 +5,14 @@ from __future__ import annotations
 import html
 import json
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gpu_shading import _html, _programs
+from gpu_shading._reading import one_line, reading
 from gpu_shading.crown import Crown
 from gpu_shading.errors import RunError
 from gpu_shading.optics import Screen, Transmittance
@@ -53,6 +55,11 @@ def read(model: _programs.Name, weather: _programs.Name | None = None,
     """The scene that is rendered for a model. `extensions`: a side file in place of the model's own."""
     side_file = None if extensions is None else _programs.file(extensions, "extensions")
     document = _document(model, weather, ["--vertices", *_programs.flags(gpu_shading_file=side_file)], _FORMATS[1])
+    with reading(Path(model), "a model whose scene this package can read"):
+        return _contents(document)
+
+
+def _contents(document: dict[str, Any]) -> Contents:
     shades = [Transmittance.table(np.linspace(0.0, 90.0, len(values)), values) for values in document["transmittances"]]
     screens = [_screen(found) for found in document["screens"]]
     schedules, deployments = document["schedules"], document["deployments"]
@@ -75,10 +82,15 @@ def read(model: _programs.Name, weather: _programs.Name | None = None,
 
 
 def _document(model: _programs.Name, weather: _programs.Name | None, flags: list[str], format_: str) -> dict[str, Any]:
-    document = json.loads(_programs.gpu_shading(["check", "--json", *flags, *_programs.inputs(model, weather)]))
-    if document.get("format") != format_:
-        raise RunError(f"the gpu_shading program writes {document.get('format')!r}, expected {format_!r}: it is of "
-                       "another version than this package")
+    text = _programs.gpu_shading(["check", "--json", *flags, *_programs.inputs(model, weather)])
+    try:
+        document = json.loads(text)
+        found = document.get("format")
+    except (AttributeError, RecursionError, ValueError):
+        found = one_line(text)
+    if found != format_:
+        raise RunError(f"the gpu_shading program writes {found!r}, expected {format_!r}: it is of another version than "
+                       "this package")
     return dict(document)
 
 

@@ -8,13 +8,13 @@ from __future__ import annotations
 import importlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from gpu_shading import _programs
-from gpu_shading._arrays import Floats
+from gpu_shading._arrays import Floats, number
+from gpu_shading._files import write_whole
 from gpu_shading.errors import InvalidInput
 from gpu_shading.pv_modules import Integers, ModuleField, Modules, _frame, _write
 from gpu_shading.pv_picture import draw
@@ -104,17 +104,21 @@ def power(modules: Modules, module: str | Mapping[str, float], *, albedo: float 
     whose circumsolar part is shaded like the beam, and the rest by each module's view of the sky. The temperature of
     cells is Faiman's, one for a surface.
     """
-    return tuple(_power(field, modules, _parameters(module), albedo, reverse) for field in modules)
+    if missing := [key for key in REVERSE if key not in reverse]:
+        raise InvalidInput(f"reverse: {', '.join(missing)} missing")
+    limits = {**reverse, **{key: number(reverse[key], f"reverse: {key}") for key in REVERSE}}
+    albedo = number(albedo, "albedo", 0.0, 1.0)
+    return tuple(_power(field, modules, _parameters(module), albedo, limits) for field in modules)
 
 
 def write_reductions(powers: Sequence[Power], file: _programs.Name) -> None:
     """Writes the reductions of sunlit fractions, for `energyplus --gpu-shading-pv FILE` and run()."""
-    with open(Path(file), "w", encoding="utf-8") as lines:
-        lines.write("month,day,hour,timestep,reduction,PVWatts,surface\n")
-        for each in powers:
-            for clock, *reductions in zip(each.clock, each.reduction, each.beam_reduction, strict=True):
-                numbers = [*map(str, clock), *(f"{reduction:.6f}" for reduction in reductions)]
-                lines.write(f"{','.join(numbers)},{each.name}\n")
+    lines = ["month,day,hour,timestep,reduction,PVWatts,surface\n"]
+    for each in powers:
+        for clock, *reductions in zip(each.clock, each.reduction, each.beam_reduction, strict=True):
+            numbers = [*map(str, clock), *(f"{reduction:.6f}" for reduction in reductions)]
+            lines.append(f"{','.join(numbers)},{each.name}\n")
+    write_whole(file, "".join(lines))
 
 
 def _pvlib(part: str) -> Any:
@@ -134,7 +138,7 @@ def _parameters(module: str | Mapping[str, float]) -> dict[str, float]:
     missing = [key for key in (*_PARAMETERS, "N_s") if key not in given]
     if missing:
         raise InvalidInput(f"module: {', '.join(missing)} missing")
-    return {key: float(given[key]) for key in (*_PARAMETERS, "N_s")}
+    return {key: number(given[key], f"module: {key}") for key in (*_PARAMETERS, "N_s")}
 
 
 @dataclass(frozen=True)

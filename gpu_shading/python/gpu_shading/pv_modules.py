@@ -14,11 +14,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gpu_shading import _programs
-from gpu_shading._arrays import Floats
-from gpu_shading.drawings import Picture, _picture, _rows
+from gpu_shading._arrays import Floats, number, numbers, whole, within
+from gpu_shading._files import staged
+from gpu_shading._reading import array_of, reading, rows_of, shares, text_of
+from gpu_shading.drawings import Picture, _picture
 from gpu_shading.errors import InvalidInput
 
 _FORMAT = "gpu_shading modules 1"
+_MOST_PLACES = 99_999
+_MOST_VIEW = 1.01  # a sum over directions
+_CLOCK = {"month": 12, "day": 31, "hour": 24, "timestep": 60}
+_COLUMNS = (*_CLOCK, "sun azimuth [deg]", "sun altitude [deg]", "beam [W/m2]", "diffuse [W/m2]", "air [C]",
+            "wind [m/s]")
 Integers = NDArray[np.int64]
 
 
@@ -71,8 +78,9 @@ class Modules(Sequence[ModuleField]):
 
     def __init__(self, fields: Sequence[ModuleField], table: Sequence[dict[str, str]], year: int, steps: int) -> None:
         self._fields = tuple(fields)
-        values = {key: np.array([float(row[key]) for row in table]) for key in (table[0] if table else ())}
-        self.clock: Integers = np.stack([values[key] for key in ("month", "day", "hour", "timestep")], 1).astype(int)
+        values = {key: numbers([float(row[key]) for row in table], key) for key in _COLUMNS}
+        clock = [within(values[key], key, 1, most) for key, most in _CLOCK.items()]
+        self.clock: Integers = np.stack(clock, axis=1).astype(int)
         """Month, day, hour (1 to 24) and timestep (from 1) of each time."""
         self.steps_per_hour = steps
         days = [f"{year:04}-{month:02}-{day:02}" for month, day in self.clock[:, :2]]
@@ -128,30 +136,37 @@ def modules(model: _programs.Name, weather: _programs.Name, folder: _programs.Na
 def read_modules(folder: _programs.Name) -> Modules:
     """What `gpu_shading modules` wrote into a folder."""
     path = Path(folder)
-    try:
-        about = json.loads((path / "modules.json").read_text(encoding="utf-8"))
+    for name in ("modules.json", "modules.csv", "times.csv"):
+        if not (path / name).exists():
+            raise InvalidInput(f"{path}: has no {name}: run gpu_shading modules")
+    with reading(path, "a folder of gpu_shading modules"):
+        about = json.loads(text_of(path / "modules.json"))
         if about["format"] != _FORMAT:
             raise ValueError(f"its format is {about['format']!r}, expected {_FORMAT!r}")
-        rows = _rows(path / "modules.csv")
-        return Modules([_field(path, each, [row for row in rows if row["surface"] == each["surface"]])
-                        for each in about["fields"]], _rows(path / "times.csv"), about["year"],
-                       about["steps_per_hour"])
-    except FileNotFoundError as error:
-        raise InvalidInput(f"{path}: has no {Path(str(error.filename)).name}: run gpu_shading modules") from None
-    except (KeyError, TypeError, ValueError, UnicodeDecodeError) as error:
-        raise InvalidInput(f"{path}: is not a folder of gpu_shading modules: {error}") from None
+        rows, times = rows_of(path / "modules.csv"), rows_of(path / "times.csv")
+        return Modules([_field(path, each, [row for row in rows if row["surface"] == each["surface"]], len(times))
+                        for each in about["fields"]], times, whole(about["year"], "year", 1, 9999),
+                       whole(about["steps_per_hour"], "steps_per_hour", 1, 60))
 
 
-def _field(path: Path, about: dict[str, Any], rows: list[dict[str, str]]) -> ModuleField:
-    cells = np.load(path / f"{about['files']}.npy", allow_pickle=False)
-    if cells.dtype != np.uint16 or cells.shape[1:] != (len(rows), about["cell_rows"], about["cell_columns"]):
-        raise ValueError(f"{about['files']}.npy and modules.csv differ")
+def _field(path: Path, about: dict[str, Any], rows: list[dict[str, str]], times: int) -> ModuleField:
+    stem = str(about["files"])
+    if Path(stem).name != stem:
+        raise ValueError(f"files: {stem!r}, expected the name of a file")
+    cells = array_of(path / f"{stem}.npy")
+    wanted = (times, len(rows), about["cell_rows"], about["cell_columns"])
+    if cells.dtype != np.uint16 or cells.shape != wanted:
+        raise ValueError(f"{stem}.npy, modules.csv and times.csv differ")
+    places = np.array([[int(row[name]) - 1 for name in ("string", "column", "row")] for row in rows])
+    if places.min(initial=0) < 0 or places.max(initial=0) > _MOST_PLACES:
+        raise ValueError(f"string, column or row: expected 1 to {_MOST_PLACES + 1}")
     return ModuleField(
-        about["surface"], cells, np.array([int(row["string"]) - 1 for row in rows]),
-        np.array([[int(row["column"]) - 1, int(row["row"]) - 1] for row in rows]), float(rows[0]["azimuth [deg]"]),
-        float(rows[0]["tilt [deg]"]), np.array([float(row["sky view factor"]) for row in rows]),
-        float(rows[0]["unshaded view factor"]), about["bypass_diodes"], about["half_cut"],
-        about["module_area"], _picture(path / f"{about['files']}.png"))
+        str(about["surface"]), cells, places[:, 0], places[:, 1:], number(float(rows[0]["azimuth [deg]"]), "azimuth"),
+        number(float(rows[0]["tilt [deg]"]), "tilt"),
+        shares([row["sky view factor"] for row in rows], "sky view factor", _MOST_VIEW),
+        number(float(rows[0]["unshaded view factor"]), "unshaded view factor", 0.0, _MOST_VIEW),
+        whole(about["bypass_diodes"], "bypass_diodes", 1, about["cell_columns"]), bool(about["half_cut"]),
+        number(about["module_area"], "module_area", 0.0), _picture(path / f"{stem}.png"))
 
 
 def _frame(values: Floats, times: NDArray[np.datetime64], columns: list[Any], names: list[str]) -> Any:
@@ -168,4 +183,5 @@ def _write(frame: Any, file: _programs.Name) -> None:
         raise InvalidInput(f"{file}: expected a name that ends in .parquet")
     # Names of columns in Parquet are text.
     frame.columns = [" ".join(map(str, column)) for column in frame.columns]
-    frame.to_parquet(file)
+    with staged(file) as temporary:
+        frame.to_parquet(temporary)

@@ -19,7 +19,8 @@ from typing import Any
 import numpy as np
 
 from gpu_shading import _html, _programs
-from gpu_shading._arrays import Floats
+from gpu_shading._arrays import Floats, number
+from gpu_shading._reading import one_line, reading, regular
 from gpu_shading.errors import InvalidInput, RunError
 from gpu_shading.pv import Power, write_reductions
 
@@ -65,7 +66,9 @@ class Run:
             raise InvalidInput(f"frequency: {frequency!r}, expected one of {', '.join(_FREQUENCIES)}")
         keys: dict[str, str] = {}
         found: dict[str, list[float]] = {}
-        with open(self.folder / "eplusout.eso", encoding="utf-8", errors="replace") as lines:
+        path = self.folder / "eplusout.eso"
+        with reading(path, "a file of EnergyPlus's results"), open(regular(path), encoding="utf-8",
+                                                                    errors="replace") as lines:
             for line in lines:
                 if line.startswith("End of Data Dictionary"):
                     break
@@ -79,8 +82,7 @@ class Run:
                 elif number in keys:
                     found[keys[number]].append(float(rest.partition(",")[0]))
         if not keys:
-            raise InvalidInput(f"{variable}: not in {self.folder / 'eplusout.eso'}: the model has no Output:Variable "
-                               "for it")
+            raise InvalidInput(f"{variable}: not in {path}: the model has no Output:Variable for it")
         return {key: np.array(values) for key, values in found.items()}
 
     def frame(self, variable: str | None = None, frequency: str = "Hourly") -> Any:
@@ -98,16 +100,19 @@ class Run:
                WHERE d.ReportingFrequency = ? AND (t.WarmupFlag IS NULL OR t.WarmupFlag = 0)
                AND t.EnvironmentPeriodIndex = (SELECT MAX(EnvironmentPeriodIndex) FROM Time)
                ORDER BY r.TimeIndex""", told[frequency])
-        rows = [row for row in rows if variable is None or row[5].upper() == variable.upper()]
+        path = self.folder / "eplusout.sql"
+        with reading(path, "a database of EnergyPlus's results"):
+            rows = [row for row in rows if variable is None or row[5].upper() == variable.upper()]
         if not rows:
-            raise InvalidInput(f"{variable or 'variables'}: none at {frequency} in {self.folder / 'eplusout.sql'}: "
+            raise InvalidInput(f"{variable or 'variables'}: none at {frequency} in {path}: "
                                "the model has no Output:Variable for it")
         zone = datetime.timezone(datetime.timedelta(hours=self._time_zone()))
-        times = [_time(row, zone) for row in rows]
+        with reading(path, "a database of EnergyPlus's results"):
+            times = [_time(row, zone) for row in rows]
         names = [row[6] if variable is not None else (row[5], row[6]) for row in rows]
         columns: dict[Any, list[int]] = {}
-        for number, name in enumerate(names):
-            columns.setdefault(name, []).append(number)
+        for place, name in enumerate(names):
+            columns.setdefault(name, []).append(place)
         table = pandas_.DataFrame({name: pandas_.Series([rows[i][7] for i in chosen], index=[times[i] for i in chosen])
                                    for name, chosen in columns.items()})
         if variable is None:
@@ -119,7 +124,7 @@ class Run:
         """Warnings, errors, time, variables, and the site's energy if the tables are in eplusout.sql."""
         end = _text(self.folder / "eplusout.end")
         counts = re.search(r"(\d+) Warning; *(\d+) Severe", end)
-        spent = re.search(r"Elapsed Time=(\d+)hr *(\d+)min *([\d.]+)sec", end)
+        spent = re.search(r"Elapsed Time=(\d+)hr *(\d+)min *(\d+\.?\d*)sec", end)
         hours, minutes, seconds = (float(part) for part in spent.groups()) if spent else (0.0, 0.0, float("nan"))
         return Summary(int(counts[1]) if counts else 0, int(counts[2]) if counts else 0,
                        3600 * hours + 60 * minutes + seconds, self.messages, self._variables(), self._site_energy())
@@ -145,19 +150,19 @@ class Run:
                    AND RowName = 'Total Site Energy' AND ColumnName = 'Total Energy'"""
         try:
             [(value, units)] = self._sql(query)
-        except (InvalidInput, ValueError):
+            return float(value) / {"GJ": 0.0036, "kWh": 1.0, "MJ": 3.6}.get(units, float("nan"))
+        except (InvalidInput, TypeError, ValueError):
             return None
-        return float(value) / {"GJ": 0.0036, "kWh": 1.0, "MJ": 3.6}.get(units, float("nan"))
 
     def _sql(self, query: str, *values: str) -> list[tuple[Any, ...]]:
-        path = self.folder / "eplusout.sql"
+        path = (self.folder / "eplusout.sql").absolute()
         if not path.is_file():
             raise InvalidInput(f"{path}: no such file: the model needs Output:SQLite")
         with contextlib.closing(sqlite3.connect(f"{path.as_uri()}?mode=ro", uri=True)) as data:
             try:
                 return data.execute(query, values).fetchall()
             except sqlite3.DatabaseError as error:
-                raise InvalidInput(f"{path}: {error}") from None
+                raise InvalidInput(f"{path}: {one_line(error)}") from None
 
     def _time_zone(self) -> float:
         """Hours ahead of universal time, from eplusout.eio."""
@@ -165,7 +170,8 @@ class Run:
                           _text(self.folder / "eplusout.eio"), re.MULTILINE)
         if not found:
             raise InvalidInput(f"{self.folder / 'eplusout.eio'}: has no Site:Location")
-        return float(found[1])
+        with reading(self.folder / "eplusout.eio", "a file of EnergyPlus's"):
+            return number(float(found[1]), "time zone", -12.0, 14.0)
 
 
 def _needed(module: str, what: str) -> Any:
@@ -203,7 +209,7 @@ def run(model: _programs.Name, weather: _programs.Name, folder: _programs.Name |
         if value is not None:
             flags.append(f"--gpu-shading-{name}={value}")
     inputs = [_programs.file(weather, "weather"), _programs.file(model, "model")]
-    out = _empty_folder(folder)
+    out = empty_folder(folder)
     if pv is not None:
         write_reductions(pv, out / "pv_reductions.csv")
         flags.append(f"--gpu-shading-pv={out / 'pv_reductions.csv'}")
@@ -222,13 +228,17 @@ def run(model: _programs.Name, weather: _programs.Name, folder: _programs.Name |
     return Run(out, tuple(own))
 
 
-def _empty_folder(folder: _programs.Name | None) -> Path:
+def empty_folder(folder: _programs.Name | None) -> Path:
+    """A new or empty folder, made where there is none; a temporary one for None."""
     if folder is None:
         return Path(tempfile.mkdtemp(prefix="gpu_shading_run_"))
     path = Path(folder).absolute()
-    path.mkdir(parents=True, exist_ok=True)
-    if any(path.iterdir()):
-        raise InvalidInput(f"folder: {path} is not empty")
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        if any(path.iterdir()):
+            raise InvalidInput(f"folder: {path} is not empty")
+    except OSError as error:
+        raise InvalidInput(f"folder: {path}: {error.strerror}") from None
     return path
 
 

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from gpu_shading import _programs
+from gpu_shading._files import staged
+from gpu_shading._reading import reading, regular, shares, text_of
 from gpu_shading.errors import InvalidInput
 
 if TYPE_CHECKING:
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
 
 Mode = Literal["fine", "medium", "coarse"]
 _FORMAT = "gpu_shading samples 1"
+_OF_NETCDF = 100_000  # bytes beside the arrays
 
 
 def sample(model: _programs.Name, weather: _programs.Name, folder: _programs.Name | None = None, *,
@@ -47,15 +50,18 @@ def read_samples(folder: _programs.Name) -> xarray.Dataset:
     """
     dataset = _xarray().Dataset
     tables = Path(folder)
-    try:
-        about = json.loads((tables / "samples.json").read_text(encoding="utf-8"))
+    for name in ("samples.json", "year.csv"):
+        if not (tables / name).exists():
+            raise InvalidInput(f"{tables}: has no {name}: run gpu_shading sample")
+    with reading(tables, "a folder of gpu_shading sample"):
+        about = json.loads(text_of(tables / "samples.json"))
         receivers = [str(receiver["name"]) for receiver in about["receivers"]]
         times, numbers = _year(tables / "year.csv", receivers)
         if about["format"] != _FORMAT:
             raise ValueError(f"its format is {about['format']!r}, expected {_FORMAT!r}")
         made: xarray.Dataset = dataset(
             {
-                "sunlit_fraction": (("time", "receiver"), numbers[:, 2:],
+                "sunlit_fraction": (("time", "receiver"), shares(numbers[:, 2:], "sunlit fractions"),
                                     {"units": "1", "long_name": "sunlit fraction"}),
                 "azimuth": ("time", numbers[:, 0], {"units": "degree", "long_name": "azimuth, clockwise from north"}),
                 "altitude": ("time", numbers[:, 1], {"units": "degree", "long_name": "altitude, from the horizon"}),
@@ -68,10 +74,6 @@ def read_samples(folder: _programs.Name) -> xarray.Dataset:
                    "weather": about["inputs"]["weather"]["name"], "latitude": about["site"]["latitude"],
                    "longitude": about["site"]["longitude"], "gpu_shading": about["versions"]["gpu_shading"]})
         return made
-    except FileNotFoundError as error:
-        raise InvalidInput(f"{tables}: has no {Path(error.filename).name}: run gpu_shading sample") from None
-    except (KeyError, TypeError, ValueError, UnicodeDecodeError) as error:
-        raise InvalidInput(f"{tables}: is not a folder of gpu_shading sample: {error}") from None
 
 
 def write_samples(dataset: xarray.Dataset, file: _programs.Name) -> None:
@@ -80,20 +82,24 @@ def write_samples(dataset: xarray.Dataset, file: _programs.Name) -> None:
     path = Path(file)
     if path.suffix not in (".nc", ".parquet"):
         raise InvalidInput(f"{path}: expected a name that ends in .nc or .parquet")
-    staged = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
+    with staged(path) as temporary:
         if path.suffix == ".nc":
-            dataset.to_netcdf(staged)
+            _require_room(temporary, dataset.nbytes + dataset.nbytes // 8 + _OF_NETCDF)
+            dataset.to_netcdf(temporary)
         else:
-            dataset["sunlit_fraction"].to_pandas().to_parquet(staged)
-        os.replace(staged, path)
-    finally:
-        staged.unlink(missing_ok=True)
+            dataset["sunlit_fraction"].to_pandas().to_parquet(temporary)
+
+
+def _require_room(file: Path, count: int) -> None:
+    """HDF5 ends the process by a segmentation fault when a disk gets full."""
+    with open(file, "xb") as room:
+        os.posix_fallocate(room.fileno(), 0, count)
+    file.unlink()
 
 
 def _year(file: Path, receivers: list[str]) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, np.dtype[np.float64]]]:
     """(times; azimuth, altitude and each receiver's fraction in rows)"""
-    with open(file, newline="", encoding="utf-8") as lines:
+    with open(regular(file), newline="", encoding="utf-8") as lines:
         rows = csv.reader(lines)
         header = next(rows, [])
         if header != ["time", "azimuth", "altitude", *receivers]:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gpu_shading._arrays import Floats
+from gpu_shading._files import staged, write_whole
 from gpu_shading.errors import InvalidInput
 
 FORMATS = (".glb", ".vtp", ".pvd")
@@ -54,7 +55,7 @@ def series(name: str, values: Any, times: Sequence[Any] | None, names: Sequence[
     """Values as a scene's `sunlit` returns them, in columns of receivers, or by the name of each surface, in any case,
     as a run's `values` are."""
     if isinstance(values, Mapping):
-        columns = {str(key).upper(): np.asarray(column, dtype=float) for key, column in values.items()}
+        columns = {str(key).upper(): _floats(column, name) for key, column in values.items()}
         sizes = {column.shape for column in columns.values()}
         if len(sizes) != 1 or len(next(iter(sizes))) > 1:
             raise InvalidInput(f"values: {name}: arrays of shapes {sorted(sizes)}, expected one value of each surface "
@@ -64,7 +65,7 @@ def series(name: str, values: Any, times: Sequence[Any] | None, names: Sequence[
         if np.isnan(table).all():
             raise InvalidInput(f"values: {name}: none of {', '.join(list(columns)[:3])} is a surface of the scene")
     else:
-        given = np.asarray(values, dtype=float)
+        given = _floats(values, name)
         if given.ndim not in (1, 2) or given.shape[-1] != len(receivers):
             raise InvalidInput(f"values: {name}: an array of shape {given.shape}, expected one value for each of "
                                f"{len(receivers)} receivers at each time")
@@ -79,16 +80,22 @@ def series(name: str, values: Any, times: Sequence[Any] | None, names: Sequence[
     return Series(name, labels, table.reshape(-1, len(names)))
 
 
+def _floats(values: Any, name: str) -> Floats:
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise InvalidInput(f"values: {name}: expected numbers") from None
+
+
 def save(file: Path, parts: Sequence[Part], shown: Series | None) -> None:
     """Writes a file of the format that its suffix names."""
     suffix = file.suffix.lower()
     if suffix not in FORMATS:
         raise InvalidInput(f"file: {file}: expected a name that ends in one of {', '.join(FORMATS)}")
     if suffix == ".glb":
-        file.write_bytes(_glb(parts, shown))
+        write_whole(file, _glb(parts, shown))
     elif suffix == ".vtp":
-        file.write_text(_vtp(parts, dict(zip(shown.titles, shown.values, strict=True)) if shown else {}),
-                        encoding="utf-8")
+        write_whole(file, _vtp(parts, dict(zip(shown.titles, shown.values, strict=True)) if shown else {}))
     else:
         _save_steps(file, parts, shown)
 
@@ -97,12 +104,13 @@ def _save_steps(file: Path, parts: Sequence[Part], shown: Series | None) -> None
     """A .vtp for each time beside the .pvd, which lists them."""
     rows = shown.values if shown else [np.empty(0)]
     entries = []
-    for step, row in enumerate(rows):
-        name = f"{file.stem}_{step:04d}.vtp"
-        file.with_name(name).write_text(_vtp(parts, {shown.name: row} if shown else {}), encoding="utf-8")
-        entries.append(f'<DataSet timestep="{step}" part="0" file={quoteattr(name)}/>\n')
-    file.write_text('<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>\n'
-                    + "".join(entries) + "</Collection>\n</VTKFile>\n", encoding="utf-8")
+    with staged(file) as temporary:
+        for step, row in enumerate(rows):
+            name = f"{file.stem}_{step:04d}.vtp"
+            temporary.with_name(name).write_text(_vtp(parts, {shown.name: row} if shown else {}), encoding="utf-8")
+            entries.append(f'<DataSet timestep="{step}" part="0" file={quoteattr(name)}/>\n')
+        temporary.write_text('<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>\n'
+                             + "".join(entries) + "</Collection>\n</VTKFile>\n", encoding="utf-8")
 
 
 def _vtp(parts: Sequence[Part], columns: Mapping[str, Floats]) -> str:

@@ -58,7 +58,7 @@ class ExtensionObject:
         while values[-1] == "":
             values.pop()
         for value in values:
-            if any(character in value for character in ",;!\n"):
+            if any(character in value for character in ",;!\r\n"):
                 raise ValueError(f"{type(self).__name__} {self.name!r}: {value!r}: expected no comma, semicolon, "
                                  "exclamation mark or line break")
         return f"{self.keyword},\n  " + ",\n  ".join(values) + ";\n"

@@ -54,6 +54,8 @@ class SunHours:
     def write(self, folder: Name) -> None:
         """As results of grids: folders with grids_info.json, vis_metadata.json and a .res file for each grid, as
         Honeybee's recipes write them and honeybee-display reads them."""
+        from gpu_shading._files import staged
+
         hours = importlib.import_module("ladybug.datatype.time").Time("Sun Hours")
         energy = importlib.import_module("ladybug.datatype.energyintensity").EnergyIntensity("Beam Energy")
         for name, kind, unit, values in (("sun_hours", hours, "hr", self.hours),
@@ -62,35 +64,41 @@ class SunHours:
             target.mkdir(parents=True, exist_ok=True)
             infos = [{"name": grid.identifier, "identifier": grid.identifier, "full_id": grid.identifier,
                       "count": grid.count, "group": ""} for grid in self.grids]
-            (target / "grids_info.json").write_text(json.dumps(infos, indent=1), encoding="utf-8")
             metadata = {"type": "VisualizationMetaData", "data_type": kind.to_dict(), "unit": unit}
-            (target / "vis_metadata.json").write_text(json.dumps(metadata, indent=1), encoding="utf-8")
-            for grid, of_grid in zip(self.grids, values, strict=True):
-                lines = "".join(f"{value:.6g}\n" for value in of_grid)
-                (target / f"{grid.identifier}.res").write_text(lines, encoding="utf-8")
+            with staged(target / "grids_info.json") as temporary:
+                temporary.write_text(json.dumps(infos, indent=1), encoding="utf-8")
+                temporary.with_name("vis_metadata.json").write_text(json.dumps(metadata, indent=1), encoding="utf-8")
+                for grid, of_grid in zip(self.grids, values, strict=True):
+                    lines = "".join(f"{value:.6g}\n" for value in of_grid)
+                    temporary.with_name(f"{grid.identifier}.res").write_text(lines, encoding="utf-8")
 
 
 def write_idf(model: Any, file: Name, weather: Name, parameters: Any = None) -> None:
     """Writes a model for EnergyPlus, and its GPUShading objects beside it, as MODEL.gpu-shading.idf. `parameters`: a
     SimulationParameter of honeybee-energy; without one, energy by zone and sunlit fractions are reported by the hour.
     Design days that it lacks are those of the weather file."""
+    from gpu_shading._files import staged
+
     climate = importlib.import_module("ladybug.epw").EPW(str(weather))
     energyplus = importlib.import_module("honeybee_energy.writer")
     text = "\n\n".join([f"Version, {_release()};", climate.location.to_idf(), _parameters(parameters, climate).to_idf(),
                         energyplus.model_to_idf(model), schedules_to_idf(model)])
     path = Path(file)
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text, encoding="utf-8")
-    path.with_suffix(".gpu-shading.idf").write_text(model_to_gpu_shading(model), encoding="utf-8")
+    with staged(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+        temporary.with_suffix(".gpu-shading.idf").write_text(model_to_gpu_shading(model), encoding="utf-8")
 
 
 def run(model: Any, weather: Name, folder: Name | None = None, parameters: Any = None, *,
         arguments: Sequence[str] = (), **options: Any) -> Results:
     """Writes a model into a folder, new or empty, and runs it. `parameters` as write_idf has them; `options` as
     gpu_shading.run has them, such as shading=False for EnergyPlus's own polygon clipping."""
+    from gpu_shading.runs import empty_folder
+
     import gpu_shading
 
-    place = Path(folder) if folder is not None else Path(tempfile.mkdtemp(prefix="gpu_shading_honeybee_"))
+    place = empty_folder(folder)
     write_idf(model, place / "model.idf", weather, parameters)
     return Results(model, gpu_shading.run(place / "model.idf", weather, place / "out", arguments=["-x", *arguments],
                                           **options))
@@ -110,13 +118,14 @@ def sun_hours(model: Any, weather: Name, **options: Any) -> SunHours:
     grids, hours, energy = [], [], []
     for drawn in maps:
         cells = drawn.hours == drawn.hours
-        grids.append(_grid(names.get(drawn.name.upper(), drawn.name), drawn, cells))
+        taken = {grid.identifier for grid in grids}
+        grids.append(_grid(names.get(drawn.name.upper(), drawn.name), drawn, cells, taken))
         hours.append(tuple(map(float, drawn.hours[cells])))
         energy.append(tuple(map(float, drawn.energy[cells])))
     return SunHours(tuple(grids), tuple(hours), tuple(energy))
 
 
-def _grid(name: str, drawn: gpu_shading.Map, cells: Any) -> Any:
+def _grid(name: str, drawn: gpu_shading.Map, cells: Any, taken: set[str]) -> Any:
     import numpy as np
 
     sensor_grid = importlib.import_module("honeybee_radiance.sensorgrid").SensorGrid
@@ -129,7 +138,10 @@ def _grid(name: str, drawn: gpu_shading.Map, cells: Any) -> Any:
                                for centre in drawn.centres[cells]])
     faces = [tuple(range(first, first + 4)) for first in range(0, len(vertices), 4)]
     made = mesh(tuple(point(*map(float, vertex)) for vertex in vertices), faces)
-    grid = sensor_grid.from_mesh3d(re.sub(r"\W", "_", name), made)
+    identifier = re.sub(r"\W", "_", name)
+    while identifier in taken:
+        identifier += "_"
+    grid = sensor_grid.from_mesh3d(identifier, made)
     grid.display_name = name
     return grid
 

@@ -66,12 +66,15 @@ def prefix():
     python_api = (source.parent.parent / "pyenergyplus").is_dir()
     wanted = f"{source} {_content()}{' with pyenergyplus' if python_api else ''}\n"
     folder.parent.mkdir(parents=True, exist_ok=True)
-    with open(folder.parent / f".{folder.name}.lock", "w") as lock:
+    flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW  # the target of a link would be emptied
+    with open(os.open(folder.parent / f".{folder.name}.lock", flags, 0o600), "r+b") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         stamp = folder.parent / f".{folder.name}.made_from"
         if not folder.is_dir() or not stamp.is_file() or stamp.read_text() != wanted:
             _make(source, folder)
-            stamp.write_text(wanted)
+            stamp.unlink(missing_ok=True)
+            with open(stamp, "x") as file:
+                file.write(wanted)
     return folder
 
 
