@@ -1,8 +1,11 @@
 """Scenes with values by time as glTF and VTK, read back by trimesh and PyVista."""
 
+import base64
+import itertools
 import json
 import struct
 import sys
+import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
@@ -145,3 +148,111 @@ def test_errors_say_what_was_expected(scene, sunlit, tmp_path):
     assert list(tmp_path.iterdir()) == []
     scene.save(tmp_path / "plain.glb")
     scene.save(tmp_path / "plain.vtp")
+
+
+def faces_of_glb(path):
+    """(triangles, surface of each) of the surfaces without values and of one of the times."""
+    data = path.read_bytes()
+    length = struct.unpack_from("<I", data, 12)[0]
+    document, binary = json.loads(data[20:20 + length]), data[28 + length:]
+
+    def array(index):
+        accessor = document["accessors"][index]
+        width = {"SCALAR": 1, "VEC3": 3}[accessor["type"]]
+        start = document["bufferViews"][accessor["bufferView"]]["byteOffset"]
+        return np.frombuffer(binary, "<f4", accessor["count"] * width, start).reshape(-1, width)
+
+    shown = [node for node in document["nodes"] if node.get("scale") != [0.0, 0.0, 0.0]]
+    parts = [part["attributes"] for node in shown for part in document["meshes"][node["mesh"]]["primitives"]]
+    return (np.concatenate([array(part["POSITION"]).reshape(-1, 3, 3) for part in parts]).astype(float),
+            np.concatenate([array(part["_SURFACE"]).reshape(-1, 3)[:, 0] for part in parts]).astype(int))
+
+
+def faces_of_vtp(path):
+    arrays = {}
+    for each in ET.fromstring(path.read_text()).iter("DataArray"):
+        kind = {"Float64": "<f8", "Float32": "<f4", "Int64": "<i8"}[each.get("type")]
+        arrays[each.get("Name")] = np.frombuffer(base64.b64decode(each.text)[8:], kind)
+    rings = np.split(arrays["Points"].reshape(-1, 3)[arrays["connectivity"]], arrays["offsets"][:-1])
+    return rings, arrays["surface"]
+
+
+def overlaps(faces, shapely):
+    """Areas that two faces in one plane share."""
+    found = []
+    boxes = np.array([[face.min(axis=0), face.max(axis=0)] for face in faces])
+    for first, face in enumerate(faces):
+        normal = sum(np.cross(a, b) for a, b in zip(face - face[0], np.roll(face - face[0], -1, axis=0), strict=True))
+        if not np.linalg.norm(normal) > 1e-9:
+            continue
+        normal = normal / np.linalg.norm(normal)
+        axes = np.linalg.svd(normal[None])[2][1:]
+        meets = ((boxes[first, 0] < boxes[first + 1:, 1] + 1e-4) & (boxes[first, 1] > boxes[first + 1:, 0] - 1e-4))
+        for second in first + 1 + np.flatnonzero(meets.all(axis=1)):
+            other = faces[second]
+            if np.abs((other - face[0]) @ normal).max() < 5e-4:
+                one, two = (shapely.Polygon(each @ axes.T).buffer(0) for each in (face, other))
+                found.append(one.intersection(two).area)
+    return max(found, default=0.0), len(found)
+
+
+def upright(x0, z0, x1, z1, y=0.0):
+    return [[x0, y, z0], [x1, y, z0], [x1, y, z1], [x0, y, z1]]
+
+
+def test_faces_do_not_lie_on_one_another(patched, tmp_path):
+    """A wall with windows, one at its corner and one across its edge, a mirrored duplicate, a neighbour that touches,
+    a star over a pane, and a slab just behind."""
+    need("shapely", large=False)
+    import shapely
+
+    import gpu_shading
+
+    angles = np.linspace(0, 2 * np.pi, 11)[:-1]
+    radius = np.where(np.arange(10) % 2, 0.5, 1.3)
+    star = np.column_stack([22 + radius * np.cos(angles), 0 * angles, 2 + radius * np.sin(angles)])
+    turn = np.radians(33)
+    turned = np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]])
+    polygons = {"wall": upright(0, 0, 10, 4), "window": upright(1, 1, 3, 2), "corner": upright(9, 3, 10, 4),
+                "door": upright(5, -0.5, 6, 2), "mirrored": upright(0, 0, 10, 4)[::-1], "beside": upright(10, 0, 12, 4),
+                "pane": upright(20, 0, 24, 4), "star": star, "slab": upright(0, 0, 10, 4, 0.01)}
+    scene = gpu_shading.Scene()
+    for name, polygon in polygons.items():
+        scene.add(np.array(polygon) @ turned.T + [100, 50, 3], name=name, receives=name in ("wall", "window", "star"),
+                  casts="never" if name in ("wall", "window", "star") else "always")
+    values = np.full((2, 3), 0.5)
+    expected = dict(zip(polygons, scene.areas, strict=True))
+    expected["wall"] -= 2 + 1 + 2  # windows, and the part of the door on it
+    expected["mirrored"] = 0.0
+    expected["pane"] -= expected["star"]
+    for name, read in (("a.glb", faces_of_glb), ("a.vtp", faces_of_vtp)):
+        scene.save(tmp_path / name, values, times=["9", "12"])
+        faces, surfaces = read(tmp_path / name)
+        shared, pairs = overlaps(faces, shapely)
+        assert pairs > 20 and shared < 1e-4
+        for index, area in enumerate(expected.values()):
+            vectors = [sum(np.cross(b - face[0], c - face[0]) for b, c in itertools.pairwise(face[1:])) / 2
+                       for face, owner in zip(faces, surfaces, strict=True) if owner == index]
+            found = float(np.linalg.norm(np.sum(vectors, axis=0))) if vectors else 0.0
+            assert found == pytest.approx(area, abs=1e-4), scene.names[index]
+
+
+MODELS = [pytest.param(energyplus.REPOSITORY / "idf_examples" / "courtyard" / "courtyard.idf", id="courtyard"),
+          *(pytest.param(energyplus.models_folder() / name, id=name) for name in
+            ("RefBldgSmallOfficeNew2004_Chicago.idf", "SolarShadingTest.idf", "GeometryTest.idf"))]
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_faces_of_models_do_not_lie_on_one_another(model, patched, tmp_path):
+    need("shapely", large=False)
+    import shapely
+
+    import gpu_shading
+
+    if not model.is_file():
+        pytest.skip(f"{model} is missing: GPU_SHADING_MODELS names the folder of models")
+    scene = gpu_shading.Scene.from_energyplus(model)
+    for name, read in (("a.glb", faces_of_glb), ("a.vtp", faces_of_vtp)):
+        scene.save(tmp_path / name)
+        shared, pairs = overlaps(read(tmp_path / name)[0], shapely)
+        assert pairs > 20 and shared < 1e-4

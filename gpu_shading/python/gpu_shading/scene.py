@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from gpu_shading import _library, _pickles
 from gpu_shading._arrays import FARTHEST, Floats, number, numbers, pointer, ring, whole, within
+from gpu_shading._overlaps import fans, without_overlaps
 from gpu_shading.crown import Crown, LeafAngles, Shape
 from gpu_shading.errors import InvalidInput
 from gpu_shading.meshes import faces_of, to_pyvista, to_trimesh
@@ -260,12 +261,15 @@ class Scene:
         """Writes the surfaces with values, such as sunlit fractions, for drawing in 3D: a .glb, which browsers show and
         which plays the times one after another; a .vtp of VTK with an array of cells for each time, "sunlit 12:00"; or
         a .pvd, ParaView's list of a .vtp for each time. `values`: as `sunlit` returns them, or by name as Run.values
-        has them. `times`: a label for each row of values."""
+        has them. `times`: a label for each row of values. Where surfaces lie on one another, as a window on its
+        wall, the smallest is drawn."""
         shown = None if values is None else series(name, values, times, self.names, self.receivers)
+        triangles = [self._triangles(index) for index in range(len(self._surfaces))]
+        valued = np.full(len(triangles), False) if shown is None else ~np.isnan(shown.values).all(axis=0)
         parts = []
-        for index, surface in enumerate(self._surfaces):
-            triangles = self._triangles(index)
-            parts.append(Part(list(triangles) if surface.holes else [surface.vertices], triangles,
+        for surface, corners, left in zip(self._surfaces, triangles, without_overlaps(triangles, valued), strict=True):
+            polygons = left if left is not None else list(corners) if surface.holes else [surface.vertices]
+            parts.append(Part(polygons, corners if left is None else fans(left),
                               bool(surface.transmittance or surface.screen or surface.crown)))
         save(Path(file), parts, shown)
 
