@@ -7,8 +7,13 @@ from shading_runs import input_file, methods, results
 DEFAULT_ERROR = 1e-3  # of --gpu-shading-error
 NAMES = {results.SOLAR: "transmitted solar radiation", results.HEATING: "heating", results.COOLING: "cooling",
          results.LIGHTS: "lighting"}
-CLASSES = {f"{methods.OURS}{name.lower()}": name
-           for name in ("TransparentShade", "PerforatedScreen", "MovingShade", "Geometry", "SiteContext", "Tree")}
+# What EnergyPlus itself does where our objects are left out.
+IN_STOCK = (
+    (("PerforatedScreen", "TransparentShade"),
+     "takes shading surfaces with {} as opaque, or by their transmittance schedule"),
+    (("MovingShade",), "leaves surfaces with {} as they are drawn"),
+    (("Geometry", "SiteContext", "Tree"), "has nothing of {}"),
+)
 SAME = 5e-6  # relative, beyond the digits that are said
 
 
@@ -24,20 +29,24 @@ def allowed(runs):
     return max(errors)
 
 
-def _objects(run):
-    """Names of our classes that the model of a run and its side file hold, without settings."""
+def _classes(run):
+    """The classes of the model of a run and of its side file."""
     paths = [run.model, *([run.extension_file] if run.extension_file else [])]
-    return {CLASSES[name] for path in paths for name in input_file.read(path).classes() if name in CLASSES}
+    return set().union(*(input_file.read(path).classes() for path in paths))
 
 
 def unseen(runs):
-    """What runs of EnergyPlus itself cannot see of the others' models, a sentence for each."""
+    """What runs of EnergyPlus itself make of our objects in the others' models, a sentence for each."""
     found = []
     for run in (each for each in runs if not each.is_ours):
-        objects = set().union(*(_objects(each) for each in runs if each.is_ours or each is run))
-        if objects:
-            found.append(f"{run.title} cannot see GPUShading objects ({', '.join(sorted(objects))}): its figures are "
-                         "of a building without them.")
+        classes = set().union(*(_classes(each) for each in runs if each.is_ours or each is run))
+        said = []
+        for names, what in IN_STOCK:
+            there = [f"GPUShading:{name}" for name in names if f"{methods.OURS}{name.lower()}" in classes]
+            if there:
+                said.append(what.format(" and ".join(there)))
+        if said:
+            found.append(f"{run.title} {'; '.join(said)}.")
     return found
 
 

@@ -407,14 +407,15 @@ def test_each_variant_has_its_picture(rooms):
     assert re.search(r"sun at azimuth [\d.]+°, altitude [\d.]+°", text)
 
 
-def test_inputs_that_differ_and_what_stock_cannot_see(rooms):
+def test_inputs_that_differ_and_what_stock_makes_of_them(rooms):
     text, tables, _ = rooms
     rows = {row[0]: row[1:] for row in tables["table-inputs"][1:]}
     assert rows["GPUShading:TransparentShade"] == ["–", "1 added: Glass", "–"]
     assert "Building" not in rows  # 0 and 0.0 are the same
     assert rows["Shading:Building:Detailed"][:2] == ["–", "–"]
     assert rows["Shading:Building:Detailed"][2].startswith("12 removed: Louvre 1")
-    assert "PolygonClipping cannot see GPUShading objects (TransparentShade)" in text
+    assert "PolygonClipping takes shading surfaces with GPUShading:TransparentShade as opaque" in text
+    assert "without them" not in text
 
 
 def test_daylight_and_lighting_are_those_reported(rooms):

@@ -85,8 +85,17 @@ def test_a_run_that_ignores_screens_is_said_to(run, in_model):
     text = "GPUShading:PerforatedScreen,Veil,Screen,Round;\n" if in_model else "Zone,Box;\n"
     ours = run("Renderer", [0.0], text=text, side=not in_model)
     assert verdict.unseen([clip, ours]) == [
-        "Clipping cannot see GPUShading objects (PerforatedScreen): its figures are of a building without them."]
+        "Clipping takes shading surfaces with GPUShading:PerforatedScreen as opaque, or by their transmittance schedule."]
     assert verdict.unseen([run("Other", text=text), ours]) == []
+
+
+def test_what_stock_makes_of_each_kind_of_object_is_said(run):
+    kinds = ("Settings", "TransparentShade", "MovingShade", "Geometry", "Tree")
+    ours = run("Renderer", [0.0], text="".join(f"GPUShading:{kind},x;\n" for kind in kinds))
+    assert verdict.unseen([run("Clipping", is_ours=False), ours]) == [
+        "Clipping takes shading surfaces with GPUShading:TransparentShade as opaque, or by their transmittance "
+        "schedule; leaves surfaces with GPUShading:MovingShade as they are drawn; has nothing of "
+        "GPUShading:Geometry and GPUShading:Tree."]
 
 
 def test_variants_are_named_by_what_differs(tmp_path):
