@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent), str(HERE.parent / "screened_room"), str(HERE.parents[1] / "scripts")]
+sys.path[:0] = [str(HERE.parent), str(HERE.parent / "screened_room")]
 
 import random_holes  # noqa: E402
 from common import casters, idf, rooms  # noqa: E402

@@ -10,10 +10,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
-
-from shading_runs import energyplus, output_folder, results  # noqa: E402
-from shading_runs.errors import in_words  # noqa: E402
+from shading_runs import energyplus, output_folder, results
+from shading_runs.errors import in_words
 
 OF_RUN = ["heating kWh", "cooling kWh", "seconds", "rendering", "receivers", "casters"]
 

@@ -57,6 +57,16 @@ def test_pages_lead_to_one_another(installed):
                 assert (page.parent / target).exists(), f"{page.name}: {target}"
 
 
+def test_examples_find_what_they_share(installed, tmp_path):
+    scripts = [path for path in installed.glob("share/gpu_shading/idf_examples/*/*.py")
+               if path.name in ("generate.py", "study.py") and "from common import" in path.read_text()]
+    assert len(scripts) > 9
+    for script in scripts:
+        done = subprocess.run([sys.executable, script, "--help"], cwd=tmp_path, env=alone(), capture_output=True,
+                              text=True)
+        assert done.returncode == 0 and "usage" in done.stdout, done.stderr
+
+
 def test_man_pages_have_every_option_of_the_manual(installed):
     options = ROOT / "energyplus_patch" / "docs" / "reference" / "options.md"
     rows = re.findall(r"^\| `(--gpu-shading[\w-]*)", options.read_text(encoding="utf-8"), re.M)
