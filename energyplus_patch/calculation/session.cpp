@@ -19,6 +19,13 @@
 namespace gpu_shading::energyplus {
 namespace {
 
+// The deployments, then the factors, as RunRecord has them.
+std::vector<float> shares_of(ShadeOptics const& optics) {
+  std::vector<float> shares(optics.deployments().begin(), optics.deployments().end());
+  shares.insert(shares.end(), optics.factors().begin(), optics.factors().end());
+  return shares;
+}
+
 std::string list(Stages const& stages) {
   std::string line;
   for (auto const& [stage, seconds] : stages) {
@@ -195,7 +202,6 @@ void Session::end_time() {
 void Session::set_time(Moment moment) {
   if (!answers_) return;
   moment_ = moment;
-  if (record_) record_->begin_step(moment);
   if (auto* const first = first_sun_now()) first->reset();
   if (scene_.optics().update(moment)) {
     messages_.warning(
@@ -214,6 +220,7 @@ void Session::set_time(Moment moment) {
   } else {
     answers_->deploy(scene_.optics().deployments(), scene_.positions());
   }
+  if (record_) record_->begin_step(moment, shares_of(scene_.optics()));
   if (!control_) return;
   control_->set_time(moment);
   undecided_ = moment.timestep > 0;

@@ -36,7 +36,7 @@ void RunRecord::begin_day(RunDay const& day, Beam const& beam) {
   beam_ = counts ? beam() : std::vector<double>{};
 }
 
-void RunRecord::begin_step(Moment moment) {
+void RunRecord::begin_step(Moment moment, std::vector<float> shares) {
   step_ = nullptr;
   if (!day_ || moment.hour < 1 || moment.timestep < 1) return;
   auto const per_hour = static_cast<std::size_t>(day_->steps_per_hour);
@@ -46,7 +46,7 @@ void RunRecord::begin_step(Moment moment) {
   if (!has_new_steps_) steps_.assign(hours_of_day * per_hour, {});
   has_new_steps_ = true;
   step_ = &steps_[hour * per_hour + step];
-  *step_ = {};
+  *step_ = {std::nullopt, {}, std::move(shares)};
 }
 
 void RunRecord::set_sun(SunDirection sun) {
@@ -130,8 +130,8 @@ void RunRecord::share_beam(Period& period) {
 }
 
 bool RunRecord::is_faced(std::size_t receiver, std::size_t step) const {
-  auto const& [sun, fractions] = steps_[step];
-  return sun && sun->altitude > 0.0 && fractions[receiver] >= 0.0F;
+  auto const& taken = steps_[step];
+  return taken.sun && taken.sun->altitude > 0.0 && taken.fractions[receiver] >= 0.0F;
 }
 
 RunRecord::WholeHours RunRecord::whole_hours(std::size_t receiver) const {
@@ -167,7 +167,8 @@ void RunRecord::keep_day() {
   for (std::size_t hour = 0; hour < hours_of_day; ++hour) {
     auto const& step = steps_[(hour + 1) * per_hour - 1];
     if (step.sun && step.sun->altitude > 0.0) {
-      day.hours.push_back({static_cast<int>(hour + 1), *step.sun, step.fractions, 0.0});
+      day.hours.push_back(
+          {static_cast<int>(hour + 1), *step.sun, step.fractions, 0.0, step.shares});
     }
   }
   for (std::size_t i = 0; i < receivers_.size(); ++i) day.whole.push_back(whole_hours(i));

@@ -37,6 +37,8 @@ class RunRecord {
     // Direct normal irradiance, W/m2: the mean over the days that were simulated with these
     // answers.
     double beam = 0.0;
+    // As begin_step() was given them.
+    std::vector<float> shares = {};
   };
   // The hours during all of which the sun faces a receiver, and before and after them, as
   // scripts/compare_shading takes them (results.py): the others' hourly fractions count timesteps
@@ -57,11 +59,13 @@ class RunRecord {
 
   // What EnergyPlus says, in its order: a day begins; a timestep of it, whose sun and answers hold
   // for this day and those that follow, until others are given; the sun; m2 normal to its beam.
+  // `shares`: how far shades are deployed or leaved at this timestep, and their transmittance
+  // schedules, 0 .. 1.
   // The direct normal irradiance, W/m2, at every timestep of a day is asked for where it counts.
   // A day may begin again at each of its timesteps.
   using Beam = std::function<std::vector<double>()>;
   void begin_day(RunDay const& day, Beam const& beam);
-  void begin_step(Moment moment);
+  void begin_step(Moment moment, std::vector<float> shares = {});
   void set_sun(SunDirection sun);
   void note(SurfaceId receiver, double projected_area);
   void end();
@@ -82,6 +86,7 @@ class RunRecord {
   struct Step {
     std::optional<SunDirection> sun;
     std::vector<float> fractions;
+    std::vector<float> shares;
   };
   struct Period {
     std::vector<Day> days;

@@ -1,6 +1,7 @@
 #include "reports/run_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -51,25 +52,50 @@ std::vector<RunRecord::Day const*> chosen_days(RunRecord const& record) {
   return days;
 }
 
-PageStyle style_of(Surface const& surface) {
+// Rounded to whole percents, so that a few styles serve all.
+double whole_percents(double share) {
+  constexpr double percents = 100.0;
+  return std::round(percents * share) / percents;
+}
+
+// What changes a shade with time, and what it passes without; `deployments`: how many there are in
+// RunRecord::Hour::shares.
+void add_share(PageStyle& style, BeamFilter const& filter, std::size_t deployments) {
+  auto const* const sheet = filter.find<PerforatedSheet>();
+  auto const* const crown = filter.find<Crown>();
+  if (sheet != nullptr && sheet->deployment >= 0) {
+    style.share = static_cast<std::size_t>(sheet->deployment);
+    style.without = 1.0;
+  } else if (crown != nullptr && crown->deployment >= 0) {
+    style.share = static_cast<std::size_t>(crown->deployment);
+    Crown bare = *crown;
+    bare.leaf_density = 0.0;
+    BeamFilter wood;
+    wood.set(bare);
+    style.without = wood.look().passes;
+  } else if (filter.schedule >= 0) {
+    style.share = deployments + static_cast<std::size_t>(filter.schedule);
+  }
+}
+
+PageStyle style_of(Surface const& surface, std::size_t deployments) {
   constexpr std::array<char const*, 4> holes{"round", "square", "slotted", "hexagonal"};
   constexpr std::array<char const*, 3> arrangements{"straight", "staggered 45", "staggered 60"};
   auto const look = surface.filter.look();
   PageStyle style;
+  add_share(style, surface.filter, deployments);
   switch (look.kind) {
     case FilterLook::Kind::opaque:
       break;
-    case FilterLook::Kind::glass: {
-      // To whole percents, so that a few styles serve all.
-      constexpr double percents = 100.0;
+    case FilterLook::Kind::glass:
       style.kind = PageStyle::Kind::glass;
-      style.passes = std::round(look.passes * percents) / percents;
+      style.passes = surface.filter.factors.empty() ? 1.0 : whole_percents(look.passes);
       break;
-    }
     case FilterLook::Kind::foliage:
       style.kind = PageStyle::Kind::foliage;
-      // Of one of the two faces that a ray meets, to whole percents.
-      style.passes = std::round(100.0 * std::sqrt(look.passes)) / 100.0;
+      // Of one of the two faces that a ray meets.
+      style.passes = whole_percents(std::sqrt(look.passes));
+      style.without = whole_percents(std::sqrt(style.without));
       break;
     case FilterLook::Kind::holes:
       style.kind = PageStyle::Kind::screen;
@@ -89,10 +115,12 @@ PageStyle style_of(Surface const& surface) {
 
 class PageStyles {
  public:
-  PageStyles() : styles_(2) { styles_.front().kind = PageStyle::Kind::receiver; }
+  explicit PageStyles(std::size_t deployments) : deployments_(deployments), styles_(2) {
+    styles_.front().kind = PageStyle::Kind::receiver;
+  }
 
   std::size_t number_of(Surface const& surface) {
-    auto const style = style_of(surface);
+    auto const style = style_of(surface, deployments_);
     auto const found = std::ranges::find(styles_, style);
     if (found != styles_.end()) return static_cast<std::size_t>(found - styles_.begin());
     constexpr std::size_t max_styles = 1000;
@@ -103,6 +131,7 @@ class PageStyles {
   std::vector<PageStyle> const& all() const { return styles_; }
 
  private:
+  std::size_t deployments_;
   std::vector<PageStyle> styles_;  // receivers', opaque casters', others
 };
 
@@ -125,6 +154,21 @@ std::uint8_t percent_of(float fraction) {
                          : static_cast<std::uint8_t>(std::lround(fraction * percents));
 }
 
+// What is not known at first is what it is later: EMS has changed a constant schedule.
+void add_shares(RunPage& page, std::vector<RunRecord::Day const*> const& days) {
+  for (auto const* day : days) {
+    for (auto const& hour : day->hours) {
+      while (page.shares.size() < hour.shares.size()) {
+        page.shares.emplace_back(page.shares.empty() ? 0 : page.shares.front().size(),
+                                 percent_of(hour.shares[page.shares.size()]));
+      }
+      for (std::size_t i = 0; i < hour.shares.size(); ++i) {
+        page.shares[i].push_back(percent_of(hour.shares[i]));
+      }
+    }
+  }
+}
+
 void add_hours(RunPage& page, std::vector<RunRecord::Day const*> const& days) {
   std::vector<std::pair<double, int>> sums(page.receivers.size(), {0.0, 0});
   for (auto const* day : days) {
@@ -133,7 +177,7 @@ void add_hours(RunPage& page, std::vector<RunRecord::Day const*> const& days) {
       sums[i].second += day->whole[i].count;
     }
     auto& added = page.days.emplace_back(PageDay{day->month, day->day, {}});
-    for (auto const& [hour, sun, fractions, beam] : day->hours) {
+    for (auto const& [hour, sun, fractions, beam, shares] : day->hours) {
       added.hours.push_back({hour, sun, beam});
       for (float const fraction : fractions) page.percents.push_back(percent_of(fraction));
     }
@@ -218,7 +262,7 @@ PageTerrain drawn_terrain(SceneAssembly const& assembly, Scene const& scene,
 std::vector<SurfaceId> add_surfaces(RunPage& page, SceneAssembly const& assembly,
                                     RunRecord const& record) {
   auto const scene = assembly.scene();
-  PageStyles styles;
+  PageStyles styles(assembly.optics().deployments().size());
   std::vector<SurfaceId> ids;
   std::vector<bool> added(scene.size(), false);
   for (std::size_t i = 0; i < record.receivers().size(); ++i) {
@@ -256,6 +300,7 @@ RunPage page_of(SceneAssembly const& assembly, DeviceInfo const& device, RunReco
   page.title = assembly.model().file;
   auto const ids = add_surfaces(page, assembly, record);
   add_hours(page, days);
+  add_shares(page, days);
   auto const kind = record.of_design_days() ? RunDay::Kind::design_day : RunDay::Kind::run_period;
   add_motions(page, assembly, ids, kind, positions);
   page.facts = {
@@ -285,6 +330,19 @@ std::uint8_t sky_code(BeamShare const& share) {
                                    std::clamp(level, 0L, RunPage::sky_levels - 1L));
 }
 
+// How shades that change stand in the masks: as optics().update({}) and rest_positions() set them.
+std::string sky_state_of(SceneAssembly const& assembly) {
+  auto const& model = assembly.model();
+  auto const& optics = assembly.optics();
+  auto const leaves = model.surroundings.leaf_schedules.size();
+  std::vector<std::string> parts;
+  if (!model.moving_shades.empty()) parts.emplace_back("moving shades at rest");
+  if (leaves > 0) parts.emplace_back("trees in full leaf");
+  if (optics.deployment_names().size() > leaves) parts.emplace_back("screens fully deployed");
+  if (!optics.factor_names().empty()) parts.emplace_back("transmittances at their lowest");
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 // Masks of the largest receivers, windows first.
 void add_skies(RunPage& page, SceneAssembly& assembly, RunRecord const& record) {
   std::vector<std::size_t> order(page.receivers.size());
@@ -296,6 +354,7 @@ void add_skies(RunPage& page, SceneAssembly& assembly, RunRecord const& record) 
   if (order.size() > max_skies) order.resize(max_skies);
   if (order.empty()) return;
   assembly.optics().update({});
+  page.sky_state = sky_state_of(assembly);
   auto const scene = assembly.scene();
   RayScene const rays(scene, {.screens = ScreenDetail::automatic});
   auto const kinds = kinds_of(assembly, scene);
@@ -445,7 +504,7 @@ void write_hours(RunPage const& page, std::vector<RunRecord::Day const*> const& 
   }
   csv << '\n';
   for (auto const* day : days) {
-    for (auto const& [hour, sun, fractions, beam] : day->hours) {
+    for (auto const& [hour, sun, fractions, beam, shares] : day->hours) {
       csv << fmt::format("{:02}-{:02},{},{:.4f},{:.4f},{:.0f}", day->month, day->day, hour,
                          degrees_clockwise(sun.azimuth), glm::degrees(sun.altitude), beam);
       for (float const fraction : fractions)

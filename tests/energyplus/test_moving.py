@@ -569,6 +569,29 @@ def test_the_page_moves_its_shades(run, tmp_path):
         assert seen["rise"] == pytest.approx(0.2 * math.sin(math.radians(turn)), abs=2 * geometry["step"])
 
 
+AT_REST = """() => {
+  document.getElementById("colouring").value = "energy";
+  document.getElementById("colouring").dispatchEvent(new Event("change"));
+  document.getElementById("tab-sky").click();
+  const text = (id) => document.getElementById(id).textContent;
+  return {names: [...document.querySelectorAll("#numbers dt")].map((name) => name.textContent),
+    scale: text("legend-title"), sky: text("sky-caption")};
+}"""
+
+
+def test_the_page_says_which_numbers_are_of_shades_at_rest(run, tmp_path):
+    """The beam of the run and that of a map differ: beside those of maps and masks stands why."""
+    done = run(room(slats(), CASES["centre line"][1], constant(35)), *REPORT, "--gpu-shading-maps")
+    page = done.folder / "report" / "index.html"
+    seen = look_at(page, 1000, AT_REST, tmp_path, *SOFTWARE_WEBGL)
+    assert seen["troubles"] == []
+    stated = {name: "moving shades at rest" in name for name in seen["names"]}
+    assert {name.partition(",")[0] for name, said in stated.items() if said} == {
+        "Sky view factor", "Sunlit hours", "Beam energy"}
+    assert not stated["Beam per m\u00b2"]
+    assert seen["scale"].endswith("moving shades at rest") and "(moving shades at rest)" in seen["sky"]
+
+
 def test_a_sky_that_does_not_follow_is_stated(run):
     text = room(slats(), CASES["centre line"][1], constant(35))
     assert "diffuse light of the sky is that of the position at rest" in run(text).text("eplusout.err")

@@ -1,6 +1,7 @@
 """The page of a run (--gpu-shading-report): its numbers against EnergyPlus's own, and the page in a browser."""
 
 import base64
+import math
 import re
 import subprocess
 
@@ -281,6 +282,58 @@ def test_maps_are_on_the_page(run):
         # The bounding rectangle.
         area = float(row["area [m2]"])
         assert np.linalg.norm(np.cross(one["right"], one["up"])) >= area * (1 - 1e-5)
+
+
+CHANGING = """
+GPUShading:PerforatedScreen,Mesh,Blind,Round,,Straight,0.05,,0.1,,0.001,,,,,,,,,,,Drawn;
+ScheduleTypeLimits,Share,0,1,Continuous;
+Schedule:Compact,Drawn,Share,Through: 4/30,For: AllDays,Until: 24:00,0.2,Through: 12/31,For: AllDays,Until: 24:00,1;
+Schedule:Compact,Sail,Share,Through: 4/30,For: AllDays,Until: 24:00,0.6,Through: 12/31,For: AllDays,Until: 24:00,0.1;
+Shading:Building:Detailed,Blind,,4,1,-1,2,1,-1,1,2,-1,1,2,-1,2;
+Shading:Building:Detailed,Sail,Sail,4,3,-1,2,3,-1,1,4,-1,1,4,-1,2;
+Output:Variable,*,Schedule Value,Hourly;
+"""
+SHEETS = """() => ({seen: content.days.map((_, day) => {
+  go(day, Math.floor(content.days[day].hours.length / 2));
+  view.drawNow?.();
+  return view.sheets.map(({style, material, mesh}) => ({kind: style.kind, opacity: material.opacity,
+    colour: material.color.getHex(), casts: mesh.castShadow, passes: passesNow(style, view.time)}));
+})})"""
+
+
+def test_shades_are_drawn_as_their_schedules_have_them(patched, weather, tmp_path):
+    """Trees by the leaves, a screen by the share that is drawn, and a sail by the transmittance of each day."""
+    example = energyplus.REPOSITORY / "idf_examples" / "trees"
+    text = (example / "trees.idf").read_text() + CHANGING
+    (tmp_path / "trees.idf").write_text(re.sub(r"GPUShading:Tree,\s*Street.*?;", "", text, flags=re.DOTALL))
+    done = energyplus.run(patched, tmp_path / "trees.idf", weather, tmp_path / "out",
+                          ["--gpu-shading", f"--gpu-shading-report={tmp_path / 'report'}"])
+    assert done.completed, done.why()
+    values = EsoFile(done.folder / "eplusout.eso", "Hourly").values
+    page = tmp_path / "report" / "index.html"
+    content = content_of(page)
+    looked = look_at(page, 1000, SHEETS, tmp_path, *SOFTWARE_WEBGL)
+    assert looked["troubles"] == []
+    kinds = {"foliage": "GPU SHADING NORTHERN LEAVES", "screen": "DRAWN", "glass": "SAIL"}
+    styles = {style["kind"]: style for style in content["styles"]}
+    seen = {kind: set() for kind in kinds}
+    for day, sheets in zip(content["days"], looked["seen"], strict=True):
+        hour = day["hours"][len(day["hours"]) // 2][0]
+        assert sorted(sheet["kind"] for sheet in sheets) == sorted(kinds)
+        for sheet in sheets:
+            kind = sheet["kind"]
+            share = values["Schedule Value", kinds[kind]][day["month"], day["day"], hour]
+            # Of one face of the oak's crown, 9 m high; of holes beside what is not drawn; of the schedule alone.
+            expected = {"foliage": math.exp(-0.25 * (0.9 * share + 0.15) * 9),
+                        "screen": 1 - share * (1 - styles["screen"]["passes"]), "glass": share}[kind]
+            assert sheet["passes"] == pytest.approx(expected, abs=0.012), (kind, day)
+            assert sheet["opacity"] == pytest.approx(share if kind == "screen" else 0.65 - 0.5 * expected, abs=0.012)
+            seen[kind].add((round(sheet["opacity"], 2), sheet["colour"]))
+    assert all(len(found) > 1 for found in seen.values())
+    assert styles["screen"]["passes"] == pytest.approx(math.pi / 16, abs=1e-3)
+    # A bare crown has the colour of wood.
+    assert len({colour for _, colour in seen["foliage"]}) > 1
+    assert content["skies"]["state"] == "trees in full leaf, screens fully deployed, transmittances at their lowest"
 
 
 NO_WEBGL = """<script>HTMLCanvasElement.prototype.getContext = ((whole) => function (kind, ...more) {

@@ -187,6 +187,8 @@ Json to_json(PageStyle const& style) {
   constexpr std::array<char const*, 5> kinds{"receiver", "opaque", "glass", "screen", "foliage"};
   return {{"kind", kinds.at(static_cast<std::size_t>(style.kind))},
           {"passes", style.passes},
+          {"share", style.share ? Json(*style.share) : Json()},
+          {"without", style.without},
           {"hole", style.hole},
           {"arrangement", style.arrangement},
           {"size", style.size},
@@ -280,11 +282,8 @@ Json skies_of(RunPage const& page) {
                     {"unshaded", rounded(unshaded, thousandths)},
                     {"codes", base64(codes)}});
   }
-  return {{"step", RunPage::sky_step},
-          {"levels", RunPage::sky_levels},
-          {"behind", RunPage::behind},
-          {"kinds", page.sky_kinds},
-          {"list", list}};
+  return {{"step", RunPage::sky_step}, {"levels", RunPage::sky_levels}, {"behind", RunPage::behind},
+          {"kinds", page.sky_kinds},   {"state", page.sky_state},       {"list", list}};
 }
 
 // Heights in 65,534ths of their range, 65,535 where there is no ground.
@@ -358,7 +357,10 @@ Json content_of(RunPage const& page) {
   content["colours"] = colours();
   content["turnedAway"] = RunPage::turned_away;
   content["percents"] = base64(page.percents);
-  for (auto const* const key : {"styles", "receivers", "days"}) content[key] = Json::array();
+  for (auto const* const key : {"shares", "styles", "receivers", "days"}) {
+    content[key] = Json::array();
+  }
+  for (auto const& share : page.shares) content["shares"].push_back(base64(share));
   for (auto const& style : page.styles) content["styles"].push_back(to_json(style));
   for (auto const& receiver : page.receivers) content["receivers"].push_back(to_json(receiver));
   for (auto const& day : page.days) content["days"].push_back(to_json(day));

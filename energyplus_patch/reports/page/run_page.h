@@ -19,7 +19,10 @@ struct PageStyle {
   enum class Kind { receiver, opaque, glass, screen, foliage };
 
   Kind kind = Kind::opaque;
-  double passes = 0.0;  // of the beam at normal incidence, 0 .. 1
+  double passes = 0.0;  // of the beam at normal incidence, 0 .. 1, where the share is 1
+  // By what it is deployed, leaved or transmits: index in RunPage::shares.
+  std::optional<std::size_t> share = std::nullopt;
+  double without = 0.0;  // what passes where the share is 0
   // Of a screen: "round", "square", "slotted", "hexagonal", or "texture" with nothing else.
   std::string hole;
   std::string arrangement;  // "straight", "staggered 45", "staggered 60"
@@ -147,10 +150,12 @@ struct RunPage {
   std::vector<PageDay> days;
   // Sunlit, percent: of each receiver at the first hour of the first day, then at the next.
   std::vector<std::uint8_t> percents;
+  std::vector<std::vector<std::uint8_t>> shares;  // percent, each by hour of the days
   std::vector<PageMotion> motions;
   std::vector<PageMap> maps;
   std::vector<PageSky> skies;
   std::vector<std::string> sky_kinds;  // of what stops the beam
+  std::string sky_state;               // how shades that change stand in the masks, or ""
   std::string maps_from;               // the days that they are about, MM-DD
   std::string maps_to;
   PageTerrain terrain;

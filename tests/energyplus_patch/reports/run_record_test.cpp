@@ -57,6 +57,20 @@ TEST(RunRecord, AddsTheBeamOfDaysWithoutWarmUp) {
   EXPECT_NEAR(record.beam()[2], 0.8 * std::sin(60.0 * degree), 1e-6);
 }
 
+TEST(RunRecord, KeepsTheSharesOfTheTimestepAtTheEndOfEachHour) {
+  auto record = record_of_a_box();
+  auto day = day_of(1, 21);
+  day.steps_per_hour = 2;
+  record.begin_day(day, beam_of(0.0));
+  for (int const step : {1, 2}) {
+    record.begin_step({12, step}, {0.25F * static_cast<float>(step), 1.0F});
+    record.set_sun(noon);
+  }
+  record.end();
+  ASSERT_EQ(record.days().size(), 1U);
+  EXPECT_EQ(record.days().front().hours.front().shares, (std::vector<float>{0.5F, 1.0F}));
+}
+
 // With shadows at every timestep, EnergyPlus begins the day at each of them.
 TEST(RunRecord, AsksForTheBeamOnceADay) {
   auto record = record_of_a_box();

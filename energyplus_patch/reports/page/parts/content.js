@@ -25,6 +25,8 @@ content.days.reduce((first, day) => {
   return first + day.hours.length;
 }, 0);
 
+content.shares = content.shares.map(bytesOf);
+
 const MONTHS = ["January", "February", "March", "April", "May", "June", "July", "August", "September", "October",
   "November", "December"];
 
@@ -37,6 +39,26 @@ function percentOf(receiver, day, hour) {
 }
 
 function percentText(percent) { return percent === content.turnedAway ? "faces away from the sun" : `${percent} %`; }
+
+// How far a style is deployed, leaved or transmits at [day, hour], 0 to 1; without a time, fully.
+function shareNow(style, time) {
+  return style.share === null || !time ? 1 : content.shares[style.share][content.firstHours[time[0]] + time[1]] / 100;
+}
+
+// Leaves and wood weaken the beam one after the other; other shades pass it beside what is deployed.
+function passesNow(style, time) {
+  const share = shareNow(style, time);
+  return style.kind === "foliage" ? style.without ** (1 - share) * style.passes ** share
+    : style.without + share * (style.passes - style.without);
+}
+
+// Of the drawing. The holes of a screen are drawn.
+function opacityNow(style, time) {
+  return style.kind === "screen" ? shareNow(style, time) : 0.15 + 0.5 * (1 - passesNow(style, time));
+}
+
+// What maps and modules are drawn with, unlike the hours of the run.
+const AT_REST = content.motions.length > 0 ? ", moving shades at rest" : "";
 
 // null: there is none.
 function numberText(value, digits) {

@@ -75,7 +75,7 @@ function showReceiver() {
     ["Tilt", `${numberText(tilt, 1)}\u00b0`], ["Mean sunlit fraction", numberText(mean, 4)],
     ["Beam per m\u00b2", `${numberText(beam, 1)} kWh/m\u00b2`], ["Total beam", `${numberText(total, 1)} kWh`]];
   const sky = skyOf(receiver);
-  if (sky) pairs.push(["Sky view factor", `${numberText(sky.view, 3)} of ${numberText(sky.unshaded, 3)}`]);
+  if (sky) pairs.push([`Sky view factor${content.skies.state && `, ${content.skies.state}`}`, `${numberText(sky.view, 3)} of ${numberText(sky.unshaded, 3)}`]);
   for (const [, title, unit, i] of map ? MAP_KINDS : []) {
     pairs.push([`${title}, ${mapDays()}`, `${numberText(map.means[i], 1)} ${unit}`]);
   }
@@ -110,7 +110,7 @@ function showCharts() {
 function showSky(now) {
   const known = Boolean(skyOf(state.receiver));
   part("sky-caption").textContent = known
-    ? "What hides the sky from the receiver, and the sun at the hours of the page's days, by sunlit fraction."
+    ? `What hides the sky from the receiver${content.skies.state && ` (${content.skies.state})`}, and the sun at the hours of the page's days, by sunlit fraction.`
     : "This receiver has no mask on the page; gpu_shading mask draws one.";
   part("sky-form").hidden = !known;
   part("sky-plot").replaceChildren(...(known ? [skyMask(state.receiver, now, part("projection").value, go)] : []));

@@ -198,20 +198,31 @@ class ModelView {
     if (those.length === 0) return;
     const merged = new Merged(this.surfaces, those, this.bounds.middle, PATTERN_REPEAT);
     const material = new THREE.MeshBasicMaterial({side: THREE.DoubleSide, transparent: true, depthWrite: false});
-    if (style.kind === "screen") {
-      material.alphaMap = patternTexture(style);
-    } else {
-      material.opacity = 0.15 + 0.5 * (1 - style.passes);
-    }
+    if (style.kind === "screen") material.alphaMap = patternTexture(style);
     const mesh = this.addMesh(merged, material, this.casters);
     mesh.renderOrder = 1;
-    mesh.castShadow = style.passes < 0.97;
-    const raster = patternTexture(style.kind === "screen" ? style : {...style, hole: "texture", arrangement: ""});
-    raster.generateMipmaps = false;
-    raster.minFilter = raster.magFilter = THREE.NearestFilter;
-    mesh.customDepthMaterial = depthMaterial(raster);
-    this.sheets.push({style, material});
+    this.sheets.push({style, material, mesh, rasters: new Map()});
     if (style.kind !== "foliage") this.casters.add(this.edgesOf(those, this.casterEdges));
+  }
+
+  // Draws what changes with time as it is now, with a raster for each of the steps of its shadow.
+  deploySheets() {
+    for (const {style, material, mesh, rasters} of this.sheets) {
+      const passes = passesNow(style, this.time);
+      material.opacity = opacityNow(style, this.time);
+      mesh.castShadow = passes < 0.97;
+      const step = Math.round(32 * passes);
+      if (!rasters.has(step)) {
+        const now = {...style, passes, ...style.kind !== "screen" && {hole: "texture", arrangement: ""}};
+        const raster = patternTexture(now);
+        raster.generateMipmaps = false;
+        raster.minFilter = raster.magFilter = THREE.NearestFilter;
+        rasters.set(step, depthMaterial(raster));
+      }
+      mesh.customDepthMaterial = rasters.get(step);
+      material.color.setHex(theme()[style.kind]);
+      if (style.kind === "foliage") material.color.lerp(new THREE.Color(theme().wood), 1 - shareNow(style, this.time));
+    }
   }
 
   edgesOf(numbers, material) {
@@ -327,6 +338,7 @@ class ModelView {
     this.sun = sunDirection(direction);
     this.light.position.set(...this.sun).multiplyScalar(3 * this.lightReach);
     this.material.uniforms.sun.value.set(...this.sun);
+    this.deploySheets();
     this.paint();
     this.drawSky();
     this.draw();
@@ -419,7 +431,7 @@ class ModelView {
     }
     this.edges.color.setHex(edge);
     this.casterEdges.color.setHex(edge);
-    for (const {style, material} of this.sheets) material.color.setHex(theme()[style.kind]);
+    this.deploySheets();
     this.paint();
     this.drawSky();
     this.choose(this.chosen);

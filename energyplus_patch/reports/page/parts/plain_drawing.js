@@ -68,7 +68,8 @@ class PlainDrawing {
         ring.forEach((point, i) => one.path[i === 0 ? "moveTo" : "lineTo"](...place(point)));
         one.path.closePath();
       }
-      context.globalAlpha = ["glass", "foliage"].includes(content.styles[one.style].kind) ? 0.4 : 1;
+      const style = content.styles[one.style];
+      context.globalAlpha = ["glass", "foliage", "screen"].includes(style.kind) ? opacityNow(style, this.time) : 1;
       context.fillStyle = css(this.colourOf(one.number));
       context.strokeStyle = one.number === this.chosen ? `#${theme().choice.toString(16).padStart(6, "0")}` : "#30353b";
       context.lineWidth = one.number === this.chosen ? 3 : 1;
