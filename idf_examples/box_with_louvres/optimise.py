@@ -15,10 +15,14 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 from dask.distributed import Client
-from platypus import NSGAII, Problem, Real
 
 import gpu_shading
 from gpu_shading import _files
+
+try:
+    from platypus import NSGAII, Problem, Real
+except ImportError:
+    sys.exit("optimise.py: platypus-opt is missing: pip install platypus-opt==1.4.1")
 
 MODEL = Path(__file__).with_name("box_with_louvres.idf")
 WEATHER = gpu_shading.prefix() / "WeatherData" / "USA_CO_Golden-NREL.724666_TMY3.epw"

@@ -2,27 +2,26 @@
 """Runs the office for a year with its trees, with leaves all year, and with boxes in their place, and prints the solar
 radiation of its window, and heating and cooling, as Markdown.
 
-    study.py [-o DIR]
+    study.py [DIR]
+
+DIR, by default ./trees_study, is a new folder for the runs.
 """
 
-import argparse
 import re
 import shutil
 import sys
 from pathlib import Path
 
+import generate
+
+import gpu_shading
+
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parents[1] / "scripts")]
-
-import generate  # noqa: E402
-from common import case_study  # noqa: E402
-from shading_runs import results  # noqa: E402
-
-WEATHER = "USA_CO_Golden-NREL.724666_TMY3.epw"
+WEATHER = gpu_shading.prefix() / "WeatherData" / "USA_CO_Golden-NREL.724666_TMY3.epw"
 MODEL = (HERE / "trees.idf").read_text(encoding="utf-8")
 TREE = re.compile(r"GPUShading:Tree,[^;]*;\n")
-COOLING = "Zone Air System Sensible Cooling Energy"
-HEATING = "Zone Air System Sensible Heating Energy"
+ENERGIES = ("Surface Window Transmitted Solar Radiation Energy", "Zone Air System Sensible Heating Energy",
+            "Zone Air System Sensible Cooling Energy")
 # Crowns of trees.geojson and of the oak: x, y, width, base and top, m.
 CROWNS = ((-9, -11, 6.5, 2.5, 9.5), (-2, -11, 5.5, 2.5, 8.5), (5, -11, 6, 2.5, 9), (12, -11, 7, 2.5, 10),
           (19, -11, 2.5, 2.5, 7), (9, -6, 8, 2, 11))
@@ -54,26 +53,28 @@ VARIANTS = {
 }
 
 
-def main():
-    parser = argparse.ArgumentParser(description="Compares trees and boxes before an office.")
-    parser.add_argument("-o", "--output", type=Path, default=Path("out/trees_study"), metavar="DIR",
-                        help="folder for the runs")
-    arguments = parser.parse_args()
+def run_year(text, folder):
+    """The energies of a model, kWh, and the seconds that its run took."""
+    folder.mkdir()
+    (folder / "trees.idf").write_text(text, encoding="utf-8")
+    (folder / "oak.obj").write_text(generate.crown(), encoding="utf-8")
+    shutil.copy(HERE / "trees.geojson", folder)
+    run = gpu_shading.run(folder / "trees.idf", WEATHER, folder / "run")
+    kwh = [sum(months.sum() for months in run.values(name, "Monthly").values()) / 3.6e6 for name in ENERGIES]
+    return kwh, run.summary().seconds
+
+
+def main(folder="trees_study"):
+    output = Path(folder)
+    if output.exists():
+        sys.exit(f"study.py: {output} exists already: name a new folder")
+    output.mkdir(parents=True)
     print("| before the window | solar, kWh | heating | cooling | seconds |")
     print("|---|---:|---:|---:|---:|")
-    with case_study.replacing(arguments.output, "trees") as output:
-        for number, (name, text) in enumerate(VARIANTS.items()):
-            path = output.path / str(number) / "trees.idf"
-            path.parent.mkdir()
-            path.write_text(text, encoding="utf-8")
-            shutil.copy(HERE / "trees.geojson", path.parent)
-            (path.parent / "oak.obj").write_text(generate.crown(), encoding="utf-8")
-            done = case_study.run_year(path, WEATHER, name)
-            values = results.Results(done.folder, "Monthly")
-            cells = (values.total(results.SOLAR, "WINDOW"), values.total(HEATING, "OFFICE"),
-                     values.total(COOLING, "OFFICE"))
-            print(f"| {name} | {' | '.join(f'{value:,.0f}' for value in cells)} | {done.seconds:.1f} |", flush=True)
+    for number, (name, text) in enumerate(VARIANTS.items()):
+        kwh, seconds = run_year(text, output / str(number))
+        print(f"| {name} | {' | '.join(f'{value:,.0f}' for value in kwh)} | {seconds:.1f} |", flush=True)
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])

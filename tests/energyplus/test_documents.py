@@ -1,9 +1,10 @@
 """README.md, its namesakes and the pages of docs say what is so: every command in them is run."""
 
+import importlib.metadata
 import os
 import re
+import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -14,7 +15,12 @@ MANUAL = ROOT / "energyplus_patch" / "docs"
 PAGES = [ROOT / "README.md", *sorted(page for wing in ("energyplus_patch", "gpu_shading")
                                      for page in (ROOT / wing).rglob("*.md"))]
 EXAMPLES = sorted((ROOT / "idf_examples").glob("*/README.md"))
+# Those of the models that `gpu_shading example` copies.
+COPIED = [page for page in EXAMPLES if any(page.parent.glob("*.idf"))]
 TUTORIALS = MANUAL / "tutorials"
+# What pages of tutorials tell a reader to fetch with pip, of the packages that tests have.
+TOOLS = ROOT / ".venv" / "tools"
+FETCHED = {"honeybee.md": ("honeybee-energy", "honeybee-radiance"), "variants.md": ("platypus-opt",)}
 # Pages that are followed from top to bottom.
 WALKED = [*sorted(TUTORIALS.glob("*.md")), ROOT / "README.md", MANUAL / "gallery.md"]
 # The pages that a reader needs first, and all that explain how to use this software.
@@ -28,7 +34,7 @@ BLOCK = re.compile(r"(?:<!-- not run: (?P<why>.*?) -->\n)?```(?P<language>\w*)\n
 
 
 def title(page):
-    return str(page.relative_to(ROOT))
+    return str(page.relative_to(ROOT)) if page.is_relative_to(ROOT) else str(page)
 
 
 def blocks(page):
@@ -43,21 +49,58 @@ def commands(page):
     return [(line, text) for line, language, text, why in blocks(page) if language == "sh" and why is None]
 
 
+def install(folder):
+    """A folder as README.md's own install leaves the sources: links to them, and what `scripts/setup --without-tests`
+    fetches; without packages that only tests have. Returns variables in which nothing is set for it."""
+    for name in ("README.md", "scripts", "idf_examples", "gpu_shading", "energyplus_patch"):
+        (folder / name).symlink_to(ROOT / name)
+    (folder / "build").symlink_to(ROOT / os.environ.get("GPU_SHADING_BUILD", "build"))
+    (folder / ".venv").mkdir()
+    for path in (ROOT / ".venv").iterdir():
+        if path.name in ("bin", "include", "lib", "lib64", "pyvenv.cfg", "EnergyPlus"):
+            (folder / ".venv" / path.name).symlink_to(path.resolve())
+    kept = {key: value for key, value in os.environ.items()
+            if key == "GPU_SHADING_BUILD" or not key.startswith(("GPU_SHADING", "PYTHON", "VIRTUAL_ENV"))}
+    return {**kept, "HOME": str(folder), "PATH": os.defpath,
+            "XDG_CACHE_HOME": os.environ.get("XDG_CACHE_HOME", str(Path.home() / ".cache"))}
+
+
+def as_readme_says(folder, environment):
+    """The variables that README.md's section Install sets."""
+    (setting,) = re.findall(r"^export (.*)$", (ROOT / "README.md").read_text(encoding="utf-8"), re.M)
+    done = subprocess.run(["bash", "-euc", f"export {setting}; env -0"], cwd=folder, env=environment, check=True,
+                          capture_output=True, text=True)
+    return dict(line.split("=", 1) for line in done.stdout.split("\0") if line)
+
+
+def fetch(wanted, folder):
+    """What `pip install` of some packages brings, from those that tests have; skips where they are missing."""
+    known = {re.sub("[-_.]+", "-", found.name).lower(): found
+             for found in importlib.metadata.distributions(path=[str(TOOLS)])}
+    linked, left = set(), list(wanted)
+    while left:
+        name = re.sub("[-_.]+", "-", left.pop()).lower()
+        if name not in known and name in wanted:
+            pytest.skip(f"{TOOLS} has no {name}: run scripts/setup")
+        if name in linked or name not in known:
+            continue
+        linked.add(name)
+        left += [re.match(r"[\w.-]+", each)[0] for each in known[name].requires or () if "extra ==" not in each]
+        for top in {file.parts[0] for file in known[name].files if file.parts[0] not in ("..", "__pycache__")}:
+            if not (folder / top).exists():
+                (folder / top).symlink_to(TOOLS / top)
+
+
 @pytest.fixture
 def place(patched, official, weather, box, tmp_path):
     """A user's folder: an EnergyPlus in its home, a model, a weather file, the checkout's folders; and what is set."""
+    environment = as_readme_says(tmp_path, install(tmp_path))
     links = {f"EnergyPlus-{energyplus_release().replace('.', '-')}": official.parent, "EnergyPlus-gpu": patched.parent,
-             "weather.epw": weather, "scripts": ROOT / "scripts", "idf_examples": ROOT / "idf_examples",
-             "gpu_shading": ROOT / "gpu_shading",
-             "build": ROOT / os.environ.get("GPU_SHADING_BUILD", "build"),
-             "lbnl": ROOT / ".venv" / "EnergyPlus-lbnl"}
+             "weather.epw": weather, "lbnl": ROOT / ".venv" / "EnergyPlus-lbnl"}
     for name, target in links.items():
         (tmp_path / name).symlink_to(target)
     (tmp_path / "model.idf").write_text(box)
-    environment = {key: value for key, value in os.environ.items() if not key.startswith("GPU_SHADING")}
-    path = os.pathsep.join([str(patched.parent), str(Path(sys.executable).parent), os.environ["PATH"]])
-    return tmp_path, {**environment, "HOME": str(tmp_path), "PATH": path,
-                      "XDG_CACHE_HOME": os.environ.get("XDG_CACHE_HOME", str(Path.home() / ".cache"))}
+    return tmp_path, environment
 
 
 def missing_lines(promised, printed):
@@ -92,30 +135,37 @@ def walk(page, folder, environment):
     assert done.returncode == 0, f"{title(page)}: exit status {done.returncode}\n{outputs[-1][-3000:]}{done.stderr}"
 
 
-@pytest.fixture
-def checkout(place):
-    """What somebody has who has built the sources, in a folder that may be written to: links, and no more."""
-    folder, environment = place
-    (folder / ".venv").symlink_to(ROOT / ".venv")
-    return folder, {**environment, "PATH": os.environ["PATH"]}
-
-
 @pytest.mark.parametrize("page", WALKED, ids=title)
-def test_a_reader_sees_what_the_page_promises(page, checkout, patched):
-    """Word by word, with nothing set but what the page sets; README.md says elsewhere how to set PATH."""
-    folder, environment = checkout
+def test_a_reader_sees_what_the_page_promises(page, patched, tmp_path):
+    """Word by word, with nothing set but what the page sets; what README.md sets is in a block that is not run."""
+    environment = {**install(tmp_path), "VARIANTS": "20"}  # a reader has time for more
     if page.parent != TUTORIALS:
-        environment["PATH"] = f"{patched.parent}{os.pathsep}{environment['PATH']}"
-    if page.name == "variants.md":
-        environment["VARIANTS"] = "20"  # a reader has time for more
-        if not (ROOT / ".venv" / "tools" / "platypus").is_dir():
-            pytest.skip(f"{ROOT / '.venv' / 'tools' / 'platypus'} is missing: run scripts/setup")
-    if page.name == "honeybee.md":
-        tools = ROOT / ".venv" / "tools"
-        if not (tools / "honeybee_radiance").is_dir():
-            pytest.skip(f"{tools}/honeybee_radiance is missing: run scripts/setup")
-        environment["PYTHONPATH"] = str(tools)
-    walk(page, folder, environment)
+        environment = as_readme_says(tmp_path, environment)
+    if page.name in FETCHED:
+        (tmp_path / "fetched").mkdir()
+        fetch(FETCHED[page.name], tmp_path / "fetched")
+        environment["PYTHONPATH"] = str(tmp_path / "fetched")
+    walk(page, tmp_path, environment)
+
+
+def test_packages_that_pages_fetch_are_those_of_the_tests():
+    pinned = dict(re.findall(r"^([\w-]+)==([\w.]+)", (ROOT / "scripts" / "requirements-tools.txt").read_text(), re.M))
+    pinned = {re.sub("[-_.]+", "-", name).lower(): version for name, version in pinned.items()}
+    for name, wanted in FETCHED.items():
+        told = re.findall(r"([\w-]+)==([\w.]+)", (TUTORIALS / name).read_text(encoding="utf-8"))
+        assert dict(told) == {each: pinned[each] for each in wanted}
+
+
+@pytest.mark.parametrize("page", COPIED, ids=title)
+def test_a_copied_example_does_what_its_page_says(page, patched, tmp_path):
+    environment = as_readme_says(tmp_path, install(tmp_path))
+    (tmp_path / "user").mkdir()
+    subprocess.run(["gpu_shading", "example", page.parent.name], cwd=tmp_path / "user", env=environment, check=True,
+                   capture_output=True)
+    copy = tmp_path / "user" / page.parent.name
+    walk(copy / "README.md", copy, environment)
+    for target in re.findall(r"\]\(<?([^)>#]*)", (copy / "README.md").read_text(encoding="utf-8")):
+        assert (copy / target).exists(), target
 
 
 @pytest.mark.parametrize("page", [page for page in PAGES if commands(page) and page not in WALKED], ids=title)
@@ -148,7 +198,7 @@ def test_commands_that_are_not_run_say_why():
     assert {re.search("|".join(known), text)[0] for *_, text in listed} == known
 
 
-@pytest.mark.parametrize("page", PAGES, ids=title)
+@pytest.mark.parametrize("page", [*PAGES, *COPIED], ids=title)
 def test_blocks_are_fenced_and_name_their_language(page):
     text = page.read_text(encoding="utf-8")
     assert {language for _, language, _, _ in blocks(page)} <= LANGUAGES
@@ -353,3 +403,22 @@ def test_options_of_gpu_shading_are_there(patched, command):
     named = {flag for page in PAGES for text in re.findall(rf"gpu_shading {command} [^`\n]*", page.read_text())
              for flag in re.findall(r"--[a-z-]+", text)}
     assert named and all(re.search(rf"{flag}\b", known) for flag in named), named
+
+
+@pytest.mark.parametrize("has_site", [True, False])
+def test_docs_names_the_manual_that_is_there(has_site, patched, tmp_path):
+    """The site where it is built, else the pages that it is made of, which README.md's own install has."""
+    folder, share = tmp_path / "EnergyPlus", tmp_path / "sources"
+    folder.mkdir()
+    share.mkdir()
+    environment = install(share)
+    shutil.copy2(patched.parent / "gpu_shading", folder)
+    (folder / "gpu_shading_share").symlink_to(share)
+    site = share / "out" / "site" / "index.html"
+    if has_site:
+        site.parent.mkdir(parents=True)
+        site.write_text("<html>")
+    done = subprocess.run([folder / "gpu_shading", "docs"], env={**environment, "XDG_DATA_DIRS": str(tmp_path)},
+                          capture_output=True, text=True)
+    expected = site if has_site else share / "energyplus_patch" / "docs" / "README.md"
+    assert done.stdout == f"{expected}\n" and done.returncode == 0, done.stderr

@@ -23,6 +23,12 @@ Path find_manual() {
       if (std::filesystem::is_regular_file(page, error)) return page;
     }
   }
+  // The pages that the site is made of, which the sources have.
+  for (auto const& share : share_folders()) {
+    auto page = share / "energyplus_patch" / "docs" / "README.md";
+    std::error_code error;
+    if (std::filesystem::is_regular_file(page, error)) return page;
+  }
   throw Error(
       "the manual is not installed: install the wheel or the Debian package, or run "
       "scripts/dev/build_site in the sources");

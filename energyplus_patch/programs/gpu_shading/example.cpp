@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -47,6 +49,31 @@ std::map<std::string, Path> find_examples() {
       "idf_examples in the sources");
 }
 
+// A page's text with links that lead out of its folder as links to where their targets are.
+std::string with_found_links(std::string const& text, Path const& folder) {
+  static std::regex const link(R"(\]\((\.\./[^)#]*)(#[^)]*)?\))");
+  std::string found;
+  auto rest = text.begin();
+  for (std::sregex_iterator next(text.begin(), text.end(), link), end; next != end; ++next) {
+    auto const& match = *next;
+    auto const target = (folder / match[1].str()).lexically_normal();
+    std::error_code error;
+    found.append(rest, match[0].first);
+    // In angle brackets, a target may have spaces.
+    found += std::filesystem::exists(target, error)
+                 ? fmt::format("](<{}{}>)", target.string(), match[2].str())
+                 : match[0].str();
+    rest = match[0].second;
+  }
+  return found.append(rest, text.end());
+}
+
+void copy_page(Path const& page, Path const& copy) {
+  std::ofstream stream(copy, std::ios::binary);
+  stream << with_found_links(read_text_file(page), page.parent_path());
+  if (!stream.flush()) throw Error(fmt::format("{}: cannot be written", copy.string()));
+}
+
 void copy_into(Path const& target, Path const& example) {
   if (std::filesystem::exists(std::filesystem::symlink_status(target))) {
     throw Error(fmt::format("{}: exists already: move it away", target.string()));
@@ -56,7 +83,11 @@ void copy_into(Path const& target, Path const& example) {
   std::filesystem::create_directory(target);
   std::vector<std::string> copied;
   auto const add = [&](Path const& file, Path const& copy) {
-    std::filesystem::copy_file(file, copy);
+    if (file.extension() == ".md") {
+      copy_page(file, copy);
+    } else {
+      std::filesystem::copy_file(file, copy);
+    }
     copied.push_back(copy.string());
   };
   for (auto const& entry : std::filesystem::directory_iterator(example)) {

@@ -25,7 +25,7 @@ function addKeys() {
   if (kinds.has("opaque")) keys.push([mapped ? "casts shadows only, or has no map" : "casts shadows only", css(theme().caster)]);
   if (kinds.has("glass")) keys.push(["transmits", `#${theme().glass.toString(16)}80`]);
   if (content.terrain && view instanceof ModelView) keys.push(["terrain", css(theme().ground)]);
-  if (kinds.has("foliage")) keys.push(["tree crown", `#${theme().foliage.toString(16)}80`]);
+  if (kinds.has("foliage")) keys.push(["tree crown, brown where bare", `#${theme().foliage.toString(16)}80`]);
   part("keys").replaceChildren(...keys.map(([text, colour]) => {
     const item = document.createElement("li");
     const box = document.createElement("span");
