@@ -87,6 +87,7 @@ def test_makes_a_prefix_and_leaves_the_original_alone(prefix, build, tmp_path):
     assert (dest / "Energy+.idd").read_text().startswith((prefix / "Energy+.idd").read_text())
     assert (dest / "DataSets").is_symlink()
     assert (dest / "libenergyplusapi.so").read_bytes() == b"our API library"
+    assert (dest / "compare_shading").resolve() == SCRIPT.with_name("compare_shading")
     assert (dest / "libenergyplusapi-official.so").resolve() == prefix / "libenergyplusapi.so"
     # Python looks for the library beside the real folder.
     assert (dest / "pyenergyplus" / "api.py").resolve().parent.parent == dest
@@ -259,7 +260,7 @@ def made_by_an_earlier_version(prefix, build, dest):
     of ours."""
     assert patch(prefix, dest, "--build", build).returncode == 0
     (dest / output_folder.MARKER).unlink()
-    for name in ("libenergyplusapi-official.so", "energyplus-gpu", "gpu_shading_share"):
+    for name in ("libenergyplusapi-official.so", "energyplus-gpu", "gpu_shading_share", "compare_shading"):
         (dest / name).unlink()
     shutil.rmtree(dest / "pyenergyplus")
     for name in ("Energy+.idd", "libenergyplusapi.so", "pyenergyplus"):
