@@ -153,7 +153,7 @@ def test_the_table_is_the_same_with_one_worker_after_kills(place, reference):
     command.finish()
     assert {path: time_ for path, time_ in command.records().items() if path in kept} == kept
     assert tables(place / "killed") == tables(reference)
-    assert not list(command.output.glob("work/*"))
+    assert not list(command.output.glob(".gpu_shading-*"))
     # All is there.
     began = command.records()
     Command(place, "killed").finish()
@@ -292,14 +292,18 @@ def test_names_of_models_tell_them_apart(gs):
     assert list(model_names(["/a/x/in.idf", "/a/y/in.idf", "/a/y/in.idf"]).values()) == ["x/in", "y/in"]
 
 
-def test_a_queue_is_asked_for_what_the_plan_says(gs):
+def test_a_queue_is_asked_for_what_the_plan_says(gs, tmp_path):
     pytest.importorskip("dask_jobqueue", reason="dask-jobqueue is missing: run scripts/setup")
     from gpu_shading.study.engine import open_jobqueue
 
-    with open_jobqueue({"kind": "slurm", "workers": 0, "queue": "short", "walltime": "01:00:00"}) as cluster:
+    with open_jobqueue({"kind": "slurm", "workers": 0, "queue": "short", "walltime": "01:00:00"}, tmp_path) as cluster:
         script = cluster.job_script()
+        assert cluster.scheduler_address.startswith("tls://")
     assert "#SBATCH -p short" in script and "#SBATCH -t 01:00:00" in script and "--nthreads 1" in script
     package = energyplus.REPOSITORY / "gpu_shading" / "python"  # not where a job would look
+    # Workers start in a private folder, with the study's certificates.
+    assert script.index(f"cd {tmp_path}\n") < script.index(" -m ") and "export PYTHONSAFEPATH=1" in script
+    assert f"--local-directory {tmp_path}" in script and f"--tls-key {tmp_path}/" in script
     assert f"export PYTHONPATH={package}${{PYTHONPATH:+:$PYTHONPATH}}" in script
     with pytest.raises(gs.InvalidInput, match="--jobqueue sge: expected one of slurm, pbs, lsf"):
-        open_jobqueue({"kind": "sge"})
+        open_jobqueue({"kind": "sge"}, tmp_path)

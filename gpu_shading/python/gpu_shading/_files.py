@@ -41,7 +41,7 @@ def staged(path: str | os.PathLike[str]) -> Iterator[Path]:
     wanted = Path(path)
     _require_replaceable(wanted)
     try:
-        with _private_folder(wanted.parent) as folder:
+        with private_folder(wanted.parent) as folder:
             yield folder / wanted.name
             _put_in_place(folder, wanted)
     except FileError:
@@ -94,8 +94,9 @@ def _flush(path: Path, flags: int) -> None:
 
 
 @contextlib.contextmanager
-def _private_folder(parent: Path) -> Iterator[Path]:
-    """A new folder, deleted at the end. Its locked file says that its process lives."""
+def private_folder(parent: Path) -> Iterator[Path]:
+    """A new folder that only this user may enter, deleted at the end. Its locked file says that its process lives; what
+    killed processes left in `parent` is deleted."""
     with contextlib.suppress(OSError):
         for entry in os.listdir(parent):
             if re.fullmatch(re.escape(_PREFIX) + "[0-9a-f]{8}", entry):

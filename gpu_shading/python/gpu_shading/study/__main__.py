@@ -7,14 +7,30 @@ import importlib.util
 import os
 import sys
 from pathlib import Path
+from typing import NoReturn
 
 _PACKAGES = Path(__file__).resolve().parents[2]
 # Run by path, by a Python that need not know the package; its folder must not hide modules of others.
 sys.path = [str(_PACKAGES), *(path for path in sys.path if Path(path or ".").resolve() != Path(__file__).parent)]
 
 
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        _fail(f"{message} (see gpu_shading study --help)")
+        sys.exit(1)
+
+
+def _fail(message: str, status: int = 1) -> int:
+    # By hand, because this must work where the package cannot be imported.
+    line = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in " ".join(message.split()))
+    if len(line) > 2200:
+        line = f"{line[:1200]} ... {line[-800:]}"
+    print(f"gpu_shading study: {line}", file=sys.stderr)
+    return status
+
+
 def _parse() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="gpu_shading study", formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Runs the models, variants and weather files of a plan on the workers of Dask, and writes\n"
                     "DIR/runs.csv and DIR/runs.parquet, a row for each run. The same command resumes.")
@@ -31,10 +47,8 @@ def _parse() -> argparse.Namespace:
     parser.add_argument("--limit", type=float, metavar="S", help="seconds after which a run is stopped (default: none)")
     parser.add_argument("--tries", type=int, metavar="N", help="how often a run that fails is tried (default: 2)")
     arguments = parser.parse_args()
-    for name in ("workers", "limit", "tries"):
-        value = getattr(arguments, name)
-        if value is not None and value < 1:
-            parser.error(f"--{name} {value:g}: expected 1 or more")
+    if not arguments.output:
+        parser.error("-o '': expected the name of a folder")
     return arguments
 
 
@@ -50,29 +64,31 @@ def _use_python_of_sources() -> None:
 def main() -> int:
     arguments = _parse()
     _use_python_of_sources()
+    os.environ["PYTHONSAFEPATH"] = "1"  # no Python that this starts imports modules of the current folder
     try:
+        from gpu_shading._text import escaped, of_error
         from gpu_shading.errors import Error
         from gpu_shading.study.study import Study
     except ImportError as error:
-        print(f"gpu_shading study: {error}", file=sys.stderr)
-        return 1
+        return _fail(str(error))
     try:
         study = Study(arguments.plan, arguments.output, workers=arguments.workers, scheduler=arguments.scheduler,
                       jobqueue={"kind": arguments.jobqueue} if arguments.jobqueue else None,
                       keep=arguments.keep.split(",") if arguments.keep else None, limit=arguments.limit,
                       tries=arguments.tries)
         if arguments.dry_run:
-            print(study.dry_run())
-            return 0
-        rows = study.run()
+            lines, failed = study.estimate()
+            print("\n".join(lines))
+        else:
+            failed = any(row["status"] == "failed" for row in study.run())
+            print(escaped(str(Path(arguments.output) / "runs.csv")))
+        return 1 if failed else 0
     except (Error, ImportError, OSError) as error:
-        print(f"gpu_shading study: {error}", file=sys.stderr)
-        return 1
+        return _fail(of_error(error))
     except KeyboardInterrupt:
-        print("gpu_shading study: interrupted; the same command resumes", file=sys.stderr)
-        return 130
-    print(Path(arguments.output) / "runs.csv")
-    return 1 if any(row["status"] == "failed" for row in rows) else 0
+        return _fail("interrupted; the same command resumes", 130)
+    except Exception as error:  # a fault of ours: still one line
+        return _fail(f"{type(error).__name__}: {of_error(error)}; please report this")
 
 
 if __name__ == "__main__":

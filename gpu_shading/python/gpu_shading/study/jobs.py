@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 import re
@@ -12,9 +11,10 @@ from pathlib import Path
 
 from gpu_shading import _programs
 from gpu_shading._library import __version__
+from gpu_shading._text import escaped, quoted
 from gpu_shading.errors import InvalidInput
-from gpu_shading.study import models, tasks
-from gpu_shading.study.plan import OPTIONS, Case, model_names
+from gpu_shading.study import inputs, models, tasks
+from gpu_shading.study.plan import OPTIONS, Case, is_value, model_names
 from gpu_shading.study.tasks import digest
 
 
@@ -25,34 +25,24 @@ def make_jobs(cases: Sequence[Case], source: str, folder: Path, outputs: tuple[s
         known.cache_clear()  # files may have changed since the last study
     versions = f"{__version__} {energyplus_version()}"
     for case in cases:
-        model = _programs.file(case.model, f"{source}: model")
-        weather = _programs.file(case.weather, f"{source}: weather")
-        extensions = None if case.extensions is None else _programs.file(case.extensions, f"{source}: extensions")
+        model = _file(case.model, f"{source}: model")
+        weather = _file(case.weather, f"{source}: weather")
+        extensions = None if case.extensions is None else _file(case.extensions, f"{source}: extensions")
         name = "/".join(filter(None, (names[Path(os.path.abspath(case.model))], case.variant, weather.stem)))
-        for option in case.options:
-            if option not in OPTIONS:
-                raise InvalidInput(f"{source}: {name}: option {option!r}, expected one of {', '.join(OPTIONS)}")
+        options = {key: os.path.abspath(str(value)) if key == "cache" else str(value)
+                   for key, value in case.options.items()}
         try:
-            fields = tuple((_located(text), str(value)) for text, value in case.fields.items())
-            remove = tuple(_pair(text) for text in case.remove)
-            for words, (type_, pattern) in [*((place.words, (place.type, place.pattern)) for place, _ in fields),
-                                            *zip(case.remove, remove, strict=True)]:
-                if not _contents(model).count(type_, pattern):
-                    raise InvalidInput(f"{words!r}: {model} has no such object")
+            fields, remove = _changes(case, model)
+            scene_id = digest([versions, _digests(model, extensions), sorted(options.items()),
+                               sorted((key, str(value)) for key, value in case.fields.items()), list(case.remove),
+                               case.objects])
+            run_id = digest([scene_id, _digest_of(weather), list(case.arguments), list(outputs), *task])
         except InvalidInput as error:
             raise InvalidInput(f"{source}: {name}: {error}") from None
-        side_file = extensions or model.with_suffix(".gpu-shading.idf")
-        options = {key: os.path.abspath(value) if key == "cache" else str(value)
-                   for key, value in case.options.items()}
-        scene_id = digest([
-            versions, _digest_of(model), _digest_of(side_file),
-            [_digest_of(model.parent / file) for file in _files(model, model.parent) + _files(side_file, model.parent)],
-            sorted(options.items()), sorted((key, str(value)) for key, value in case.fields.items()),
-            list(case.remove), case.objects])
-        inputs = digest([scene_id, _digest_of(weather), list(case.arguments), list(outputs), *task])
-        readable = re.sub(r"[^\w.-]+", "-", name)[:80]
+        # A name of a file has at most 255 bytes.
+        readable = re.sub(r"[^\w.-]+", "-", name).encode(errors="ignore")[:80].decode(errors="ignore")
         jobs.append(tasks.Job(
-            name, case.variant, f"{readable}-{inputs}", str(model), str(weather),
+            name, case.variant, f"{readable}-{run_id}", str(model), str(weather),
             None if extensions is None else str(extensions), options, fields, remove, case.objects, case.arguments,
             outputs, keep, limit, str(folder), scene_id))
     seen: set[str] = set()
@@ -62,6 +52,14 @@ def make_jobs(cases: Sequence[Case], source: str, folder: Path, outputs: tuple[s
                                "name of the variant")
         seen.add(job.name)
     return jobs
+
+
+def _digests(model: Path, extensions: Path | None) -> list[list[str]]:
+    """Those of the model and its side file, and those of the files that they name."""
+    side_file = inputs.side_file(extensions or model.with_suffix(".gpu-shading.idf"))
+    files = [model] if side_file is None else [model, side_file]
+    return [[_digest_of(file) for file in files],
+            [_digest_of(model.parent / name) for file in files for name in _files(file, model.parent)]]
 
 
 @lru_cache(maxsize=4096)
@@ -77,12 +75,60 @@ def _contents(model: Path) -> models.Idf | models.EpJson:
 @cache
 def _files(file: Path, folder: Path) -> list[str]:
     """What a model or its side file names, relative to the model's folder."""
-    return models.read(file).files(folder) if file.is_file() else []
+    return models.read(file).files(folder)
 
 
 @cache
 def _digest_of(file: Path) -> str:
-    return hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else ""
+    return inputs.digest_of(file)
+
+
+def _file(name: _programs.Name, what: str) -> Path:
+    path = Path(name)
+    if not inputs.is_file(path):
+        raise InvalidInput(f"{what}: {path}: no such file")
+    return path.absolute()
+
+
+def _changes(case: Case, model: Path) -> tuple[tuple[tuple[models.Field, str], ...], tuple[tuple[str, str], ...]]:
+    """Fields with their values, and what to remove. Raises InvalidInput if the case cannot be applied to the model."""
+    for option, value in case.options.items():
+        if option not in OPTIONS:
+            raise InvalidInput(f"option {quoted(option)}, expected one of {', '.join(OPTIONS)}")
+        if not is_value(value):
+            raise InvalidInput(f"option {option}: {quoted(value)}, expected a finite number, or text in one line")
+    for text in (case.variant, *case.arguments, *case.fields, *case.remove):
+        if escaped(text) != text:
+            raise InvalidInput(f"{quoted(text)} has control characters")
+    for text, value in case.fields.items():
+        if not is_value(value):
+            raise InvalidInput(f"{quoted(text)}: {quoted(value)}, expected a finite number, or text in one line")
+    fields = tuple((_located(text), str(value)) for text, value in case.fields.items())
+    remove = tuple(_pair(text) for text in case.remove)
+    is_idf = model.suffix.lower() != ".epjson"
+    held: dict[tuple[str, str], int] = {}
+    for place, value in fields:
+        _require(f"{place.type}/{place.pattern}", model, place.type, place.pattern)
+        place.check(value, is_idf)
+        if place.item is not None:
+            # Fields that were set before may have made the list longer.
+            items = max(held.get((place.type, place.pattern), 0), _contents(model).items(place))
+            if place.item > items:
+                raise InvalidInput(f"{quoted(place.text)}: {place.type} has {items} of these; expected at most number "
+                                   f"{items + 1}")
+            held[place.type, place.pattern] = max(items, place.item + 1)
+    for text, (type_, pattern) in zip(case.remove, remove, strict=True):
+        _require(text, model, type_, pattern)
+    if case.objects:
+        if not is_idf:
+            raise InvalidInput("objects: can be added to an IDF, not to epJSON")
+        models.check_objects(case.objects)
+    return fields, remove
+
+
+def _require(text: str, model: Path, type_: str, pattern: str) -> None:
+    if not _contents(model).count(type_, pattern):
+        raise InvalidInput(f"{quoted(text)}: {model} has no such object")
 
 
 def _pair(text: str) -> tuple[str, str]:

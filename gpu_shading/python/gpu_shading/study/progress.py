@@ -5,12 +5,14 @@ from __future__ import annotations
 import sys
 import time
 
+from gpu_shading._text import one_line
+
 _PATIENCE = 30.0  # seconds between lines that are not replaced
 
 
 def say(text: str) -> None:
     clear = "\r\033[K" if sys.stderr.isatty() else ""
-    print(f"{clear}gpu_shading study: {text}", file=sys.stderr, flush=True)
+    print(f"{clear}gpu_shading study: {one_line(text)}", file=sys.stderr, flush=True)
 
 
 class Progress:

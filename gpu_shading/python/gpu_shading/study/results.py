@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import re
 import sqlite3
 from collections.abc import Iterable, Sequence
@@ -15,6 +16,8 @@ _REPORTS = (
     ("AnnualBuildingUtilityPerformanceSummary", "End Uses", "{row} {column} [{units}]"),
     ("DemandEndUseComponentsSummary", "End Uses", "Peak {row} {column} [{units}]"),
 )
+# Objects that a lean input has in place of others.
+_OURS = re.compile(r"GPU SHADING (PLACEHOLDER \d+|SKY|(NORTHERN|SOUTHERN) LEAVES)$", re.IGNORECASE)
 _RENDERED = re.compile(r"shading rendered by .*?: .*?, (\d+) directions(?: rendered, (\d+) from the cache)?")
 
 
@@ -43,15 +46,15 @@ def read_numbers(file: Path, outputs: Sequence[str] = ()) -> dict[str, float]:
                 by_key = {key: value for key, _, value in found}  # of the last environment
                 numbers["Transmitted Solar [kWh]"] = round(sum(by_key.values()) / _KWH, 6)
             else:
-                numbers |= {f"{name}, {key} [{units}]": value for key, units, value in found}
+                numbers |= {f"{name}, {key} [{units}]": value for key, units, value in found if not _OURS.match(key)}
     return numbers
 
 
 def _take(numbers: dict[str, float], found: Iterable[tuple[str, str]], zeros: bool = False) -> None:
     for name, value in found:
-        with contextlib.suppress(ValueError):
+        with contextlib.suppress(TypeError, ValueError):
             number = float(value)
-            if number or zeros:
+            if math.isfinite(number) and (number or zeros):
                 numbers[name] = number
 
 

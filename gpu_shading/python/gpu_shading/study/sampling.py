@@ -8,8 +8,10 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
+from gpu_shading._text import of_error
 from gpu_shading.errors import RunError
 from gpu_shading.study.engine import Engine
+from gpu_shading.study.inputs import is_own_folder
 from gpu_shading.study.tasks import Job, Outcome, run_program, work_folder, write_record
 
 MODES = ("fine", "medium", "coarse")
@@ -21,7 +23,8 @@ def sample(job: Job, mode: str, words: list[str]) -> Outcome:
     began = time.monotonic()
     target = Path(job.folder) / "runs" / job.id
     try:
-        target.mkdir(parents=True, exist_ok=True)
+        if not is_own_folder(target):
+            target.mkdir(parents=True, exist_ok=True)
         with work_folder(job) as folder:
             error, line = run_program(job, folder, ["sample", "-o", str(target), "--mode", mode, *words],
                                       folder / "output")
@@ -36,7 +39,7 @@ def sample(job: Job, mode: str, words: list[str]) -> Outcome:
             write_record(target, outcome)
         return outcome
     except (OSError, KeyError, RunError, ValueError) as error:
-        return Outcome(str(error))
+        return Outcome(of_error(error))
 
 
 class Sampling:

@@ -9,13 +9,16 @@ from pathlib import Path
 
 from gpu_shading.study import tasks
 from gpu_shading.study.engine import Engine
+from gpu_shading.study.inputs import MAX_TABLE, is_own_folder, opened
 from gpu_shading.study.tasks import digest
+
+_MAX_LINE = 1000  # bytes
 
 
 def _site(weather: str) -> list[str]:
     """Latitude, longitude and time zone, which the positions of the sun follow from."""
-    with open(weather, encoding="latin-1") as lines:
-        return lines.readline().strip().split(",")[6:9]
+    with opened(Path(weather), MAX_TABLE) as file:
+        return file.readline(_MAX_LINE).decode("latin-1").strip().split(",")[6:9]
 
 
 @dataclass
@@ -70,7 +73,7 @@ class Schedule:
         group = self._groups.get(key)
         if group is None:
             group = self._groups[key] = _Group(str(self._folder / "shading" / f"{scene}-{key}"))
-            group.is_ready = Path(group.folder).is_dir() and job.id not in self._todo
+            group.is_ready = is_own_folder(Path(group.folder)) and job.id not in self._todo
         if job.id not in self._todo:
             return
         group.waiting.append(job)

@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 import contextlib
-import fcntl
+import math
 import os
-import shutil
 import tempfile
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from gpu_shading import _programs
+from gpu_shading._text import escaped, quoted
 from gpu_shading.errors import InvalidInput, RunError
 from gpu_shading.study import tasks
-from gpu_shading.study.engine import Engine, open_client
+from gpu_shading.study.engine import Engine, Workers, opened_workers
+from gpu_shading.study.folder import check, occupied
 from gpu_shading.study.jobs import make_jobs
-from gpu_shading.study.plan import Case, read_plan
+from gpu_shading.study.plan import LARGEST, Case, is_number, read_plan
 from gpu_shading.study.progress import Progress, in_words, say
 from gpu_shading.study.records import Results
 from gpu_shading.study.sampling import MODES, Sampling
@@ -42,7 +43,9 @@ class Study:
                  outputs: Sequence[str] | None = None, keep: Sequence[str] | None = None, limit: float | None = None,
                  tries: int | None = None, task: str | None = None, mode: str | None = None,
                  shards: int | None = None, client: Any = None) -> None:
-        self.folder = Path(folder).absolute()
+        if not os.fspath(folder):
+            raise InvalidInput("the folder of the study: '', expected its name")
+        self.folder = Path(os.path.abspath(folder))
         given: Mapping[str, Any] = {}
         source = "study"
         if isinstance(plan, (str, os.PathLike)):
@@ -50,25 +53,28 @@ class Study:
             cases, given, source = list(read.cases), read.settings, str(plan)
         else:
             cases = list(plan)
-        self.client, self.workers, self.scheduler = client, workers, scheduler
+        self.client, self.scheduler = client, scheduler
+        self.workers = _number("--workers", "workers", workers)
         self.jobqueue: dict[str, Any] = {**given.get("jobqueue", {}), **(jobqueue or {})}
         if not jobqueue and "kind" not in self.jobqueue:
             self.jobqueue = {}
+        _check_jobqueue(source, self.jobqueue)
         self.task = _choice(source, "task", task or given.get("task", "run"), ("run", "sample"))
         self.mode = _choice(source, "mode", mode or given.get("mode", "medium"), MODES)
-        self.shards = int(shards or given.get("shards", 1))
-        self.tries = int(tries or given.get("tries", 2))
+        self.shards = _number("shards", "shards", shards) or given.get("shards", 1)
+        self.tries = _number("--tries", "tries", tries) or given.get("tries", 2)
         kept = (keep,) if isinstance(keep, str) else tuple(keep or given.get("keep", ("tables",)))
         for kind in kept:
             _choice(source, "keep", kind, tasks.KEEP)
-        self.jobs = make_jobs(cases, source, self.folder, tuple(outputs or given.get("outputs", ())), kept,
-                          limit or given.get("limit"), [self.task, self.mode] if self.task == "sample" else [])
+        limit = _number("--limit", "limit", limit, whole=False) or given.get("limit")
+        self.jobs = make_jobs(cases, source, self.folder, tuple(outputs or given.get("outputs", ())), kept, limit,
+                              [self.task, self.mode] if self.task == "sample" else [])
 
     def run(self) -> list[dict[str, Any]]:
         """Runs what is missing, and returns the rows of the table in the order of the plan. Those of runs that failed
         have the status "failed", and a message."""
-        with _only_one(self.folder):
-            done = Results(self.folder, self.jobs)
+        with occupied(self.folder) as work:
+            done = Results(self.folder, [replace(job, work=str(work)) for job in self.jobs])
             if done.missing():
                 progress = Progress(len(self.jobs), len(self.jobs) - len(done.missing()))
 
@@ -76,21 +82,28 @@ class Study:
                     done.add(job, outcome, attempts)
                     progress.add(bool(outcome.error))
 
-                with self._client() as client:
-                    engine = Engine(client, self.tries)
+                with self._workers(work) as workers:
+                    engine = Engine(workers, self.tries)
                     if self.task == "sample":
                         Sampling(engine, self.mode, self.shards, finish).run(done.missing())
                     else:
-                        Schedule(self.jobs, self.folder, {job.id for job in done.missing()}, engine, finish,
+                        Schedule(done.jobs, self.folder, {job.id for job in done.missing()}, engine, finish,
                                  progress.add_check).run()
                 progress.end()
             done.write()
             return done.rows()
 
     def dry_run(self) -> str:
-        """How many runs and distinct scenes there are, and about how long the runs will take."""
-        with _only_one(self.folder), self._client() as client:
-            done, engine, scenes = Results(self.folder, self.jobs), Engine(client, 1), dict[str, str]()
+        """How many runs and distinct scenes there are, and about how long the runs will take. Nothing is written into
+        the study's folder."""
+        return "\n".join(self.estimate()[0])
+
+    def estimate(self) -> tuple[list[str], bool]:
+        """The lines of dry_run(), and whether a scene is refused."""
+        check(self.folder)
+        done = Results(self.folder, self.jobs)
+        with self._workers(None) as open_workers:
+            engine, scenes = Engine(open_workers, 1), dict[str, str]()
             errors: list[str] = []
 
             def note(job: tasks.Job, outcome: tasks.Outcome, _: int) -> None:
@@ -106,56 +119,52 @@ class Study:
         missing = done.missing()
         lines = [f"{len(self.jobs)} runs, {len(self.jobs) - len(missing)} of them done, with "
                  f"{len(set(scenes.values()))} distinct scenes"]
-        if missing:
+        first = next((job for job in missing if job.scene_id in scenes), None)
+        if first is not None:
             seconds, origin = done.mean_seconds(), "the runs that are done"
             if seconds is None:
-                seconds, origin = _time_one(missing[0]), f"one run of {missing[0].name}"
+                seconds, origin = _time_one(first), f"one run of {first.name}"
             lines.append(f"about {in_words(seconds * len(missing) / workers)} on {workers} workers, by {origin} "
                          f"({seconds:.1f} s)")
-        return "\n".join([*lines, *errors])
+        return [escaped(line) for line in [*lines, *errors]], bool(errors)
 
     @contextlib.contextmanager
-    def _client(self) -> Any:
+    def _workers(self, work: Path | None) -> Iterator[Workers]:
         if self.client is not None:
-            yield self.client
+            yield Workers(self.client, math.inf)
             return
-        client = open_client(self.workers, self.scheduler, self.jobqueue, self.tries)
-        try:
+        with opened_workers(self.workers, self.scheduler, self.jobqueue, self.tries, work) as workers:
+            client = workers.client
             say(f"workers of {client.scheduler.address}; dashboard {client.dashboard_link}")
-            yield client
-        finally:
-            cluster = client.cluster
-            client.close()
-            if cluster is not None:
-                cluster.close()
-
-
-@contextlib.contextmanager
-def _only_one(folder: Path) -> Any:
-    folder.mkdir(parents=True, exist_ok=True)
-    with open(folder / ".lock", "w", encoding="ascii") as lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            raise RunError(f"{folder}: another study is running in this folder") from None
-        # What killed workers have left; those that still run lose their folder, and end.
-        shutil.rmtree(folder / "work", ignore_errors=True)
-        try:
-            yield
-        finally:
-            shutil.rmtree(folder / "work", ignore_errors=True)
+            yield workers
 
 
 def _choice(source: str, key: str, value: str, among: Sequence[str]) -> str:
     if value not in among:
-        raise InvalidInput(f"{source}: {key}: {value!r}, expected one of {', '.join(among)}")
+        raise InvalidInput(f"{source}: {key}: {quoted(value)}, expected one of {', '.join(among)}")
     return value
+
+
+def _number(name: str, key: str, value: Any, whole: bool = True) -> Any:
+    if value is not None and not is_number(value, 1, LARGEST[key], whole):
+        raise InvalidInput(f"{name}: {quoted(value)}, expected at least 1 and at most {LARGEST[key]:g}")
+    return value
+
+
+def _check_jobqueue(source: str, jobqueue: Mapping[str, Any]) -> None:
+    for key, (least, largest) in {"workers": (0, LARGEST["workers"]), "wait": (1, LARGEST["limit"])}.items():
+        if key in jobqueue and not is_number(jobqueue[key], least, largest, key == "workers"):
+            raise InvalidInput(f"{source}: jobqueue.{key}: {quoted(jobqueue[key])}, expected at least {least} and at "
+                               f"most {largest:g}")
+    prologue = jobqueue.get("job_script_prologue", [])
+    if not isinstance(prologue, (list, tuple)):
+        raise InvalidInput(f"{source}: jobqueue.job_script_prologue: {quoted(prologue)}, expected a list of commands")
 
 
 def _time_one(job: tasks.Job) -> float:
     with tempfile.TemporaryDirectory(prefix="gpu_shading_study_") as folder:
         began = time.monotonic()
-        outcome = tasks.run(replace(job, folder=folder), "", None, True)
+        outcome = tasks.run(replace(job, folder=folder, work=folder), "", None, True)
         if outcome.error:
             raise RunError(f"{job.name}: {outcome.error}")
         return time.monotonic() - began

@@ -6,13 +6,11 @@ import csv
 import importlib
 import importlib.util
 import io
-import os
-import secrets
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
-from gpu_shading.study.tasks import write_whole
+from gpu_shading._text import escaped
+from gpu_shading.study.folder import Tables
 
 FIRST = ("run", "model", "variant", "weather", "status", "message", "scene", "directions rendered",
          "directions from the cache", "inputs", "gpu_shading", "energyplus")
@@ -24,37 +22,43 @@ _WHOLE = {"directions rendered", "receivers", "directions from the cache", "atte
 Row = Mapping[str, Any]
 
 
-def write_tables(folder: Path, rows: Sequence[Row], times: Sequence[Row]) -> None:
-    """runs.csv, runs.parquet where pyarrow is installed, and times.csv."""
+def write_tables(tables: Tables, rows: Sequence[Row], times: Sequence[Row]) -> None:
+    """runs.csv, runs.parquet where pyarrow is installed, and times.csv. Raises InvalidInput if one of them is not of a
+    study."""
     numbers = sorted({name for row in rows for name in row} - {*FIRST, *LAST})
     columns = [*FIRST, *numbers, *LAST]
-    write_whole(folder / "runs.csv", _csv(columns, rows))
-    write_whole(folder / "times.csv", _csv(["run", "seconds", "cpu seconds", "attempts", "host"], times))
+    contents = {"runs.csv": _csv(columns, rows),
+                "times.csv": _csv(["run", "seconds", "cpu seconds", "attempts", "host"], times)}
     if importlib.util.find_spec("pyarrow"):
-        _write_parquet(folder / "runs.parquet", columns, rows)
+        contents["runs.parquet"] = _parquet(columns, rows)
+    tables.write(contents)
 
 
-def _csv(columns: Sequence[str], rows: Sequence[Row]) -> str:
+def _csv(columns: Sequence[str], rows: Sequence[Row]) -> bytes:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns)
+    writer.writerow(map(_cell, columns))
     writer.writerows([_cell(row.get(name)) for name in columns] for row in rows)
-    return text.getvalue()
+    return text.getvalue().encode()
 
 
 def _cell(value: Any) -> Any:
-    # A spreadsheet takes such a text for a formula.
-    return f"'{value}" if isinstance(value, str) and value[:1] in tuple("=+-@") and value else value
+    if not isinstance(value, str):
+        return value
+    text = escaped(value)
+    return f"'{text}" if text[:1] in tuple("=+-@") and text else text  # a spreadsheet takes such a text for a formula
 
 
-def _write_parquet(path: Path, columns: Sequence[str], rows: Sequence[Row]) -> None:
+def _parquet(columns: Sequence[str], rows: Sequence[Row]) -> bytes:
     arrow, parquet = importlib.import_module("pyarrow"), importlib.import_module("pyarrow.parquet")
     types = {name: arrow.string() if name in _TEXTS else arrow.int64() if name in _WHOLE else arrow.float64()
              for name in columns}
-    table = arrow.table({name: arrow.array([row.get(name) for row in rows], type_) for name, type_ in types.items()})
-    staged = path.with_name(f".{path.name}.{secrets.token_hex(4)}")
-    try:
-        parquet.write_table(table, staged)
-        os.replace(staged, path)
-    finally:
-        staged.unlink(missing_ok=True)
+    table = arrow.table({escaped(name): arrow.array([_escaped(row.get(name)) for row in rows], type_)
+                         for name, type_ in types.items()})
+    written = arrow.BufferOutputStream()
+    parquet.write_table(table, written)
+    return bytes(written.getvalue())
+
+
+def _escaped(value: Any) -> Any:
+    return escaped(value) if isinstance(value, str) else value

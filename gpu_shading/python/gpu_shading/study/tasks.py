@@ -7,6 +7,7 @@ import ctypes
 import hashlib
 import json
 import os
+import re
 import resource
 import secrets
 import shutil
@@ -14,6 +15,7 @@ import signal
 import socket
 import sqlite3
 import subprocess
+import tempfile
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -21,10 +23,15 @@ from pathlib import Path
 from typing import Any
 
 from gpu_shading import _programs
-from gpu_shading.errors import RunError
-from gpu_shading.study import models, results
+from gpu_shading._files import private_folder, write_whole
+from gpu_shading._text import of_error
+from gpu_shading.errors import InvalidInput, RunError
+from gpu_shading.study import inputs, models, results
 
 RECORD = "record.json"
+_MAX_RECORD = 16 * inputs.MEBIBYTE
+_SCENE = re.compile(r"[0-9a-f]{1,64}")
+_MAX_SCENE = 100  # bytes
 _TAKEN = ("error", "resolution", "device", "threads", "lean", "method", "assets", "file")  # by gpu_shading check
 _KEPT = {"tables": ("eplustbl.*", "eplusout.err", "eplusout.eio"), "sql": ("eplusout.sql",), "all": ("*",),
          "nothing": ()}
@@ -54,6 +61,8 @@ class Job:
     """Of the study."""
     scene_id: str
     """Of the inputs of the scene: those of the job without weather."""
+    work: str = ""
+    """A folder for what is temporary. In a dry run there is none, and nothing is kept."""
 
 
 @dataclass
@@ -69,21 +78,26 @@ def digest(values: Any) -> str:
     return hashlib.sha256(json.dumps(values).encode(errors="surrogatepass")).hexdigest()[:16]
 
 
-def write_whole(path: Path, content: str) -> None:
-    """The file has all of the content, or is as before."""
-    staged = path.with_name(f".{path.name}.{secrets.token_hex(4)}")
-    try:
-        with open(staged, "w", encoding="utf-8") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        staged.replace(path)
-    finally:
-        staged.unlink(missing_ok=True)
-
-
 def write_record(folder: Path, outcome: Outcome) -> None:
-    write_whole(folder / RECORD, json.dumps({"values": outcome.values, "times": outcome.times}, indent=1) + "\n")
+    content = {"values": outcome.values, "times": outcome.times}
+    write_whole(folder / RECORD, json.dumps({**content, "digest": digest(content)}, indent=1) + "\n")
+
+
+def read_record(folder: Path) -> Outcome | None:
+    """Of the run whose results are in the folder; None if it has none. Raises InvalidInput, with one line, if it is
+    not as a study has written it."""
+    path = folder / RECORD
+    if not os.path.lexists(path):
+        return None
+    try:
+        record = json.loads(inputs.read(path, _MAX_RECORD, follow=False))
+        content = {"values": record["values"], "times": record["times"]}
+        if record["digest"] != digest(content):
+            raise ValueError("its checksum is wrong")
+        return Outcome(**content)
+    except (OSError, KeyError, TypeError, ValueError, RecursionError) as error:
+        why = error.strerror if isinstance(error, OSError) else str(error).removeprefix(f"{path}: ")
+        raise InvalidInput(f"{path}: is not a record of a study ({why})") from None
 
 
 def end_with_parent() -> None:
@@ -113,20 +127,23 @@ def _run(command: list[str], folder: Path, limit: float | None,
 
 @contextlib.contextmanager
 def work_folder(job: Job) -> Any:
-    folder = Path(job.folder) / "work" / f"{job.id}-{secrets.token_hex(4)}"
-    folder.mkdir(parents=True)
-    try:
-        yield folder
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
+    """A folder for one attempt, in the study's if this is not a dry run."""
+    with contextlib.ExitStack() as stack:
+        place = Path(job.work or stack.enter_context(private_folder(Path(tempfile.gettempdir()))))
+        folder = place / f"{job.id}-{secrets.token_hex(4)}"
+        folder.mkdir()
+        try:
+            yield folder
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
 
 
 def _write_model(job: Job, folder: Path, outputs: bool) -> tuple[Path, list[str]]:
     """The model with the job's changes, and output for the table if asked for, and the flags that it needs."""
     original = Path(job.model)
     flags = [f"--gpu-shading-{name}={value}" for name, value in job.options.items()]
-    side_file = Path(job.extensions or original.with_suffix(".gpu-shading.idf"))
-    if side_file.is_file():
+    side_file = inputs.side_file(Path(job.extensions or original.with_suffix(".gpu-shading.idf")))
+    if side_file is not None:
         flags.append(f"--gpu-shading-file={side_file}")
     if not (outputs or job.fields or job.remove or job.objects):
         return original, flags
@@ -167,18 +184,22 @@ def run_program(job: Job, folder: Path, words: list[str], output: Path) -> tuple
 def scene_of(job: Job) -> Outcome:
     """The hash of the job's scene, which is kept in the study's folder."""
     kept = Path(job.folder) / "scenes" / job.scene_id
-    if kept.is_file():
-        return Outcome(values={"scene": kept.read_text(encoding="ascii").strip()})
     try:
+        with contextlib.suppress(OSError, InvalidInput, UnicodeDecodeError):
+            scene = inputs.read(kept, _MAX_SCENE, follow=False).decode("ascii").strip()
+            if _SCENE.fullmatch(scene):
+                return Outcome(values={"scene": scene})
         with work_folder(job) as folder:
             document = folder / "check.json"
             if error := run_program(job, folder, ["check", "--json"], document)[0]:
                 return Outcome(error)
             scene = str(json.loads(document.read_bytes())["scene"])
+            if job.work:
+                kept.parent.mkdir(exist_ok=True)
+                (folder / "scene").write_text(scene + "\n", encoding="ascii")
+                (folder / "scene").replace(kept)
     except (OSError, RunError, ValueError) as error:
-        return Outcome(str(error))
-    kept.parent.mkdir(exist_ok=True)
-    write_whole(kept, scene + "\n")
+        return Outcome(of_error(error))
     return Outcome(values={"scene": scene})
 
 
@@ -195,7 +216,7 @@ def run(job: Job, scene: str, shading: str | None, is_first: bool) -> Outcome:
                 _publish(job, folder, outcome, shading if is_first else None)
             return outcome
     except (OSError, RunError, ValueError, sqlite3.Error) as error:
-        return Outcome(str(error))
+        return Outcome(of_error(error))
 
 
 def _processor_seconds() -> float:
@@ -210,8 +231,8 @@ def _run_in(job: Job, folder: Path, scene: str, shading: str | None, is_first: b
     out.mkdir()
     if shading is not None:
         # Of their own, so that what others add meanwhile does not change what is rendered.
-        if not is_first and Path(shading).is_dir():
-            shutil.copytree(shading, folder / "cache")
+        if not is_first and inputs.is_own_folder(Path(shading)):
+            shutil.copytree(shading, folder / "cache", symlinks=True)
         flags.append(f"--gpu-shading-cache={folder / 'cache'}")
     if "threads" not in job.options:
         flags.append("--gpu-shading-threads=1")
@@ -239,7 +260,17 @@ def _publish(job: Job, folder: Path, outcome: Outcome, shading: str | None) -> N
     write_record(kept, outcome)
     if shading is not None and (folder / "cache").is_dir():
         _rename_new(folder / "cache", Path(shading))
-    _rename_new(kept, Path(job.folder) / "runs" / job.id)
+    target = Path(job.folder) / "runs" / job.id
+    if inputs.is_own_folder(target) and not _is_done(target):
+        target.rename(target.with_name(f"{target.name}.damaged-{secrets.token_hex(4)}"))
+    _rename_new(kept, target)
+
+
+def _is_done(folder: Path) -> bool:
+    try:
+        return read_record(folder) is not None
+    except InvalidInput:
+        return False
 
 
 def _rename_new(source: Path, target: Path) -> None:
@@ -248,7 +279,7 @@ def _rename_new(source: Path, target: Path) -> None:
     try:
         source.rename(target)
     except OSError:
-        if not target.is_dir():
+        if not inputs.is_own_folder(target):
             raise
 
 
