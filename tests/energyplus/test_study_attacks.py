@@ -17,8 +17,7 @@ from shading_runs import energyplus
 PACKAGES = energyplus.REPOSITORY / "gpu_shading" / "python"
 sys.path.insert(0, str(PACKAGES))
 COMMAND = PACKAGES / "gpu_shading" / "study" / "__main__.py"
-IDF = """Version,25.2;
-Building,House;
+IDF = """Building,House;
 Schedule:Constant,cooling,,26;
 Shading:Building:Detailed,Louvre 1,,4,0,0,0,1,0,0,1,0,1,0,0,1;
 """
@@ -108,6 +107,8 @@ PLANS = [
     (PLAN + '[[variant]]\nobjects = "pipe.idf"', "variant 1.objects: 'pipe.idf', exp"),
     (PLAN + '[[variant]]\nobjects = "big.idf"', "variant 1.objects: big.idf: has 1099511627776"),
     (PLAN + '[[variant]]\nobjects = "Zone,A; Zone,B"', "objects: 'Zone,A; Zone,B', expected IDF text th"),
+    (PLAN + 'arguments = ["-D", "-d", "/home"]', "arguments: '-d': a study decides where weather and results are"),
+    (PLAN + 'arguments = "--output-prefix=../../x"', "arguments: '--output-prefix=../../x': a study decides where"),
     (PLAN + "options = { error = nan }", "options.error: nan, expected a finite number"),
     (PLAN + "options = { error = [1] }", "options.error: [1], expected a finite number"),
     (PLAN + "options = { cache = 5, cache-size = -inf }", "options.cache-size: -inf, expected a finite"),

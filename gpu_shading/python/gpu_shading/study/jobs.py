@@ -17,6 +17,8 @@ from gpu_shading.study import inputs, models, tasks
 from gpu_shading.study.plan import OPTIONS, Case, is_value, model_names
 from gpu_shading.study.tasks import digest
 
+_DECIDED = ("-d", "-p", "-s", "-w", "--output-", "--weather")  # flags of EnergyPlus
+
 
 def make_jobs(cases: Sequence[Case], source: str, folder: Path, outputs: tuple[str, ...], keep: tuple[str, ...],
           limit: float | None, task: list[str]) -> list[tasks.Job]:
@@ -100,6 +102,10 @@ def _changes(case: Case, model: Path) -> tuple[tuple[tuple[models.Field, str], .
     for text in (case.variant, *case.arguments, *case.fields, *case.remove):
         if escaped(text) != text:
             raise InvalidInput(f"{quoted(text)} has control characters")
+    for word in case.arguments:
+        if word.startswith(_DECIDED):
+            raise InvalidInput(f"arguments: {quoted(word)}: a study decides where weather and results are; expected "
+                               "other flags of EnergyPlus")
     for text, value in case.fields.items():
         if not is_value(value):
             raise InvalidInput(f"{quoted(text)}: {quoted(value)}, expected a finite number, or text in one line")
