@@ -177,11 +177,28 @@ class SurfaceTexts {
   Shared<PerforatedScreen> screens_;
 };
 
-std::string rule_text(ShadingRule const& rule) {
+// Surfaces with a polygon. EnergyPlus's InternalMass has none, but a place among its surfaces.
+std::vector<SurfaceId> drawn(Scene const& scene) {
+  constexpr std::size_t min_vertices = 3;
+  std::vector<SurfaceId> ids;
+  for (SurfaceId id = 0; id < scene.size(); ++id) {
+    if (scene[id].polygon.outline.size() >= min_vertices) ids.push_back(id);
+  }
+  return ids;
+}
+
+// The rule for these surfaces alone, numbered anew.
+std::string rule_text(ShadingRule const& rule, std::vector<SurfaceId> const& ids) {
   std::string roles;
-  for (auto const& role : rule.roles) {
+  for (SurfaceId number = 0; !rule.empty() && number < ids.size(); ++number) {
+    auto const& role = rule.roles[ids[number]];
+    auto const target = std::ranges::lower_bound(ids, role.target);
+    // No surface shades itself: one whose only target is left out shades none.
+    auto const renumbered = target != ids.end() && *target == role.target
+                                ? static_cast<SurfaceId>(target - ids.begin())
+                                : number;
     fmt::format_to(std::back_inserter(roles), "{}[{},{},{},{}]", roles.empty() ? "" : ",",
-                   role.wall, role.zone, static_cast<int>(role.shades), role.target);
+                   role.wall, role.zone, static_cast<int>(role.shades), renumbered);
   }
   return fmt::format("{{\"zones\":{},\"zone_shades\":[{}],\"roles\":[{}]}}", rule.zones,
                      fmt::join(rule.zone_shades, ","), roles);
@@ -195,7 +212,8 @@ std::string scene_document(SceneAssembly& assembly) {
   std::vector<bool> receives(scene.size(), false);
   for (auto const id : assembly.shown_receivers()) receives[id] = true;
   SurfaceTexts surfaces;
-  for (SurfaceId id = 0; id < scene.size(); ++id) surfaces.add(scene[id], receives[id]);
+  auto const ids = drawn(scene);
+  for (auto const id : ids) surfaces.add(scene[id], receives[id]);
   auto const& options = assembly.model().options;
   Document head{{"format", "gpu_shading scene 1"}, {"error", options.error}};
   head["resolution"] = options.resolution ? Document(*options.resolution) : Document();
@@ -205,8 +223,8 @@ std::string scene_document(SceneAssembly& assembly) {
   head["screens"] = surfaces.screens();
   auto text = text_of(head);
   text.pop_back();
-  return text + ",\n\"rule\":" + rule_text(scene.rule()) + ",\n\"surfaces\":[" + surfaces.text() +
-         "]}\n";
+  return text + ",\n\"rule\":" + rule_text(scene.rule(), ids) + ",\n\"surfaces\":[" +
+         surfaces.text() + "]}\n";
 }
 
 }  // namespace gpu_shading::energyplus

@@ -10,6 +10,7 @@ import sys
 import numpy as np
 import pytest
 import screened_room
+import test_models
 from shading_runs import energyplus, input_file, results
 
 sys.path.insert(0, str(energyplus.REPOSITORY / "gpu_shading" / "python"))
@@ -224,3 +225,50 @@ def test_types_are_checked(tmp_path):
                           env=energyplus.os.environ | paths, capture_output=True, text=True)
     errors = [line for line in done.stdout.splitlines() if " error: " in line]
     assert len(errors) == 2 and '"casts"' in errors[0] and "oval" in errors[1], done.stdout + done.stderr
+
+
+def with_internal_mass():
+    rows = test_models.index()
+    return [row for row in rows if row.values[0] is None or re.search(
+        r"InternalMass\b", (test_models.MODELS / row.values[0][0]).read_text(errors="replace"), re.IGNORECASE)]
+
+
+@pytest.mark.parametrize("row", with_internal_mass())
+def test_models_with_internal_mass_are_scenes(row, gs):
+    """EnergyPlus has it among its surfaces, without vertices."""
+    name, weather_name, _, flags = row
+    if flags:
+        pytest.skip(f"from_energyplus passes no {flags}")
+    path, weather = test_models.MODELS / name, energyplus.find_weather(weather_name)
+    scene, document = gs.Scene.from_energyplus(path, weather), gs.check(path, weather)
+    listed = {surface["name"]: surface for surface in document["surfaces"]}
+    without_area = [surface for surface in listed.values() if surface["area"] == 0.0 and surface["name"] not in
+                    scene.names]
+    assert without_area and not any(surface["receives"] or surface["casts"] for surface in without_area)
+    for surface, area in zip(scene.surfaces, scene.areas, strict=True):
+        if surface.name in listed:
+            assert area == pytest.approx(listed[surface.name]["area"], rel=1e-9, abs=1e-9), surface.name
+    receiving = {scene.names[index] for index in scene.receivers}
+    assert receiving == {name for name, surface in listed.items() if surface["receives"]}
+
+
+@pytest.mark.parametrize("row", test_models.index(only=("RefBldgSmallOfficeNew2004_Chicago.idf",)))
+def test_a_scene_with_internal_mass_is_what_energyplus_is_answered(row, gs, tmp_path):
+    """Each surface has its own place in the rule of which shades which, too."""
+    weather = energyplus.find_weather(row[1])
+    model = input_file.read(test_models.MODELS / row[0])
+    results.instrument(model, "Timestep")
+    path = tmp_path / "model.idf"
+    model.write(path)
+    run = gs.run(path, weather, tmp_path / "out", resolution=RESOLUTION, update="timestep", arguments=["-D"])
+    scene = gs.Scene.from_energyplus(path, weather)
+    (azimuth,), (altitude,) = (run.values(name, "TimeStep").values() for name in (results.AZIMUTH, results.ALTITUDE))
+    fractions = scene.renderer(resolution=RESOLUTION).sunlit(np.column_stack([azimuth, altitude]))
+    cosines, compared = run.values(results.COSINE, "TimeStep"), 0
+    for name, values in run.values(results.SUNLIT, "TimeStep").items():
+        if name in scene.names:
+            facing = (cosines[name] > results.FACING) & (altitude > 0)
+            error = np.abs(fractions[:, scene.receivers.index(scene.index(name))] - values)[facing]
+            assert error.max(initial=0.0) < 1.5e-4, name
+            compared += np.count_nonzero((values > 0.01) & (values < 0.99) & facing)
+    assert compared > 100
