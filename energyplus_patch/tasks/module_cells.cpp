@@ -165,6 +165,23 @@ std::vector<LaidField> lay_out(SceneAssembly const& scene, std::size_t times) {
   return fields;
 }
 
+// Strings do not continue on the next surface.
+void warn_of_short_strings(std::vector<LaidField> const& fields, Messages const& messages) {
+  auto const rest = [](ModuleLayout const& layout) {
+    auto const length = layout.spec().string_length;
+    return length ? layout.modules().size() % static_cast<std::size_t>(*length) : 0;
+  };
+  auto const is_short = [&](LaidField const& field) { return rest(field.layout) != 0; };
+  auto const first = std::ranges::find_if(fields, is_short);
+  if (first == fields.end()) return;
+  auto const others = std::ranges::count_if(fields, is_short) - 1;
+  auto const& layout = first->layout;
+  messages.warning(
+      fmt::format("{}: strings end with their surface: the last one on {} has {} of {} modules{}",
+                  layout.spec().where, layout.surface(), rest(layout), *layout.spec().string_length,
+                  others > 0 ? fmt::format(", and {} more are short", others) : ""));
+}
+
 // View factor of each module to the sky.
 std::vector<ModuleSky> sky_of(LaidField const& field, RayScene const& rays,
                               std::vector<ShadeKind> const& kinds, SceneAssembly& scene) {
@@ -198,6 +215,7 @@ std::string perform(ModulesTask const& task, SceneAssembly& scene, Messages cons
   describe_scene(scene, messages);
   auto const& times = task.run.times;
   auto const fields = lay_out(scene, times.size());
+  warn_of_short_strings(fields, messages);
   scene.optics().update({});
   auto const options = watched_options(scene.model().options, messages);
   auto const casters = scene.scene();

@@ -4,6 +4,7 @@ import json
 import math
 import os
 import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from html_page import look_at
 from output_files import rows_of
 from shading_runs import energyplus
 
+sys.path.insert(0, str(energyplus.REPOSITORY / "gpu_shading" / "python"))
 EXAMPLE = energyplus.REPOSITORY / "idf_examples" / "pv_roof" / "pv_roof.idf"
 HALL = EXAMPLE.read_text().partition("! The parapet")[0]  # without shading surfaces
 # A level deck above the roof: 10 x 2 modules of 1 m x 1.6 m without frames and gaps.
@@ -269,3 +271,23 @@ def test_files_and_errors(patched, weather, tmp_path):
     assert done.returncode == 1 and "none.idf: has no GPUShading:PVModules" in done.stderr
     done = call(EXAMPLE, "-o", tmp_path / "none")
     assert done.returncode == 1 and "-w: a weather file is required" in done.stderr
+
+
+def test_strings_that_end_with_their_surface_are_told(patched, weather, tmp_path):
+    """On decks of 20 modules, strings of 8: the last has 4 of each. One of 10 is told nothing."""
+    decks = "".join(f"Shading:Building:Detailed,{name},,4, 1,{y + 3.2},5, 1,{y},5, 11,{y},5, 11,{y + 3.2},5;\n"
+                    for name, y in (("Deck 1", 1), ("Deck 2", 5), ("Deck 3", 9)))
+    for number, told in ((10, None), (20, None), (8, "has 4 of 8 modules"), (50, "has 20 of 50 modules")):
+        (tmp_path / "model.idf").write_text(
+            HALL + decks + f"GPUShading:PVModules,Modules,Deck *,1,1.6,,6,10,3,0,0,,,{number};\n")
+        done = call(tmp_path / "model.idf", "-w", weather, "-o", tmp_path / f"out {number}", "--from", "03-21",
+                    "--to", "03-21")
+        assert done.returncode == 0, done.stderr
+        warnings = [line for line in done.stderr.splitlines() if "string" in line]
+        assert warnings == ([] if told is None else [
+            f"gpu_shading: warning: GPUShading:PVModules MODULES: strings end with their surface: the last one on "
+            f"DECK 1 {told}, and 2 more are short"])
+    import gpu_shading
+
+    with pytest.warns(RuntimeWarning, match="strings end with their surface"):
+        gpu_shading.modules(tmp_path / "model.idf", weather, first="03-21", last="03-21")
