@@ -211,3 +211,17 @@ def test_parameters_of_power(gs, tmp_path):
         gs.power(cells, module, albedo=7)
     with pytest.raises(gs.InvalidInput, match="reverse: breakdown_exp missing"):
         gs.power(cells, module, reverse={"breakdown_factor": 2e-3, "breakdown_voltage": -15.0})
+
+
+@pytest.mark.parametrize("printed", ["", "[]", "null", "{", '{"format": 1}', "[" * 5000, "\x1b[2J",
+                                     '{"format": "gpu_shading scene 1"}',
+                                     '{"format": "gpu_shading scene 1", "transmittances": 7}'])
+def test_a_program_that_prints_something_else(printed, gs, tmp_path, monkeypatch):
+    (tmp_path / "printed").write_text(printed)
+    (tmp_path / "gpu_shading").write_text(f"#!/bin/sh\ncat '{tmp_path / 'printed'}'\n")
+    (tmp_path / "gpu_shading").chmod(0o700)
+    (tmp_path / "model.idf").write_text("")
+    monkeypatch.setenv("GPU_SHADING_PREFIX", str(tmp_path))
+    with pytest.raises(gs.Error) as error:
+        gs.Scene.from_energyplus(tmp_path / "model.idf")
+    assert str(error.value).isprintable() and len(str(error.value)) < 600
