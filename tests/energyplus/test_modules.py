@@ -285,8 +285,8 @@ def test_strings_that_end_with_their_surface_are_told(patched, weather, tmp_path
         assert done.returncode == 0, done.stderr
         warnings = [line for line in done.stderr.splitlines() if "string" in line]
         assert warnings == ([] if told is None else [
-            f"gpu_shading: warning: GPUShading:PVModules MODULES: strings end with their surface: the last one on "
-            f"DECK 1 {told}, and 2 more are short"])
+            f"gpu_shading: warning: {tmp_path / 'model.idf'}: GPUShading:PVModules Modules: strings end with their "
+            f"surface: the last one on DECK 1 {told}, and 2 more are short"])
     import gpu_shading
 
     with pytest.warns(RuntimeWarning, match="strings end with their surface"):

@@ -246,10 +246,13 @@ def test_models_with_internal_mass_are_scenes(row, gs):
                     scene.names]
     assert without_area and not any(surface["receives"] or surface["casts"] for surface in without_area)
     for surface, area in zip(scene.surfaces, scene.areas, strict=True):
-        if surface.name in listed:
+        # A wall is listed without its windows.
+        if surface.name in listed and listed[surface.name]["kind"] == "window or door":
             assert area == pytest.approx(listed[surface.name]["area"], rel=1e-9, abs=1e-9), surface.name
+    building = {name: surface for name, surface in listed.items()
+                if surface["kind"] in ("heat transfer surface", "window or door")}
     receiving = {scene.names[index] for index in scene.receivers}
-    assert receiving == {name for name, surface in listed.items() if surface["receives"]}
+    assert receiving & set(building) == {name for name, surface in building.items() if surface["receives"]}
 
 
 @pytest.mark.parametrize("row", test_models.index(only=("RefBldgSmallOfficeNew2004_Chicago.idf",)))
