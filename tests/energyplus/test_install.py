@@ -41,6 +41,23 @@ def test_it_is_complete(installed):
     assert (installed / "include" / "gpu_shading_energyplus.h").is_file()
 
 
+def test_a_build_without_tests_makes_all_of_it(patched):
+    """By the rules of the build, so that nothing is built again: README.md's own install can be installed."""
+    build = energyplus.build_folder().resolve()
+    [targets] = re.findall(r"--target (patched_prefix .*)", (ROOT / "scripts" / "build").read_text())
+
+    def ninja(*words):
+        return subprocess.run(["ninja", "-C", build, "-t", *words], capture_output=True, text=True, check=True).stdout
+
+    needed_for = ninja("graph", *targets.split())
+    made = {path.removeprefix(f"{build}/") for path in re.findall(r'\[label="([^"]+)"', needed_for)}
+    rules = {line.rpartition(": ")[0] for line in ninja("targets", "all").splitlines()}
+    files = {path for script in build.rglob("cmake_install.cmake")
+             for path in re.findall(rf'"{re.escape(str(build))}/([^"]+)"', script.read_text())}
+    assert len(files & rules) > 9 and sorted((files & rules) - made) == []
+    assert "gpu_shading/libgpu_shading_python.so" in made
+
+
 def test_its_files_look_beside_themselves(installed):
     files = loaded_files(installed)
     assert len(files) > 9
