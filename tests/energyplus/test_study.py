@@ -303,7 +303,28 @@ def test_a_queue_is_asked_for_what_the_plan_says(gs, tmp_path):
     package = energyplus.REPOSITORY / "gpu_shading" / "python"  # not where a job would look
     # Workers start in a private folder, with the study's certificates.
     assert script.index(f"cd {tmp_path}\n") < script.index(" -m ") and "export PYTHONSAFEPATH=1" in script
-    assert f"--local-directory {tmp_path}" in script and f"--tls-key {tmp_path}/" in script
+    assert f"--local-directory {tmp_path}" in script and f"--tls-key {tmp_path}/key.pem" in script
+    assert (tmp_path / "key.pem").stat().st_mode & 0o777 == 0o600
     assert f"export PYTHONPATH={package}${{PYTHONPATH:+:$PYTHONPATH}}" in script
     with pytest.raises(gs.InvalidInput, match="--jobqueue sge: expected one of slurm, pbs, lsf"):
         open_jobqueue({"kind": "sge"}, tmp_path)
+
+
+def test_a_queue_s_workers_make_the_same_table(place, reference, tmp_path):
+    """By a queue that starts each job at once."""
+    pytest.importorskip("dask_jobqueue", reason="dask-jobqueue is missing: run scripts/setup")
+    for name, text in (("sbatch", f'cp "$1" {tmp_path}/$$.job; setsid bash {tmp_path}/$$.job >/dev/null 2>&1 &\n'
+                                  'echo "Submitted batch job $!"'), ("scancel", 'kill -TERM -- "-$1"')):
+        (tmp_path / name).write_text(f"#!/bin/bash\n{text}\n")
+        (tmp_path / name).chmod(0o755)
+    (place / "queue.toml").write_text((place / "plan.toml").read_text() + "\n[jobqueue]\nworkers = 2\n")
+    # Modules beside the plan are not run.
+    (place / "signal.py").write_text("raise SystemExit(1)\n")
+    try:
+        _, errors = Command(place, "queued", "--jobqueue", "slurm", plan="queue.toml",
+                            PATH=f"{tmp_path}:{Path(sys.executable).parent}:{os.environ['PATH']}").finish()
+    finally:
+        (place / "signal.py").unlink()
+    assert "workers of tls://" in errors and "dashboard http://127.0.0.1:" in errors
+    assert list(tmp_path.glob("*.job")) and tables(place / "queued") == tables(reference)
+    assert not list((place / "queued").glob(".gpu_shading-*"))

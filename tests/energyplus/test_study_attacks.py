@@ -532,3 +532,22 @@ def test_workers_that_are_gone_are_waited_for_within_bounds(finished, tmp_path):
         engine.submit(os.getpid, then=None)
         with pytest.raises(RunError, match="no worker for"):
             engine.run()
+
+
+def test_names_are_escaped_wherever_they_are_told(finished, tmp_path):
+    """Of models, in messages and tables: control characters, marks that turn text, and bytes that are not UTF-8."""
+    names = [b"\x1b[31mred", b"two\nlines", "\u202eright".encode(), b"latin \xff", b"=1+1"]
+    for name in names:
+        (tmp_path / os.fsdecode(name + b".idf")).write_text("Version,1;\nZone,\x1b[2J;\n")
+    weather = re.search('weather = .*', (finished / "plan.toml").read_text())[0]
+    (tmp_path / "plan.toml").write_text(f'models = "."\n{weather}\ntries = 1\n')
+    for flags in ([], ["--dry-run"]):
+        done = subprocess.run([sys.executable, COMMAND, "plan.toml", "-o", "out \x1b[1m", "--workers", "2", *flags],
+                              cwd=tmp_path, capture_output=True, text=True, timeout=120)
+        assert done.returncode == 1, done.stderr
+        told = done.stdout + done.stderr
+        assert all(line.isprintable() for line in told.split("\n")), told
+        for name in ("\\x1b[31mred", "two lines", "\\u202eright", "latin \ufffd", "=1+1"):
+            assert flags or name in told, (name, told)
+    table = (tmp_path / "out \x1b[1m" / "runs.csv").read_text()
+    assert all(line.isprintable() for line in table.split("\n")) and table.count("\n") == 6 and "\n'=1+1/" in table

@@ -104,6 +104,18 @@ def _security(distributed: Any) -> Any:
         raise ImportError("a study needs cryptography: pip install cryptography, or the wheel with [study]") from None
 
 
+def _security_of_jobs(distributed: Any, place: Path) -> Any:
+    """The same, in files of the private folder."""
+    made = _security(distributed)
+    certificate, key = str(place / "certificate.pem"), str(place / "key.pem")
+    for name, content in ((certificate, made.tls_ca_file), (key, made.tls_worker_key)):
+        with open(os.open(name, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600), "w", encoding="ascii") as file:
+            file.write(content)
+    roles = {f"tls_{role}_{kind}": name for role in ("client", "scheduler", "worker")
+             for kind, name in (("cert", certificate), ("key", key))}
+    return distributed.Security(require_encryption=True, tls_ca_file=certificate, **roles)
+
+
 def _open_local(distributed: Any, place: Path, workers: int) -> Any:
     _start_helpers(place)
     cluster = distributed.LocalCluster(n_workers=0, threads_per_worker=1, dashboard_address="127.0.0.1:0",
@@ -154,14 +166,15 @@ def open_jobqueue(jobqueue: Mapping[str, Any], place: Path) -> Any:
         module = importlib.import_module("dask_jobqueue")
     except ImportError:
         raise ImportError("--jobqueue needs dask-jobqueue: pip install dask-jobqueue") from None
-    resources: dict[str, Any] = {"cores": 1, "processes": 1, "memory": "2 GB", "local_directory": str(place),
-                                 "shared_temp_directory": str(place), "security": _security(
-                                     importlib.import_module("distributed")), **jobqueue}
-    resources["scheduler_options"] = {"dashboard_address": "127.0.0.1:0", **resources.get("scheduler_options", {})}
-    resources["job_script_prologue"] = [*_variables_of_jobs(), *resources.get("job_script_prologue", ()),
-                                        f"cd {shlex.quote(str(place))}"]
-    kind, workers = check_jobqueue(str(resources.pop("kind", ""))), resources.pop("workers", 1)
-    resources.pop("wait", None)
+    given = dict(jobqueue)
+    kind, workers = check_jobqueue(str(given.pop("kind", ""))), given.pop("workers", 1)
+    given.pop("wait", None)
+    resources: dict[str, Any] = {
+        "cores": 1, "processes": 1, "memory": "2 GB", "local_directory": str(place),
+        "security": _security_of_jobs(importlib.import_module("distributed"), place), **given,
+        "scheduler_options": {"dashboard_address": "127.0.0.1:0", **given.get("scheduler_options", {})},
+        "job_script_prologue": [*_variables_of_jobs(), *given.get("job_script_prologue", ()),
+                                f"cd {shlex.quote(str(place))}"]}
     try:
         cluster = getattr(module, _CLUSTERS[kind])(**resources)
     except (OSError, TypeError, ValueError) as error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import math
 import os
+import re
 import tempfile
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -135,7 +136,10 @@ class Study:
             return
         with opened_workers(self.workers, self.scheduler, self.jobqueue, self.tries, work) as workers:
             client = workers.client
-            say(f"workers of {client.scheduler.address}; dashboard {client.dashboard_link}")
+            link = client.dashboard_link
+            if "scheduler_options" not in self.jobqueue and client.cluster is not None:
+                link = re.sub("//[^:/]+:", "//127.0.0.1:", link)  # it is for this machine alone
+            say(f"workers of {client.scheduler.address}; dashboard {link}")
             yield workers
 
 
