@@ -1,12 +1,14 @@
 """Studies with hostile plans, models, records and folders: one line and exit status 1, in bounded time and memory."""
 
 import asyncio
+import contextlib
 import importlib.util
 import json
 import os
 import re
 import shutil
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
@@ -354,7 +356,7 @@ def finished(box, weather, tmp_path_factory):
     (place / "in.idf").write_text(text)
     (place / "plan.toml").write_text(
         f'models = "in.idf"\nweather = "{weather}"\narguments = "-D"\n'
-        'outputs = ["Surface Outside Face Sunlit Area", "Schedule Value"]\n')
+        'outputs = ["Surface Outside Face Sunlit Area", "Schedule Value"]\noptions = { lean = "on" }\nkeep = "sql"\n')
     (place / "out" / "work").mkdir(parents=True)
     (place / "out" / "work" / "thesis.txt").write_text("three years")
     study(place)
@@ -377,6 +379,10 @@ def test_a_dry_run_leaves_no_trace(finished):
 
 
 def test_placeholders_are_no_columns(finished):
+    (file,) = (finished / "out").glob("runs/*/eplusout.sql")
+    with contextlib.closing(sqlite3.connect(file)) as base:
+        keys = [key for key, in base.execute("SELECT KeyValue FROM ReportDataDictionary")]
+    assert sum("GPU SHADING PLACEHOLDER" in (key or "") for key in keys) >= 8  # mirror images, too
     head = (finished / "out" / "runs.csv").read_text().splitlines()[0]
     assert "Surface Outside Face Sunlit Area, " in head and "Schedule Value, " in head
     assert "GPU SHADING" not in head.upper()

@@ -16,8 +16,8 @@ _REPORTS = (
     ("AnnualBuildingUtilityPerformanceSummary", "End Uses", "{row} {column} [{units}]"),
     ("DemandEndUseComponentsSummary", "End Uses", "Peak {row} {column} [{units}]"),
 )
-# Objects that a lean input has in place of others.
-_OURS = re.compile(r"GPU SHADING (PLACEHOLDER \d+|SKY|(NORTHERN|SOUTHERN) LEAVES)$", re.IGNORECASE)
+# Objects that a lean input has in place of others, and EnergyPlus's mirror images of them.
+_OURS = re.compile(r"(Mir-)?GPU SHADING (PLACEHOLDER \d+|SKY|(NORTHERN|SOUTHERN) LEAVES)$", re.IGNORECASE)
 _RENDERED = re.compile(r"shading rendered by .*?: .*?, (\d+) directions(?: rendered, (\d+) from the cache)?")
 
 
@@ -46,7 +46,8 @@ def read_numbers(file: Path, outputs: Sequence[str] = ()) -> dict[str, float]:
                 by_key = {key: value for key, _, value in found}  # of the last environment
                 numbers["Transmitted Solar [kWh]"] = round(sum(by_key.values()) / _KWH, 6)
             else:
-                numbers |= {f"{name}, {key} [{units}]": value for key, units, value in found if not _OURS.match(key)}
+                numbers |= {f"{name}, {key} [{units}]": value for key, units, value in found
+                            if not _OURS.match(key or "")}
     return numbers
 
 
