@@ -486,8 +486,9 @@ def hanging(finished, patched, tmp_path):
                                cwd=tmp_path / "copy", stderr=subprocess.PIPE, start_new_session=True,
                                env=os.environ | {"TMPDIR": str(temporary), "GPU_SHADING_PREFIX": str(prefix)})
     yield process, temporary
-    os.killpg(process.pid, signal.SIGKILL)
-    process.communicate()
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
 
 
 def test_only_the_study_can_give_its_workers_work(hanging):
@@ -504,6 +505,19 @@ def test_only_the_study_can_give_its_workers_work(hanging):
     assert folders and all(path.stat().st_mode & 0o777 == 0o700 for path in folders)
     assert any((path / "dask-scratch-space").is_dir() for path in folders)
     assert not list((temporary / "dask-scratch-space").iterdir())
+
+
+def test_a_signal_leaves_nothing_temporary(hanging):
+    process, temporary = hanging
+    folder = temporary.parent / "copy" / "out"
+    limit = time.monotonic() + 60
+    while not list(folder.glob(".gpu_shading-*/*/out")):
+        assert time.monotonic() < limit
+        time.sleep(0.1)
+    process.terminate()
+    assert process.wait(timeout=60) == 128 + signal.SIGTERM
+    assert process.stderr.read().endswith("gpu_shading study: interrupted; the same command resumes\n")
+    assert not list(folder.glob(".gpu_shading-*")) and not list(temporary.glob(".gpu_shading-*"))
 
 
 @pytest.mark.parametrize("failing", ["hangs", "ends"])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import importlib.util
 import os
+import signal
 import sys
 from pathlib import Path
 from typing import NoReturn
@@ -61,9 +62,16 @@ def _use_python_of_sources() -> None:
         os.execv(own, [str(own), __file__, *sys.argv[1:]])
 
 
+def _interrupt(number: int, _: object) -> NoReturn:
+    raise KeyboardInterrupt(number)
+
+
 def main() -> int:
     arguments = _parse()
     _use_python_of_sources()
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) == signal.SIG_DFL:  # nohup ignores one
+            signal.signal(number, _interrupt)
     os.environ["PYTHONSAFEPATH"] = "1"  # no Python that this starts imports modules of the current folder
     try:
         from gpu_shading._text import escaped, of_error
@@ -85,8 +93,8 @@ def main() -> int:
         return 1 if failed else 0
     except (Error, ImportError, OSError) as error:
         return _fail(of_error(error))
-    except KeyboardInterrupt:
-        return _fail("interrupted; the same command resumes", 130)
+    except KeyboardInterrupt as error:
+        return _fail("interrupted; the same command resumes", 128 + (error.args[0] if error.args else signal.SIGINT))
     except Exception as error:  # a fault of ours: still one line
         return _fail(f"{type(error).__name__}: {of_error(error)}; please report this")
 
