@@ -62,6 +62,9 @@ def test_nothing_but_a_file_is_replaced(files, tmp_path):
     assert refused(files, "/dev/full") == "it is not a file"
     assert refused(files, tmp_path / "none" / "a") == "No such file or directory"
     assert refused(files, tmp_path / "mine" / "a") == "Not a directory"
+    with pytest.raises(files.FileError) as error:
+        files.write_whole(tmp_path / "none\n\x1b[2J" / "a", "new")
+    assert str(error.value).isprintable()
     assert refused(files, ".") == "it is not the name of a file"
     assert everything(tmp_path) == before
 

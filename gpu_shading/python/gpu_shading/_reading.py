@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gpu_shading._arrays import Floats
+from gpu_shading._text import escaped, one_line
 from gpu_shading.errors import Error, InvalidInput
 
 _LONGEST = 200  # characters of a reason
@@ -26,30 +27,28 @@ def reading(path: Path, kind: str) -> Iterator[None]:
     try:
         yield
     except Error as error:
-        if str(error).startswith(str(path)):
+        if str(error).startswith(escaped(str(path))):
             raise
-        raise InvalidInput(f"{path}: is not {kind}: {one_line(error)}") from None
+        raise _refusal(path, kind, error) from None
     except OSError as error:
-        raise InvalidInput(f"{error.filename or path}: {error.strerror or one_line(error)}") from None
+        raise InvalidInput(one_line(f"{error.filename or path}: {error.strerror or error}")) from None
     except KeyError as error:
-        raise InvalidInput(f"{path}: is not {kind}: {one_line(error.args[0])} is missing") from None
+        raise _refusal(path, kind, f"{error.args[0]} is missing") from None
     except (AttributeError, IndexError, TypeError):
-        raise InvalidInput(f"{path}: is not {kind}: something is missing, or of another kind") from None
+        raise _refusal(path, kind, "something is missing, or of another kind") from None
     except (ArithmeticError, EOFError, RecursionError, SyntaxError, ValueError, csv.Error, sqlite3.Error,
             tokenize.TokenError) as error:
-        raise InvalidInput(f"{path}: is not {kind}: {one_line(error)}") from None
+        raise _refusal(path, kind, error) from None
 
 
-def one_line(text: object) -> str:
-    """Without control characters, and not long."""
-    shown = "".join(each if each.isprintable() else ascii(each)[1:-1] for each in " ".join(str(text).split()))
-    return shown if len(shown) <= _LONGEST else shown[:_LONGEST] + "..."
+def _refusal(path: Path, kind: str, why: object) -> InvalidInput:
+    return InvalidInput(one_line(f"{path}: is not {kind}: {str(why)[:_LONGEST]}"))
 
 
 def regular(path: Path) -> Path:
     """Refuses what is no file, such as a pipe, which opening would wait for."""
     if not path.is_file():
-        raise InvalidInput(f"{path}: {'is not a file' if path.exists() else 'no such file'}")
+        raise InvalidInput(f"{escaped(str(path))}: {'is not a file' if path.exists() else 'no such file'}")
     return path
 
 
@@ -63,7 +62,7 @@ def rows_of(path: Path) -> list[dict[str, str]]:
         rows = list(csv.DictReader(lines, strict=True))
     for number, row in enumerate(rows, 2):
         if None in row or None in row.values():
-            raise InvalidInput(f"{path}, line {number}: has another number of columns than the first line")
+            raise InvalidInput(f"{escaped(str(path))}, line {number}: has another number of columns than the first")
     return rows
 
 

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gpu_shading import _html, _programs
-from gpu_shading._reading import one_line, reading
+from gpu_shading._reading import reading
+from gpu_shading._text import one_line
 from gpu_shading.crown import Crown
 from gpu_shading.errors import RunError
 from gpu_shading.optics import Screen, Transmittance
@@ -87,7 +88,7 @@ def _document(model: _programs.Name, weather: _programs.Name | None, flags: list
         document = json.loads(text)
         found = document.get("format")
     except (AttributeError, RecursionError, ValueError):
-        found = one_line(text)
+        found = one_line(text[:200])
     if found != format_:
         raise RunError(f"the gpu_shading program writes {found!r}, expected {format_!r}: it is of another version than "
                        "this package")
