@@ -123,7 +123,7 @@ struct StoredColumn {
   bool is_computed() const { return has("AS") && !has("STORED"); }
 };
 
-// The stored columns of CREATE TABLE.
+// The stored columns of CREATE TABLE. Throws Error if one has no name.
 std::vector<StoredColumn> columns_of(std::string_view sql) {
   constexpr std::array<std::string_view, 5> constraints{"CONSTRAINT", "PRIMARY", "UNIQUE", "CHECK",
                                                         "FOREIGN"};
@@ -132,6 +132,7 @@ std::vector<StoredColumn> columns_of(std::string_view sql) {
   bool begins = false;
   for (auto token = take_token(sql); !token.empty(); token = take_token(sql)) {
     if (token == "(") {
+      if (begins) throw damaged("a column of a table has no name");
       begins = ++depth == 1;
     } else if (token == ")") {
       if (--depth == 0) break;

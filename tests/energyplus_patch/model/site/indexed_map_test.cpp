@@ -166,6 +166,8 @@ TEST(GeoPackage, WhatIsNotWholeIsRefused) {
               HasSubstr("layers.gpkg: has 2 layers: roads, houses, but not rivers"));
   EXPECT_THAT(refusal_of([&] { read(corpus / "geojson" / "town_gdal.geojson|layername=roads"); }),
               HasSubstr("town_gdal.geojson: is no GeoPackage, but layer roads is asked for"));
+  EXPECT_THAT(refusal_of([&] { read(folder / "nameless_column.gpkg"); }),
+              HasSubstr("nameless_column.gpkg: is damaged: a column of a table has no name"));
   TemporaryFolder const temporary;
   auto const path = temporary.path() / "town.gpkg";
   std::filesystem::copy_file(folder / "town.gpkg", path);
