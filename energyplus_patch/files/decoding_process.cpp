@@ -13,8 +13,11 @@
 #include <cstring>
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include "files/decoding/decoded_message.h"
+#include "files/decoding/landlock.h"
+#include "files/unconfined_decoding.h"
 #include "gpu_shading/error.h"
 #include "platform/text.h"
 
@@ -37,12 +40,16 @@ void open_input(FileDescriptor const& file, std::uint64_t max_bytes) {
   }
 }
 
+thread_local bool any_unconfined = false;
+
 std::string in_one_line(std::string text) {
   std::replace_if(text.begin(), text.end(), is_control, ' ');
   return text;
 }
 
 }  // namespace
+
+bool take_unconfined_decoding() { return std::exchange(any_unconfined, false); }
 
 DecodingProcess::DecodingProcess(char const* program, std::string const& operation,
                                  std::filesystem::path const& file, Assets assets,
@@ -54,6 +61,7 @@ DecodingProcess::DecodingProcess(char const* program, std::string const& operati
   if (pipe2(ends.data(), O_CLOEXEC) != 0) fail_to_decode("no pipe for its decoding");
   answer_.emplace(ends[0]);
   FileDescriptor const output(ends[1]);
+  if (assets == Assets::restricted && decoding::landlock_version() < 1) any_unconfined = true;
   process_ = start_decoding(
       program,
       {std::to_string(getpid()), std::to_string(limits.seconds), std::to_string(limits.memory),

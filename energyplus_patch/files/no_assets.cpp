@@ -2,6 +2,7 @@
 
 #include "files/image_file.h"
 #include "files/mesh_file.h"
+#include "files/unconfined_decoding.h"
 #include "gpu_shading/error.h"
 #include "platform/files.h"
 
@@ -17,6 +18,8 @@ namespace {
 }
 
 }  // namespace
+
+bool take_unconfined_decoding() { return false; }
 
 decoding::Elevations read_elevations(std::filesystem::path const& path) { refuse(path); }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "files/unconfined_decoding.h"
 #include "gpu_shading/error.h"
 #include "model/energyplus_rays.h"
 #include "model/extensions/extension_fields.h"
@@ -54,6 +55,11 @@ bool any_moves(PerforatedScreens const& screens) {
     return !each.second.deployment_schedule.empty();
   });
 }
+
+constexpr std::string_view unconfined_warning =
+    "images, meshes and GeoTIFF are decoded without landlock, which this kernel or container "
+    "refuses: one that exploits its decoder could read any file of this user, but not change or "
+    "send it; see docs/explanation/limits.md";
 
 // What a run with moving shades needs.
 void prepare_for_moving_shades(Model& model) {
@@ -166,6 +172,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   }
   Model model;
   model.file = path.filename().string();
+  take_unconfined_decoding();  // of an earlier model
   auto const side = find_side_file(path, choices);
   if (side) {
     for (auto& object : read_side_file(*side)) {
@@ -184,6 +191,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   model.shades = read_transparent_shades(objects, model.shading, folder);
   model.screens = read_perforated_screens(objects, model.shading, model.shades, assets);
   check_textures(model.surroundings, model.screens);
+  if (take_unconfined_decoding()) model.warnings.emplace_back(unconfined_warning);
   model.moving_shades = read_moving_shades(objects, model.shading, model.surroundings.types);
   model.surrounding_groups = read_surrounding_groups(objects);
   model.own_environments = surfaces_with_environment(objects);

@@ -175,7 +175,7 @@ std::vector<std::string> remarks_of(Model const& model) {
     if (!warning->empty()) remarks.push_back(*warning);
   }
   for (auto const& lines : {model.shades.warnings, model.screens.warnings(),
-                            model.surroundings.remarks, model.remarks}) {
+                            model.surroundings.remarks, model.warnings, model.remarks}) {
     remarks.insert(remarks.end(), lines.begin(), lines.end());
   }
   return remarks;

@@ -1,5 +1,7 @@
 """Images as the program beside energyplus decodes them, against Pillow, picture by picture."""
 
+import ctypes
+import errno
 import os
 import socket
 import struct
@@ -278,3 +280,36 @@ def test_radiance(decoder, tmp_path, size):
     got, _ = decoded(decoder, path)
     # Readers add half a step or not.
     assert np.abs(got - (wanted if size[0] == "-" else wanted[::-1])).max() < 3e-3
+
+
+def refuse_landlock(error):
+    """What old profiles of containers do, for this process and its children: landlock_create_ruleset fails."""
+    seccomp = ctypes.CDLL("libseccomp.so.2")
+    seccomp.seccomp_init.restype = ctypes.c_void_p
+    allow, fail = 0x7FFF0000, 0x00050000 | error
+    filtering = ctypes.c_void_p(seccomp.seccomp_init(allow))
+    call = seccomp.seccomp_syscall_resolve_name(b"landlock_create_ruleset")
+    assert seccomp.seccomp_rule_add(filtering, fail, call, 0) == 0
+    assert seccomp.seccomp_load(filtering) == 0
+
+
+@pytest.mark.parametrize("error", [errno.ENOSYS, errno.EPERM, errno.EOPNOTSUPP])
+def test_a_run_and_check_warn_where_landlock_is_refused(patched, box, weather, tmp_path, error):
+    picture("L").save(tmp_path / "tile.png")
+    model = tmp_path / "model.idf"
+    model.write_text(box + "GPUShading:PerforatedScreen,Image,Louvre*,Texture,tile.png,,,,,,0.001;\n")
+    warning = "images, meshes and GeoTIFF are decoded without landlock"
+
+    def said(*command, refused=True):
+        done = subprocess.run(command, capture_output=True, text=True, check=True,
+                              preexec_fn=(lambda: refuse_landlock(error)) if refused else None)
+        return done.stdout + done.stderr
+
+    run = (patched, "--gpu-shading", "-D", "-w", weather, "-d", tmp_path / "out", model)
+    assert said(*run).count(warning) == 1
+    assert (tmp_path / "out" / "eplusout.err").read_text().count(warning) == 1
+    check = (patched.parent / "gpu_shading", "check", model)
+    assert said(*check).count(warning) == 1
+    assert warning not in said(*check, refused=False)
+    model.write_text(box)
+    assert warning not in said(*check)

@@ -1,6 +1,7 @@
 #include "files/decoding_process.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <seccomp.h>
@@ -18,6 +19,7 @@
 #include <thread>
 
 #include "files/decoding/sandbox.h"
+#include "files/unconfined_decoding.h"
 #include "gpu_shading/error.h"
 #include "platform/process.h"
 #include "support/refusal.h"
@@ -146,6 +148,16 @@ TEST_F(DecodingProcesses, ReadAnyFileButChangeNoneWhereTheKernelHasNoLandlock) {
                         [&] { return std::to_string(ask(operation).front()); });
   };
   EXPECT_EQ(first("be good"), "7");
+  for (int const error : {ENOSYS, EPERM, EOPNOTSUPP}) {
+    auto const warned = [&] {
+      ask("be good");
+      bool const first_time = take_unconfined_decoding();
+      return fmt::format("{}, then {}", first_time, take_unconfined_decoding());
+    };
+    EXPECT_EQ(said_without({SCMP_SYS(landlock_create_ruleset)}, error, warned), "true, then false");
+  }
+  ask("be good");
+  EXPECT_FALSE(take_unconfined_decoding());
   EXPECT_EQ(first("read another file"), "1");
   for (auto const* operation : {"write a file", "change the input", "remove a file",
                                 "open a socket", "signal its parent", "ask for signals"}) {
