@@ -137,7 +137,7 @@ Image draw_receiver(PictureRaster& raster, Scene const& scene, ShadedReceiver co
   for (SurfaceId id = 0; id < scene.size(); ++id) screened = screened || is_body(scene[id]);
   std::vector<Colour> colours = draw_surroundings(raster, scene, shaded, grid, screened);
   std::vector<std::uint32_t> const receiver = raster.nearest(grid, {&shaded.receiver, 1});
-  grid.view.cut = glm::dvec4(frame.normal, -clearance);
+  grid.view.cut = glm::dvec4(frame.normal, 0.0);
   auto const lit = [&](PictureGrid const& fine) { return raster.luminance(fine, shaded); };
   std::vector<float> const luminance = screened ? without_moire(raster, grid, lit) : lit(grid);
   bool const faces_sun = glm::dot(frame.normal, shaded.towards_sun) > edge_on;

@@ -239,7 +239,7 @@ bool Casters::is_in_view(Caster const& caster, PlaneFrame const& frame, Shadow& 
         glm::dvec3 const corner = vertex + face * caster.normal;
         double const height = height_above(frame, corner);
         clearly_in_front = clearly_in_front || height > coplanar;
-        cut = cut || height <= clearance;
+        cut = cut || height <= 0.0;
         shadow.include(corner);
       }
     }
@@ -248,7 +248,7 @@ bool Casters::is_in_view(Caster const& caster, PlaneFrame const& frame, Shadow& 
   for (glm::dvec3 const& vertex : ring) {
     double const height = height_above(frame, vertex) + body;
     clearly_in_front = clearly_in_front || height > coplanar;
-    if (height > clearance) {
+    if (height > 0.0) {
       shadow.include(vertex + caster.faces.inside * caster.normal);
       if (thick) shadow.include(vertex + caster.faces.outside * caster.normal);
     } else {

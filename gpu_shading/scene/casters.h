@@ -24,8 +24,9 @@ class Shadow;
 // by the rounding of a model's coordinates.
 inline constexpr double coplanar = 1e-4;
 
-// Casters are clipped this far in front of the plane, in metres: the noise of single precision
-// within a building. A strip as wide as clearance x tan(incidence) stays lit.
+// Casters are clipped at the plane itself, so that one that touches it leaves no strip lit.
+// Interior surfaces are clipped this far behind it, in metres: the noise of single precision within
+// a building.
 inline constexpr double clearance = 1e-6;
 
 // The smallest cosine of incidence at which a surface faces the sun, as in EnergyPlus (its

@@ -53,9 +53,16 @@ void RelativePolygon::add(Ring const& ring, PlaneFrame const& frame, Side side) 
     return glm::dvec3(glm::dot(frame.u, p) / frame.width, glm::dot(frame.v, p) / frame.height,
                       side == Side::within ? 0.0 : glm::dot(frame.normal, p));
   };
-  double const sign = side == Side::behind ? -1.0 : 1.0;
   auto const beyond = [&](glm::dvec3 const& place) {
-    return side == Side::within ? 1.0 : sign * place.z - clearance;
+    switch (side) {
+      case Side::in_front:
+        return place.z;
+      case Side::behind:
+        return -place.z - clearance;
+      case Side::within:
+        break;
+    }
+    return 1.0;
   };
   if (!ring.empty()) {
     glm::dvec3 from = relative(ring.back());

@@ -17,7 +17,7 @@ namespace gpu_shading {
 class RelativePolygon {
  public:
   enum class Side {
-    in_front,  // of a caster, what is further than `clearance` from the plane
+    in_front,  // of a caster, what is in front of the plane
     within,    // all of the receiver itself
     behind,    // of an interior surface, what is further than `clearance` from the plane
   };

@@ -20,10 +20,6 @@ inline double height_above(PlaneFrame const& frame, glm::dvec3 const& point) {
   return glm::dot(frame.normal, point - frame.origin);
 }
 
-inline double depth(PlaneFrame const& frame, glm::dvec3 const& point) {
-  return height_above(frame, point) - clearance;
-}
-
 // Bounds of a projected caster in the receiver's plane, relative to the receiver's rectangle
 // centred on the origin.
 class Shadow {
@@ -61,10 +57,10 @@ class Shadow {
 
   // The point where the line from a to b crosses the plane, if it does.
   void include_crossing(PlaneFrame const& frame, glm::dvec3 const& a, glm::dvec3 const& b) {
-    double const depth_a = depth(frame, a);
-    double const depth_b = depth(frame, b);
-    if ((depth_a > 0.0) == (depth_b > 0.0)) return;
-    include(a + (b - a) * (depth_a / (depth_a - depth_b)));
+    double const height_a = height_above(frame, a);
+    double const height_b = height_above(frame, b);
+    if ((height_a > 0.0) == (height_b > 0.0)) return;
+    include(a + (b - a) * (height_a / (height_a - height_b)));
   }
 
   // Adds the parts of a ring's edges inside the receiver's rectangle.

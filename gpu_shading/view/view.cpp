@@ -86,7 +86,7 @@ TileMap fit_tile(PlaneFrame const& frame, Ring const& outline, int resolution, T
 
 View view_in_front(PlaneFrame const& frame, TileMap const& map, glm::dvec3 const& towards_sun) {
   View view = slide(frame, map, towards_sun);
-  view.cut = glm::dvec4(frame.normal, -clearance);
+  view.cut = glm::dvec4(frame.normal, 0.0);
   return view;
 }
 

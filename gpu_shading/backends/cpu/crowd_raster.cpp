@@ -398,7 +398,7 @@ void CrowdRaster::darken(Search& search, Leaf const& some) const {
         projected.most_height[i] <= coplanar) {
       continue;
     }
-    if (projected.least_height[i] - clearance <= 0.0) {
+    if (projected.least_height[i] <= 0.0) {
       one_by_one(position);
       continue;
     }

@@ -27,7 +27,7 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 // Schedules 0 to 2.
 constexpr std::array schedule_factors{0.7, 0.4, 0.0};
-// Of the receiver's area: what polygons rounded to 10 nm, and casters cut at the clearance, leave.
+// Of the receiver's area: what polygons rounded to 10 nm leave.
 constexpr double rounding = 2e-5;
 
 class ExactQuestions {

@@ -107,9 +107,8 @@ TEST(Sunlit, GrazingSunLosesLessThanTheCosine) {
     Renderer renderer = renderer_of(scene);
     double const shadow = std::min(4.0, 0.01 / std::tan(altitude * degree));
     double const exact = 4.0 * (4.0 - shadow) * std::sin(altitude * degree);
-    // The clearance lets 1 % of this parapet through.
     EXPECT_NEAR(sunlit(renderer, sun, 0).projected_area, exact,
-                4.0 * 1.1e-4 * std::cos(altitude * degree) + 1e-3 * std::sin(altitude * degree));
+                1e-3 * 4.0 * std::sin(altitude * degree));
   }
 }
 
