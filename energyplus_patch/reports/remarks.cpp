@@ -6,9 +6,12 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gpu_shading/error.h"
+#include "gpu_shading/uncertain_receivers.h"
 #include "model/site/surroundings.h"
+#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -66,6 +69,26 @@ void list_transmitting_surfaces(SceneAssembly const& scene, Messages const& mess
     std::ranges::replace(optics, ',', ';');
     messages.eio(fmt::format("GPU Shading Surface,{},{}\n", surface.name, optics));
   }
+}
+
+void warn_of_uncertain_receivers(SunQuestions const& answers, Messages const& messages) {
+  auto const& scene = answers.rendered().renderer().scene();
+  auto const& asked = answers.asked();
+  std::vector<SurfaceId> receivers;
+  for (SurfaceId id = 0; id < std::min(asked.size(), scene.size()); ++id) {
+    if (asked[id]) receivers.push_back(id);
+  }
+  auto const found = find_uncertain_receivers(scene, receivers);
+  auto const warn = [&](std::vector<SurfaceId> const& ids, std::string_view why) {
+    if (ids.empty()) return;
+    constexpr std::size_t max_listed = 3;
+    std::vector<std::string> names;
+    for (SurfaceId const id : ids) names.push_back(scene[id].name);
+    messages.warning(fmt::format("sunlit fractions may miss the target error {}: {}; see {}", why,
+                                 listed(names, max_listed), "docs/explanation/limits.md"));
+  };
+  warn(found.behind_layers, "behind two parallel layers of blades at different distances");
+  warn(found.narrow, "where less than a fifth of a bounding rectangle is filled, behind a screen");
 }
 
 std::string describe_expected_error(double error, Sampling sampling) {
@@ -128,6 +151,7 @@ void describe_answers(SunQuestions const& answers, Options const& options,
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     if (scene[id].casting != Casting::never) ++casters;
   }
+  warn_of_uncertain_receivers(answers, messages);
   auto const from_cache =
       rendered.has_cache() ? fmt::format(" rendered, {} from the cache", counts.recalled) : "";
   auto const asked = std::ranges::count(answers.asked(), true);

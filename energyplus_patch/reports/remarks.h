@@ -13,7 +13,7 @@ void check_device(DeviceInfo const& device, Options const& options, Messages con
 // .eio's list of the surfaces that let light through.
 void describe_scene(SceneAssembly const& scene, Messages const& messages);
 
-// After the last question: what rendered how much.
+// After the last question: what rendered how much, and which receivers may miss the target error.
 void describe_answers(SunQuestions const& answers, Options const& options,
                       Messages const& messages);
 
