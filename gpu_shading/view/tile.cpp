@@ -55,7 +55,7 @@ Polygon bounding_rectangle(PlaneFrame const& frame) {
 Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, int most,
                TileLay const& lay) {
   double const net = area(polygon);
-  double const wanted = std::max(fewest_pixels, resolution * (resolution / 64.0));
+  double const wanted = std::max(fewest_pixels, resolution * (resolution / 16.0));
   int const limit = std::max(resolution, std::min(largest_side, most));
   Tile tile;
   tile.side = resolution;

@@ -24,7 +24,7 @@ struct Tile {
 };
 
 // `resolution` pixels per side, doubled while a receiver that fills little of its bounding
-// rectangle, such as the ring of wall around a large window, has fewer than resolution^2 / 64
+// rectangle, such as the ring of wall around a large window, has fewer than resolution^2 / 16
 // pixels or fewer than 16, up to the larger of `resolution` and the smaller of 4096 and `most`.
 // Among several offsets of the pixel grid, the one is used at which the receiver's own pixels come
 // closest to its area.

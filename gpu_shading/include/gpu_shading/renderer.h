@@ -24,7 +24,7 @@ struct RendererOptions {
 
   DeviceChoice device;
   // Number of pixels along each side of every receiver's tile, 1 .. DeviceInfo::max_resolution.
-  // Empty: it follows from `error`. In both cases, a receiver with fewer than side^2 / 64 pixels,
+  // Empty: it follows from `error`. In both cases, a receiver with fewer than side^2 / 16 pixels,
   // or fewer than 16, gets twice as many along each side, repeatedly, up to 4096.
   std::optional<int> resolution = std::nullopt;
   // Target accuracy, min_error .. max_error: 99 % of sunlit fractions are within this absolute
