@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <map>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -100,9 +101,9 @@ double share_of_box(Crown const& crown) {
 
 // Whether a mesh is the outline of crowns.
 bool is_outline(Surroundings const& surroundings, OutsideCaster const& caster,
-                std::vector<std::string> const& names) {
+                std::string const& pattern) {
   auto const& name = caster.surface.name;
-  return matches_any(names, name) && surroundings.types.at(name) == extension::geometry::type;
+  return matches(pattern, name) && surroundings.types.at(name) == extension::geometry::type;
 }
 
 // Where a tree stands, and its own sizes.
@@ -115,15 +116,17 @@ struct Standing {
   TreeGenus const* genus = nullptr;  // unknown: nullptr
 };
 
+// Outlines of crowns, by Crown Mesh Name: trees share them.
+using Outlines = std::map<std::string, std::shared_ptr<CrownMesh const>>;
+
 // The triangles of meshes as the outline of a crown.
-std::shared_ptr<CrownMesh const> read_outline(InputObject const& object,
+std::shared_ptr<CrownMesh const> read_outline(std::string const& name,
                                               Surroundings const& surroundings) {
-  auto const name = read(object, field::crown_mesh_name);
   std::vector<CrownMesh::Triangle> triangles;
   glm::dvec3 low(HUGE_VAL);
   glm::dvec3 high(-HUGE_VAL);
   for (auto const& caster : surroundings.casters) {
-    if (!is_outline(surroundings, caster, std::vector{name})) continue;
+    if (!is_outline(surroundings, caster, name)) continue;
     auto const& ring = caster.surface.polygon.outline;
     triangles.push_back({ring[0], ring[1], ring[2]});
     for (auto const& point : ring) {
@@ -147,10 +150,13 @@ std::shared_ptr<CrownMesh const> read_outline(InputObject const& object,
 // Creates the casters of one object.
 class Builder {
  public:
-  Builder(InputObject const& object, Surroundings& surroundings)
+  Builder(InputObject const& object, Surroundings& surroundings, Outlines& outlines)
       : object_(object), surroundings_(surroundings) {
     if (shape_of(read(object, field::crown_shape)) == CrownShape::mesh) {
-      mesh_ = read_outline(object, surroundings);
+      auto const name = read(object, field::crown_mesh_name);
+      auto& outline = outlines[name];
+      if (!outline) outline = read_outline(name, surroundings);
+      mesh_ = outline;
     } else {
       expect_blank(object, {field::crown_mesh_name}, "without the shape Mesh");
     }
@@ -339,24 +345,26 @@ bool needs_origin_for_trees(std::vector<InputObject> const& objects) {
 void read_trees(std::vector<InputObject> const& objects, std::filesystem::path const& folder,
                 std::optional<SiteOrigin> const& origin, std::vector<TerrainGrid> const& terrains,
                 Surroundings& surroundings) {
-  std::vector<std::string> outlines;
+  Outlines outlines;
+  std::optional<double> latitude;  // once asked for: finding the origin takes all objects
+  auto const find_latitude = [&] {
+    if (!latitude) latitude = (origin ? *origin : find_site_origin(objects)).place.latitude;
+    return *latitude;
+  };
   for_each_of(objects, field::type, [&](InputObject const& object) {
-    if (auto const name = read(object, field::crown_mesh_name); !name.empty()) {
-      outlines.push_back(name);
-    }
     auto const file = read(object, field::file_name);
-    Builder builder(object, surroundings);
+    Builder builder(object, surroundings, outlines);
     if (file.empty()) {
-      read_single(object, builder, [&] {
-        return origin ? origin->place.latitude : find_site_origin(objects).place.latitude;
-      });
+      read_single(object, builder, find_latitude);
     } else {
       read_mapped(object, builder, folder, file, *origin, terrains);
     }
     surroundings.remarks.push_back(builder.describe(file));
   });
   std::erase_if(surroundings.casters, [&](OutsideCaster const& caster) {
-    return is_outline(surroundings, caster, outlines);
+    return std::ranges::any_of(outlines, [&](auto const& outline) {
+      return is_outline(surroundings, caster, outline.first);
+    });
   });
 }
 
