@@ -10,6 +10,7 @@
 #include "gpu_shading/perforated_screen.h"
 #include "model/extensions/extension_fields.h"
 #include "model/idf/fields.h"
+#include "platform/named_entries.h"
 #include "platform/naming.h"
 #include "platform/text.h"
 
@@ -157,8 +158,8 @@ void add_object(InputObject const& object, ShadingInput const& input,
     throw Error(fmt::format("{} {}: {} is named by {} already", field::surface_name.title,
                             in_quotes(pattern), surface, other));
   };
-  for (auto const& [surface, unused] : input.shading_surfaces) {
-    if (!matches(pattern, surface)) continue;
+  for_each_match(input.shading_surfaces, pattern, [&](auto const& entry) {
+    auto const& surface = entry.first;
     found = true;
     auto const shade = shades.by_surface.find(surface);
     if (shade != shades.by_surface.end()) {
@@ -168,7 +169,7 @@ void add_object(InputObject const& object, ShadingInput const& input,
     auto const [place, added] = screens.by_surface.try_emplace(
         surface, SurfaceScreen{maker, upper(read(object, field::deployment_schedule_name))});
     if (!added) refuse(surface, place->second.maker->object());
-  }
+  });
   if (!found) throw no_shading_surface(field::surface_name.title, pattern, input);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gpu_shading/error.h"
+#include "platform/named_entries.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {
@@ -160,8 +161,9 @@ void read_output(InputObject const& object, ShadingInput& input, Named& named) {
 constexpr std::string_view mirrored_prefix = "Mir-";
 
 bool matches_key(std::string const& pattern, std::map<std::string, std::string> const& names) {
-  return std::ranges::any_of(names,
-                             [&](auto const& entry) { return matches(pattern, entry.first); });
+  bool found = false;
+  for_each_match(names, pattern, [&](auto const&) { found = true; });
+  return found;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "gpu_shading/transmittance.h"
 #include "model/extensions/extension_fields.h"
 #include "model/idf/fields.h"
+#include "platform/named_entries.h"
 #include "platform/naming.h"
 #include "platform/text.h"
 
@@ -135,15 +136,15 @@ TransparentShades read_transparent_shades(std::vector<InputObject> const& object
 void add_filter(std::string_view field, std::string const& pattern, TransparentShade const& filter,
                 ShadingInput const& input, TransparentShades& shades) {
   bool found = false;
-  for (auto const& [surface, unused] : input.shading_surfaces) {
-    if (!matches(pattern, surface)) continue;
+  for_each_match(input.shading_surfaces, pattern, [&](auto const& entry) {
+    auto const& surface = entry.first;
     found = true;
     auto const [place, added] = shades.by_surface.try_emplace(surface, filter);
     if (!added) {
       throw Error(fmt::format("{} {}: {} is named by {} already", field, in_quotes(pattern),
                               surface, place->second.object));
     }
-  }
+  });
   if (!found) throw no_shading_surface(field, pattern, input);
 }
 

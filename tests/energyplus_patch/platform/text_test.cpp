@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <map>
 #include <random>
 #include <regex>
 #include <string>
+#include <vector>
+
+#include "platform/named_entries.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -95,6 +99,27 @@ TEST(MarkupText, ClosesNoTagAndIsUtf8) {
                         "d"),
             "S\xc3\xbc"
             "d");
+}
+
+TEST(Text, EntriesAreFoundByTheirPatterns) {
+  std::mt19937 random(2);
+  std::map<std::string, int> entries;
+  auto const name = [&](std::string const& letters) {
+    std::string text;
+    for (auto left = random() % 6; left > 0; --left) text += letters[random() % letters.size()];
+    return text;
+  };
+  for (int i = 0; i < 300; ++i) entries.emplace(name("ABC"), i);
+  for (int i = 0; i < 300; ++i) {
+    auto const pattern = name("aBc**");
+    std::vector<std::string> found;
+    std::vector<std::string> expected;
+    for_each_match(entries, pattern, [&](auto const& entry) { found.push_back(entry.first); });
+    for (auto const& [entry, number] : entries) {
+      if (matches(pattern, entry)) expected.push_back(entry);
+    }
+    EXPECT_EQ(found, expected) << pattern;
+  }
 }
 
 }  // namespace
