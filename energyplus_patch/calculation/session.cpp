@@ -11,6 +11,7 @@
 #include "gpu_shading/error.h"
 #include "gpu_shading/sun_direction.h"
 #include "model/options/report_folder.h"
+#include "platform/naming.h"
 #include "reports/remarks.h"
 #include "reports/report.h"
 #include "reports/run_report.h"
@@ -199,11 +200,27 @@ void Session::end_time() {
   if (undecided_) move_shades(std::nullopt);  // the sun is down
 }
 
+// "12-21, hour 13, timestep 2", as far as it is known.
+std::string Session::describe_time() const {
+  if (moment_.timestep == 0) return "the whole simulation";
+  auto const day = day_.month > 0 ? fmt::format("{:02}-{:02}, ", day_.month, day_.day) : "";
+  return fmt::format("{}hour {}, timestep {}", day, moment_.hour, moment_.timestep);
+}
+
 void Session::set_time(Moment moment) {
   if (!answers_) return;
   moment_ = moment;
   if (auto* const first = first_sun_now()) first->reset();
-  if (scene_.optics().update(moment)) {
+  naming(describe_time(), [&] { read_schedules(); });
+  if (record_) record_->begin_step(moment, shares_of(scene_.optics()));
+  if (!control_) return;
+  undecided_ = moment.timestep > 0;
+  if (!undecided_) move_shades(std::nullopt);  // for the whole simulation
+}
+
+void Session::read_schedules() {
+  if (control_) control_->set_time(moment_);
+  if (scene_.optics().update(moment_)) {
     messages_.warning(
         "a Transmittance Schedule with a constant value has changed, by an EMS or another program: "
         "its new values are used from now on");
@@ -220,11 +237,6 @@ void Session::set_time(Moment moment) {
   } else {
     answers_->deploy(scene_.optics().deployments(), scene_.positions());
   }
-  if (record_) record_->begin_step(moment, shares_of(scene_.optics()));
-  if (!control_) return;
-  control_->set_time(moment);
-  undecided_ = moment.timestep > 0;
-  if (!undecided_) move_shades(std::nullopt);  // for the whole simulation
 }
 
 void Session::set_sun(SunDirection sun) {

@@ -56,7 +56,9 @@ class Session : public ShadingCalculation {
 
   // Whether the days of the run are wanted; then they are handed over as they begin. Beam and wind
   // are asked for if they are needed.
-  bool records_days() const { return record_ || control_ || pv_loss_; }
+  bool records_days() const {
+    return record_ || control_ || pv_loss_ || scene_.optics().has_schedules();
+  }
   void begin_day(RunDay const& day, RunRecord::Beam const& beam, RunRecord::Beam const& wind);
 
   void set_time(Moment moment) override;
@@ -110,6 +112,8 @@ class Session : public ShadingCalculation {
   SunQuestions& answers();
   void write_reports();
   void describe_step_error();
+  std::string describe_time() const;
+  void read_schedules();
   void move_shades(std::optional<SunDirection> sun);
   // A value of the day, at this timestep.
   double now(std::vector<double>& day, RunRecord::Beam const& of_day) const;

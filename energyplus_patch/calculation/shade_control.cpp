@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 
 #include "gpu_shading/error.h"
+#include "platform/named_entries.h"
 #include "platform/naming.h"
 #include "platform/text.h"
 #include "scene/flat_polygon.h"
@@ -22,6 +24,10 @@ constexpr std::size_t points_of_receiver = 256;
 constexpr std::size_t max_trials = 200;
 // Sunlit fraction below which a receiver counts as shaded: EnergyPlus takes such as 0.
 constexpr double no_beam = 1e-5;
+// Of a sunlit fraction: a bound for that of rays from the points of a receiver, and what positions
+// must differ by to be told apart.
+constexpr double ray_error = 0.06;
+constexpr double same_beam = 1e-3;
 constexpr double half_circle = 180.0;
 
 std::vector<double> from_rest(MovingShade const& shade) {
@@ -36,34 +42,42 @@ std::vector<double> from_rest(MovingShade const& shade) {
 
 ShadeControl::ShadeControl(SceneAssembly const& scene) : scene_(scene) {
   check_schedules();
-  auto const& shades = scene.model().moving_shades;
-  auto const areas = scene.areas();
-  for (std::size_t i = 0; i < shades.size(); ++i) {
-    Shade shade{shades[i], from_rest(shades[i]), {}};
-    std::vector<std::string> names;
-    for (auto const id : scene.receivers()) {
-      if (scene.moving_shade_of(id)) continue;
-      auto const& surface = scene.surfaces()[id];
-      names.push_back(surface.name);
-      if (shades[i].receivers.empty() || !matches(shades[i].receivers, surface.name)) continue;
-      shade.receivers.push_back(
-          {id, areas[id], polygon_samples(surface.polygon, points_of_receiver)});
-    }
-    if (!shades[i].receivers.empty() && shade.receivers.empty()) {
-      throw Error(fmt::format("{}: {} {}: no exterior surface matches{}", shades[i].where,
-                              extension::moving_shade::receiver_name.title,
-                              in_quotes(shades[i].receivers),
-                              did_you_mean(shades[i].receivers, names)));
-    }
-    for (SurfaceId id = 0; id < scene.surfaces().size(); ++id) {
-      if (scene.moving_shade_of(id) != i || area(scene.surfaces()[id].polygon) <= 0.0) continue;
-      shade.first = id;
-      break;
-    }
-    shades_.push_back(std::move(shade));
-    decisions_.push_back({shades[i].rest, State::at_rest});
+  for (auto const& shade : scene.model().moving_shades) {
+    shades_.push_back({shade, from_rest(shade), {}});
+    decisions_.push_back({shade.rest, State::at_rest});
   }
+  find_receivers();
+  find_first_surfaces();
   positions_ = scene.positions();
+}
+
+void ShadeControl::find_receivers() {
+  auto const areas = scene_.areas();
+  std::multimap<std::string, SurfaceId> by_name;
+  for (auto const id : scene_.receivers()) {
+    if (!scene_.moving_shade_of(id)) by_name.emplace(upper(scene_.surfaces()[id].name), id);
+  }
+  for (auto& [shade, outward, receivers, first, scheduled, available] : shades_) {
+    if (shade.receivers.empty()) continue;
+    for_each_match(by_name, shade.receivers, [&](auto const& entry) {
+      auto const id = entry.second;
+      receivers.push_back(
+          {id, areas[id], polygon_samples(scene_.surfaces()[id].polygon, points_of_receiver)});
+    });
+    if (!receivers.empty()) continue;
+    std::vector<std::string> names;
+    for (auto const& [name, id] : by_name) names.push_back(name);
+    throw Error(fmt::format("{}: {} {}: no exterior surface matches{}", shade.where,
+                            extension::moving_shade::receiver_name.title,
+                            in_quotes(shade.receivers), did_you_mean(shade.receivers, names)));
+  }
+}
+
+void ShadeControl::find_first_surfaces() {
+  for (auto id = static_cast<SurfaceId>(scene_.surfaces().size()); id-- > 0;) {
+    auto const shade = scene_.moving_shade_of(id);
+    if (shade && area(scene_.surfaces()[id].polygon) > 0.0) shades_[*shade].first = id;
+  }
 }
 
 // A schedule that EnergyPlus lacks is an error at the start.
@@ -84,18 +98,27 @@ void ShadeControl::check_schedules() const {
   }
 }
 
+double ShadeControl::value_of(MovingShade const& shade, FieldInfo const& field,
+                              std::string const& schedule) const {
+  try {
+    return scene_.optics().schedules().position(schedule, moment_);
+  } catch (Error const& error) {
+    throw Error(fmt::format("{}: {}: {}", shade.where, field.title, error.what()));
+  }
+}
+
 void ShadeControl::set_time(Moment moment) {
+  namespace field = extension::moving_shade;
   moment_ = moment;
-  auto const& schedules = scene_.optics().schedules();
   for (auto& [shade, outward, receivers, first, scheduled, available] : shades_) {
     scheduled = shade.rest;
     available = moment.timestep > 0;
     if (!available) continue;
     if (!shade.schedule.empty()) {
-      scheduled = schedules.position(shade.schedule, moment);
+      scheduled = value_of(shade, field::position_schedule_name, shade.schedule);
     }
     if (!shade.availability.empty()) {
-      available = schedules.position(shade.availability, moment) != 0.0;
+      available = value_of(shade, field::availability_schedule_name, shade.availability) != 0.0;
     }
   }
 }
@@ -154,39 +177,81 @@ ShadeControl::Trial& ShadeControl::trial(std::size_t index, double position) {
   return found->second;
 }
 
-// Rays find most beams; where they find none, the renderer is asked.
+// Rays find most beams; where they find too few, the renderer is asked.
 bool ShadeControl::is_lit(std::size_t index, double position, SunDirection sun) {
   auto const towards_sun = to_vector(sun);
-  auto const& factors = scene_.optics().factors();
-  auto const& deployments = scene_.optics().deployments();
+  double const tolerance = shades_[index].shade.tolerance;
   auto& scene = trial(index, position);
-  std::vector<SurfaceId> unsure;
   for (auto& receiver : shades_[index].receivers) {
     if (glm::dot(receiver.area, towards_sun) <= 0.0) continue;
+    auto const conditions = conditions_of(receiver.id);
     auto const offset = ray_lift * glm::normalize(receiver.area);
-    RayConditions conditions;
-    conditions.receiver = receiver.id;
-    conditions.factors = factors;
-    conditions.deployments = deployments;
     auto const count = receiver.points.size();
+    double const most =
+        tolerance > 0.0 ? (tolerance + ray_error) * static_cast<double>(count) : 0.0;
+    double passed = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
       auto const at = (receiver.lit + i) % count;
-      Ray const ray{receiver.points[at] + offset, towards_sun};
-      if (scene.rays.transmittance(ray, conditions) <= 0.0) continue;
+      passed += scene.rays.transmittance({receiver.points[at] + offset, towards_sun}, conditions);
+      if (passed <= most) continue;
       receiver.lit = at;
       return true;
     }
-    unsure.push_back(receiver.id);
   }
-  if (unsure.empty()) return false;
-  scene.renderer.set_deployments(deployments);
-  auto const areas = scene.renderer.projected_sunlit_areas(sun, unsure);
-  for (std::size_t i = 0; i < unsure.size(); ++i) {
-    auto const& polygon = scene_.surfaces()[unsure[i]].polygon;
-    double const all = area(polygon) * glm::dot(normal(polygon), towards_sun);
-    if (areas[i].at(factors) > no_beam * all) return true;
+  return rendered_beam(index, position, sun).largest > std::max(no_beam, tolerance);
+}
+
+RayConditions ShadeControl::conditions_of(SurfaceId receiver) const {
+  RayConditions conditions;
+  conditions.receiver = receiver;
+  conditions.factors = scene_.optics().factors();
+  conditions.deployments = scene_.optics().deployments();
+  return conditions;
+}
+
+double ShadeControl::estimated_beam(std::size_t index, double position, SunDirection sun) {
+  auto const towards_sun = to_vector(sun);
+  auto const& rays = trial(index, position).rays;
+  double lit = 0.0;
+  double all = 0.0;
+  for (auto const& receiver : shades_[index].receivers) {
+    double const facing = glm::dot(receiver.area, towards_sun);
+    if (facing <= 0.0) continue;
+    auto const offset = ray_lift * glm::normalize(receiver.area);
+    batch_.clear();
+    for (auto const& point : receiver.points) batch_.push_back({point + offset, towards_sun});
+    passed_.resize(batch_.size());
+    rays.transmittances(batch_, conditions_of(receiver.id), passed_);
+    lit += facing * std::accumulate(passed_.begin(), passed_.end(), 0.0) /
+           static_cast<double>(batch_.size());
+    all += facing;
   }
-  return false;
+  return all > 0.0 ? lit / all : 0.0;
+}
+
+ShadeControl::Beam ShadeControl::rendered_beam(std::size_t index, double position,
+                                               SunDirection sun) {
+  auto const towards_sun = to_vector(sun);
+  std::vector<SurfaceId> ids;
+  for (auto const& receiver : shades_[index].receivers) {
+    if (glm::dot(receiver.area, towards_sun) > 0.0) ids.push_back(receiver.id);
+  }
+  Beam beam;
+  if (ids.empty()) return beam;
+  auto& renderer = trial(index, position).renderer;
+  renderer.set_deployments(scene_.optics().deployments());
+  auto const areas = renderer.projected_sunlit_areas(sun, ids);
+  double all = 0.0;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    auto const& polygon = scene_.surfaces()[ids[i]].polygon;
+    double const facing = area(polygon) * glm::dot(normal(polygon), towards_sun);
+    double const lit = areas[i].at(scene_.optics().factors());
+    beam.total += lit;
+    beam.largest = std::max(beam.largest, lit / facing);
+    all += facing;
+  }
+  beam.total /= all;
+  return beam;
 }
 
 // The present position if it is near enough to the wanted one, else that.
@@ -205,7 +270,28 @@ ShadeControl::Decision ShadeControl::block_beam(std::size_t index, SunDirection 
     }
     return {wanted, wanted == shade.shade.rest ? State::clear : State::blocking, wanted};
   }
-  return {shade.outward.back(), State::admitting, shade.outward.back()};
+  return least_beam(index, sun);
+}
+
+// Rays choose the positions that may have the least, and the renderer decides between them. The
+// nearest to rest comes first.
+ShadeControl::Decision ShadeControl::least_beam(std::size_t index, SunDirection sun) {
+  auto const& outward = shades_[index].outward;
+  std::vector<double> beams;
+  beams.reserve(outward.size());
+  for (double const position : outward) beams.push_back(estimated_beam(index, position, sun));
+  double const most = *std::ranges::min_element(beams) + 2.0 * ray_error;
+  for (std::size_t i = 0; i < outward.size(); ++i) {
+    beams[i] = beams[i] > most ? 1.0 : rendered_beam(index, outward[i], sun).total;
+  }
+  double const enough = *std::ranges::min_element(beams) + same_beam;
+  auto const best = std::ranges::find_if(beams, [&](double beam) { return beam <= enough; });
+  double const wanted = outward[static_cast<std::size_t>(best - beams.begin())];
+  double const present = held(index, wanted);
+  if (present != wanted && rendered_beam(index, present, sun).total <= enough) {
+    return {present, State::held, present};
+  }
+  return {wanted, State::admitting, wanted};
 }
 
 ShadeControl::Decision ShadeControl::track_sun(std::size_t index, SunDirection sun) const {

@@ -22,7 +22,7 @@ class ShadeControl {
     scheduled,  // Schedule
     clear,      // BlockBeam: no beam on the receivers at the position at rest
     blocking,   // BlockBeam
-    admitting,  // BlockBeam: beam reaches the receivers at every position
+    admitting,  // BlockBeam: beam reaches the receivers at every position; at this one the least
     tracking,   // TrackSun
     held,       // by the hysteresis
     windy,      // the wind keeps the shade at rest
@@ -75,12 +75,27 @@ class ShadeControl {
     Renderer renderer;
   };
 
+  // Of the receivers that face the sun.
+  struct Beam {
+    double total = 0.0;    // share of the beam on all of them, 0 .. 1
+    double largest = 0.0;  // share of one of them
+  };
+
   void check_schedules() const;
+  void find_receivers();
+  void find_first_surfaces();
+  double value_of(MovingShade const& shade, FieldInfo const& field,
+                  std::string const& schedule) const;
   bool has_beam(Shade const& shade, SunDirection sun, std::function<double()> const& beam) const;
   Decision block_beam(std::size_t index, SunDirection sun);
   Decision track_sun(std::size_t index, SunDirection sun) const;
   bool is_lit(std::size_t index, double position, SunDirection sun);
+  Decision least_beam(std::size_t index, SunDirection sun);
+  // By rays, to about `ray_error`, and as rendered.
+  double estimated_beam(std::size_t index, double position, SunDirection sun);
+  Beam rendered_beam(std::size_t index, double position, SunDirection sun);
   Trial& trial(std::size_t index, double position);
+  RayConditions conditions_of(SurfaceId receiver) const;
   double held(std::size_t index, double wanted) const;
 
   SceneAssembly const& scene_;
@@ -89,6 +104,8 @@ class ShadeControl {
   std::vector<Decision> decisions_;
   std::vector<double> positions_;  // while they are decided on
   std::map<std::pair<std::size_t, std::vector<double>>, Trial> trials_;
+  std::vector<Ray> batch_;  // scratch memory
+  std::vector<double> passed_;
 };
 
 // "blocking", ...

@@ -13,6 +13,7 @@
 
 #include "gpu_shading/error.h"
 #include "platform/text.h"
+#include "runs/schedule_value.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -79,17 +80,11 @@ std::size_t row_of(RunTime const& time, int steps_per_hour) {
 
 double schedule_value(RunTimes const& run, RunTime const& time, std::string const& name) {
   auto const found = std::ranges::find(run.schedules, name);
-  if (found == run.schedules.end()) return 0.0;
-  return std::clamp(time.schedules[static_cast<std::size_t>(found - run.schedules.begin())], 0.0,
-                    1.0);
-}
-
-std::vector<double> schedule_values(RunTimes const& run, RunTime const& time,
-                                    std::vector<std::string> const& names) {
-  std::vector<double> values(names.size());
-  std::ranges::transform(names, values.begin(),
-                         [&](std::string const& name) { return schedule_value(run, time, name); });
-  return values;
+  if (found == run.schedules.end()) {
+    throw Error(fmt::format("a run of the schedules alone has none called \"{}\"", name));
+  }
+  return checked_value(name,
+                       time.schedules[static_cast<std::size_t>(found - run.schedules.begin())]);
 }
 
 bool sun_is_up(SunDirection sun) { return to_vector(sun).z >= min_cosine; }

@@ -44,11 +44,9 @@ int day_of_schedule(int month, int day);
 // 0 .. 366 x 24 x steps - 1: the row of a schedule file of a leap year.
 std::size_t row_of(RunTime const& time, int steps_per_hour);
 
-// The value of a schedule (upper case) at one of the run's times, limited to 0 .. 1; 0 if
-// EnergyPlus does not know it.
+// The value of a schedule (upper case) at one of the run's times. Throws Error if the run has no
+// such schedule, or the value is not a finite number.
 double schedule_value(RunTimes const& run, RunTime const& time, std::string const& name);
-std::vector<double> schedule_values(RunTimes const& run, RunTime const& time,
-                                    std::vector<std::string> const& names);
 
 // EnergyPlus's own limit (Engineering Reference, "Shading Module"): below it, the sun is down; with
 // a smaller cosine of incidence, it is behind a surface.

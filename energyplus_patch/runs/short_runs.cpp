@@ -11,6 +11,8 @@
 #include "gpu_shading/error.h"
 #include "model/idf/input_object.h"
 #include "model/idf/model_editor.h"
+#include "model/idf/model_file.h"
+#include "model/idf/placeholders.h"
 #include "platform/files.h"
 #include "platform/process.h"
 #include "platform/text.h"
@@ -76,9 +78,21 @@ void report_at_timesteps(ModelEditor& model, std::string const& key, std::string
             {{"key_value", key}, {"variable_name", variable}, {"reporting_frequency", "Timestep"}});
 }
 
-// Reduces a model to its calendar, site and schedules.
-void reduce_to_times(ModelEditor& model, std::vector<std::string> const& schedules,
-                     Periods periods = Periods::run) {
+// Adds a schedule of ours unless the model has been rewritten with it.
+void add_own_schedule(ModelEditor& model, Path const& file, std::string const& name) {
+  if (model.has("Schedule:Compact", name)) return;
+  if (!is_epjson(file)) {
+    model.merge(schedule_idf(name));
+    return;
+  }
+  nlohmann::json added;
+  add_schedule(added, name);
+  model.merge(added.dump());
+}
+
+// Reduces the model of a file to its calendar, site and schedules.
+void reduce_to_times(ModelEditor& model, Path const& file,
+                     std::vector<std::string> const& schedules, Periods periods = Periods::run) {
   model.remove([&](std::string_view type) {
     bool const kept = same_name(type, "Version") || same_name(type, "Timestep") ||
                       same_name(type, "Site:Location") ||
@@ -94,7 +108,10 @@ void reduce_to_times(ModelEditor& model, std::vector<std::string> const& schedul
                                     {"coordinate_system", "World"}});
   report_at_timesteps(model, "*", "Site Solar Azimuth Angle");
   report_at_timesteps(model, "*", "Site Solar Altitude Angle");
-  for (auto const& schedule : schedules) report_at_timesteps(model, schedule, "Schedule Value");
+  for (auto const& schedule : schedules) {
+    if (is_own_schedule(schedule)) add_own_schedule(model, file, schedule);
+    report_at_timesteps(model, schedule, "Schedule Value");
+  }
 }
 
 // Replaces all run periods by one that EnergyPlus extends to a year (-a): the first, which sets the
@@ -201,7 +218,7 @@ std::vector<DrawnSurface> run_for_surfaces(EnergyPlusCall const& call) {
 
 RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> const& schedules) {
   auto const model = edit_model(call.model);
-  reduce_to_times(*model, schedules);
+  reduce_to_times(*model, call.model, schedules);
   TemporaryFolder const folder;
   auto periods = call;
   periods.design_days = false;
@@ -212,7 +229,7 @@ RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> cons
 RunTimes run_for_year(EnergyPlusCall const& call, std::vector<std::string> const& schedules,
                       int steps_per_hour) {
   auto const model = edit_model(call.model);
-  reduce_to_times(*model, schedules);
+  reduce_to_times(*model, call.model, schedules);
   model->remove([](std::string_view type) { return same_name(type, "Timestep"); });
   model->add("Timestep", {{"number_of_timesteps_per_hour", steps_per_hour}});
   return run_whole_year(call, *model);
@@ -220,7 +237,7 @@ RunTimes run_for_year(EnergyPlusCall const& call, std::vector<std::string> const
 
 RunTimes run_for_beam(EnergyPlusCall const& call, std::vector<std::string> const& schedules) {
   auto const model = edit_model(call.model);
-  reduce_to_times(*model, schedules);
+  reduce_to_times(*model, call.model, schedules);
   for (auto const& [variable, member] : weather_variables) {
     report_at_timesteps(*model, "*", variable);
   }
@@ -235,7 +252,7 @@ ScheduleDays run_for_schedules(EnergyPlusCall const& call,
                                  "SizingPeriod:WeatherFileConditionType"}) {
     model->edit(type, [&](EditedObject const&) { sizing = true; });
   }
-  reduce_to_times(*model, schedules,
+  reduce_to_times(*model, call.model, schedules,
                   call.design_days ? Periods::sizing
                   : sizing         ? Periods::all
                                    : Periods::run);

@@ -75,7 +75,7 @@ void SceneAssembly::complete(Schedules schedules) {
     check_coordinates(caster.surface, model_.file);
     surfaces_.add(std::move(caster.surface));
   }
-  optics_ = ShadeOptics(model_, std::move(schedules));
+  set_schedules(std::move(schedules));
   find_moving_shades();
 }
 
@@ -94,13 +94,19 @@ void SceneAssembly::find_moving_shades() {
     auto const found = by_name.find(surfaces_[id].name);
     moving_shades_.push_back(found == by_name.end() ? std::nullopt : std::optional(found->second));
   }
+  std::vector<std::vector<Surface>> drawn(shades.size());
+  for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
+    auto const& surface = surfaces_[id];
+    bool const counts =
+        moving_shades_[id] && !is_mirrored(surface.name) && area(surface.polygon) > 0;
+    if (counts) drawn[*moving_shades_[id]].push_back(surface);
+  }
   for (std::size_t i = 0; i < shades.size(); ++i) {
+    bool const tracks = shades[i].control == MovingShade::Control::track_sun;
+    if (tracks && !drawn[i].empty()) expect_parallel(drawn[i], shades[i]);
     if (!shades[i].folds()) continue;
     std::vector<Polygon> panels;
-    for (SurfaceId id = 0; id < surfaces_.size(); ++id) {
-      auto const& surface = surfaces_[id];
-      if (moving_shades_[id] == i && !is_mirrored(surface.name)) panels.push_back(surface.polygon);
-    }
+    for (auto const& surface : drawn[i]) panels.push_back(surface.polygon);
     model_.moving_shades[i].track = fold_track(panels, shades[i]);
   }
 }
@@ -116,6 +122,13 @@ bool SceneAssembly::hides_moving_shades() const {
     if (moving_shades_[id]) return true;
   }
   return false;
+}
+
+PointMotion SceneAssembly::motion_of(SurfaceId id, std::vector<double> const& positions) const {
+  auto const shade = moving_shade_of(id);
+  if (!shade) return [](glm::dvec3 const& point) { return point; };
+  return energyplus::motion_of(surfaces_[id].polygon, model_.moving_shades[*shade],
+                               positions.at(*shade));
 }
 
 Surface SceneAssembly::placed(SurfaceId id, std::vector<double> const& positions) const {

@@ -9,6 +9,7 @@
 #include "model/model_reader.h"
 #include "scene/digest.h"
 #include "scene/schedules.h"
+#include "scene/shade_motion.h"
 #include "scene/shade_optics.h"
 
 namespace gpu_shading::energyplus {
@@ -30,6 +31,9 @@ class SceneAssembly {
 
   // EnergyPlus has added all its surfaces: adds the other casters and reads the schedules.
   void complete(Schedules schedules);
+
+  // After complete(): reads other schedules in place of those.
+  void set_schedules(Schedules schedules) { optics_ = ShadeOptics(model_, std::move(schedules)); }
 
   Model const& model() const { return model_; }
   ShadeOptics& optics() { return optics_; }
@@ -75,6 +79,9 @@ class SceneAssembly {
   std::vector<double> rest_positions() const;
   // A surface without optics, at the positions as they are now.
   Surface placed(SurfaceId id) const { return placed(id, positions_); }
+  Surface placed(SurfaceId id, std::vector<double> const& positions) const;
+  // How its points get to some positions from where it is drawn.
+  PointMotion motion_of(SurfaceId id, std::vector<double> const& positions) const;
   // By surface: the index of the moving shade that it belongs to.
   std::optional<std::size_t> moving_shade_of(SurfaceId surface) const {
     return moving_shades_.empty() ? std::nullopt : moving_shades_[surface];
@@ -102,7 +109,6 @@ class SceneAssembly {
   Hash hash(Scene const& scene, DeviceInfo const& device) const;
 
  private:
-  Surface placed(SurfaceId id, std::vector<double> const& positions) const;
   std::optional<TextureAxes> texture_of(SurfaceId id, std::vector<double> const& positions) const;
   void find_moving_shades();
 

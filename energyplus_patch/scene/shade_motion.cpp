@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
+#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -19,6 +20,7 @@ using Motion = MovingShade::Motion;
 
 // Below this, components of a unit vector are taken as 0, and lengths as equal.
 constexpr double rounding = 1e-3;
+constexpr double half_circle = 180.0;
 
 struct Edge {
   glm::dvec3 from;
@@ -84,17 +86,8 @@ std::pair<double, double> reach(Polygon const& polygon, glm::dvec3 const& direct
   return {glm::dot(*low, direction), glm::dot(*high, direction)};
 }
 
-template <typename Move>
-Polygon moved_by(Polygon polygon, Move const& move) {
-  for (auto& point : polygon.outline) point = move(point);
-  for (auto& hole : polygon.holes) {
-    for (auto& point : hole) point = move(point);
-  }
-  return polygon;
-}
-
 // Every second panel turns the other way, from the hinge that the one before it has moved out.
-Polygon folded(Polygon const& drawn, MovingShade const& shade, double position) {
+PointMotion folding(Polygon const& drawn, MovingShade const& shade, double position) {
   auto const& starts = shade.track.starts;
   double const start = reach(drawn, shade.direction).first;
   auto const place = std::min_element(starts.begin(), starts.end(), [&](double a, double b) {
@@ -107,12 +100,30 @@ Polygon folded(Polygon const& drawn, MovingShade const& shade, double position) 
                           glm::cross(shade.direction, shade.track.outward)};
   auto shift = (starts.front() - *place) * (1.0 - std::cos(angle)) * shade.direction;
   if (second) shift += (*place - *std::prev(place)) * std::sin(angle) * shade.track.outward;
-  return moved_by(drawn, [&](auto const& point) {
-    return shift + turned(point, axis, second ? -angle : angle);
-  });
+  return [=](auto const& point) { return shift + turned(point, axis, second ? -angle : angle); };
 }
 
+glm::dvec3 stay(glm::dvec3 const& point) { return point; }
+
 }  // namespace
+
+void expect_parallel(std::vector<Surface> const& drawn, MovingShade const& shade) {
+  auto const& first = drawn.front();
+  auto const axis = rotation_axis(first.polygon, shade).direction;
+  for (auto const& surface : drawn) {
+    auto const other = rotation_axis(surface.polygon, shade).direction;
+    double const between_axes =
+        glm::degrees(std::atan2(glm::length(glm::cross(axis, other)), glm::dot(axis, other)));
+    // Either side may face the sun.
+    double const turn = facing_position(first.polygon, shade, normal(surface.polygon));
+    double const off = std::max(between_axes, std::abs(std::remainder(turn, half_circle)));
+    if (off <= std::max(shade.step, 1.0)) continue;
+    throw Error(fmt::format(
+        "{}: {} is at {:.3g} degrees to {}; TrackSun expects parallel surfaces: write an object "
+        "for each orientation",
+        shade.where, printable(surface.name), off, printable(first.name)));
+  }
+}
 
 MovingShade::Track fold_track(std::vector<Polygon> const& drawn, MovingShade const& shade) {
   MovingShade::Track track;
@@ -163,29 +174,40 @@ RotationAxis rotation_axis(Polygon const& drawn, MovingShade const& shade) {
   return {edge.from, oriented(glm::normalize(edge.along()))};
 }
 
-Polygon moved(Polygon const& drawn, MovingShade const& shade, double position) {
+PointMotion motion_of(Polygon const& drawn, MovingShade const& shade, double position) {
   // Degenerate ones cast no shadow.
-  if (area(drawn) <= 0.0) return drawn;
+  if (area(drawn) <= 0.0) return stay;
   switch (shade.motion) {
     case Motion::rotate: {
-      if (position == 0.0) return drawn;
+      if (position == 0.0) return stay;
       auto const axis = rotation_axis(drawn, shade);
       double const angle = glm::radians(position);
-      return moved_by(drawn, [&](auto const& point) { return turned(point, axis, angle); });
+      return [=](auto const& point) { return turned(point, axis, angle); };
     }
-    case Motion::slide:
-      return moved_by(drawn, [&](auto const& point) { return point + position * shade.direction; });
+    case Motion::slide: {
+      auto const shift = position * shade.direction;
+      return [=](auto const& point) { return point + shift; };
+    }
     case Motion::fold:
-      return position == 0.0 ? drawn : folded(drawn, shade, position);
+      if (position == 0.0) return stay;
+      return folding(drawn, shade, position);
     case Motion::extend:
       break;
   }
-  if (position == 1.0) return drawn;
+  if (position == 1.0) return stay;
   double const fixed = reach(drawn, shade.direction).first;
-  return moved_by(drawn, [&](auto const& point) {
-    double const length = glm::dot(point, shade.direction) - fixed;
-    return point + (position - 1.0) * length * shade.direction;
-  });
+  return [fixed, position, direction = shade.direction](auto const& point) {
+    double const length = glm::dot(point, direction) - fixed;
+    return point + (position - 1.0) * length * direction;
+  };
+}
+
+Polygon moved(Polygon const& drawn, MovingShade const& shade, double position) {
+  auto const move = motion_of(drawn, shade, position);
+  auto polygon = drawn;
+  std::ranges::transform(polygon.outline, polygon.outline.begin(), move);
+  for (auto& hole : polygon.holes) std::ranges::transform(hole, hole.begin(), move);
+  return polygon;
 }
 
 TextureAxes moved(TextureAxes const& drawn, MovingShade const& shade, double position) {

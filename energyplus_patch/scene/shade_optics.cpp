@@ -11,12 +11,6 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-// The value of a schedule that an object's field names.
-std::pair<double, double> range_of(Schedules const& schedules, std::string const& name,
-                                   std::string const& object, std::string_view field) {
-  return naming(fmt::format("{}: {}", object, field), [&] { return schedules.range(name); });
-}
-
 // The screen of a surface, nullptr if it has none. A surface without area cannot have one.
 SurfaceScreen const* screen_of(Model const& model, Surface const& surface) {
   auto const found = model.screens.by_surface.find(surface.name);
@@ -33,14 +27,24 @@ ShadeOptics::ShadeOptics(Model const& model, Schedules schedules)
   add_leaf_schedules();
 }
 
+std::pair<double, double> ShadeOptics::range_for(std::string const& name, std::string const& object,
+                                                 std::string_view field) {
+  auto const place = fields_.try_emplace(name, fmt::format("{}: {}", object, field)).first;
+  return naming(place->second, [&] { return schedules_.range(name); });
+}
+
+double ShadeOptics::value(std::string const& name, Moment moment) const {
+  return naming(fields_.at(name), [&] { return schedules_.value(name, moment); });
+}
+
 void ShadeOptics::add_transmittance_schedules() {
   for (auto const& [name, surface] : model_->shading.shading_surfaces) {
     auto const& schedule_name = surface.transmittance_schedule;
     if (schedule_name.empty()) continue;
     auto const [place, added] = by_name_.try_emplace(schedule_name);
     if (!added) continue;
-    auto const [least, most] = range_of(schedules_, schedule_name, surface.type + " " + name,
-                                        "Transmittance Schedule Name");
+    auto const [least, most] =
+        range_for(schedule_name, surface.type + " " + name, "Transmittance Schedule Name");
     if (least == most) {
       place->second.held = least;
     } else {
@@ -54,16 +58,16 @@ void ShadeOptics::add_deployments() {
     auto const& name = screen.deployment_schedule;
     auto const& known = deployment_names_;
     if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) continue;
-    auto const range = range_of(schedules_, name, screen.maker->where(),
-                                extension::perforated_screen::deployment_schedule_name.title);
+    auto const range = range_for(name, screen.maker->where(),
+                                 extension::perforated_screen::deployment_schedule_name.title);
     add_deployment(name, range.second);
   }
 }
 
 void ShadeOptics::add_leaf_schedules() {
   for (auto const& name : model_->surroundings.leaf_schedules) {
-    auto const range = range_of(schedules_, name, std::string(extension::tree::type),
-                                extension::tree::leaf_schedule_name.title);
+    auto const range = range_for(name, std::string(extension::tree::type),
+                                 extension::tree::leaf_schedule_name.title);
     add_deployment(name, range.second);
   }
 }
@@ -140,7 +144,7 @@ void ShadeOptics::apply_screen(Surface& surface, std::optional<TextureAxes> cons
 bool ShadeOptics::update(Moment moment) {
   bool changed = false;
   for (auto& [name, schedule] : by_name_) {
-    if (schedule.held && schedules_.value(name, moment) != *schedule.held) {
+    if (schedule.held && value(name, moment) != *schedule.held) {
       make_factor(name, schedule);
       changed = true;
     }
@@ -152,14 +156,14 @@ bool ShadeOptics::update(Moment moment) {
 
 std::vector<double> ShadeOptics::factors_at(Moment moment) const {
   std::vector<double> factors;
-  for (auto const& name : factor_names_) factors.push_back(schedules_.value(name, moment));
+  for (auto const& name : factor_names_) factors.push_back(value(name, moment));
   return factors;
 }
 
 std::vector<double> ShadeOptics::deployments_at(Moment moment) const {
   std::vector<double> deployments;
   for (auto const& name : deployment_names_) {
-    deployments.push_back(moment.timestep > 0 ? schedules_.value(name, moment)
+    deployments.push_back(moment.timestep > 0 ? value(name, moment)
                                               : schedules_.range(name).second);
   }
   return deployments;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,10 @@ class ShadeOptics {
     int factor = -1;             // else
   };
 
+  // A schedule's range; `field`: the object's, which errors about the schedule name from now on.
+  std::pair<double, double> range_for(std::string const& name, std::string const& object,
+                                      std::string_view field);
+  double value(std::string const& name, Moment moment) const;
   void add_transmittance_schedules();
   void add_deployments();
   void add_leaf_schedules();
@@ -67,6 +72,7 @@ class ShadeOptics {
 
   Model const* model_ = nullptr;
   Schedules schedules_;
+  std::map<std::string, std::string> fields_;  // "OBJECT: FIELD" that names a schedule first
   std::map<std::string, Schedule> by_name_;
   std::vector<std::string> factor_names_;
   std::vector<double> factors_;

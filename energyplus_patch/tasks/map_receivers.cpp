@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <glm/geometric.hpp>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +17,7 @@
 #include "reports/remarks.h"
 #include "runs/run_times.h"
 #include "tasks/perform_task.h"
+#include "tasks/run_conditions.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -24,9 +25,10 @@ namespace {
 // A time at which the sun is up.
 struct MapTime {
   SunDirection sun;
-  double beam = 0.0;                // direct normal irradiance, W/m2
-  std::vector<double> factors;      // by BeamFilter::schedule
-  std::vector<double> deployments;  // by PerforatedSheet::deployment
+  double beam = 0.0;       // direct normal irradiance, W/m2
+  std::size_t number = 0;  // of the run's times
+  ShadeConditions const* conditions = nullptr;
+  double weight = 1.0;  // between positions of moving shades
 };
 
 struct MapSettings {
@@ -35,7 +37,8 @@ struct MapSettings {
 };
 
 bool alike(MapTime const& a, MapTime const& b) {
-  return a.factors == b.factors && a.deployments == b.deployments;
+  return a.conditions->factors == b.conditions->factors &&
+         a.conditions->deployments == b.conditions->deployments;
 }
 
 // Neighbouring cells begin at other points, so that the edge of a shadow along a row or a column
@@ -46,58 +49,60 @@ std::size_t turn_of(MapCell const& cell) {
          from_row_to_row * static_cast<std::size_t>(cell.row);
 }
 
-// Rays of successive times with the same conditions, traced together.
+struct MappedReceiver {
+  SurfaceId id;
+  MapGrid grid;
+  std::vector<MapValue> values;  // by cell
+};
+
+// Where a receiver's grid is, which moves with a moving shade.
+struct GridPlace {
+  PointMotion move;
+  glm::dvec3 normal;
+};
+
+// Rays of successive times with the same conditions, traced together. A cell's value is the mean
+// over rays towards the sun from a few of its points, which take turns from time to time.
 class RayBatch {
  public:
-  RayBatch(RayScene const& rays, SurfaceId receiver, MapGrid const& grid,
+  RayBatch(RayScene const& rays, MappedReceiver& receiver, GridPlace place,
            MapSettings const& settings)
-      : rays_(rays), receiver_(receiver), grid_(grid), settings_(settings) {
-    values_.resize(grid.cells().size());
-  }
+      : rays_(rays), receiver_(receiver), place_(std::move(place)), settings_(settings) {}
 
-  void add(MapTime const& time, std::size_t number) {
+  void add(MapTime const& time) {
     auto const sun = to_vector(time.sun);
-    double const cosine = glm::dot(sun, grid_.axes().normal);
+    double const cosine = glm::dot(sun, place_.normal);
     if (cosine < min_cosine) return;
     if (!times_.empty() && (batch_.size() >= rays_in_batch || !alike(*times_.front().time, time))) {
       trace();
     }
     times_.push_back({&time, cosine});
-    auto const start = grid_.axes().normal * ray_lift;
+    auto const start = place_.normal * ray_lift;
     auto const rays = settings_.rays_per_cell;
-    for (auto const& cell : grid_.cells()) {
-      auto const first = rays * (number + turn_of(cell));
+    for (auto const& cell : receiver_.grid.cells()) {
+      auto const first = rays * (time.number + turn_of(cell));
       for (std::size_t i = 0; i < rays; ++i) {
-        batch_.push_back({grid_.point(cell, first + i) + start, sun});
+        batch_.push_back({place_.move(receiver_.grid.point(cell, first + i)) + start, sun});
       }
     }
   }
 
-  std::vector<MapValue> finish() {
-    trace();
-    return std::move(values_);
-  }
-
- private:
-  struct Added {
-    MapTime const* time;
-    double cosine;
-  };
-
   void trace() {
     if (times_.empty()) return;
     passed_.resize(batch_.size());
-    auto const& first = *times_.front().time;
+    auto const& first = *times_.front().time->conditions;
     rays_.transmittances(
-        batch_, {.receiver = receiver_, .factors = first.factors, .deployments = first.deployments},
+        batch_,
+        {.receiver = receiver_.id, .factors = first.factors, .deployments = first.deployments},
         passed_);
     auto passed = passed_.begin();
     double const share = settings_.hours_per_step / static_cast<double>(settings_.rays_per_cell);
     constexpr double watts_in_kilowatt = 1000.0;
     for (auto const& [time, cosine] : times_) {
-      for (auto& value : values_) {
+      for (auto& value : receiver_.values) {
         double hours = 0.0;
         for (std::size_t i = 0; i < settings_.rays_per_cell; ++i) hours += share * *passed++;
+        hours *= time->weight;
         value.hours += hours;
         value.energy += hours * cosine * time->beam / watts_in_kilowatt;
       }
@@ -106,33 +111,19 @@ class RayBatch {
     batch_.clear();
   }
 
+ private:
+  struct Added {
+    MapTime const* time;
+    double cosine;
+  };
+
   RayScene const& rays_;
-  SurfaceId receiver_;
-  MapGrid const& grid_;
+  MappedReceiver& receiver_;
+  GridPlace place_;
   MapSettings settings_;
   std::vector<Added> times_;
   std::vector<Ray> batch_;
   std::vector<double> passed_;
-  std::vector<MapValue> values_;
-};
-
-// The values of each cell of a receiver's grid, in order. A cell's value is the mean over rays
-// towards the sun from a few of its points, which take turns from time to time. `done` is called
-// with the number of times that are complete.
-std::vector<MapValue> trace_map(RayScene const& rays, SurfaceId receiver, MapGrid const& grid,
-                                std::vector<MapTime> const& times, MapSettings const& settings,
-                                std::function<void(std::size_t)> const& done) {
-  RayBatch batch(rays, receiver, grid, settings);
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    batch.add(times[i], i);
-    done(i + 1);
-  }
-  return batch.finish();
-}
-
-struct MappedReceiver {
-  SurfaceId id;
-  MapGrid grid;
 };
 
 // The surfaces that a pattern may choose: those that EnergyPlus shades, and all shading surfaces of
@@ -158,7 +149,9 @@ std::vector<MappedReceiver> make_grids(SceneAssembly const& scene, MapTask const
   for (auto const id : chosen) {
     auto const& surface = scene.surfaces()[id];
     try {
-      receivers.push_back({id, MapGrid(surface.polygon, request.spacing)});
+      MapGrid grid(surface.polygon, request.spacing);
+      std::vector<MapValue> values(grid.cells().size());
+      receivers.push_back({id, std::move(grid), std::move(values)});
     } catch (Error const& error) {
       throw Error(fmt::format("--spacing {}: {}: {}", request.spacing, printable(surface.name),
                               error.what()));
@@ -174,39 +167,56 @@ std::vector<MappedReceiver> make_grids(SceneAssembly const& scene, MapTask const
   return receivers;
 }
 
-std::vector<MapTime> times_of(MapTask const& request, ShadeOptics const& optics) {
-  std::vector<MapTime> times;
-  for (auto const& time : request.run.times) {
-    times.push_back({time.sun, time.beam, schedule_values(request.run, time, optics.factor_names()),
-                     schedule_values(request.run, time, optics.deployment_names())});
+// The times, by the positions of the moving shades.
+std::map<std::vector<double>, std::vector<MapTime>> times_of(
+    RunTimes const& run, std::vector<ShadeConditions> const& conditions) {
+  std::map<std::vector<double>, std::vector<MapTime>> by_positions;
+  for (std::size_t i = 0; i < run.times.size(); ++i) {
+    auto const& time = run.times[i];
+    for (auto const& [positions, weight] : conditions[i].positions) {
+      by_positions[positions].push_back({time.sun, time.beam, i, &conditions[i], weight});
+    }
   }
-  return times;
+  return by_positions;
 }
 
 }  // namespace
 
 std::string perform(MapTask const& request, SceneAssembly& scene, Messages const& messages) {
   describe_scene(scene, messages);
-  auto const receivers = make_grids(scene, request);
-  scene.optics().update({});
-  RayScene const rays(scene.scene(), {.screens = ScreenDetail::automatic});
-  auto const times = times_of(request, scene.optics());
+  auto receivers = make_grids(scene, request);
+  auto const conditions = read_conditions(request.run, scene);
+  auto const by_positions = times_of(request.run, conditions);
   MapSettings const settings{1.0 / request.run.steps_per_hour,
                              static_cast<std::size_t>(request.rays_per_cell)};
-  Progress progress("tracing rays to the sun", receivers.size() * times.size(), request.progress);
+  std::size_t steps = 0;
+  for (auto const& [positions, times] : by_positions) steps += receivers.size() * times.size();
+  Progress progress("tracing rays to the sun", steps, request.progress);
+  std::size_t done = 0;
+  for (auto const& [positions, times] : by_positions) {
+    RayScene const rays(scene.scene_at(positions), {.screens = ScreenDetail::automatic});
+    for (auto& receiver : receivers) {
+      auto const polygon = scene.placed(receiver.id, positions).polygon;
+      bool const lies = area(polygon) > 0.0;
+      RayBatch batch(rays, receiver, {scene.motion_of(receiver.id, positions), normal(polygon)},
+                     settings);
+      for (auto const& time : times) {
+        if (lies) batch.add(time);
+        progress.at(++done);
+      }
+      batch.trace();
+    }
+  }
   std::vector<ReceiverMap> maps;
   std::size_t cells = 0;
-  for (auto const& [id, grid] : receivers) {
-    auto const before = maps.size() * times.size();
+  for (auto& [id, grid, values] : receivers) {
     auto const& surface = scene.surfaces()[id];
-    maps.push_back({surface.name, surface.polygon,
-                    trace_map(rays, id, grid, times, settings,
-                              [&](std::size_t done) { progress.at(before + done); })});
+    maps.push_back({surface.name, surface.polygon, std::move(values)});
     cells += grid.cells().size();
   }
   write_maps(request.file, maps);
   return fmt::format("{} receivers, {} cells, {} times with the sun up", maps.size(), cells,
-                     times.size());
+                     request.run.times.size());
 }
 
 }  // namespace gpu_shading::energyplus

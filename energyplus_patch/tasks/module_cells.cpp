@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <fstream>
 #include <glm/geometric.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "reports/sky_mask.h"
 #include "runs/run_times.h"
 #include "tasks/perform_task.h"
+#include "tasks/run_conditions.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -39,12 +41,14 @@ struct Piece {
 };
 
 // The field first, then its modules, then their cells.
-std::vector<Piece> pieces_of(ModuleLayout const& layout, std::vector<Polygon>& polygons) {
+std::vector<Piece> pieces_of(ModuleLayout const& layout, PointMotion const& move,
+                             std::vector<Polygon>& polygons) {
   auto const modules = layout.modules().size();
   auto const cells = layout.spec().cells();
   std::vector<Piece> pieces;
   auto const add = [&](FlatBox const& box, Piece piece) {
-    polygons.push_back(layout.polygon(box));
+    auto& polygon = polygons.emplace_back(layout.polygon(box));
+    std::ranges::transform(polygon.outline, polygon.outline.begin(), move);
     piece.area = area(polygons.back());
     pieces.push_back(piece);
   };
@@ -84,12 +88,13 @@ Scene scene_with(Scene const& scene, SurfaceId surface, std::vector<Polygon> con
 // all of its parts; of others, the parts are asked about.
 class CellLight {
  public:
-  CellLight(SceneAssembly& scene, SurfaceId surface, ModuleLayout const& layout,
-            RendererOptions const& options)
+  // `positions`: of the moving shades.
+  CellLight(SceneAssembly const& scene, SurfaceId surface, ModuleLayout const& layout,
+            std::vector<double> const& positions, RendererOptions const& options)
       : normal_(layout.axes().normal) {
     std::vector<Polygon> polygons;
-    pieces_ = pieces_of(layout, polygons);
-    auto const casters = scene.scene();
+    pieces_ = pieces_of(layout, scene.motion_of(surface, positions), polygons);
+    auto const casters = scene.scene_at(positions);
     first_ = static_cast<SurfaceId>(casters.size());
     renderer_.emplace(scene_with(casters, surface, polygons), options);
   }
@@ -152,6 +157,13 @@ std::vector<LaidField> lay_out(SceneAssembly const& scene, std::size_t times) {
       if (!found || area(scene.surfaces()[*found].polygon) <= 0.0) {
         throw Error(fmt::format("{}: {} has no area", modules.where, name));
       }
+      if (auto const shade = scene.moving_shade_of(*found)) {
+        auto const& moving = scene.model().moving_shades[*shade];
+        if (moving.motion != MovingShade::Motion::slide) {
+          throw Error(fmt::format("{}: {} is turned or extended by {}; expected one that slides",
+                                  modules.where, name, moving.where));
+        }
+      }
       fields.push_back({*found, ModuleLayout(modules, name, scene.surfaces()[*found].polygon)});
       cells += fields.back().layout.modules().size() * modules.cells();
     }
@@ -202,11 +214,43 @@ std::vector<ModuleSky> sky_of(LaidField const& field, RayScene const& rays,
   return views;
 }
 
+// At rest, with schedules at their lowest value and screens fully deployed.
+std::vector<std::vector<ModuleSky>> skies_of(std::vector<LaidField> const& fields,
+                                             SceneAssembly& scene) {
+  scene.optics().update({});
+  auto const casters = scene.scene();
+  RayScene const rays(casters, {.screens = ScreenDetail::automatic});
+  auto const kinds = kinds_of(scene, casters);
+  std::vector<std::vector<ModuleSky>> skies;
+  for (auto const& field : fields) skies.push_back(sky_of(field, rays, kinds, scene));
+  return skies;
+}
+
 std::array<char, 2> little_endian(float fraction) {
   constexpr float whole = 65535.0F;
   constexpr unsigned byte = 8;
   auto const value = static_cast<std::uint16_t>(std::lround(fraction * whole));
   return {static_cast<char>(value & 0xFFU), static_cast<char>(value >> byte)};
+}
+
+// The numbers of times, by the nearest positions of the moving shades.
+std::map<std::vector<double>, std::vector<std::size_t>> times_by_positions(
+    std::vector<ShadeConditions> const& conditions) {
+  std::map<std::vector<double>, std::vector<std::size_t>> by_positions;
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    by_positions[conditions[i].positions.front().positions].push_back(i);
+  }
+  return by_positions;
+}
+
+std::string bytes_of(std::vector<float> const& fractions) {
+  std::string row;
+  row.reserve(2 * fractions.size());
+  for (float const fraction : fractions) {
+    auto const bytes = little_endian(fraction);
+    row.append(bytes.data(), bytes.size());
+  }
+  return row;
 }
 
 }  // namespace
@@ -216,37 +260,38 @@ std::string perform(ModulesTask const& task, SceneAssembly& scene, Messages cons
   auto const& times = task.run.times;
   auto const fields = lay_out(scene, times.size());
   warn_of_short_strings(fields, messages);
-  scene.optics().update({});
   auto const options = watched_options(scene.model().options, messages);
-  auto const casters = scene.scene();
-  RayScene const rays(casters, {.screens = ScreenDetail::automatic});
-  auto const kinds = kinds_of(scene, casters);
+  auto const skies = skies_of(fields, scene);
+  auto const conditions = read_conditions(task.run, scene);
+  auto const by_positions = times_by_positions(conditions);
   Progress progress("shading cells", fields.size() * times.size(), task.progress);
   std::vector<ModuleField> results;
   std::size_t modules = 0;
   std::size_t cells = 0;
+  std::size_t done = 0;
+  bool checked = false;
   for (auto const& field : fields) {
     auto const& layout = field.layout;
-    CellLight light(scene, field.surface, layout, options);
-    if (results.empty()) check_device(light.device(), scene.model().options, messages);
     auto const file = task.folder / std::to_string(results.size());
     std::ofstream out(file, std::ios::binary);
     std::vector<float> fractions;
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      light.at(times[i].sun, schedule_values(task.run, times[i], scene.optics().factor_names()),
-               schedule_values(task.run, times[i], scene.optics().deployment_names()), fractions);
-      std::string row;
-      row.reserve(2 * fractions.size());
-      for (float const fraction : fractions) {
-        auto const bytes = little_endian(fraction);
-        row.append(bytes.data(), bytes.size());
+    for (auto const& [positions, numbers] : by_positions) {
+      CellLight light(scene, field.surface, layout, positions, options);
+      if (!std::exchange(checked, true)) {
+        check_device(light.device(), scene.model().options, messages);
       }
-      out.write(row.data(), static_cast<std::streamsize>(row.size()));
-      progress.at(results.size() * times.size() + i + 1);
+      for (auto const i : numbers) {
+        light.at(times[i].sun, conditions[i].factors, conditions[i].deployments, fractions);
+        auto const row = bytes_of(fractions);
+        out.seekp(static_cast<std::streamoff>(i * row.size()));
+        out.write(row.data(), static_cast<std::streamsize>(row.size()));
+        progress.at(++done);
+      }
     }
     if (!out.flush()) throw Error(fmt::format("{}: cannot be written", file.string()));
-    results.push_back({layout.spec().name, layout.surface(),
-                       scene.surfaces()[field.surface].polygon, sky_of(field, rays, kinds, scene)});
+    auto const& sky = skies[results.size()];
+    results.push_back(
+        {layout.spec().name, layout.surface(), scene.surfaces()[field.surface].polygon, sky});
     modules += layout.modules().size();
     cells += layout.modules().size() * layout.spec().cells();
   }

@@ -71,7 +71,7 @@ Json run_to_json(RunTimes const& run) {
   Json times = Json::array();
   for (auto const& time : run.times) {
     times.push_back({time.month, time.day, time.hour, time.timestep, time.sun.azimuth,
-                     time.sun.altitude, Json(time.schedules), time.beam});
+                     time.sun.altitude, Json(time.schedules), time.beam, time.wind});
   }
   return {{"steps", run.steps_per_hour}, {"schedules", run.schedules}, {"times", std::move(times)}};
 }
@@ -79,13 +79,10 @@ Json run_to_json(RunTimes const& run) {
 RunTimes run_of(Json const& json) {
   RunTimes run{json.at("steps"), {}, json.at("schedules")};
   for (auto const& time : json.at("times")) {
-    run.times.push_back({time.at(0),
-                         time.at(1),
-                         time.at(2),
-                         time.at(3),
-                         {time.at(4), time.at(5)},
-                         time.at(6),
-                         time.at(7)});
+    RunTime added{time.at(0), time.at(1), time.at(2), time.at(3), {time.at(4), time.at(5)},
+                  time.at(6), time.at(7)};
+    added.wind = time.at(8);
+    run.times.push_back(std::move(added));
   }
   return run;
 }

@@ -369,11 +369,11 @@ STEPS = by_the_hour(lambda hour: hour * 7 % 60)
 RESTING = of_hours((24, 0))
 
 
-def ems():
+def ems(schedule="Schedule:Compact"):
     program = "EnergyManagementSystem:Program,Turn"
     for hour in range(24):
         program += f",\n  IF Hour == {hour},SET Angle = {(hour + 1) * 7 % 60 if hour < 23 else 0},ENDIF"
-    return ("EnergyManagementSystem:Actuator,Angle,Position,Schedule:Compact,Schedule Value;\n"
+    return (f"EnergyManagementSystem:Actuator,Angle,Position,{schedule},Schedule Value;\n"
             + "EnergyManagementSystem:ProgramCallingManager,Caller,BeginZoneTimestepBeforeInitHeatBalance,Turn;\n"
             + program + ";\n")
 
@@ -387,8 +387,10 @@ def assert_moves_as_scheduled(scheduled, overridden):
 
 def test_an_ems_that_overrides_the_schedule_moves_the_shade_as_the_schedule_would(run):
     shade = CASES["centre line"][1]
-    assert_moves_as_scheduled(run(room(slats(), shade, STEPS, DAYS), *REPORT),
-                              run(room(slats(), shade, RESTING, ems(), DAYS), *REPORT, name="ems"))
+    scheduled = run(room(slats(), shade, STEPS, DAYS), *REPORT)
+    assert_moves_as_scheduled(scheduled, run(room(slats(), shade, RESTING, ems(), DAYS), *REPORT, name="ems"))
+    constant_one = room(slats(), shade, constant(0), ems("Schedule:Constant"), DAYS)
+    assert_moves_as_scheduled(scheduled, run(constant_one, *REPORT, name="constant"))
 
 
 def test_a_python_plugin_that_overrides_the_schedule_moves_the_shade_as_the_schedule_would(
@@ -401,6 +403,28 @@ def test_a_python_plugin_that_overrides_the_schedule_moves_the_shade_as_the_sche
     plugin = energyplus.run(with_plugins, path, weather, tmp_path / "plugin", ["--gpu-shading", "-D", *REPORT])
     assert plugin.completed, plugin.why() + plugin.errors + plugin.text("eplusout.err")
     assert_moves_as_scheduled(run(room(slats(), shade, STEPS, DAYS), *REPORT), plugin)
+
+
+TO_NAN = PLUGIN.replace("(hour + 1) * 7 % 60 if hour < 23 else 0", 'float("nan") if hour == 12 else 20')
+LEAVES = "Schedule:Compact,Leaves,,Through: 12/31,For: AllDays,Until: 24:00,0.5;\n"
+
+
+@pytest.mark.parametrize("parts, named", [
+    ((slats(), CASES["centre line"][1], RESTING),
+     "GPUShading:MovingShade Shade: Position Schedule Name: schedule \"POSITION\""),
+    ((slats().replace("Slat 0,,", "Slat 0,Position,"), LEAVES, RESTING),
+     "SLAT 0: Transmittance Schedule Name: schedule \"POSITION\"")], ids=["position", "transmittance"])
+def test_a_schedule_that_a_plugin_sets_to_nan_stops_the_run(with_plugins, weather, tmp_path, parts, named):
+    path = tmp_path / "plugin.idf"
+    path.write_text(room(*parts, "PythonPlugin:Instance,Turner,Yes,turn,Turn;\n"
+                         "PythonPlugin:SearchPaths,Paths,Yes,Yes,No;\n"))
+    (tmp_path / "turn.py").write_text(TO_NAN)
+    done = energyplus.run(with_plugins, path, weather, tmp_path / "out", ["--gpu-shading", "-D"])
+    assert not done.completed
+    lines = [line for line in done.text("eplusout.err").splitlines() if named in line]
+    assert len(lines) == 1, done.text("eplusout.err")
+    assert "08-21, hour 13, timestep 1: " in lines[0]
+    assert "has the value nan; expected a finite number" in lines[0]
 
 
 def test_a_cache_keeps_positions_apart(run, tmp_path):

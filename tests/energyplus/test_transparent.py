@@ -114,7 +114,7 @@ EnergyManagementSystem:Program,Fall,IF Hour >= 12,SET Leaf = 0.9,ELSE,SET Leaf =
 
 
 def test_actuated_schedule_takes_effect(official, patched, box, weather, tmp_path):
-    # Not of a Schedule:Constant, whose override EnergyPlus's own shading does not see.
+    # A Schedule:Constant is not for comparing: EnergyPlus's own shading ignores its override.
     text = box + VARYING + panes("Leaves") + EMS
     clip, gpu = both(text, official, patched, weather, tmp_path, TIMESTEP)
     answer = assert_alike(clip, gpu)
@@ -126,6 +126,23 @@ def test_actuated_schedule_takes_effect(official, patched, box, weather, tmp_pat
     window = next(name for name, receiver in answer.receivers.items() if receiver.kind == "Window")
     by_itself = results.Results(idle.folder).values[results.SUNLIT][window]
     assert max(abs(a - b) for a, b in zip(answer.values[results.SUNLIT][window], by_itself, strict=True)) > 0.1
+
+
+def test_an_actuated_constant_schedule_takes_effect_as_a_varying_one(patched, box, weather, tmp_path):
+    """EnergyPlus's own shading ignores what an EMS sets for a Schedule:Constant."""
+    compact = "Schedule:Compact,Leaves,,Through: 12/31,For: AllDays,Until: 24:00,0.5;"
+    fractions = []
+    for name, schedule in (("compact", compact), ("constant", "Schedule:Constant,Leaves,,0.5;")):
+        ems = EMS.replace("Schedule:Compact", schedule.split(",")[0])
+        (tmp_path / name).mkdir()
+        path = write(box + schedule + panes("Leaves") + ems, tmp_path / name / "model.idf", TIMESTEP)
+        run = energyplus.run(patched, path, weather, tmp_path / name / "run", ["--gpu-shading", "-D"])
+        assert run.completed, run.why()
+        found = results.Results(run.folder)
+        window = next(name for name, receiver in found.receivers.items() if receiver.kind == "Window")
+        fractions.append(found.values[results.SUNLIT][window])
+    assert max(fractions[0]) > 0.7 and len({round(each, 3) for each in fractions[0]}) > 10
+    assert fractions[1] == pytest.approx(fractions[0], abs=1e-6)
 
 
 def test_actuated_schedule_is_warned_of_once_in_periodic_frequency(patched, box, weather, tmp_path):

@@ -44,6 +44,13 @@ class IdfEditor : public ModelEditor {
     std::erase_if(objects_, [&](IdfObject const& object) { return unwanted(object.type); });
   }
 
+  bool has(std::string_view type, std::string_view name) const override {
+    return std::ranges::any_of(objects_, [&](IdfObject const& object) {
+      return same_name(object.type, type) && !object.fields.empty() &&
+             same_name(object.fields.front(), name);
+    });
+  }
+
   void edit(std::string_view type, std::function<void(EditedObject&)> const& change) override {
     for (auto& object : objects_) {
       if (!same_name(object.type, type)) continue;
@@ -104,6 +111,16 @@ class EpjsonEditor : public ModelEditor {
     for (auto type = model_.begin(); type != model_.end();) {
       type = unwanted(type.key()) ? model_.erase(type) : std::next(type);
     }
+  }
+
+  bool has(std::string_view type, std::string_view name) const override {
+    for (auto const& [key, instances] : model_.items()) {
+      if (!same_name(key, type)) continue;
+      for (auto const& instance : instances.items()) {
+        if (same_name(instance.key(), name)) return true;
+      }
+    }
+    return false;
   }
 
   void edit(std::string_view type, std::function<void(EditedObject&)> const& change) override {

@@ -45,6 +45,7 @@ class ModelEditor {
   virtual ~ModelEditor() = default;
 
   virtual void remove(std::function<bool(std::string_view type)> const& unwanted) = 0;
+  virtual bool has(std::string_view type, std::string_view name) const = 0;
   // All objects of a type.
   virtual void edit(std::string_view type, std::function<void(EditedObject&)> const& change) = 0;
   // Fields in the IDF's order, all of them up to the last.

@@ -100,6 +100,11 @@ std::vector<std::string> own_schedules(std::vector<Placeholder> const& placehold
   return names;
 }
 
+bool is_own_schedule(std::string const& name) {
+  return std::ranges::find(schedules_of_ours(), name, &OwnSchedule::name) !=
+         schedules_of_ours().end();
+}
+
 std::string schedule_idf(std::string const& name) {
   auto text = fmt::format("ScheduleTypeLimits,{};\nSchedule:Compact,{},{}", name, name, name);
   for (auto const* field : schedule_of_ours(name).data) text += fmt::format(",{}", field);

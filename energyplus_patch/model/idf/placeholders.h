@@ -37,6 +37,7 @@ std::string season_schedule(bool southern);
 // model.
 std::vector<std::string> own_schedules(std::vector<Placeholder> const& placeholders,
                                        std::vector<std::string> const& leaf_schedules);
+bool is_own_schedule(std::string const& name);
 std::string schedule_idf(std::string const& name);
 void add_schedule(nlohmann::json& model, std::string const& name);
 

@@ -10,6 +10,7 @@
 
 #include "gpu_shading/error.h"
 #include "model/idf/fields.h"
+#include "platform/named_entries.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {
@@ -32,8 +33,8 @@ void read_surfaces(InputObject const& object, ShadingInput const& input, ByName 
   auto const refuse = [&](std::string const& why) {
     throw Error(fmt::format("{} is {}: {}", field::surface_name.title, in_quotes(pattern), why));
   };
-  for (auto const& [surface, unused] : input.shading_surfaces) {
-    if (!matches(pattern, surface)) continue;
+  for_each_match(input.shading_surfaces, pattern, [&](auto const& entry) {
+    auto const& surface = entry.first;
     if (auto const outside = surroundings.find(surface); outside != surroundings.end()) {
       if (outside->second != extension::geometry::type) {
         refuse(fmt::format("{} is part of a {}, which cannot move", surface, outside->second));
@@ -49,7 +50,7 @@ void read_surfaces(InputObject const& object, ShadingInput const& input, ByName 
     auto const [place, added] = taken.try_emplace(surface, object.name);
     if (!added) refuse(fmt::format("{} is named by {} already", surface, place->second));
     shade.surfaces.push_back(surface);
-  }
+  });
   if (shade.surfaces.empty()) refuse("no shading surface of the model matches");
 }
 
@@ -117,6 +118,7 @@ void read_control(InputObject const& object, MovingShade& shade) {
   shade.availability = upper(read(object, field::availability_schedule_name));
   shade.minimum_beam = read(object, field::minimum_beam);
   shade.hysteresis = read(object, field::hysteresis);
+  shade.tolerance = read(object, field::tolerance);
   shade.maximum_wind = read(object, field::maximum_wind_speed);
   if (shade.control == Control::schedule) {
     if (shade.schedule.empty()) refuse_blank(field::position_schedule_name);
@@ -130,23 +132,12 @@ void read_control(InputObject const& object, MovingShade& shade) {
   if (shade.receivers.empty() && (shade.control == Control::block_beam || shade.minimum_beam)) {
     refuse_blank(field::receiver_name);
   }
+  if (shade.control != Control::block_beam) {
+    expect_blank(object, {field::tolerance}, "unless Control is BlockBeam");
+  }
   if (shade.control == Control::track_sun && !shade.turns()) {
     throw Error(
         fmt::format("{} is TrackSun, expected Motion Rotate with it", field::control.title));
-  }
-}
-
-// EnergyPlus's function for the value of a schedule ignores what an EMS sets for a constant one.
-void refuse_actuated_constant(std::vector<InputObject> const& objects, MovingShade const& shade) {
-  for (auto const& object : objects) {
-    if (object.type != "EnergyManagementSystem:Actuator" ||
-        !same_name(object["actuated_component_unique_name"], shade.schedule) ||
-        !same_name(object["actuated_component_type"], "Schedule:Constant")) {
-      continue;
-    }
-    throw Error(fmt::format(
-        "{} {} is a Schedule:Constant with an EMS actuator, expected a Schedule:Compact",
-        field::position_schedule_name.title, shade.schedule));
   }
 }
 
@@ -202,7 +193,6 @@ std::vector<MovingShade> read_moving_shades(std::vector<InputObject> const& obje
     read_surfaces(object, input, surroundings, taken, shade);
     read_range(object, shade);
     read_control(object, shade);
-    refuse_actuated_constant(objects, shade);
     shades.push_back(std::move(shade));
   });
   return shades;
@@ -232,6 +222,7 @@ void set_rest(std::vector<MovingShade>& shades, std::string const& option,
                               shade->minimum, shade->maximum, shade->unit()));
     }
     shade->rest = shade->nearest(*position);
+    shade->stands = true;
   }
 }
 

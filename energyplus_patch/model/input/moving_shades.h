@@ -30,11 +30,14 @@ struct MovingShade {
   double maximum = 0.0;
   double step = 0.0;
   double rest = 0.0;  // on the grid
+  // Whether maps show it at rest, as set_rest() asks for, instead of where its control moves it.
+  bool stands = false;
   Control control = Control::schedule;
   std::string schedule;      // upper case, or ""
   std::string receivers;     // pattern, or ""
   std::string availability;  // upper case, or ""
   std::optional<double> minimum_beam = std::nullopt;
+  double tolerance = 0.0;  // share of a receiver, 0 .. 1
   double hysteresis = 0.0;
   std::optional<double> maximum_wind = std::nullopt;  // m/s
   // For Fold, once the surfaces are known (fold_track): where panels begin along the direction, in

@@ -69,8 +69,7 @@ RunTimes times_of(ModelRun const& run, Period const& period) {
   call.weather = weather_of(run);
   auto const model = read_model(run.model, run.choices);
   auto times = run_for_beam(call, shade_schedules(model));
-  auto const unknown = unknown_schedules(model, times.schedules);
-  if (!unknown.empty()) print_line("warning: " + describe_unknown(unknown));
+  if (auto const warning = warn_of_actuated(model)) print_line("warning: " + *warning);
   std::erase_if(times.times,
                 [&](RunTime const& time) { return !period.has(time) || !sun_is_up(time.sun); });
   if (times.times.empty()) {

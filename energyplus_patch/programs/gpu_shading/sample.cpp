@@ -131,9 +131,8 @@ RunTimes run_year(Source const& source, SampleSet const& set) {
   call.weather = source.weather;
   auto year = run_for_year(call, set.scene.schedules, steps_per_hour);
   if (set.scene.schedules.empty()) return year;
-  auto const unknown =
-      unknown_schedules(read_model(source.run.model, source.run.choices), year.schedules);
-  if (!unknown.empty()) print_line("warning: " + describe_unknown(unknown));
+  auto const model = read_model(source.run.model, source.run.choices);
+  if (auto const warning = warn_of_actuated(model)) print_line("warning: " + *warning);
   return year;
 }
 

@@ -81,11 +81,9 @@ void add_schedules(HostedModel& hosted, Model const& model, EnergyPlusCall const
   auto const names = shade_schedules(model);
   if (names.empty()) return;
   auto days = run_for_schedules(call, names);
-  auto const unknown = unknown_schedules(model, days.schedules);
-  if (!unknown.empty()) {
-    auto const warning = describe_unknown(unknown);
-    print_line("warning: " + warning);
-    hosted.messages.warnings.push_back(warning);
+  if (auto const warning = warn_of_actuated(model)) {
+    print_line("warning: " + *warning);
+    hosted.messages.warnings.push_back(*warning);
   }
   bool const every_day = model.shading.every_timestep || model.options.update.every_timestep;
   auto const clock = std::make_shared<ScheduleClock>(

@@ -8,6 +8,7 @@
 
 #include "gpu_shading/error.h"
 #include "gpu_shading/sun_position.h"
+#include "runs/schedule_value.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -25,8 +26,6 @@ double ahead_of_clock(ScheduleDay const& day, int day_of_year, int days) {
   }
   return sum / days / minutes + day.longitude / degrees_per_hour - day.time_zone;
 }
-
-double limited(double value) { return std::clamp(value, 0.0, 1.0); }
 
 }  // namespace
 
@@ -80,8 +79,8 @@ std::pair<double, double> ScheduleClock::range(std::string const& schedule) cons
   std::pair range(1.0, 0.0);
   for (auto const& day : days_.days) {
     for (std::size_t i = number; i < day.values.size(); i += days_.schedules.size()) {
-      range.first = std::min(range.first, limited(day.values[i]));
-      range.second = std::max(range.second, limited(day.values[i]));
+      range.first = std::min(range.first, checked_share(schedule, day.values[i]));
+      range.second = std::max(range.second, checked_share(schedule, day.values[i]));
     }
   }
   return range;
@@ -94,7 +93,7 @@ double ScheduleClock::value(std::string const& schedule, Moment moment) const {
   if (moment.timestep == 0 || day == nullptr) return range(schedule).first;
   auto const row =
       static_cast<std::size_t>((moment.hour - 1) * days_.steps_per_hour + moment.timestep - 1);
-  return limited(day->values.at(row * days_.schedules.size() + number));
+  return checked_share(schedule, day->values.at(row * days_.schedules.size() + number));
 }
 
 }  // namespace gpu_shading::energyplus

@@ -13,6 +13,7 @@
 
 #include "platform/progress.h"
 #include "runs/drawing.h"
+#include "scene/run_schedules.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -21,21 +22,6 @@ struct Receiver {
   SurfaceId id;
   glm::dvec3 area;  // times the unit normal
 };
-
-// A run's schedules at the time `now`; 0 for schedules that EnergyPlus does not know.
-Schedules schedules_of(RunTimes const& run, std::shared_ptr<RunTime const*> const& now) {
-  return {
-      [&run](std::string const& name) {
-        std::pair range(1.0, 0.0);
-        for (auto const& time : run.times) {
-          double const value = schedule_value(run, time, name);
-          range.first = std::min(range.first, value);
-          range.second = std::max(range.second, value);
-        }
-        return range;
-      },
-      [&run, now](std::string const& name, Moment) { return schedule_value(run, **now, name); }};
-}
 
 float fraction(Session& session, Receiver const& receiver, glm::dvec3 const& sun) {
   if (glm::dot(receiver.area, sun) <= 0.0) return 0.0F;
@@ -83,7 +69,9 @@ SunlitFractions render_fractions(Model model, std::vector<Surface> const& surfac
     receivers.push_back({id, area(surface.polygon) * normal(surface.polygon)});
     table.surfaces.push_back(surface.name);
   }
-  session.start({messages, schedules_of(run, now), latitude});
+  auto schedules = schedules_of(run, now);
+  schedules.position = nullptr;  // the weather that moving shades need is not known here
+  session.start({messages, std::move(schedules), latitude});
   Progress progress("rendering sunlit fractions", run.times.size());
   for (std::size_t i = 0; i < run.times.size(); ++i) {
     auto const& time = run.times[i];
@@ -122,22 +110,14 @@ void write_schedule_file(SunlitFractions const& table, std::ostream& out) {
   });
 }
 
-std::vector<std::string> unknown_schedules(Model const& model,
-                                           std::vector<std::string> const& known) {
-  std::vector<std::string> names;
-  for (auto const& name : shade_schedules(model)) {
-    if (model.shading.actuated.contains(name) || std::ranges::find(known, name) == known.end()) {
-      names.push_back(name);
-    }
-  }
-  return names;
-}
-
-std::string describe_unknown(std::vector<std::string> const& schedules) {
+std::optional<std::string> warn_of_actuated(Model const& model) {
+  auto names = shade_schedules(model);
+  std::erase_if(names, [&](auto const& name) { return !model.shading.actuated.contains(name); });
+  if (names.empty()) return std::nullopt;
   return fmt::format(
-      "Transmittance or Deployment Schedule {}: its values are set by an EMS actuator or another "
-      "program and not known in advance; the schedule's own values are used, if it has any",
-      fmt::join(schedules, ", "));
+      "{}: an EMS actuator sets this schedule of a shade, whose values are not known in advance; "
+      "the schedule's own values are used",
+      fmt::join(names, ", "));
 }
 
 std::vector<std::string> shade_schedules(Model const& model) {
@@ -149,6 +129,9 @@ std::vector<std::string> shade_schedules(Model const& model) {
     names.insert(screen.deployment_schedule);
   }
   names.insert(model.surroundings.leaf_schedules.begin(), model.surroundings.leaf_schedules.end());
+  for (auto const& shade : model.moving_shades) {
+    names.insert({shade.schedule, shade.availability});
+  }
   names.erase("");
   return {names.begin(), names.end()};
 }

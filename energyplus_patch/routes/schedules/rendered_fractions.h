@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,14 +35,11 @@ SunlitFractions render_fractions(Model model, std::vector<Surface> const& surfac
 // lacks.
 void write_schedule_file(SunlitFractions const& table, std::ostream& out);
 
-// The transmittance and deployment schedules of a model's shades, in upper case, without
-// duplicates.
+// The transmittance, deployment, leaf, position and availability schedules of a model's shades, in
+// upper case, without duplicates.
 std::vector<std::string> shade_schedules(Model const& model);
 
-// The schedules whose values are only known during the run, and a warning about these. `known`:
-// those of a short run.
-std::vector<std::string> unknown_schedules(Model const& model,
-                                           std::vector<std::string> const& known);
-std::string describe_unknown(std::vector<std::string> const& schedules);
+// A warning about those of them whose values are only known during the run, if any.
+std::optional<std::string> warn_of_actuated(Model const& model);
 
 }  // namespace gpu_shading::energyplus

@@ -90,8 +90,7 @@ double latitude_of(EnergyPlusCall const& call) {
 SunlitFractions render(EnergyPlusCall const& call, Model model, Collected& out) {
   auto const run = run_for_times(call, shade_schedules(model));
   if (run.times.empty()) return {};
-  auto const unknown = unknown_schedules(model, run.schedules);
-  if (!unknown.empty()) out.warn(describe_unknown(unknown));
+  if (auto const warning = warn_of_actuated(model)) out.warn(*warning);
   auto const surfaces = surfaces_of(run_for_surfaces(call), model.shading);
   return render_fractions(std::move(model), surfaces, run, out.messages(),
                           [&] { return latitude_of(call); });

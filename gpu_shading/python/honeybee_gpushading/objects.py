@@ -135,6 +135,7 @@ class MovingShade(ExtensionObject):
     minimum_beam: float | None = None
     hysteresis: float | None = None
     maximum_wind_speed: float | None = None
+    tolerance: float | None = None
 
     def moved(self, move: Any, turn: Any, mirrored: bool = False) -> MovingShade:
         """With functions that change a Point3D and a Vector3D."""

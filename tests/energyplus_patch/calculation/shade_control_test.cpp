@@ -7,12 +7,14 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <random>
 
 #include "gpu_shading/error.h"
 #include "model/idf/model_file.h"
+#include "runs/schedule_value.h"
 #include "scene/shade_motion.h"
 #include "support/shapes.h"
 
@@ -55,7 +57,9 @@ class ShadedRoom {
     scene_.add(drawn_surface("WINDOW", {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}));
     scene_.add(drawn_surface(
         "AWNING", {{-9, 0, 1}, {-9, -awning_depth, 1}, {10, -awning_depth, 1}, {10, 0, 1}}));
-    auto const value = [this](std::string const& name, Moment) { return schedules.at(name); };
+    auto const value = [this](std::string const& name, Moment) {
+      return checked_value(name, schedules.at(name));
+    };
     scene_.complete({[](std::string const&) { return std::pair{0.0, 1.0}; }, value, value});
     control_.emplace(scene_);
   }
@@ -174,6 +178,35 @@ TEST(ShadeControl, RoundsWhatAScheduleWants) {
   decision = room.decide(std::nullopt);
   EXPECT_EQ(decision.position, 1.0);
   EXPECT_EQ(decision.exact, 1.0);
+}
+
+TEST(ShadeControl, RefusesAPositionOrAvailabilityThatIsNotANumber) {
+  auto const nan = std::numeric_limits<double>::quiet_NaN();
+  ShadedRoom scheduled(awning_of(MovingShade::Control::schedule));
+  scheduled.schedules["POSITION"] = nan;
+  EXPECT_THAT(
+      [&] { scheduled.decide(std::nullopt); },
+      testing::ThrowsMessage<Error>(testing::HasSubstr(
+          "GPUShading:MovingShade Awning: Position Schedule Name: schedule \"POSITION\" has "
+          "the value nan; expected a finite number")));
+  auto shade = awning_of(MovingShade::Control::block_beam);
+  shade.availability = "AVAILABLE";
+  ShadedRoom available(shade);
+  available.schedules["AVAILABLE"] = nan;
+  EXPECT_THAT([&] { available.decide(covered_by(0.46)); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("Availability Schedule Name")));
+}
+
+TEST(ShadeControl, TakesAShareWithinTheToleranceAsNoBeam) {
+  auto shade = awning_of(MovingShade::Control::block_beam);
+  for (auto const& [tolerance, position] :
+       {std::pair(0.0, 0.5), {0.02, 0.5}, {0.14, 0.4}, {0.6, 0.2}}) {
+    shade.tolerance = tolerance;
+    // At 0.4 and 0.2, the awning leaves 13 % and 57 % of the window lit.
+    auto const decision = ShadedRoom(shade).decide(covered_by(0.46));
+    EXPECT_DOUBLE_EQ(decision.position, position) << tolerance;
+    EXPECT_EQ(decision.state, State::blocking);
+  }
 }
 
 TEST(ShadeControl, ReceiversMustBeInTheModel) {
@@ -300,8 +333,39 @@ ShadeControl::Decision decided(RandomScene const& random) {
   return control.decide(random.sun, {}).front();
 }
 
+// A panel of 1.6 m slides from the west before a window of 2 m.
+TEST(ShadeControl, AdmitsTheLeastBeamWhereNoPositionBlocksIt) {
+  RandomScene random;
+  random.shade.motion = MovingShade::Motion::slide;
+  random.shade.direction = {1, 0, 0};
+  random.shade.maximum = 4.0;
+  random.shade.step = 0.1;
+  random.shade.control = MovingShade::Control::block_beam;
+  random.shade.receivers = "WINDOW";
+  random.moving.push_back(south_facing(-2.0, -0.1, -1.0, 1.6, 3.0));
+  random.sun = sun_at(180.0, 5.0);
+  auto const decision = decided(random);
+  EXPECT_EQ(decision.state, State::admitting);
+  EXPECT_NEAR(decision.position, 2.0, 1e-9);  // the nearest to rest of 2.0 to 2.4
+}
+
 // A window that is a little larger tells slivers from darkness.
 constexpr double with_rim = 0.03;
+
+// Of 4,096: what the points may be off by, and what positions must differ by to be told apart.
+constexpr int few_points = 16;
+
+void expect_nearest_of_the_least(RandomScene const& random,
+                                 ShadeControl::Decision const& decision) {
+  int const admitted = lit_points(random, decision.position, 0.0);
+  double const moves = std::abs(decision.position - random.shade.rest);
+  for (double const position : random.shade.positions()) {
+    int const lit = lit_points(random, position, 0.0);
+    EXPECT_LE(admitted, lit + few_points) << position;
+    if (std::abs(position - random.shade.rest) > moves - 1e-9) continue;
+    EXPECT_GT(lit, admitted - few_points) << position;
+  }
+}
 
 void expect_nearest_without_beam(RandomScene const& random,
                                  ShadeControl::Decision const& decision) {
@@ -311,6 +375,7 @@ void expect_nearest_without_beam(RandomScene const& random,
   });
   if (decision.state == State::admitting) {
     EXPECT_FALSE(some_dark);
+    expect_nearest_of_the_least(random, decision);
     return;
   }
   EXPECT_EQ(lit_points(random, decision.position, 0.0), 0);

@@ -1,5 +1,6 @@
 #include "scene/shade_motion.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -131,6 +132,34 @@ TEST(ShadeMotion, FacesTheProfileAngleOfTheSun) {
   EXPECT_NEAR(position, 45.0, 1e-9);
   auto const facing = normal(moved(slat, shade, position));
   EXPECT_NEAR(glm::dot(facing, sun), std::numbers::sqrt2 / std::numbers::sqrt3, 1e-12);
+}
+
+TEST(ShadeMotion, OnlyParallelSurfacesTrackTheSunTogether) {
+  auto const surface = [](std::string name, Polygon polygon) {
+    Surface made;
+    made.name = std::move(name);
+    made.polygon = std::move(polygon);
+    return made;
+  };
+  auto const shade = shade_of(Motion::rotate);
+  auto higher = slat;
+  for (auto& point : higher.outline) point.z += 1.0;
+  auto facing_down = slat;
+  std::ranges::reverse(facing_down.outline);
+  EXPECT_NO_THROW(expect_parallel(
+      {surface("A", slat), surface("B", higher), surface("C", facing_down)}, shade));
+  // About its own axis, and about another one.
+  auto const tilted = moved(slat, shade, 20.0);
+  auto turned = slat;
+  for (auto& point : turned.outline) point = {-point.y, point.x, point.z};
+  for (auto const& [polygon, degrees] : {std::pair(tilted, "20"), {turned, "90"}}) {
+    EXPECT_THAT(
+        [&] {
+          expect_parallel({surface("A", slat), surface("B", polygon)}, shade);
+        },
+        testing::ThrowsMessage<Error>(
+            testing::HasSubstr(std::string("B is at ") + degrees + " degrees to A")));
+  }
 }
 
 TEST(ShadeMotion, PositionsAreOnTheGridAndAtItsEnds) {

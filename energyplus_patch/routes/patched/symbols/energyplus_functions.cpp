@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "gpu_shading/error.h"
+#include "runs/schedule_value.h"
 
 namespace gpu_shading::energyplus {
 
@@ -129,8 +130,13 @@ void EnergyPlusFunctions::add_output(State& state, std::string const& name, std:
 
 class ScheduleInterface {
  public:
-  // A schedule of EnergyPlus's: where it is, or its number; 0 if there is none.
-  using Handle = std::uintptr_t;
+  // A schedule of EnergyPlus's; neither an object nor a number: there is none.
+  struct Handle {
+    ScheduleObject* object = nullptr;  // from 25.1 on
+    int number = 0;
+
+    bool exists() const { return object != nullptr || number > 0; }
+  };
 
   ScheduleInterface() = default;
   virtual ~ScheduleInterface() = default;
@@ -154,35 +160,38 @@ class ScheduleObjects : public ScheduleInterface {
       : get_(symbol::get_schedule.in(symbols)),
         minimum_(symbol::schedule_minimum.in(symbols)),
         maximum_(symbol::schedule_maximum.in(symbols)),
-        index_(index_of(symbol::constant_schedule_at.in(symbols),
-                        symbol::constant_schedules.in(symbols))) {
+        constant_at_(symbol::constant_schedule_at.in(symbols)),
+        index_(index_of(constant_at_, symbol::constant_schedules.in(symbols))) {
+    if (has_all(symbols, Need::constants)) {
+      number_ = symbol::schedule_number.in(symbols);
+      current_ = symbol::current_schedule_value.in(symbols);
+    }
     if (index_) return;
     throw Error(
         fmt::format("{}: ScheduleConstant has no virtual getHrTsVal", symbols.library().string()));
   }
 
   Handle find(State& state, std::string const& name) const override {
-    return reinterpret_cast<Handle>(get_(state, name));
+    auto* const object = get_(state, name);
+    return {object, object != nullptr && number_ != nullptr ? number_(state, name) : 0};
   }
   double minimum(State& state, Handle schedule) const override {
-    return minimum_(object(schedule), state);
+    return minimum_(schedule.object, state);
   }
   double maximum(State& state, Handle schedule) const override {
-    return maximum_(object(schedule), state);
+    return maximum_(schedule.object, state);
   }
-  // By the object's own function, because releases add types of schedules.
+  // By the object's own function, because releases add types of schedules. That of a constant one
+  // ignores what an EMS or another program has set.
   double at(State& state, Handle schedule, Moment moment) const override {
-    auto const* const found = object(schedule);
-    auto* const* const functions = *reinterpret_cast<AtHour const* const*>(found);
-    return functions[*index_](found, state, moment.hour, moment.timestep);
+    auto const* const found = schedule.object;
+    auto const at_hour = (*reinterpret_cast<AtHour const* const*>(found))[*index_];
+    if (at_hour == constant_at_ && current_ != nullptr) return current_(state, schedule.number);
+    return at_hour(found, state, moment.hour, moment.timestep);
   }
 
  private:
   using AtHour = PointerTo<symbol::constant_schedule_at>;
-
-  static ScheduleObject* object(Handle schedule) {
-    return reinterpret_cast<ScheduleObject*>(schedule);  // NOLINT(performance-no-int-to-ptr)
-  }
 
   // Where a function is in a class's table of virtual functions.
   static std::optional<std::size_t> index_of(AtHour function, std::byte const* table) {
@@ -198,7 +207,10 @@ class ScheduleObjects : public ScheduleInterface {
   PointerTo<symbol::get_schedule> get_;
   PointerTo<symbol::schedule_minimum> minimum_;
   PointerTo<symbol::schedule_maximum> maximum_;
+  AtHour constant_at_;
   std::optional<std::size_t> index_;
+  PointerTo<symbol::schedule_number> number_ = nullptr;
+  PointerTo<symbol::current_schedule_value> current_ = nullptr;
 };
 
 // Before, they were numbered from 1.
@@ -211,16 +223,16 @@ class NumberedSchedules : public ScheduleInterface {
         at_(symbol::numbered_schedule_at.in(symbols)) {}
 
   Handle find(State& state, std::string const& name) const override {
-    return static_cast<Handle>(std::max(find_(state, name), 0));
+    return {nullptr, std::max(find_(state, name), 0)};
   }
   double minimum(State& state, Handle schedule) const override {
-    return minimum_(state, static_cast<int>(schedule));
+    return minimum_(state, schedule.number);
   }
   double maximum(State& state, Handle schedule) const override {
-    return maximum_(state, static_cast<int>(schedule));
+    return maximum_(state, schedule.number);
   }
   double at(State& state, Handle schedule, Moment moment) const override {
-    return at_(state, static_cast<int>(schedule), moment.hour, moment.timestep);
+    return at_(state, schedule.number, moment.hour, moment.timestep);
   }
 
  private:
@@ -230,8 +242,6 @@ class NumberedSchedules : public ScheduleInterface {
   PointerTo<symbol::numbered_schedule_at> at_;
 };
 
-double limited(double value) { return std::clamp(value, 0.0, 1.0); }
-
 // The schedules of one run.
 class FoundSchedules {
  public:
@@ -240,25 +250,26 @@ class FoundSchedules {
 
   std::pair<double, double> range(std::string const& name) {
     auto const found = schedule(name);
-    return {limited(interface_->minimum(state_, found)),
-            limited(interface_->maximum(state_, found))};
+    return {checked_share(name, interface_->minimum(state_, found)),
+            checked_share(name, interface_->maximum(state_, found))};
   }
 
   double unlimited(std::string const& name, Moment moment) {
-    return interface_->at(state_, schedule(name), moment);
+    return checked_value(name, interface_->at(state_, schedule(name), moment));
   }
 
   double at(std::string const& name, Moment moment) {
     auto const found = schedule(name);
-    return limited(moment.timestep > 0 ? interface_->at(state_, found, moment)
-                                       : interface_->minimum(state_, found));
+    return checked_share(name, moment.timestep > 0 ? interface_->at(state_, found, moment)
+                                                   : interface_->minimum(state_, found));
   }
 
  private:
   ScheduleInterface::Handle schedule(std::string const& name) {
-    auto const [place, added] = known_.try_emplace(name, 0);
+    auto const [place, added] = known_.try_emplace(name);
     if (added) place->second = interface_->find(state_, name);
-    if (place->second == 0) throw Error(fmt::format("EnergyPlus has no schedule \"{}\"", name));
+    if (!place->second.exists())
+      throw Error(fmt::format("EnergyPlus has no schedule \"{}\"", name));
     return place->second;
   }
 

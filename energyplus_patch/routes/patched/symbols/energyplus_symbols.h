@@ -56,6 +56,7 @@ enum class Need {
   run,             // sunlit fractions are passed by another route
   from_25_1,       // before_25_1 serves instead
   before_25_1,     // from_25_1 serves instead
+  constants,       // what an EMS or another program sets for a Schedule:Constant is ignored (25.1)
   eio_line,        // the .eio file has no lines on shading
   opaque_warning,  // EnergyPlus warns that pixel counting takes shades as opaque (before 24.2)
   sky_times,       // beam that reveals reflect is wrong where the sky follows schedules

@@ -14,6 +14,7 @@
 #include "platform/console.h"
 #include "platform/error_line.h"
 #include "routes/run_setup.h"
+#include "runs/schedule_value.h"
 
 namespace gpu_shading::answers {
 namespace {
@@ -57,8 +58,6 @@ Messages messages_of(Log const& log, Simulation const& simulation) {
           }};
 }
 
-double limited(double value) { return std::clamp(value, 0.0, 1.0); }
-
 // The simulation's schedules by name, whose numbers are asked for once.
 Schedules schedules_of(Simulation const& simulation) {
   auto const numbers = std::make_shared<std::map<std::string, int>>();
@@ -70,12 +69,12 @@ Schedules schedules_of(Simulation const& simulation) {
   };
   auto const range = [number, range_of = simulation.schedule_range](std::string const& name) {
     auto const [low, high] = range_of(number(name));
-    return std::pair(limited(low), limited(high));
+    return std::pair(checked_share(name, low), checked_share(name, high));
   };
   return {range, [number, range, value_of = simulation.schedule_value](std::string const& name,
                                                                        Moment moment) {
             if (moment.timestep <= 0) return range(name).first;
-            return limited(value_of(number(name), moment.hour, moment.timestep));
+            return checked_share(name, value_of(number(name), moment.hour, moment.timestep));
           }};
 }
 

@@ -79,10 +79,7 @@ TEST(MovingShades, WrongOnesAreNamedWithFieldAndValue) {
   expect_error(head + "Slat 1,Rotate,,,,,,,,,,0.001;", "Step is 0.001");
   expect_error(head + "Slat 1,Rotate,,,,,,,,,,,91;", "Position at Rest is 91");
   expect_error(head + "Slat 1,Rotate;", "Position Schedule Name");
-  expect_error(head +
-                   "Slat 1,Rotate,,,,,,,,,,,,,T;Schedule:Constant,T,,0;"
-                   "EnergyManagementSystem:Actuator,A,T,Schedule:Constant,Schedule Value;",
-               "T is a Schedule:Constant with an EMS actuator, expected a Schedule:Compact");
+  expect_error(head + "Slat 1,Rotate,,,,,,,,,,,,TrackSun,,,,,,,0.1;", "Tolerance");
   expect_error(head + "Slat 1,Rotate,,,,,,,,,,,,BlockBeam;", "Receiver Name");
   expect_error(head + "Slat 1,Slide,,0,1,0,,,,,,,,TrackSun;", "expected Motion Rotate");
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
@@ -99,6 +100,17 @@ TEST(RunTimes, EveryTimestep) {
   EXPECT_EQ(run.times[1].schedules[0], 0.25);
   EXPECT_EQ(row_of(run.times[0], 4), 59U * 96U);
   EXPECT_EQ(row_of(run.times[1], 4), 60U * 96U + 23U * 4U + 2U);
+}
+
+TEST(RunTimes, AScheduleThatIsMissingOrNotANumberIsAnError) {
+  RunTimes run{1, {}, {"LEAVES", "TILT"}};
+  run.times.push_back({1, 1, 12, 1, {}, {0.25, std::numeric_limits<double>::quiet_NaN()}});
+  EXPECT_EQ(schedule_value(run, run.times[0], "LEAVES"), 0.25);
+  EXPECT_THAT([&] { schedule_value(run, run.times[0], "OTHER"); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("none called \"OTHER\"")));
+  EXPECT_THAT([&] { schedule_value(run, run.times[0], "TILT"); },
+              testing::ThrowsMessage<Error>(
+                  "schedule \"TILT\" has the value nan; expected a finite number"));
 }
 
 TEST(RunTimes, FileThatIsCut) {
