@@ -57,9 +57,6 @@ function opacityNow(style, time) {
   return style.kind === "screen" ? shareNow(style, time) : 0.15 + 0.5 * (1 - passesNow(style, time));
 }
 
-// What maps and modules are drawn with, unlike the hours of the run.
-const AT_REST = content.motions.length > 0 ? ", moving shades at rest" : "";
-
 // null: there is none.
 function numberText(value, digits) {
   if (value === null) return "\u2013";

@@ -5,7 +5,7 @@ const MAP_KINDS = [["hours", "Sunlit hours", "h", 0], ["energy", "Beam energy", 
 
 function mapDays() {
   const text = (day) => `${Number(day.slice(3))} ${MONTHS[Number(day.slice(0, 2)) - 1].slice(0, 3)}`;
-  return `${text(content.maps.from)} to ${text(content.maps.to)}${AT_REST}`;
+  return `${text(content.maps.from)} to ${text(content.maps.to)}`;
 }
 
 // Red, green, blue and opacity of each cell, from the lowest row up.

@@ -59,7 +59,7 @@ function addModules() {
   part("modules").hidden = fields.length === 0;
   if (fields.length === 0) return;
   const text = ([month, day]) => dayText({month, day});
-  part("module-days").textContent = days.length > 0 ? `${text(days[0])} to ${text(days[days.length - 1])}${AT_REST}` : "no day";
+  part("module-days").textContent = days.length > 0 ? `${text(days[0])} to ${text(days[days.length - 1])}` : "no day";
   const surfaces = part("module-surface");
   surfaces.append(...fields.map((field, i) => new Option(field.surface, i)));
   surfaces.addEventListener("change", () => {
