@@ -17,9 +17,9 @@
 #include "platform/console.h"
 #include "platform/files.h"
 #include "platform/process.h"
-#include "platform/staged_files.h"
 #include "platform/text.h"
 #include "programs/gpu_shading/commands.h"
+#include "programs/gpu_shading/listed_folder.h"
 #include "programs/gpu_shading/screen_files.h"
 
 namespace gpu_shading::energyplus {
@@ -187,7 +187,7 @@ void print_legend() {
       "profile angle. Both faces are alike, and so are phi and phi + 180.\n");
 }
 
-void write_files(std::vector<DescribedScreen> const& screens, StagedFiles& files,
+void write_files(std::vector<DescribedScreen> const& screens, ListedFolder& files,
                  Path const& folder) {
   FileNames tables;
   FileNames plots;
@@ -208,7 +208,7 @@ void write_files(std::vector<DescribedScreen> const& screens, StagedFiles& files
       written.push_back(tile);
     }
   }
-  files.commit();
+  files.commit(nlohmann::ordered_json::object());
   print_text("\n");
   for (auto const& name : written) print("{}\n", (folder / name).string());
 }
@@ -260,8 +260,8 @@ void describe_screens(ScreenTask const& task, Choices const& choices) {
     throw Error(fmt::format("--bsdf {}: one file is for one screen, but {} are chosen; name one",
                             task.bsdf->string(), screens.size()));
   }
-  std::optional<StagedFiles> files;
-  if (task.folder) files.emplace(*task.folder);
+  std::optional<ListedFolder> files;
+  if (task.folder) files.emplace(*task.folder, "screens.json", "gpu_shading screens 1");
   for (auto const& screen : screens) {
     if (&screen != &screens.front()) print_text("\n");
     print_described(screen);
@@ -294,8 +294,9 @@ void add_screen(Program const& program) {
   command
       ->add_option_function<std::string>(
           "-o,--output", [task](std::string const& text) { task->folder = text; },
-          "Folder for NAME_tau.csv (transmittance by angles), NAME_tau.svg (polar plot) "
-          "and NAME_tile.png (one tile of the sheet)")
+          "Folder for NAME_tau.csv (transmittance by angles), NAME_tau.svg (polar plot) and "
+          "NAME_tile.png (one tile of the sheet): new, empty, or with earlier screens, which are "
+          "replaced")
       ->type_name("DIR");
   command
       ->add_option_function<std::string>(

@@ -11,9 +11,9 @@
 
 #include "platform/console.h"
 #include "platform/process.h"
-#include "platform/staged_files.h"
 #include "platform/text.h"
 #include "programs/gpu_shading/commands.h"
+#include "programs/gpu_shading/listed_folder.h"
 #include "runs/run_times.h"
 #include "tasks/samples/sky_patches.h"
 #include "tasks/task_file.h"
@@ -106,11 +106,11 @@ void write_views(std::vector<ReceiverFractions> const& receivers, std::ostream& 
 }  // namespace
 
 void sample_sky(ModelRun const& run, std::filesystem::path const& folder) {
-  StagedFiles files(folder);
+  ListedFolder files(folder, "sky.json", "gpu_shading sky 1");
   auto const receivers = render_sky(run);
   files.write("sky.csv", [&](std::ostream& out) { write_patches(receivers, out); });
   files.write("sky_view.csv", [&](std::ostream& out) { write_views(receivers, out); });
-  files.commit();
+  files.commit(nlohmann::ordered_json::object());
   for (auto const* const name : {"sky.csv", "sky_view.csv"}) {
     print("{}\n", (folder / name).string());
   }
