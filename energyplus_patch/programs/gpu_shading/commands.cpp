@@ -89,9 +89,20 @@ void Command::refuse_ignored_flags() const {
   }
 }
 
+void Command::refuse_blank_words() const {
+  for (auto const* const option : app_->get_options()) {
+    for (auto const& text : option->results()) {
+      if (!text.empty()) continue;
+      throw Error(fmt::format("{} is blank; expected {} (see gpu_shading {} --help)",
+                              option->get_name(), option->get_type_name(), app_->get_name()));
+    }
+  }
+}
+
 void Command::run(std::function<void()> const& action) const {
   app_->callback([command = *this, action] {
     command.refuse_ignored_flags();
+    command.refuse_blank_words();
     action();
   });
 }

@@ -51,6 +51,8 @@ class Command {
 
  private:
   void refuse_ignored_flags() const;
+  // A blank name of a folder would be the current one.
+  void refuse_blank_words() const;
 
   CLI::App* app_;
   Program const& program_;

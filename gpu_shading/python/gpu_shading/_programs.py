@@ -90,6 +90,13 @@ def file(name: Name, what: str) -> Path:
     return path.absolute()
 
 
+def folder(name: Name | None, otherwise: Path) -> Path:
+    """The absolute path of a folder for results. A blank name would be the current folder."""
+    if name is not None and not os.fspath(name):
+        raise InvalidInput("folder: blank; expected the name of a folder")
+    return Path(otherwise if name is None else name).absolute()
+
+
 def inputs(model: Name, weather: Name | None) -> list[str | Path]:
     """The arguments that name a model and its weather file, which must be there."""
     arguments: list[str | Path] = [file(model, "model")]

@@ -128,7 +128,7 @@ def modules(model: _programs.Name, weather: _programs.Name, folder: _programs.Na
     `gpu_shading modules` does, and reads what it writes. `folder`: where that is kept."""
     arguments = _programs.inputs(model, weather) + _programs.flags(**{"from": first}, to=last)
     with tempfile.TemporaryDirectory(prefix="gpu_shading_modules_") as temporary:
-        kept = Path(folder or Path(temporary) / "modules").absolute()
+        kept = _programs.folder(folder, Path(temporary) / "modules")
         _programs.gpu_shading(["modules", *arguments, "-o", kept])
         return read_modules(kept)
 

@@ -233,7 +233,7 @@ def empty_folder(folder: _programs.Name | None) -> Path:
     """A new or empty folder, made where there is none; a temporary one for None."""
     if folder is None:
         return Path(tempfile.mkdtemp(prefix="gpu_shading_run_"))
-    path = Path(folder).absolute()
+    path = _programs.folder(folder, Path())
     try:
         path.mkdir(parents=True, exist_ok=True)
         if any(path.iterdir()):

@@ -35,7 +35,7 @@ def sample(model: _programs.Name, weather: _programs.Name, folder: _programs.Nam
     arguments: list[str | Path] = ["sample", _programs.file(model, "model"), "-w", _programs.file(weather, "weather"),
                                    "--mode", mode]
     with tempfile.TemporaryDirectory(prefix="gpu_shading_samples_") as temporary:
-        kept = Path(folder or temporary).absolute()
+        kept = _programs.folder(folder, Path(temporary))
         _programs.gpu_shading([*arguments, "-o", kept])
         return read_samples(kept)
 
