@@ -10,6 +10,6 @@ def printable(text):
 
 def in_words(error):
     """The file and what is wrong with it, without the number that Python puts first."""
-    if isinstance(error, OSError) and error.strerror and error.filename is not None:
-        return printable(f"{error.filename}: {error.strerror}")
-    return printable(str(error))
+    if not isinstance(error, OSError) or not error.strerror:
+        return printable(str(error))
+    return printable(error.strerror if error.filename is None else f"{error.filename}: {error.strerror}")
