@@ -57,10 +57,9 @@ def test_exported_fractions_know_the_season(weather, tmp_path):
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     table = rows_of(tmp_path / "out" / "gpu_shading_sunlit.csv")
-    steps = len(table) // 8784
-    day = 31 + 29 + 31 + 30 + 31 + 30 + 31 + 31 + 30 + 20  # before October 21
-    row = table[steps * (24 * day + 8) + (steps // 4 if steps > 1 else 0) - (0 if steps == 1 else 1)]
-    assert float(row["WINDOW"]) < 0.02
+    # October 21 of a leap year, 8:30 to 8:45; 0.329 without leaves.
+    row = table[4 * 24 * (31 + 29 + 31 + 30 + 31 + 30 + 31 + 31 + 30 + 20) + 34]
+    assert float(row["WINDOW"]) == pytest.approx(0.0065, abs=2e-4)
 
 
 MOVING = {
