@@ -11,6 +11,8 @@ from test_search_paths import ours_of
 from test_wheel import WHEELS
 
 PROGRAMS = {"energyplus", "gpu_shading", "gpu_shading_image_decoder", "gpu_shading_mesh_decoder"}
+# Others may call no function that has a checked variant.
+CHECKED = {"energyplus", "gpu_shading", "libgpu_shading_energyplus.so"}
 
 
 def readelf(path, *options):
@@ -19,7 +21,7 @@ def readelf(path, *options):
 
 def lacking(path):
     """The protections that a file lacks."""
-    headers, dynamic = readelf(path, "-lh"), readelf(path, "-d")
+    headers, dynamic, symbols = readelf(path, "-lh"), readelf(path, "-d"), readelf(path, "--dyn-syms")
     stack = re.search(r"GNU_STACK.* (RWE?) ", headers)
     has = {
         "position-independent": bool(re.search(r"Type:\s+DYN", headers)),
@@ -27,6 +29,9 @@ def lacking(path):
         "read-only relocations": "GNU_RELRO" in headers,
         "bound when loaded": bool(re.search(r"BIND_NOW|Flags:.*NOW", dynamic)),
         "no executable stack": bool(stack) and stack[1] == "RW",
+        # A small library may call nothing that has a checked variant.
+        "stack protector": "__stack_chk_fail" in symbols or path.stat().st_size < 100_000,
+        "checked functions of the C library": path.name not in CHECKED or "_chk@GLIBC" in symbols,
     }
     return [name for name, found in has.items() if not found]
 
