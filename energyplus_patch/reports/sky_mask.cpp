@@ -28,6 +28,8 @@ ShadeKind kind_of(ShadingInput const& input, std::string const& name) {
   return found->second.type.starts_with("Shading:Site") ? ShadeKind::neighbours : ShadeKind::shades;
 }
 
+bool is_stopped(BeamShare const& share) { return share.faced && share.sunlit <= 0.5F; }
+
 // What becomes of a ray's beam.
 void add_ray(BeamShare& share, std::vector<RayLayer> const& layers,
              std::vector<ShadeKind> const& kinds, double weight) {
@@ -169,16 +171,36 @@ SkyView sky_view(SkyGrid const& grid, std::span<BeamShare const> shares, glm::dv
   return sums;
 }
 
-std::vector<double> horizon_of(SkyGrid const& grid, std::span<BeamShare const> shares) {
-  std::vector<double> heights(grid.columns(), 0.0);
+std::vector<double> trace_horizon(RayScene const& rays, RayConditions const& conditions,
+                                  std::vector<ShadeKind> const& kinds, MaskPoints const& points,
+                                  SkyGrid const& grid, std::span<BeamShare const> shares) {
+  auto const directions = grid.directions();
+  std::vector<double> low(grid.columns());   // radians: stopped, or the level
+  std::vector<double> high(grid.columns());  // clear, or the zenith
   for (std::size_t column = 0; column < grid.columns(); ++column) {
-    std::size_t row = 0;
-    while (row < grid.rows()) {
-      auto const& share = shares[row * grid.columns() + column];
-      if (!share.faced || share.sunlit > 0.5F) break;
-      ++row;
+    low[column] = 0.0;
+    high[column] = glm::radians(90.0);
+    for (std::size_t row = 0; row < grid.rows(); ++row) {
+      auto const cell = row * grid.columns() + column;
+      double const altitude = directions[cell].altitude;
+      (is_stopped(shares[cell]) ? low : high)[column] = altitude;
+      if (!is_stopped(shares[cell])) break;
     }
-    heights[column] = static_cast<double>(row) * grid.step();
+  }
+  constexpr double resolution = 0.01;
+  for (double width = grid.step(); width > resolution; width /= 2.0) {
+    std::vector<SunDirection> middles;
+    for (std::size_t column = 0; column < grid.columns(); ++column) {
+      middles.push_back({directions[column].azimuth, (low[column] + high[column]) / 2.0});
+    }
+    auto const found = trace_shares(rays, conditions, kinds, points, middles);
+    for (std::size_t column = 0; column < grid.columns(); ++column) {
+      (is_stopped(found[column]) ? low : high)[column] = middles[column].altitude;
+    }
+  }
+  std::vector<double> heights;
+  for (std::size_t column = 0; column < grid.columns(); ++column) {
+    heights.push_back(low[column] > 0.0 ? glm::degrees((low[column] + high[column]) / 2.0) : 0.0);
   }
   return heights;
 }

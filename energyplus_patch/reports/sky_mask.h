@@ -89,9 +89,11 @@ struct SkyView {
 };
 SkyView sky_view(SkyGrid const& grid, std::span<BeamShare const> shares, glm::dvec3 const& normal);
 
-// The altitude, degrees, below which more than half of the beam is stopped, by column of the grid;
-// 0 where the receiver does not face the horizon. What hangs over a clear part of the sky is no
-// horizon.
-std::vector<double> horizon_of(SkyGrid const& grid, std::span<BeamShare const> shares);
+// The altitude, degrees, below which more than half of the beam is stopped, to 0.01 degrees, at the
+// middle of each column of the grid; 0 where the receiver does not face the horizon. What hangs
+// over a clear part of the sky is no horizon. `shares`: trace_shares() of the grid's directions.
+std::vector<double> trace_horizon(RayScene const& rays, RayConditions const& conditions,
+                                  std::vector<ShadeKind> const& kinds, MaskPoints const& points,
+                                  SkyGrid const& grid, std::span<BeamShare const> shares);
 
 }  // namespace gpu_shading::energyplus

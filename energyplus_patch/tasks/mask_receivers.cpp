@@ -106,7 +106,8 @@ std::string perform(MaskTask const& task, SceneAssembly& scene, Messages const& 
   auto const casters = scene.scene();
   RayScene const rays(casters, {.screens = ScreenDetail::automatic});
   auto const kinds = kinds_of(scene, casters);
-  auto const directions = SkyGrid(task.step).directions();
+  SkyGrid const grid(task.step);
+  auto const directions = grid.directions();
   auto const areas = scene.areas();
   Progress progress("tracing rays to the sky", places.size(), task.progress);
   std::vector<ReceiverMask> masks;
@@ -119,6 +120,7 @@ std::string perform(MaskTask const& task, SceneAssembly& scene, Messages const& 
                       point,
                       trace_shares(rays, conditions, kinds, to_sky, directions),
                       trace_shares(rays, conditions, kinds, to_suns, task.suns)};
+    mask.horizon = trace_horizon(rays, conditions, kinds, to_sky, grid, mask.sky);
     for (std::size_t k = 0; k < mask.suns.size() && !point; ++k) {
       set_sunlit(mask.suns[k], fractions[i][k]);
     }

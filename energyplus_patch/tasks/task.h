@@ -99,6 +99,7 @@ struct ReceiverMask {
   // By sun. Sunlit fractions of whole receivers are rendered as EnergyPlus asks for them; what
   // stops the beam is by rays.
   std::vector<BeamShare> suns;
+  std::vector<double> horizon = {};  // degrees, by column of SkyGrid(step)
 };
 
 // View factors of exterior surfaces to sky, ground and groups of surfaces, with schedules at their

@@ -252,7 +252,8 @@ ReceiverMask mask_of(Json const& json) {
   ReceiverMask mask{{json.at("name"), ring_of(json.at("area")).front()},
                     std::nullopt,
                     shares_of(json.at("sky")),
-                    shares_of(json.at("suns"))};
+                    shares_of(json.at("suns")),
+                    json.at("horizon")};
   auto const point = ring_of(json.at("point"));
   if (!point.empty()) mask.point = point.front();
   return mask;
@@ -318,12 +319,13 @@ std::vector<ReceiverFractions> read_fractions(Path const& file) {
 
 void write_masks(Path const& file, std::vector<ReceiverMask> const& masks) {
   Json json = Json::array();
-  for (auto const& [receiver, point, sky, suns] : masks) {
+  for (auto const& [receiver, point, sky, suns, horizon] : masks) {
     json.push_back({{"name", receiver.name},
                     {"area", ring_to_json({receiver.area})},
                     {"point", ring_to_json(point ? Ring{*point} : Ring{})},
                     {"sky", shares_to_json(sky)},
-                    {"suns", shares_to_json(suns)}});
+                    {"suns", shares_to_json(suns)},
+                    {"horizon", horizon}});
   }
   write(file, json);
 }

@@ -64,11 +64,10 @@ void write_sky(ReceiverMask const& mask, SkyGrid const& grid, std::ostream& csv)
 }
 
 void write_horizon(ReceiverMask const& mask, SkyGrid const& grid, std::ostream& text) {
-  auto const heights = horizon_of(grid, mask.sky);
   constexpr double south = 180.0;
-  for (std::size_t i = 0; i < heights.size(); ++i) {
-    text << fmt::format("{:g} {:g}\n", (static_cast<double>(i) + 0.5) * grid.step() - south,
-                        heights[i]);
+  for (std::size_t i = 0; i < mask.horizon.size(); ++i) {
+    text << fmt::format("{:g} {:.2f}\n", (static_cast<double>(i) + 0.5) * grid.step() - south,
+                        mask.horizon[i]);
   }
 }
 

@@ -37,15 +37,31 @@ struct Shade {
   BeamFilter filter = {};
 };
 
-std::vector<BeamShare> sky_behind(std::vector<Shade> const& casters, SkyGrid const& grid,
-                                  glm::dvec3 const& normal = south) {
+struct Street {
+  explicit Street(std::vector<Shade> const& casters) {
+    for (auto const& [polygon, kind, filter] : casters) {
+      scene.add({"caster", polygon, Casting::always, filter});
+      kinds.push_back(kind);
+    }
+  }
+
   Scene scene;
   std::vector<ShadeKind> kinds;
-  for (auto const& [polygon, kind, filter] : casters) {
-    scene.add({"caster", polygon, Casting::always, filter});
-    kinds.push_back(kind);
-  }
-  return trace_shares(RayScene(scene), {}, kinds, point_at({0, 0, 0}, normal), grid.directions());
+};
+
+std::vector<BeamShare> sky_behind(std::vector<Shade> const& casters, SkyGrid const& grid,
+                                  glm::dvec3 const& normal = south) {
+  Street const street(casters);
+  return trace_shares(RayScene(street.scene), {}, street.kinds, point_at({0, 0, 0}, normal),
+                      grid.directions());
+}
+
+std::vector<double> horizon_behind(std::vector<Shade> const& casters, SkyGrid const& grid) {
+  Street const street(casters);
+  RayScene const rays(street.scene);
+  auto const point = point_at({0, 0, 0}, south);
+  auto const sky = trace_shares(rays, {}, street.kinds, point, grid.directions());
+  return trace_horizon(rays, {}, street.kinds, point, grid, sky);
 }
 
 // Checks that what is in front of the wall is sunlit, or stopped by one kind, as a closed form
@@ -82,12 +98,14 @@ TEST(SkyMask, AWallAcrossTheStreetIsTheHorizon) {
   auto const sky = sky_behind({{street_wall(height, distance), ShadeKind::neighbours}}, grid);
   expect_sky(sky, grid, ShadeKind::neighbours,
              [](double towards, double, double up) { return up / towards > height / distance; });
-  auto const heights = horizon_of(grid, sky);
+  auto const heights =
+      horizon_behind({{street_wall(height, distance), ShadeKind::neighbours}}, grid);
+  ASSERT_EQ(heights.size(), grid.columns());
   for (std::size_t i = 0; i < heights.size(); ++i) {
     double const from_south = (static_cast<double>(i) + 0.5) * grid.step() - 180.0;
     double const expected = glm::degrees(
         std::atan(height / distance * std::max(std::cos(glm::radians(from_south)), 0.0)));
-    EXPECT_NEAR(heights[i], expected, grid.step() / 2.0) << from_south;
+    EXPECT_NEAR(heights[i], expected, 0.01) << from_south;
   }
   // An infinite strip in front of a vertical surface leaves (1 - sin(beta)) / 2 of the sky.
   double const beta = std::atan(height / distance);
@@ -95,6 +113,21 @@ TEST(SkyMask, AWallAcrossTheStreetIsTheHorizon) {
   EXPECT_NEAR(view.view, (1.0 - std::sin(beta)) / 2.0, 0.002);
   EXPECT_NEAR(view.view + view.stopped.at(static_cast<std::size_t>(ShadeKind::neighbours)), 0.5,
               1e-6);
+}
+
+TEST(SkyMask, AHorizonEndsAtTheZenithAndAtTheLevel) {
+  SkyGrid const grid(10);
+  // A low wall under the first directions of the grid, and one above the zenith's.
+  for (auto const height : horizon_behind({{street_wall(0.4, 9.3), ShadeKind::shades}}, grid)) {
+    EXPECT_LE(height, glm::degrees(std::atan(0.4 / 9.3)) + 0.01);
+  }
+  auto const heights = horizon_behind({{street_wall(0.4, 9.3), ShadeKind::shades}}, grid);
+  EXPECT_NEAR(heights[grid.columns() / 2],
+              glm::degrees(std::atan(0.4 / 9.3 * std::cos(glm::radians(5.0)))), 0.01);
+  EXPECT_EQ(heights.front(), 0.0);
+  auto const all = horizon_behind(
+      {{ledge(1.0, far), ShadeKind::shades}, {street_wall(far, 1.0), ShadeKind::neighbours}}, grid);
+  EXPECT_NEAR(all[grid.columns() / 2], 90.0, 0.05);
 }
 
 TEST(SkyMask, AFinShadesItsSide) {
