@@ -130,8 +130,6 @@ InputObject from_epjson(ExtensionType const& type, std::string const& name,
   return object;
 }
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
 // Without the byte order mark, lines ended by \n.
 std::string normalised(std::string text) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <utility>
 
 #include "model/idf/input_object.h"
@@ -20,6 +21,25 @@ void unwrap(IdfObject& object) {
   object.fields.erase(object.fields.begin());
 }
 
+// How the commas of an object are written.
+class CommaStyle {
+ public:
+  void add(std::string_view text, std::size_t at) {
+    auto const is = [](int (*kind)(int), char each) {
+      return kind(static_cast<unsigned char>(each)) != 0;
+    };
+    if (text[at] != ',' || at == 0 || at + 1 == text.size()) return;
+    if (is(std::isspace, text[at + 1])) spaced_ = true;
+    if (is(std::isdigit, text[at - 1]) && is(std::isdigit, text[at + 1])) in_number_ = true;
+  }
+
+  bool are_mixed() const { return spaced_ && in_number_; }
+
+ private:
+  bool spaced_ = false;
+  bool in_number_ = false;
+};
+
 }  // namespace
 
 std::vector<IdfObject> parse_idf(std::string_view text) {
@@ -27,6 +47,7 @@ std::vector<IdfObject> parse_idf(std::string_view text) {
   IdfObject current;
   std::string token;
   bool inside = false;
+  CommaStyle commas;
   auto const take_token = [&] {
     if (current.type.empty() && current.fields.empty()) {
       current.type = trimmed(token);
@@ -39,7 +60,8 @@ std::vector<IdfObject> parse_idf(std::string_view text) {
     unwrap(current);
     if (!current.type.empty()) objects.push_back(std::move(current));
   };
-  for (std::size_t at = 0; at < text.size(); ++at) {
+  for (std::size_t at = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+       at < text.size(); ++at) {
     char const c = text[at];
     if (c == '!') {
       at = text.find('\n', at);
@@ -47,9 +69,12 @@ std::vector<IdfObject> parse_idf(std::string_view text) {
       continue;
     }
     if (c == ',' || c == ';') {
+      commas.add(text, at);
       take_token();
       if (c == ';') {
         current.end = at + 1;
+        current.has_decimal_comma = commas.are_mixed();
+        commas = {};
         take_object();
         current = {};
         inside = false;

@@ -119,6 +119,36 @@ void take_out(nlohmann::json& model, Names const& left_out) {
   for (auto const& type : emptied) model.erase(type);
 }
 
+// EnergyPlus's messages count lines, and its parser takes quadratic time over blank lines before a
+// comment, but linear time over comments.
+std::string comment_lines(std::ptrdiff_t lines) {
+  std::string text;
+  for (; lines > 0; --lines) text += "!\n";
+  return text;
+}
+
+// Whether nothing but blanks comes before the next line.
+bool ends_line(std::string_view text) {
+  auto const next = text.find_first_not_of(" \t\r");
+  return next == std::string_view::npos || text[next] == '\n';
+}
+
+// As many lines as before, with a field on each.
+std::string changed_shadow_calculation(IdfObject const& object, Rewrite const& rewrite,
+                                       std::ptrdiff_t lines) {
+  auto fields = object.fields;
+  fields.resize(std::max(fields.size(), frequency_field + 1));
+  fields[method_field] = rewrite.shading_method;
+  if (!rewrite.update_frequency.empty()) fields[frequency_field] = rewrite.update_frequency;
+  std::string text = object.type;
+  for (auto const& field : fields) {
+    text += lines > 0 ? ",\n  " : ",";
+    text += field;
+    if (lines > 0) --lines;
+  }
+  return text + ";" + (lines > 0 ? "\n" : "") + comment_lines(lines - 1);
+}
+
 }  // namespace
 
 std::vector<InputObject> read_idf(std::string_view text) {
@@ -238,13 +268,10 @@ std::string rewrite_idf(std::string_view text, std::vector<IdfObject> const& par
     if (!shadow && !is_extension(object.type) && !goes(object, rewrite.left_out)) continue;
     result += text.substr(copied, object.begin - copied);
     copied = object.end;
-    if (!shadow) continue;
-    found = true;
-    auto fields = object.fields;
-    fields.resize(std::max(fields.size(), frequency_field + 1));
-    fields[method_field] = rewrite.shading_method;
-    if (!rewrite.update_frequency.empty()) fields[frequency_field] = rewrite.update_frequency;
-    result += format_idf(object.type, fields);
+    auto const lines = std::ranges::count(text.substr(object.begin, copied - object.begin), '\n');
+    found = found || shadow;
+    result += shadow ? changed_shadow_calculation(object, rewrite, lines)
+                     : comment_lines(lines) + (ends_line(text.substr(copied)) ? "!" : "");
   }
   result += text.substr(copied);
   // What follows must not become part of it. EnergyPlus takes a line break for part of a field, so
@@ -252,16 +279,16 @@ std::string rewrite_idf(std::string_view text, std::vector<IdfObject> const& par
   bool const is_open = !parsed.empty() && !parsed.back().is_closed && copied < text.size();
   bool const in_comment = text.substr(text.rfind('\n') + 1).find('!') != std::string_view::npos;
   if (is_open) result += in_comment ? "\n;\n" : ";\n";
+  std::string added;
   if (!found) {
-    result += '\n';
-    result += format_idf(shadow_calculation, {rewrite.shading_method, rewrite.update_frequency});
+    added += format_idf(shadow_calculation, {rewrite.shading_method, rewrite.update_frequency});
   }
-  if (!rewrite.placeholders.empty()) result += '\n';
-  for (auto const& schedule : rewrite.schedules) result += schedule_idf(schedule);
+  for (auto const& schedule : rewrite.schedules) added += schedule_idf(schedule);
   for (auto const& placeholder : rewrite.placeholders) {
-    result += format_idf(placeholder_type, placeholder_fields(placeholder));
+    added += format_idf(placeholder_type, placeholder_fields(placeholder));
   }
-  if (rewrite.objects) result += '\n' + read_text_file(*rewrite.objects);
+  if (rewrite.objects) added += read_text_file(*rewrite.objects);
+  if (!added.empty()) result += '\n' + added;
   return result;
 }
 

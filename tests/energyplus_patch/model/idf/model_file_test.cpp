@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "gpu_shading/error.h"
 #include "model/idf/idf_text.h"
 
@@ -48,6 +50,48 @@ TEST(RewriteIdf, ExtensionObjectsAreTakenOut) {
   EXPECT_THAT(text, Not(HasSubstr("GPUShading")));
   EXPECT_THAT(text, HasSubstr("A,1;"));
   EXPECT_THAT(text, HasSubstr("B,2;"));
+}
+
+std::ptrdiff_t line_of(std::string const& text, std::string const& word) {
+  return std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find(word)),
+                    '\n');
+}
+
+TEST(RewriteIdf, WhatStaysKeepsItsLine) {
+  for (std::string const shadow :
+       {"ShadowCalculation;", "ShadowCalculation,PolygonClipping;",
+        "ShadowCalculation,\n  PolygonClipping,  !- Method\n  Periodic;  !- Frequency\n",
+        "ShadowCalculation,\n\n\n\n\n  PolygonClipping;",
+        "ShadowCalculation,\n  PolygonClipping,\n  Periodic,\n  20,\n  15000,\n  ,\n  512;"}) {
+    auto const model = "Version,9.6;\n" + shadow +
+                       " ! note\nGPUShading:Settings,\n  1024;  !- Resolution\nA,1; "
+                       "GPUShading:TransparentShade,\nS,L,Constant,0.5; B,2;\n\nC,3;";
+    auto const text = rewritten(model, {"PixelCounting", "Timestep"});
+    for (auto const* const word : {"ShadowCalculation", "! note", "A,1", "B,2", "C,3"}) {
+      EXPECT_EQ(line_of(text, word), line_of(model, word)) << word << " in\n" << text;
+    }
+    EXPECT_EQ(shadow_fields(text)[0], "PixelCounting");
+    EXPECT_EQ(shadow_fields(text)[1], "Timestep");
+    EXPECT_EQ(parse_idf(text).size(), 5U) << text;
+  }
+}
+
+// EnergyPlus's parser takes quadratic time over blank lines before a comment.
+TEST(RewriteIdf, RemovedObjectsLeaveNoRunsOfBlankLines) {
+  std::string model = "A,1;\n";
+  for (int i = 0; i < 1000; ++i) {
+    model += i % 2 == 0 ? "GPUShading:TransparentShade,\n  S,\n  L,\n  Constant,\n  0.5;\n"
+                        : "GPUShading:TransparentShade,S,L,Constant,0.5;  \n";
+  }
+  auto const text = rewritten(model + "! note\nB,2;", pixel_counting);
+  EXPECT_EQ(text.find("\n\n\n"), std::string::npos);
+  EXPECT_EQ(text.find("\n  \n"), std::string::npos);
+}
+
+TEST(ReadIdf, AByteOrderMarkIsSkipped) {
+  auto const objects = parse_idf("\xEF\xBB\xBFVersion,9.6;");
+  ASSERT_EQ(objects.size(), 1U);
+  EXPECT_EQ(objects[0].type, "Version");
 }
 
 TEST(RewriteEpJson, OnlyTheMethodChanges) {
