@@ -12,6 +12,7 @@
 #include "model/extensions/extension_fields.h"
 #include "model/geometry_rules.h"
 #include "model/idf/extension_objects.h"
+#include "model/input/plausible_lengths.h"
 #include "model/site/site_clock.h"
 #include "model/site/texture_axes.h"
 #include "platform/text.h"
@@ -175,6 +176,8 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   take_unconfined_decoding();  // of an earlier model
   auto const side = find_side_file(path, choices);
   if (side) {
+    model.remarks.push_back(fmt::format("{}... objects are also read from {}", extension_prefix,
+                                        side->filename().string()));
     for (auto& object : read_side_file(*side)) {
       object.file = side->string();
       objects.push_back(std::move(object));
@@ -188,6 +191,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   AssetFolder const assets(folder, choices.assets.value_or(Assets::restricted));
   model.surroundings = read_surroundings(objects, assets, reader.horizons);
   add_surroundings(model.surroundings, model.shading);
+  model.warnings = warn_of_lengths(objects);
   model.shades = read_transparent_shades(objects, model.shading, folder);
   model.screens = read_perforated_screens(objects, model.shading, model.shades, assets);
   check_textures(model.surroundings, model.screens);
@@ -203,9 +207,16 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   add_surrounding_objects(choices, model);
   plan_rays(objects, reader, model);
   if (model.options.mode != Mode::off) {
+    if (reader.release) {
+      auto warning = check_supported(model.shading, model.file, *reader.release);
+      if (!warning.empty()) model.early_warnings.push_back(std::move(warning));
+    }
     check_location(objects);
     model.transform_warning = warn_of_transform(objects);
     model.simplified = find_simplified_surfaces(objects, model.shading, model.lean.left_out);
+    if (!model.simplified.warning.empty()) {
+      model.early_warnings.push_back(model.simplified.warning);
+    }
     if (!model.surroundings.empty()) ensure_placeholders(model.lean, model.shading);
     prepare_for_moving_shades(model);
     for (auto const& modules : model.pv_modules) model.remarks.push_back(modules.describe());

@@ -36,12 +36,13 @@ struct Model {
   Surroundings surroundings;
   std::vector<SurroundingGroup> surrounding_groups;
   std::optional<std::filesystem::path> surrounding_objects;  // to be added to EnergyPlus's input
-  Names own_environments;                 // surfaces with a SurfaceProperty:LocalEnvironment
-  bool daylighting_answered = false;      // rays of daylighting ask this module
-  bool reflections_answered = false;      // rays of solar reflections do
-  std::vector<std::string> ray_warnings;  // see warn_of_rays
-  std::string transform_warning;          // see warn_of_transform; or ""
-  std::vector<std::string> warnings;      // more of them, about moving shades and view factors
+  Names own_environments;                   // surfaces with a SurfaceProperty:LocalEnvironment
+  bool daylighting_answered = false;        // rays of daylighting ask this module
+  bool reflections_answered = false;        // rays of solar reflections do
+  std::vector<std::string> ray_warnings;    // see warn_of_rays
+  std::string transform_warning;            // see warn_of_transform; or ""
+  std::vector<std::string> early_warnings;  // for before the run, since EnergyPlus may stop
+  std::vector<std::string> warnings;        // more of them, about moving shades and view factors
   std::vector<std::string> remarks;
 };
 
@@ -53,6 +54,7 @@ struct Reader {
   // Those of daylighting can be answered in models with solar reflections, too.
   bool reflections_in_daylight = false;
   bool horizons = true;  // of sites; false to check a model without reading all that is far away
+  std::optional<Release> release = std::nullopt;  // to check the model's version against
 };
 
 // Reads a model's objects together with those of its side file, and resolves all options.

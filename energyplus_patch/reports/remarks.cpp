@@ -16,29 +16,19 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-void describe_surroundings(SceneAssembly const& scene, Messages const& messages) {
-  auto const& model = scene.model();
-  auto const& surroundings = model.surroundings;
-  if (surroundings.empty()) return;
-  for (auto const& warning : surroundings.warnings) messages.warning(warning);
-  for (auto const& line :
-       warn_of_own_buildings(surroundings.buildings, scene.surfaces(), model.shading)) {
-    messages.warning(line);
-  }
-  messages.eio("! <GPU Shading Surroundings>, Remark\n");
-  for (auto remark : surroundings.remarks) {
-    messages.remark(remark);
-    // Commas separate the file's fields.
-    std::ranges::replace(remark, ',', ';');
-    messages.eio(fmt::format("GPU Shading Surroundings,{}\n", remark));
-  }
+Names transmitting_surfaces(Model const& model) {
+  Names names;
+  for (auto const& [name, shade] : model.shades.by_surface) names.insert(name);
+  for (auto const& [name, screen] : model.screens.by_surface) names.insert(name);
+  return names;
 }
 
-void warn_of_actuated_schedules(SceneAssembly const& scene, Messages const& messages) {
+std::vector<std::string> warn_of_actuated_schedules(SceneAssembly const& scene) {
   auto const& input = scene.model().shading;
-  if (input.every_timestep || scene.model().options.update.every_timestep) return;
+  std::vector<std::string> lines;
+  if (input.every_timestep || scene.model().options.update.every_timestep) return lines;
   auto const warn = [&](std::string_view field, std::string const& schedule) {
-    messages.warning(fmt::format(
+    lines.push_back(fmt::format(
         "{} {} is overridden by an EMS actuator, but shading is calculated for whole periods: the "
         "value at the time counts for all of it; see --gpu-shading-update",
         field, schedule));
@@ -50,6 +40,17 @@ void warn_of_actuated_schedules(SceneAssembly const& scene, Messages const& mess
   }
   for (auto const& schedule : scene.optics().deployment_names()) {
     if (input.actuated.contains(schedule)) warn("Deployment Schedule", schedule);
+  }
+  return lines;
+}
+
+void describe_surroundings(Surroundings const& surroundings, Messages const& messages) {
+  if (surroundings.empty()) return;
+  messages.eio("! <GPU Shading Surroundings>, Remark\n");
+  for (auto remark : surroundings.remarks) {
+    // Commas separate the file's fields.
+    std::ranges::replace(remark, ',', ';');
+    messages.eio(fmt::format("GPU Shading Surroundings,{}\n", remark));
   }
 }
 
@@ -121,23 +122,42 @@ void check_device(DeviceInfo const& device, Options const& options, Messages con
   }
 }
 
+std::vector<std::string> warnings_of(SceneAssembly const& scene) {
+  auto const& model = scene.model();
+  auto lines = model.shades.warnings;
+  auto const add = [&](std::vector<std::string> const& more) {
+    lines.insert(lines.end(), more.begin(), more.end());
+  };
+  add(model.screens.warnings());
+  add(model.ray_warnings);
+  if (!model.transform_warning.empty()) lines.push_back(model.transform_warning);
+  add(model.warnings);
+  add(model.surroundings.warnings);
+  add(warn_of_own_buildings(model.surroundings.buildings, scene.surfaces(), model.shading));
+  add(warn_of_covers(scene.surfaces(), model.shading, transmitting_surfaces(model)));
+  add(warn_of_actuated_schedules(scene));
+  return lines;
+}
+
+std::vector<std::string> remarks_of(Model const& model) {
+  auto lines = model.remarks;
+  if (!model.lean.remark.empty()) lines.push_back(model.lean.remark);
+  auto const& surroundings = model.surroundings.remarks;
+  lines.insert(lines.end(), surroundings.begin(), surroundings.end());
+  return lines;
+}
+
 void describe_scene(SceneAssembly const& scene, Messages const& messages) {
   auto const& model = scene.model();
-  for (auto const& warning : model.shades.warnings) messages.warning(warning);
-  for (auto const& warning : model.screens.warnings()) messages.warning(warning);
-  for (auto const& warning : model.ray_warnings) messages.warning(warning);
-  if (!model.transform_warning.empty()) messages.warning(model.transform_warning);
-  for (auto const& warning : model.warnings) messages.warning(warning);
-  for (auto const& remark : model.remarks) messages.remark(remark);
+  for (auto const& warning : warnings_of(scene)) messages.warning(warning);
+  for (auto const& remark : remarks_of(model)) messages.remark(remark);
   if (auto const& remark = model.lean.remark; !remark.empty()) {
-    messages.remark(remark);
     messages.eio(
         fmt::format("! <GPU Shading Lean Input>, Surfaces Left Out, Remark\n"
                     "GPU Shading Lean Input,{},{}\n",
                     model.lean.left_out.size(), remark));
   }
-  describe_surroundings(scene, messages);
-  warn_of_actuated_schedules(scene, messages);
+  describe_surroundings(model.surroundings, messages);
   list_transmitting_surfaces(scene, messages);
 }
 

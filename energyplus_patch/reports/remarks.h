@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "answers/sun_questions.h"
 #include "platform/messages.h"
 #include "scene/scene_assembly.h"
@@ -8,6 +11,10 @@ namespace gpu_shading::energyplus {
 
 // Says that there is no GPU. Throws DeviceError where a GPU is required.
 void check_device(DeviceInfo const& device, Options const& options, Messages const& messages);
+
+// What a run and a check say about a model, one line each, besides Model::early_warnings.
+std::vector<std::string> warnings_of(SceneAssembly const& scene);
+std::vector<std::string> remarks_of(Model const& model);
 
 // Before the first question: the model's warnings, what was left out and what surrounds it, and the
 // .eio's list of the surfaces that let light through.

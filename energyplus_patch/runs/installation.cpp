@@ -55,6 +55,14 @@ std::string read_full_version(std::filesystem::path const& folder) {
   return build ? version + '-' + *build : version;
 }
 
+Release read_release(std::filesystem::path const& folder) {
+  auto const updater = std::filesystem::path("PreProcess") / "IDFVersionUpdater";
+  return {read_version(folder),
+          std::filesystem::exists(folder / updater)
+              ? (folder / updater).string()
+              : "IDFVersionUpdater, which comes with the EnergyPlus of energyplus.net/downloads"};
+}
+
 std::filesystem::path find_energyplus_library(std::filesystem::path const& folder) {
   auto const link = folder / official_library;
   if (std::filesystem::exists(link)) return std::filesystem::canonical(link);

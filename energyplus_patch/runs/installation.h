@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "model/input/shading_input.h"
+
 namespace gpu_shading::energyplus {
 
 // The version of the EnergyPlus in a folder, e.g. "9.6.0", from the first line of its Energy+.idd
@@ -12,6 +14,9 @@ std::string read_version(std::filesystem::path const& folder);
 // As EnergyPlus states it: with the build of its Energy+.idd, e.g. "9.6.0-0123456789". Throws
 // Error.
 std::string read_full_version(std::filesystem::path const& folder);
+
+// The same version, and how to update models to it. Throws Error like read_version().
+Release read_release(std::filesystem::path const& folder);
 
 // EnergyPlus's library for a patched folder, through its link to the official one. Throws Error.
 std::filesystem::path find_energyplus_library(std::filesystem::path const& folder);

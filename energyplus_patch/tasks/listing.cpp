@@ -11,6 +11,7 @@
 #include "gpu_shading/screen_placement.h"
 #include "model/extensions/extension_fields.h"
 #include "platform/text.h"
+#include "reports/remarks.h"
 #include "scene/model_rule.h"
 #include "scene/shade_motion.h"
 #include "scene/shade_optics.h"
@@ -39,7 +40,7 @@ std::array<double, 3> three_positions(MovingShade const& shade) {
 }
 
 struct Listing {
-  std::vector<std::string> remarks;  // what lean input did, and which surroundings were read
+  std::vector<std::string> remarks;  // warnings, then remarks
   std::vector<ListedSurface> surfaces;
   std::string rule;  // lines that say which zones do not shade which
 };
@@ -168,17 +169,12 @@ Json to_json(ListedSurface const& row) {
   return json;
 }
 
-std::vector<std::string> remarks_of(Model const& model) {
-  std::vector<std::string> remarks;
-  if (!model.lean.remark.empty()) remarks.push_back(model.lean.remark);
-  for (auto const* warning : {&model.simplified.warning, &model.transform_warning}) {
-    if (!warning->empty()) remarks.push_back(*warning);
+std::vector<std::string> lines_of(SceneAssembly const& scene) {
+  auto lines = scene.model().early_warnings;
+  for (auto const& more : {warnings_of(scene), remarks_of(scene.model())}) {
+    lines.insert(lines.end(), more.begin(), more.end());
   }
-  for (auto const& lines : {model.shades.warnings, model.screens.warnings(),
-                            model.surroundings.remarks, model.warnings, model.remarks}) {
-    remarks.insert(remarks.end(), lines.begin(), lines.end());
-  }
-  return remarks;
+  return lines;
 }
 
 // EnergyPlus's surfaces, and after these those that are not in its input: first those left out by
@@ -187,7 +183,7 @@ std::vector<std::string> remarks_of(Model const& model) {
 Listing list_surfaces(SceneAssembly const& assembly) {
   auto const& scene = assembly.surfaces();
   auto const& model = assembly.model();
-  Listing listing{remarks_of(model), {}, describe(make_shading_rule(model.shading, scene, {}))};
+  Listing listing{lines_of(assembly), {}, describe(make_shading_rule(model.shading, scene, {}))};
   for (auto const id : listed(scene, model)) listing.surfaces.push_back(row_of(assembly, id));
   for (auto const& mesh : meshes_of(scene, model)) {
     auto const& surface = scene[mesh.first];

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "gpu_shading/error.h"
@@ -54,12 +58,23 @@ bool accepts(FieldInfo const& field, std::string const& text) {
          (field.kind != FieldKind::integer || std::floor(*value) == *value);
 }
 
-// Whether a length would be right if it were in millimetres.
-bool looks_like_millimetres(FieldInfo const& field, std::string const& text) {
-  constexpr double per_metre = 1000.0;
+// "0,5", which an IDF takes for two fields.
+bool is_decimal_comma(std::string const& text) {
+  auto const comma = text.find(',');
+  if (comma == std::string::npos) return false;
+  auto point = text;
+  point[comma] = '.';
+  return parse_number(point).has_value();
+}
+
+// For an error.
+std::string hint(FieldInfo const& field, std::string const& text) {
+  if (!is_number(field)) return {};
+  if (is_decimal_comma(text)) return ": numbers take a decimal point";
   auto const value = parse_number(text);
-  return is_number(field) && field.units == "m" && value && !within(field, *value) &&
-         within(field, *value / per_metre);
+  if (field.units != "m" || !value || !std::isfinite(*value) || within(field, *value)) return {};
+  auto const units = ask_for_units(field, *value, std::numeric_limits<double>::infinity());
+  return units.empty() ? "" : ": " + units;
 }
 
 }  // namespace
@@ -79,9 +94,24 @@ std::string expectation(FieldInfo const& field) {
 void check(FieldInfo const& field, std::string const& text, std::string_view title) {
   if (accepts(field, text)) return;
   auto const found = trimmed(text).empty() ? "blank" : in_quotes(text);
-  throw Error(fmt::format(
-      "{} is {}, expected {}{}", title, found, expectation(field),
-      looks_like_millimetres(field, text) ? ": lengths are in metres, is it in millimetres?" : ""));
+  throw Error(
+      fmt::format("{} is {}, expected {}{}", title, found, expectation(field), hint(field, text)));
+}
+
+std::string ask_for_units(FieldInfo const& field, double value, double max) {
+  struct Unit {
+    std::string_view name;
+    double metres;
+  };
+  constexpr std::array<Unit, 3> units{
+      {{"millimetres", 0.001}, {"centimetres", 0.01}, {"inches", 0.0254}}};
+  std::string list;
+  for (auto const& [name, metres] : units) {
+    double const length = value * metres;
+    if (!within(field, length) || length > max) continue;
+    list += fmt::format("{}{} ({:.4g})", list.empty() ? "" : ", ", name, length);
+  }
+  return list.empty() ? "" : "lengths are in metres; is it in " + list + "?";
 }
 
 std::optional<std::size_t> word_index(FieldInfo const& field, std::string const& text) {

@@ -51,6 +51,10 @@ std::string expectation(FieldInfo const& field);
 // Throws Error (title, text, what was expected) for a text that the field may not hold.
 void check(FieldInfo const& field, std::string const& text, std::string_view title);
 
+// For a length that is too long, in metres: what it would be if it had been meant in millimetres,
+// centimetres or inches, where that is in the field's range and at most `max`. "" if none is.
+std::string ask_for_units(FieldInfo const& field, double value, double max);
+
 // The index of the field's word that equals the text, ignoring case.
 std::optional<std::size_t> word_index(FieldInfo const& field, std::string const& text);
 

@@ -35,19 +35,6 @@ std::optional<Coordinates> read_coordinates(InputObject const& object,
       fmt::format("{} is blank, expected degrees as {} is given", blank.title, given.title));
 }
 
-std::vector<std::string> lengths_beyond(InputObject const& object,
-                                        std::initializer_list<LengthLimit> const& limits) {
-  std::vector<std::string> lines;
-  for (auto const& [field, max] : limits) {
-    auto const value = parse_number(object[field.key]);
-    if (!value || *value <= max) continue;
-    lines.push_back(
-        fmt::format("{}: {} is {} m, more than {} m: lengths are in metres, is it in millimetres?",
-                    object.title(), field.title, *value, max));
-  }
-  return lines;
-}
-
 void expect_blank(InputObject const& object, Fields const& fields, std::string_view why) {
   for (FieldInfo const& field : fields) {
     auto const& text = object[field.key];

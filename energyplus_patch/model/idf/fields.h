@@ -51,16 +51,6 @@ std::optional<Coordinates> read_coordinates(InputObject const& object,
                                             Field<std::optional<double>> const& latitude,
                                             Field<std::optional<double>> const& longitude);
 
-// A length in metres, and the largest value that does not look like millimetres.
-struct LengthLimit {
-  FieldInfo const& field;
-  double max;
-};
-
-// Returns a line for each length above that value.
-std::vector<std::string> lengths_beyond(InputObject const& object,
-                                        std::initializer_list<LengthLimit> const& limits);
-
 // `why`, as in "with Hole Shape Texture".
 using Fields = std::initializer_list<std::reference_wrapper<FieldInfo const>>;
 void expect_blank(InputObject const& object, Fields const& fields, std::string_view why);

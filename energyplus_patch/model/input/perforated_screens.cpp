@@ -19,10 +19,6 @@ namespace {
 
 namespace field = extension::perforated_screen;
 
-// m: above these it is neither sheet metal nor cloth.
-constexpr double longest_hole = 1.0;
-constexpr double longest_tile = 100.0;
-
 Arrangement arrangement_of(field::Arrangement arrangement) {
   switch (arrangement) {
     case field::Arrangement::straight:
@@ -176,8 +172,7 @@ void add_object(InputObject const& object, ShadingInput const& input,
 }  // namespace
 
 std::vector<std::string> PerforatedScreens::warnings() const {
-  // An object may name several surfaces.
-  std::set<std::string> lines(odd_lengths.begin(), odd_lengths.end());
+  std::set<std::string> lines;  // an object may name several surfaces
   for (auto const& [surface, screen] : by_surface) {
     lines.insert(screen.maker->warnings().begin(), screen.maker->warnings().end());
   }
@@ -193,13 +188,6 @@ PerforatedScreens read_perforated_screens(std::vector<InputObject> const& object
     if (object.type != field::type) continue;
     try {
       add_object(object, input, shades, folder, screens);
-      auto const odd = lengths_beyond(object, {{field::hole_size, longest_hole},
-                                               {field::hole_length, longest_hole},
-                                               {field::pitch, longest_hole},
-                                               {field::row_pitch, longest_hole},
-                                               {field::tile_width, longest_tile},
-                                               {field::tile_height, longest_tile}});
-      screens.odd_lengths.insert(screens.odd_lengths.end(), odd.begin(), odd.end());
     } catch (Error const& error) {
       throw screen_error(object.where(), error.what());
     }

@@ -21,9 +21,8 @@ struct SurfaceScreen {
 
 struct PerforatedScreens {
   std::map<std::string, SurfaceScreen> by_surface;  // upper-case names
-  std::vector<std::string> odd_lengths;             // a line each
 
-  // These warnings, and one line for each problem of the screens created so far.
+  // One line for each problem of the screens created so far.
   std::vector<std::string> warnings() const;
 };
 

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <regex>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "gpu_shading/error.h"
 #include "platform/named_entries.h"
+#include "platform/naming.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {
@@ -33,12 +36,38 @@ bool is_exterior(InputObject const& object) {
          same_name(boundary, "OtherSideConditionsModel");
 }
 
-// The leading "major.minor" of a version.
-std::string release(std::string_view version) {
-  auto const dot = version.find('.');
-  if (dot == std::string_view::npos) return std::string(version);
-  auto const second = version.find_first_not_of("0123456789", dot + 1);
-  return std::string(version.substr(0, second));
+// Objects that decide on shading and whose fields moved or were renamed since EnergyPlus 9. Source:
+// EnergyPlus's src/Transition/CreateNewIDFUsingRulesV9_3_0.f90, case SHADOWCALCULATION, and
+// InputRulesFiles/Rules23-1-0-to-23-2-0.md: External Shading Fraction Schedule Name became Sunlit
+// Fraction Schedule Name, at the same position of an IDF and with the same meaning, so that only
+// epJSON differs.
+struct Change {
+  ChangedObject object;
+  std::string_view renamed;  // the field's former name in epJSON; "": all fields moved
+};
+constexpr std::array<Change, 2> changes{{
+    {{"ShadowCalculation", "9.3"}, ""},
+    {{"SurfaceProperty:LocalEnvironment", "23.2"}, "external_shading_fraction_schedule_name"},
+}};
+
+bool applies(Change const& change, InputObject const& object) {
+  if (object.type != change.object.type) return false;
+  if (!change.renamed.empty()) return !object[change.renamed].empty();
+  return std::ranges::any_of(object.fields,
+                             [](auto const& field) { return !field.second.empty(); });
+}
+
+// The leading "major.minor" of a version, as numbers.
+std::pair<int, int> release(std::string_view version) {
+  std::pair<int, int> numbers{0, 0};
+  auto const end = version.data() + version.size();
+  auto const [dot, error] = std::from_chars(version.data(), end, numbers.first);
+  if (error == std::errc() && dot != end) std::from_chars(dot + 1, end, numbers.second);
+  return numbers;
+}
+
+std::string text_of(std::pair<int, int> const& release) {
+  return fmt::format("{}.{}", release.first, release.second);
 }
 
 void read_shadow_calculation(InputObject const& object, ShadingInput& input) {
@@ -49,10 +78,8 @@ void read_shadow_calculation(InputObject const& object, ShadingInput& input) {
     constexpr int max_resolution = 65536;
     auto const value = parse_number(text);
     if (!value || *value < 1.0 || *value > max_resolution) {
-      throw Error(
-          fmt::format("ShadowCalculation: Pixel Counting Resolution is {}, expected a number from "
-                      "1 to {}",
-                      in_quotes(text), max_resolution));
+      throw Error(fmt::format("Pixel Counting Resolution is {}, expected a number from 1 to {}",
+                              in_quotes(text), max_resolution));
     }
     input.pixel_counting_resolution = static_cast<int>(*value);
   }
@@ -72,6 +99,20 @@ void read_shadow_calculation(InputObject const& object, ShadingInput& input) {
   if (yes(object, "output_external_shading_calculation_results")) input.all_shading_wanted = true;
   for (auto const& group : object.list) {
     if (!group.empty()) input.shading_zone_groups.push_back(upper(group));
+  }
+}
+
+// EnergyPlus would end by a segmentation fault.
+void check_zone_groups(ShadingInput const& input) {
+  if (!input.disable_within_groups && !input.disable_between_groups) return;
+  for (std::size_t i = 0; i < input.shading_zone_groups.size(); ++i) {
+    auto const& group = input.shading_zone_groups[i];
+    if (input.zone_lists.contains(group)) continue;
+    std::vector<std::string> names;
+    for (auto const& [name, zones] : input.zone_lists) names.push_back(name);
+    throw Error(fmt::format(
+        "Shading Zone Group {} ZoneList Name is {}, which no ZoneList of the model has{}", i + 1,
+        in_quotes(group), did_you_mean(group, names)));
   }
 }
 
@@ -219,8 +260,11 @@ bool ShadingInput::receives(std::string const& surface) const {
 ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
   ShadingInput input;
   Named named;
-  bool shadow_calculation_read = false;
+  InputObject const* shadow_calculation = nullptr;
   for (auto const& object : objects) {
+    for (auto const& change : changes) {
+      if (applies(change, object)) input.changed_objects.push_back(change.object);
+    }
     if (object.type == "Version") {
       input.version = object["version_identifier"];
     } else if (object.type == "Building") {
@@ -229,8 +273,9 @@ ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
       input.reflections = distribution.ends_with("WITHREFLECTIONS");
     } else if (object.type == "ShadowCalculation") {
       // EnergyPlus uses the first one and warns about the others.
-      if (!shadow_calculation_read) read_shadow_calculation(object, input);
-      shadow_calculation_read = true;
+      if (shadow_calculation != nullptr) continue;
+      shadow_calculation = &object;
+      naming(object.where(), [&] { read_shadow_calculation(object, input); });
     } else if (object.type == "ZoneList") {
       auto& zones = input.zone_lists[upper(object.name)];
       for (auto const& zone : object.list) {
@@ -257,6 +302,9 @@ ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
       named.names.insert(upper(object["output_variable_or_output_meter_index_key_name"]));
     }
   }
+  if (shadow_calculation != nullptr) {
+    naming(shadow_calculation->where(), [&] { check_zone_groups(input); });
+  }
   read_reflectances(objects, input);
   for (auto const& [name, surface] : input.shading_surfaces) {
     for (auto const& each : {name, mirrored_name(name)}) {
@@ -266,19 +314,30 @@ ShadingInput read_shading_input(std::vector<InputObject> const& objects) {
   return input;
 }
 
-void check_supported(ShadingInput const& input, std::string_view file, std::string_view version) {
-  if (!input.version.empty() && release(input.version) != release(version)) {
-    throw Error(fmt::format(
-        "{}: Version: Version Identifier is {}, this EnergyPlus is {}: bring the model up to date "
-        "first (IDFVersionUpdater)",
-        file, input.version, release(version)));
-  }
+std::string check_supported(ShadingInput const& input, std::string_view file,
+                            Release const& energyplus) {
   if (same_name(input.shading_method, "Scheduled") || same_name(input.shading_method, "Imported")) {
     throw Error(fmt::format(
         "{}: ShadowCalculation: Shading Calculation Method is {}: this model brings its own sunlit "
         "fractions, which --gpu-shading would replace; run it without the flag",
         file, input.shading_method));
   }
+  auto const own = release(energyplus.version);
+  auto const given = input.version.empty() ? own : release(input.version);
+  for (auto const& [type, changed] : input.changed_objects) {
+    if (given >= release(changed) || own < release(changed)) continue;
+    throw Error(fmt::format(
+        "{}: {}: its fields changed in EnergyPlus {}, and the model's Version is {}: update the "
+        "model with {}",
+        file, type, changed, printable(input.version), energyplus.updater));
+  }
+  if (given == own) return {};
+  bool const older = given < own;
+  return fmt::format(
+      "{}: Version is {}, {} than this EnergyPlus, {}, which reads all fields as its own; {}", file,
+      printable(input.version), older ? "older" : "newer", text_of(own),
+      older ? fmt::format("to be sure, update the model with {}", energyplus.updater)
+            : "to be sure, use that EnergyPlus");
 }
 
 }  // namespace gpu_shading::energyplus

@@ -13,6 +13,12 @@
 
 namespace gpu_shading::energyplus {
 
+// An object of EnergyPlus whose fields have another position or name from a release on.
+struct ChangedObject {
+  std::string_view type;
+  std::string_view release;
+};
+
 // What the shading calculation needs from a model besides the polygons that EnergyPlus passes.
 // Names are in upper case, as in EnergyPlus, except for the suffixes that EnergyPlus itself adds.
 struct ShadingInput {
@@ -27,8 +33,9 @@ struct ShadingInput {
     double glazed = 0.0;
   };
 
-  std::string version;         // version of the input, e.g. "9.6"
-  std::string shading_method;  // as written, or ""
+  std::string version;                         // version of the input, e.g. "9.6"
+  std::vector<ChangedObject> changed_objects;  // objects that are given and whose fields changed
+  std::string shading_method;                  // as written, or ""
   std::optional<int> pixel_counting_resolution;
   bool every_timestep = false;  // Shading Calculation Update Frequency Method
   int update_days = 20;         // ... Update Frequency: of Periodic
@@ -100,9 +107,17 @@ bool is_surface_output(InputObject const& object);
 // Throws Error for an invalid value.
 ShadingInput read_shading_input(std::vector<InputObject> const& objects);
 
-// Throws Error for models that this module must not handle: those of another version, or with
-// user-defined sunlit fractions (Scheduled, Imported). `file` is the model's, for messages, and
-// `version` EnergyPlus's own, e.g. "9.6.0".
-void check_supported(ShadingInput const& input, std::string_view file, std::string_view version);
+// The EnergyPlus that reads a model.
+struct Release {
+  std::string version;  // e.g. "9.6.0"
+  std::string updater;  // the program that updates models, or where to get it
+};
+
+// Throws Error for models that this module must not handle: with user-defined sunlit fractions
+// (Scheduled, Imported), or of an earlier version in which an object that decides on shading had
+// other fields. Returns a warning if the model is of another version, which EnergyPlus reads as its
+// own, or "". `file` is the model's, for messages.
+std::string check_supported(ShadingInput const& input, std::string_view file,
+                            Release const& energyplus);
 
 }  // namespace gpu_shading::energyplus

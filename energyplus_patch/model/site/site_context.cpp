@@ -314,11 +314,6 @@ std::vector<TerrainGrid> read_site_contexts(std::vector<InputObject> const& obje
   std::vector<Context> contexts;
   for_each_of(objects, field::type, [&](InputObject const& object) {
     contexts.push_back(read_context(object, folder, horizons, origin.place));
-    constexpr double tallest_storey = 20.0;
-    constexpr double tallest_building = 1000.0;
-    auto const odd = lengths_beyond(object, {{field::storey_height, tallest_storey},
-                                             {field::default_height, tallest_building}});
-    surroundings.warnings.insert(surroundings.warnings.end(), odd.begin(), odd.end());
   });
   if (origin.at_terrain) stand_on_terrain(contexts, origin);
   for (auto const& context : contexts) {

@@ -52,6 +52,15 @@ bool holds(ContextBuilding const& building, glm::dvec3 const& point) {
          is_near(building.roof, point) && covers(building.roof, point);
 }
 
+// Whether a polygon lies above a point.
+bool lies_over(Polygon const& polygon, glm::dvec3 const& point) {
+  auto const up = normal(polygon);
+  constexpr double steepest = 0.1;
+  if (std::abs(up.z) < steepest || !is_near(polygon, point) || !covers(polygon, point))
+    return false;
+  return glm::dot(polygon.outline.front() - point, up) / up.z > 0.0;
+}
+
 }  // namespace
 
 std::optional<TextureAxes> Surroundings::texture_of(SurfaceId surface) const {
@@ -111,6 +120,31 @@ std::vector<std::string> warn_of_own_buildings(std::vector<ContextBuilding> cons
         fmt::format("{} encloses the model's {}: if it is the modelled building itself, leave it "
                     "out with a Left Out Name",
                     building.name, *inside->surface));
+  }
+  return lines;
+}
+
+std::vector<std::string> warn_of_covers(Scene const& scene, ShadingInput const& input,
+                                        Names const& transmitting, std::size_t max) {
+  auto const points = inner_points(scene, input);
+  std::vector<std::string> lines;
+  if (points.empty()) return lines;
+  for (SurfaceId id = 0; id < scene.size() && lines.size() < max; ++id) {
+    auto const& surface = scene[id];
+    auto const found = input.shading_surfaces.find(surface.name);
+    if (found == input.shading_surfaces.end() || transmitting.contains(surface.name)) continue;
+    auto const& type = found->second.type;
+    bool const may_be_building =
+        found->second.transmittance_schedule.empty() &&
+        (type.starts_with("Shading:Site") || type.starts_with("Shading:Building"));
+    if (!may_be_building || !std::ranges::all_of(points, [&](InnerPoint const& inner) {
+          return lies_over(surface.polygon, inner.point);
+        })) {
+      continue;
+    }
+    lines.push_back(fmt::format(
+        "{} {} lies over the whole model: if it is the modelled building itself, remove it", type,
+        surface.name));
   }
   return lines;
 }

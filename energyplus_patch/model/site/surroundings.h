@@ -13,6 +13,7 @@
 #include "gpu_shading/terrain.h"
 #include "model/extensions/field.h"
 #include "model/idf/input_object.h"
+#include "model/idf/mentions.h"
 #include "model/input/screen_maker.h"
 #include "model/input/shading_input.h"
 #include "model/site/site_origin.h"
@@ -110,5 +111,10 @@ void read_geometries(std::vector<InputObject> const& objects, AssetFolder const&
 std::vector<std::string> warn_of_own_buildings(std::vector<ContextBuilding> const& buildings,
                                                Scene const& scene, ShadingInput const& input,
                                                std::size_t max = 3);
+
+// The same for opaque Shading:Site and Shading:Building surfaces over all of the model: a roof that
+// leaves it no sky. `transmitting`: names of surfaces that are not opaque, upper case.
+std::vector<std::string> warn_of_covers(Scene const& scene, ShadingInput const& input,
+                                        Names const& transmitting, std::size_t max = 3);
 
 }  // namespace gpu_shading::energyplus

@@ -148,9 +148,9 @@ void check_model(RunSetup& setup) {
   auto& choices = setup.choices;
   Reader reader;
   reader.horizons = false;
+  reader.release = read_release(own_folder());
   auto const model = read_model(*setup.line.model, choices, reader);
   if (model.options.mode == Mode::off) return;
-  check_supported(model.shading, model.file, read_version(own_folder()));
   prepare_folders(model.options, !choices.task);
   choices.device = model.options.device;
   choices.resolution = model.options.resolution;

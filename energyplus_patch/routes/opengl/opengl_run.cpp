@@ -100,7 +100,9 @@ HostedText read_hosted(Path const& path, Choices const& choices) {
   std::optional<Model> model;
   auto const take = [&](std::vector<InputObject> objects, MentionFinder const& find) {
     model = naming(path.string(), [&] {
-      return understand(std::move(objects), path, choices, {find, false});
+      Reader reader{find};
+      reader.release = read_release(own_folder());
+      return understand(std::move(objects), path, choices, reader);
     });
     return rewrite_for(*model);
   };
@@ -129,8 +131,7 @@ HostedModel prepare_hosted(HostedText read, EnergyPlusCall call, Path const& fol
   if (renders) remove_schedules(*editor, model);
   hosted.path = place_model(*editor, original, folder / "model");
   if (!renders) return hosted;
-  check_supported(model.shading, model.file, read_version(own_folder()));
-  if (auto const& warning = model.simplified.warning; !warning.empty()) {
+  for (auto const& warning : model.early_warnings) {
     print_line("warning: " + warning);
     hosted.messages.warnings.push_back(warning);
   }

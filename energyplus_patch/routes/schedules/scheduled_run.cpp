@@ -154,12 +154,14 @@ ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choi
   Collected out(say);
   auto const editor = edit_model(call.model);
   editor->remove([](std::string_view type) { return is_extension(type); });
-  auto model = read_model(call.model, choices);
+  Reader reader;
+  reader.release = read_release(call.program.parent_path());
+  auto model = read_model(call.model, choices, reader);
   if (model.surrounding_objects) editor->merge(read_text_file(*model.surrounding_objects));
   if (model.options.mode == Mode::off) {
     set_method(*editor, "PolygonClipping", "");
   } else {
-    check_supported(model.shading, model.file, read_version(call.program.parent_path()));
+    for (auto const& warning : model.early_warnings) out.warn(warning);
     out.warn(describe_limits(model));
     SunlitFractions table;
     if (runs_periods(call, *editor)) table = render(call, std::move(model), out);

@@ -82,16 +82,12 @@ Rewrite take_model(std::vector<InputObject> objects, Path const& path,
                    MentionFinder const& find_mentions) {
   auto& run = this_run();
   auto const& installed = installation();
-  run.model = understand(
-      std::move(objects), path, installed.choices,
-      {find_mentions, installed.serves(Need::daylight_rays), installed.serves(Need::reflections),
-       installed.serves(Need::daylight_reflections)});
+  Reader reader{find_mentions, installed.serves(Need::daylight_rays),
+                installed.serves(Need::reflections), installed.serves(Need::daylight_reflections)};
+  reader.release = installed.release;
+  run.model = understand(std::move(objects), path, installed.choices, reader);
   if (run.model->options.mode != Mode::off) {
-    check_supported(run.model->shading, run.model->file, installation().version);
-    // Now, because EnergyPlus may stop at such a surface.
-    if (auto const& warning = run.model->simplified.warning; !warning.empty()) {
-      messages_of(run).warning(warning);
-    }
+    for (auto const& warning : run.model->early_warnings) messages_of(run).warning(warning);
   } else {
     warn_of_opaque_shades(run);
     warn_of_missing_surroundings(run);

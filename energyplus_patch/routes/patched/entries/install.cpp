@@ -109,10 +109,10 @@ void patch(Loaded const& loaded, Installation& installed) {
   auto const surface_ids = find_surface_ids(symbols);
   auto served = find_served(symbols, entries, surface_ids.has_value());
   ScheduleFunctions const schedules(symbols);
-  auto const version = read_version(loaded.path.parent_path());
+  auto release = read_release(loaded.path.parent_path());
   patch_entries(symbols, patches_of(entries, served));
   installed.library = loaded.path;
-  installed.version = version;
+  installed.release = std::move(release);
   installed.functions = EnergyPlusFunctions(symbols);
   installed.schedules = schedules;
   installed.served = std::move(served);

@@ -19,7 +19,7 @@ namespace gpu_shading::energyplus {
 // What the process keeps: set by the installation, before any run.
 struct Installation {
   std::filesystem::path library;
-  std::string version;  // of EnergyPlus, e.g. "9.6.0"
+  Release release;  // of EnergyPlus
   EnergyPlusFunctions functions;
   ScheduleFunctions schedules;
   std::set<Need> served;                    // whose symbols this build has, and redirected entries

@@ -83,12 +83,12 @@ Rewrite take_model(std::vector<InputObject> objects, std::filesystem::path const
                    std::string const& version, MentionFinder const& find_mentions) {
   auto& run = source_run();
   constexpr bool daylight_rays = true;
-  auto model = understand(std::move(objects), path, run.choices, {find_mentions, daylight_rays});
+  Reader reader{find_mentions, daylight_rays};
+  reader.release = Release{version, "IDFVersionUpdater"};
+  auto model = understand(std::move(objects), path, run.choices, reader);
   auto rewrite = rewrite_for(model);
   if (model.options.mode != Mode::off) {
-    check_supported(model.shading, model.file, version);
-    // Now, because EnergyPlus may stop at such a surface.
-    if (auto const& warning = model.simplified.warning; !warning.empty()) {
+    for (auto const& warning : model.early_warnings) {
       print_line("warning: " + warning);
     }
     run.model = std::move(model);

@@ -303,7 +303,7 @@ TEST(PerforatedScreens, PatternsThatAreNoneAreRefused) {
             "Thickness is \"1\", expected a number of at least 0 and below 1 m"},
            {{{"thickness", "6.35"}},
             "Thickness is \"6.35\", expected a number of at least 0 and below 1 m: lengths are in "
-            "metres, is it in millimetres?"},
+            "metres; is it in millimetres (0.00635), centimetres (0.0635), inches (0.1613)?"},
            {{{"sheet_plane", "Front"}},
             "Sheet Plane is \"Front\", expected Centre, Outside or Inside"},
            {{{"layers", "0"}}, "Layers is \"0\", expected Auto or an integer from 1 to 64"},
@@ -410,20 +410,6 @@ TEST_F(Textured, IdfEpJsonAndSideFileAreAlike) {
     EXPECT_NEAR(made_screen->tile()->height(), 0.25, 1e-12);
     EXPECT_EQ(made_screen->tile()->opacity()[0], 0);
   }
-}
-
-TEST_F(Textured, WarnsOfMillimetres) {
-  EXPECT_TRUE(read(pattern({{"hole_size", "0.9"}, {"pitch", "1"}})).warnings().empty());
-  // As meant, 5 and 8 mm in a sheet of no thickness.
-  auto const holes =
-      read(pattern({{"hole_size", "5"}, {"pitch", "8"}, {"thickness", "0"}})).warnings();
-  ASSERT_EQ(holes.size(), 2U);
-  EXPECT_EQ(
-      holes[0],
-      "GPUShading:PerforatedScreen S: Hole Size is 5 m, more than 1 m: lengths are in metres, "
-      "is it in millimetres?");
-  EXPECT_EQ(read(textured({{"tile_width", "1200"}})).warnings().size(), 1U);
-  EXPECT_TRUE(read(textured({{"tile_width", "1.2"}})).warnings().empty());
 }
 
 }  // namespace

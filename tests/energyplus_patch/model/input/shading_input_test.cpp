@@ -1,7 +1,10 @@
 #include "model/input/shading_input.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
 
 #include "gpu_shading/error.h"
 #include "model/idf/model_file.h"
@@ -162,15 +165,62 @@ TEST(ShadingInput, WhatEnergyPlusMayAskFor) {
   }
 }
 
-TEST(ShadingInput, OtherVersionsAndUserGivenFractionsAreRefused) {
-  EXPECT_NO_THROW(check_supported(read("Version,9.6;"), "a.idf", "9.6.0"));
-  EXPECT_NO_THROW(check_supported(read("Version,9.6.0;"), "a.idf", "9.6.0"));
-  EXPECT_THAT(
-      refusal_of([] { check_supported(read("Version,24.2;"), "a.idf", "9.6.0"); }),
-      testing::StartsWith("a.idf: Version: Version Identifier is 24.2, this EnergyPlus is "));
-  EXPECT_THROW(check_supported(read("Version,8.9;"), "a.idf", "9.6.0"), Error);
-  EXPECT_THROW(check_supported(read("ShadowCalculation,scheduled;"), "a.idf", "9.6.0"), Error);
-  EXPECT_THROW(check_supported(read("ShadowCalculation,Imported;"), "a.idf", "9.6.0"), Error);
+Release const energyplus_25_2{"25.2.0", "the updater"};
+
+std::string warning_of(std::string const& idf, Release const& energyplus = energyplus_25_2) {
+  return check_supported(read(idf), "a.idf", energyplus);
+}
+
+TEST(ShadingInput, UserGivenFractionsAreRefused) {
+  EXPECT_THROW(warning_of("ShadowCalculation,scheduled;"), Error);
+  EXPECT_THROW(warning_of("ShadowCalculation,Imported;"), Error);
+}
+
+TEST(ShadingInput, OtherVersionsAreWarnedOf) {
+  for (auto const* const same : {"", "Version,25.2;", "Version,25.2.0;"}) {
+    EXPECT_EQ(warning_of(same), "");
+  }
+  for (auto const* const older : {"9.3", "9.10", "22.2", "24.1", "25.1.0"}) {
+    EXPECT_THAT(
+        warning_of(fmt::format("Version,{};ShadowCalculation,PolygonClipping;", older)),
+        testing::AllOf(testing::StartsWith(fmt::format(
+                           "a.idf: Version is {}, older than this EnergyPlus, 25.2", older)),
+                       testing::HasSubstr("the updater")));
+  }
+  EXPECT_THAT(warning_of("Version,26.1;"),
+              testing::AllOf(testing::HasSubstr("26.1, newer than this EnergyPlus"),
+                             testing::Not(testing::HasSubstr("the updater"))));
+}
+
+TEST(ShadingInput, FieldsThatMovedAreRefused) {
+  EXPECT_THAT(refusal_of([] { warning_of("Version,9.2;ShadowCalculation,,20,15000;"); }),
+              "a.idf: ShadowCalculation: its fields changed in EnergyPlus 9.3, and the model's "
+              "Version is 9.2: update the model with the updater");
+  EXPECT_THAT(warning_of("Version,9.2;ShadowCalculation;"), testing::HasSubstr("older"));
+  EXPECT_THAT(warning_of("Version,9.2;Building,A;"), testing::HasSubstr("older"));
+  // Renamed only: the same in an IDF.
+  EXPECT_THAT(warning_of("Version,22.2;SurfaceProperty:LocalEnvironment,E,Wall,Lit;"),
+              testing::HasSubstr("older"));
+  auto const renamed = read_shading_input(read_epjson(nlohmann::json::parse(R"({
+    "Version": {"Version 1": {"version_identifier": "22.2"}},
+    "SurfaceProperty:LocalEnvironment": {"E": {"exterior_surface_name": "Wall",
+      "external_shading_fraction_schedule_name": "Lit"}}})")));
+  EXPECT_THAT(refusal_of([&] { check_supported(renamed, "a.epJSON", energyplus_25_2); }),
+              testing::HasSubstr("SurfaceProperty:LocalEnvironment: its fields changed in "
+                                 "EnergyPlus 23.2"));
+  EXPECT_NE(check_supported(renamed, "a.epJSON", {"23.1.0", ""}), "");
+}
+
+TEST(ShadingInput, ZoneListsThatDoNotExistAreRefused) {
+  std::string const lists = "ZoneList,Lower,Z1;ShadowCalculation,,,,,,,,,";
+  EXPECT_NO_THROW(read(lists + "Yes,No,lower;"));
+  EXPECT_NO_THROW(read(lists + "No,No,Lowr;"));  // not read by EnergyPlus either
+  for (auto const* const flags : {"Yes,No", "No,Yes"}) {
+    EXPECT_EQ(
+        refusal_of([&] { read(lists + flags + ",Lower,Lowr;"); }),
+        "ShadowCalculation: Shading Zone Group 2 ZoneList Name is \"LOWR\", which no ZoneList "
+        "of the model has; did you mean LOWER?");
+  }
 }
 
 TEST(ShadingInput, NamesThatNoShadingSurfaceHasAreExplained) {

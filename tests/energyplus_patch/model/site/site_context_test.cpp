@@ -31,19 +31,6 @@ class SiteContext : public SurroundingsTest {
   }
 };
 
-TEST_F(SiteContext, WarnsOfMillimetres) {
-  auto const town = [&](std::string const& storey, std::string const& otherwise) {
-    return read(location + "GPUShading:SiteContext,Town,town.geojson,,,," + storey + "," +
-                otherwise + ";")
-        .warnings;
-  };
-  EXPECT_TRUE(town("3.5", "12").empty());
-  EXPECT_THAT(town("3500", "9000"),
-              ElementsAre(HasSubstr("SiteContext Town: Storey Height is 3500 m, more than 20 m: "
-                                    "lengths are in metres, is it in millimetres?"),
-                          HasSubstr("Default Height is 9000 m, more than 1000 m")));
-}
-
 TEST_F(SiteContext, BuildingsStandOnTheTerrain) {
   auto const found =
       read(location + "GPUShading:SiteContext,Town,town.geojson,,,,,,hill.asc,,,,,Terrain;");
@@ -244,6 +231,36 @@ TEST_F(SiteContext, TellsTheModelsOwnBuilding) {
   scene.add(own);
   EXPECT_THAT(warn_of_own_buildings(found.buildings, scene, input),
               ElementsAre(HasSubstr("TOWN:B/2 encloses the model's WALL")));
+}
+
+TEST(Covers, OnlyOpaqueRoofsOverAllOfTheModelAreNamed) {
+  ShadingInput input;
+  input.zone_of = {{"WALL", "ZONE"}, {"EAST", "ZONE"}};
+  Scene scene;
+  auto const add = [&](std::string const& name, Ring const& outline) {
+    Surface surface;
+    surface.name = name;
+    surface.polygon.outline = outline;
+    scene.add(surface);
+  };
+  auto const roof = [&](std::string const& name, double from, double to, double z) {
+    add(name, {{from, -9, z}, {to, -9, z}, {to, 9, z}, {from, 9, z}});
+    input.shading_surfaces[name] = {.type = "Shading:Building:Detailed"};
+  };
+  add("WALL", {{0, 0, 3}, {0, 0, 0}, {4, 0, 0}, {4, 0, 3}});
+  add("EAST", {{4, 0, 3}, {4, 0, 0}, {4, 5, 0}, {4, 5, 3}});
+  roof("WHOLE", -9, 9, 4);
+  roof("PART", -9, 3, 4);
+  roof("GROUND", -9, 9, -0.1);
+  roof("GLASS", -9, 9, 4);
+  roof("SCHEDULED", -9, 9, 4);
+  input.shading_surfaces["SCHEDULED"].transmittance_schedule = "LEAVES";
+  roof("OVERHANG", -9, 9, 4);
+  input.shading_surfaces["OVERHANG"].type = "Shading:Zone:Detailed";
+  EXPECT_THAT(warn_of_covers(scene, input, {"GLASS"}),
+              ElementsAre("Shading:Building:Detailed WHOLE lies over the whole model: if it is the "
+                          "modelled building itself, remove it"));
+  EXPECT_THAT(warn_of_covers({}, input, {}), testing::IsEmpty());
 }
 
 }  // namespace
