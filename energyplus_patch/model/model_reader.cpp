@@ -191,7 +191,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   AssetFolder const assets(folder, choices.assets.value_or(Assets::restricted));
   model.surroundings = read_surroundings(objects, assets, reader.horizons);
   add_surroundings(model.surroundings, model.shading);
-  model.warnings = warn_of_lengths(objects);
+  for (auto& line : warn_of_lengths(objects)) model.warnings.push_back(std::move(line));
   model.shades = read_transparent_shades(objects, model.shading, folder);
   model.screens = read_perforated_screens(objects, model.shading, model.shades, assets);
   check_textures(model.surroundings, model.screens);

@@ -5,6 +5,7 @@
 
 #include "answers/cache_folder.h"
 #include "gpu_shading/error.h"
+#include "model/idf/model_text.h"
 #include "model/options/report_folder.h"
 #include "platform/naming.h"
 
@@ -42,14 +43,20 @@ std::string rewrite_idf_model(std::string const& text, std::filesystem::path con
                               TakeModel const& take) {
   auto const parsed = parse_idf(text);
   auto const find = [&](Names const& names) { return find_mentions(parsed, names); };
-  auto objects = naming(path.string(), [&] { return read_idf(parsed); });
+  auto objects = naming(path.string(), [&] {
+    check_idf_text(text, parsed);
+    return read_idf(parsed);
+  });
   return rewrite_idf(text, parsed, take(std::move(objects), find));
 }
 
 void rewrite_epjson_model(nlohmann::json& json, std::filesystem::path const& path,
                           TakeModel const& take) {
   auto const find = [&](Names const& names) { return find_mentions(json, names); };
-  auto objects = naming(path.string(), [&] { return read_epjson(json); });
+  auto objects = naming(path.string(), [&] {
+    check_epjson(json);
+    return read_epjson(json);
+  });
   rewrite_epjson(json, take(std::move(objects), find));
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cerrno>
 #include <cmath>
@@ -26,11 +27,15 @@ std::string text_of(std::string const& line) {
   return mark == std::string::npos ? trimmed(line) : trimmed(line.substr(mark + 2));
 }
 
-}  // namespace
+std::filesystem::path error_path(CommandLine const& line, std::string_view ending) {
+  std::string_view const middle = same_name(line.output_suffix, "L") ? "out" : "";
+  return fmt::format("{}{}{}", (line.output_folder / line.output_prefix).string(), middle, ending);
+}
 
-std::string stop_reasons(std::filesystem::path const& folder) {
-  std::ifstream file(folder / "eplusout.err");
-  std::string found;
+// The errors of EnergyPlus's file, in order: "Severe: text" or "Fatal: text".
+std::vector<std::string> errors_in(std::filesystem::path const& error_file) {
+  std::ifstream file(error_file);
+  std::vector<std::string> found;
   bool severe = false;
   for (std::string line; std::getline(file, line);) {
     bool const continued = line.find("**   ~~~   **") != std::string::npos;
@@ -38,11 +43,29 @@ std::string stop_reasons(std::filesystem::path const& folder) {
     bool const starts = fatal || line.find("** Severe") != std::string::npos;
     severe = starts || (continued && severe);
     if (!severe) continue;
-    if (starts) found += fatal ? "; Fatal:" : "; Severe:";
-    found += ' ';
-    found += text_of(line);
+    if (starts) found.emplace_back(fatal ? "Fatal:" : "Severe:");
+    found.back() += ' ' + text_of(line);
   }
-  return found.empty() ? "no reason is given" : found.substr(2);
+  return found;
+}
+
+}  // namespace
+
+std::string stop_reasons(std::filesystem::path const& folder) {
+  auto const errors = errors_in(folder / "eplusout.err");
+  return errors.empty() ? "no reason is given" : fmt::format("{}", fmt::join(errors, "; "));
+}
+
+void print_first_error(std::vector<std::string> const& arguments) {
+  auto const line = read_command_line(arguments);
+  auto const file = error_path(line, ".err");
+  auto const errors = errors_in(file);
+  // Ours have been printed.
+  constexpr std::string_view ours = "gpu_shading: ";
+  if (errors.empty() || errors.front().find(ours) != std::string::npos) return;
+  print_line(fmt::format("error: {}EnergyPlus stopped: {}; more in {}",
+                         line.model ? line.model->filename().string() + ": " : "", errors.front(),
+                         file.string()));
 }
 
 std::optional<std::string> last_error(std::filesystem::path const& log) {
@@ -138,10 +161,8 @@ void report(CommandLine const& line, Path const& installation, std::string const
     throw Error(
         fmt::format("{}: cannot be created ({})", line.output_folder.string(), failure.message()));
   }
-  auto const start = line.output_folder / line.output_prefix;
-  std::string_view const middle = same_name(line.output_suffix, "L") ? "out" : "";
-  overwrite(fmt::format("{}{}.err", start.string(), middle), text);
-  overwrite(fmt::format("{}{}.end", start.string(), middle), last_line(seconds) + '\n');
+  overwrite(error_path(line, ".err"), text);
+  overwrite(error_path(line, ".end"), last_line(seconds) + '\n');
 }
 
 }  // namespace

@@ -11,6 +11,10 @@ namespace gpu_shading::energyplus {
 // Why a run stopped, from the eplusout.err in its folder: "Severe: ...; Fatal: ...".
 std::string stop_reasons(std::filesystem::path const& folder);
 
+// Prints the first error in the .err file of a run with these arguments, EnergyPlus's own without
+// the program's name, unless it is ours, which has been printed.
+void print_first_error(std::vector<std::string> const& arguments);
+
 // Our last error in what a run has printed, without "gpu_shading: error: ".
 std::optional<std::string> last_error(std::filesystem::path const& log);
 

@@ -35,6 +35,18 @@ def call(patched, tmp_path):
     return run
 
 
+@pytest.fixture
+def launch(patched, weather, tmp_path):
+    """EnergyPlus for a day, in the test's folder."""
+    def run(*arguments, flags=("--gpu-shading",)):
+        done = subprocess.run([patched, *flags, "-D", "-w", weather, "-d", "out", *arguments], capture_output=True,
+                              text=True, cwd=tmp_path)
+        assert "filesystem error" not in done.stderr and "json.exception" not in done.stderr
+        return done
+
+    return run
+
+
 def is_safe(text):
     return not re.search(r"[\x00-\x09\x0b-\x1f\x7f-\x9f]", text)
 
@@ -110,14 +122,52 @@ def test_json_that_is_no_model(call, patched, tmp_path, text, kind):
 SCREEN = "GPUShading:PerforatedScreen, Sheet, {}, Round, , Staggered60, {}, , {}, , {};\n"
 
 
-def test_lengths_in_millimetres_are_questioned(call, box, model):
-    question = "lengths are in metres, is it in millimetres?"
-    model.write_text(box + SCREEN.format("Louvre 1", 6.35, 8.55, 0.00635))
+@pytest.mark.parametrize("fields, said", [
+    (SCREEN.format("Louvre 1", 6.35, 8.55, 0.00635),
+     "Hole Size is 6.35 m, more than 1 m: lengths are in metres; is it in millimetres (0.00635), centimetres (0.0635), "
+     "inches (0.1613)?"),
+    (SCREEN.format("Louvre 1", 3, 5, 0.001), "Pitch is 5 m, more than 1 m: lengths are in metres; is it in "),
+    (SCREEN.format("Louvre 1", 40, 60, 0.001), "Hole Size is 40 m, more than 1 m: lengths are in metres; is it in "
+     "millimetres (0.04), centimetres (0.4)?"),
+    ("GPUShading:PVModules, String, Louvre 1, 68, 1.6;\n", "Module Width is 68 m, more than 10 m: lengths are in "
+     "metres; is it in millimetres (0.068), centimetres (0.68), inches (1.727)?"),
+    ("GPUShading:Tree, Oak, 9, 9, 0, 10, 6, 2, , , , , 30;\n", None),
+    ("GPUShading:Tree, Oak, 9, 9, 0, 180, 120;\n", "Tree Oak: Crown Diameter is 120 m, more than 70 m: lengths are in "
+     "metres; is it in "),
+])
+def test_lengths_in_other_units_are_questioned(call, box, model, weather, launch, fields, said):
+    model.write_text(box + fields)
     done = call("check", "model.idf")
-    assert done.returncode == 0 and f"Hole Size is 6.35 m, more than 1 m: {question}" in done.stdout
+    if said is None:
+        assert "lengths are in metres" not in done.stdout + done.stderr
+        return
+    assert done.returncode == 0 and said in done.stdout, done.stdout + done.stderr
+    assert f"warning: GPUShading:{fields.split(':')[1].split(',')[0]}" in launch("model.idf").stderr
+
+
+def test_a_length_out_of_range_is_questioned(call, box, model):
     model.write_text(box + SCREEN.format("Louvre 1", 0.00635, 0.00855, 6.35))
     done = call("check", "model.idf")
-    assert done.returncode == 1 and done.stderr.endswith(f": {question}\n") and 'Thickness is "6.35"' in done.stderr
+    assert done.returncode == 1 and 'Thickness is "6.35", expected a number' in done.stderr
+    assert done.stderr.endswith(": lengths are in metres; is it in millimetres (0.00635), centimetres (0.0635)?\n")
+
+
+@pytest.mark.parametrize("fields", [
+    "GPUShading:TransparentShade, Half, Louvre 1, Constant, 0,5;\n",
+    "GPUShading:PerforatedScreen, Sheet, Louvre 1, Round, , Staggered60, 0,005, , 0,008, , 0,001;\n",
+    "GPUShading:Tree, Oak,\n  2,5,\n  -8,\n  0,\n  9,\n  6;\nGPUShading:Tree, Fir,\n  2,5,\n  -8,\n  0,\n  x,\n  6;\n",
+])
+def test_a_decimal_comma_is_questioned(call, box, model, fields):
+    model.write_text(box + fields)
+    done = call("check", "model.idf")
+    assert done.returncode == 1 and done.stderr.count("\n") == 1
+    assert done.stderr.endswith("; is a comma in a number? Numbers take a decimal point\n")
+
+
+@pytest.mark.parametrize("arguments", [("--gpu-shading-error", "0,01"), ("--gpu-shading-cache-size", "0,5")])
+def test_a_decimal_comma_of_an_option_is_named(call, model, arguments):
+    done = call("check", "model.idf", *arguments)
+    assert done.returncode == 1 and done.stderr.endswith(": numbers take a decimal point\n")
 
 
 @pytest.mark.parametrize("surface, reason", [
@@ -137,18 +187,6 @@ def test_unknown_fields_list_the_known(call, model, tmp_path):
     done = call("check", "model.idf", "--gpu-shading-file", "side.epJSON")
     assert done.stderr.endswith('"resolutoin": no such field; known: resolution, update_frequency, device, error, '
                                 'sky_model; did you mean resolution?\n')
-
-
-@pytest.fixture
-def launch(patched, weather, tmp_path):
-    """EnergyPlus for a day, in the test's folder."""
-    def run(*arguments, flags=("--gpu-shading",)):
-        done = subprocess.run([patched, *flags, "-D", "-w", weather, "-d", "out", *arguments], capture_output=True,
-                              text=True, cwd=tmp_path)
-        assert "filesystem error" not in done.stderr and "json.exception" not in done.stderr
-        return done
-
-    return run
 
 
 @pytest.mark.parametrize("arguments, message", [
@@ -173,10 +211,50 @@ def test_the_ending_of_a_model_is_explained(call, launch, box, tmp_path, name, c
         assert done.returncode == 1 and done.stderr.startswith(f"gpu_shading: error: {name}: {reason}")
 
 
-def test_a_model_of_another_version_is_named(call, launch, box, model):
-    model.write_text(re.sub(r"(Version,\s*)[\d.]+", r"\g<1>24.1", box))
+def of_version(box, version):
+    return re.sub(r"(Version,\s*)[\d.]+", rf"\g<1>{version}", box)
+
+
+@pytest.mark.parametrize("version, relation, action", [
+    *((version, "older", "to be sure, update the model with IDFVersionUpdater, which comes with the EnergyPlus of "
+       "energyplus.net/downloads") for version in ("9.3", "22.2", "24.1", "25.1")),
+    ("26.1", "newer", "to be sure, use that EnergyPlus")])
+def test_a_model_of_another_version_runs_with_a_warning(call, launch, official, box, model, weather, tmp_path, version,
+                                                        relation, action):
+    model.write_text(of_version(box, version))
+    line = (f"model.idf: Version is {version}, {relation} than this EnergyPlus, 25.2, which reads all fields as its "
+            f"own; {action}\n")
+    checked = call("check", "model.idf")
+    assert checked.returncode == 0 and line in checked.stdout, checked.stderr
+    run = launch("model.idf")
+    assert run.returncode == 0 and f"gpu_shading: warning: {line}" in run.stderr
+    # As EnergyPlus alone.
+    stock = subprocess.run([official, "-D", "-w", weather, "-d", "stock", "model.idf"], capture_output=True,
+                           cwd=tmp_path)
+    assert stock.returncode == 0
+    theirs = [text for text in (tmp_path / "stock" / "eplusout.err").read_text().splitlines() if "Version:" in text]
+    assert theirs and set(theirs) <= set((tmp_path / "out" / "eplusout.err").read_text().splitlines())
+
+
+def test_a_model_whose_fields_moved_is_refused(call, launch, box, model):
+    model.write_text(of_version(box, "9.2").replace("  PolygonClipping,", "  AverageOverDaysInFrequency,"))
     for done in (call("check", "model.idf"), launch("model.idf")):
-        assert done.stderr.startswith("gpu_shading: error: model.idf: Version: Version Identifier is 24.1, this ")
+        assert done.returncode == 1 and done.stderr.startswith(
+            "gpu_shading: error: model.idf: ShadowCalculation: its fields changed in EnergyPlus 9.3, and the model's "
+            "Version is 9.2: update the model with IDFVersionUpdater, ")
+
+
+GROUP = "  20,,,,,,{},{};"
+
+
+@pytest.mark.parametrize("switches, refused", [("Yes,No", True), ("No,Yes", True), ("No,No", False)])
+def test_a_zone_list_that_does_not_exist(call, launch, box, model, switches, refused):
+    model.write_text(re.sub(r"^  20; .*$", GROUP.format(switches, "Nowhere"), box, count=1, flags=re.M))
+    for done in (call("check", "model.idf"), launch("model.idf")):
+        assert done.returncode == (1 if refused else 0), done.stderr
+        if refused:
+            assert done.stderr == ("gpu_shading: error: model.idf: ShadowCalculation: Shading Zone Group 1 ZoneList "
+                                   'Name is "NOWHERE", which no ZoneList of the model has\n')
 
 
 @pytest.mark.parametrize("text, warned", [
@@ -361,3 +439,148 @@ def test_mean_sunlit_fractions_are_the_same_everywhere(official, patched, report
     assert [row[0] for row in rows] == list(table)
     north = next(row for row in rows if row[0] == "NORTH")
     assert page["NORTH"] == table["NORTH"]["clip sunlit"] == "" and north[3:5] == ["0", "–"]
+
+
+# What users give by mistake: (file names and texts, arguments of energyplus, the message)
+MISTAKES = {
+    "a ZIP archive as weather": ({"w.zip": "PK\x03\x04x"}, ["-w", "w.zip", "model.idf"],
+                                 "-w w.zip: is a ZIP archive; expected the weather file (.epw) in it: unpack it"),
+    "a model as weather": ({}, ["-w", "model.idf", "model.idf"],
+                           "-w model.idf: is not a weather file (.epw), which begins with LOCATION"),
+    "an empty IDF": ({"empty.idf": " \n! nothing\n"}, ["empty.idf"], "empty.idf: has no objects; expected a model"),
+    "an empty epJSON": ({"empty.epJSON": "{}"}, ["empty.epJSON"], "empty.epJSON: has no objects; expected a model"),
+    "no such model": ({}, ["nowhere.idf"], "nowhere.idf: no such file"),
+    "an OpenStudio model": ({"m.osm": "OS:Version,a,3.9.0;"}, ["m.osm"],
+                            "m.osm: is an OpenStudio model; expected an .idf or .epJSON file: export it as IDF from "
+                            "OpenStudio"),
+    "an OpenStudio model as IDF": ({"m.idf": "OS:Version,a,3.9.0;"}, ["m.idf"],
+                                   "m.idf: is an OpenStudio model; expected an IDF: export it from OpenStudio"),
+    "a Honeybee model": ({"m.hbjson": '{"type": "Model"}'}, ["m.hbjson"],
+                         "m.hbjson: is a Honeybee model; expected an .idf or .epJSON file: translate it with "
+                         "honeybee-energy translate model-to-idf"),
+    "a Honeybee model as epJSON": ({"m.epJSON": '{"type": "Model"}'}, ["m.epJSON"],
+                                   "m.epJSON: is JSON of another program (a Honeybee model?); expected epJSON: "
+                                   "translate it with honeybee-energy translate model-to-idf"),
+    "weather as a model": ({"w.epw": "LOCATION,a"}, ["w.epw"],
+                           "w.epw: is a weather file; expected an .idf or .epJSON file: -w names the weather file"),
+    "macros": ({"m.idf": "Version,25.2;\n\n  ##include other.idf\n"}, ["m.idf"],
+               "m.idf: line 3: ##include is a macro: run energyplus with -m, so that EPMacro expands it, or give the "
+               "expanded IDF"),
+}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_a_wrong_file_is_explained(call, launch, model, tmp_path, mistake):
+    files, arguments, message = MISTAKES[mistake]
+    for name, text in files.items():
+        (tmp_path / name).write_text(text)
+    checked = call("check", *[each for each in arguments if each != "-D"])
+    for done in (checked, launch(*arguments)):
+        assert (done.returncode, done.stderr) == (1, f"gpu_shading: error: {message}\n")
+
+
+def test_latin_1_is_named_with_its_line(call, launch, box, tmp_path):
+    text = box.replace("South Window", "Südfenster")
+    (tmp_path / "model.idf").write_text(text, encoding="latin-1")
+    line = next(number for number, words in enumerate(text.splitlines(), 1) if "Südfenster" in words)
+    for done in (call("check", "model.idf"), launch("model.idf")):
+        assert done.returncode == 1 and done.stderr.startswith(
+            f"gpu_shading: error: model.idf: line {line}: FenestrationSurface:Detailed S")
+        assert done.stderr.endswith(" is not UTF-8 text (Latin-1?): save the file as UTF-8\n")
+    # EnergyPlus does not mind comments.
+    (tmp_path / "model.idf").write_text(box + "! Büro\n", encoding="latin-1")
+    assert launch("model.idf").returncode == 0
+
+
+@pytest.mark.parametrize("type_, fields", [("HVACTemplate:Thermostat", "All,,20,,26"),
+                                           ("GroundHeatTransfer:Control", "Ground,Yes,No")])
+def test_templates_need_a_flag(launch, box, model, type_, fields):
+    model.write_text(f"{box}{type_},{fields};\n")
+    assert launch("model.idf").stderr == (f"gpu_shading: error: model.idf: {type_} needs ExpandObjects: give -x to "
+                                          "energyplus\n")
+
+
+def test_a_comment_about_templates_needs_none(launch, box, model):
+    model.write_text(box + "! HVACTemplate:Thermostat\n")
+    assert launch("model.idf").returncode == 0
+
+
+def test_a_missing_weather_file_is_named_before_the_run(patched, box, model, weather, tmp_path):
+    def run(*arguments):
+        return subprocess.run([patched, "--gpu-shading", "-d", "out", *arguments, "model.idf"], capture_output=True,
+                              text=True, cwd=tmp_path)
+
+    message = ("gpu_shading: error: -w: a weather file (.epw) is required for the run periods of model.idf; -D runs "
+               "design days alone\n")
+    assert run().stderr == message and run("-a").stderr == message
+    assert run("-D").returncode == 0
+    model.write_text(box.replace("Yes;                     !- Run Simulation for Weather", "No;  !- Weather"))
+    assert run().stderr != message
+    model.write_text(box)
+    (tmp_path / "in.epw").symlink_to(weather)
+    assert run().returncode == 0
+
+
+def test_the_first_error_of_energyplus_is_shown(launch, box, model, tmp_path):
+    model.write_text(box + "Schedule:Constant,Wrong,Nowhere Limits,word;\nSchedule:Constant,Worse,,word;\n")
+    done = launch("model.idf")
+    assert done.returncode == 1
+    first = next(text for text in (tmp_path / "out" / "eplusout.err").read_text().splitlines() if "** Severe" in text)
+    assert done.stderr.splitlines()[-1] == (f"gpu_shading: error: model.idf: EnergyPlus stopped: Severe: "
+                                            f"{first.split('** ')[-1].strip()}; more in out/eplusout.err")
+
+
+@pytest.mark.parametrize("arguments, message", [
+    (("run", "model.idf"), "run: no such subcommand; to run a model, type energyplus --gpu-shading -w WEATHER.epw "
+     "model.idf"),
+    (("simulate",), "simulate: no such subcommand; to run a model, type energyplus --gpu-shading -w WEATHER.epw "
+     "MODEL.idf"),
+    (("model.idf",), "model.idf: expected a subcommand before it, such as check model.idf; to run a model, type "
+     "energyplus --gpu-shading -w WEATHER.epw model.idf"),
+    (("veiw", "model.idf"), "veiw: no such subcommand; did you mean view?"),
+    (("view", "model.idf", "--sun", "180,40", "-o", "o.txt"), "-o o.txt: expected the name of a picture, such as o.png "
+     "(also .jpg, .tif, .gif, .bmp, .tga and .exr)"),
+    (("map", "model.idf", "-w", "w.epw", "-o", "o.txt"), "--output: o.txt: expected the name of a folder, which gets "
+     "several files"),
+    (("sample", "model.idf", "-w", "w.epw", "-o", "year.csv"), "--output: year.csv: expected the name of a folder, "
+     "which gets several files"),
+])
+def test_guesses_are_answered(call, model, weather, tmp_path, arguments, message):
+    (tmp_path / "w.epw").symlink_to(weather)
+    before = sorted(tmp_path.iterdir())
+    done = call(*arguments)
+    assert (done.returncode, done.stderr) == (1, f"gpu_shading: error: {message}\n")
+    assert sorted(tmp_path.iterdir()) == before
+
+
+def test_a_side_file_that_is_read_is_named(call, launch, model, tmp_path):
+    said = "GPUShading:... objects are also read from model.gpu-shading.idf"
+    for present in (False, True):
+        if present:
+            (tmp_path / "model.gpu-shading.idf").write_text("GPUShading:TransparentShade,Half,Louvre 1,Constant,0.5;\n")
+        assert (said in call("check", "model.idf").stdout) == present
+        assert (said in launch("model.idf").stderr) == present
+        assert (said in (tmp_path / "out" / "eplusout.err").read_text()) == present
+
+
+@pytest.mark.parametrize("objects, said", [
+    ("Shading:Building:Detailed,Old House,,4, -20,30,9, -20,-20,9, 30,-20,9, 30,30,9;\n",
+     "Shading:Building:Detailed OLD HOUSE lies over the whole model: if it is the modelled building itself, remove it"),
+    ("Shading:Building,Old House,180,0,-20,-20,9,50,50;\n",
+     "Shading:Building OLD HOUSE lies over the whole model: if it is the modelled building itself, remove it"),
+    ("Shading:Site:Detailed,Ground,,4, -20,30,-1, -20,-20,-1, 30,-20,-1, 30,30,-1;\n", None),
+    ("Shading:Building:Detailed,Next Door,,4, 20,30,9, 20,-20,9, 70,-20,9, 70,30,9;\n", None),
+    ("Shading:Building:Detailed,Glass,,4, -20,30,9, -20,-20,9, 30,-20,9, 30,30,9;\n"
+     "GPUShading:TransparentShade,Roof,Glass,Constant,0.9;\n", None),
+    ("GPUShading:SiteContext,Town,town.geojson,,,,,9;\n", "encloses the model's"),
+])
+def test_a_neighbour_that_encloses_the_model_is_named(call, launch, box, model, tmp_path, objects, said):
+    ring = [[-105.181, 39.739], [-105.179, 39.739], [-105.179, 39.741], [-105.181, 39.741], [-105.181, 39.739]]
+    (tmp_path / "town.geojson").write_text(json.dumps({
+        "type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [ring]}}))
+    model.write_text(box + objects)
+    for text in (call("check", "model.idf").stdout, launch("model.idf").stderr):
+        if said:
+            assert said in text
+        else:
+            assert "lies over the whole model" not in text and "encloses" not in text

@@ -14,6 +14,7 @@
 #include "model/extensions/field.h"
 #include "model/idf/idf_text.h"
 #include "model/idf/model_file.h"
+#include "model/idf/model_text.h"
 #include "platform/files.h"
 #include "platform/naming.h"
 #include "platform/text.h"
@@ -40,6 +41,20 @@ std::string item_title(ExtensionType const& type, std::size_t index) {
 }
 
 // For both kinds of file.
+// Also asks about decimal commas.
+template <typename Action>
+void naming_with_commas(IdfObject const& object, std::string const& title, Action const& action) {
+  naming(title, [&] {
+    try {
+      action();
+    } catch (Error const& error) {
+      if (!object.has_decimal_comma) throw;
+      throw Error(
+          fmt::format("{}; is a comma in a number? Numbers take a decimal point", error.what()));
+    }
+  });
+}
+
 void check_object(ExtensionType const& type, InputObject const& object) {
   for (auto const* const field : type.fields) check(*field, object[field->key], field->title);
   if (type.list_field == nullptr) return;
@@ -132,10 +147,7 @@ InputObject from_epjson(ExtensionType const& type, std::string const& name,
 
 // Without the byte order mark, lines ended by \n.
 std::string normalised(std::string text) {
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
-      text.find('\0') != std::string::npos) {
-    throw Error("is not UTF-8 text (UTF-16?): save it as UTF-8");
-  }
+  refuse_utf16(text);
   if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
   std::string lines;
   lines.reserve(text.size());
@@ -188,7 +200,7 @@ InputObject read_extension(IdfObject const& object) {
   InputObject result{std::string(type.type), {}, {}, {}};
   auto const& values = object.fields;
   if (is_named(type) && !values.empty()) result.name = values.front();
-  naming(result.title(), [&] {
+  naming_with_commas(object, result.title(), [&] {
     if (type.list_field == nullptr && values.size() > type.fields.size()) {
       throw Error(fmt::format("{} fields, expected {} at most", values.size(), type.fields.size()));
     }

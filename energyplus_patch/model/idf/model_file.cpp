@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -10,6 +11,7 @@
 
 #include "gpu_shading/error.h"
 #include "model/idf/extension_objects.h"
+#include "model/idf/model_text.h"
 #include "platform/files.h"
 #include "platform/naming.h"
 #include "platform/text.h"
@@ -149,6 +151,19 @@ std::string changed_shadow_calculation(IdfObject const& object, Rewrite const& r
   return text + ";" + (lines > 0 ? "\n" : "") + comment_lines(lines - 1);
 }
 
+std::vector<InputObject> read_checked_idf(std::string_view text) {
+  refuse_json(text);
+  auto const parsed = parse_idf(text);
+  check_idf_text(text, parsed);
+  return read_idf(parsed);
+}
+
+std::vector<InputObject> read_checked_epjson(std::string_view text) {
+  auto const model = parse_epjson(text);
+  check_epjson(model);
+  return read_epjson(model);
+}
+
 }  // namespace
 
 std::vector<InputObject> read_idf(std::string_view text) {
@@ -191,10 +206,32 @@ std::vector<InputObject> read_epjson(nlohmann::json const& model) {
 std::vector<InputObject> read_objects(std::filesystem::path const& path) {
   auto const text = read_text_file(path);
   return naming(path.string(), [&] {
-    auto objects = is_epjson(path) ? read_epjson(parse_epjson(text)) : read_idf(text);
+    auto objects = is_epjson(path) ? read_checked_epjson(text) : read_checked_idf(text);
     for (auto& object : objects) object.file = path.string();
     return objects;
   });
+}
+
+void require_model(std::filesystem::path const& model) {
+  require_file(model);
+  if (is_idf(model) || is_epjson(model)) return;
+  struct OtherFile {
+    std::string_view ending;
+    std::string_view kind;
+    std::string_view action;
+  };
+  constexpr std::array<OtherFile, 3> others{{
+      {".osm", "is an OpenStudio model; ", ": export it as IDF from OpenStudio"},
+      {".hbjson", "is a Honeybee model; ",
+       ": translate it with honeybee-energy translate model-to-idf"},
+      {".epw", "is a weather file; ", ": -w names the weather file"},
+  }};
+  auto const ending = model.extension().string();
+  auto const* const other = std::ranges::find_if(
+      others, [&](OtherFile const& each) { return same_name(each.ending, ending); });
+  bool const known = other != others.end();
+  throw Error(fmt::format("{}: {}expected an .idf or .epJSON file{}", model.string(),
+                          known ? other->kind : "", known ? other->action : ""));
 }
 
 std::string text_of(nlohmann::json const& value) {

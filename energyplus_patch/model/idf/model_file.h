@@ -34,8 +34,11 @@ void refuse_json(std::string_view text);
 nlohmann::json parse_epjson(std::string_view text);
 
 // The objects of known types (known_types) and every extension object in a model's file. Throws
-// Error, naming the file.
+// Error, naming the file, also for the text of an IDF as check_idf_text() does.
 std::vector<InputObject> read_objects(std::filesystem::path const& path);
+
+// Throws Error unless it is a file with the ending of a model.
+void require_model(std::filesystem::path const& model);
 
 // By the ending of the file's name.
 bool is_epjson(std::filesystem::path const& path);

@@ -61,6 +61,21 @@ std::string with_single_spaces(std::string text) {
 
 }  // namespace
 
+void require_weather(std::filesystem::path const& weather) try {
+  auto const lines = header_of(weather);
+  auto const is_location = [](std::string const& line) {
+    return upper(trimmed(line)).starts_with("LOCATION");
+  };
+  if (std::ranges::any_of(lines, is_location)) return;
+  bool const zip = !lines.empty() && lines.front().starts_with("PK\x03\x04");
+  throw Error(
+      fmt::format("{}: {}", weather.string(),
+                  zip ? "is a ZIP archive; expected the weather file (.epw) in it: unpack it"
+                      : "is not a weather file (.epw), which begins with LOCATION"));
+} catch (Error const& error) {
+  throw Error(fmt::format("-w {}", error.what()));
+}
+
 WeatherSite read_weather_site(std::filesystem::path const& weather) {
   auto const lines = header_of(weather);
   auto const fields = comma_separated(lines.empty() ? "" : lines.front());

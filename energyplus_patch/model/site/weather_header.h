@@ -7,6 +7,11 @@
 
 namespace gpu_shading::energyplus {
 
+// For the option -w, which errors name. Throws Error like require_file(), and for a file that
+// EnergyPlus cannot take as a weather file: without LOCATION at the start of one of its first eight
+// lines.
+void require_weather(std::filesystem::path const& weather);
+
 // From the first eight lines of a weather file (EPW). The functions throw Error like
 // require_file(), or "FILE: LINE: FIELD is VALUE, expected ..."; these lines may have 1 MiB in all.
 

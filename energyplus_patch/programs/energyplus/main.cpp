@@ -22,6 +22,8 @@
 
 #include "gpu_shading/error.h"
 #include "gpu_shading_energyplus.h"
+#include "model/idf/model_text.h"
+#include "model/site/weather_header.h"
 #include "platform/console.h"
 #include "platform/ending_signals.h"
 #include "platform/error_line.h"
@@ -101,11 +103,7 @@ class NoOutputFolder : public Error {
 // EnergyPlus itself would name these on standard output, or end with a library's message.
 void check_files(CommandLine const& line) {
   if (!line.runs) return;
-  try {
-    if (line.weather) require_file(*line.weather);
-  } catch (Error const& error) {
-    throw Error(fmt::format("-w {}", error.what()));
-  }
+  if (line.weather) require_weather(*line.weather);
   std::error_code failure;
   std::filesystem::create_directories(line.output_folder, failure);
   if (!failure) failure = {find_access(line.output_folder), std::generic_category()};
@@ -141,11 +139,37 @@ void warn_of_extensions(RunSetup const& setup) {
                          setup.line.model->string(), type));
 }
 
+// EnergyPlus itself would say so after its sizing, or in its .err file only.
+void check_weather(RunSetup const& setup) {
+  auto const& line = setup.line;
+  if (line.weather || line.design_days || std::filesystem::exists("in.epw")) return;
+  auto const objects = read_objects(*line.model);
+  auto const control = std::ranges::find(objects, "SimulationControl", &InputObject::type);
+  bool const periods =
+      std::ranges::find(objects, "RunPeriod", &InputObject::type) != objects.end() &&
+      control != objects.end() &&
+      !same_name((*control)["run_simulation_for_weather_file_run_periods"], "No");
+  if (!line.annual && !periods) return;
+  throw Error(fmt::format(
+      "-w: a weather file (.epw) is required for the run periods of {}; -D runs design days alone",
+      line.model->filename().string()));
+}
+
+void check_preprocessing(RunSetup const& setup) {
+  auto const& line = setup.line;
+  if (line.expand || !is_idf(*line.model)) return;
+  auto const type = find_template(parse_idf(read_text_file(*line.model)));
+  if (type.empty()) return;
+  throw Error(fmt::format("{}: {} needs ExpandObjects: give -x to energyplus",
+                          line.model->filename().string(), type));
+}
+
 // Errors in the model are reported before anything is written. What it chooses is added to the
 // user's choices, so that the module can check the device before EnergyPlus starts.
 void check_model(RunSetup& setup) {
   if (!setup.has_model()) return;
   auto& choices = setup.choices;
+  check_preprocessing(setup);
   Reader reader;
   reader.horizons = false;
   reader.release = read_release(own_folder());
@@ -354,8 +378,10 @@ int launch(RunSetup& setup, char** argv) {
   check_files(line);
   std::optional<TemporaryFolder> surroundings;
   if (line.model) {
+    if (line.runs) require_model(*line.model);
     check_conversion(setup);
     check_model(setup);
+    if (line.runs && !line.convert) check_weather(setup);
     draw_maps(setup);
     if (choices.surroundings.value_or(false) && !choices.task) {
       trace_surroundings(setup, surroundings.emplace().path());
@@ -372,7 +398,10 @@ int launch(RunSetup& setup, char** argv) {
     choices.start = expansion->start();
     if (choices.file) choices.file = *choices.start / *choices.file;
   }
-  return run_shaded(argv[0], std::move(energyplus_arguments), choices);
+  int const status = run_shaded(argv[0], std::move(energyplus_arguments), choices);
+  expansion.reset();  // back to the user's folder
+  if (status != EXIT_SUCCESS) print_first_error(setup.arguments);
+  return status;
 }
 
 }  // namespace

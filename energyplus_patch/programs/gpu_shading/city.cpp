@@ -288,6 +288,7 @@ void add_city(Program const& program) {
       ->check(CLI::Range(0.1, 1e4));
   command->add_option("-o,--output", order->folder, "New folder for the plan")
       ->required()
+      ->check(folder_name())
       ->type_name("DIR");
   command.run([order] { plan_city(*order); });
 }

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "gpu_shading/error.h"
 #include "model/options/option_table.h"
+#include "model/site/weather_header.h"
 #include "platform/console.h"
+#include "platform/text.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -26,6 +29,20 @@ std::string help_of(OptionNames const& names, bool all) {
 }
 
 }  // namespace
+
+CLI::Validator folder_name() {
+  return {[](std::string& text) -> std::string {
+            constexpr std::array<std::string_view, 8> endings{".txt", ".csv", ".png",  ".jpg",
+                                                              ".svg", ".pdf", ".html", ".json"};
+            std::filesystem::path const path(text);
+            auto const ending = path.extension().string();
+            bool const is_file = std::ranges::any_of(
+                endings, [&](std::string_view known) { return same_name(known, ending); });
+            if (!is_file || std::filesystem::is_directory(path)) return {};
+            return fmt::format("{}: expected the name of a folder, which gets several files", text);
+          },
+          ""};
+}
 
 Command::Command(Program const& program, std::string const& name, std::string const& description,
                  OptionNames options)
@@ -46,8 +63,7 @@ std::shared_ptr<ModelRun> Command::add_model(std::string const& weather) const {
   app_->add_option_function<std::string>(
           "-w,--weather",
           [run](std::string const& text) {
-            if (!std::filesystem::exists(text))
-              throw Error(fmt::format("-w {}: no such file", text));
+            require_weather(text);
             run->weather = text;
           },
           weather)
@@ -61,6 +77,7 @@ void Command::add_folder(std::filesystem::path& folder, std::string const& conte
           fmt::format("Folder for the {0}: new, empty, or with earlier {0}, which are replaced",
                       contents))
       ->required()
+      ->check(folder_name())
       ->type_name("DIR");
 }
 

@@ -24,6 +24,9 @@ struct Program {
 // Names of options of shading (OptionRow::name).
 using OptionNames = std::vector<std::string_view>;
 
+// Refuses the name of a file for a folder: -o o.txt.
+CLI::Validator folder_name();
+
 // A subcommand that is being added to the program.
 class Command {
  public:

@@ -18,7 +18,7 @@ namespace {
 // EnergyPlus.
 void export_scheduled(ModelRun const& run, EnergyPlusCall call,
                       std::filesystem::path const& folder) {
-  require_file(run.model);
+  require_model(run.model);
   if (!run.weather) throw Error("-w: a weather file is required (it sets site and calendar)");
   call.program = find_launcher();
   call.model = run.model;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
+#include "model/idf/model_file.h"
 #include "model/options/option_table.h"
 #include "platform/console.h"
 #include "platform/ending_signals.h"
@@ -31,7 +32,19 @@ void refuse_mistyped_subcommand(CLI::App const& app, std::vector<std::string> co
   auto const& word = arguments.front();
   auto const names = names_of(app.get_subcommands({}));
   if (std::ranges::find(names, word) != names.end()) return;
-  throw Error(fmt::format("{}: no such subcommand{}", printable(word), did_you_mean(word, names)));
+  constexpr std::string_view run = "to run a model, type energyplus --gpu-shading -w WEATHER.epw ";
+  if (is_idf(word) || is_epjson(word)) {
+    throw Error(fmt::format("{0}: expected a subcommand before it, such as check {0}; {1}{0}",
+                            printable(word), run));
+  }
+  auto const near = did_you_mean(word, names);
+  auto const model = std::ranges::find_if(
+      arguments, [](std::string const& each) { return is_idf(each) || is_epjson(each); });
+  throw Error(fmt::format(
+      "{}: no such subcommand{}", printable(word),
+      !near.empty() ? near
+                    : fmt::format("; {}{}", run,
+                                  model == arguments.end() ? "MODEL.idf" : printable(*model))));
 }
 
 // Names the first argument that no subcommand accepts.

@@ -7,6 +7,7 @@
 
 #include "gpu_shading/error.h"
 #include "model/idf/model_file.h"
+#include "model/idf/model_text.h"
 #include "platform/files.h"
 #include "platform/process.h"
 #include "runs/installation.h"
@@ -44,7 +45,7 @@ std::vector<std::string> command_for(ModelRun const& run, Path const& task, Path
   std::vector<std::string> command{find_launcher().string(), "-d", folder.string(), "-w",
                                    epw.string()};
   for (auto const& flag : flags_of(choices, task)) command.push_back(flag);
-  if (is_idf(model) && read_text_file(model).find("HVACTemplate:") != std::string::npos) {
+  if (is_idf(model) && !find_template(parse_idf(read_text_file(model))).empty()) {
     command.emplace_back("-x");
   }
   command.push_back(model.string());
@@ -52,13 +53,6 @@ std::vector<std::string> command_for(ModelRun const& run, Path const& task, Path
 }
 
 }  // namespace
-
-void require_model(std::filesystem::path const& model) {
-  require_file(model);
-  if (!is_idf(model) && !is_epjson(model)) {
-    throw Error(fmt::format("{}: expected an .idf or .epJSON file", model.string()));
-  }
-}
 
 TaskReply run_task(ModelRun const& run, Task const& task) {
   auto const& model = run.model;

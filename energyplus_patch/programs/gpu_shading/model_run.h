@@ -17,9 +17,6 @@ struct ModelRun {
   Choices choices;
 };
 
-// Throws Error unless it is a file with the ending of a model.
-void require_model(std::filesystem::path const& model);
-
 // Has EnergyPlus, in a process of its own, read a model and hand over its surfaces, and a task done
 // with them. Throws Error: an error of the model, why the task could not be done, or how
 // EnergyPlus's process ended without a reply.

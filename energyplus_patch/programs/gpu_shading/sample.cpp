@@ -245,6 +245,7 @@ void add_sample(Program const& program) {
       ->add_option("-o,--output", order->folder,
                    "Folder for samples.csv and year.csv, or for sky.csv and sky_view.csv")
       ->required()
+      ->check(folder_name())
       ->type_name("DIR");
   auto* const mode = command->add_option("--mode", order->mode, "Density of the samples");
   mode->check(CLI::IsMember({"fine", "medium", "coarse"}))->capture_default_str();

@@ -297,6 +297,7 @@ void add_screen(Program const& program) {
           "Folder for NAME_tau.csv (transmittance by angles), NAME_tau.svg (polar plot) and "
           "NAME_tile.png (one tile of the sheet): new, empty, or with earlier screens, which are "
           "replaced")
+      ->check(folder_name())
       ->type_name("DIR");
   command
       ->add_option_function<std::string>(

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <glm/trigonometric.hpp>
@@ -216,6 +218,21 @@ std::optional<SunDirection> camera_of(ViewArguments const& arguments) {
   return direction_of_degrees(azimuth, altitude);
 }
 
+// Before the model is drawn, which may take minutes.
+void require_picture_name(Path const& picture) {
+  constexpr std::array<std::string_view, 9> endings{".png", ".jpg", ".jpeg", ".tif", ".tiff",
+                                                    ".gif", ".bmp", ".tga",  ".exr"};
+  auto const ending = picture.extension().string();
+  if (std::ranges::any_of(endings,
+                          [&](std::string_view known) { return same_name(known, ending); })) {
+    return;
+  }
+  throw Error(fmt::format(
+      "-o {}: expected the name of a picture, such as {}.png (also .jpg, .tif, .gif, .bmp, .tga "
+      "and .exr)",
+      picture.string(), picture.stem().string()));
+}
+
 void run_view(ModelRun const& model, ViewArguments const& arguments) {
   Path const output = arguments.output;
   if (arguments.range && !arguments.receiver.empty()) {
@@ -230,6 +247,7 @@ void run_view(ModelRun const& model, ViewArguments const& arguments) {
     throw Error(
         "expected --at \"MM-DD HH:MM\", --day MM-DD, --sun AZIMUTH,ALTITUDE, or --list FILE");
   }
+  require_picture_name(output);
   auto const camera = camera_of(arguments);
   std::vector<CaptionedView> views;
   for (auto const& time : view_times(model, arguments)) {
