@@ -23,11 +23,15 @@ FIELDS_OF_POINT = 3
 
 
 def read(path):
-    """An Idf or EpJson, depending on the file name's extension."""
+    """An Idf or EpJson, depending on the file name's extension. Raises OSError or ValueError, naming the file."""
     path = Path(path)
+    if path.exists() and not path.is_file():  # a pipe would be waited for, and a device has no end
+        raise ValueError(f"{path} is not a file; expected an IDF or epJSON file")
     text = path.read_text(encoding="utf-8", errors="surrogateescape")
-    kind = EpJson if path.suffix.lower() == ".epjson" else Idf
-    return kind(text)
+    try:
+        return EpJson(text) if path.suffix.lower() == ".epjson" else Idf(text)
+    except (RecursionError, ValueError) as error:
+        raise ValueError(f"{path} is not epJSON: {error}") from None
 
 
 class Idf:

@@ -87,7 +87,8 @@ bool is_inside(GeographicRing const& ring, GeographicPoint const& point) {
 }
 
 std::vector<Placed> place_template(CityOrder const& order, std::vector<Building> const& map) {
-  require_file(order.template_model);
+  require_model(order.template_model);
+  read_objects(order.template_model);  // or each run of the plan would refuse it
   std::vector<Placed> runs;
   std::set<std::string> names;
   for (auto const& building : map) {

@@ -13,7 +13,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NoReturn
 
-from gpu_shading._text import one_line
 from gpu_shading.errors import FileError
 
 # These three are those of held_folder.h, so that each language deletes what the other's killed processes left.
@@ -56,7 +55,7 @@ def staged(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def _fail(path: Path, why: str) -> NoReturn:
-    raise FileError(one_line(f"{path}: cannot be written ({why})")) from None
+    raise FileError(f"{path}: cannot be written ({why})") from None
 
 
 def _require_replaceable(path: Path) -> None:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gpu_shading._arrays import Floats
-from gpu_shading._text import escaped, one_line
+from gpu_shading._text import escaped
 from gpu_shading.errors import Error, InvalidInput
 
 _LONGEST = 200  # characters of a reason
@@ -31,7 +31,7 @@ def reading(path: Path, kind: str) -> Iterator[None]:
             raise
         raise _refusal(path, kind, error) from None
     except OSError as error:
-        raise InvalidInput(one_line(f"{error.filename or path}: {error.strerror or error}")) from None
+        raise InvalidInput(f"{error.filename or path}: {error.strerror or error}") from None
     except KeyError as error:
         raise _refusal(path, kind, f"{error.args[0]} is missing") from None
     except (AttributeError, IndexError, TypeError):
@@ -42,7 +42,7 @@ def reading(path: Path, kind: str) -> Iterator[None]:
 
 
 def _refusal(path: Path, kind: str, why: object) -> InvalidInput:
-    return InvalidInput(one_line(f"{path}: is not {kind}: {str(why)[:_LONGEST]}"))
+    return InvalidInput(f"{path}: is not {kind}: {str(why)[:_LONGEST]}")
 
 
 def regular(path: Path) -> Path:

@@ -1,8 +1,13 @@
 """Exceptions. Each has one line that says what is wrong and what was expected."""
 
+from gpu_shading._text import one_line
+
 
 class Error(Exception):
-    """Any error of this package."""
+    """Any error of this package. Names in its line may be those of strangers, and reach a terminal."""
+
+    def __str__(self) -> str:
+        return one_line(super().__str__())
 
 
 class InvalidInput(Error, ValueError):

@@ -21,7 +21,6 @@ import numpy as np
 from gpu_shading import _html, _programs
 from gpu_shading._arrays import Floats, number
 from gpu_shading._reading import reading, regular
-from gpu_shading._text import one_line
 from gpu_shading.errors import InvalidInput, RunError
 from gpu_shading.pv import Power, write_reductions
 
@@ -163,7 +162,7 @@ class Run:
             try:
                 return data.execute(query, values).fetchall()
             except sqlite3.DatabaseError as error:
-                raise InvalidInput(f"{path}: {one_line(str(error))}") from None
+                raise InvalidInput(f"{path}: {error}") from None
 
     def _time_zone(self) -> float:
         """Hours ahead of universal time, from eplusout.eio."""
