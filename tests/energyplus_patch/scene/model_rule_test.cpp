@@ -136,16 +136,17 @@ TEST(ShadingRule, ChangesWithWhateverItDependsOn) {
 TEST(ShadingRule, IsTheSameWhateverThingsAreCalled) {
   auto const rule = [](std::string const& x, std::string const& group) {
     return make_shading_rule(
-               read_shading_input(read_idf(
-                   "BuildingSurface:Detailed," + x + "Wall,Wall,C," + x +
-                   "Zone,,Outdoors;FenestrationSurface:Detailed," + x + "Window,Window,G," + x +
-                   "Wall;ZoneList,List," + x +
-                   "Zone;ShadowCalculation,PixelCounting,,,,,,,,Yes,No,List" + group + ";")),
+               read_shading_input(read_idf("BuildingSurface:Detailed," + x + "Wall,Wall,C," + x +
+                                           "Zone,,Outdoors;FenestrationSurface:Detailed," + x +
+                                           "Window,Window,G," + x + "Wall;ZoneList,List," + x +
+                                           "Zone;ZoneList,Elsewhere,Shed;ShadowCalculation,"
+                                           "PixelCounting,,,,,,,,Yes,No,List" +
+                                           group + ";")),
                scene_of({x + "WALL", x + "WINDOW", x + "WINDOW reveal 1", x + "WALL"}), {{0, 3}})
         .rule;
   };
   EXPECT_EQ(rule("", ""), rule("MY ", ""));
-  EXPECT_EQ(rule("", ""), rule("", ",No Such List"));
+  EXPECT_EQ(rule("", ""), rule("", ",Elsewhere"));
 }
 
 TEST(ShadingRule, ZonesOfTheSameGroupsShareANumber) {

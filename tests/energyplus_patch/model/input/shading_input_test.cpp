@@ -133,7 +133,7 @@ TEST(ShadingInput, OnlyExteriorSurfacesCast) {
 TEST(ShadingInput, ShadowCalculation) {
   auto const input = read(
       "ShadowCalculation,PixelCounting,Periodic,20,15000,,1024,,No,Yes,No,Lower,Upper;"
-      "ZoneList,Lower,Z1,z2;");
+      "ZoneList,Lower,Z1,z2;ZoneList,Upper,Z3;");
   EXPECT_EQ(input.pixel_counting_resolution, 1024);
   EXPECT_TRUE(input.disable_within_groups);
   EXPECT_FALSE(input.disable_between_groups);
