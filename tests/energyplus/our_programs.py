@@ -4,13 +4,14 @@ A command is run in a folder of its own, which has `model.idf` and what that nam
 """
 
 import functools
-import importlib.util
+import importlib.machinery
 import os
 import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+from large_packages import TOOLS
 from shading_runs import energyplus
 
 PACKAGES = energyplus.REPOSITORY / "gpu_shading" / "python"
@@ -44,7 +45,8 @@ class Program:
     """Where it cannot write, it goes on without what it would keep there, and warns."""
 
     def why_not(self):
-        return f"{self.needs} is missing" if self.needs and not importlib.util.find_spec(self.needs) else ""
+        found = not self.needs or importlib.machinery.PathFinder.find_spec(self.needs, [*sys.path, str(TOOLS)])
+        return "" if found else f"{self.needs} is missing: run scripts/setup"
 
 
 # What the package raises for its user is one line, too.
@@ -119,7 +121,7 @@ def furnish(folder, weather):
 def environment(**more):
     kept = {key: value for key, value in os.environ.items()
             if key not in ("DISPLAY", "PYTHONSAFEPATH") and not key.startswith("GPU_SHADING")}
-    return kept | {"PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}", "PYTHONPATH": str(PACKAGES),
+    return kept | {"PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}", "PYTHONPATH": f"{PACKAGES}:{TOOLS}",
                    "GPU_SHADING_PREFIX": str(energyplus.patched_prefix()), "GPU_SHADING_DEVICE": "cpu"} | more
 
 
