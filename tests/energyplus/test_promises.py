@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 
 import our_programs
 import pytest
@@ -203,9 +204,8 @@ def test_a_hostile_model_is_one_error(place, kind):
     with contextlib.suppress(FileNotFoundError):
         plan = place.folder / "plan.toml"
         plan.write_text(plan.read_text().replace("model.idf", name))
-    error = one_error(place.call(model=name))
-    assert name in error or place.program.words[1] == "study"
-    assert not CONTROLS.search(error)
+    done = place.call(model=name)
+    assert not CONTROLS.search(one_error(done)) and name in done.stderr, done.stderr
 
 
 def test_a_blank_name_is_refused(writer):
@@ -221,10 +221,9 @@ def test_results_do_not_replace_what_is_read(writer):
     assert {path: data for path, data in contents(writer.folder).items() if path in before} == before
 
 
-def test_nothing_temporary_stays(place, tmp_path):
-    temporary = tmp_path / "temporary"
-    temporary.mkdir()
-    done = place.call(TMPDIR=str(temporary))
-    assert done.returncode == 0, done.stderr
-    assert list(temporary.iterdir()) == []
+def test_nothing_temporary_stays(place):
+    with tempfile.TemporaryDirectory() as temporary:  # a short name, as sockets need
+        done = place.call(TMPDIR=temporary)
+        assert done.returncode == 0, done.stderr
+        assert os.listdir(temporary) == []
     assert [path for path in place.folder.rglob(".*") if path.name.startswith((".gpu_shading-", ".model"))] == []

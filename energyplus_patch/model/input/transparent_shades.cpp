@@ -40,7 +40,8 @@ std::string all_values(std::size_t count) {
 
 std::string const& only_value(std::vector<std::string> const& values, std::string_view what) {
   if (values.size() != 1) {
-    throw Error(fmt::format("{} values, expected one: {}", values.size(), what));
+    throw Error(fmt::format("{} values, expected one: {}; numbers take a decimal point",
+                            values.size(), what));
   }
   return values.front();
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <system_error>
 #include <utility>
 
 #include "gpu_shading/error.h"
@@ -116,10 +118,25 @@ void Command::refuse_blank_words() const {
   }
 }
 
+void Command::refuse_same_files() const {
+  std::map<std::filesystem::path, std::string> named;
+  for (auto const* const option : app_->get_options()) {
+    if (option->get_type_name() != "FILE") continue;
+    for (auto const& text : option->results()) {
+      std::error_code error;
+      auto const file = std::filesystem::canonical(text, error);
+      if (error || named.emplace(file, option->get_name()).second) continue;
+      throw Error(fmt::format("{} {}: {} names this file, too; expected another",
+                              option->get_name(), text, named.at(file)));
+    }
+  }
+}
+
 void Command::run(std::function<void()> const& action) const {
   app_->callback([command = *this, action] {
     command.refuse_ignored_flags();
     command.refuse_blank_words();
+    command.refuse_same_files();
     action();
   });
 }

@@ -56,6 +56,8 @@ class Command {
   void refuse_ignored_flags() const;
   // A blank name of a folder would be the current one.
   void refuse_blank_words() const;
+  // A result would replace what is read.
+  void refuse_same_files() const;
 
   CLI::App* app_;
   Program const& program_;

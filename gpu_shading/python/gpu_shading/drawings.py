@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import base64
 import importlib
+import os
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -32,6 +33,8 @@ class Picture:
 
     def save(self, file: _programs.Name) -> None:
         """Writes or replaces the .png, as a whole or not at all."""
+        if Path(file).suffix.lower() != ".png":
+            raise InvalidInput(f"file: {os.fspath(file)!r}: expected a name that ends in .png")
         write_whole(file, self.png)
 
     @property

@@ -43,6 +43,7 @@ _LOCAL_PATIENCE = 60.0
 _QUEUE_PATIENCE = 86_400.0
 _SCHEDULER_PATIENCE = 600.0
 _CLOSING = 10.0
+_LONGEST_TEMPORARY = 70  # bytes: names of sockets may have 107, of which Python's own part takes 32
 _LOOK = 2.0  # s, between two looks at the workers
 _SAY = 300.0
 
@@ -67,7 +68,10 @@ def opened_workers(workers: int | None, scheduler: str | None, jobqueue: Mapping
                           "[study]") from None
     with contextlib.ExitStack() as stack:
         # Workers import modules from their folder, so that nobody else may write there.
-        place = stack.enter_context(_files.private_folder(Path(tempfile.gettempdir())))
+        temporary = tempfile.gettempdir()
+        if len(os.fsencode(temporary)) > _LONGEST_TEMPORARY:
+            raise RunError(f"TMPDIR is {temporary}: workers need a path of at most {_LONGEST_TEMPORARY} bytes")
+        place = stack.enter_context(_files.private_folder(Path(temporary)))
         # What a dead worker was to do next is not blamed, because it is not sent ahead.
         stack.enter_context(dask.config.set({
             "temporary-directory": str(place),
