@@ -76,7 +76,7 @@ def test_check_prints_what_each_surface_will_be(program, courtyard):
 @pytest.mark.parametrize("text, words", [
     (f"Version,{input_version()};\nGPUShading:Settings,none;\n", ("GPUShading:Settings", "Resolution", "none")),
     (f"Version,{input_version()};\nGPUShading:Nonsense,1;\n", ("GPUShading:Nonsense", "no such object")),
-    ("Version,23.1;\n", ("Version Identifier", "23.1", input_version())),
+    ("Version,9.2;\nShadowCalculation,AverageOverDaysInFrequency,20;\n", ("ShadowCalculation", "9.3", "9.2")),
     (f"Version,{input_version()};\n", ("EnergyPlus stopped before its shading",)),
 ])
 def test_check_says_what_is_wrong(program, tmp_path, text, words):

@@ -400,7 +400,8 @@ int launch(RunSetup& setup, char** argv) {
   }
   int const status = run_shaded(argv[0], std::move(energyplus_arguments), choices);
   expansion.reset();  // back to the user's folder
-  if (status != EXIT_SUCCESS) print_first_error(setup.arguments);
+  // The program that set a task tells what it finds in the folder, which it deletes.
+  if (status != EXIT_SUCCESS && !choices.task) print_first_error(setup.arguments);
   return status;
 }
 
