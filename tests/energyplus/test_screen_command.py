@@ -156,7 +156,7 @@ def test_plot_and_tile_are_pictures_of_the_screen(screen, tmp_path):
     done = screen(PATTERN.format(surfaces="*Panel").replace("Mesh", "A & <b>"), "-o", "out")
     assert done.returncode == 0, done.stderr
     names = sorted(path.name for path in (tmp_path / "out").iterdir())
-    assert names == ["A____b__tau.csv", "A____b__tau.svg", "A____b__tile.png"]
+    assert names == ["A____b__tau.csv", "A____b__tau.svg", "A____b__tile.png", "screens.json"]
     assert done.stdout.splitlines()[-3:] == [f"out/{name}" for name in names]
     svg = ElementTree.parse(tmp_path / "out" / names[1]).getroot()
     assert svg.tag == "{http://www.w3.org/2000/svg}svg"
@@ -222,12 +222,16 @@ def test_errors_are_one_line(screen, tmp_path, objects, arguments, message):
 
 
 def test_what_is_not_a_file_is_not_replaced(screen, tmp_path):
-    (tmp_path / "out" / "Mesh_tau.svg").mkdir(parents=True)
-    (tmp_path / "out" / "Mesh_tau.svg" / "mine").touch()
+    assert screen(PATTERN.format(surfaces="*"), "-o", "out").returncode == 0
+    plot = tmp_path / "out" / "Mesh_tau.svg"
+    plot.unlink()
+    plot.mkdir()
+    (plot / "mine").touch()
     done = screen(PATTERN.format(surfaces="*"), "-o", "out")
     assert done.returncode == 1
-    assert done.stderr == "gpu_shading: error: out/Mesh_tau.svg: cannot be written (it is a folder)\n"
-    assert [path.name for path in (tmp_path / "out").iterdir()] == ["Mesh_tau.svg"]
+    assert done.stderr == ("gpu_shading: error: out/Mesh_tau.svg: exists and is not an unchanged file that "
+                           "screens.json lists: choose another folder\n")
+    assert (plot / "mine").exists()
 
 
 def test_the_documents_show_what_is_printed(patched, tmp_path):

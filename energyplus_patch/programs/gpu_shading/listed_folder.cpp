@@ -31,7 +31,7 @@ ListedFolder::ListedFolder(Path folder, std::string about, std::string format)
       files_(folder_) {}
 
 std::map<std::string, std::string> ListedFolder::read_list() const {
-  if (!std::filesystem::exists(folder_) || std::filesystem::is_empty(folder_)) return {};
+  if (!std::filesystem::is_directory(folder_) || std::filesystem::is_empty(folder_)) return {};
   auto const about = folder_ / about_;
   if (!std::filesystem::exists(about)) {
     throw Error(fmt::format("{}: is not empty and has no {}: choose another folder",
