@@ -85,7 +85,8 @@ def test_a_run_that_ignores_screens_is_said_to(run, in_model):
     text = "GPUShading:PerforatedScreen,Veil,Screen,Round;\n" if in_model else "Zone,Box;\n"
     ours = run("Renderer", [0.0], text=text, side=not in_model)
     assert verdict.unseen([clip, ours]) == [
-        "Clipping takes shading surfaces with GPUShading:PerforatedScreen as opaque, or by their transmittance schedule."]
+        "Clipping takes shading surfaces with GPUShading:PerforatedScreen as opaque, or by their transmittance "
+        "schedule."]
     assert verdict.unseen([run("Other", text=text), ours]) == []
 
 
