@@ -11,6 +11,7 @@ import signal
 import sqlite3
 import subprocess
 import sys
+import tempfile
 import time
 
 import pytest
@@ -471,8 +472,8 @@ def test_modules_of_the_current_folder_are_not_run(finished, tmp_path, flags):
 
 @pytest.fixture
 def hanging(finished, patched, tmp_path):
-    """A study whose run hangs, with its temporary folder."""
-    prefix, temporary = tmp_path / "prefix", tmp_path / "temporary"
+    """A study whose run hangs, with its temporary folder, of a short name, as sockets need."""
+    prefix, temporary = tmp_path / "prefix", Path(tempfile.mkdtemp())
     prefix.mkdir()
     for entry in patched.parent.iterdir():
         if entry.name != "energyplus":
@@ -489,6 +490,7 @@ def hanging(finished, patched, tmp_path):
     with contextlib.suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)
     process.wait()
+    shutil.rmtree(temporary)
 
 
 def test_only_the_study_can_give_its_workers_work(hanging):
@@ -507,9 +509,9 @@ def test_only_the_study_can_give_its_workers_work(hanging):
     assert not list((temporary / "dask-scratch-space").iterdir())
 
 
-def test_a_signal_leaves_nothing_temporary(hanging):
+def test_a_signal_leaves_nothing_temporary(hanging, tmp_path):
     process, temporary = hanging
-    folder = temporary.parent / "copy" / "out"
+    folder = tmp_path / "copy" / "out"
     limit = time.monotonic() + 60
     while not list(folder.glob(".gpu_shading-*/*/out")):
         assert time.monotonic() < limit
