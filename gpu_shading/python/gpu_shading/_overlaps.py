@@ -54,7 +54,7 @@ def _in_one_plane(triangles: Sequence[Floats], vectors: Floats, areas: Floats) -
     if not len(drawn):
         return
     low, high = np.zeros((2, len(areas), 3))
-    for index in drawn:
+    for index in map(int, drawn):
         corners = triangles[index].reshape(-1, 3)
         low[index], high[index] = corners.min(axis=0) - _DISTANCE, corners.max(axis=0) + _DISTANCE
     middle = 0.5 * (low[drawn].min(axis=0) + high[drawn].max(axis=0))

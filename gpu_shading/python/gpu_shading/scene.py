@@ -265,7 +265,9 @@ class Scene:
         wall, the smallest is drawn."""
         shown = None if values is None else series(name, values, times, self.names, self.receivers)
         triangles = [self._triangles(index) for index in range(len(self._surfaces))]
-        valued = np.full(len(triangles), False) if shown is None else ~np.isnan(shown.values).all(axis=0)
+        valued = np.zeros(len(triangles), dtype=np.bool_)
+        if shown is not None:
+            valued |= ~np.isnan(shown.values).all(axis=0)
         parts = []
         for surface, corners, left in zip(self._surfaces, triangles, without_overlaps(triangles, valued), strict=True):
             polygons = left if left is not None else list(corners) if surface.holes else [surface.vertices]

@@ -115,7 +115,8 @@ def sun_hours(model: Any, weather: Name, **options: Any) -> SunHours:
     names = {part.identifier.upper(): part.identifier for face in model.faces
              for part in (face, *face.apertures, *face.doors)}
     names |= {shade.identifier.upper(): shade.identifier for shade in model.shades}
-    grids, hours, energy = [], [], []
+    grids: list[Any] = []
+    hours, energy = [], []
     for drawn in maps:
         cells = drawn.hours == drawn.hours
         taken = {grid.identifier for grid in grids}
