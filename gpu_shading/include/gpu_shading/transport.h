@@ -1,0 +1,127 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gpu_shading/rays.h"
+#include "gpu_shading/scene.h"
+#include "gpu_shading/sun_position.h"
+
+namespace gpu_shading {
+
+// Diffuse (Lambertian) reflectances of a surface's faces, 0 .. 1; the front is the side that the
+// normal points to. For a perforated sheet: of its solid part.
+struct FaceReflectances {
+  double front = 0.0;
+  double back = 0.0;
+};
+
+// A horizontal plane without end, which reflects diffusely.
+struct ReflectingGround {
+  double height = 0.0;       // z, m
+  double reflectance = 0.2;  // 0 .. 1
+};
+
+// The sun in one of the hours for which an answer is wanted.
+struct TransportHour {
+  HourDirection sun;
+  double beam = 0.0;     // direct normal irradiance, W/m2
+  double diffuse = 0.0;  // of the sky on level ground, W/m2
+  // What the receiver gets of the beam itself: sunlit fraction times cosine of the angle of
+  // incidence.
+  double direct = 0.0;
+};
+
+struct TransportRequest {
+  double latitude = 0.0;  // radians
+  // Errors are relative to the light of these hours, each with its own weight; those with the sun
+  // below the horizon are left out.
+  std::span<TransportHour const> hours;
+  // Wanted root-mean-square error of hourly values, weighted by energy, and error of their sum, of
+  // the larger of the receiver's light and `floor` times that of a receiver without any shade.
+  double hourly = 0.02;
+  double annual = 0.005;
+  double floor = 0.1;
+  std::size_t most_rays = 1'500'000;  // after which the answer is as it is; the errors say so
+};
+
+// Values of suns on a grid of declination and hour angle, which holds every sun of a latitude.
+class SunTable {
+ public:
+  // `declinations` between the solstices, both included; `step` of the hour angle, radians.
+  SunTable(double latitude, int declinations, double step);
+
+  // Unit vectors to the suns of the grid that are needed: those above the horizon and their
+  // neighbours, which are lifted to half a degree above it.
+  std::vector<glm::dvec3> const& suns() const { return suns_; }
+
+  // Bilinear. `values`: one for each of suns(). The position is clamped to the grid.
+  double at(std::span<double const> values, HourDirection sun) const;
+
+ private:
+  double first_hour_ = 0.0;
+  double hour_step_ = 0.0;
+  double declination_step_ = 0.0;
+  int declinations_ = 0;
+  int hours_ = 0;
+  std::vector<int> index_;  // of a sun by declination, then hour; -1: not needed
+  std::vector<glm::dvec3> suns_;
+};
+
+// Irradiance of a receiver by paths with at least one diffuse reflection.
+struct Transported {
+  SunTable table;
+  // For a beam of 1 W/m2 (normal) from each sun of the table, W/m2: by any path, and of that by
+  // paths that reach the receiver from the ground.
+  std::vector<double> beam = {};
+  std::vector<double> beam_from_ground = {};
+  // For a uniform sky that gives 1 W/m2 to level ground in the open: by reflections, of that from
+  // the ground, and straight from the sky.
+  double sky = 0.0;
+  double sky_from_ground = 0.0;
+  double sky_direct = 0.0;
+  // Measured, relative as TransportRequest says: noise of the hours, of their sum, and the hours'
+  // error of interpolation between suns.
+  double noise = 0.0;
+  double annual_noise = 0.0;
+  double interpolation = 0.0;
+  std::size_t rays = 0;
+};
+
+// Light by way of diffuse reflections of any number, from the sun or the sky. Objects are
+// immutable: any number of threads may ask one at the same time, and answers do not depend on how
+// many do.
+//
+// Paths are traced from the receiver, by scrambled Sobol points (Owen 1995; Laine and Karras 2011;
+// Joe and Kuo 2008). Every place where one is reflected is kept with its weight. For each sun, some
+// of these are drawn systematically, in proportion to weight times cosine, and looked at from the
+// sun. Replicates with other scrambles measure the noise, and true suns among the hours the error
+// of interpolation; replicates are added, and the table of suns refined, until both are small.
+//
+// Whatever transmits without holes (glass, fabric, crowns) dims paths and does not reflect them.
+class Transport {
+ public:
+  // `rays`: of the scene, which must outlive this; RayFaces::both, or paths pass through faces that
+  // are turned away. `reflectances`: one for each surface of the scene. Throws Error if one is not
+  // 0 .. 1, or there are not as many.
+  Transport(Scene const& scene, RayScene const& rays, std::vector<FaceReflectances> reflectances,
+            std::optional<ReflectingGround> ground);
+
+  // `seed`: receivers with different seeds have independent errors. Factors, deployments and the
+  // receiver's own rule are those of `conditions`; conditions.receiver is replaced.
+  Transported to(SurfaceId receiver, TransportRequest const& request,
+                 RayConditions const& conditions = {}, std::uint32_t seed = 0) const;
+
+ private:
+  Scene const& scene_;
+  RayScene const& rays_;
+  std::vector<glm::dvec3> normals_;
+  std::vector<FaceReflectances> reflectances_;
+  std::optional<ReflectingGround> ground_;
+};
+
+}  // namespace gpu_shading

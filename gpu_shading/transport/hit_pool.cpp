@@ -1,0 +1,118 @@
+#include "transport/hit_pool.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace gpu_shading {
+namespace {
+
+// Normals that are alike are one group.
+constexpr double normal_steps = 500.0;
+constexpr int curve_bits = 21;  // of each axis
+
+// Bits of a number of curve_bits, two places apart.
+std::uint64_t spread(std::uint64_t x) {
+  x &= 0x1fffffU;
+  x = (x | x << 32U) & 0x1f00000000ffffU;
+  x = (x | x << 16U) & 0x1f0000ff0000ffU;
+  x = (x | x << 8U) & 0x100f00f00f00f00fU;
+  x = (x | x << 4U) & 0x10c30c30c30c30c3U;
+  return (x | x << 2U) & 0x1249249249249249U;
+}
+
+// Places along Morton's curve, with distances by their logarithm.
+std::vector<std::uint64_t> along_curve(std::vector<KeptHit> const& hits, glm::dvec3 const& centre,
+                                       double size) {
+  std::vector<glm::dvec3> places;
+  places.reserve(hits.size());
+  glm::dvec3 low(std::numeric_limits<double>::infinity());
+  glm::dvec3 high = -low;
+  for (auto const& hit : hits) {
+    auto place = hit.point - centre;
+    double const far = glm::length(place);
+    if (far > size) place *= (1.0 + std::log(far / size)) * size / far;
+    low = glm::min(low, place);
+    high = glm::max(high, place);
+    places.push_back(place);
+  }
+  auto const extent = high - low;
+  double const scale = ((1U << curve_bits) - 1) / std::max({extent.x, extent.y, extent.z, 1e-9});
+  std::vector<std::uint64_t> keys;
+  keys.reserve(places.size());
+  for (auto const& place : places) {
+    auto const cell = (place - low) * scale;
+    auto const axis = [](double value) { return spread(static_cast<std::uint64_t>(value)); };
+    keys.push_back(axis(cell.x) | axis(cell.y) << 1U | axis(cell.z) << 2U);
+  }
+  return keys;
+}
+
+std::array<int, 3> rounded(glm::dvec3 const& normal) {
+  auto const step = [](double x) { return static_cast<int>(std::lround(x * normal_steps)); };
+  return {step(normal.x), step(normal.y), step(normal.z)};
+}
+
+}  // namespace
+
+HitPool::HitPool(std::vector<KeptHit> hits, std::size_t paths, glm::dvec3 const& centre,
+                 double size) {
+  auto const keys = along_curve(hits, centre, size);
+  std::vector<std::size_t> order(hits.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {},
+                    [&](std::size_t i) { return std::tuple(rounded(hits[i].normal), keys[i], i); });
+  hits_.reserve(hits.size());
+  up_to_.push_back(0.0);
+  for (std::size_t const i : order) {
+    if (hits_.empty() || rounded(hits[i].normal) != rounded(hits_.back().normal)) {
+      groups_.push_back(hits_.size());
+    }
+    hits_.push_back(hits[i]);
+    up_to_.push_back(up_to_.back() + hits[i].weight / static_cast<double>(paths));
+  }
+  groups_.push_back(hits_.size());
+}
+
+PooledBeam HitPool::beam(RayScene const& rays, RayConditions const& conditions,
+                         glm::dvec3 const& sun, int draws, std::uint64_t key) const {
+  // Weight times cosine up to the end of each group.
+  std::vector<double> sums;
+  sums.reserve(groups_.size());
+  double total = 0.0;
+  for (std::size_t g = 0; g + 1 < groups_.size(); ++g) {
+    double const cosine = std::max(0.0, glm::dot(hits_[groups_[g]].normal, sun));
+    sums.push_back(total += cosine * (up_to_[groups_[g + 1]] - up_to_[groups_[g]]));
+  }
+  PooledBeam beam;
+  if (total <= 0.0) return beam;
+  double const share = total / draws;
+  double const start = random_at(key);
+  for (int k = 0; k < draws; ++k) {
+    double const place = (k + start) * share;
+    auto const found = std::upper_bound(sums.begin(), std::prev(sums.end()), place);
+    auto const g = static_cast<std::size_t>(found - sums.begin());
+    double const before = g == 0 ? 0.0 : sums[g - 1];
+    double const within = std::clamp((place - before) / (*found - before), 0.0, 1.0);
+    double const weight =
+        up_to_[groups_[g]] + within * (up_to_[groups_[g + 1]] - up_to_[groups_[g]]);
+    auto const first = up_to_.begin() + static_cast<std::ptrdiff_t>(groups_[g]) + 1;
+    auto const last = up_to_.begin() + static_cast<std::ptrdiff_t>(groups_[g + 1]);
+    auto const& hit =
+        hits_[static_cast<std::size_t>(std::upper_bound(first, last, weight) - up_to_.begin()) - 1];
+    Ray ray{hit.point, sun};
+    ray.from = hit.surface;
+    double const lit = share * rays.transmittance(ray, conditions);
+    ++beam.rays;
+    beam.all += lit;
+    if (hit.from_ground) beam.from_ground += lit;
+  }
+  return beam;
+}
+
+}  // namespace gpu_shading

@@ -1,0 +1,179 @@
+#include "transport/reverse_paths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "geometry/triangulation.h"
+
+namespace gpu_shading {
+namespace {
+
+// A furnace of white walls needs some 600.
+constexpr int most_bounces = 2000;
+
+// One segment of a path.
+struct Segment {
+  enum class End { sky, nothing, ground, surface };
+
+  End end = End::nothing;
+  SurfaceId surface = 0;
+  glm::dvec3 point{0.0};
+  double passed = 1.0;  // of what transmits without holes
+};
+
+class Path {
+ public:
+  Path(TransportScene const& scene, RayConditions const& conditions, std::uint64_t key)
+      : scene_(scene), conditions_(conditions), key_(key) {}
+
+  // Independent numbers for what Sobol's points have no dimension.
+  double random() { return random_at(key_ ^ ++drawn_ * 0xd1342543de82ef95U); }
+
+  // Perforated sheets let a ray pass, or stop it by their solid part, by chance.
+  Segment follow(Ray ray) {
+    bool const meets_ground =
+        scene_.ground && ray.direction.z < 0.0 && ray.origin.z > scene_.ground->height;
+    if (meets_ground) ray.length = (scene_.ground->height - ray.origin.z) / ray.direction.z;
+    Segment segment;
+    for (auto const& layer : scene_.rays.layers(ray, conditions_)) {
+      bool const has_holes = scene_.scene[layer.surface].filter.find<PerforatedSheet>() != nullptr;
+      if (layer.transmittance > 0.0 && !has_holes) {
+        segment.passed *= layer.transmittance;
+      } else if (layer.transmittance <= 0.0 || random() >= layer.transmittance) {
+        segment.end = Segment::End::surface;
+        segment.surface = layer.surface;
+        segment.point = ray.origin + layer.distance * ray.direction;
+        return segment;
+      }
+    }
+    if (meets_ground) {
+      segment.end = Segment::End::ground;
+      segment.point = ray.origin + ray.length * ray.direction;
+      segment.point.z = scene_.ground->height;
+    } else if (ray.direction.z > 0.0) {
+      segment.end = Segment::End::sky;
+    }
+    return segment;
+  }
+
+ private:
+  TransportScene const& scene_;
+  RayConditions const& conditions_;
+  std::uint64_t key_;
+  std::uint64_t drawn_ = 0;
+};
+
+struct Reflection {
+  glm::dvec3 normal;
+  double reflectance;
+};
+
+Reflection reflect(TransportScene const& scene, Segment const& segment,
+                   glm::dvec3 const& direction) {
+  if (segment.end == Segment::End::ground) {
+    return {glm::dvec3(0.0, 0.0, 1.0), scene.ground->reflectance};
+  }
+  auto const& faces = scene.reflectances[segment.surface];
+  auto const& normal = scene.normals[segment.surface];
+  bool const front = glm::dot(normal, direction) < 0.0;
+  return {front ? normal : -normal, front ? faces.front : faces.back};
+}
+
+}  // namespace
+
+glm::dvec3 cosine_direction(glm::dvec3 const& normal, double u, double v) {
+  constexpr double steep = 0.9;
+  glm::dvec3 const other =
+      std::abs(normal.x) > steep ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
+  auto const across = glm::normalize(glm::cross(other, normal));
+  auto const along = glm::cross(normal, across);
+  double const radius = std::sqrt(u);
+  double const angle = 2.0 * std::numbers::pi * v;
+  return radius * std::cos(angle) * across + radius * std::sin(angle) * along +
+         std::sqrt(std::max(0.0, 1.0 - u)) * normal;
+}
+
+ReceiverPoints::ReceiverPoints(Polygon const& polygon) : normal_(gpu_shading::normal(polygon)) {
+  auto const mesh = triangulate(polygon);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    auto const& a = mesh.vertices[mesh.indices[i]];
+    auto const& b = mesh.vertices[mesh.indices[i + 1]];
+    auto const& c = mesh.vertices[mesh.indices[i + 2]];
+    double const area = 0.5 * glm::length(glm::cross(b - a, c - a));
+    if (area <= 0.0) continue;
+    corners_.insert(corners_.end(), {a, b, c});
+    up_to_.push_back(sum += area);
+  }
+  for (double& share : up_to_) share /= sum;
+}
+
+glm::dvec3 ReceiverPoints::at(double u, double v) const {
+  auto const found = std::upper_bound(up_to_.begin(), std::prev(up_to_.end()), u);
+  auto const triangle = static_cast<std::size_t>(found - up_to_.begin());
+  double const from = triangle == 0 ? 0.0 : up_to_[triangle - 1];
+  // The triangle's own share of u, so that a triangle's points are as even as those of all.
+  double const side = std::sqrt(std::clamp((u - from) / (*found - from), 0.0, 1.0));
+  auto const& a = corners_[3 * triangle];
+  auto const& b = corners_[3 * triangle + 1];
+  auto const& c = corners_[3 * triangle + 2];
+  return a + side * ((1.0 - v) * (b - a) + v * (c - a));
+}
+
+ReversePaths trace_paths(TransportScene const& scene, SurfaceId receiver,
+                         ReceiverPoints const& places, SobolPoints const& points,
+                         std::uint32_t seed, RayConditions const& conditions) {
+  auto first = conditions;
+  first.receiver = receiver;
+  auto later = conditions;
+  later.receiver = std::nullopt;
+  ReversePaths paths;
+  for (std::size_t i = 0; i < points.count(); ++i) {
+    auto const coordinate = [&](std::size_t dimension) { return points.at(i, dimension, seed); };
+    std::uint64_t const key = std::uint64_t{seed} << 32U | i;
+    Path from_receiver(scene, first, key);
+    Path onwards(scene, later, ~key);
+    Ray ray{places.at(coordinate(0), coordinate(1)),
+            cosine_direction(places.normal(), coordinate(2), coordinate(3))};
+    ray.from = receiver;
+    double weight = 1.0;
+    bool from_ground = false;
+    for (int bounce = 0; bounce < most_bounces; ++bounce) {
+      auto const segment = (bounce == 0 ? from_receiver : onwards).follow(ray);
+      ++paths.rays;
+      weight *= segment.passed;
+      if (bounce == 0) from_ground = segment.end == Segment::End::ground;
+      if (segment.end == Segment::End::sky) {
+        (bounce == 0 ? paths.sky_direct : paths.sky) += weight;
+        if (bounce > 0 && from_ground) paths.sky_from_ground += weight;
+      }
+      if (segment.end != Segment::End::ground && segment.end != Segment::End::surface) break;
+      auto const [normal, reflectance] = reflect(scene, segment, ray.direction);
+      if (weight * reflectance <= 0.0) break;
+      std::optional<SurfaceId> surface;
+      if (segment.end == Segment::End::surface) surface = segment.surface;
+      paths.hits.push_back({segment.point, normal, weight * reflectance, surface, from_ground});
+      auto const step = static_cast<std::size_t>(bounce);
+      bool const by_sobol = step < path_bounces_by_sobol;
+      if (by_sobol) {
+        weight *= reflectance;
+      } else if (onwards.random() >= reflectance) {
+        break;
+      }
+      double const u = by_sobol ? coordinate(4 + 2 * step) : onwards.random();
+      double const v = by_sobol ? coordinate(5 + 2 * step) : onwards.random();
+      ray = {segment.point, cosine_direction(normal, u, v)};
+      ray.from = surface;
+    }
+  }
+  for (double* sum : {&paths.sky, &paths.sky_from_ground, &paths.sky_direct}) {
+    *sum /= static_cast<double>(points.count());
+  }
+  return paths;
+}
+
+}  // namespace gpu_shading
