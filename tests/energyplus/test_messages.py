@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from html_page import Tables
 from shading_runs import energyplus
+from shading_runs.version import input_version
 from test_screens import write_grey_image
 
 HUGE_PAGES = Path("/sys/kernel/mm/transparent_hugepage/enabled")
@@ -223,8 +224,8 @@ def of_version(box, version):
 def test_a_model_of_another_version_runs_with_a_warning(call, launch, official, box, model, weather, tmp_path, version,
                                                         relation, action):
     model.write_text(of_version(box, version))
-    line = (f"model.idf: Version is {version}, {relation} than this EnergyPlus, 25.2, which reads all fields as its "
-            f"own; {action}\n")
+    line = (f"model.idf: Version is {version}, {relation} than this EnergyPlus, {input_version()}, which reads all "
+            f"fields as its own; {action}\n")
     checked = call("check", "model.idf")
     assert checked.returncode == 0 and line in checked.stdout, checked.stderr
     run = launch("model.idf")
@@ -464,7 +465,7 @@ MISTAKES = {
                                    "translate it with honeybee-energy translate model-to-idf"),
     "weather as a model": ({"w.epw": "LOCATION,a"}, ["w.epw"],
                            "w.epw: is a weather file; expected an .idf or .epJSON file: -w names the weather file"),
-    "macros": ({"m.idf": "Version,25.2;\n\n  ##include other.idf\n"}, ["m.idf"],
+    "macros": ({"m.idf": f"Version,{input_version()};\n\n  ##include other.idf\n"}, ["m.idf"],
                "m.idf: line 3: ##include is a macro: run energyplus with -m, so that EPMacro expands it, or give the "
                "expanded IDF"),
 }

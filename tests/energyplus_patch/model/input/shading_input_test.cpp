@@ -165,9 +165,9 @@ TEST(ShadingInput, WhatEnergyPlusMayAskFor) {
   }
 }
 
-Release const energyplus_25_2{"25.2.0", "the updater"};
+Release const installed{"25.3.0", "the updater"};
 
-std::string warning_of(std::string const& idf, Release const& energyplus = energyplus_25_2) {
+std::string warning_of(std::string const& idf, Release const& energyplus = installed) {
   return check_supported(read(idf), "a.idf", energyplus);
 }
 
@@ -177,14 +177,14 @@ TEST(ShadingInput, UserGivenFractionsAreRefused) {
 }
 
 TEST(ShadingInput, OtherVersionsAreWarnedOf) {
-  for (auto const* const same : {"", "Version,25.2;", "Version,25.2.0;"}) {
+  for (auto const* const same : {"", "Version,25.3;", "Version,25.3.0;"}) {
     EXPECT_EQ(warning_of(same), "");
   }
   for (auto const* const older : {"9.3", "9.10", "22.2", "24.1", "25.1.0"}) {
     EXPECT_THAT(
         warning_of(fmt::format("Version,{};ShadowCalculation,PolygonClipping;", older)),
         testing::AllOf(testing::StartsWith(fmt::format(
-                           "a.idf: Version is {}, older than this EnergyPlus, 25.2", older)),
+                           "a.idf: Version is {}, older than this EnergyPlus, 25.3", older)),
                        testing::HasSubstr("the updater")));
   }
   EXPECT_THAT(warning_of("Version,26.1;"),
@@ -205,7 +205,7 @@ TEST(ShadingInput, FieldsThatMovedAreRefused) {
     "Version": {"Version 1": {"version_identifier": "22.2"}},
     "SurfaceProperty:LocalEnvironment": {"E": {"exterior_surface_name": "Wall",
       "external_shading_fraction_schedule_name": "Lit"}}})")));
-  EXPECT_THAT(refusal_of([&] { check_supported(renamed, "a.epJSON", energyplus_25_2); }),
+  EXPECT_THAT(refusal_of([&] { check_supported(renamed, "a.epJSON", installed); }),
               testing::HasSubstr("SurfaceProperty:LocalEnvironment: its fields changed in "
                                  "EnergyPlus 23.2"));
   EXPECT_NE(check_supported(renamed, "a.epJSON", {"23.1.0", ""}), "");
