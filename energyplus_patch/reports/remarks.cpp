@@ -84,6 +84,7 @@ void warn_of_uncertain_receivers(SunQuestions const& answers, Messages const& me
     if (ids.empty()) return;
     constexpr std::size_t max_listed = 3;
     std::vector<std::string> names;
+    names.reserve(ids.size());
     for (SurfaceId const id : ids) names.push_back(scene[id].name);
     messages.warning(fmt::format("sunlit fractions may miss the target error {}: {}; see {}", why,
                                  listed(names, max_listed), "docs/explanation/limits.md"));

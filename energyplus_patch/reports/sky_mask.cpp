@@ -187,8 +187,9 @@ std::vector<double> trace_horizon(RayScene const& rays, RayConditions const& con
       if (!is_stopped(shares[cell])) break;
     }
   }
-  constexpr double resolution = 0.01;
-  for (double width = grid.step(); width > resolution; width /= 2.0) {
+  constexpr double resolution = 0.01;  // degrees
+  int const halvings = static_cast<int>(std::ceil(std::log2(grid.step() / resolution)));
+  for (int i = 0; i < halvings; ++i) {
     std::vector<SunDirection> middles;
     for (std::size_t column = 0; column < grid.columns(); ++column) {
       middles.push_back({directions[column].azimuth, (low[column] + high[column]) / 2.0});
