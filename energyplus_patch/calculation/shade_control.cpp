@@ -57,14 +57,15 @@ void ShadeControl::find_receivers() {
   for (auto const id : scene_.receivers()) {
     if (!scene_.moving_shade_of(id)) by_name.emplace(upper(scene_.surfaces()[id].name), id);
   }
-  for (auto& [shade, outward, receivers, first, scheduled, available] : shades_) {
+  for (auto& entry : shades_) {
+    auto const& shade = entry.shade;
     if (shade.receivers.empty()) continue;
-    for_each_match(by_name, shade.receivers, [&](auto const& entry) {
-      auto const id = entry.second;
-      receivers.push_back(
+    for_each_match(by_name, shade.receivers, [&](auto const& found) {
+      auto const id = found.second;
+      entry.receivers.push_back(
           {id, areas[id], polygon_samples(scene_.surfaces()[id].polygon, points_of_receiver)});
     });
-    if (!receivers.empty()) continue;
+    if (!entry.receivers.empty()) continue;
     std::vector<std::string> names;
     for (auto const& [name, id] : by_name) names.push_back(name);
     throw Error(fmt::format("{}: {} {}: no exterior surface matches{}", shade.where,

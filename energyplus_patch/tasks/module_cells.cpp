@@ -222,6 +222,7 @@ std::vector<std::vector<ModuleSky>> skies_of(std::vector<LaidField> const& field
   RayScene const rays(casters, {.screens = ScreenDetail::automatic});
   auto const kinds = kinds_of(scene, casters);
   std::vector<std::vector<ModuleSky>> skies;
+  skies.reserve(fields.size());
   for (auto const& field : fields) skies.push_back(sky_of(field, rays, kinds, scene));
   return skies;
 }
