@@ -17,6 +17,16 @@
 namespace gpu_shading::energyplus {
 namespace {
 
+// With those of groups.
+std::vector<CLI::Option const*> options_of(CLI::App const& app) {
+  auto options = app.get_options();
+  for (auto const* const group : app.get_subcommands([](CLI::App const*) { return true; })) {
+    auto const more = group->get_options();
+    options.insert(options.end(), more.begin(), more.end());
+  }
+  return options;
+}
+
 bool contains(OptionNames const& names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
@@ -109,7 +119,7 @@ void Command::refuse_ignored_flags() const {
 }
 
 void Command::refuse_blank_words() const {
-  for (auto const* const option : app_->get_options()) {
+  for (auto const* const option : options_of(*app_)) {
     for (auto const& text : option->results()) {
       if (!text.empty()) continue;
       throw Error(fmt::format("{} is blank; expected {} (see gpu_shading {} --help)",
@@ -120,14 +130,16 @@ void Command::refuse_blank_words() const {
 
 void Command::refuse_same_files() const {
   std::map<std::filesystem::path, std::string> named;
-  for (auto const* const option : app_->get_options()) {
+  for (auto const* const option : options_of(*app_)) {
     if (option->get_type_name() != "FILE") continue;
     for (auto const& text : option->results()) {
       std::error_code error;
       auto const file = std::filesystem::canonical(text, error);
-      if (error || named.emplace(file, option->get_name()).second) continue;
+      if (error) continue;
+      auto const& other = named.try_emplace(file, option->get_name()).first->second;
+      if (other == option->get_name()) continue;
       throw Error(fmt::format("{} {}: {} names this file, too; expected another",
-                              option->get_name(), text, named.at(file)));
+                              option->get_name(), text, other));
     }
   }
 }
