@@ -152,13 +152,13 @@ TEST(ShadeMotion, OnlyParallelSurfacesTrackTheSunTogether) {
   auto const tilted = moved(slat, shade, 20.0);
   auto turned = slat;
   for (auto& point : turned.outline) point = {-point.y, point.x, point.z};
-  for (auto const& [polygon, degrees] : {std::pair(tilted, "20"), {turned, "90"}}) {
+  for (auto const& turn : {std::pair(tilted, "20"), {turned, "90"}}) {
+    std::string const degrees = turn.second;
     EXPECT_THAT(
         [&] {
-          expect_parallel({surface("A", slat), surface("B", polygon)}, shade);
+          expect_parallel({surface("A", slat), surface("B", turn.first)}, shade);
         },
-        testing::ThrowsMessage<Error>(
-            testing::HasSubstr(std::string("B is at ") + degrees + " degrees to A")));
+        testing::ThrowsMessage<Error>(testing::HasSubstr("B is at " + degrees + " degrees to A")));
   }
 }
 
