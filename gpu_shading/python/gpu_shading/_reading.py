@@ -48,7 +48,7 @@ def _refusal(path: Path, kind: str, why: object) -> InvalidInput:
 def regular(path: Path) -> Path:
     """Refuses what is no file, such as a pipe, which opening would wait for."""
     if not path.is_file():
-        raise InvalidInput(f"{escaped(str(path))}: {'is not a file' if path.exists() else 'no such file'}")
+        raise InvalidInput(f"{path}: {'is not a file' if path.exists() else 'no such file'}")
     return path
 
 
@@ -62,7 +62,7 @@ def rows_of(path: Path) -> list[dict[str, str]]:
         rows = list(csv.DictReader(lines, strict=True))
     for number, row in enumerate(rows, 2):
         if None in row or None in row.values():
-            raise InvalidInput(f"{escaped(str(path))}, line {number}: has another number of columns than the first")
+            raise InvalidInput(f"{path}, line {number}: has another number of columns than the first")
     return rows
 
 
