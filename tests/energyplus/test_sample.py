@@ -311,7 +311,7 @@ GPUShading:PerforatedScreen,Mesh,*,Round,,Staggered60,0.005,,0.008,,0.003,,,,,,,
     ((), "-w: a weather file is required"),
     (("-w", "WEATHER", "--shard", "9/8"), "--shard 9/8: expected I/N"),
     (("-w", "WEATHER", "--merge", "8"), "parts/round1-shard1of8.json: is missing"),
-    (("-w", "model.idf"), "names this file, too; expected another"),
+    (("-w", "model.idf"), "box.idf: is not a weather file (.epw), which begins with LOCATION"),
     (("-w", "WEATHER", "--gpu-shading-device=nothing"), "--gpu-shading-device is \"nothing\""),
 ])
 def test_errors_are_one_line(patched, box_model, weather, tmp_path, arguments, words):
