@@ -107,10 +107,8 @@ PooledBeam HitPool::beam(RayScene const& rays, RayConditions const& conditions,
         hits_[static_cast<std::size_t>(std::upper_bound(first, last, weight) - up_to_.begin()) - 1];
     Ray ray{hit.point, sun};
     ray.from = hit.surface;
-    double const lit = share * rays.transmittance(ray, conditions);
+    part_of(beam.light, hit.by_ground) += share * rays.transmittance(ray, conditions);
     ++beam.rays;
-    beam.all += lit;
-    if (hit.from_ground) beam.from_ground += lit;
   }
   return beam;
 }

@@ -11,8 +11,7 @@ namespace gpu_shading {
 
 // Irradiance of the receiver for a beam of 1 W/m2.
 struct PooledBeam {
-  double all = 0.0;
-  double from_ground = 0.0;
+  LightByGround light;
   std::size_t rays = 0;
 };
 

@@ -70,17 +70,18 @@ class Path {
 struct Reflection {
   glm::dvec3 normal;
   double reflectance;
+  bool is_ground;
 };
 
 Reflection reflect(TransportScene const& scene, Segment const& segment,
                    glm::dvec3 const& direction) {
   if (segment.end == Segment::End::ground) {
-    return {glm::dvec3(0.0, 0.0, 1.0), scene.ground->reflectance};
+    return {glm::dvec3(0.0, 0.0, 1.0), scene.ground->reflectance, true};
   }
   auto const& faces = scene.reflectances[segment.surface];
   auto const& normal = scene.normals[segment.surface];
   bool const front = glm::dot(normal, direction) < 0.0;
-  return {front ? normal : -normal, front ? faces.front : faces.back};
+  return {front ? normal : -normal, front ? faces.front : faces.back, faces.is_ground};
 }
 
 }  // namespace
@@ -141,22 +142,21 @@ ReversePaths trace_paths(TransportScene const& scene, SurfaceId receiver,
             cosine_direction(places.normal(), coordinate(2), coordinate(3))};
     ray.from = receiver;
     double weight = 1.0;
-    bool from_ground = false;
+    int by_ground = 0;
     for (int bounce = 0; bounce < most_bounces; ++bounce) {
       auto const segment = (bounce == 0 ? from_receiver : onwards).follow(ray);
       ++paths.rays;
       weight *= segment.passed;
-      if (bounce == 0) from_ground = segment.end == Segment::End::ground;
       if (segment.end == Segment::End::sky) {
-        (bounce == 0 ? paths.sky_direct : paths.sky) += weight;
-        if (bounce > 0 && from_ground) paths.sky_from_ground += weight;
+        (bounce == 0 ? paths.sky_direct : part_of(paths.sky, by_ground)) += weight;
       }
       if (segment.end != Segment::End::ground && segment.end != Segment::End::surface) break;
-      auto const [normal, reflectance] = reflect(scene, segment, ray.direction);
+      auto const [normal, reflectance, is_ground] = reflect(scene, segment, ray.direction);
       if (weight * reflectance <= 0.0) break;
+      if (is_ground) ++by_ground;
       std::optional<SurfaceId> surface;
       if (segment.end == Segment::End::surface) surface = segment.surface;
-      paths.hits.push_back({segment.point, normal, weight * reflectance, surface, from_ground});
+      paths.hits.push_back({segment.point, normal, weight * reflectance, surface, by_ground});
       auto const step = static_cast<std::size_t>(bounce);
       bool const by_sobol = step < path_bounces_by_sobol;
       if (by_sobol) {
@@ -170,9 +170,9 @@ ReversePaths trace_paths(TransportScene const& scene, SurfaceId receiver,
       ray.from = surface;
     }
   }
-  for (double* sum : {&paths.sky, &paths.sky_from_ground, &paths.sky_direct}) {
-    *sum /= static_cast<double>(points.count());
-  }
+  double const share = 1.0 / static_cast<double>(points.count());
+  paths.sky = share * paths.sky;
+  paths.sky_direct *= share;
   return paths;
 }
 

@@ -38,14 +38,18 @@ struct KeptHit {
   // Irradiance of the receiver for an irradiance of 1 of this place, times the number of paths.
   double weight = 0.0;
   std::optional<SurfaceId> surface = std::nullopt;  // none: the ground
-  bool from_ground = false;                         // the ground is the last that the path leaves
+  int by_ground = 0;  // how many of the reflections up to the receiver are the ground's
 };
+
+// The part of light that the ground reflected so many times.
+inline double& part_of(LightByGround& light, int by_ground) {
+  return by_ground == 0 ? light.none : by_ground == 1 ? light.once : light.more;
+}
 
 struct ReversePaths {
   std::vector<KeptHit> hits;
   // As in Transported.
-  double sky = 0.0;
-  double sky_from_ground = 0.0;
+  LightByGround sky = {};
   double sky_direct = 0.0;
   std::size_t rays = 0;
 };

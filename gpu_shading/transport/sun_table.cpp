@@ -41,7 +41,7 @@ SunTable::SunTable(double latitude, int declinations, double step)
   }
 }
 
-double SunTable::at(std::span<double const> values, HourDirection sun) const {
+std::array<SunTable::Corner, 4> SunTable::around(HourDirection sun) const {
   struct Cell {
     int from;
     double share;
@@ -51,15 +51,27 @@ double SunTable::at(std::span<double const> values, HourDirection sun) const {
     int const from = std::min(static_cast<int>(inside), count - 2);
     return Cell{from, inside - from};
   };
-  auto const value = [&](int i, int j) {
+  auto const corner = [&](int i, int j, double share) {
     int const index = index_[static_cast<std::size_t>(i) * static_cast<std::size_t>(hours_) +
                              static_cast<std::size_t>(j)];
-    return index < 0 ? 0.0 : values[static_cast<std::size_t>(index)];
+    return index < 0 ? Corner{} : Corner{static_cast<std::size_t>(index), share};
   };
   auto const [i, a] = cell((sun.declination + solstice) / declination_step_, declinations_);
   auto const [j, b] = cell((sun.hour_angle - first_hour_) / hour_step_, hours_);
-  return (1.0 - a) * ((1.0 - b) * value(i, j) + b * value(i, j + 1)) +
-         a * ((1.0 - b) * value(i + 1, j) + b * value(i + 1, j + 1));
+  return {corner(i, j, (1.0 - a) * (1.0 - b)), corner(i, j + 1, (1.0 - a) * b),
+          corner(i + 1, j, a * (1.0 - b)), corner(i + 1, j + 1, a * b)};
+}
+
+double SunTable::at(std::span<double const> values, HourDirection sun) const {
+  double sum = 0.0;
+  for (auto const& corner : around(sun)) sum += corner.share * values[corner.sun];
+  return sum;
+}
+
+LightByGround Transported::beam_at(HourDirection sun) const {
+  LightByGround light;
+  for (auto const& corner : table.around(sun)) light += corner.share * beam[corner.sun];
+  return light;
 }
 
 }  // namespace gpu_shading

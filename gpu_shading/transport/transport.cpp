@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "gpu_shading/error.h"
@@ -22,7 +23,8 @@ constexpr std::size_t paths_of_replicate = 1024;
 constexpr int draws = 32;  // shadow rays for a sun, in a replicate
 constexpr std::size_t least_replicates = 4;
 constexpr std::size_t most_replicates = 64;
-constexpr int probes = 48;  // true suns, for the error of interpolation
+constexpr std::size_t direct_rays = 8;  // from the receiver to a sun of the first table
+constexpr int probes = 48;              // true suns, for the error of interpolation
 
 struct Grid {
   int declinations;
@@ -40,6 +42,7 @@ double square(double x) { return x * x; }
 // Hours with sun, and what errors are relative to.
 struct Year {
   std::vector<TransportHour> hours;
+  std::vector<double> direct;       // of the beam, without a reflection, by hour
   std::vector<double> least;        // W/m2, by hour
   std::vector<std::size_t> probed;  // hours, spread by their beam
   std::vector<glm::dvec3> suns;     // of those
@@ -73,12 +76,10 @@ Year year_of(TransportRequest const& request, glm::dvec3 const& normal) {
 
 // One of several independent answers.
 struct Replicate {
-  std::vector<double> beam;  // by sun of the table
-  std::vector<double> beam_from_ground;
-  std::vector<double> hourly;  // of the table, by hour of the year
-  std::vector<double> gaps;    // of the probes' own answers to the table's
-  double sky = 0.0;
-  double sky_from_ground = 0.0;
+  std::vector<LightByGround> beam;  // by sun of the table
+  std::vector<double> hourly;       // of the table, by hour of the year
+  std::vector<double> gaps;         // of the probes' own answers to the table's
+  LightByGround sky;
   double sky_direct = 0.0;
   std::size_t rays = 0;
 };
@@ -98,7 +99,6 @@ Replicate replicate_of(Question const& question, SunTable const& table, std::uin
                            question.conditions);
   Replicate replicate;
   replicate.sky = paths.sky;
-  replicate.sky_from_ground = paths.sky_from_ground;
   replicate.sky_direct = paths.sky_direct;
   replicate.rays = paths.rays;
   double const size = std::sqrt(area(scene.scene[question.receiver].polygon));
@@ -114,17 +114,44 @@ Replicate replicate_of(Question const& question, SunTable const& table, std::uin
   };
   for (auto const& sun : table.suns()) {
     auto const beam = ask(sun);
-    replicate.beam.push_back(beam.all);
-    replicate.beam_from_ground.push_back(beam.from_ground);
+    replicate.beam.push_back(beam.light);
   }
   for (auto const& hour : question.year.hours) {
-    replicate.hourly.push_back(table.at(replicate.beam, hour.sun));
+    double sum = 0.0;
+    for (auto const& corner : table.around(hour.sun)) {
+      sum += corner.share * replicate.beam[corner.sun].sum();
+    }
+    replicate.hourly.push_back(sum);
   }
   for (std::size_t i = 0; i < question.year.probed.size(); ++i) {
-    replicate.gaps.push_back(ask(question.year.suns[i]).all -
+    replicate.gaps.push_back(ask(question.year.suns[i]).light.sum() -
                              replicate.hourly[question.year.probed[i]]);
   }
   return replicate;
+}
+
+struct DirectBeam {
+  std::vector<double> irradiance;  // for a beam of 1 W/m2, by sun
+  std::size_t rays = 0;
+};
+
+DirectBeam direct_beam(Question const& question, SunTable const& table, std::uint32_t seed) {
+  auto conditions = question.conditions;
+  conditions.receiver = question.receiver;
+  DirectBeam direct;
+  for (auto const& sun : table.suns()) {
+    double const cosine = glm::dot(sun, question.places.normal());
+    double passed = 0.0;
+    for (std::size_t i = 0; i < direct_rays && cosine > 0.0; ++i) {
+      auto const point = direct.rays++ % question.points.count();
+      auto const coordinate = [&](std::size_t of) { return question.points.at(point, of, seed); };
+      Ray ray{question.places.at(coordinate(0), coordinate(1)), sun};
+      ray.from = question.receiver;
+      passed += question.scene.rays.transmittance(ray, conditions);
+    }
+    direct.irradiance.push_back(std::max(0.0, cosine) * passed / direct_rays);
+  }
+  return direct;
 }
 
 struct Errors {
@@ -136,7 +163,7 @@ struct Errors {
 
 double mean_sky(std::span<Replicate const> replicates) {
   double sum = 0.0;
-  for (auto const& replicate : replicates) sum += replicate.sky;
+  for (auto const& replicate : replicates) sum += replicate.sky.sum();
   return sum / double(replicates.size());
 }
 
@@ -161,13 +188,13 @@ Errors errors_of(std::span<Replicate const> replicates, Year const& year, double
     auto const& hour = year.hours[h];
     double const mean = mean_hour(replicates, h);
     double const total = std::max(
-        hour.beam * (mean + hour.direct) + hour.diffuse * (sky + sky_direct), year.least[h]);
+        hour.beam * (mean + year.direct[h]) + hour.diffuse * (sky + sky_direct), year.least[h]);
     totals.push_back(total);
     if (total <= 0.0) continue;
     all += total;
     for (std::size_t r = 0; r < replicates.size(); ++r) {
-      double const off =
-          hour.beam * (replicates[r].hourly[h] - mean) + hour.diffuse * (replicates[r].sky - sky);
+      double const off = hour.beam * (replicates[r].hourly[h] - mean) +
+                         hour.diffuse * (replicates[r].sky.sum() - sky);
       sums[r] += off;
       squares += square(off) / total;
     }
@@ -214,15 +241,10 @@ bool are_small(Errors const& errors, std::size_t replicates, TransportRequest co
 Transported mean_of(std::span<Replicate const> replicates, SunTable table, Errors const& errors) {
   Transported mean{std::move(table)};
   mean.beam.resize(mean.table.suns().size());
-  mean.beam_from_ground.resize(mean.beam.size());
   auto const share = 1.0 / double(replicates.size());
   for (auto const& replicate : replicates) {
-    for (std::size_t i = 0; i < mean.beam.size(); ++i) {
-      mean.beam[i] += share * replicate.beam[i];
-      mean.beam_from_ground[i] += share * replicate.beam_from_ground[i];
-    }
+    for (std::size_t i = 0; i < mean.beam.size(); ++i) mean.beam[i] += share * replicate.beam[i];
     mean.sky += share * replicate.sky;
-    mean.sky_from_ground += share * replicate.sky_from_ground;
     mean.sky_direct += share * replicate.sky_direct;
   }
   mean.noise = errors.noise;
@@ -260,12 +282,17 @@ Transported Transport::to(SurfaceId receiver, TransportRequest const& request,
                           RayConditions const& conditions, std::uint32_t seed) const {
   static SobolPoints const points(paths_of_replicate, path_dimensions);
   ReceiverPoints const places(scene_[receiver].polygon);
-  if (places.empty()) return {table_of(request.latitude, grids.front())};
-  auto const year = year_of(request, places.normal());
+  auto const first_table = table_of(request.latitude, grids.front());
+  if (places.empty()) return {first_table, std::vector<LightByGround>(first_table.suns().size())};
+  auto year = year_of(request, places.normal());
   TransportScene const scene{scene_, rays_, normals_, reflectances_, ground_};
   Question const question{scene, receiver, places, points, conditions, year};
-  std::size_t rays = 0;
   std::uint32_t next = seed * 0x9e3779b9U;  // seeds of receivers are far apart
+  auto const direct = direct_beam(question, first_table, next);
+  for (auto const& hour : year.hours) {
+    year.direct.push_back(first_table.at(direct.irradiance, hour.sun));
+  }
+  std::size_t rays = direct.rays;
   for (std::size_t g = 0;; ++g) {
     auto const table = table_of(request.latitude, grids.at(g));
     std::vector<Replicate> replicates;
@@ -291,6 +318,19 @@ Transported Transport::to(SurfaceId receiver, TransportRequest const& request,
     }
     next += most_replicates;
   }
+}
+
+std::vector<Transported> Transport::to(std::span<SurfaceId const> receivers,
+                                       TransportRequest const& request,
+                                       RayConditions const& conditions) const {
+  std::vector<std::optional<Transported>> found(receivers.size());
+  for_each_index(receivers.size(), [&](std::size_t i) {
+    found[i] = to(receivers[i], request, conditions, static_cast<std::uint32_t>(receivers[i]));
+  });
+  std::vector<Transported> lights;
+  lights.reserve(found.size());
+  for (auto& light : found) lights.push_back(std::move(*light));
+  return lights;
 }
 
 }  // namespace gpu_shading

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -18,6 +19,7 @@ namespace gpu_shading {
 struct FaceReflectances {
   double front = 0.0;
   double back = 0.0;
+  bool is_ground = false;  // terrain: its reflections count as the ground's
 };
 
 // A horizontal plane without end, which reflects diffusely.
@@ -31,9 +33,6 @@ struct TransportHour {
   HourDirection sun;
   double beam = 0.0;     // direct normal irradiance, W/m2
   double diffuse = 0.0;  // of the sky on level ground, W/m2
-  // What the receiver gets of the beam itself: sunlit fraction times cosine of the angle of
-  // incidence.
-  double direct = 0.0;
 };
 
 struct TransportRequest {
@@ -59,7 +58,15 @@ class SunTable {
   // neighbours, which are lifted to half a degree above it.
   std::vector<glm::dvec3> const& suns() const { return suns_; }
 
-  // Bilinear. `values`: one for each of suns(). The position is clamped to the grid.
+  // For bilinear interpolation: suns by their position in suns(), with shares that add up to 1 or,
+  // beside suns that are not needed, less. The sun is clamped to the grid.
+  struct Corner {
+    std::size_t sun = 0;
+    double share = 0.0;
+  };
+  std::array<Corner, 4> around(HourDirection sun) const;
+
+  // Bilinear. `values`: one for each of suns().
   double at(std::span<double const> values, HourDirection sun) const;
 
  private:
@@ -72,17 +79,35 @@ class SunTable {
   std::vector<glm::dvec3> suns_;
 };
 
+// Irradiance, W/m2, by how many of the reflections on light's path are the ground's.
+struct LightByGround {
+  double none = 0.0;  // by shades, neighbours and the building alone
+  double once = 0.0;
+  double more = 0.0;
+
+  double sum() const { return none + once + more; }
+  // The sum with another reflectance of the ground. `ratio`: of that to the traced one, 0 or more.
+  // Paths that the ground reflects more than twice count as if it did so twice.
+  double at(double ratio) const { return none + ratio * (once + ratio * more); }
+
+  LightByGround& operator+=(LightByGround const& other) {
+    none += other.none;
+    once += other.once;
+    more += other.more;
+    return *this;
+  }
+  friend LightByGround operator*(double factor, LightByGround const& light) {
+    return {factor * light.none, factor * light.once, factor * light.more};
+  }
+};
+
 // Irradiance of a receiver by paths with at least one diffuse reflection.
 struct Transported {
   SunTable table;
-  // For a beam of 1 W/m2 (normal) from each sun of the table, W/m2: by any path, and of that by
-  // paths that reach the receiver from the ground.
-  std::vector<double> beam = {};
-  std::vector<double> beam_from_ground = {};
-  // For a uniform sky that gives 1 W/m2 to level ground in the open: by reflections, of that from
-  // the ground, and straight from the sky.
-  double sky = 0.0;
-  double sky_from_ground = 0.0;
+  // For a beam of 1 W/m2 (normal) from each sun of the table.
+  std::vector<LightByGround> beam = {};
+  // For a uniform sky that gives 1 W/m2 to level ground in the open: by reflections, and straight.
+  LightByGround sky = {};
   double sky_direct = 0.0;
   // Measured, relative as TransportRequest says: noise of the hours, of their sum, and the hours'
   // error of interpolation between suns.
@@ -90,6 +115,9 @@ struct Transported {
   double annual_noise = 0.0;
   double interpolation = 0.0;
   std::size_t rays = 0;
+
+  // For a beam of 1 W/m2 from any sun of the table's latitude: bilinear.
+  LightByGround beam_at(HourDirection sun) const;
 };
 
 // Light by way of diffuse reflections of any number, from the sun or the sky. Objects are
@@ -115,6 +143,10 @@ class Transport {
   // receiver's own rule are those of `conditions`; conditions.receiver is replaced.
   Transported to(SurfaceId receiver, TransportRequest const& request,
                  RayConditions const& conditions = {}, std::uint32_t seed = 0) const;
+
+  // Several receivers, in their order, each with its SurfaceId as the seed.
+  std::vector<Transported> to(std::span<SurfaceId const> receivers, TransportRequest const& request,
+                              RayConditions const& conditions = {}) const;
 
  private:
   Scene const& scene_;
