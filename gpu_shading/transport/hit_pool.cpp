@@ -1,13 +1,11 @@
 #include "transport/hit_pool.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numeric>
-#include <utility>
+#include <tuple>
 
 namespace gpu_shading {
 namespace {
@@ -53,28 +51,44 @@ std::vector<std::uint64_t> along_curve(std::vector<KeptHit> const& hits, glm::dv
   return keys;
 }
 
-std::array<int, 3> rounded(glm::dvec3 const& normal) {
-  auto const step = [](double x) { return static_cast<int>(std::lround(x * normal_steps)); };
-  return {step(normal.x), step(normal.y), step(normal.z)};
+// Equal for normals that are alike.
+std::uint64_t rounded(glm::dvec3 const& normal) {
+  constexpr int axis_bits = 16;
+  constexpr double middle = 1U << (axis_bits - 1);
+  std::uint64_t bits = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    auto const step = std::lround(normal[axis] * normal_steps + middle);
+    bits = bits << axis_bits | static_cast<std::uint64_t>(step);
+  }
+  return bits;
 }
+
+struct Place {
+  std::uint64_t normal;
+  std::uint64_t along;
+  std::size_t hit;
+};
 
 }  // namespace
 
 HitPool::HitPool(std::vector<KeptHit> hits, std::size_t paths, glm::dvec3 const& centre,
                  double size) {
   auto const keys = along_curve(hits, centre, size);
-  std::vector<std::size_t> order(hits.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {},
-                    [&](std::size_t i) { return std::tuple(rounded(hits[i].normal), keys[i], i); });
+  std::vector<Place> order;
+  order.reserve(hits.size());
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    order.push_back({rounded(hits[i].normal), keys[i], i});
+  }
+  std::ranges::sort(order, {}, [](Place const& place) {
+    return std::tuple(place.normal, place.along, place.hit);
+  });
   hits_.reserve(hits.size());
+  up_to_.reserve(hits.size() + 1);
   up_to_.push_back(0.0);
-  for (std::size_t const i : order) {
-    if (hits_.empty() || rounded(hits[i].normal) != rounded(hits_.back().normal)) {
-      groups_.push_back(hits_.size());
-    }
-    hits_.push_back(hits[i]);
-    up_to_.push_back(up_to_.back() + hits[i].weight / static_cast<double>(paths));
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i == 0 || order[i].normal != order[i - 1].normal) groups_.push_back(i);
+    hits_.push_back(hits[order[i].hit]);
+    up_to_.push_back(up_to_.back() + hits_.back().weight / static_cast<double>(paths));
   }
   groups_.push_back(hits_.size());
 }

@@ -109,11 +109,12 @@ struct Transported {
   // For a uniform sky that gives 1 W/m2 to level ground in the open: by reflections, and straight.
   LightByGround sky = {};
   double sky_direct = 0.0;
-  // Measured, relative as TransportRequest says: noise of the hours, of their sum, and the hours'
-  // error of interpolation between suns.
+  // Measured, relative as TransportRequest says: noise of the hours and of their sum, and the
+  // errors of both by interpolation between suns.
   double noise = 0.0;
   double annual_noise = 0.0;
   double interpolation = 0.0;
+  double annual_interpolation = 0.0;
   std::size_t rays = 0;
 
   // For a beam of 1 W/m2 from any sun of the table's latitude: bilinear.
@@ -125,10 +126,11 @@ struct Transported {
 // many do.
 //
 // Paths are traced from the receiver, by scrambled Sobol points (Owen 1995; Laine and Karras 2011;
-// Joe and Kuo 2008). Every place where one is reflected is kept with its weight. For each sun, some
-// of these are drawn systematically, in proportion to weight times cosine, and looked at from the
-// sun. Replicates with other scrambles measure the noise, and true suns among the hours the error
-// of interpolation; replicates are added, and the table of suns refined, until both are small.
+// Joe and Kuo 2008). Every place where one is reflected is kept with its weight. For each
+// sun, some of these are drawn systematically, in proportion to weight times cosine, and looked at
+// from the sun. Replicates with other scrambles measure the noise, and true suns among the hours
+// the error of interpolation; replicates are added, and the table of suns refined, until both are
+// small.
 //
 // Whatever transmits without holes (glass, fabric, crowns) dims paths and does not reflect them.
 class Transport {
