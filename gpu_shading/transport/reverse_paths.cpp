@@ -71,7 +71,14 @@ struct Reflection {
   glm::dvec3 normal;
   double reflectance;
   bool is_ground;
+  double mirrored = 0.0;  // 0 .. 1 - reflectance
 };
+
+// Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994.
+double reflected_by_mirror(double at_normal, double cosine) {
+  if (at_normal <= 0.0) return 0.0;
+  return at_normal + (1.0 - at_normal) * std::pow(1.0 - std::abs(cosine), 5.0);
+}
 
 Reflection reflect(TransportScene const& scene, Segment const& segment,
                    glm::dvec3 const& direction) {
@@ -81,7 +88,9 @@ Reflection reflect(TransportScene const& scene, Segment const& segment,
   auto const& faces = scene.reflectances[segment.surface];
   auto const& normal = scene.normals[segment.surface];
   bool const front = glm::dot(normal, direction) < 0.0;
-  return {front ? normal : -normal, front ? faces.front : faces.back, faces.is_ground};
+  double const diffuse = front ? faces.front : faces.back;
+  double const mirrored = reflected_by_mirror(faces.specular, -glm::dot(normal, direction));
+  return {front ? normal : -normal, diffuse, faces.is_ground, std::min(mirrored, 1.0 - diffuse)};
 }
 
 }  // namespace
@@ -143,6 +152,7 @@ ReversePaths trace_paths(TransportScene const& scene, SurfaceId receiver,
     ray.from = receiver;
     double weight = 1.0;
     int by_ground = 0;
+    std::size_t step = 0;  // of the reflections that are not a mirror's
     for (int bounce = 0; bounce < most_bounces; ++bounce) {
       auto const segment = (bounce == 0 ? from_receiver : onwards).follow(ray);
       ++paths.rays;
@@ -151,13 +161,19 @@ ReversePaths trace_paths(TransportScene const& scene, SurfaceId receiver,
         (bounce == 0 ? paths.sky_direct : part_of(paths.sky, by_ground)) += weight;
       }
       if (segment.end != Segment::End::ground && segment.end != Segment::End::surface) break;
-      auto const [normal, reflectance, is_ground] = reflect(scene, segment, ray.direction);
-      if (weight * reflectance <= 0.0) break;
-      if (is_ground) ++by_ground;
+      auto const reflection = reflect(scene, segment, ray.direction);
+      auto const& normal = reflection.normal;
       std::optional<SurfaceId> surface;
       if (segment.end == Segment::End::surface) surface = segment.surface;
+      if (reflection.mirrored > 0.0 && onwards.random() < reflection.mirrored) {
+        ray = {segment.point, ray.direction - 2.0 * glm::dot(ray.direction, normal) * normal};
+        ray.from = surface;
+        continue;
+      }
+      double const reflectance = reflection.reflectance / (1.0 - reflection.mirrored);
+      if (weight * reflectance <= 0.0) break;
+      if (reflection.is_ground) ++by_ground;
       paths.hits.push_back({segment.point, normal, weight * reflectance, surface, by_ground});
-      auto const step = static_cast<std::size_t>(bounce);
       bool const by_sobol = step < path_bounces_by_sobol;
       if (by_sobol) {
         weight *= reflectance;
@@ -166,6 +182,7 @@ ReversePaths trace_paths(TransportScene const& scene, SurfaceId receiver,
       }
       double const u = by_sobol ? coordinate(4 + 2 * step) : onwards.random();
       double const v = by_sobol ? coordinate(5 + 2 * step) : onwards.random();
+      ++step;
       ray = {segment.point, cosine_direction(normal, u, v)};
       ray.from = surface;
     }

@@ -34,6 +34,9 @@ Transport::Transport(Scene const& scene, RayScene const& rays,
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     require_share(reflectances_[id].front, id);
     require_share(reflectances_[id].back, id);
+    require_share(reflectances_[id].specular, id);
+    require_share(
+        std::max(reflectances_[id].front, reflectances_[id].back) + reflectances_[id].specular, id);
     normals_.push_back(normal(scene[id].polygon));
   }
 }

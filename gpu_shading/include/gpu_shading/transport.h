@@ -14,12 +14,16 @@
 
 namespace gpu_shading {
 
-// Diffuse (Lambertian) reflectances of a surface's faces, 0 .. 1; the front is the side that the
-// normal points to. For a perforated sheet: of its solid part.
+// Reflectances of a surface's faces, 0 .. 1; the front is the side that the normal points to. For a
+// perforated sheet: of its solid part.
 struct FaceReflectances {
-  double front = 0.0;
+  double front = 0.0;  // diffuse (Lambertian)
   double back = 0.0;
   bool is_ground = false;  // terrain: its reflections count as the ground's
+  // Of both faces as mirrors, at normal incidence, not more than what the diffuse ones leave; it
+  // rises with the angle as by Schlick (1994). Receivers see surroundings and the sky in such a
+  // mirror, and so does whatever reflects diffusely, but not the sun.
+  double specular = 0.0;
 };
 
 // A horizontal plane without end, which reflects diffusely.
@@ -101,7 +105,7 @@ struct LightByGround {
   }
 };
 
-// Irradiance of a receiver by paths with at least one diffuse reflection.
+// Irradiance of a receiver by paths with at least one reflection.
 struct Transported {
   SunTable table;
   // For a beam of 1 W/m2 (normal) from each sun of the table.
@@ -121,12 +125,12 @@ struct Transported {
   LightByGround beam_at(HourDirection sun) const;
 };
 
-// Light by way of diffuse reflections of any number, from the sun or the sky. Objects are
+// Light by way of reflections of any number, from the sun or the sky. Objects are
 // immutable: any number of threads may ask one at the same time, and answers do not depend on how
 // many do.
 //
 // Paths are traced from the receiver, by scrambled Sobol points (Owen 1995; Laine and Karras 2011;
-// Joe and Kuo 2008). Every place where one is reflected is kept with its weight. For each
+// Joe and Kuo 2008). Every place where one is reflected diffusely is kept with its weight. For each
 // sun, some of these are drawn systematically, in proportion to weight times cosine, and looked at
 // from the sun. Replicates with other scrambles measure the noise, and true suns among the hours
 // the error of interpolation; replicates are added, and the table of suns refined, until both are
@@ -137,7 +141,7 @@ class Transport {
  public:
   // `rays`: of the scene, which must outlive this; RayFaces::both, or paths pass through faces that
   // are turned away. `reflectances`: one for each surface of the scene. Throws Error if one is not
-  // 0 .. 1, or there are not as many.
+  // 0 .. 1, if a diffuse and a specular one are more than 1 together, or if there are not as many.
   Transport(Scene const& scene, RayScene const& rays, std::vector<FaceReflectances> reflectances,
             std::optional<ReflectingGround> ground);
 

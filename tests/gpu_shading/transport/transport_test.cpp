@@ -40,6 +40,8 @@ class Room {
     reflectances_[add(std::move(polygon), reflectance)].is_ground = true;
   }
 
+  void add_mirror(Polygon polygon) { reflectances_[add(std::move(polygon), 0.0)].specular = 1.0; }
+
   struct Straight {
     double open = 0.0;    // cosine of the angle of incidence, 0 behind
     double shaded = 0.0;  // what is left of it
@@ -432,6 +434,18 @@ TEST(Transport, IsReciprocal) {
   EXPECT_GE(count, 9);
 }
 
+// A mirror without end shows the whole sky, and the ground under it.
+TEST(Transport, OfAMirrorIsTheSkyInIt) {
+  Room room;
+  room.add_mirror(parallelogram({far, -5, 0}, {-2 * far, 0, 0}, {0, 0, far}));
+  auto const window = room.add_receiver(south_facing(-1, 0, 1, 2, 2));
+  auto const hours = clear_hours();
+  auto const light = room.light(window, request_for(hours), ReflectingGround{0.0, 0.3});
+  EXPECT_NEAR(light.sky.none + light.sky_direct, 0.5, 1e-3);
+  EXPECT_LT(light.sky_direct, 0.01);
+  EXPECT_NEAR(light.sky.once, 0.15, 1e-3);
+}
+
 TEST(Transport, IsTheSameAgain) {
   Room room;
   for (int i = 0; i < 5; ++i) room.add(level(-3, -0.6, 1 + 0.4 * i, 6, 0.5), 0.7);
@@ -516,6 +530,10 @@ TEST(Transport, RefusesWhatIsNoReflectance) {
             "the reflectance of surface 0 is 1.2; expected 0 to 1");
   EXPECT_EQ(refusal_of([&] { Transport(scene, rays, {}, std::nullopt); }),
             "there are 0 reflectances; expected 1, one for each surface");
+  EXPECT_EQ(refusal_of([&] {
+              Transport(scene, rays, {{0.3, 0.6, false, 0.5}}, std::nullopt);
+            }),
+            "the reflectance of surface 0 is 1.1; expected 0 to 1");
 }
 
 }  // namespace
