@@ -36,11 +36,9 @@ class Room {
 
   SurfaceId add_receiver(Polygon polygon) { return add(std::move(polygon), 0.0, Casting::never); }
 
-  void add_ground(Polygon polygon, double reflectance) {
-    reflectances_[add(std::move(polygon), reflectance)].is_ground = true;
+  void add(Polygon polygon, FaceReflectances const& faces) {
+    reflectances_[add(std::move(polygon), 0.0)] = faces;
   }
-
-  void add_mirror(Polygon polygon) { reflectances_[add(std::move(polygon), 0.0)].specular = 1.0; }
 
   struct Straight {
     double open = 0.0;    // cosine of the angle of incidence, 0 behind
@@ -386,7 +384,9 @@ TEST(Transport, OfGroundUnderAnOverhangIsWhatIsLit) {
   room.add(level(-far, -depth, height, 2 * far, depth), 0.0);
   auto const patch = room.add_receiver(south_facing(-0.005, 0, z - 0.005, 0.01, 0.01));
   auto const hours = clear_hours();
-  auto const light = room.light(patch, request_for(hours), ReflectingGround{0.0, reflectance});
+  auto request = request_for(hours);
+  request.hourly = 0.003;
+  auto const light = room.light(patch, request, ReflectingGround{0.0, reflectance});
   EXPECT_NEAR(light.sky_direct, 0.5 * (height - z) / std::hypot(height - z, depth), 1e-3);
   int count = 0;
   for (std::size_t i = 0; i < light.beam.size(); ++i) {
@@ -437,7 +437,8 @@ TEST(Transport, IsReciprocal) {
 // A mirror without end shows the whole sky, and the ground under it.
 TEST(Transport, OfAMirrorIsTheSkyInIt) {
   Room room;
-  room.add_mirror(parallelogram({far, -5, 0}, {-2 * far, 0, 0}, {0, 0, far}));
+  room.add(parallelogram({far, -5, 0}, {-2 * far, 0, 0}, {0, 0, far}),
+           FaceReflectances{.specular = 1.0});
   auto const window = room.add_receiver(south_facing(-1, 0, 1, 2, 2));
   auto const hours = clear_hours();
   auto const light = room.light(window, request_for(hours), ReflectingGround{0.0, 0.3});
@@ -483,14 +484,20 @@ TEST(Transport, TellsTheGroundsReflectionsApart) {
   for (auto const& beam : black.beam) EXPECT_EQ(beam.none, beam.sum());
 }
 
-TEST(Transport, OfTerrainIsTheGrounds) {
-  Room room;
-  room.add_ground(level(-far, -far, 0, 2 * far, 2 * far), 0.3);
-  auto const window = room.add_receiver(south_facing(0, 0, 1, 2, 2));
+TEST(Transport, OfTerrainIsTheGroundsByTheFaceThatIsSeen) {
+  auto const up = level(-far, -far, 0, 2 * far, 2 * far);
+  auto const down = parallelogram({-far, -far, 0}, {0, 2 * far, 0}, {2 * far, 0, 0});
   auto const hours = clear_hours();
-  auto const light = room.light(window, request_for(hours));
-  EXPECT_NEAR(light.sky.once, 0.15, 1e-3);
-  EXPECT_EQ(light.sky.once, light.sky.sum());
+  for (bool const is_up : {true, false}) {
+    Room room;
+    auto const window = room.add_receiver(south_facing(0, 0, 1, 2, 2));
+    room.add(
+        is_up ? up : down,
+        FaceReflectances{.front = is_up ? 0.3 : 0.9, .back = is_up ? 0.9 : 0.3, .is_ground = true});
+    auto const light = room.light(window, request_for(hours));
+    EXPECT_NEAR(light.sky.once, 0.15, 1e-3);
+    EXPECT_EQ(light.sky.once, light.sky.sum());
+  }
 }
 
 TEST(Transport, OfSeveralReceiversIsThatOfEachWhateverTheThreads) {
