@@ -185,6 +185,14 @@ std::span<OptionRow const> option_rows() {
                       "parts. `perez-patches`: by patch of the sky (Perez et al. 1993), at every "
                       "zone timestep",
            .in_settings = true}),
+      at<&Choices::reflections>(
+          {.name = "reflections",
+           .value = settings::reflections,
+           .meaning = "Light from the ground, shades and neighbours. `all`: by every path, through "
+                      "and between all shades. `energyplus`: as EnergyPlus does, without "
+                      "GPUShading objects. `auto`: `all` if the model has GPUShading objects that "
+                      "shade, or 20 or more shading surfaces and solar reflections",
+           .in_settings = true}),
       at<&Choices::surroundings>(
           {.name = "surroundings",
            .value = switch_value,

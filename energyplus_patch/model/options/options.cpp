@@ -169,6 +169,7 @@ Options resolve(Choices choices, Choices const& settings, ShadingInput const& in
   options.stages = choices.stages;
   options.lean = choices.lean.value_or(Lean::automatic);
   options.sky = choices.sky.value_or(SkyModel::energyplus);
+  options.reflections = choices.reflections.value_or(Reflections::automatic);
   options.verbose = choices.verbose.value_or(false);
   if (choices.cache && !choices.cache->empty()) {
     auto& cache = options.cache.emplace(CacheFolder{*choices.cache});

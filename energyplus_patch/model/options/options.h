@@ -32,6 +32,13 @@ enum class SkyModel {
   perez_patches,  // by patch, after Perez et al. (1993)
 };
 
+// Which light that ground, shades and neighbours reflect reaches EnergyPlus's surfaces.
+enum class Reflections {
+  automatic,   // this module's, if the model has objects of ours that shade
+  energyplus,  // EnergyPlus's own
+  all,         // this module's
+};
+
 // When shading is calculated.
 struct Update {
   bool every_timestep = false;  // if false: as often as the model asks
@@ -62,6 +69,7 @@ struct Choices {
   std::optional<std::filesystem::path> report = std::nullopt;
   std::optional<bool> maps = std::nullopt;
   std::optional<SkyModel> sky = std::nullopt;
+  std::optional<Reflections> reflections = std::nullopt;
   // View factors are applied; the objects are those of the file, which the launcher has written.
   std::optional<bool> surroundings = std::nullopt;
   std::optional<std::filesystem::path> surrounding_objects = std::nullopt;
@@ -133,6 +141,7 @@ struct Options {
   std::optional<std::filesystem::path> report;
   Lean lean = Lean::automatic;
   SkyModel sky = SkyModel::energyplus;
+  Reflections reflections = Reflections::automatic;
   std::optional<CacheFolder> cache = std::nullopt;
   std::optional<std::filesystem::path> stages = std::nullopt;
   bool verbose = false;

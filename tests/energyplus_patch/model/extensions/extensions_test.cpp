@@ -90,8 +90,8 @@ TEST(Extensions, ErrorsNameObjectFieldValueAndWhatWasExpected) {
             "GPUShading:TransparentShade S: Value 2 is blank, expected a number or text");
   EXPECT_EQ(refusal("GPUShading:TransparentShade,,Panel,Constant,1;"),
             "GPUShading:TransparentShade: Name is blank, expected text");
-  EXPECT_EQ(refusal("GPUShading:Settings,1,idf,auto,,,more;"),
-            "GPUShading:Settings: 6 fields, expected 5 at most");
+  EXPECT_EQ(refusal("GPUShading:Settings,1,idf,auto,,,auto,more;"),
+            "GPUShading:Settings: 7 fields, expected 6 at most");
   EXPECT_EQ(refusal("GPUShading:Nonsense,1;"),
             "GPUShading:Nonsense: no such object; known: GPUShading:Settings, "
             "GPUShading:TransparentShade, GPUShading:PerforatedScreen, GPUShading:MovingShade, "
@@ -121,7 +121,7 @@ TEST(Extensions, EpJsonOfTheWrongShapeIsRefused) {
             "GPUShading:Settings: is 3, expected an object with fields"},
            {R"({"GPUShading:Settings": {"s": {"resolutoin": 5}}})",
             "GPUShading:Settings: \"resolutoin\": no such field; known: resolution, "
-            "update_frequency, device, error, sky_model; did you mean resolution?"},
+            "update_frequency, device, error, sky_model, reflections; did you mean resolution?"},
            {R"({"GPUShading:Settings": {"s": {"resolution": "5"}}})",
             "GPUShading:Settings: Resolution is the text \"5\", expected an integer from 1 to "
             "65536"},
