@@ -47,24 +47,11 @@ std::vector<User> users_of_rays(std::vector<InputObject> const& objects,
   return found;
 }
 
-std::optional<std::vector<std::string>> const& opaque_to(User const& user,
-                                                         OpaqueToRays const& opaque) {
-  static std::optional<std::vector<std::string>> const unanswered;
-  switch (user.kind) {
-    case User::Kind::daylighting:
-      return opaque.daylighting;
-    case User::Kind::reflections:
-      return opaque.reflections;
-    case User::Kind::complex_fenestration:
-      break;
-  }
-  return unanswered;
-}
-
 }  // namespace
 
-std::vector<std::string> warn_of_rays(std::vector<InputObject> const& objects,
-                                      ShadingInput const& input, OpaqueToRays const& opaque) {
+std::vector<std::string> warn_of_rays(
+    std::vector<InputObject> const& objects, ShadingInput const& input,
+    std::optional<std::vector<std::string>> const& opaque_to_daylight) {
   struct Shade {
     std::string_view type;
     bool seen;
@@ -81,11 +68,11 @@ std::vector<std::string> warn_of_rays(std::vector<InputObject> const& objects,
   for (auto const& user : users_of_rays(objects, input)) {
     std::string_view const schedules =
         user.kind == User::Kind::reflections ? "" : ", except for their Transmittance Schedules";
-    if (auto const& known = opaque_to(user, opaque)) {
-      if (known->empty()) continue;
+    if (user.kind == User::Kind::daylighting && opaque_to_daylight) {
+      if (opaque_to_daylight->empty()) continue;
       warnings.push_back(
           fmt::format("rays of {} treat surfaces that stay in EnergyPlus's input as opaque{}: {}",
-                      user.text, schedules, listed(*known, max_listed)));
+                      user.text, schedules, listed(*opaque_to_daylight, max_listed)));
       continue;
     }
     for (auto const& [type, seen] : shades) {

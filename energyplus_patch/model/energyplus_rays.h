@@ -24,18 +24,14 @@ bool has_daylighting(std::vector<InputObject> const& objects);
 // traces once when it starts.
 bool daylighting_can_be_answered(std::vector<InputObject> const& objects);
 
-// Where rays are answered: the surfaces of shades that are nevertheless in EnergyPlus's input. One
-// warning names them.
-struct OpaqueToRays {
-  std::optional<std::vector<std::string>> daylighting = std::nullopt;  // unless answered
-  std::optional<std::vector<std::string>> reflections = std::nullopt;
-};
-
 // EnergyPlus's own rays treat TransparentShades and PerforatedScreens as opaque, except for their
 // Transmittance Schedules, which rays of solar reflections ignore too, and do not see Geometry and
 // SiteContext. One warning for each pair of a user of rays (daylighting, solar reflections, complex
-// fenestration) and a type of shade in the model, naming the objects.
-std::vector<std::string> warn_of_rays(std::vector<InputObject> const& objects,
-                                      ShadingInput const& input, OpaqueToRays const& opaque = {});
+// fenestration) and a type of shade in the model, naming the objects. `opaque_to_daylight`: where
+// rays of daylighting are answered, the surfaces of shades that are nevertheless in EnergyPlus's
+// input, which one warning names.
+std::vector<std::string> warn_of_rays(
+    std::vector<InputObject> const& objects, ShadingInput const& input,
+    std::optional<std::vector<std::string>> const& opaque_to_daylight = std::nullopt);
 
 }  // namespace gpu_shading::energyplus

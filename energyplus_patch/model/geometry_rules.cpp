@@ -125,6 +125,37 @@ GeometryRules read_geometry_rules(std::vector<InputObject> const& objects) {
   return rules;
 }
 
+std::optional<Ring> vertices_of(InputObject const& object) {
+  auto texts = object.list;
+  if (object.type == "FenestrationSurface:Detailed") {
+    for (int vertex = 1; vertex <= 4; ++vertex) {
+      for (char const axis : {'x', 'y', 'z'}) {
+        texts.push_back(object[fmt::format("vertex_{}_{}_coordinate", vertex, axis)]);
+      }
+    }
+    while (!texts.empty() && texts.back().empty()) texts.pop_back();
+  }
+  auto const count = texts.size() / 3;
+  if (count < 3 || texts.size() % 3 != 0) return std::nullopt;
+  auto const& given = object["number_of_vertices"];
+  if (!given.empty() && !same_name(given, "autocalculate")) {
+    auto const number = parse_number(given);
+    if (!number || *number != static_cast<double>(count)) return std::nullopt;
+  }
+  Ring ring;
+  ring.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    glm::dvec3 vertex;
+    for (int axis = 0; axis < 3; ++axis) {
+      auto const value = parse_number(texts[3 * i + static_cast<std::size_t>(axis)]);
+      if (!value) return std::nullopt;
+      vertex[axis] = *value;
+    }
+    ring.push_back(vertex);
+  }
+  return ring;
+}
+
 Outline to_world(GeometryRules const& rules, Ring vertices, Attachment attachment,
                  GeometryRules::Zone const& zone) {
   // The first vertex stays first.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -28,6 +29,10 @@ struct GeometryRules {
 
 // Throws Error, naming object, field and value, for invalid rules.
 GeometryRules read_geometry_rules(std::vector<InputObject> const& objects);
+
+// The vertices of a detailed surface, window or door as they are written; nothing if they are
+// invalid.
+std::optional<Ring> vertices_of(InputObject const& object);
 
 // What a shading surface is attached to, which determines its rotation and translation.
 enum class Attachment {

@@ -34,7 +34,7 @@ std::string_view reason_of(InputObject const& object, bool daylighting_answered)
 // Why no surface may be left out, or "".
 std::string reason_against(std::vector<InputObject> const& objects, ShadingInput const& input,
                            EnergyPlusRays const& rays) {
-  if (input.reflections && !rays.reflections_answered) {
+  if (input.reflections) {
     return "Building: Solar Distribution asks for reflections";
   }
   if (!input.unreadable_key.empty()) return input.unreadable_key;
@@ -68,17 +68,6 @@ void add_outputs(ShadingInput const& input, Names const& names, Mentions& mentio
   for (auto const& name : names) {
     if (input.names(name) || input.names(mirrored_name(name))) {
       mentions.try_emplace(name, "Output:Variable");
-    }
-  }
-}
-
-// Surfaces that EnergyPlus has to know because they reflect the beam as a mirror does.
-void add_mirrors(ShadingInput const& input, Names const& names, Mentions& mentions) {
-  if (!input.reflections) return;
-  for (auto const& name : names) {
-    auto const found = input.shading_surfaces.find(name);
-    if (found != input.shading_surfaces.end() && found->second.glazed > 0.0) {
-      mentions.try_emplace(name, "ShadingProperty:Reflectance");
     }
   }
 }
@@ -152,7 +141,6 @@ LeanInput plan(std::vector<InputObject> const& objects, ShadingInput const& inpu
                MentionFinder const& find_mentions) {
   auto mentions = find_mentions(candidates);
   add_outputs(input, candidates, mentions);
-  add_mirrors(input, candidates, mentions);
   LeanInput lean;
   std::vector<std::string> schedules;
   Names known_schedules;
@@ -180,6 +168,11 @@ bool LeanInput::is_placeholder(std::string const& surface) const {
   return std::ranges::any_of(placeholders, [&](Placeholder const& each) {
     return each.name == surface || mirrored_name(each.name) == surface;
   });
+}
+
+bool has_many_for_reflections(std::vector<InputObject> const& objects, Lean lean) {
+  if (lean == Lean::off) return false;
+  return find_candidates(objects).size() >= (lean == Lean::on ? 1 : fewest_with_reflections);
 }
 
 LeanInput plan_lean_input(std::vector<InputObject> const& objects, ShadingInput const& input,

@@ -32,25 +32,27 @@ struct LeanInput {
 // only those are left out that EnergyPlus would simplify or refuse (Outline), or whose
 // transmittance its rays would not see (EnergyPlusRays).
 inline constexpr std::size_t fewest_left_out = 100;
-// The same with solar reflections, for which EnergyPlus takes as long for 20 surfaces as for the
+// With EnergyPlus's own solar reflections, it takes as long for 20 surfaces as for the
 // placeholders, and for each more of them longer.
 inline constexpr std::size_t fewest_with_reflections = 20;
 
+// Whether so many surfaces may be left out that EnergyPlus's own solar reflections take too long.
+bool has_many_for_reflections(std::vector<InputObject> const& objects, Lean lean);
+
 // Effects of EnergyPlus's own rays on lean input.
 struct EnergyPlusRays {
-  // Whether rays of daylighting, and of solar reflections, are also shaded by surfaces that are
-  // left out of EnergyPlus's input.
+  // Whether rays of daylighting are also shaded by surfaces that are left out of EnergyPlus's
+  // input.
   bool daylighting_answered = false;
-  bool reflections_answered = false;
   // Surfaces to leave out in any case, because the rays would treat them as opaque. Upper case.
   Names transmitting = {};
 };
 
 // A surface is kept if another object or output names it, or if one of its fields cannot be
 // interpreted. All are kept if the model needs the surfaces themselves (complex fenestration, the
-// external shading file, plugins, daylighting and solar reflections unless their rays are
-// answered), those that reflect specularly with solar reflections, or all if its geometry is
-// changed in ways that are not supported here (reason_against_outlines).
+// external shading file, plugins, EnergyPlus's solar reflections, daylighting unless its rays are
+// answered), or if its geometry is changed in ways that are not supported here
+// (reason_against_outlines).
 LeanInput plan_lean_input(std::vector<InputObject> const& objects, ShadingInput const& input,
                           Options const& options, EnergyPlusRays const& rays,
                           MentionFinder const& find_mentions);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <string_view>
 
 #include "files/unconfined_decoding.h"
@@ -12,7 +13,9 @@
 #include "model/extensions/extension_fields.h"
 #include "model/geometry_rules.h"
 #include "model/idf/extension_objects.h"
+#include "model/idf/local_environment.h"
 #include "model/input/plausible_lengths.h"
+#include "model/reflected_light_plan.h"
 #include "model/site/site_clock.h"
 #include "model/site/texture_axes.h"
 #include "platform/text.h"
@@ -132,26 +135,39 @@ std::vector<std::string> kept(Names const& surfaces, LeanInput const& lean) {
   return names;
 }
 
+// The objects that add_surrounding_objects() adds.
+std::vector<InputObject> read_surrounding_objects(Model const& model) {
+  return model.surrounding_objects ? read_objects(*model.surrounding_objects)
+                                   : std::vector<InputObject>();
+}
+
+void add_reflected_light(std::vector<InputObject> const& objects, Reader const& reader,
+                         Model& model) {
+  auto const more = read_surrounding_objects(model);
+  auto plan = plan_reflected_light({objects, more, reader.find_mentions}, model.options,
+                                   reader.reflected_light, model.shading);
+  model.reflected_light = std::move(plan.input.light);
+  model.field_changes = std::move(plan.input.changes);
+  model.new_objects = std::move(plan.input.added);
+  std::ranges::move(plan.warnings, std::back_inserter(model.warnings));
+  std::ranges::move(plan.remarks, std::back_inserter(model.remarks));
+}
+
 // Lean input, and warnings about EnergyPlus's rays.
 void plan_rays(std::vector<InputObject> const& objects, Reader const& reader, Model& model) {
   bool const on = model.options.mode != Mode::off;
   EnergyPlusRays rays;
-  rays.reflections_answered = reader.reflections && on && model.shading.reflections;
-  rays.daylighting_answered =
-      reader.daylight_rays && on && has_daylighting(objects) &&
-      daylighting_can_be_answered(objects) &&
-      (!model.shading.reflections || (rays.reflections_answered && reader.reflections_in_daylight));
+  rays.daylighting_answered = reader.daylight_rays && on && has_daylighting(objects) &&
+                              daylighting_can_be_answered(objects) && !model.shading.reflections;
   auto const transmitting = transmitting_surfaces(model);
-  if (rays.daylighting_answered || rays.reflections_answered) rays.transmitting = transmitting;
+  if (rays.daylighting_answered) rays.transmitting = transmitting;
   if (reader.find_mentions) {
     model.lean = plan_lean_input(objects, model.shading, model.options, rays, reader.find_mentions);
   }
   model.daylighting_answered = rays.daylighting_answered;
-  model.reflections_answered = rays.reflections_answered;
-  OpaqueToRays opaque;
-  if (rays.daylighting_answered) opaque.daylighting = kept(transmitting, model.lean);
-  if (rays.reflections_answered) opaque.reflections = kept(transmitting, model.lean);
-  model.ray_warnings = warn_of_rays(objects, model.shading, opaque);
+  std::optional<std::vector<std::string>> opaque_to_daylight;
+  if (rays.daylighting_answered) opaque_to_daylight = kept(transmitting, model.lean);
+  model.ray_warnings = warn_of_rays(objects, model.shading, opaque_to_daylight);
 }
 
 }  // namespace
@@ -205,6 +221,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
   model.pv_modules = read_pv_modules(objects, model.shading);
   model.options = resolve(choices, read_settings(objects), model.shading);
   add_surrounding_objects(choices, model);
+  add_reflected_light(objects, reader, model);
   plan_rays(objects, reader, model);
   if (model.options.mode != Mode::off) {
     if (reader.release) {
@@ -248,12 +265,20 @@ Model read_model(std::filesystem::path const& path, Choices const& choices, Read
 }
 
 Rewrite rewrite_for(Model const& model) {
-  return {model.options.mode == Mode::off ? "PolygonClipping" : "PixelCounting",
-          model.options.update.every_timestep ? "Timestep" : "",
-          model.lean.left_out,
-          own_schedules(model.lean.placeholders, model.surroundings.leaf_schedules),
-          model.lean.placeholders,
-          model.surrounding_objects};
+  auto const& options = model.options;
+  Rewrite rewrite{shading_method(options.mode == Mode::off ? "PolygonClipping" : "PixelCounting",
+                                 options.update.every_timestep ? "Timestep" : ""),
+                  model.lean.left_out, model.new_objects, model.surrounding_objects};
+  rewrite.changes.insert(rewrite.changes.end(), model.field_changes.begin(),
+                         model.field_changes.end());
+  auto const& placeholders = model.lean.placeholders;
+  for (auto const& name : own_schedules(placeholders, model.surroundings.leaf_schedules)) {
+    std::ranges::move(schedule_objects(name), std::back_inserter(rewrite.added));
+  }
+  for (auto const& placeholder : placeholders) {
+    rewrite.added.push_back(placeholder_object(placeholder));
+  }
+  return rewrite;
 }
 
 }  // namespace gpu_shading::energyplus

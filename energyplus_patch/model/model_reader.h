@@ -16,6 +16,7 @@
 #include "model/input/transparent_shades.h"
 #include "model/lean_input.h"
 #include "model/options/options.h"
+#include "model/reflected_light.h"
 #include "model/shading_outlines.h"
 #include "model/site/surroundings.h"
 
@@ -36,9 +37,12 @@ struct Model {
   Surroundings surroundings;
   std::vector<SurroundingGroup> surrounding_groups;
   std::optional<std::filesystem::path> surrounding_objects;  // to be added to EnergyPlus's input
-  Names own_environments;                   // surfaces with a SurfaceProperty:LocalEnvironment
-  bool daylighting_answered = false;        // rays of daylighting ask this module
-  bool reflections_answered = false;        // rays of solar reflections do
+  Names own_environments;             // surfaces with a SurfaceProperty:LocalEnvironment
+  bool daylighting_answered = false;  // rays of daylighting ask this module
+  bool reflections_answered = false;  // rays of solar reflections do
+  ReflectedLight reflected_light;
+  std::vector<FieldChange> field_changes;  // in EnergyPlus's input
+  std::vector<NewObject> new_objects;
   std::vector<std::string> ray_warnings;    // see warn_of_rays
   std::string transform_warning;            // see warn_of_transform; or ""
   std::vector<std::string> early_warnings;  // for before the run, since EnergyPlus may stop
@@ -48,11 +52,9 @@ struct Model {
 
 // The EnergyPlus that reads a model.
 struct Reader {
-  MentionFinder find_mentions;  // for the model's own file; without it, lean input is not planned
-  bool daylight_rays = false;   // rays of daylighting can be answered
-  bool reflections = false;     // rays of solar reflections can be answered
-  // Those of daylighting can be answered in models with solar reflections, too.
-  bool reflections_in_daylight = false;
+  MentionFinder find_mentions;   // for the model's own file; without it, lean input is not planned
+  bool daylight_rays = false;    // rays of daylighting can be answered
+  bool reflected_light = false;  // reflected light can be set at each timestep
   bool horizons = true;  // of sites; false to check a model without reading all that is far away
   std::optional<Release> release = std::nullopt;  // to check the model's version against
 };

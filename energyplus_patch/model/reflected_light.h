@@ -23,8 +23,8 @@ struct ReflectedLight {
   };
 
   std::vector<Receiver> receivers;  // empty: EnergyPlus's own terms
-  // Diffuse solar reflectances, 0 .. 1, of the outsides of walls, roofs, floors and opaque doors, by
-  // EnergyPlus's names; windows are missing.
+  // Diffuse solar reflectances, 0 .. 1, of the outsides of walls, roofs, floors and opaque doors,
+  // by EnergyPlus's names; windows are missing.
   std::map<std::string, double> reflectances;
 };
 

@@ -25,29 +25,6 @@ std::optional<Attachment> attachment_of(InputObject const& object) {
   return std::nullopt;
 }
 
-// The vertices of the object; empty if they are invalid.
-std::optional<Ring> vertices_of(InputObject const& object) {
-  auto const count = object.list.size() / 3;
-  if (count < 3 || object.list.size() % 3 != 0) return std::nullopt;
-  auto const& given = object["number_of_vertices"];
-  if (!given.empty() && !same_name(given, "autocalculate")) {
-    auto const number = parse_number(given);
-    if (!number || *number != static_cast<double>(count)) return std::nullopt;
-  }
-  Ring ring;
-  ring.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    glm::dvec3 vertex;
-    for (int axis = 0; axis < 3; ++axis) {
-      auto const value = parse_number(object.list[3 * i + static_cast<std::size_t>(axis)]);
-      if (!value) return std::nullopt;
-      vertex[axis] = *value;
-    }
-    ring.push_back(vertex);
-  }
-  return ring;
-}
-
 std::optional<GeometryRules::Zone> zone_of(InputObject const& object, ShadingInput const& input,
                                            GeometryRules const& rules) {
   auto const name = input.zone_of.find(input.base_surface(upper(object["base_surface_name"])));

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "model/idf/local_environment.h"
 #include "model/input/surrounding_groups.h"
 #include "reports/map_grid.h"
 
@@ -79,23 +80,8 @@ struct Item {
 
 double factor_of(int millionths) { return static_cast<double>(millionths) / million; }
 
-// The last fields of an object, as an array in epJSON.
-void append_items(std::vector<NewField>& fields, std::string_view array,
-                  std::vector<std::vector<NewField>> const& items, bool nested) {
-  auto objects = nlohmann::json::array();
-  for (auto const& item : items) {
-    if (!nested) fields.insert(fields.end(), item.begin(), item.end());
-    auto object = nlohmann::json::object();
-    for (auto const& field : item) {
-      if (field.value != nlohmann::json("")) object[std::string(field.name)] = field.value;
-    }
-    objects.push_back(std::move(object));
-  }
-  if (nested) fields.push_back({array, std::move(objects)});
-}
-
 void add_surrounding(ModelEditor& editor, std::string const& name, int sky,
-                     std::vector<Item> const& groups, bool nested) {
+                     std::vector<Item> const& groups) {
   std::vector<std::vector<NewField>> items;
   items.reserve(groups.size());
   for (auto const& [group, millionths] : groups) {
@@ -103,24 +89,14 @@ void add_surrounding(ModelEditor& editor, std::string const& name, int sky,
                      {"surrounding_surface_view_factor", factor_of(millionths)},
                      {"surrounding_surface_temperature_schedule_name", group.schedule}});
   }
-  std::vector<NewField> fields{{"name", name},
-                               {"sky_view_factor", factor_of(sky)},
-                               {"sky_temperature_schedule_name", ""},
-                               {"ground_view_factor", 0.0},
-                               {"ground_temperature_schedule_name", ""}};
-  append_items(fields, "surfaces", items, nested);
-  editor.add("SurfaceProperty:SurroundingSurfaces", fields);
-}
-
-void add_ground(ModelEditor& editor, std::string const& name, int sky, bool nested) {
-  std::vector<NewField> fields{{"name", name}};
-  append_items(fields, "ground_surfaces",
-               {{{"ground_surface_name", "GROUND"},
-                 {"ground_surface_view_factor", factor_of(million - sky)},
-                 {"ground_surface_temperature_schedule_name", ""},
-                 {"ground_surface_reflectance_schedule_name", ""}}},
-               nested);
-  editor.add("SurfaceProperty:GroundSurfaces", fields);
+  editor.add({"SurfaceProperty:SurroundingSurfaces",
+              {{"name", name},
+               {"sky_view_factor", factor_of(sky)},
+               {"sky_temperature_schedule_name", ""},
+               {"ground_view_factor", 0.0},
+               {"ground_temperature_schedule_name", ""}},
+              "surfaces",
+              std::move(items)});
 }
 
 }  // namespace
@@ -175,8 +151,7 @@ std::vector<int> in_millionths(std::vector<double> const& factors) {
 
 std::vector<std::string> add_local_environments(ModelEditor& editor,
                                                 std::vector<ViewedGroup> const& groups,
-                                                std::vector<SurfaceViews> const& views,
-                                                bool nested) {
+                                                std::vector<SurfaceViews> const& views) {
   std::vector<std::string> cut_off;
   for (auto const& [surface, millionths, sky_ratio] : views) {
     std::vector<Item> scheduled;
@@ -196,17 +171,14 @@ std::vector<std::string> add_local_environments(ModelEditor& editor,
     if (sky > 0 && factor_of(sky) + sum > 1.0) --sky;
     auto const name = std::string(views_of) + surface;
     if (scheduled.empty()) {
-      add_ground(editor, name, sky, nested);
+      editor.add(ground_object(name, {.view = factor_of(million - sky)}));
     } else {
-      add_surrounding(editor, name, sky, scheduled, nested);
+      add_surrounding(editor, name, sky, scheduled);
     }
-    editor.add(local_environment,
-               {{"name", name},
-                {"exterior_surface_name", surface},
-                {"sunlit_fraction_schedule_name", ""},
-                {"surrounding_surfaces_object_name", scheduled.empty() ? "" : name},
-                {"outdoor_air_node_name", ""},
-                {"ground_surfaces_object_name", scheduled.empty() ? name : ""}});
+    editor.add(environment_object({.name = name,
+                                   .surface = surface,
+                                   .surroundings = scheduled.empty() ? "" : name,
+                                   .ground = scheduled.empty() ? name : ""}));
   }
   return cut_off;
 }

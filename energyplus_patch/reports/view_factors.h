@@ -46,11 +46,10 @@ struct SurfaceViews {
 // else with :GroundSurfaces. EnergyPlus multiplies the sky view factor of these objects by its
 // ratio of sky diffuse radiation, and then takes the ground to be all the rest. So the sky view
 // factor is divided by the ratio; all without a schedule is the rest, at air temperature.
-// `nested`: for epJSON. Returns the surfaces for which EnergyPlus's limit, a sum of 1, cuts off
+// Returns the surfaces for which EnergyPlus's limit, a sum of 1, cuts off
 // sky.
 std::vector<std::string> add_local_environments(ModelEditor& editor,
                                                 std::vector<ViewedGroup> const& groups,
-                                                std::vector<SurfaceViews> const& views,
-                                                bool nested);
+                                                std::vector<SurfaceViews> const& views);
 
 }  // namespace gpu_shading::energyplus

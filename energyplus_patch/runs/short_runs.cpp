@@ -65,34 +65,29 @@ void reduce_to_surfaces(ModelEditor& model, Control control) {
     return is_extension(type) || starts(type, "Output") || same_name(type, "ShadowCalculation") ||
            (!own && same_name(type, "SimulationControl"));
   });
-  if (!own) model.add("SimulationControl", simulation_control(Periods::run));
+  if (!own) model.add({"SimulationControl", simulation_control(Periods::run)});
   shorten_run_periods(model);
   model.edit("Building", [](EditedObject& building) {
     building.set({5, "solar_distribution"}, "MinimalShadowing");
   });
-  model.add("Output:Surfaces:Drawing", {{"report_type", "DXF:WireFrame"}});
+  model.add({"Output:Surfaces:Drawing", {{"report_type", "DXF:WireFrame"}}});
 }
 
 void report_at_timesteps(ModelEditor& model, std::string const& key, std::string_view variable) {
-  model.add("Output:Variable",
-            {{"key_value", key}, {"variable_name", variable}, {"reporting_frequency", "Timestep"}});
+  model.add(
+      {"Output:Variable",
+       {{"key_value", key}, {"variable_name", variable}, {"reporting_frequency", "Timestep"}}});
 }
 
 // Adds a schedule of ours unless the model has been rewritten with it.
-void add_own_schedule(ModelEditor& model, Path const& file, std::string const& name) {
+void add_own_schedule(ModelEditor& model, std::string const& name) {
   if (model.has("Schedule:Compact", name)) return;
-  if (!is_epjson(file)) {
-    model.merge(schedule_idf(name));
-    return;
-  }
-  nlohmann::json added;
-  add_schedule(added, name);
-  model.merge(added.dump());
+  for (auto const& object : schedule_objects(name)) model.add(object);
 }
 
 // Reduces the model of a file to its calendar, site and schedules.
-void reduce_to_times(ModelEditor& model, Path const& file,
-                     std::vector<std::string> const& schedules, Periods periods = Periods::run) {
+void reduce_to_times(ModelEditor& model, std::vector<std::string> const& schedules,
+                     Periods periods = Periods::run) {
   model.remove([&](std::string_view type) {
     bool const kept = same_name(type, "Version") || same_name(type, "Timestep") ||
                       same_name(type, "Site:Location") ||
@@ -101,15 +96,16 @@ void reduce_to_times(ModelEditor& model, Path const& file,
                       (periods != Periods::run && starts(type, "SizingPeriod"));
     return !kept || same_name(type, "Schedule:File:Shading");
   });
-  model.add("SimulationControl", simulation_control(periods));
-  model.add("Building", {{"name", "Sun"}, {"north_axis", 0}});
-  model.add("GlobalGeometryRules", {{"starting_vertex_position", "UpperLeftCorner"},
-                                    {"vertex_entry_direction", "Counterclockwise"},
-                                    {"coordinate_system", "World"}});
+  model.add({"SimulationControl", simulation_control(periods)});
+  model.add({"Building", {{"name", "Sun"}, {"north_axis", 0}}});
+  model.add({"GlobalGeometryRules",
+             {{"starting_vertex_position", "UpperLeftCorner"},
+              {"vertex_entry_direction", "Counterclockwise"},
+              {"coordinate_system", "World"}}});
   report_at_timesteps(model, "*", "Site Solar Azimuth Angle");
   report_at_timesteps(model, "*", "Site Solar Altitude Angle");
   for (auto const& schedule : schedules) {
-    if (is_own_schedule(schedule)) add_own_schedule(model, file, schedule);
+    if (is_own_schedule(schedule)) add_own_schedule(model, schedule);
     report_at_timesteps(model, schedule, "Schedule Value");
   }
 }
@@ -146,7 +142,7 @@ void keep_one_run_period(ModelEditor& model) {
     }
   }
   model.remove([](std::string_view type) { return same_name(type, "RunPeriod"); });
-  model.add("RunPeriod", period);
+  model.add({"RunPeriod", period});
 }
 
 // Runs a reduced model and returns the requested output.
@@ -218,7 +214,7 @@ std::vector<DrawnSurface> run_for_surfaces(EnergyPlusCall const& call) {
 
 RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> const& schedules) {
   auto const model = edit_model(call.model);
-  reduce_to_times(*model, call.model, schedules);
+  reduce_to_times(*model, schedules);
   TemporaryFolder const folder;
   auto periods = call;
   periods.design_days = false;
@@ -229,15 +225,15 @@ RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> cons
 RunTimes run_for_year(EnergyPlusCall const& call, std::vector<std::string> const& schedules,
                       int steps_per_hour) {
   auto const model = edit_model(call.model);
-  reduce_to_times(*model, call.model, schedules);
+  reduce_to_times(*model, schedules);
   model->remove([](std::string_view type) { return same_name(type, "Timestep"); });
-  model->add("Timestep", {{"number_of_timesteps_per_hour", steps_per_hour}});
+  model->add({"Timestep", {{"number_of_timesteps_per_hour", steps_per_hour}}});
   return run_whole_year(call, *model);
 }
 
 RunTimes run_for_beam(EnergyPlusCall const& call, std::vector<std::string> const& schedules) {
   auto const model = edit_model(call.model);
-  reduce_to_times(*model, call.model, schedules);
+  reduce_to_times(*model, schedules);
   for (auto const& [variable, member] : weather_variables) {
     report_at_timesteps(*model, "*", variable);
   }
@@ -252,7 +248,7 @@ ScheduleDays run_for_schedules(EnergyPlusCall const& call,
                                  "SizingPeriod:WeatherFileConditionType"}) {
     model->edit(type, [&](EditedObject const&) { sizing = true; });
   }
-  reduce_to_times(*model, call.model, schedules,
+  reduce_to_times(*model, schedules,
                   call.design_days ? Periods::sizing
                   : sizing         ? Periods::all
                                    : Periods::run);

@@ -158,9 +158,8 @@ std::string perform(SurroundingsTask const& task, SceneAssembly& scene, Messages
     errors.push_back(found.error);
     progress.at(views.size());
   }
-  bool const nested = is_epjson(task.file);
-  auto const editor = nested ? edit_epjson(nlohmann::json::object()) : edit_idf("");
-  auto const cut_off = add_local_environments(*editor, groups, views, nested);
+  auto const editor = is_epjson(task.file) ? edit_epjson(nlohmann::json::object()) : edit_idf("");
+  auto const cut_off = add_local_environments(*editor, groups, views);
   if (!cut_off.empty()) {
     messages.warning(fmt::format(
         "EnergyPlus limits given view factors to a sum of 1, so that these surfaces exchange less "

@@ -6,6 +6,6 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   return try_to([&] {
     auto model = parse_epjson(as_text(data, size));
     read_epjson(model);
-    if (model.is_object()) rewrite_epjson(model, {"PixelCounting", "Timestep"});
+    if (model.is_object()) rewrite_epjson(model, {shading_method("PixelCounting", "Timestep")});
   });
 }

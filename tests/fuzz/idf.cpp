@@ -6,6 +6,6 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   auto const text = as_text(data, size);
   // The syntax is EnergyPlus's, which takes any text.
   auto const parsed = parse_idf(text);
-  rewrite_idf(text, parsed, {"PixelCounting", "Timestep"});
+  rewrite_idf(text, parsed, {shading_method("PixelCounting", "Timestep")});
   return try_to([&] { read_idf(parsed); });
 }

@@ -117,8 +117,9 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
     auto const objects = read_idf(parsed);
     auto const find = [&](Names const& names) { return find_mentions(parsed, names); };
     auto const lean = size % 2 == 0 ? Lean::on : Lean::automatic;
-    auto model = understand(objects, folder / "model.idf", quick_choices(lean),
-                            {.find_mentions = find, .daylight_rays = true, .reflections = true});
+    auto model =
+        understand(objects, folder / "model.idf", quick_choices(lean),
+                   {.find_mentions = find, .daylight_rays = true, .reflected_light = true});
     rewrite_idf(text, parsed, rewrite_for(model));
     render(objects, std::move(model));
   });

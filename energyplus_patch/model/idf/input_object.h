@@ -14,8 +14,8 @@ struct InputObject {
   std::string type;  // as known_types() or the dictionary spells it
   std::string name;  // "" for types without one
   std::map<std::string, std::string, std::less<>> fields;  // numbers as text
-  // The extensible part of ZoneList, ShadowCalculation, ...; for vertices, x, y and z one after
-  // another.
+  // The extensible part of ZoneList, ShadowCalculation, ..., one field after another: for vertices
+  // x, y and z, and so on.
   std::vector<std::string> list;
   std::string file = {};  // of the object; "" if unknown
 
@@ -33,8 +33,10 @@ struct InputObject {
 struct ObjectType {
   std::string_view type;
   std::vector<std::string_view> fields;
-  std::string_view list = {};        // epJSON name of the extensible array, if it is read
-  std::string_view list_field = {};  // the field of its items; "" for vertices, which have three
+  std::string_view list = {};  // epJSON name of the extensible array, if it is read
+  std::vector<std::string_view> list_fields = {};  // of each of its items
+
+  bool has(std::string_view field) const;
 };
 std::vector<ObjectType> const& known_types();
 ObjectType const* find_type(std::string_view type);

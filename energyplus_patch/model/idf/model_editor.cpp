@@ -59,11 +59,14 @@ class IdfEditor : public ModelEditor {
     }
   }
 
-  void add(std::string_view type, std::vector<NewField> const& fields) override {
-    IdfObject object;
-    object.type = type;
-    for (auto const& field : fields) object.fields.push_back(text_of(field.value));
-    objects_.push_back(std::move(object));
+  void apply(std::vector<FieldChange> const& changes) override {
+    FieldChanges applied(changes);
+    for (auto& object : objects_) applied.apply(object.type, object.fields);
+    for (auto const& object : applied.missing()) add(object);
+  }
+
+  void add(NewObject const& object) override {
+    objects_.push_back({std::string(object.type), idf_fields(object)});
   }
 
   void merge(std::string_view text) override {
@@ -133,19 +136,9 @@ class EpjsonEditor : public ModelEditor {
     }
   }
 
-  void add(std::string_view type, std::vector<NewField> const& fields) override {
-    auto& instances = model_[key_of(type)];
-    auto name = fmt::format("{} {}", type, instances.size() + 1);
-    auto object = nlohmann::json::object();
-    for (auto const& field : fields) {
-      if (field.name == "name") {
-        name = text_of(field.value);
-      } else if (!text_of(field.value).empty()) {
-        object[std::string(field.name)] = field.value;
-      }
-    }
-    instances[name] = std::move(object);
-  }
+  void apply(std::vector<FieldChange> const& changes) override { apply_changes(model_, changes); }
+
+  void add(NewObject const& object) override { add_object(model_, object); }
 
   void merge(std::string_view text) override { model_.merge_patch(parse_epjson(text)); }
 
@@ -156,13 +149,6 @@ class EpjsonEditor : public ModelEditor {
   std::string text() const override { return model_.dump(1); }
 
  private:
-  std::string key_of(std::string_view type) const {
-    for (auto const& [key, instances] : model_.items()) {
-      if (same_name(key, type)) return key;
-    }
-    return std::string(type);
-  }
-
   // NOLINTNEXTLINE(misc-no-recursion): as deep as the model
   static void edit_texts_in(nlohmann::json& value,
                             std::function<void(std::string&)> const& change) {

@@ -8,13 +8,10 @@
 #include <string_view>
 #include <vector>
 
-namespace gpu_shading::energyplus {
+#include "model/idf/field_changes.h"
+#include "model/idf/new_object.h"
 
-// The position of a field in each kind of file.
-struct FieldPosition {
-  std::size_t index;      // index in the IDF, from 0
-  std::string_view name;  // in epJSON
-};
+namespace gpu_shading::energyplus {
 
 // An object of the edited model.
 class EditedObject {
@@ -27,12 +24,6 @@ class EditedObject {
   // The field as text; "" if it is blank or absent.
   virtual std::string get(FieldPosition const& field) const = 0;
   virtual void set(FieldPosition const& field, nlohmann::json const& value) = 0;
-};
-
-// Sets a value, a string or a number, under its name in epJSON.
-struct NewField {
-  std::string_view name;
-  nlohmann::json value;
 };
 
 // A model, IDF or epJSON, edited object by object. Unchanged objects keep their content, but not
@@ -48,8 +39,8 @@ class ModelEditor {
   virtual bool has(std::string_view type, std::string_view name) const = 0;
   // All objects of a type.
   virtual void edit(std::string_view type, std::function<void(EditedObject&)> const& change) = 0;
-  // Fields in the IDF's order, all of them up to the last.
-  virtual void add(std::string_view type, std::vector<NewField> const& fields) = 0;
+  virtual void apply(std::vector<FieldChange> const& changes) = 0;
+  virtual void add(NewObject const& object) = 0;
   // Adds the objects of a text of the same kind.
   virtual void merge(std::string_view text) = 0;
   // All fields of all objects that are text.

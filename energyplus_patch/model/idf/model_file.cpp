@@ -19,10 +19,7 @@
 namespace gpu_shading::energyplus {
 namespace {
 
-constexpr std::string_view shadow_calculation = "ShadowCalculation";
 constexpr std::string_view reflectance = "ShadingProperty:Reflectance";
-constexpr std::size_t method_field = 0;
-constexpr std::size_t frequency_field = 1;
 
 InputObject from_idf(ObjectType const& type, std::vector<std::string> const& values) {
   InputObject object{std::string(type.type), {}, {}, {}};
@@ -37,28 +34,15 @@ InputObject from_idf(ObjectType const& type, std::vector<std::string> const& val
   return object;
 }
 
-// Of EnergyPlus's own objects, which its schema checks later.
-void require_object(nlohmann::json const& value, std::string_view type, std::string_view name) {
-  if (value.is_object()) return;
-  throw Error(fmt::format("{} {}: expected an object with fields", type, in_quotes(name)));
-}
-
 void read_list(ObjectType const& type, nlohmann::json const& items,
                std::vector<std::string>& list) {
-  auto const add = [&](nlohmann::json const& item, std::string const& field) {
-    list.push_back(item.contains(field) ? text_of(item.at(field)) : "");
-  };
   if (!items.is_array())
     throw Error(fmt::format("{}: {}: expected an array", type.type, type.list));
   for (auto const& item : items) {
     require_object(item, type.type, type.list);
-    if (type.list_field.empty()) {
-      for (char const* field :
-           {"vertex_x_coordinate", "vertex_y_coordinate", "vertex_z_coordinate"}) {
-        add(item, field);
-      }
-    } else {
-      add(item, std::string(type.list_field));
+    for (auto const field : type.list_fields) {
+      auto const found = item.find(field);
+      list.push_back(found == item.end() ? "" : text_of(*found));
     }
   }
 }
@@ -135,20 +119,41 @@ bool ends_line(std::string_view text) {
   return next == std::string_view::npos || text[next] == '\n';
 }
 
-// As many lines as before, with a field on each.
-std::string changed_shadow_calculation(IdfObject const& object, Rewrite const& rewrite,
-                                       std::ptrdiff_t lines) {
-  auto fields = object.fields;
-  fields.resize(std::max(fields.size(), frequency_field + 1));
-  fields[method_field] = rewrite.shading_method;
-  if (!rewrite.update_frequency.empty()) fields[frequency_field] = rewrite.update_frequency;
-  std::string text = object.type;
+// In as many lines as before, with a field on each.
+std::string in_lines(std::string const& type, std::vector<std::string> const& fields,
+                     std::ptrdiff_t lines) {
+  std::string text = type;
   for (auto const& field : fields) {
     text += lines > 0 ? ",\n  " : ",";
     text += field;
     if (lines > 0) --lines;
   }
   return text + ";" + (lines > 0 ? "\n" : "") + comment_lines(lines - 1);
+}
+
+// The text without what goes, and with changed fields.
+std::string edited(std::string_view text, std::vector<IdfObject> const& parsed,
+                   FieldChanges& changes, Names const& left_out) {
+  std::string result;
+  result.reserve(text.size() + 256);
+  std::size_t copied = 0;
+  for (auto const& object : parsed) {
+    bool const is_removed = is_extension(object.type) || goes(object, left_out);
+    auto fields = object.fields;
+    if (!is_removed && !changes.apply(object.type, fields)) continue;
+    result += text.substr(copied, object.begin - copied);
+    copied = object.end;
+    auto const lines = std::ranges::count(text.substr(object.begin, copied - object.begin), '\n');
+    result += is_removed ? comment_lines(lines) + (ends_line(text.substr(copied)) ? "!" : "")
+                         : in_lines(object.type, fields, lines);
+  }
+  result += text.substr(copied);
+  // What follows must not become part of it. EnergyPlus takes a line break for part of a field, so
+  // there is one only after a comment.
+  bool const is_open = !parsed.empty() && !parsed.back().is_closed && copied < text.size();
+  bool const in_comment = text.substr(text.rfind('\n') + 1).find('!') != std::string_view::npos;
+  if (is_open) result += in_comment ? "\n;\n" : ";\n";
+  return result;
 }
 
 std::vector<InputObject> read_checked_idf(std::string_view text) {
@@ -234,6 +239,11 @@ void require_model(std::filesystem::path const& model) {
                           known ? other->kind : "", known ? other->action : ""));
 }
 
+void require_object(nlohmann::json const& value, std::string_view type, std::string_view name) {
+  if (value.is_object()) return;
+  throw Error(fmt::format("{} {}: expected an object with fields", type, in_quotes(name)));
+}
+
 std::string text_of(nlohmann::json const& value) {
   constexpr auto replace = nlohmann::json::error_handler_t::replace;
   return value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, replace);
@@ -296,66 +306,31 @@ bool is_idf(std::filesystem::path const& path) {
 
 std::string rewrite_idf(std::string_view text, std::vector<IdfObject> const& parsed,
                         Rewrite const& rewrite) {
-  std::string result;
-  result.reserve(text.size() + 256);
-  std::size_t copied = 0;
-  bool found = false;
-  for (auto const& object : parsed) {
-    bool const shadow = same_name(object.type, shadow_calculation);
-    if (!shadow && !is_extension(object.type) && !goes(object, rewrite.left_out)) continue;
-    result += text.substr(copied, object.begin - copied);
-    copied = object.end;
-    auto const lines = std::ranges::count(text.substr(object.begin, copied - object.begin), '\n');
-    found = found || shadow;
-    result += shadow ? changed_shadow_calculation(object, rewrite, lines)
-                     : comment_lines(lines) + (ends_line(text.substr(copied)) ? "!" : "");
+  FieldChanges changes(rewrite.changes);
+  auto result = edited(text, parsed, changes, rewrite.left_out);
+  std::string file;
+  if (rewrite.objects) {
+    auto const objects = read_text_file(*rewrite.objects);
+    file = edited(objects, parse_idf(objects), changes, {});
   }
-  result += text.substr(copied);
-  // What follows must not become part of it. EnergyPlus takes a line break for part of a field, so
-  // there is one only after a comment.
-  bool const is_open = !parsed.empty() && !parsed.back().is_closed && copied < text.size();
-  bool const in_comment = text.substr(text.rfind('\n') + 1).find('!') != std::string_view::npos;
-  if (is_open) result += in_comment ? "\n;\n" : ";\n";
   std::string added;
-  if (!found) {
-    added += format_idf(shadow_calculation, {rewrite.shading_method, rewrite.update_frequency});
-  }
-  for (auto const& schedule : rewrite.schedules) added += schedule_idf(schedule);
-  for (auto const& placeholder : rewrite.placeholders) {
-    added += format_idf(placeholder_type, placeholder_fields(placeholder));
-  }
-  if (rewrite.objects) added += read_text_file(*rewrite.objects);
+  for (auto const& object : changes.missing()) added += format_idf(object.type, idf_fields(object));
+  for (auto const& object : rewrite.added) added += format_idf(object.type, idf_fields(object));
+  added += file;
   if (!added.empty()) result += '\n' + added;
   return result;
 }
 
 void rewrite_epjson(nlohmann::json& model, Rewrite const& rewrite) {
   std::vector<std::string> extensions;
-  std::string shadow_key(shadow_calculation);
   for (auto const& [type, instances] : model.items()) {
     if (is_extension(type)) extensions.push_back(type);
-    if (same_name(type, shadow_calculation)) shadow_key = type;
   }
   for (auto const& type : extensions) model.erase(type);
   if (!rewrite.left_out.empty()) take_out(model, rewrite.left_out);
-  for (auto const& schedule : rewrite.schedules) add_schedule(model, schedule);
-  for (auto const& placeholder : rewrite.placeholders) {
-    model[placeholder_type][placeholder.name] = placeholder_json(placeholder);
-  }
+  for (auto const& object : rewrite.added) add_object(model, object);
   if (rewrite.objects) model.merge_patch(parse_epjson(read_text_file(*rewrite.objects)));
-  auto& instances = model[shadow_key];
-  if (instances.is_null()) instances = nlohmann::json::object();
-  if (!instances.is_object()) {
-    throw Error(fmt::format("{}: expected an object of objects", shadow_calculation));
-  }
-  if (instances.empty()) instances["ShadowCalculation 1"] = nlohmann::json::object();
-  for (auto& fields : instances) {
-    require_object(fields, shadow_calculation, shadow_key);
-    fields["shading_calculation_method"] = rewrite.shading_method;
-    if (!rewrite.update_frequency.empty()) {
-      fields["shading_calculation_update_frequency_method"] = rewrite.update_frequency;
-    }
-  }
+  apply_changes(model, rewrite.changes);
 }
 
 }  // namespace gpu_shading::energyplus

@@ -7,10 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "model/idf/field_changes.h"
 #include "model/idf/idf_text.h"
 #include "model/idf/input_object.h"
 #include "model/idf/mentions.h"
-#include "model/idf/placeholders.h"
+#include "model/idf/new_object.h"
 
 namespace gpu_shading::energyplus {
 
@@ -22,6 +23,9 @@ std::vector<InputObject> read_epjson(nlohmann::json const& model);
 
 // A string's characters; other values as JSON.
 std::string text_of(nlohmann::json const& value);
+
+// Throws Error unless a value is an object, as each of EnergyPlus's is.
+void require_object(nlohmann::json const& value, std::string_view type, std::string_view name);
 
 // What the library says of text that it cannot read, without the name of its exception.
 std::string reason_of(nlohmann::json::exception const& error);
@@ -44,20 +48,18 @@ void require_model(std::filesystem::path const& model);
 bool is_epjson(std::filesystem::path const& path);
 bool is_idf(std::filesystem::path const& path);
 
-// What EnergyPlus shall read instead of the model that the user wrote.
+// What EnergyPlus reads in place of the model that the user wrote.
 struct Rewrite {
-  std::string shading_method;    // PixelCounting or PolygonClipping
-  std::string update_frequency;  // Periodic or Timestep; "" keeps the model's
+  std::vector<FieldChange> changes;
   Names left_out = {};  // detailed shading surfaces, with their ShadingProperty:Reflectance
-  std::vector<std::string> schedules = {};     // of ours (own_schedules), added
-  std::vector<Placeholder> placeholders = {};  // added
+  std::vector<NewObject> added = {};
   // A file with more objects, of the same kind as the model.
   std::optional<std::filesystem::path> objects = std::nullopt;
 };
 
-// ShadowCalculation changed, or added where there is none, all its other fields kept; extension
-// objects and the surfaces that are left out taken out; placeholders and objects added. Everything
-// else stays as it is, to the byte in the case of an IDF. `parsed`: the text's objects.
+// Fields changed, also of the objects of the file; extension objects and the surfaces that are left
+// out taken out; objects added. Everything else stays as it is, to the byte in the case of an IDF,
+// where a changed object keeps its lines. `parsed`: the text's objects.
 std::string rewrite_idf(std::string_view text, std::vector<IdfObject> const& parsed,
                         Rewrite const& rewrite);
 void rewrite_epjson(nlohmann::json& model, Rewrite const& rewrite);

@@ -105,34 +105,22 @@ bool is_own_schedule(std::string const& name) {
          schedules_of_ours().end();
 }
 
-std::string schedule_idf(std::string const& name) {
-  auto text = fmt::format("ScheduleTypeLimits,{};\nSchedule:Compact,{},{}", name, name, name);
-  for (auto const* field : schedule_of_ours(name).data) text += fmt::format(",{}", field);
-  return text + ";\n";
-}
-
-void add_schedule(nlohmann::json& model, std::string const& name) {
-  model["ScheduleTypeLimits"][name] = nlohmann::json::object();
-  auto& schedule = model["Schedule:Compact"][name];
-  schedule["schedule_type_limits_name"] = name;
+std::vector<NewObject> schedule_objects(std::string const& name) {
+  NewObject schedule{
+      "Schedule:Compact", {{"name", name}, {"schedule_type_limits_name", name}}, "data"};
   for (auto const* field : schedule_of_ours(name).data)
-    schedule["data"].push_back({{"field", field}});
+    schedule.items.push_back({{"field", field}});
+  return {{"ScheduleTypeLimits", {{"name", name}}}, std::move(schedule)};
 }
 
-std::vector<std::string> placeholder_fields(Placeholder const& placeholder) {
-  std::vector<std::string> fields{placeholder.name, placeholder.schedule, "4"};
-  for (auto const& corner : corners(placeholder)) {
-    for (double const value : corner) fields.push_back(fmt::format("{}", value));
-  }
-  return fields;
-}
-
-nlohmann::json placeholder_json(Placeholder const& placeholder) {
-  nlohmann::json object;
-  if (!placeholder.schedule.empty()) object["transmittance_schedule_name"] = placeholder.schedule;
-  object["number_of_vertices"] = 4;
+NewObject placeholder_object(Placeholder const& placeholder) {
+  NewObject object{"Shading:Site:Detailed",
+                   {{"name", placeholder.name},
+                    {"transmittance_schedule_name", placeholder.schedule},
+                    {"number_of_vertices", 4}},
+                   "vertices"};
   for (auto const& [x, y, z] : corners(placeholder)) {
-    object["vertices"].push_back(
+    object.items.push_back(
         {{"vertex_x_coordinate", x}, {"vertex_y_coordinate", y}, {"vertex_z_coordinate", z}});
   }
   return object;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "model/idf/mentions.h"
+#include "model/idf/new_object.h"
 
 namespace gpu_shading::energyplus {
 
@@ -38,13 +39,8 @@ std::string season_schedule(bool southern);
 std::vector<std::string> own_schedules(std::vector<Placeholder> const& placeholders,
                                        std::vector<std::string> const& leaf_schedules);
 bool is_own_schedule(std::string const& name);
-std::string schedule_idf(std::string const& name);
-void add_schedule(nlohmann::json& model, std::string const& name);
+std::vector<NewObject> schedule_objects(std::string const& name);
 
-// The fields of the Shading:Site:Detailed object: name, schedule, number of vertices, coordinates.
-std::vector<std::string> placeholder_fields(Placeholder const& placeholder);
-nlohmann::json placeholder_json(Placeholder const& placeholder);
-
-inline constexpr char const* placeholder_type = "Shading:Site:Detailed";
+NewObject placeholder_object(Placeholder const& placeholder);
 
 }  // namespace gpu_shading::energyplus

@@ -4,6 +4,7 @@
 
 #include "model/extensions/extension_fields.h"
 #include "model/idf/fields.h"
+#include "model/idf/local_environment.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {

@@ -16,7 +16,6 @@ struct SurroundingGroup {
   std::string where;     // for messages
 };
 
-inline constexpr std::string_view local_environment = "SurfaceProperty:LocalEnvironment";
 // Beside the file of --gpu-shading-surrounding-objects: remarks, and warnings.
 inline constexpr char const* surroundings_messages = "messages.txt";
 // The names of the objects that `gpu_shading export --surroundings` writes begin with this.

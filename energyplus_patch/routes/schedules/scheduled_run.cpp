@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gpu_shading/error.h"
+#include "model/idf/local_environment.h"
 #include "model/idf/model_editor.h"
 #include "model/site/weather_header.h"
 #include "platform/console.h"
@@ -25,9 +26,6 @@ namespace {
 
 using Path = std::filesystem::path;
 
-constexpr std::string_view shadow_calculation = "ShadowCalculation";
-constexpr FieldPosition method_field{0, "shading_calculation_method"};
-constexpr FieldPosition frequency_field{1, "shading_calculation_update_frequency_method"};
 constexpr FieldPosition exterior_surface{1, "exterior_surface_name"};
 constexpr FieldPosition sunlit_schedule{2, "sunlit_fraction_schedule_name"};
 
@@ -96,40 +94,31 @@ SunlitFractions render(EnergyPlusCall const& call, Model model, Collected& out) 
                           [&] { return latitude_of(call); });
 }
 
-void set_method(ModelEditor& editor, std::string_view method, std::string_view frequency) {
-  bool found = false;
-  editor.edit(shadow_calculation, [&](EditedObject& object) {
-    object.set(method_field, method);
-    if (!frequency.empty()) object.set(frequency_field, frequency);
-    found = true;
-  });
-  if (found) return;
-  editor.add(shadow_calculation, {{method_field.name, method}, {frequency_field.name, frequency}});
-}
-
 // `file`: beside the model, so that both can be copied together.
 void add_schedules(ModelEditor& editor, SunlitFractions const& table, std::string const& file) {
   constexpr int minutes_of_hour = 60;
   constexpr int hours_of_leap_year = 8784;
   constexpr std::string_view limits = "GPU SHADING SUNLIT FRACTION";
-  editor.add("ScheduleTypeLimits", {{"name", limits},
-                                    {"lower_limit_value", 0},
-                                    {"upper_limit_value", 1},
-                                    {"numeric_type", "Continuous"}});
+  editor.add({"ScheduleTypeLimits",
+              {{"name", limits},
+               {"lower_limit_value", 0},
+               {"upper_limit_value", 1},
+               {"numeric_type", "Continuous"}}});
   std::unordered_map<std::string, std::string> schedule_of;
   for (std::size_t i = 0; i < table.surfaces.size(); ++i) {
     auto const name = fmt::format("{} {}", limits, i + 1);
     schedule_of[upper(table.surfaces[i])] = name;
-    editor.add("Schedule:File", {{"name", name},
-                                 {"schedule_type_limits_name", limits},
-                                 {"file_name", file},
-                                 {"column_number", i + 1},
-                                 {"rows_to_skip_at_top", 1},
-                                 {"number_of_hours_of_data", hours_of_leap_year},
-                                 {"column_separator", "Comma"},
-                                 {"interpolate_to_timestep", "No"},
-                                 {"minutes_per_item", minutes_of_hour / table.steps_per_hour},
-                                 {"adjust_schedule_for_daylight_savings", "No"}});
+    editor.add({"Schedule:File",
+                {{"name", name},
+                 {"schedule_type_limits_name", limits},
+                 {"file_name", file},
+                 {"column_number", i + 1},
+                 {"rows_to_skip_at_top", 1},
+                 {"number_of_hours_of_data", hours_of_leap_year},
+                 {"column_separator", "Comma"},
+                 {"interpolate_to_timestep", "No"},
+                 {"minutes_per_item", minutes_of_hour / table.steps_per_hour},
+                 {"adjust_schedule_for_daylight_savings", "No"}}});
   }
   // A surface may already have the object for other properties.
   editor.edit(local_environment, [&](EditedObject& object) {
@@ -141,9 +130,9 @@ void add_schedules(ModelEditor& editor, SunlitFractions const& table, std::strin
   for (auto const& surface : table.surfaces) {
     auto const found = schedule_of.find(upper(surface));
     if (found == schedule_of.end()) continue;
-    editor.add(local_environment, {{"name", found->second + " OF ITS SURFACE"},
-                                   {exterior_surface.name, surface},
-                                   {sunlit_schedule.name, found->second}});
+    editor.add(environment_object({.name = found->second + " OF ITS SURFACE",
+                                   .surface = surface,
+                                   .sunlit_schedule = found->second}));
   }
 }
 
@@ -159,7 +148,7 @@ ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choi
   auto model = read_model(call.model, choices, reader);
   if (model.surrounding_objects) editor->merge(read_text_file(*model.surrounding_objects));
   if (model.options.mode == Mode::off) {
-    set_method(*editor, "PolygonClipping", "");
+    editor->apply(shading_method("PolygonClipping"));
   } else {
     for (auto const& warning : model.early_warnings) out.warn(warning);
     out.warn(describe_limits(model));
@@ -169,10 +158,10 @@ ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choi
       out.warn(
           "no run period with the sun above the horizon is run: all shading is computed by polygon "
           "clipping");
-      set_method(*editor, "PolygonClipping", "");
+      editor->apply(shading_method("PolygonClipping"));
     } else {
       // With Periodic, a day's schedule values would apply to the whole period.
-      set_method(*editor, "Scheduled", "Timestep");
+      editor->apply(shading_method("Scheduled", "Timestep"));
       constexpr char const* fractions = "gpu_shading_sunlit.csv";
       write_whole_file(folder / fractions,
                        [&](std::ostream& file) { write_schedule_file(table, file); });

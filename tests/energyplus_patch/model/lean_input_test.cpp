@@ -10,6 +10,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "model/idf/model_file.h"
+#include "model/idf/placeholders.h"
 #include "model/shading_outlines.h"
 
 namespace gpu_shading::energyplus {
@@ -75,7 +76,7 @@ TEST(LeanInput, SomeEndOfAPlaceholderIsBeforeEveryPlane) {
   auto const lean = plan(rules + shade("One"));
   std::vector<glm::dvec3> ends;
   for (auto const& placeholder : lean.placeholders) {
-    auto const fields = placeholder_fields(placeholder);
+    auto const fields = idf_fields(placeholder_object(placeholder));
     ASSERT_EQ(fields.size(), 3U + 4U * 3U);
     Polygon pole;
     for (std::size_t i = 3; i < fields.size(); i += 3) {
@@ -145,12 +146,14 @@ TEST(LeanInput, MovingScreensPutUpAPlaceholderForTheSky) {
   add_sky_placeholder(lean, {});
   ASSERT_EQ(lean.placeholders.size(), 5U);
   EXPECT_EQ(lean.placeholders[4].name, "GPU SHADING PLACEHOLDER 5");
-  Rewrite const rewrite{
-      "PixelCounting", "", {}, own_schedules(lean.placeholders, {}), lean.placeholders};
+  Rewrite rewrite{shading_method("PixelCounting")};
+  ASSERT_EQ(own_schedules(lean.placeholders, {}).size(), 1U);
+  rewrite.added = schedule_objects(own_schedules(lean.placeholders, {}).front());
+  rewrite.added.push_back(placeholder_object(lean.placeholders[4]));
   std::string const own = "ShadowCalculation,PixelCounting,Periodic;";
   auto const text = rewrite_idf(own, parse_idf(own), rewrite);
   auto const schedule = lean.placeholders[4].schedule;
-  EXPECT_THAT(text, HasSubstr("Schedule:Compact," + schedule + ","));
+  EXPECT_THAT(text, HasSubstr("Schedule:Compact,\n  " + schedule + ","));
   EXPECT_THAT(text, HasSubstr("GPU SHADING PLACEHOLDER 5"));
   nlohmann::json model = nlohmann::json::object();
   rewrite_epjson(model, rewrite);
@@ -173,31 +176,31 @@ TEST(LeanInput, ReasonsAreGiven) {
 
 TEST(LeanInput, DaylightingWhoseRaysAreAnsweredDoesNotForbidIt) {
   auto const light = rules + shade("Pane") + shade("Wall") + "Daylighting:Controls,Light;";
-  EXPECT_EQ(plan(light, Lean::on, {true, false, {}}).left_out, (Names{"PANE", "WALL"}));
+  EXPECT_EQ(plan(light, Lean::on, {true, {}}).left_out, (Names{"PANE", "WALL"}));
   // Of a few surfaces, those that the rays would take as opaque.
-  EXPECT_EQ(plan(light, Lean::automatic, {true, false, {"PANE"}}).left_out, (Names{"PANE"}));
-  EXPECT_FALSE(plan(light, Lean::automatic, {true, false, {}}).active());
+  EXPECT_EQ(plan(light, Lean::automatic, {true, {"PANE"}}).left_out, (Names{"PANE"}));
+  EXPECT_FALSE(plan(light, Lean::automatic, {true, {}}).active());
 }
 
-TEST(LeanInput, AnsweredReflectionsLeaveOutAllButMirrors) {
-  EnergyPlusRays const answered{.reflections_answered = true};
-  std::string const reflecting = rules + "Building,B,,,,,FullExteriorWithReflections;";
-  auto const glazed = "ShadingProperty:Reflectance,Mirror,0.1,0.1,0.5,Glass;";
-  auto const lean = plan(reflecting + shade("Mirror") + shade("Wall") + glazed, Lean::on, answered);
-  EXPECT_EQ(lean.left_out, (Names{"WALL"}));
-  EXPECT_THAT(lean.remark, HasSubstr("MIRROR, which ShadingProperty:Reflectance names"));
-  // Fewer of them are worth it.
-  auto idf = reflecting;
+TEST(LeanInput, ReflectionsOfEnergyPlusKeepAllSurfaces) {
+  std::string idf = rules + "Building,B,,,,,FullExteriorWithReflections;";
   for (std::size_t i = 1; i < fewest_with_reflections; ++i) idf += shade(fmt::format("S{}", i));
-  EXPECT_FALSE(plan(idf, Lean::automatic, answered).active());
+  EXPECT_EQ(plan(idf, Lean::automatic).remark, "");
+  EXPECT_FALSE(has_many_for_reflections(read_idf(idf), Lean::automatic));
+  EXPECT_TRUE(has_many_for_reflections(read_idf(idf), Lean::on));
   idf += shade("Last");
-  EXPECT_EQ(plan(idf, Lean::automatic, answered).left_out.size(), fewest_with_reflections);
+  EXPECT_THAT(plan(idf, Lean::automatic).remark, HasSubstr("asks for reflections"));
+  EXPECT_TRUE(has_many_for_reflections(read_idf(idf), Lean::automatic));
+  EXPECT_FALSE(has_many_for_reflections(read_idf(idf), Lean::off));
 }
 
 TEST(LeanInput, TheRestOfTheTextIsKept) {
   std::string const kept = "! note\nZone,A; ! last\n" + shade("Stays");
   std::string const gone = shade("Goes") + "ShadingProperty:Reflectance,goes,0.3;\n";
-  Rewrite rewrite{"PixelCounting", "", {"GOES"}, {}, make_placeholders({}, {})};
+  Rewrite rewrite{shading_method("PixelCounting"), {"GOES"}};
+  for (auto const& each : make_placeholders({}, {})) {
+    rewrite.added.push_back(placeholder_object(each));
+  }
   auto const model = "ShadowCalculation,PixelCounting,Periodic;" + kept + gone;
   auto const text = rewrite_idf(model, parse_idf(model), rewrite);
   EXPECT_THAT(text, HasSubstr(kept));
@@ -209,7 +212,11 @@ TEST(LeanInput, EpJsonIsRewrittenAlike) {
   auto model = nlohmann::json::parse(R"({"Zone": {"A": {}},
     "Shading:Site:Detailed": {"Stays": {}, "Goes": {}}, "Shading:Zone:Detailed": {"Goes": {}},
     "ShadingProperty:Reflectance": {"R 1": {"shading_surface_name": "goes"}}})");
-  rewrite_epjson(model, {"PixelCounting", "", {"GOES"}, {}, make_placeholders({"Half"}, {})});
+  Rewrite rewrite{shading_method("PixelCounting"), {"GOES"}};
+  for (auto const& each : make_placeholders({"Half"}, {})) {
+    rewrite.added.push_back(placeholder_object(each));
+  }
+  rewrite_epjson(model, rewrite);
   EXPECT_FALSE(model.contains("ShadingProperty:Reflectance"));
   EXPECT_FALSE(model.contains("Shading:Zone:Detailed"));
   auto const& site = model.at("Shading:Site:Detailed");

@@ -67,21 +67,12 @@ TEST(RayWarnings, NoneWithoutRaysOrWithoutShades) {
 TEST(RayWarnings, AnsweredDaylightingNamesOnlyWhatStaysInTheInput) {
   auto const objects = read_idf(shades + "Daylighting:Controls,Lamp;");
   auto const input = read_shading_input(objects);
-  EXPECT_THAT(warn_of_rays(objects, input, {.daylighting = Surfaces{}}), IsEmpty());
+  EXPECT_THAT(warn_of_rays(objects, input, Surfaces{}), IsEmpty());
   EXPECT_THAT(
-      warn_of_rays(objects, input, {.daylighting = Surfaces{"CANOPY", "SCREEN"}}),
+      warn_of_rays(objects, input, Surfaces{"CANOPY", "SCREEN"}),
       ElementsAre("rays of daylighting (Daylighting:Controls Lamp) treat surfaces that stay "
                   "in EnergyPlus's input as opaque, except for their Transmittance Schedules: "
                   "CANOPY, SCREEN"));
-}
-
-TEST(RayWarnings, AnsweredReflectionsDoTheSame) {
-  auto const objects = read_idf(shades + "Building,B,,,,,FullExteriorWithReflections;");
-  auto const input = read_shading_input(objects);
-  EXPECT_THAT(warn_of_rays(objects, input, {.reflections = Surfaces{}}), IsEmpty());
-  EXPECT_THAT(warn_of_rays(objects, input, {.reflections = Surfaces{"CANOPY"}}),
-              ElementsAre("rays of solar reflections (Building, Solar Distribution) treat surfaces "
-                          "that stay in EnergyPlus's input as opaque: CANOPY"));
 }
 
 TEST(RayWarnings, ManyNamesAreCut) {

@@ -117,7 +117,7 @@ TEST(ViewFactors, EnergyPlusNeverFindsASumOverOne) {
     int const walls = (1'000'000 - sky) / 3;
     auto const cut_off =
         add_local_environments(*editor, {{"SKY"}, {"GROUND"}, {"WALLS", "WARM"}, {"TREES", "COOL"}},
-                               {{"FACE", {sky, 0, walls, 1'000'000 - sky - walls}, 0.5}}, true);
+                               {{"FACE", {sky, 0, walls, 1'000'000 - sky - walls}, 0.5}});
     auto const json = nlohmann::json::parse(editor->text());
     auto const& views =
         json.at("SurfaceProperty:SurroundingSurfaces").at("GPU SHADING VIEWS OF FACE");

@@ -83,7 +83,7 @@ Rewrite take_model(std::vector<InputObject> objects, Path const& path,
   auto& run = this_run();
   auto const& installed = installation();
   Reader reader{find_mentions, installed.serves(Need::daylight_rays),
-                installed.serves(Need::reflections), installed.serves(Need::daylight_reflections)};
+                installed.serves(Need::outputs)};
   reader.release = installed.release;
   run.model = understand(std::move(objects), path, installed.choices, reader);
   if (run.model->options.mode != Mode::off) {

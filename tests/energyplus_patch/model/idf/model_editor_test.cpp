@@ -29,7 +29,7 @@ void change(ModelEditor& model) {
     building.set(axis, 45);
     building.set(terrain, "City");
   });
-  model.add("Zone", {{"name", "Hall"}, {"direction_of_relative_north", 10}});
+  model.add({"Zone", {{"name", "Hall"}, {"direction_of_relative_north", 10}}});
 }
 
 TEST(ModelEditor, Idf) {

@@ -18,7 +18,8 @@ std::string rewritten(std::string const& text, Rewrite const& rewrite) {
 
 using testing::HasSubstr;
 
-Rewrite const pixel_counting{"PixelCounting", ""};
+Rewrite const pixel_counting{shading_method("PixelCounting")};
+Rewrite const at_timesteps{shading_method("PixelCounting", "Timestep")};
 
 std::vector<std::string> shadow_fields(std::string const& text) {
   for (auto const& object : parse_idf(text)) {
@@ -40,7 +41,7 @@ TEST(RewriteIdf, OnlyTheMethodChanges) {
 }
 
 TEST(RewriteIdf, ModelWithoutShadowCalculationGetsOne) {
-  auto const text = rewritten("Version,9.6;", {"PixelCounting", "Timestep"});
+  auto const text = rewritten("Version,9.6;", at_timesteps);
   EXPECT_EQ(shadow_fields(text), (std::vector<std::string>{"PixelCounting", "Timestep"}));
 }
 
@@ -66,7 +67,7 @@ TEST(RewriteIdf, WhatStaysKeepsItsLine) {
     auto const model = "Version,9.6;\n" + shadow +
                        " ! note\nGPUShading:Settings,\n  1024;  !- Resolution\nA,1; "
                        "GPUShading:TransparentShade,\nS,L,Constant,0.5; B,2;\n\nC,3;";
-    auto const text = rewritten(model, {"PixelCounting", "Timestep"});
+    auto const text = rewritten(model, at_timesteps);
     for (auto const* const word : {"ShadowCalculation", "! note", "A,1", "B,2", "C,3"}) {
       EXPECT_EQ(line_of(text, word), line_of(model, word)) << word << " in\n" << text;
     }
@@ -108,7 +109,7 @@ TEST(RewriteEpJson, OnlyTheMethodChanges) {
 
 TEST(RewriteEpJson, ModelWithoutShadowCalculationGetsOne) {
   auto model = nlohmann::json::object();
-  rewrite_epjson(model, {"PolygonClipping", "Timestep"});
+  rewrite_epjson(model, {shading_method("PolygonClipping", "Timestep")});
   ASSERT_EQ(model["ShadowCalculation"].size(), 1U);
   EXPECT_EQ(*model["ShadowCalculation"].begin(),
             (nlohmann::json{{"shading_calculation_method", "PolygonClipping"},

@@ -150,14 +150,14 @@ TEST(EpJson, RepeatedKeysOfOurs) {
 TEST(RewriteIdf, WhatIsAddedDoesNotBecomePartOfAnOpenObject) {
   for (std::string const end : {"Zone,Core", "Zone,Core ! comment", "Zone,\n  Core\n"}) {
     auto const model = "Version,9.6;\n" + end;
-    auto const text = rewrite_idf(model, parse_idf(model), {"PixelCounting", "Timestep"});
+    auto const text = rewrite_idf(model, parse_idf(model), {shading_method("PixelCounting", "Timestep")});
     auto const objects = parse_idf(text);
     ASSERT_EQ(objects.size(), 3U) << text;
     EXPECT_EQ(objects[1].fields, (std::vector<std::string>{"Core"}));
     EXPECT_EQ(objects[2].type, "ShadowCalculation");
   }
   std::string const open = "Version,9.6;\nGPUShading:Settings,64";
-  auto const text = rewrite_idf(open, parse_idf(open), {"PixelCounting", ""});
+  auto const text = rewrite_idf(open, parse_idf(open), {shading_method("PixelCounting")});
   EXPECT_EQ(parse_idf(text).size(), 2U);
   EXPECT_EQ(text.find("\n;\n"), std::string::npos);
 }
