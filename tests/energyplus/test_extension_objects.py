@@ -238,7 +238,7 @@ def test_generated_files_are_the_same_each_time(tmp_path):
     ("\\type integer", "\\type float", "\\type is float"),
     ("\\field Pitch", "\\field Hole Size", "two fields have one name"),
     ('array "values" in epJSON', "values", "go together"),
-    ("  A3 ; \\field Sky Model", "  A3 , \\field Sky Model", "does not end with ;"),
+    ("  A4 ; \\field Reflections", "  A4 , \\field Reflections", "does not end with ;"),
     ("\\maximum 65536", "", "an integer has both limits"),
 ])
 def test_mistakes_in_the_dictionary_are_refused(old, new, message):

@@ -188,7 +188,7 @@ def test_unknown_fields_list_the_known(call, model, tmp_path):
     (tmp_path / "side.epJSON").write_text('{"GPUShading:Settings": {"S": {"resolutoin": 64}}}')
     done = call("check", "model.idf", "--gpu-shading-file", "side.epJSON")
     assert done.stderr.endswith('"resolutoin": no such field; known: resolution, update_frequency, device, error, '
-                                'sky_model; did you mean resolution?\n')
+                                'sky_model, reflections; did you mean resolution?\n')
 
 
 @pytest.mark.parametrize("arguments, message", [

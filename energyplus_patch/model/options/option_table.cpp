@@ -247,8 +247,8 @@ std::span<OptionRow const> option_rows() {
           {.name = "lean",
            .value = lean_value,
            .meaning = "Hide shading surfaces that only cast shadows from EnergyPlus. `auto`: if "
-                      "there are 100 or more, 20 or more with solar reflections, and otherwise "
-                      "only those that EnergyPlus would distort. `on`: any number",
+                      "there are 100 or more, and otherwise only those that EnergyPlus would "
+                      "distort. `on`: any number",
            .audience = experts}),
       at<&Choices::method>(
           {.name = "method",
