@@ -15,6 +15,7 @@
 #include "reports/remarks.h"
 #include "reports/report.h"
 #include "reports/run_report.h"
+#include "runs/run_times.h"
 #include "scene/sky_grid.h"
 
 namespace gpu_shading::energyplus {
@@ -104,6 +105,10 @@ void Session::start(Simulation simulation) {
     sky_multipliers_.emplace(scene_.areas());
   }
   if (!scene_.model().pv_reductions.empty()) pv_loss_.emplace(scene_);
+  if (reflects_light()) {
+    reflected_.emplace(scene_, simulation.latitude());
+    add_reflected_outputs(simulation);
+  }
   if (options.cache) prepare_cache_folder(*options.cache);
   answers_.emplace(
       SunQuestions::Site{scene_.areas(), options.update.sampling, std::move(simulation.latitude)});
@@ -132,6 +137,21 @@ void Session::add_outputs(Simulation const& simulation) {
                           shades[i].name, outputs_[i].position);
     simulation.add_output("GPU Shading Moving Shade Control State", "", shades[i].name,
                           outputs_[i].state);
+  }
+}
+
+void Session::add_reflected_outputs(Simulation const& simulation) {
+  auto const& receivers = scene_.model().reflected_light.receivers;
+  reflected_now_.resize(receivers.size());
+  if (!simulation.add_output) return;
+  for (std::size_t i = 0; i < receivers.size(); ++i) {
+    auto& now = reflected_now_[i];
+    for (auto const& [by, value] :
+         {std::pair("Ground", &now.by_ground), {"Shades", &now.by_shades}}) {
+      simulation.add_output(
+          fmt::format("GPU Shading Solar Radiation Reflected by {} Rate per Area", by), "W/m2",
+          receivers[i].surface, *value);
+    }
   }
 }
 
@@ -304,6 +324,24 @@ std::vector<double> Session::sky_multipliers(SkyWeather const& weather) {
   return by_id;
 }
 
+std::vector<double> Session::ground_reflectances(SkyWeather const& weather, double ground) {
+  double const open = weather.open_ground();
+  bool const lit = weather.towards_sun.z > min_cosine && open > 0.0;  // as EnergyPlus has it
+  if (!reflected_ || !lit) {
+    std::ranges::fill(reflected_now_, Reflected{});
+    return {};
+  }
+  std::vector<WeightedPositions> const standing{{scene_.positions()}};
+  auto const all = reflected_->at(weather, ground, corners_.empty() ? standing : corners_);
+  std::ranges::copy(all, reflected_now_.begin());  // which EnergyPlus's outputs point to
+  auto const& receivers = scene_.model().reflected_light.receivers;
+  std::vector<double> reflectances;
+  for (std::size_t i = 0; i < receivers.size(); ++i) {
+    reflectances.push_back(ground_reflectance(all[i].sum(), open, receivers[i].ground_view));
+  }
+  return reflectances;
+}
+
 double Session::with_pv_loss(SurfaceId id, double projected_area) {
   double const all = answers_->unshaded_area(id);
   if (all <= 0.0) return projected_area;
@@ -385,6 +423,7 @@ void Session::finish() {
   describe_answers(*answers_, scene_.model().options, messages_);
   position_record_.describe(scene_.model().moving_shades, messages_);
   if (pv_loss_) pv_loss_->describe(messages_);
+  if (reflected_) reflected_->describe(messages_);
   write_cache(answers_->rendered(), messages_);
   if (failed_) return;
   write_reports();

@@ -9,6 +9,7 @@
 
 #include "answers/sun_questions.h"
 #include "calculation/pv_loss.h"
+#include "calculation/reflected_irradiance.h"
 #include "calculation/shade_control.h"
 #include "calculation/shading_calculation.h"
 #include "calculation/sky_multipliers.h"
@@ -96,6 +97,12 @@ class Session : public ShadingCalculation {
   // placeholders.
   std::vector<double> sky_multipliers(SkyWeather const& weather);
 
+  // Whether the model's receivers of reflected light get all of it from here.
+  bool reflects_light() const { return !scene_.model().reflected_light.receivers.empty(); }
+  // At each timestep: the reflectance of the own ground of each of them, in the model's order, with
+  // the shades as they are now; empty while nothing lights the ground. `ground`: the site's.
+  std::vector<double> ground_reflectances(SkyWeather const& weather, double ground);
+
   // The last direction to the sun at the first timestep of an hour, 1 .. 24; nothing if EnergyPlus
   // did not ask for it.
   std::optional<glm::dvec3> first_sun(int hour) const;
@@ -118,6 +125,7 @@ class Session : public ShadingCalculation {
   // A value of the day, at this timestep.
   double now(std::vector<double>& day, RunRecord::Beam const& of_day) const;
   void add_outputs(Simulation const& simulation);
+  void add_reflected_outputs(Simulation const& simulation);
   double rendered_area(SurfaceId id);
   void stand(std::vector<double> const& positions);
   // Calls it at each of the positions around those of this time, with its weight.
@@ -142,6 +150,8 @@ class Session : public ShadingCalculation {
   std::optional<StepError> step_error_;
   std::optional<PvLoss> pv_loss_;  // with --gpu-shading-pv
   std::optional<SkyMultipliers> sky_multipliers_;
+  std::optional<ReflectedIrradiance> reflected_;
+  std::vector<Reflected> reflected_now_;  // by receiver: what outputs show
   // Where the moving shades are between steps: the beam is interpolated.
   std::vector<WeightedPositions> corners_;
   SunDirection sun_;

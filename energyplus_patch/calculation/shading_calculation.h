@@ -23,8 +23,8 @@ struct Simulation {
   Schedules schedules = {};
   // Latitude of the site, radians; only called if sun positions are sampled.
   std::function<double()> latitude = {};
-  // Adds an output variable of EnergyPlus's for an object, in "deg", "m" or "" (no unit). `value`
-  // is read at the end of each timestep. None: they cannot be added.
+  // Adds an output variable of EnergyPlus's for an object, in "deg", "m", "W/m2" or "" (no unit).
+  // `value` is read at the end of each timestep. None: they cannot be added.
   std::function<void(std::string const& name, std::string_view unit, std::string const& object,
                      double& value)>
       add_output = {};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -11,6 +12,9 @@ struct SkyWeather {
   double beam = 0.0;                      // direct normal irradiance, W/m2
   double diffuse = 0.0;                   // diffuse horizontal irradiance, W/m2; above 0
   int day_of_year = 1;                    // 1 .. 366
+
+  // Irradiance of level ground in the open, W/m2.
+  double open_ground() const { return beam * std::max(0.0, towards_sun.z) + diffuse; }
 };
 
 // The sky's mean radiance in each of sky_patches(), in 1/sr, for a diffuse horizontal irradiance of

@@ -55,6 +55,9 @@ std::vector<Entry> daylight_memory_entries();
 // functions of OpenGL: those of opengl_function(). The library exports them all.
 std::vector<EntryPatch> glfw_entries();
 
+// Has EnergyPlus ask for the light that this run's model reflects, at each timestep.
+void follow_reflected_light(State& state);
+
 // Computes reflections in this thread's run; nullptr if EnergyPlus alone does.
 SolarReflections* solar_reflections(State& state);
 

@@ -83,11 +83,12 @@ Rewrite take_model(std::vector<InputObject> objects, Path const& path,
   auto& run = this_run();
   auto const& installed = installation();
   Reader reader{find_mentions, installed.serves(Need::daylight_rays),
-                installed.serves(Need::outputs)};
+                installed.serves(Need::reflected_light)};
   reader.release = installed.release;
   run.model = understand(std::move(objects), path, installed.choices, reader);
   if (run.model->options.mode != Mode::off) {
     for (auto const& warning : run.model->early_warnings) messages_of(run).warning(warning);
+    if (!run.model->reflected_light.receivers.empty()) follow_reflected_light(*run.state);
   } else {
     warn_of_opaque_shades(run);
     warn_of_missing_surroundings(run);

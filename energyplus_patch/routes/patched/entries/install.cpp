@@ -96,6 +96,7 @@ std::set<Need> find_served(SymbolTable const& symbols, std::vector<Entry> const&
   require(Need::sky_patches, Need::reflections);
   require(Need::sky_patches, Need::long_wave);
   require(Need::sky_patches, Need::run_days);
+  require(Need::reflected_light, Need::run_days);
   require(Need::daylight_reflections, Need::reflections);
   require(Need::daylight_reflections, Need::daylight_rays);
   require(Need::daylight_memory, Need::daylight_reflections);

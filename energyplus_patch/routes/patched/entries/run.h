@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "calculation/session.h"
 #include "routes/patched/memory/surface_ids.h"
@@ -39,7 +40,9 @@ struct Run {
   // Once EnergyPlus has written its own line on shading; closed when it ends.
   std::ostream* eio = nullptr;
   Session* session = nullptr;  // while EnergyPlus has one
-  std::string unwritten;       // why its output is not complete, "" where it is
+  // EnergyPlus's numbers of the schedules of Model::reflected_light, once they are known.
+  std::vector<int> grounds;
+  std::string unwritten;  // why its output is not complete, "" where it is
 };
 Run& this_run();
 

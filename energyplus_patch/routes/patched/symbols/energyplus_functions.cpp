@@ -13,6 +13,16 @@
 #include "runs/schedule_value.h"
 
 namespace gpu_shading::energyplus {
+namespace {
+
+// When EnergyPlus takes the sun for a timestep, in hours of the day: at its end, or in the middle
+// of the hour if that is the timestep.
+double hour_of_sun(int hour_from_0, int timestep_from_1, int steps_per_hour) {
+  constexpr double middle = 0.5;
+  return hour_from_0 + (steps_per_hour == 1 ? middle : double(timestep_from_1) / steps_per_hour);
+}
+
+}  // namespace
 
 void EnergyPlusFunctions::fatal(State& state, std::string const& message) const {
   symbol::show_fatal.in(symbols_)(state, message, std::nullopt, std::nullopt);
@@ -80,7 +90,7 @@ std::vector<double> EnergyPlusFunctions::of_day(State& state, ValueAt value_at) 
   std::vector<double> values;
   for (int hour = 0; hour < hours; ++hour) {
     for (int step = 1; step <= steps_per_hour; ++step) {
-      values.push_back(value_at(hour, step, hour + static_cast<double>(step) / steps_per_hour));
+      values.push_back(value_at(hour, step, hour_of_sun(hour, step, steps_per_hour)));
     }
   }
   return values;
@@ -89,24 +99,25 @@ std::vector<double> EnergyPlusFunctions::of_day(State& state, ValueAt value_at) 
 std::vector<double> EnergyPlusFunctions::beam_of_day(State& state) const {
   auto const weather_beam = symbol::weather_beam.in(symbols_);
   auto const sun = sun_of_day(symbol::day_of_year.in(symbols_)(&state));
-  return of_day(state, [&](int hour, int step, double end) {
+  return of_day(state, [&](int hour, int step, double of_sun) {
     // Between hours, the weather may have a beam before sunrise, which EnergyPlus drops.
-    return this->sun(state, sun, end).z > 0.0 ? weather_beam(&state, hour, step) : 0.0;
+    return this->sun(state, sun, of_sun).z > 0.0 ? weather_beam(&state, hour, step) : 0.0;
   });
 }
 
 std::vector<double> EnergyPlusFunctions::wind_of_day(State& state) const {
   auto const weather_wind = symbol::weather_wind.in(symbols_);
-  return of_day(
-      state, [&](int hour, int step, double /*end*/) { return weather_wind(&state, hour, step); });
+  return of_day(state, [&](int hour, int step, double /*of_sun*/) {
+    return weather_wind(&state, hour, step);
+  });
 }
 
 SkyWeather EnergyPlusFunctions::sky_weather(State& state) const {
   int const day = symbol::day_of_year.in(symbols_)(&state);
   int const hour = symbol::hour_from_0.in(symbols_)(&state);
   int const step = symbol::timestep_from_1.in(symbols_)(&state);
-  double const end = hour + static_cast<double>(step) / symbol::steps_per_hour.in(symbols_)(&state);
-  return {to_glm(sun(state, sun_of_day(day), end)),
+  double const of_sun = hour_of_sun(hour, step, symbol::steps_per_hour.in(symbols_)(&state));
+  return {to_glm(sun(state, sun_of_day(day), of_sun)),
           symbol::weather_beam.in(symbols_)(&state, hour, step),
           symbol::weather_diffuse.in(symbols_)(&state, hour, step), day};
 }
@@ -115,6 +126,7 @@ void EnergyPlusFunctions::add_output(State& state, std::string const& name, std:
                                      std::string const& object, double& value) const {
   // Its enumerations, and the defaults of its arguments.
   constexpr int none = 6;
+  constexpr int watts_per_square_metre = 20;
   constexpr int metres = 21;
   constexpr int degrees = 34;
   constexpr int zone_timestep = 0;
@@ -122,10 +134,42 @@ void EnergyPlusFunctions::add_output(State& state, std::string const& name, std:
   constexpr int invalid = -1;
   constexpr int no_index_group = -999;
   constexpr int each_call = 0;
-  int const units = unit == "deg" ? degrees : unit == "m" ? metres : none;
+  int const units = unit == "deg"    ? degrees
+                    : unit == "m"    ? metres
+                    : unit == "W/m2" ? watts_per_square_metre
+                                     : none;
   symbol::setup_output_variable.in(symbols_)(state, name, units, value, zone_timestep, average,
                                              object, invalid, invalid, invalid, {}, {}, 1, 1, {},
                                              no_index_group, {}, each_call);
+}
+
+namespace {
+
+constexpr char const* reflected_by_ground = "Site Ground Reflected Solar Radiation Rate per Area";
+constexpr char const* whole_site = "Environment";
+
+}  // namespace
+
+void EnergyPlusFunctions::at_each_timestep(State& state, void (*function)(State*)) const {
+  symbol::request_variable.in(symbols_)(&state, reflected_by_ground, whole_site);
+  symbol::call_after_init_heat_balance.in(symbols_)(&state, function);
+}
+
+double EnergyPlusFunctions::ground_reflectance(State& state, double open) const {
+  int const handle = symbol::variable_handle.in(symbols_)(&state, reflected_by_ground, whole_site);
+  if (handle < 0) throw Error(fmt::format("EnergyPlus has no {}", reflected_by_ground));
+  return open > 0.0 ? symbol::variable_value.in(symbols_)(&state, handle) / open : 0.0;
+}
+
+int EnergyPlusFunctions::schedule_to_set(State& state, std::string const& name) const {
+  int const handle = symbol::actuator_handle.in(symbols_)(&state, "Schedule:Constant",
+                                                          "Schedule Value", name.c_str());
+  if (handle < 0) throw Error(fmt::format("EnergyPlus has no schedule {} to set", name));
+  return handle;
+}
+
+void EnergyPlusFunctions::set_schedule(State& state, int schedule, double value) const {
+  symbol::set_actuator.in(symbols_)(&state, schedule, value);
 }
 
 class ScheduleInterface {

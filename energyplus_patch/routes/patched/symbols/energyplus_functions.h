@@ -39,17 +39,27 @@ class EnergyPlusFunctions {
   std::vector<double> wind_of_day(State& state) const;
 
   // The sun and the weather of the timestep that EnergyPlus is at; the sun may be below the
-  // horizon. For Need::sky_patches.
+  // horizon. For Need::run_days.
   SkyWeather sky_weather(State& state) const;
 
-  // Adds an output variable of zone timesteps, averaged over longer times, in "deg", "m" or "" (no
-  // unit); `value` must outlive the run. For Need::outputs.
+  // Adds an output variable of zone timesteps, averaged over longer times, in "deg", "m", "W/m2" or
+  // "" (no unit); `value` must outlive the run. For Need::outputs.
   void add_output(State& state, std::string const& name, std::string_view unit,
                   std::string const& object, double& value) const;
 
   // Whether the sun is up in the weather of the timestep that EnergyPlus is at. For
   // Need::daylight_memory.
   bool sun_in_weather(State& state) const { return symbol::sun_is_up.in(symbols_)(&state) != 0; }
+
+  // Calls `function` at each zone timestep, after the shading and before surfaces are irradiated.
+  // Before the simulation begins. For Need::reflected_light, as are the functions below.
+  void at_each_timestep(State& state, void (*function)(State*)) const;
+  // In `function`, of the site's ground, 0 .. 1; `open`: its irradiance in the open, W/m2. 0
+  // without.
+  double ground_reflectance(State& state, double open) const;
+  // The number by which a schedule is set; Error if EnergyPlus has none of this name.
+  int schedule_to_set(State& state, std::string const& name) const;
+  void set_schedule(State& state, int schedule, double value) const;
 
   SymbolTable const& symbols() const { return symbols_; }
 
@@ -59,7 +69,8 @@ class EnergyPlusFunctions {
              double cosine_of_declination) const;
   // The same at a time in hours of a day.
   Vector sun(State const& state, SunOfTime const& day, double hour) const;
-  // The values at the timesteps of a day: value_at(hour from 0, timestep from 1, its end in hours).
+  // The values at the timesteps of a day: value_at(hour from 0, timestep from 1, when the sun is
+  // taken, in hours).
   template <typename ValueAt>
   std::vector<double> of_day(State& state, ValueAt value_at) const;
 

@@ -53,20 +53,21 @@ struct Illuminance {
 
 // What a symbol of EnergyPlus serves. If a build lacks one of a need's symbols:
 enum class Need {
-  run,             // sunlit fractions are passed by another route
-  from_25_1,       // before_25_1 serves instead
-  before_25_1,     // from_25_1 serves instead
-  constants,       // what an EMS or another program sets for a Schedule:Constant is ignored (25.1)
-  eio_line,        // the .eio file has no lines on shading
-  opaque_warning,  // EnergyPlus warns that pixel counting takes shades as opaque (before 24.2)
-  sky_times,       // beam that reveals reflect is wrong where the sky follows schedules
-  long_wave,       // nothing shades long-wave radiation where the sky follows shades that change
-  sky_patches,     // --gpu-shading-sky perez-patches is an error
-  surface_ids,     // mirrored shading surfaces are taken as shaded, and there are no `reflections`
-  run_days,        // the report has no days
-  outputs,         // moving shades have no output variables
-  daylight_rays,   // hidden casters dim no rays of daylighting
-  reflections,     // hidden casters do not take part in solar reflections
+  run,              // sunlit fractions are passed by another route
+  from_25_1,        // before_25_1 serves instead
+  before_25_1,      // from_25_1 serves instead
+  constants,        // what an EMS or another program sets for a Schedule:Constant is ignored (25.1)
+  eio_line,         // the .eio file has no lines on shading
+  opaque_warning,   // EnergyPlus warns that pixel counting takes shades as opaque (before 24.2)
+  sky_times,        // beam that reveals reflect is wrong where the sky follows schedules
+  long_wave,        // nothing shades long-wave radiation where the sky follows shades that change
+  sky_patches,      // --gpu-shading-sky perez-patches is an error
+  surface_ids,      // mirrored shading surfaces are taken as shaded, and there are no `reflections`
+  run_days,         // the report has no days
+  outputs,          // moving shades have no output variables
+  reflected_light,  // EnergyPlus's own terms alone reflect light
+  daylight_rays,    // hidden casters dim no rays of daylighting
+  reflections,      // hidden casters do not take part in solar reflections
   daylight_reflections,  // hidden casters do not take part in reflections of daylighting
   daylight_memory        // EnergyPlus computes daylighting again where nothing has changed
 };

@@ -1,0 +1,229 @@
+#include "calculation/reflected_irradiance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <unordered_map>
+#include <utility>
+
+#include "gpu_shading/rays.h"
+#include "gpu_shading/sun_position.h"
+#include "platform/text.h"
+#include "reports/sky_mask.h"
+
+namespace gpu_shading::energyplus {
+namespace {
+
+// EnergyPlus's own default.
+constexpr double usual_ground = 0.2;
+// Of a schedule's values, between which light is interpolated.
+constexpr double schedule_step = 0.25;
+
+// The sun of a year in which every second hour is clear: only what errors are relative to, so that
+// they do not depend on the weather. Clear beam: A. B. Meinel and M. P. Meinel, "Applied Solar
+// Energy", 1976; the sky's light is that of a bright overcast.
+std::vector<TransportHour> ordinary_year(double latitude) {
+  constexpr int days = 365;
+  constexpr int days_apart = 15;
+  constexpr int hours_of_day = 24;
+  constexpr double half_of_time = 0.5;
+  constexpr double solar_constant = 1353.0;
+  constexpr double overcast = 200.0;  // W/m2, of a sun in the zenith
+  std::vector<TransportHour> hours;
+  for (int day = 1; day <= days; day += days_apart) {
+    double const declination = sun_of_day(day).declination;
+    for (int hour = 0; hour < hours_of_day; ++hour) {
+      HourDirection const sun{declination,
+                              (2.0 * (hour + 0.5) / hours_of_day - 1.0) * std::numbers::pi};
+      double const height = to_vector(to_direction(sun, latitude)).z;
+      if (height <= 0.0) continue;
+      double const clear = solar_constant * std::pow(0.7, std::pow(height, -0.678));
+      hours.push_back({sun, half_of_time * clear, overcast * height});
+    }
+  }
+  return hours;
+}
+
+// The lowest point of some surfaces: EnergyPlus's ground, or that beyond the terrain.
+double lowest_of(Scene const& scene, std::vector<SurfaceId> const& ids) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (auto const id : ids) {
+    for (auto const& point : scene[id].polygon.outline) lowest = std::min(lowest, point.z);
+  }
+  return lowest;
+}
+
+// What paths meet, and how it reflects.
+struct Reflectors {
+  std::vector<SurfaceId> casters;
+  std::vector<FaceReflectances> reflectances;  // by surface of the scene
+  double ground_height = 0.0;
+};
+
+Reflectors reflectors_of(SceneAssembly const& assembly, Scene const& scene, double ground) {
+  auto const& model = assembly.model();
+  auto const kinds = kinds_of(assembly, scene);
+  Reflectors made;
+  made.reflectances.resize(scene.size());
+  std::vector<SurfaceId> terrain;
+  // Copies of walls without their openings come after these.
+  for (SurfaceId id = 0; id < assembly.surfaces().size(); ++id) {
+    auto const& name = scene[id].name;
+    bool const opening = model.shading.base_of.contains(name) && model.shading.receives(name);
+    if (scene[id].casting == Casting::never && !opening) continue;
+    made.casters.push_back(id);
+    auto& faces = made.reflectances[id];
+    if (kinds[id] == ShadeKind::terrain) {
+      terrain.push_back(id);
+      faces = {ground, ground, true};
+    } else if (auto const shade = model.shading.shading_surfaces.find(name);
+               shade != model.shading.shading_surfaces.end()) {
+      // What is glazed reflects as a mirror does, which paths leave out.
+      faces.front = shade->second.reflectance * (1.0 - shade->second.glazed);
+      faces.back = faces.front;
+    } else if (auto const finish = model.reflected_light.reflectances.find(name);
+               finish != model.reflected_light.reflectances.end()) {
+      faces.front = finish->second;
+    }
+  }
+  made.ground_height = lowest_of(scene, terrain.empty() ? assembly.shown_receivers() : terrain);
+  return made;
+}
+
+// Values on a grid to interpolate linearly between, by the simplex around them, and their weights.
+std::vector<std::pair<std::vector<double>, double>> around(std::vector<double> const& values) {
+  std::vector<double> low(values.size());
+  std::vector<std::pair<double, std::size_t>> between;  // share of the way to the next, and which
+  constexpr double negligible = 1e-6;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    double const place = values[i] / schedule_step;
+    double const below = std::floor(place + negligible);
+    low[i] = below * schedule_step;
+    if (place - below > negligible) between.emplace_back(place - below, i);
+  }
+  std::ranges::stable_sort(between, std::greater(), &std::pair<double, std::size_t>::first);
+  std::vector<std::pair<std::vector<double>, double>> corners{{low, 1.0}};
+  for (auto const& [share, place] : between) {
+    corners.back().second -= share;
+    auto next = corners.back().first;
+    next[place] += schedule_step;
+    corners.emplace_back(std::move(next), share);
+  }
+  return corners;
+}
+
+}  // namespace
+
+ReflectedIrradiance::ReflectedIrradiance(SceneAssembly const& scene, double latitude)
+    : scene_(scene), latitude_(latitude) {
+  std::unordered_map<std::string, SurfaceId> by_name;
+  for (SurfaceId id = 0; id < scene.size(); ++id) by_name.emplace(scene.surfaces()[id].name, id);
+  for (auto const& receiver : scene.model().reflected_light.receivers) {
+    auto const found = by_name.find(receiver.surface);
+    if (found == by_name.end()) {
+      at_.emplace_back();
+      continue;
+    }
+    at_.emplace_back(ids_.size());
+    ids_.push_back(found->second);
+  }
+}
+
+std::vector<ReflectedIrradiance::WeightedState> ReflectedIrradiance::states(
+    std::vector<WeightedPositions> const& corners) const {
+  auto const& optics = scene_.optics();
+  auto schedules = optics.factors();
+  schedules.insert(schedules.end(), optics.deployments().begin(), optics.deployments().end());
+  std::vector<WeightedState> states;
+  for (auto const& [values, share] : around(schedules)) {
+    for (auto const& [positions, weight] : corners) {
+      states.push_back({{positions, values}, share * weight});
+    }
+  }
+  return states;
+}
+
+std::vector<Transported> ReflectedIrradiance::trace(State const& state) const {
+  auto const scene = scene_.scene_at(state.positions);
+  auto reflectors = reflectors_of(scene_, scene, traced_ground_);
+  RayScene const rays(scene, {RayFaces::both, ScreenDetail::automatic, reflectors.casters});
+  Transport const transport(scene, rays, std::move(reflectors.reflectances),
+                            ReflectingGround{reflectors.ground_height, traced_ground_});
+  auto const hours = ordinary_year(latitude_);
+  TransportRequest request;
+  request.latitude = latitude_;
+  request.hours = hours;
+  std::span const schedules(state.schedules);
+  auto const factors = scene_.optics().factors().size();
+  return transport.to(
+      ids_, request,
+      {.factors = schedules.first(factors), .deployments = schedules.subspan(factors)});
+}
+
+std::vector<Transported> const& ReflectedIrradiance::traced(State const& state) {
+  auto const [place, added] = known_.try_emplace(state);
+  if (added) place->second = trace(state);
+  return place->second;
+}
+
+std::vector<Reflected> ReflectedIrradiance::at(SkyWeather const& weather, double ground,
+                                               std::vector<WeightedPositions> const& corners) {
+  if (traced_ground_ <= 0.0) traced_ground_ = ground > 0.0 ? ground : usual_ground;
+  double const ratio = ground / traced_ground_;
+  auto const sun = to_hour_direction(to_direction(weather.towards_sun), latitude_);
+  std::vector<Reflected> all(at_.size());
+  for (auto const& [state, weight] : states(corners)) {
+    auto const& tables = traced(state);
+    for (std::size_t i = 0; i < at_.size(); ++i) {
+      if (!at_[i]) continue;
+      auto const& table = tables[*at_[i]];
+      auto const beam = table.beam_at(sun);
+      double const shades = weather.beam * beam.none + weather.diffuse * table.sky.none;
+      double const sum = weather.beam * beam.at(ratio) + weather.diffuse * table.sky.at(ratio);
+      all[i].by_shades += weight * shades;
+      all[i].by_ground += weight * (sum - shades);
+    }
+  }
+  for (std::size_t i = 0; i < at_.size(); ++i) {
+    if (at_[i]) continue;
+    // EnergyPlus's own light from the ground.
+    all[i].by_ground =
+        weather.open_ground() * ground * scene_.model().reflected_light.receivers[i].ground_view;
+  }
+  return all;
+}
+
+void ReflectedIrradiance::describe(Messages const& messages) const {
+  if (known_.empty() || ids_.empty()) return;
+  double hourly = 0.0;
+  double annual = 0.0;
+  SurfaceId worst = ids_.front();
+  double rays = 0.0;
+  for (auto const& [state, tables] : known_) {
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      auto const& table = tables[i];
+      rays += static_cast<double>(table.rays);
+      double const error = std::hypot(table.noise, table.interpolation);
+      if (error > hourly) worst = ids_[i];
+      hourly = std::max(hourly, error);
+      annual = std::max(annual, std::hypot(table.annual_noise, table.annual_interpolation));
+    }
+  }
+  messages.remark(fmt::format(
+      "light that ground, shades and neighbours reflect: traced by {:.2g} million rays for {} "
+      "surfaces{}; measured errors are at most {:.2g} % of the hourly light and {:.2g} % of a "
+      "year's, for {}",
+      rays / 1e6, ids_.size(),
+      known_.size() > 1 ? fmt::format(" and {} states of shades", known_.size()) : "",
+      100.0 * hourly, 100.0 * annual, printable(scene_.surfaces()[worst].name)));
+}
+
+double ground_reflectance(double irradiance, double open, double ground_view) {
+  constexpr double least = 1e-9;
+  return std::max(least, irradiance / (open * ground_view));
+}
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calculation/step_error.h"
+#include "gpu_shading/transport.h"
+#include "platform/messages.h"
+#include "scene/perez_sky.h"
+#include "scene/scene_assembly.h"
+
+namespace gpu_shading::energyplus {
+
+// Irradiance that one receiver gets by way of diffuse reflections of any number, W/m2.
+struct Reflected {
+  double by_ground = 0.0;  // on paths on which the ground reflects
+  double by_shades = 0.0;  // shades, neighbours and the building alone
+
+  double sum() const { return by_ground + by_shades; }
+};
+
+// The reflected light of Model::reflected_light's receivers at the times of a run. The light of
+// each state of the shades (positions, schedules) is traced when a run first meets it.
+class ReflectedIrradiance {
+ public:
+  // The scene must be complete() and outlive this. `latitude`: radians.
+  ReflectedIrradiance(SceneAssembly const& scene, double latitude);
+
+  // In the receivers' order, with the schedules as they are now. `ground`: the ground's reflectance
+  // now, 0 .. 1. `corners`: the positions of moving shades to interpolate between.
+  std::vector<Reflected> at(SkyWeather const& weather, double ground,
+                            std::vector<WeightedPositions> const& corners);
+
+  // After the last question: how much was traced, and how accurately.
+  void describe(Messages const& messages) const;
+
+ private:
+  // Positions, factors and deployments.
+  struct State {
+    std::vector<double> positions;
+    std::vector<double> schedules;
+
+    auto operator<=>(State const&) const = default;
+  };
+  struct WeightedState {
+    State state;
+    double weight;
+  };
+
+  std::vector<WeightedState> states(std::vector<WeightedPositions> const& corners) const;
+  std::vector<Transported> const& traced(State const& state);
+  std::vector<Transported> trace(State const& state) const;
+
+  SceneAssembly const& scene_;
+  double latitude_;
+  double traced_ground_ = 0.0;                  // its reflectance on the paths; 0: none is traced
+  std::vector<SurfaceId> ids_;                  // of the receivers that EnergyPlus has
+  std::vector<std::optional<std::size_t>> at_;  // by receiver: its place in ids_
+  std::map<State, std::vector<Transported>> known_;  // in the order of ids_
+};
+
+// The reflectance of a receiver's own ground by which EnergyPlus's light from the ground comes to
+// `irradiance` (W/m2), at least 1e-9: EnergyPlus takes 0 as Site:GroundReflectance. `open`: of
+// level ground in the open, W/m2, above 0.
+double ground_reflectance(double irradiance, double open, double ground_view);
+
+}  // namespace gpu_shading::energyplus

@@ -1,0 +1,67 @@
+"""Light that surfaces and the ground reflect, by Radiance's rtrace: of every number of reflections."""
+
+import math
+from random import Random
+
+import radiance
+
+GROUND_SIZE = 2000.0  # m from the middle: beyond, a receiver sees less than a thousandth of the ground
+BOUNCES = 12
+LIFT = radiance.HEIGHT_ABOVE / 2
+RAYS = 96  # from each place at which light is reflected
+
+
+def _plastic(name, reflectance):
+    return f"void plastic {name}\n0\n0\n5 {reflectance:.9g} {reflectance:.9g} {reflectance:.9g} 0 0\n"
+
+
+def _scene(surfaces, reflectance_of, ground, black):
+    parts = [_plastic("black", 0.0), _plastic("ground", 0.0 if black else ground)]
+    size = GROUND_SIZE
+    parts.append(radiance.polygon("ground", "earth", [(-size, -size, 0.0), (size, -size, 0.0),
+                                                      (size, size, 0.0), (-size, size, 0.0)]))
+    for number, (name, (vertices, receives, casts)) in enumerate(surfaces.items()):
+        if casts == "not":
+            if receives:  # a window, which reflects nothing diffusely, before its wall
+                normal = radiance.normal_of(vertices)
+                lifted = [tuple(x + LIFT * n for x, n in zip(point, normal, strict=True)) for point in vertices]
+                parts.append(radiance.polygon("black", f"surface_{number}", lifted))
+            continue
+        parts.append(_plastic(f"of_{number}", 0.0 if black else reflectance_of(name)))
+        parts.append(radiance.polygon(f"of_{number}", f"surface_{number}", vertices))
+    return "".join(parts)
+
+
+class Lights:
+    """Sources of unit irradiance, normal to the beam or on the level."""
+
+    @staticmethod
+    def sun(direction):
+        half = math.radians(radiance.SUN_DIAMETER / 2)
+        bright = 1.0 / (math.pi * math.sin(half) ** 2)
+        place = " ".join(f"{x:.12g}" for x in direction)
+        return (f"void light sun\n0\n0\n3 {bright:.12g} {bright:.12g} {bright:.12g}\n"
+                f"sun source disc\n0\n0\n4 {place} {radiance.SUN_DIAMETER}\n")
+
+    @staticmethod
+    def sky():
+        bright = 1.0 / math.pi
+        return f"void glow sky\n0\n0\n4 {bright} {bright} {bright} 0\nsky source dome\n0\n0\n4 0 0 1 180\n"
+
+
+def reflected(surfaces, receiver, light, folder, reflectance_of, ground=0.2, points=400, seed=1):
+    """Irradiance of a rectangle by way of reflections, for a light of 1 W/m2.
+
+    surfaces: as radiance.surfaces() has them; the ground is at z = 0.
+    """
+    random = Random(seed)
+    places = list(radiance.sample_points(surfaces[receiver][0], [], points, random))
+    rays = "".join(" ".join(f"{value:.9g}" for part in pair for value in part) + "\n" for pair in places)
+    means = []
+    for black, bounces in ((False, BOUNCES), (True, 1)):
+        (folder / "scene.rad").write_text(_scene(surfaces, reflectance_of, ground, black) + light)
+        answers = radiance.trace(folder, "scene.rad", rays, "-I", "-ab", str(bounces), "-ad", str(RAYS), "-as", "0",
+                                 "-aa", "0", "-lw", "1e-7", "-lr", "-20", "-ss", "0", "-st", "0", "-dt", "0", "-dj", "0",
+                                 "-dc", "1", "-ds", "0")
+        means.append(sum(float(line.split()[0]) for line in answers.splitlines() if line) / len(places))
+    return means[0] - means[1]
