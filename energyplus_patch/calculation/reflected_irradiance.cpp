@@ -133,10 +133,11 @@ ReflectedIrradiance::ReflectedIrradiance(SceneAssembly const& scene, double lati
 }
 
 std::vector<ReflectedIrradiance::WeightedState> ReflectedIrradiance::states(
-    std::vector<WeightedPositions> const& corners) const {
+    Moment moment, std::vector<WeightedPositions> const& corners) const {
   auto const& optics = scene_.optics();
-  auto schedules = optics.factors();
-  schedules.insert(schedules.end(), optics.deployments().begin(), optics.deployments().end());
+  auto schedules = optics.factors_at(moment);
+  auto const deployments = optics.deployments_at(moment);
+  schedules.insert(schedules.end(), deployments.begin(), deployments.end());
   std::vector<WeightedState> states;
   for (auto const& [values, share] : around(schedules)) {
     for (auto const& [positions, weight] : corners) {
@@ -169,13 +170,14 @@ std::vector<Transported> const& ReflectedIrradiance::traced(State const& state) 
   return place->second;
 }
 
-std::vector<Reflected> ReflectedIrradiance::at(SkyWeather const& weather, double ground,
+std::vector<Reflected> ReflectedIrradiance::at(Time const& time,
                                                std::vector<WeightedPositions> const& corners) {
+  auto const& [moment, weather, ground] = time;
   if (traced_ground_ <= 0.0) traced_ground_ = ground > 0.0 ? ground : usual_ground;
   double const ratio = ground / traced_ground_;
   auto const sun = to_hour_direction(to_direction(weather.towards_sun), latitude_);
   std::vector<Reflected> all(at_.size());
-  for (auto const& [state, weight] : states(corners)) {
+  for (auto const& [state, weight] : states(moment, corners)) {
     auto const& tables = traced(state);
     for (std::size_t i = 0; i < at_.size(); ++i) {
       if (!at_[i]) continue;

@@ -29,10 +29,15 @@ class ReflectedIrradiance {
   // The scene must be complete() and outlive this. `latitude`: radians.
   ReflectedIrradiance(SceneAssembly const& scene, double latitude);
 
-  // In the receivers' order, with the schedules as they are now. `ground`: the ground's reflectance
-  // now, 0 .. 1. `corners`: the positions of moving shades to interpolate between.
-  std::vector<Reflected> at(SkyWeather const& weather, double ground,
-                            std::vector<WeightedPositions> const& corners);
+  // A time of a run.
+  struct Time {
+    Moment moment;  // at which schedules are read
+    SkyWeather weather;
+    double ground = 0.2;  // the ground's reflectance, 0 .. 1
+  };
+
+  // In the receivers' order. `corners`: the positions of moving shades to interpolate between.
+  std::vector<Reflected> at(Time const& time, std::vector<WeightedPositions> const& corners);
 
   // After the last question: how much was traced, and how accurately.
   void describe(Messages const& messages) const;
@@ -50,7 +55,8 @@ class ReflectedIrradiance {
     double weight;
   };
 
-  std::vector<WeightedState> states(std::vector<WeightedPositions> const& corners) const;
+  std::vector<WeightedState> states(Moment moment,
+                                    std::vector<WeightedPositions> const& corners) const;
   std::vector<Transported> const& traced(State const& state);
   std::vector<Transported> trace(State const& state) const;
 

@@ -324,7 +324,8 @@ std::vector<double> Session::sky_multipliers(SkyWeather const& weather) {
   return by_id;
 }
 
-std::vector<double> Session::ground_reflectances(SkyWeather const& weather, double ground) {
+std::vector<double> Session::ground_reflectances(ReflectedIrradiance::Time const& time) {
+  auto const& weather = time.weather;
   double const open = weather.open_ground();
   bool const lit = weather.towards_sun.z > min_cosine && open > 0.0;  // as EnergyPlus has it
   if (!reflected_ || !lit) {
@@ -332,7 +333,7 @@ std::vector<double> Session::ground_reflectances(SkyWeather const& weather, doub
     return {};
   }
   std::vector<WeightedPositions> const standing{{scene_.positions()}};
-  auto const all = reflected_->at(weather, ground, corners_.empty() ? standing : corners_);
+  auto const all = reflected_->at(time, corners_.empty() ? standing : corners_);
   std::ranges::copy(all, reflected_now_.begin());  // which EnergyPlus's outputs point to
   auto const& receivers = scene_.model().reflected_light.receivers;
   std::vector<double> reflectances;

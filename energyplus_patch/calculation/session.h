@@ -99,9 +99,9 @@ class Session : public ShadingCalculation {
 
   // Whether the model's receivers of reflected light get all of it from here.
   bool reflects_light() const { return !scene_.model().reflected_light.receivers.empty(); }
-  // At each timestep: the reflectance of the own ground of each of them, in the model's order, with
-  // the shades as they are now; empty while nothing lights the ground. `ground`: the site's.
-  std::vector<double> ground_reflectances(SkyWeather const& weather, double ground);
+  // At each timestep: the reflectance of the own ground of each of them, in the model's order;
+  // empty while nothing lights the ground.
+  std::vector<double> ground_reflectances(ReflectedIrradiance::Time const& time);
 
   // The last direction to the sun at the first timestep of an hour, 1 .. 24; nothing if EnergyPlus
   // did not ask for it.

@@ -32,21 +32,18 @@ def _scene(surfaces, reflectance_of, ground, black):
     return "".join(parts)
 
 
-class Lights:
-    """Sources of unit irradiance, normal to the beam or on the level."""
+def sun(direction):
+    """A source of unit irradiance, normal to the beam."""
+    half = math.radians(radiance.SUN_DIAMETER / 2)
+    bright = 1.0 / (math.pi * math.sin(half) ** 2)
+    place = " ".join(f"{x:.12g}" for x in direction)
+    return (f"void light sun\n0\n0\n3 {bright:.12g} {bright:.12g} {bright:.12g}\n"
+            f"sun source disc\n0\n0\n4 {place} {radiance.SUN_DIAMETER}\n")
 
-    @staticmethod
-    def sun(direction):
-        half = math.radians(radiance.SUN_DIAMETER / 2)
-        bright = 1.0 / (math.pi * math.sin(half) ** 2)
-        place = " ".join(f"{x:.12g}" for x in direction)
-        return (f"void light sun\n0\n0\n3 {bright:.12g} {bright:.12g} {bright:.12g}\n"
-                f"sun source disc\n0\n0\n4 {place} {radiance.SUN_DIAMETER}\n")
 
-    @staticmethod
-    def sky():
-        bright = 1.0 / math.pi
-        return f"void glow sky\n0\n0\n4 {bright} {bright} {bright} 0\nsky source dome\n0\n0\n4 0 0 1 180\n"
+# A uniform sky of unit irradiance on level ground.
+SKY = (f"void glow sky\n0\n0\n4 {1 / math.pi} {1 / math.pi} {1 / math.pi} 0\n"
+       "sky source dome\n0\n0\n4 0 0 1 180\n")
 
 
 def reflected(surfaces, receiver, light, folder, reflectance_of, ground=0.2, points=400, seed=1):
@@ -60,8 +57,7 @@ def reflected(surfaces, receiver, light, folder, reflectance_of, ground=0.2, poi
     means = []
     for black, bounces in ((False, BOUNCES), (True, 1)):
         (folder / "scene.rad").write_text(_scene(surfaces, reflectance_of, ground, black) + light)
-        answers = radiance.trace(folder, "scene.rad", rays, "-I", "-ab", str(bounces), "-ad", str(RAYS), "-as", "0",
-                                 "-aa", "0", "-lw", "1e-7", "-lr", "-20", "-ss", "0", "-st", "0", "-dt", "0", "-dj", "0",
-                                 "-dc", "1", "-ds", "0")
+        words = f"-I -ab {bounces} -ad {RAYS} -as 0 -aa 0 -lw 1e-7 -lr -20 -ss 0 -st 0 -dt 0 -dj 0 -dc 1 -ds 0".split()
+        answers = radiance.trace(folder, "scene.rad", rays, *words)
         means.append(sum(float(line.split()[0]) for line in answers.splitlines() if line) / len(places))
     return means[0] - means[1]

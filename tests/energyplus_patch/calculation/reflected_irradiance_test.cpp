@@ -35,8 +35,7 @@ class Wall {
   }
 
   Reflected at(SkyWeather const& weather, double ground) {
-    assembly_.optics().update({12, 1});
-    return irradiance().at(weather, ground, {{{}, 1.0}}).front();
+    return irradiance().at({{12, 1}, weather, ground}, {{{}, 1.0}}).front();
   }
 
   double schedule = 0.0;

@@ -10,7 +10,8 @@ void set_grounds(State& state, Run& run) {
   auto const& functions = installation().functions;
   auto const weather = functions.sky_weather(state);
   auto const values = run.session->ground_reflectances(
-      weather, functions.ground_reflectance(state, weather.open_ground()));
+      {functions.moment(state), weather,
+       functions.ground_reflectance(state, weather.open_ground())});
   if (run.grounds.empty()) {
     for (auto const& receiver : run.model->reflected_light.receivers) {
       run.grounds.push_back(functions.schedule_to_set(state, receiver.schedule));

@@ -112,10 +112,16 @@ std::vector<double> EnergyPlusFunctions::wind_of_day(State& state) const {
   });
 }
 
+Moment EnergyPlusFunctions::moment(State& state) const {
+  return {symbol::hour_from_0.in(symbols_)(&state) + 1,
+          symbol::timestep_from_1.in(symbols_)(&state)};
+}
+
 SkyWeather EnergyPlusFunctions::sky_weather(State& state) const {
   int const day = symbol::day_of_year.in(symbols_)(&state);
-  int const hour = symbol::hour_from_0.in(symbols_)(&state);
-  int const step = symbol::timestep_from_1.in(symbols_)(&state);
+  auto const now = moment(state);
+  int const hour = now.hour - 1;
+  int const step = now.timestep;
   double const of_sun = hour_of_sun(hour, step, symbol::steps_per_hour.in(symbols_)(&state));
   return {to_glm(sun(state, sun_of_day(day), of_sun)),
           symbol::weather_beam.in(symbols_)(&state, hour, step),

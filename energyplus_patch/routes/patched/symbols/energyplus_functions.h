@@ -38,6 +38,9 @@ class EnergyPlusFunctions {
   // The wind speed of that day, m/s, likewise.
   std::vector<double> wind_of_day(State& state) const;
 
+  // The timestep that EnergyPlus is at. For Need::run_days.
+  Moment moment(State& state) const;
+
   // The sun and the weather of the timestep that EnergyPlus is at; the sun may be below the
   // horizon. For Need::run_days.
   SkyWeather sky_weather(State& state) const;
