@@ -115,10 +115,21 @@ std::vector<std::pair<std::vector<double>, double>> around(std::vector<double> c
   return corners;
 }
 
+constexpr double percent = 100.0;
+
+double hourly_error(Transported const& table) {
+  return std::hypot(table.noise, table.interpolation);
+}
+
+double annual_error(Transported const& table) {
+  return std::hypot(table.annual_noise, table.annual_interpolation);
+}
+
 }  // namespace
 
-ReflectedIrradiance::ReflectedIrradiance(SceneAssembly const& scene, double latitude)
-    : scene_(scene), latitude_(latitude) {
+ReflectedIrradiance::ReflectedIrradiance(SceneAssembly const& scene, double latitude,
+                                         Messages messages)
+    : scene_(scene), latitude_(latitude), messages_(std::move(messages)) {
   std::unordered_map<std::string, SurfaceId> by_name;
   for (SurfaceId id = 0; id < scene.size(); ++id) by_name.emplace(scene.surfaces()[id].name, id);
   for (auto const& receiver : scene.model().reflected_light.receivers) {
@@ -166,7 +177,10 @@ std::vector<Transported> ReflectedIrradiance::trace(State const& state) const {
 
 std::vector<Transported> const& ReflectedIrradiance::traced(State const& state) {
   auto const [place, added] = known_.try_emplace(state);
-  if (added) place->second = trace(state);
+  if (added) {
+    place->second = trace(state);
+    list(place->second);
+  }
   return place->second;
 }
 
@@ -198,29 +212,42 @@ std::vector<Reflected> ReflectedIrradiance::at(Time const& time,
   return all;
 }
 
-void ReflectedIrradiance::describe(Messages const& messages) const {
+void ReflectedIrradiance::list(std::vector<Transported> const& tables) const {
+  if (known_.size() == 1) {
+    messages_.eio(
+        "! <GPU Shading Reflected Light>, State of the Shades, Surface Name, Rays, Error of Hours "
+        "{%}, Error of a Year {%}\n");
+  }
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    auto name = scene_.surfaces()[ids_[i]].name;
+    std::ranges::replace(name, ',', ';');  // commas separate the file's fields
+    messages_.eio(fmt::format("GPU Shading Reflected Light,{},{},{},{:.2g},{:.2g}\n", known_.size(),
+                              name, tables[i].rays, percent * hourly_error(tables[i]),
+                              percent * annual_error(tables[i])));
+  }
+}
+
+void ReflectedIrradiance::describe() const {
   if (known_.empty() || ids_.empty()) return;
   double hourly = 0.0;
   double annual = 0.0;
-  SurfaceId worst = ids_.front();
   double rays = 0.0;
+  SurfaceId worst = ids_.front();
   for (auto const& [state, tables] : known_) {
     for (std::size_t i = 0; i < tables.size(); ++i) {
-      auto const& table = tables[i];
-      rays += static_cast<double>(table.rays);
-      double const error = std::hypot(table.noise, table.interpolation);
-      if (error > hourly) worst = ids_[i];
-      hourly = std::max(hourly, error);
-      annual = std::max(annual, std::hypot(table.annual_noise, table.annual_interpolation));
+      rays += static_cast<double>(tables[i].rays);
+      if (hourly_error(tables[i]) > hourly) worst = ids_[i];
+      hourly = std::max(hourly, hourly_error(tables[i]));
+      annual = std::max(annual, annual_error(tables[i]));
     }
   }
-  messages.remark(fmt::format(
+  messages_.remark(fmt::format(
       "light that ground, shades and neighbours reflect: traced by {:.2g} million rays for {} "
-      "surfaces{}; measured errors are at most {:.2g} % of the hourly light and {:.2g} % of a "
+      "surface{}{}; measured errors are at most {:.2g} % of the hourly light and {:.2g} % of a "
       "year's, for {}",
-      rays / 1e6, ids_.size(),
+      rays / 1e6, ids_.size(), ids_.size() == 1 ? "" : "s",
       known_.size() > 1 ? fmt::format(" and {} states of shades", known_.size()) : "",
-      100.0 * hourly, 100.0 * annual, printable(scene_.surfaces()[worst].name)));
+      percent * hourly, percent * annual, printable(scene_.surfaces()[worst].name)));
 }
 
 double ground_reflectance(double irradiance, double open, double ground_view) {

@@ -26,8 +26,9 @@ struct Reflected {
 // each state of the shades (positions, schedules) is traced when a run first meets it.
 class ReflectedIrradiance {
  public:
-  // The scene must be complete() and outlive this. `latitude`: radians.
-  ReflectedIrradiance(SceneAssembly const& scene, double latitude);
+  // The scene must be complete() and outlive this. `latitude`: radians. The .eio file gets what was
+  // measured of each receiver when it is traced.
+  ReflectedIrradiance(SceneAssembly const& scene, double latitude, Messages messages);
 
   // A time of a run.
   struct Time {
@@ -39,8 +40,13 @@ class ReflectedIrradiance {
   // In the receivers' order. `corners`: the positions of moving shades to interpolate between.
   std::vector<Reflected> at(Time const& time, std::vector<WeightedPositions> const& corners);
 
+  // That of a receiver; none: EnergyPlus has no such surface, and the light is EnergyPlus's own.
+  std::optional<SurfaceId> surface(std::size_t receiver) const {
+    return at_[receiver] ? std::optional(ids_[*at_[receiver]]) : std::nullopt;
+  }
+
   // After the last question: how much was traced, and how accurately.
-  void describe(Messages const& messages) const;
+  void describe() const;
 
  private:
   // Positions, factors and deployments.
@@ -59,9 +65,11 @@ class ReflectedIrradiance {
                                     std::vector<WeightedPositions> const& corners) const;
   std::vector<Transported> const& traced(State const& state);
   std::vector<Transported> trace(State const& state) const;
+  void list(std::vector<Transported> const& tables) const;
 
   SceneAssembly const& scene_;
   double latitude_;
+  Messages messages_;
   double traced_ground_ = 0.0;                  // its reflectance on the paths; 0: none is traced
   std::vector<SurfaceId> ids_;                  // of the receivers that EnergyPlus has
   std::vector<std::optional<std::size_t>> at_;  // by receiver: its place in ids_

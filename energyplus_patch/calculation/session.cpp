@@ -106,7 +106,7 @@ void Session::start(Simulation simulation) {
   }
   if (!scene_.model().pv_reductions.empty()) pv_loss_.emplace(scene_);
   if (reflects_light()) {
-    reflected_.emplace(scene_, simulation.latitude());
+    reflected_.emplace(scene_, simulation.latitude(), messages_);
     add_reflected_outputs(simulation);
   }
   if (options.cache) prepare_cache_folder(*options.cache);
@@ -335,6 +335,10 @@ std::vector<double> Session::ground_reflectances(ReflectedIrradiance::Time const
   std::vector<WeightedPositions> const standing{{scene_.positions()}};
   auto const all = reflected_->at(time, corners_.empty() ? standing : corners_);
   std::ranges::copy(all, reflected_now_.begin());  // which EnergyPlus's outputs point to
+  for (std::size_t i = 0; record_ && i < all.size(); ++i) {
+    auto const id = reflected_->surface(i);
+    if (id) record_->note_reflected(*id, all[i].by_ground, all[i].by_shades);
+  }
   auto const& receivers = scene_.model().reflected_light.receivers;
   std::vector<double> reflectances;
   for (std::size_t i = 0; i < receivers.size(); ++i) {
@@ -424,7 +428,7 @@ void Session::finish() {
   describe_answers(*answers_, scene_.model().options, messages_);
   position_record_.describe(scene_.model().moving_shades, messages_);
   if (pv_loss_) pv_loss_->describe(messages_);
-  if (reflected_) reflected_->describe(messages_);
+  if (reflected_) reflected_->describe();
   write_cache(answers_->rendered(), messages_);
   if (failed_) return;
   write_reports();

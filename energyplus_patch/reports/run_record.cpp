@@ -13,6 +13,7 @@ constexpr std::size_t hours_of_day = 24;
 // Of all days that are kept: 64 MB.
 constexpr std::size_t max_values = std::size_t{1} << 24U;
 constexpr float behind = -1.0F;
+constexpr double watt_hours = 1000.0;  // per kWh
 
 }  // namespace
 
@@ -72,6 +73,18 @@ void RunRecord::note(SurfaceId receiver, double projected_area) {
       static_cast<float>(std::clamp(projected_area / unshaded, 0.0, 1.0));
 }
 
+void RunRecord::note_reflected(SurfaceId receiver, double by_ground, double by_shades) {
+  if (!day_ || day_->warm_up || day_->kind == RunDay::Kind::other || !columns_[receiver]) return;
+  auto& reflected = period().reflected;
+  reflected.resize(receivers_.size());
+  auto& [of_ground, of_shades] = reflected[*columns_[receiver]];
+  auto const month = static_cast<std::size_t>(day_->month) - 1;
+  if (month >= of_ground.size()) return;
+  double const hours = 1.0 / day_->steps_per_hour / watt_hours;
+  of_ground.at(month) += by_ground * hours;
+  of_shades.at(month) += by_shades * hours;
+}
+
 void RunRecord::end() {
   end_day();
   day_.reset();
@@ -89,7 +102,6 @@ void RunRecord::end_day() {
 }
 
 void RunRecord::add_beam() {
-  constexpr double watt_hours = 1000.0;  // per kWh
   auto& beam = period().beam;
   auto& months = period().months;
   auto const month = static_cast<std::size_t>(day_->month) - 1;

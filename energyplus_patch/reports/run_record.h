@@ -68,6 +68,9 @@ class RunRecord {
   void begin_step(Moment moment, std::vector<float> shares = {});
   void set_sun(SunDirection sun);
   void note(SurfaceId receiver, double projected_area);
+  // Light that reflections bring a receiver at a timestep of the day, W/m2: on paths on which the
+  // ground reflects, and on others.
+  void note_reflected(SurfaceId receiver, double by_ground, double by_shades);
   void end();
 
   std::vector<SurfaceId> const& receivers() const { return receivers_; }
@@ -81,6 +84,12 @@ class RunRecord {
   // The same of each month, January first.
   using Months = std::array<double, 12>;
   std::vector<Months> const& months() const { return kept().months; }
+  // The same of light that reflections bring, if any was noted.
+  struct Reflected {
+    Months by_ground{};
+    Months by_shades{};
+  };
+  std::vector<Reflected> const& reflected() const { return kept().reflected; }
 
  private:
   struct Step {
@@ -96,7 +105,8 @@ class RunRecord {
     std::size_t simulated = 0;
     std::vector<double> beam;
     std::vector<Months> months;
-    std::size_t last = 0;  // among `days`: whose answers hold
+    std::vector<Reflected> reflected;  // empty: none was noted
+    std::size_t last = 0;              // among `days`: whose answers hold
     // Of the days that these held for, by hour.
     std::array<double, 24> normal_beam{};
     int beam_days = 0;

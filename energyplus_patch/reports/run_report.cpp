@@ -273,6 +273,9 @@ std::vector<SurfaceId> add_surfaces(RunPage& page, SceneAssembly const& assembly
     page.receivers.push_back(
         receiver_of(scene[id], record.beam()[i], record.months()[i],
                     assembly.model().shading.base_of.contains(scene[id].name)));
+    if (record.reflected().empty()) continue;
+    auto const& [by_ground, by_shades] = record.reflected()[i];
+    page.receivers.back().reflected = {by_ground, by_shades};
   }
   for (auto const id : drawn_casters(assembly, scene, record)) {
     auto const& surface = scene[id];
@@ -309,6 +312,9 @@ RunPage page_of(SceneAssembly const& assembly, DeviceInfo const& device, RunReco
       {"Receivers", std::to_string(page.receivers.size())},
       {"Other surfaces drawn", std::to_string(page.surfaces.size() - page.receivers.size())},
       {"Shading computed on", gpu_shading::describe(device)},
+      {"Reflected light", record.reflected().empty()
+                              ? "EnergyPlus's own, which shades do not dim"
+                              : "by ground, shades and neighbours, all of it"},
   };
   if (days.size() < record.days().size()) {
     page.notes.push_back(
@@ -468,11 +474,18 @@ void write_facts(RunPage const& page, std::ostream& csv) {
 }
 
 void write_months(RunPage const& page, std::ostream& csv) {
-  csv << "receiver,month,beam [kWh/m2]\n";
+  csv << "receiver,month,beam [kWh/m2],reflected by ground [kWh/m2],"
+         "reflected by shades [kWh/m2]\n";
   for (std::size_t i = 0; i < page.receivers.size(); ++i) {
-    int month = 0;
-    for (double const beam : page.receivers[i].months) {
-      csv << fmt::format("{},{},{:.1f}\n", csv_field(page.surfaces[i].name), ++month, beam);
+    auto const& [months, reflected] =
+        std::tie(page.receivers[i].months, page.receivers[i].reflected);
+    for (std::size_t month = 0; month < months.size(); ++month) {
+      csv << fmt::format("{},{},{:.1f}", csv_field(page.surfaces[i].name), month + 1,
+                         months.at(month));
+      // Blank where EnergyPlus reflects light, which does not tell these apart.
+      csv << (reflected.empty() ? ",,\n"
+                                : fmt::format(",{:.1f},{:.1f}\n", reflected[0].at(month),
+                                              reflected[1].at(month)));
     }
   }
 }
@@ -489,10 +502,11 @@ void write_receivers(RunPage const& page, std::ostream& csv) {
   csv << "receiver,area [m2],azimuth [deg],tilt [deg],mean sunlit fraction,beam [kWh/m2],"
          "beam [kWh]\n";
   for (std::size_t i = 0; i < page.receivers.size(); ++i) {
-    auto const& [area, azimuth, tilt, mean, beam, months, window] = page.receivers[i];
+    auto const& receiver = page.receivers[i];
     csv << fmt::format("{},{:.3f},{:.1f},{:.1f},{},{:.1f},{:.1f}\n",
-                       csv_field(page.surfaces[i].name), area, azimuth, tilt,
-                       mean ? fmt::format("{:.4f}", *mean) : "", beam, beam * area);
+                       csv_field(page.surfaces[i].name), receiver.area, receiver.azimuth,
+                       receiver.tilt, receiver.mean ? fmt::format("{:.4f}", *receiver.mean) : "",
+                       receiver.beam, receiver.beam * receiver.area);
   }
 }
 

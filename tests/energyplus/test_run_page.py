@@ -197,8 +197,9 @@ def test_beam_by_hour_and_month(run, on_desktop):
     [march] = [float(row["beam [kWh/m2]"]) for row in rows_of(report / "run_months.csv")
                if (row["receiver"], row["month"]) == (HOSTILE, "3")]
     assert march == pytest.approx(sum(theirs.values()) / 4000, abs=0.051)
-    assert on_desktop["months"][2] == f"March: {march:.1f} kWh/m\u00b2"
-    assert sum(float(month.split(": ")[1].split()[0]) for month in on_desktop["months"]) == pytest.approx(march)
+    of_beam = [month for month in on_desktop["months"] if ", reflected by " not in month]
+    assert of_beam[2] == f"March: {march:.1f} kWh/m\u00b2"
+    assert sum(float(month.split(": ")[1].split()[0]) for month in of_beam) == pytest.approx(march)
     # 1 March stands for 20 days, 21 March for two.
     beams = [text.split(": ") for text in on_desktop["beams"]]
     assert len(beams) == on_desktop["fields"]

@@ -204,8 +204,13 @@ Json to_json(PageReceiver const& receiver) {
   constexpr double thousandths = 1e3;
   constexpr double tenths = 10.0;
   constexpr double ten_thousandths = 1e4;
-  Json months = Json::array();
-  for (double const month : receiver.months) months.push_back(rounded(month, tenths));
+  auto const to_tenths = [](std::array<double, 12> const& months) {
+    Json list = Json::array();
+    for (double const month : months) list.push_back(rounded(month, tenths));
+    return list;
+  };
+  Json reflected = Json::array();
+  for (auto const& months : receiver.reflected) reflected.push_back(to_tenths(months));
   return {rounded(receiver.area, thousandths),
           rounded(receiver.azimuth, tenths),
           rounded(receiver.tilt, tenths),
@@ -213,7 +218,8 @@ Json to_json(PageReceiver const& receiver) {
           rounded(receiver.beam, tenths),
           rounded(receiver.beam * receiver.area, tenths),
           receiver.window ? 1 : 0,
-          months};
+          to_tenths(receiver.months),
+          reflected};
 }
 
 Json to_json(PageDay const& day) {

@@ -60,7 +60,10 @@ struct PageReceiver {
   std::optional<double> mean = std::nullopt;
   double beam = 0.0;                // of the run, kWh/m2
   std::array<double, 12> months{};  // of it, January first
-  bool window = false;              // or a door
+  // The same of light reflected by the ground, and by shades, neighbours and the building alone.
+  // Empty: EnergyPlus's own.
+  std::vector<std::array<double, 12>> reflected = {};
+  bool window = false;  // or a door
 };
 
 // What a receiver sees of the sky, in cells of SkyGrid(sky_step).

@@ -42,8 +42,13 @@ class Wall {
 
  private:
   ReflectedIrradiance& irradiance() {
-    if (!irradiance_) irradiance_.emplace(assembly_, latitude);
+    if (!irradiance_) irradiance_.emplace(assembly_, latitude, silent());
     return *irradiance_;
+  }
+
+  static Messages silent() {
+    auto const ignore = [](std::string const&) {};
+    return {ignore, ignore, ignore};
   }
 
   static Model model_of(std::string const& idf) {

@@ -103,6 +103,7 @@ function showCharts() {
       text: (d, h) => beamOf(receiver, d, h) === null ? percentText(content.turnedAway)
         : `${Math.round(beamOf(receiver, d, h))} W/m\u00b2`}));
   }
+  part("of-reflected").hidden = content.receivers[receiver][MONTH_REFLECTED].length === 0;
   if (drawn("months")) part("months-plot").replaceChildren(monthBars(receiver));
   if (drawn("sky")) showSky(now);
 }
