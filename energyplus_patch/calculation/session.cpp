@@ -192,10 +192,7 @@ void Session::move_shades(std::optional<SunDirection> sun) {
   if (sun && !day_.warm_up) step_error_->note(*sun, corners_, exact);
   bool const moved = positions != scene_.positions();
   stand(positions);
-  if (!moved || !scene_.hides_moving_shades()) return;
-  obstructions_.reset();
-  luminance_.reset();
-  renew_reflections();
+  if (moved && scene_.hides_moving_shades()) obstructions_.reset();
 }
 
 void Session::stand(std::vector<double> const& positions) {
@@ -230,7 +227,6 @@ std::string Session::describe_time() const {
 void Session::set_time(Moment moment) {
   if (!answers_) return;
   moment_ = moment;
-  if (auto* const first = first_sun_now()) first->reset();
   naming(describe_time(), [&] { read_schedules(); });
   if (record_) record_->begin_step(moment, shares_of(scene_.optics()));
   if (!control_) return;
@@ -249,8 +245,6 @@ void Session::read_schedules() {
     // The CPU also if it took over from a GPU.
     DeviceChoice const device{answers_->rendered().renderer().device().id};
     obstructions_.reset();
-    luminance_.reset();
-    renew_reflections();
     if (control_) control_->renew();
     answers_->close();
     answers_->open(open_renderer(scene_, receivers, device, messages_));
@@ -265,17 +259,6 @@ void Session::set_sun(SunDirection sun) {
   sky_patch_ = is_sky_patch(sun);
   if (undecided_ && !sky_patch_) move_shades(sun);
   if (record_) record_->set_sun(sun);
-  if (auto* const first = first_sun_now()) *first = to_vector(sun);
-}
-
-// Where the sun of this moment is kept, at an hour's first timestep.
-std::optional<glm::dvec3>* Session::first_sun_now() {
-  if (moment_.timestep != 1 || moment_.hour < 1) return nullptr;
-  return &first_suns_.at(static_cast<std::size_t>(moment_.hour - 1));
-}
-
-std::optional<glm::dvec3> Session::first_sun(int hour) const {
-  return first_suns_.at(static_cast<std::size_t>(hour - 1));
 }
 
 double Session::projected_sunlit_area(SurfaceId receiver) {
@@ -392,27 +375,6 @@ double Session::daylight_transmittance(Ray const& ray, int hour) {
 
 void Session::begin_daylighting() {
   if (obstructions_) obstructions_->renew();
-  if (luminance_) luminance_->renew();
-}
-
-HiddenReflections* Session::reflections() {
-  if (!answers_) throw Error("EnergyPlus asks for reflections before its surfaces are complete");
-  if (!reflections_) reflections_.emplace(scene_);
-  return reflections_->any() ? &*reflections_ : nullptr;
-}
-
-HiddenLuminance* Session::luminance() {
-  if (!answers_) throw Error("EnergyPlus asks for daylight before its surfaces are complete");
-  if (!luminance_) luminance_.emplace(scene_);
-  return luminance_->any() ? &*luminance_ : nullptr;
-}
-
-// With the optics as they are now.
-void Session::renew_reflections() {
-  if (!reflections_) return;
-  auto rays = reflections_->rays();
-  reflections_.emplace(scene_);
-  reflections_->set_rays(std::move(rays));
 }
 
 std::string Session::vendor() {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <variant>
@@ -15,8 +13,7 @@
 #include "calculation/sky_multipliers.h"
 #include "calculation/step_error.h"
 #include "hidden/daylight_memory.h"
-#include "hidden/hidden_luminance.h"
-#include "hidden/hidden_reflections.h"
+#include "hidden/hidden_obstructions.h"
 #include "model/model_reader.h"
 #include "reports/position_record.h"
 #include "reports/run_record.h"
@@ -85,12 +82,6 @@ class Session : public ShadingCalculation {
     return scene_.optics().has_schedules() || scene_.hides_moving_shades();
   }
 
-  // What hidden casters do to reflected solar radiation; nullptr if there are none.
-  HiddenReflections* reflections();
-
-  // What they do to light that daylighting receives by reflection; nullptr if there are none.
-  HiddenLuminance* luminance();
-
   // Whether sky_multipliers() are wanted in place of EnergyPlus's own.
   bool weighs_sky_patches() const { return scene_.model().options.sky == SkyModel::perez_patches; }
   // SkyMultipliers::at() with the shades as they are now, by EnergyPlus's id; negative for
@@ -102,10 +93,6 @@ class Session : public ShadingCalculation {
   // At each timestep: the reflectance of the own ground of each of them, in the model's order;
   // empty while nothing lights the ground.
   std::vector<double> ground_reflectances(ReflectedIrradiance::Time const& time);
-
-  // The last direction to the sun at the first timestep of an hour, 1 .. 24; nothing if EnergyPlus
-  // did not ask for it.
-  std::optional<glm::dvec3> first_sun(int hour) const;
 
   std::string vendor() override;
 
@@ -133,8 +120,6 @@ class Session : public ShadingCalculation {
   void interpolate(Function const& function);
   double with_pv_loss(SurfaceId id, double projected_area);
   double of_drawn(SurfaceId id, double projected_area) const;
-  void renew_reflections();
-  std::optional<glm::dvec3>* first_sun_now();
 
   SceneAssembly scene_;
   // By EnergyPlus's id: the id in the scene, or a placeholder.
@@ -142,8 +127,6 @@ class Session : public ShadingCalculation {
   Messages messages_;
   Moment moment_;
   bool failed_ = false;
-  static constexpr std::size_t hours = 24;
-  std::array<std::optional<glm::dvec3>, hours> first_suns_;
   std::optional<SunQuestions> answers_;  // once started
   std::optional<RunRecord> record_;      // for the report
   std::optional<ShadeControl> control_;  // of moving shades
@@ -171,8 +154,6 @@ class Session : public ShadingCalculation {
   std::vector<double> wind_;  // the same
   DaylightMemory daylight_memory_;
   std::optional<HiddenObstructions> obstructions_;  // once asked for
-  std::optional<HiddenReflections> reflections_;    // once asked for
-  std::optional<HiddenLuminance> luminance_;        // once asked for
 };
 
 }  // namespace gpu_shading::energyplus

@@ -7,15 +7,15 @@ void DaylightMemory::note_shadows(int hour) {
   last_hour_ = hour;
 }
 
-void DaylightMemory::begin(Holds holds) {
+void DaylightMemory::begin(bool rays_hold) {
   hour_.reset();
   bool const is_hour = last_hour_ >= 1 && last_hour_ <= static_cast<int>(hours);
   if (shadows_ == 1 && is_hour) hour_ = last_hour_;
   shadows_ = 0;
   sun_ = false;
   rays_ = nullptr;
-  holds_ = holds;
-  if (!holds.rays) rays_of_.clear();
+  rays_hold_ = rays_hold;
+  if (!rays_hold) rays_of_.clear();
   reflected_ = {};
   reflected_now_ = nullptr;
   obstructions_ = {};
@@ -44,7 +44,7 @@ bool DaylightMemory::begin_points(Points points, bool sun_in_weather) {
       zeros.of_hour.reset();
     }
   }
-  if (holds_.rays) {
+  if (rays_hold_) {
     rays_ = &rays_of_.try_emplace(points, room_for_rays_).first->second;
     rays_->restart();
   }
@@ -54,7 +54,7 @@ bool DaylightMemory::begin_points(Points points, bool sun_in_weather) {
 bool DaylightMemory::begin_reflected(Reflected const& reflected) {
   reflected_now_ = nullptr;
   bool const is_hour = reflected.hour >= 1 && reflected.hour <= static_cast<int>(hours);
-  if (!holds_.reflected || !is_hour) return true;
+  if (!is_hour) return true;
   auto& kept = reflected_.at(static_cast<std::size_t>(reflected.hour));
   auto const obstructions = reflected.first ? reflected : obstructions_;
   bool const known = kept && kept->reflected == reflected && kept->obstructions == obstructions &&

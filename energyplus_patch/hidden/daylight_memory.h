@@ -109,12 +109,8 @@ class DaylightMemory {
   // What EnergyPlus says, in its order. Shadows of the beam are computed at a timestep of an hour,
   // 1 .. 24;
   void note_shadows(int hour);
-  // then factors, of all points;
-  struct Holds {
-    bool rays = false;       // an answer to a ray, as long as the run
-    bool reflected = false;  // reflected light, until factors are computed again
-  };
-  void begin(Holds holds);
+  // then factors, of all points. `rays_hold`: an answer to a ray does, as long as the run;
+  void begin(bool rays_hold);
   // the sun is up in an hour of those;
   void note_sun() { sun_ = true; }
   // then those of points, whether the sun is up in EnergyPlus's weather. False if they are known to
@@ -192,7 +188,7 @@ class DaylightMemory {
   std::map<Points, Zeros> zeros_;
   std::size_t room_for_rays_ = 1'000'000;        // 64 MB
   std::size_t room_for_luminances_ = 1'000'000;  // 32 MB
-  Holds holds_;
+  bool rays_hold_ = false;
   struct KeptReflected {
     Reflected reflected;
     Reflected obstructions;  // where they are from

@@ -39,7 +39,6 @@ struct Model {
   std::optional<std::filesystem::path> surrounding_objects;  // to be added to EnergyPlus's input
   Names own_environments;             // surfaces with a SurfaceProperty:LocalEnvironment
   bool daylighting_answered = false;  // rays of daylighting ask this module
-  bool reflections_answered = false;  // rays of solar reflections do
   ReflectedLight reflected_light;
   std::vector<FieldChange> field_changes;  // in EnergyPlus's input
   std::vector<NewObject> new_objects;

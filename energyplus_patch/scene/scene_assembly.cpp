@@ -232,14 +232,6 @@ Scene SceneAssembly::hidden_casters() const {
   return scene;
 }
 
-std::vector<SurfaceId> SceneAssembly::hidden(Scene const& scene) const {
-  std::vector<SurfaceId> ids;
-  for (auto id = static_cast<SurfaceId>(size()); id < surfaces_.size(); ++id) {
-    if (scene[id].casting != Casting::never) ids.push_back(id);
-  }
-  return ids;
-}
-
 Hash SceneAssembly::hash(Scene const& scene, DeviceInfo const& device) const {
   auto const at_rest = hash_scene(scene, {renderer_options(model_.options), device, build_id()});
   if (moving_shades_.empty()) return at_rest;

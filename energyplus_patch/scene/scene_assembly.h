@@ -102,9 +102,6 @@ class SceneAssembly {
   // The casters that are not EnergyPlus's surfaces, with the optics as they are now for light.
   Scene hidden_casters() const;
 
-  // Their ids in scene().
-  std::vector<SurfaceId> hidden(Scene const& scene) const;
-
   // Hash of all that an answer depends on: of a scene(), rendered on a device.
   Hash hash(Scene const& scene, DeviceInfo const& device) const;
 

@@ -55,11 +55,11 @@ def room(box):
 def run(official, patched, weather, tmp_path):
     """Runs a text's design day; without options, in stock EnergyPlus."""
 
-    def call(text, name, *options, environment=None):
+    def call(text, name, *options):
         path = tmp_path / f"{name}.idf"
         path.write_text(text)
         program = patched if options else official
-        done = energyplus.run(program, path, weather, tmp_path / name, ["-D", *options], environment)
+        done = energyplus.run(program, path, weather, tmp_path / name, ["-D", *options])
         assert done.completed, done.why()
         return done
 
@@ -156,6 +156,20 @@ def test_models_of_others_give_stock_results(row, official, patched, tmp_path):
         assert each.completed, each.why()
     assert runs[0].text("eplusout.dfs").count("\n") > 40
     assert_equal_to_stock(*runs)
+
+
+@pytest.mark.parametrize("ours", [True, False])
+def test_reflections_are_energyplus_s_or_none(ours, louvres, run):
+    """Where this module computes reflected sunlight, daylighting has none from outdoor surfaces."""
+    plain = daylit_rooms.plain(louvres(20))
+    text = plain.replace("FullInteriorAndExterior,", "FullInteriorAndExteriorWithReflections,")
+    answer = run(text, "answer", "--gpu-shading", *([] if ours else ["--gpu-shading-reflections=energyplus"]))
+    warning = "daylighting has no reflections from outdoor surfaces"
+    assert (warning in answer.text("eplusout.err")) == ours
+    stock = {name: factors(run(each, name)) for name, each in (("plain", plain), ("reflecting", text))}
+    assert stock["plain"] != pytest.approx(stock["reflecting"], rel=1e-3)
+    # What surfaces reflect of the sky depends on sunlit fractions, by clipping here and by rendering there.
+    assert factors(answer) == pytest.approx(stock["plain" if ours else "reflecting"], rel=5e-5, abs=1e-7)
 
 
 @pytest.mark.parametrize("make", [daylit_rooms.several_windows_and_a_map, daylit_rooms.interior_window,

@@ -28,10 +28,10 @@ def model(box):
         f"Output:Variable,*,{name},Timestep;\n" for name in (SKY, BEAM, DIFFUSE, ALTITUDE))
 
 
-def run(program, weather, folder, text, *options):
+def run(program, weather, folder, text, *options, environment=None):
     path = folder.with_suffix(".idf")
     path.write_text(text)
-    return energyplus.run(program, path, weather, folder, ["--gpu-shading", *options])
+    return energyplus.run(program, path, weather, folder, ["--gpu-shading", *options], environment)
 
 
 def series(done, name):
@@ -50,6 +50,15 @@ def site(year):
     beam, diffuse, altitude = (next(iter(series(year, name).values())) for name in (BEAM, DIFFUSE, ALTITUDE))
     assert len(beam) == HOURS
     return beam, diffuse, (altitude > 5) & (diffuse > 10)
+
+
+def test_an_unexpected_layout_of_energyplus_s_memory_stops_the_run(patched, weather, model, tmp_path):
+    library = energyplus.build_folder() / "tests" / "faults" / "libno_size.so"
+    if not library.is_file():
+        pytest.skip(f"{library} is missing: run scripts/build")
+    done = run(patched, weather, tmp_path / "run", model, FLAG, "-D", environment={"LD_PRELOAD": str(library)})
+    assert not done.completed
+    assert "sky multipliers have an unexpected layout in memory; expected energyplus" in done.text("eplusout.err")
 
 
 def test_level_roof_receives_the_horizontal_irradiance(year, site):

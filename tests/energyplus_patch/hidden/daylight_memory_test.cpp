@@ -14,7 +14,7 @@ DaylightMemory::Points const map{Kind::map, 1};
 // One timestep with shadows of its own; whether the factors of points are computed.
 bool computed(DaylightMemory& memory, int hour, bool sun, DaylightMemory::Points points = control) {
   memory.note_shadows(hour);
-  memory.begin({.rays = true, .reflected = true});
+  memory.begin(true);
   if (sun) memory.note_sun();
   bool const wanted = memory.begin_points(points, sun);
   memory.end_points();
@@ -45,7 +45,7 @@ TEST(DaylightMemory, IsInTheDarkOnlyIfTheWeatherIs) {
   DaylightMemory memory;
   EXPECT_TRUE(computed(memory, 1, false));
   memory.note_shadows(1);
-  memory.begin({.rays = true, .reflected = true});
+  memory.begin(true);
   EXPECT_TRUE(memory.begin_points(control, true));
   EXPECT_TRUE(computed(memory, 1, false));
 }
@@ -54,12 +54,12 @@ TEST(DaylightMemory, ComputesFactorsOfWholeDays) {
   DaylightMemory memory;
   for (int day = 0; day < 2; ++day) {
     for (int hour = 1; hour <= 24; ++hour) memory.note_shadows(hour);
-    memory.begin({.rays = true, .reflected = true});
+    memory.begin(true);
     EXPECT_TRUE(memory.begin_points(control, false));
   }
   // Nothing is known of shadows since the factors were computed.
   EXPECT_TRUE(computed(memory, 1, false));
-  memory.begin({.rays = true, .reflected = true});
+  memory.begin(true);
   EXPECT_TRUE(memory.begin_points(control, false));
 }
 
@@ -71,7 +71,7 @@ TEST(DaylightMemory, KeepsRaysOnlyWhileTheyHold) {
   EXPECT_NE(ray, sky);
   EXPECT_EQ(memory.rays(), nullptr);
   auto const begin = [&](bool hold) {
-    memory.begin({.rays = hold});
+    memory.begin(hold);
     memory.begin_points(control, true);
     return memory.rays();
   };
@@ -103,7 +103,7 @@ struct Sky {
 
 TEST(DaylightMemory, ComputesTheSkyOfAWindowOnce) {
   DaylightMemory memory;
-  memory.begin({.rays = true, .reflected = true});
+  memory.begin(true);
   Sky sky;
   auto const first = sky.integrate(memory, 1);
   EXPECT_EQ(sky.calls, 10);
@@ -111,7 +111,7 @@ TEST(DaylightMemory, ComputesTheSkyOfAWindowOnce) {
   EXPECT_EQ(sky.calls, 11);  // the first one, as a test
   sky.integrate(memory, 2);
   EXPECT_EQ(sky.calls, 21);
-  memory.begin({.rays = true, .reflected = true});
+  memory.begin(true);
   sky.integrate(memory, 1);
   EXPECT_EQ(sky.calls, 31);
 }
@@ -121,10 +121,10 @@ TEST(DaylightMemory, KeepsTheSkyOfWindowsThatRecurs) {
   EXPECT_FALSE(memory.sky_recurs(12, 1));
   EXPECT_FALSE(memory.sky_recurs(12, 2));
   EXPECT_FALSE(memory.sky_recurs(13, 1));
-  memory.begin({});
+  memory.begin(false);
   EXPECT_FALSE(memory.sky_recurs(12, 1));
   EXPECT_TRUE(memory.sky_recurs(12, 1));
-  memory.begin({});
+  memory.begin(false);
   EXPECT_TRUE(memory.sky_recurs(13, 1));
   EXPECT_FALSE(memory.sky_recurs(13, 2));
 }
@@ -155,7 +155,7 @@ TEST(DaylightMemory, ComputesReflectedLightOnceForOneWindow) {
     for (int hour = 8; hour <= 17; ++hour) count += reflected(hour, hour == 8, window) ? 1 : 0;
     return count;
   };
-  memory.begin({.reflected = true});
+  memory.begin(false);
   EXPECT_EQ(point(1), 10);
   EXPECT_EQ(point(1), 0);
   EXPECT_EQ(point(2), 10);  // EnergyPlus keeps one window's
@@ -163,17 +163,14 @@ TEST(DaylightMemory, ComputesReflectedLightOnceForOneWindow) {
   EXPECT_TRUE(memory.begin_reflected({12, false, 2, 1}));  // in another enclosure
   EXPECT_TRUE(reflected(12, false, 1));
   EXPECT_FALSE(reflected(12, false, 1));
-  memory.begin({.reflected = true});
-  EXPECT_EQ(point(1), 10);
-  memory.begin({});
-  EXPECT_EQ(point(1), 10);
+  memory.begin(false);
   EXPECT_EQ(point(1), 10);
 }
 
 // The obstructions that EnergyPlus keeps are those of another window.
 TEST(DaylightMemory, ComputesReflectedLightAgainForOtherObstructions) {
   DaylightMemory memory;
-  memory.begin({.reflected = true});
+  memory.begin(false);
   EXPECT_TRUE(memory.begin_reflected({12, false, 1, 1}));
   EXPECT_FALSE(memory.begin_reflected({12, false, 1, 1}));
   EXPECT_TRUE(memory.begin_reflected({8, true, 1, 2}));
@@ -185,7 +182,7 @@ TEST(DaylightMemory, ComputesReflectedLightAgainForOtherObstructions) {
 
 TEST(DaylightMemory, AlwaysComputesWhatIsAddedToSums) {
   DaylightMemory memory;
-  memory.begin({.reflected = true});
+  memory.begin(false);
   for (int point = 0; point < 2; ++point) {
     EXPECT_TRUE(memory.begin_reflected({12, false, 1, 1}));
     memory.note_sums();

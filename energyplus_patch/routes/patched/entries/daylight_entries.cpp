@@ -1,10 +1,8 @@
 #include <glm/geometric.hpp>
-#include <optional>
 #include <utility>
 
 #include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
-#include "routes/patched/memory/daylight_reflections.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -58,9 +56,6 @@ double share_of(Session& session, Ray const& ray, int hour) {
 // What EnergyPlus's surfaces and ours let pass.
 double obstructions(State& state, int hour, int window, Vector const& origin,
                     Vector const& direction) {
-  if (auto* const reflections = guarded([&] { return daylight_reflections(state); })) {
-    reflections->begin_ray(direction);
-  }
   double const passed = original_hit_obstruction(state, hour, window, origin, direction);
   auto* const session = answering_session();
   if (session == nullptr || passed <= 0.0) return passed;
@@ -88,12 +83,7 @@ bool blocked(Session& session, Vector const& from, Vector const& to, double befo
 
 bool follow_interior(State& state, int window, Vector const& from, Vector const& to) {
   arrived() = {};
-  std::optional<bool> image;
-  if (auto* const reflections = guarded([&] { return daylight_reflections(state); })) {
-    image = guarded([&] { return reflections->stops_image(window, from, to); });
-  }
   if (original_hit_interior(state, window, from, to)) return true;
-  if (image) return *image;
   auto* const session = answering_session();
   return session != nullptr && blocked(*session, from, to, 1.0);
 }
@@ -119,11 +109,8 @@ bool hit_between(State& state, int first, int second, Vector const& from, Vector
 
 void coefficients(State& state) {
   if (auto* const session = answering_session()) guarded([&] { session->begin_daylighting(); });
-  begin_daylight_memory(state);
-  auto const reflections = [&] { return guarded([&] { return daylight_reflections(state); }); };
-  if (auto* const active = reflections()) active->begin_period();
+  begin_daylight_memory();
   original_coefficients(state);
-  if (auto* const active = reflections()) active->end_period();
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <atomic>
+#include <optional>
 
 #include "routes/patched/binary/preserving_thunk.h"
 #include "routes/patched/entries/entries.h"
@@ -37,6 +38,8 @@ namespace {
 PointerTo<symbol::tube_transmittance> original_tube = nullptr;
 PointerTo<symbol::control_points> original_control_points = nullptr;
 PointerTo<symbol::map_points> original_map_points = nullptr;
+PointerTo<symbol::horizontal_illuminance> original_horizontal = nullptr;
+PointerTo<symbol::inter_reflected> original_inter_reflected = nullptr;
 
 // While EnergyPlus integrates over a sky that is kept; nullptr otherwise.
 DaylightMemory*& integrating() {
@@ -48,6 +51,47 @@ double sky_luminance(State const& state, int sky, double azimuth, double altitud
   auto const compute = [&] { return gpu_shading_own_luminance(state, sky, azimuth, altitude); };
   auto* const memory = integrating();
   return memory == nullptr ? compute() : memory->luminance(sky, azimuth, altitude, compute);
+}
+
+// While EnergyPlus integrates over the sky that a window sees at an hour.
+class SkyIntegral {
+ public:
+  SkyIntegral(int hour, int window) : before_(integrating()) {
+    auto* const memory = daylight_memory();
+    if (memory == nullptr) return;
+    guarded([&] {
+      if (memory->sky_recurs(hour, window)) sky_.emplace(*memory, hour, window);
+    });
+    if (!sky_) return;
+    integrating() = memory;
+    ++gpu_shading_sky_integrals;
+  }
+  SkyIntegral(SkyIntegral const&) = delete;
+  SkyIntegral& operator=(SkyIntegral const&) = delete;
+  ~SkyIntegral() {
+    if (!sky_) return;
+    --gpu_shading_sky_integrals;
+    integrating() = before_;
+  }
+
+ private:
+  DaylightMemory* before_;
+  std::optional<DaylightMemory::SkyOfWindow> sky_;
+};
+
+// EnergyPlus asks for it where the sun is up.
+void horizontal(State& state, Illuminance& at) {
+  if (auto* const memory = daylight_memory()) memory->note_sun();
+  original_horizontal(state, at);
+}
+
+void inter_reflected(State& state, int sun_position, int hour, int enclosure, int window) {
+  // EnergyPlus counts positions of the sun for each window.
+  auto* const memory = daylight_memory();
+  DaylightMemory::Reflected const reflected{hour, sun_position == 1, enclosure, window};
+  if (memory != nullptr && !memory->begin_reflected(reflected)) return;
+  SkyIntegral const kept(hour, window);
+  original_inter_reflected(state, sun_position, hour, enclosure, window);
 }
 
 // What a tubular device lets pass. EnergyPlus adds it up for all points.
@@ -85,31 +129,10 @@ DaylightMemory* daylight_memory() {
   return ours ? &run.session->daylight_memory() : nullptr;
 }
 
-SkyIntegral::SkyIntegral(int hour, int window) : before_(integrating()) {
+void begin_daylight_memory() {
   auto* const memory = daylight_memory();
   if (memory == nullptr) return;
-  guarded([&] {
-    if (memory->sky_recurs(hour, window)) sky_.emplace(*memory, hour, window);
-  });
-  if (!sky_) return;
-  integrating() = memory;
-  ++gpu_shading_sky_integrals;
-}
-
-SkyIntegral::~SkyIntegral() {
-  if (!sky_) return;
-  --gpu_shading_sky_integrals;
-  integrating() = before_;
-}
-
-void begin_daylight_memory(State& state) {
-  auto* const memory = daylight_memory();
-  if (memory == nullptr) return;
-  guarded([&] {
-    // DaylightReflections looks at the rays one after another.
-    bool const alone = daylight_reflections(state) == nullptr;
-    memory->begin({.rays = alone && !this_run().session->daylight_varies(), .reflected = alone});
-  });
+  guarded([&] { memory->begin(!this_run().session->daylight_varies()); });
 }
 
 std::vector<Entry> daylight_memory_entries() {
@@ -124,6 +147,8 @@ std::vector<Entry> daylight_memory_entries() {
       watch(symbol::tube_transmittance, &tube, &original_tube),
       watch(symbol::control_points, &control_points, &original_control_points),
       watch(symbol::map_points, &map_points, &original_map_points),
+      watch(symbol::horizontal_illuminance, &horizontal, &original_horizontal),
+      watch(symbol::inter_reflected, &inter_reflected, &original_inter_reflected),
   };
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "hidden/daylight_memory.h"
@@ -8,9 +7,6 @@
 #include "routes/patched/symbols/energyplus_symbols.h"
 
 namespace gpu_shading::energyplus {
-
-class SolarReflections;
-class DaylightReflections;
 
 // A function of the table of symbols that is redirected to ours.
 struct Entry {
@@ -36,18 +32,14 @@ std::vector<Entry> penumbra_entries();
 // The watched functions: where EnergyPlus reads its input, which is changed in memory on the way;
 // where it describes its shading in the .eio file; and where it ends.
 std::vector<Entry> input_entries();
-// Those of the shading calculation that give the day, hour and timestep, and the warning that
-// transmittance schedules are ignored, which does not apply here.
+// Those of the shading calculation that give the day, hour and timestep, and those that warn of
+// what does not apply here.
 std::vector<Entry> shading_entries();
 // Those through which EnergyPlus writes errors and warnings: UnwantedMessages.
 std::vector<Entry> message_entries();
 // Those that tell what obstructs rays of daylighting. The originals answer for the surfaces that
 // EnergyPlus knows, ours for the others.
 std::vector<Entry> daylight_entries();
-// Those that compute solar reflections, likewise: SolarReflections.
-std::vector<Entry> reflection_entries();
-// Those of reflections in daylighting, likewise: DaylightReflections.
-std::vector<Entry> daylight_reflection_entries();
 // Those of daylighting that compute again what is known: DaylightMemory.
 std::vector<Entry> daylight_memory_entries();
 
@@ -58,35 +50,13 @@ std::vector<EntryPatch> glfw_entries();
 // Has EnergyPlus ask for the light that this run's model reflects, at each timestep.
 void follow_reflected_light(State& state);
 
-// Computes reflections in this thread's run; nullptr if EnergyPlus alone does.
-SolarReflections* solar_reflections(State& state);
-
-// The same for daylighting.
-DaylightReflections* daylight_reflections(State& state);
-
-// EnergyPlus begins its solar reflections anew.
-void forget_daylight_reflections();
-
 // The memory of this thread's run; nullptr if EnergyPlus's daylighting is left alone.
 DaylightMemory* daylight_memory();
 
 // EnergyPlus begins to compute daylight factors.
-void begin_daylight_memory(State& state);
+void begin_daylight_memory();
 
 // EnergyPlus has set the sun, or asks for the next patch of the sky.
 void note_sun();
-
-// While EnergyPlus integrates over the sky that a window sees at an hour.
-class SkyIntegral {
- public:
-  SkyIntegral(int hour, int window);
-  SkyIntegral(SkyIntegral const&) = delete;
-  SkyIntegral& operator=(SkyIntegral const&) = delete;
-  ~SkyIntegral();
-
- private:
-  DaylightMemory* before_;
-  std::optional<DaylightMemory::SkyOfWindow> sky_;
-};
 
 }  // namespace gpu_shading::energyplus

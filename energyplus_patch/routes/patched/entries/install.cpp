@@ -52,8 +52,7 @@ class CannotPatch : public Error {
 std::vector<Entry> all_entries() {
   std::vector<Entry> entries;
   for (auto const& part : {penumbra_entries(), input_entries(), shading_entries(),
-                           message_entries(), daylight_entries(), reflection_entries(),
-                           daylight_reflection_entries(), daylight_memory_entries()}) {
+                           message_entries(), daylight_entries(), daylight_memory_entries()}) {
     entries.insert(entries.end(), part.begin(), part.end());
   }
   return entries;
@@ -92,14 +91,11 @@ std::set<Need> find_served(SymbolTable const& symbols, std::vector<Entry> const&
   auto const require = [&](Need need, Need other) {
     if (!served.contains(other)) served.erase(need);
   };
-  require(Need::reflections, Need::surface_ids);
-  require(Need::sky_patches, Need::reflections);
+  require(Need::sky_patches, Need::surface_ids);
   require(Need::sky_patches, Need::long_wave);
   require(Need::sky_patches, Need::run_days);
   require(Need::reflected_light, Need::run_days);
-  require(Need::daylight_reflections, Need::reflections);
-  require(Need::daylight_reflections, Need::daylight_rays);
-  require(Need::daylight_memory, Need::daylight_reflections);
+  require(Need::daylight_memory, Need::daylight_rays);
   return served;
 }
 

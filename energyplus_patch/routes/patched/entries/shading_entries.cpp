@@ -1,5 +1,6 @@
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -17,6 +18,7 @@ PointerTo<symbol::solar_beam_at_timestep> original_solar_beam = nullptr;
 PointerTo<symbol::sky_shading> original_sky_shading = nullptr;
 PointerTo<symbol::sky_view_factors> original_sky_view_factors = nullptr;
 PointerTo<symbol::process_shadowing_input> original_process_shadowing_input = nullptr;
+PointerTo<symbol::init_reflections> original_init_reflections = nullptr;
 PointerTo<symbol::perform_solar_calculations> original_solar_calculations = nullptr;
 PointerTo<symbol::shadow> original_shadow = nullptr;
 
@@ -154,6 +156,17 @@ void process_shadowing_input(State& state) {
   original_process_shadowing_input(state);
 }
 
+// Here EnergyPlus warns of surfaces that reach below the ground, as placeholders do.
+void init_reflections(State& state) {
+  UnwantedMessages const unwanted([](std::string_view message) {
+    auto const& model = this_run().model;
+    auto const name = message.substr(message.find('=') + 1);
+    return message.starts_with("Calculation of reflected solar onto surface=") && model &&
+           model->lean.is_placeholder(std::string(name.substr(0, name.find(" may be"))));
+  });
+  original_init_reflections(state);
+}
+
 }  // namespace
 
 void note_sun() {
@@ -171,6 +184,7 @@ std::vector<Entry> shading_entries() {
       watch(symbol::sky_view_factors, &sky_view_factors, &original_sky_view_factors),
       watch(symbol::process_shadowing_input, &process_shadowing_input,
             &original_process_shadowing_input),
+      watch(symbol::init_reflections, &init_reflections, &original_init_reflections),
       watch(symbol::perform_solar_calculations, &solar_calculations, &original_solar_calculations),
   };
 }

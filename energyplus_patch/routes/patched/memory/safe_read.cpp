@@ -14,6 +14,9 @@ bool read_memory(void const* from, void* to, std::size_t size) {
 
 std::byte* read_pointer(void const* from) { return read_value<std::byte*>(from).value_or(nullptr); }
 
+namespace {
+
+// The words of an object, up to `size` bytes or to the end of valid memory.
 std::vector<std::byte const*> words_of(std::byte const* object, std::size_t size) {
   std::vector<std::byte const*> words(size / sizeof(void*));
   if (read_memory(object, words.data(), words.size() * sizeof(void*))) return words;
@@ -25,6 +28,8 @@ std::vector<std::byte const*> words_of(std::byte const* object, std::size_t size
   }
   return words;
 }
+
+}  // namespace
 
 std::vector<std::byte const*> words_of_block(std::byte const* object) {
   return words_of(object, malloc_usable_size(const_cast<std::byte*>(object)));

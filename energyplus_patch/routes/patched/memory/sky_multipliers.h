@@ -12,7 +12,7 @@ namespace gpu_shading::energyplus {
 // of its SolarShadingData that `call`, its AnisoSkyViewFactors, computes from the ratios of the
 // sky's shading; others that it sets do not depend on them, and those that it does not set keep
 // what they had. nullptr if it is not found, as where the sun lights no surface yet. `symbols` must
-// have those of Need::long_wave and Need::reflections.
+// have those of Need::long_wave and Need::sky_patches.
 std::byte* find_sky_multipliers(State& state, SymbolTable const& symbols,
                                 std::function<void()> const& call);
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <glm/vec3.hpp>
@@ -44,12 +43,8 @@ struct Vector {
 
 inline glm::dvec3 to_glm(Vector const& vector) { return {vector.x, vector.y, vector.z}; }
 
-// EnergyPlus's Illums: what four skies, the sun's light without its disk, and its disk give.
-struct Illuminance {
-  std::array<double, 4> skies;
-  double sun;
-  double sun_disk;
-};
+// EnergyPlus's Illums.
+struct Illuminance;
 
 // What a symbol of EnergyPlus serves. If a build lacks one of a need's symbols:
 enum class Need {
@@ -62,14 +57,13 @@ enum class Need {
   sky_times,        // beam that reveals reflect is wrong where the sky follows schedules
   long_wave,        // nothing shades long-wave radiation where the sky follows shades that change
   sky_patches,      // --gpu-shading-sky perez-patches is an error
-  surface_ids,      // mirrored shading surfaces are taken as shaded, and there are no `reflections`
+  below_ground,     // EnergyPlus warns that placeholders reach below the ground
+  surface_ids,      // mirrored shading surfaces are taken as shaded
   run_days,         // the report has no days
   outputs,          // moving shades have no output variables
   reflected_light,  // EnergyPlus's own terms alone reflect light
   daylight_rays,    // hidden casters dim no rays of daylighting
-  reflections,      // hidden casters do not take part in solar reflections
-  daylight_reflections,  // hidden casters do not take part in reflections of daylighting
-  daylight_memory        // EnergyPlus computes daylighting again where nothing has changed
+  daylight_memory   // EnergyPlus computes daylighting again where nothing has changed
 };
 
 // A function of EnergyPlus.

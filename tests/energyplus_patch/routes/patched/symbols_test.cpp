@@ -41,16 +41,14 @@ std::string our_parameters(std::string const& signature) {
 // EnergyPlus's types in the words of ours.
 std::string their_parameters(std::string const& declaration) {
   auto list = parameters(declaration);
-  for (
-      auto const& [theirs, ours] : std::vector<std::pair<char const*, char const*>>{
-          {R"(ObjexxFCL::Vector3<double>)", "gpu_shading::energyplus::Vector"},
-          {R"(EnergyPlus::Dayltg::Illums)", "gpu_shading::energyplus::Illuminance"},
-          {R"(Penumbra::Surface\b)", "gpu_shading::energyplus::SurfaceObject"},
-          {R"(EnergyPlus::(Dayltg|DataSurfaces)::(SkyType|RadType|WinShadingType|ExtWinType|CalledFor))",
-           "int"},
-          {R"(EnergyPlus::Constant::(Units|eResource))", "int"},
-          {R"(EnergyPlus::OutputProcessor::(TimeStepType|StoreType|Group|EndUseCat))", "int"},
-          {R"(EnergyPlus::OutputProcessor::ReportFreq)", "int"}}) {
+  for (auto const& [theirs, ours] : std::vector<std::pair<char const*, char const*>>{
+           {R"(ObjexxFCL::Vector3<double>)", "gpu_shading::energyplus::Vector"},
+           {R"(EnergyPlus::Dayltg::Illums)", "gpu_shading::energyplus::Illuminance"},
+           {R"(Penumbra::Surface\b)", "gpu_shading::energyplus::SurfaceObject"},
+           {R"(EnergyPlus::Dayltg::(SkyType|RadType))", "int"},
+           {R"(EnergyPlus::Constant::(Units|eResource))", "int"},
+           {R"(EnergyPlus::OutputProcessor::(TimeStepType|StoreType|Group|EndUseCat))", "int"},
+           {R"(EnergyPlus::OutputProcessor::ReportFreq)", "int"}}) {
     list = std::regex_replace(list, std::regex(theirs), ours);
   }
   return list;
