@@ -155,10 +155,14 @@ def replacing(folder, name):
         sys.exit(f"{name}: {in_words(error)}")
 
 
+# Variants without shades must get reflected light by the same method.
+ALL_LIGHT = ["--gpu-shading-reflections=all"]
+
+
 def run_year(path, weather, words):
     """Runs a model with our shading in run/ beside it; ends the program if that fails."""
     done = energyplus.run(energyplus.patched_prefix() / "energyplus", path, energyplus.find_weather(weather),
-                          path.parent / "run", ["--gpu-shading"])  # fmt: skip
+                          path.parent / "run", ["--gpu-shading", *ALL_LIGHT])  # fmt: skip
     if not done.completed:
         sys.exit(f"{words}: {done.why()}")
     return done

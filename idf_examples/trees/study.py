@@ -59,7 +59,7 @@ def run_year(text, folder):
     (folder / "trees.idf").write_text(text, encoding="utf-8")
     (folder / "oak.obj").write_text(generate.crown(), encoding="utf-8")
     shutil.copy(HERE / "trees.geojson", folder)
-    run = gpu_shading.run(folder / "trees.idf", WEATHER, folder / "run")
+    run = gpu_shading.run(folder / "trees.idf", WEATHER, folder / "run", arguments=["--gpu-shading-reflections=all"])
     kwh = [sum(months.sum() for months in run.values(name, "Monthly").values()) / 3.6e6 for name in ENERGIES]
     return kwh, run.summary().seconds
 

@@ -72,22 +72,11 @@ void ask_for_areas(Session& session, SunDirection const& sun) {
   }
 }
 
-void ask_for_rays(Session& session, SunDirection const& sun) {
+void ask_for_rays(Session& session) {
   constexpr int hour = 9;
   constexpr glm::dvec3 eye{2.0, -0.01, 1.0};
   constexpr glm::dvec3 away{0.0, -1.0, 0.0};
   require(is_share(session.daylight_transmittance({eye, away}, hour)));
-  if (auto* const reflections = session.reflections()) {
-    reflections->set_rays({{.origin = eye, .direction = away}});
-    auto const shares = reflections->beam({hour, to_vector(sun), to_vector(sun)});
-    require(is_share(shares.front().kept) && is_share(shares.front().shades));
-    require(is_share(reflections->sky().front().kept));
-  }
-  if (auto* const light = session.luminance()) {
-    auto const view = light->view({eye, away}, hour, to_vector(sun));
-    require(is_share(view.passed) && view.sun >= 0.0 && view.sky >= 0.0);
-    light->sky_on_ground({2.0, -2.0, 0.0});
-  }
 }
 
 void render(std::vector<InputObject> const& objects, Model model) {
@@ -100,7 +89,7 @@ void render(std::vector<InputObject> const& objects, Model model) {
   session.start({{ignore, ignore, ignore}, schedules, [] { return 0.8; }});
   session.set_time({9, 1});
   for (double const altitude : {0.6, 0.01}) ask_for_areas(session, {2.5, altitude});
-  ask_for_rays(session, {2.5, 0.6});
+  ask_for_rays(session);
   session.finish();
 }
 

@@ -150,7 +150,8 @@ TEST(EpJson, RepeatedKeysOfOurs) {
 TEST(RewriteIdf, WhatIsAddedDoesNotBecomePartOfAnOpenObject) {
   for (std::string const end : {"Zone,Core", "Zone,Core ! comment", "Zone,\n  Core\n"}) {
     auto const model = "Version,9.6;\n" + end;
-    auto const text = rewrite_idf(model, parse_idf(model), {shading_method("PixelCounting", "Timestep")});
+    auto const text =
+        rewrite_idf(model, parse_idf(model), {shading_method("PixelCounting", "Timestep")});
     auto const objects = parse_idf(text);
     ASSERT_EQ(objects.size(), 3U) << text;
     EXPECT_EQ(objects[1].fields, (std::vector<std::string>{"Core"}));
