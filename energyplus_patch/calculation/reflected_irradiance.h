@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "calculation/step_error.h"
@@ -54,7 +55,9 @@ class ReflectedIrradiance {
     std::vector<double> positions;
     std::vector<double> schedules;
 
-    auto operator<=>(State const&) const = default;
+    bool operator<(State const& other) const {
+      return std::tie(positions, schedules) < std::tie(other.positions, other.schedules);
+    }
   };
   struct WeightedState {
     State state;

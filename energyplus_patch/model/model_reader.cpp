@@ -18,6 +18,7 @@
 #include "model/reflected_light_plan.h"
 #include "model/site/site_clock.h"
 #include "model/site/texture_axes.h"
+#include "platform/files.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {
@@ -135,10 +136,11 @@ std::vector<std::string> kept(Names const& surfaces, LeanInput const& lean) {
   return names;
 }
 
-// The objects that add_surrounding_objects() adds.
+// The objects that add_surrounding_objects() adds; there may be none.
 std::vector<InputObject> read_surrounding_objects(Model const& model) {
-  return model.surrounding_objects ? read_objects(*model.surrounding_objects)
-                                   : std::vector<InputObject>();
+  if (!model.surrounding_objects) return {};
+  auto const text = read_text_file(*model.surrounding_objects);
+  return is_epjson(*model.surrounding_objects) ? read_epjson(parse_epjson(text)) : read_idf(text);
 }
 
 void add_reflected_light(std::vector<InputObject> const& objects, Reader const& reader,

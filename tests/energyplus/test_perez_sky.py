@@ -72,7 +72,7 @@ def test_sky_is_that_of_gendaymtx(patched, weather, model, year, site, tmp_path)
     months = np.repeat(range(1, 13), [24 * days for days in (31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31)])
     days = np.concatenate([np.repeat(range(1, 1 + np.sum(months == month) // 24), 24) for month in range(1, 13)])
     (tmp_path / "sky.wea").write_text(WEA + "".join(
-        f"{months[h]} {days[h]} {h % 24 + 1} {beam[h]:.3f} {diffuse[h]:.3f}\n" for h in range(HOURS) if up[h]))
+        f"{months[h]} {days[h]} {h % 24 + 0.5} {beam[h]:.3f} {diffuse[h]:.3f}\n" for h in range(HOURS) if up[h]))
     words = [radiance.FOLDER / "bin" / "gendaymtx", "-h", "-s", "-O1", "-m", "1", "-c", "1", "1", "1",
              "-g", "0", "0", "0", tmp_path / "sky.wea"]
     table = subprocess.run(words, capture_output=True, check=True, text=True).stdout

@@ -77,7 +77,8 @@ def test_sheet_without_thickness_is_a_constant_schedule(sky, ran, official, weat
     run = energyplus.run(official, path, weather, tmp_path / "run", ["-D"])
     assert run.completed, run.why()
     clip = room.timesteps(run)
-    answer = ran(room.model(objects=SCREEN + holes(SMALL, thickness=0), shadow=shadow))
+    answer = ran(room.model(objects=SCREEN + holes(SMALL, thickness=0), shadow=shadow),
+                 options=("-D", "--gpu-shading-reflections=energyplus"))
     for i in lit(clip):
         assert answer["beam"][i] == pytest.approx(clip["beam"][i], rel=3e-3)
     assert sum(answer["beam"]) == pytest.approx(sum(clip["beam"]), rel=1e-3)
@@ -199,7 +200,8 @@ def test_lean_input_keeps_screens(ran):
     full, lean = (ran(text, options=("-D", f"--gpu-shading-lean={choice}")) for choice in ("off", "on"))
     assert max(full["beam"]) > 0
     assert lean["beam"] == full["beam"]
-    assert diffuse(lean) == pytest.approx(diffuse(full), rel=1e-6)
+    # Receivers have other rays for reflected light.
+    assert diffuse(lean) == pytest.approx(diffuse(full), rel=5e-3)
 
 
 def test_screen_is_away_when_its_schedule_says(ran):

@@ -277,7 +277,7 @@ std::string rewritten(std::string const& text, ReflectedLightInput const& input)
 }
 
 TEST(ReflectedLight, TheRestOfTheTextIsTheSameToTheByte) {
-  std::string const before = "! note\nVersion,25.2;\r\nShadowCalculation,PixelCounting;\n" +
+  std::string const before = "! note\nVersion,1.2;\r\nShadowCalculation,PixelCounting;\n" +
                              std::string(rules) + wall("South");
   std::string const after = "\nZone,Room;  !- last\n";
   auto const roof = wall("Deck", "", "\n  0,0,3,\n  4,0,3,\n  4,4,3,\n  0,4,3;", "Roof");
