@@ -6,8 +6,7 @@
 #include "filters/perforation/perforation_filter.h"
 #include "filters/transmittance/transmittance_filter.h"
 
-// Every kind has add_values(); a flat one has factor_at(), others have faces_of(), solid_share_of()
-// and look_of().
+// Every kind has add_values(); a flat one has factor_at(), others have faces_of() and look_of().
 namespace gpu_shading {
 namespace {
 
@@ -15,9 +14,6 @@ template <typename Kind>
 concept Flat = Kind::is_flat;
 
 BeamFilter::Faces faces_of(Flat auto const& /*kind*/) { return {}; }
-double solid_share_of(Flat auto const& /*kind*/, std::span<double const> /*deployments*/) {
-  return 1.0;
-}
 
 bool flat(FilterFactor const& factor) {
   return std::visit([](auto const& kind) { return kind.is_flat; }, factor);
@@ -47,15 +43,6 @@ BeamFilter::Faces BeamFilter::faces() const {
            all.fills || faces.fills};
   }
   return all;
-}
-
-double BeamFilter::solid_share(std::span<double const> deployments) const {
-  double share = 1.0;
-  for (FilterFactor const& factor : factors) {
-    share *=
-        std::visit([&](auto const& kind) { return solid_share_of(kind, deployments); }, factor);
-  }
-  return share;
 }
 
 FilterLook BeamFilter::look() const {

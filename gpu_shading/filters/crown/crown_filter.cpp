@@ -6,11 +6,6 @@ namespace gpu_shading {
 
 BeamFilter::Faces faces_of(Crown const& kind) { return {0.0, kind.height, true}; }
 
-// Light that leaves reflect is left out.
-double solid_share_of(Crown const& /*kind*/, std::span<double const> /*deployments*/) {
-  return 0.0;
-}
-
 FilterLook look_of(Crown const& kind) {
   double const density = 0.5 * (kind.leaf_density + kind.wood_density);
   return {FilterLook::Kind::foliage, std::exp(-density * kind.height)};

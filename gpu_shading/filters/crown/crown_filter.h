@@ -5,7 +5,6 @@
 namespace gpu_shading {
 
 BeamFilter::Faces faces_of(Crown const& kind);
-double solid_share_of(Crown const& kind, std::span<double const> deployments);
 FilterLook look_of(Crown const& kind);
 void add_values(FilterDigest& digest, Crown const& kind);
 

@@ -126,12 +126,6 @@ BeamFilter::Faces faces_of(PerforatedSheet const& kind) {
   return {-sheet.thickness / 2.0, sheet.thickness / 2.0};
 }
 
-double solid_share_of(PerforatedSheet const& kind, std::span<double const> deployments) {
-  auto const index = static_cast<std::size_t>(kind.deployment);
-  bool const varies = kind.deployment >= 0 && index < deployments.size();
-  return (varies ? deployments[index] : 1.0) * (1.0 - kind.screen->open_fraction());
-}
-
 FilterLook look_of(PerforatedSheet const& kind) {
   FilterLook look{FilterLook::Kind::holes, kind.screen->open_fraction()};
   if (kind.screen->pattern()) look.holes = kind.screen->pattern()->perforation();

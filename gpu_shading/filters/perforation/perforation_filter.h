@@ -5,7 +5,6 @@
 namespace gpu_shading {
 
 BeamFilter::Faces faces_of(PerforatedSheet const& kind);
-double solid_share_of(PerforatedSheet const& kind, std::span<double const> deployments);
 FilterLook look_of(PerforatedSheet const& kind);
 void add_values(FilterDigest& digest, PerforatedSheet const& kind);
 

@@ -107,9 +107,6 @@ struct BeamFilter {
   };
   Faces faces() const;
 
-  // The share of the polygon that reflects light. `deployments`: as in Renderer::set_deployments.
-  double solid_share(std::span<double const> deployments) const;
-
   FilterLook look() const;
   void add_to(FilterDigest& digest) const;
 
