@@ -93,26 +93,18 @@ Reflectors reflectors_of(SceneAssembly const& assembly, Scene const& scene, doub
   return made;
 }
 
-// Values on a grid to interpolate linearly between, by the simplex around them, and their weights.
-std::vector<std::pair<std::vector<double>, double>> around(std::vector<double> const& values) {
+// Values of schedules on their grid to interpolate between.
+std::vector<WeightedPositions> around(std::vector<double> const& values) {
   std::vector<double> low(values.size());
-  std::vector<std::pair<double, std::size_t>> between;  // share of the way to the next, and which
+  std::vector<BetweenSteps> between;
   constexpr double negligible = 1e-6;
   for (std::size_t i = 0; i < values.size(); ++i) {
     double const place = values[i] / schedule_step;
     double const below = std::floor(place + negligible);
     low[i] = below * schedule_step;
-    if (place - below > negligible) between.emplace_back(place - below, i);
+    if (place - below > negligible) between.push_back({place - below, i, low[i] + schedule_step});
   }
-  std::ranges::stable_sort(between, std::greater(), &std::pair<double, std::size_t>::first);
-  std::vector<std::pair<std::vector<double>, double>> corners{{low, 1.0}};
-  for (auto const& [share, place] : between) {
-    corners.back().second -= share;
-    auto next = corners.back().first;
-    next[place] += schedule_step;
-    corners.emplace_back(std::move(next), share);
-  }
-  return corners;
+  return simplex_from(std::move(low), std::move(between));
 }
 
 constexpr double percent = 100.0;

@@ -21,7 +21,8 @@ namespace gpu_shading::energyplus {
 struct Simulation {
   Messages messages;
   Schedules schedules = {};
-  // Latitude of the site, radians; only called if sun positions are sampled.
+  // Latitude of the site, radians; only called if sun positions are sampled, or reflected
+  // light is traced.
   std::function<double()> latitude = {};
   // Adds an output variable of EnergyPlus's for an object, in "deg", "m", "W/m2" or "" (no unit).
   // `value` is read at the end of each timestep. None: they cannot be added.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -12,15 +14,22 @@ constexpr double negligible = 1e-6;
 
 }  // namespace
 
+std::vector<WeightedPositions> simplex_from(std::vector<double> first,
+                                            std::vector<BetweenSteps> between) {
+  std::ranges::stable_sort(between, std::greater(), &BetweenSteps::share);
+  std::vector<WeightedPositions> corners{{std::move(first)}};
+  for (auto const& each : between) {
+    corners.back().weight -= each.share;
+    corners.push_back({corners.back().positions, each.share});
+    corners.back().positions[each.place] = each.next;
+  }
+  return corners;
+}
+
 std::vector<WeightedPositions> around(std::vector<MovingShade> const& shades,
                                       std::vector<double> const& stood,
                                       std::vector<double> const& exact) {
-  struct Between {
-    double share;  // of the way to the next position on the grid
-    std::size_t shade;
-    double next;
-  };
-  std::vector<Between> between;
+  std::vector<BetweenSteps> between;
   for (std::size_t i = 0; i < shades.size(); ++i) {
     auto const& shade = shades[i];
     double const off = exact[i] - stood[i];
@@ -29,15 +38,7 @@ std::vector<WeightedPositions> around(std::vector<MovingShade> const& shades,
     if (next == stood[i]) continue;
     between.push_back({std::min(off / (next - stood[i]), 1.0), i, next});
   }
-  std::stable_sort(between.begin(), between.end(),
-                   [](Between const& a, Between const& b) { return a.share > b.share; });
-  std::vector<WeightedPositions> corners{{stood}};
-  for (auto const& each : between) {
-    corners.back().weight -= each.share;
-    corners.push_back({corners.back().positions, each.share});
-    corners.back().positions[each.shade] = each.next;
-  }
-  return corners;
+  return simplex_from(stood, std::move(between));
 }
 
 void StepError::note(SunDirection sun, std::vector<WeightedPositions> const& corners,

@@ -16,6 +16,18 @@ struct WeightedPositions {
   double weight = 1.0;
 };
 
+// A value that lies a share of the way, 0 .. 1, from that of a corner to the next on its grid.
+struct BetweenSteps {
+  double share;
+  std::size_t place;  // among the corner's positions
+  double next;
+};
+
+// The simplex around a point, to interpolate linearly: `first`, and one corner more for each value
+// between steps.
+std::vector<WeightedPositions> simplex_from(std::vector<double> first,
+                                            std::vector<BetweenSteps> between);
+
 // Positions on the grids to interpolate linearly between for `exact`, by the simplex around it (one
 // more than the shades between steps). The first is `stood`, the nearest on the grids. Only this
 // one if all shades stand exactly there.
