@@ -32,6 +32,12 @@ struct Installation {
 };
 Installation& installation();
 
+// EnergyPlus's numbers of what reflected light is read and set by.
+struct GroundNumbers {
+  int light = 0;               // EnergyPlusFunctions::light_of_ground()
+  std::vector<int> schedules;  // of Model::reflected_light's receivers
+};
+
 // One EnergyPlus run. EnergyPlus runs a state on one thread from its input to its end, and none of
 // its shading functions is handed the state; so this is the thread's.
 struct Run {
@@ -39,10 +45,9 @@ struct Run {
   std::optional<Model> model;  // once the input is read
   // Once EnergyPlus has written its own line on shading; closed when it ends.
   std::ostream* eio = nullptr;
-  Session* session = nullptr;  // while EnergyPlus has one
-  // EnergyPlus's numbers of the schedules of Model::reflected_light, once they are known.
-  std::vector<int> grounds;
-  std::string unwritten;  // why its output is not complete, "" where it is
+  Session* session = nullptr;            // while EnergyPlus has one
+  std::optional<GroundNumbers> grounds;  // once they are known
+  std::string unwritten;                 // why its output is not complete, "" where it is
 };
 Run& this_run();
 

@@ -161,10 +161,14 @@ void EnergyPlusFunctions::at_each_timestep(State& state, void (*function)(State*
   symbol::call_after_init_heat_balance.in(symbols_)(&state, function);
 }
 
-double EnergyPlusFunctions::ground_reflectance(State& state, double open) const {
+int EnergyPlusFunctions::light_of_ground(State& state) const {
   int const handle = symbol::variable_handle.in(symbols_)(&state, reflected_by_ground, whole_site);
   if (handle < 0) throw Error(fmt::format("EnergyPlus has no {}", reflected_by_ground));
-  return open > 0.0 ? symbol::variable_value.in(symbols_)(&state, handle) / open : 0.0;
+  return handle;
+}
+
+double EnergyPlusFunctions::variable(State& state, int number) const {
+  return symbol::variable_value.in(symbols_)(&state, number);
 }
 
 int EnergyPlusFunctions::schedule_to_set(State& state, std::string const& name) const {

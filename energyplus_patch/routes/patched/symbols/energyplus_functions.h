@@ -57,9 +57,10 @@ class EnergyPlusFunctions {
   // Calls `function` at each zone timestep, after the shading and before surfaces are irradiated.
   // Before the simulation begins. For Need::reflected_light, as are the functions below.
   void at_each_timestep(State& state, void (*function)(State*)) const;
-  // In `function`, of the site's ground, 0 .. 1; `open`: its irradiance in the open, W/m2. 0
-  // without.
-  double ground_reflectance(State& state, double open) const;
+  // In `function`: the number of a variable, what level ground in the open reflects, W/m2; Error if
+  // EnergyPlus has none. Finding it takes time, as for a schedule.
+  int light_of_ground(State& state) const;
+  double variable(State& state, int number) const;
   // The number by which a schedule is set; Error if EnergyPlus has none of this name.
   int schedule_to_set(State& state, std::string const& name) const;
   void set_schedule(State& state, int schedule, double value) const;
