@@ -7,6 +7,7 @@ import subprocess
 import pytest
 import radiance
 import radiance_reflections
+import test_site
 from output_files import values_of
 from shading_runs import energyplus
 
@@ -36,9 +37,8 @@ def with_days(model, months, beam, sky):
 
 
 def shade(name, corners, reflectance):
-    points = ",".join(f"\n  {x:.9g},{y:.9g},{z:.9g}" for x, y, z in corners)
-    return (f"Shading:Building:Detailed,{name},,{len(corners)}," + points + ";\n"
-            f"ShadingProperty:Reflectance,{name},{reflectance},{reflectance},0;\n")
+    return (test_site.shade(name, corners)
+            + f"ShadingProperty:Reflectance,{name},{reflectance},{reflectance},0;\n")
 
 
 def louvres(reflectance):
@@ -79,6 +79,16 @@ BOX = ("SOUTH", "EAST", "NORTH", "WEST", "ROOF", "FLOOR")
 WALLS = 0.3  # of the box: EnergyPlus's default absorptance is 0.7
 
 
+def reflectances(of_shades):
+    """Of each surface by its name, as Radiance takes them."""
+    def of(name):
+        if name.upper() == WINDOW:
+            return 0.0
+        return WALLS if name.upper() in BOX else of_shades
+
+    return of
+
+
 def bare(box):
     """The box without its louvre."""
     return re.sub(r"Shading:Building:Detailed,[^;]*;[^\n]*\n", "", box)
@@ -113,14 +123,9 @@ def test_reflected_light_is_radiance_s(patched, weather, tmp_path, box, scene, r
             for sun, by_ground, by_shades in zip(suns_of(run), ground, shades, strict=True)}
     surfaces = radiance.surfaces(patched.parent / "gpu_shading", model)
 
-    def reflectance_of(name):
-        if name.upper() == WINDOW:
-            return 0.0
-        return WALLS if name.upper() in BOX else reflectance
-
     suns = radiance.spread([sun for sun in ours if sun[1] > 5], 7)
     theirs = {sun: radiance_reflections.reflected(surfaces, WINDOW, radiance_reflections.sun(radiance.towards(sun)),
-                                                  tmp_path, reflectance_of) for sun in suns}
+                                                  tmp_path, reflectances(reflectance)) for sun in suns}
     for sun in suns:
         print(f"{scene} {reflectance} {sun[0]:6.1f} {sun[1]:5.1f}: {ours[sun]:.4f} {theirs[sun]:.4f}")
     mean = sum(theirs.values()) / len(suns)
@@ -137,8 +142,7 @@ def test_sky_reflected_by_a_street_is_radiance_s(patched, weather, tmp_path, box
     model, run = run_days(patched, weather, tmp_path, with_days(bare(box) + street(0.5), (6,), 0, 100))
     surfaces = radiance.surfaces(patched.parent / "gpu_shading", model)
     theirs = radiance_reflections.reflected(
-        surfaces, WINDOW, radiance_reflections.SKY, tmp_path,
-        lambda name: 0.0 if name.upper() == WINDOW else WALLS if name.upper() in BOX else 0.5)
+        surfaces, WINDOW, radiance_reflections.SKY, tmp_path, reflectances(0.5))
     noon = next(i for i, sun in enumerate(suns_of(run)) if sun[1] > 60)
     ours = sum(values_of(run, name)[WINDOW][noon] for name in (BY_GROUND, BY_SHADES)) / 100.0
     print(ours, theirs)
@@ -221,7 +225,7 @@ def test_who_reflects(patched, weather, tmp_path, box, objects, option, ours):
         option == "energyplus" and bool(objects))
 
 
-LEAVES = """
+DOWN_AFTER_NOON = """
 Schedule:Compact,Down,,Through: 12/31,For: AllDays,Until: 12:00,0,Until: 24:00,1;
 """
 
@@ -234,7 +238,7 @@ def noons(run, name=WINDOW):
 
 def test_a_screen_that_is_lowered_dims_from_then_on(patched, weather, tmp_path, box):
     """Without beam, all light of a day is the same but for the schedule."""
-    sheet = (shade("Sheet", [(-9, -0.4, 9), (-9, -0.4, 0), (15, -0.4, 0), (15, -0.4, 9)], 0.2) + LEAVES
+    sheet = (shade("Sheet", [(-9, -0.4, 9), (-9, -0.4, 0), (15, -0.4, 0), (15, -0.4, 9)], 0.2) + DOWN_AFTER_NOON
              + "GPUShading:PerforatedScreen,Holes,Sheet,Round,,Staggered60,0.005,,0.008,,0.003,,,,,,,,,,,Down;\n")
     _, run = run_days(patched, weather, tmp_path, with_days(bare(box) + sheet, (6,), 0, 300))
     raised, lowered = noons(run)
@@ -248,7 +252,7 @@ def test_a_screen_that_is_lowered_dims_from_then_on(patched, weather, tmp_path, 
 
 def test_a_shade_that_moves_reflects_from_where_it_stands(patched, weather, tmp_path, box):
     shelf = awning(0.8)
-    moving = LEAVES.replace(",0,", ",-90,").replace(",1;", ",0;") + (
+    moving = DOWN_AFTER_NOON.replace(",0,", ",-90,").replace(",1;", ",0;") + (
         "GPUShading:MovingShade,Flap,Awning,Rotate,Edge,1,0,0,,,,-90,0,45,,Schedule,Down;\n")
     _, run = run_days(patched, weather, tmp_path, with_days(bare(box) + shelf + moving, (6,), 0, 300))
     folded, out = noons(run)
