@@ -1,4 +1,4 @@
-"""tidy.py checks what a change can affect, and everything if it cannot tell."""
+"""tidy.py checks what a change touches, and everything without a base."""
 
 import json
 import os
@@ -55,14 +55,14 @@ def selected(everything=False):
 
 
 @pytest.mark.parametrize(("path", "expected"), [
-    ("a.h", ["a.cpp"]),
+    ("a.h", ["a.h"]),
     ("b.cpp", ["b.cpp"]),
     ("README.md", []),
     (".clang-tidy", ["a.cpp", "b.cpp"]),
     ("tests/.clang-tidy", ["a.cpp", "b.cpp"]),
     (".ci/tidy.py", ["a.cpp", "b.cpp"]),
 ])
-def test_what_a_commit_can_affect_is_checked(tree, path, expected):
+def test_what_a_commit_touches_is_checked(tree, path, expected):
     commit(path, "// other\n")
     assert selected() == expected
 
@@ -70,13 +70,19 @@ def test_what_a_commit_can_affect_is_checked(tree, path, expected):
 def test_changes_not_committed_count(tree):
     commit("README.md", "text")
     Path("a.h").write_text("// other\n")
-    assert selected() == ["a.cpp"]
+    assert selected() == ["a.h"]
 
 
-def test_a_file_whose_includes_are_unknown_is_checked(tree):
-    commit("README.md", "text")
+def test_a_header_is_checked_as_a_source_that_includes_it_is_compiled(tree):
+    commit("a.h", "// other\n")
+    work, _ = tidy.select(tree / "build", False)
+    assert work[tree / "a.h"][0]["command"] == f"c++ -MD -MF a.o.d -I.. -x c++ -c {tree}/a.h -o a.o"
+
+
+def test_a_build_whose_includes_are_unknown_is_refused(tree):
     os.remove("build/.ninja_deps")
-    assert selected() == ["a.cpp", "b.cpp"]
+    with pytest.raises(SystemExit, match="build it first"):
+        selected()
 
 
 def test_without_a_base_all_files_are_checked(tree):
@@ -139,15 +145,15 @@ def test_a_change_beside_a_source_affects_that_source_alone(tree):
     Path("build/compile_commands.json").write_bytes(commands)
     commit("b.cpp", "// other\n")
     assert selected() == ["b.cpp"]
-    commit("a.h", "// other\n")  # which of the two includes it is not known
-    assert selected() == ["a.cpp", "b.cpp"]
+    commit("a.h", "// other\n")
+    assert selected() == ["a.h", "b.cpp"]
 
 
 def test_a_base_can_be_named(tree, monkeypatch):
     commit("b.cpp", "// other\n")
     commit("a.h", "// other\n")
     monkeypatch.setenv("GPU_SHADING_TIDY_BASE", "HEAD~1")
-    assert selected() == ["a.cpp"]
+    assert selected() == ["a.h"]
     assert selected(everything=True) == ["a.cpp", "b.cpp"]
     monkeypatch.setenv("GPU_SHADING_TIDY_BASE", "nowhere")
     with pytest.raises(SystemExit):

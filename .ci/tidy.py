@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy over the sources in a build's compile_commands.json that a change can affect.
+"""Runs clang-tidy over the sources and headers of a build that a change touches.
 
 .ci/tidy.py BUILD [--all] [--record]
 
-A file is checked if it, or a header that it or a source compiled with it includes, differs from the
-base: by commits, in the work tree, or not yet tracked. What a file includes is read from the build, so
-build first; a file whose includes are unknown is checked. The base is the commit named by
+A source in compile_commands.json, or a header that one of them includes, is checked if it differs from the
+base: by commits, in the work tree, or not yet tracked. A header is checked by itself, with the options of a
+source that includes it. What a source includes is read from the build, so build first. Sources that only
+include what changed are not checked: nearly all findings stand in the text that changed, and one header that
+all include would take hours. The base is the commit named by
 GPU_SHADING_TIDY_BASE, else the merge base with origin/main, else with main: each commit on main has
 passed this check, so the files that equal the base have passed as well. If HEAD is on main itself, the
 base is the commit in .ci/tidy_base, whose files are all known to have passed. With --record, a pass
 writes HEAD there.
 
-All files are checked if there is no base in the history of HEAD, if the checks changed (.clang-tidy,
+All sources are checked if there is no base in the history of HEAD, if the checks changed (.clang-tidy,
 this script, or scripts/setup, which chooses clang-tidy's version), and with --all.
 
 Changed compiler options are not seen as changes of a file: the build itself, with warnings as errors,
@@ -112,7 +114,7 @@ def digest(*parts):
 
 
 def select(build, everything):
-    """Sources to check, each with the key under which a pass is remembered, and the reason."""
+    """What to check: by path, its compile command with the key under which a pass is remembered; and the reason."""
     base, name = find_base()
     changed = changed_since(base) if base else set()
     if everything:
@@ -122,25 +124,26 @@ def select(build, everything):
     reason = f"what differs from {name} ({base[:9]})" if base else f"all files ({name})"
 
     dependencies = read_dependencies(build)
+    if not dependencies:
+        sys.exit(f"tidy: {build.name} is not built, so what its sources include is unknown: build it first")
     checks = b"".join((ROOT / path).read_bytes() for path in (".clang-tidy", "tests/.clang-tidy", ".ci/tidy.py"))
+    entries = {Path(entry["file"]).resolve(): entry for entry in read_commands(build)}
+    sources = {source for source in entries if ROOT in source.parents and build not in source.parents}
     work = {}
-    entries = read_commands(build)
-    compiled = [Path(entry["file"]).resolve() for entry in entries]
-    own_sources = {str(source.relative_to(ROOT)) for source in compiled if ROOT in source.parents}
-    for source, entry in zip(compiled, entries, strict=True):
-        if ROOT not in source.parents or build in source.parents:
-            continue
-        path = str(source.relative_to(ROOT))
+    for source in sorted(sources):
+        entry = entries[source]
         found = re.search(r" -o (\S+)", entry["command"])
-        included = dependencies.get(found.group(1)) if found else None
-        if included is not None:  # with the headers of those that are compiled with it
-            included = included - own_sources | {path}
-        if base and included is not None and not changed & (included | {path}):
-            continue
-        contents = [(ROOT / name).read_bytes() for name in sorted(included or ()) if (ROOT / name).is_file()]
-        # Without known includes there is nothing to remember a pass by.
-        key = digest(checks, source.read_bytes(), entry["command"].encode(), *contents) if included else None
-        work[source] = key
+        included = {ROOT / name for name in dependencies.get(found.group(1), ()) if found} - sources
+        files = [source, *(path for path in included if base and path.suffix == ".h" and path not in work)]
+        for path in files:
+            if base and str(path.relative_to(ROOT)) not in changed:
+                continue
+            contents = [name.read_bytes() for name in sorted({path, *included}) if name.is_file()]
+            command = entry["command"]
+            if path != source:
+                command = re.sub(r" -c \S+", f" -x c++ -c {path}", command)
+            key = digest(checks, command.encode(), *contents)
+            work[path] = ({"directory": entry["directory"], "file": str(path), "command": command}, key)
     return work, reason
 
 
@@ -148,27 +151,28 @@ def main():
     build = (ROOT / sys.argv[1]).resolve()
     passed = build / "clang-tidy"
     passed.mkdir(exist_ok=True)
-    (passed / "compile_commands.json").write_text(json.dumps(read_commands(build)))
     work, reason = select(build, "--all" in sys.argv[2:])
-    remembered = [source for source, key in work.items() if key and (passed / key).exists()]
-    for source in remembered:
-        del work[source]
+    (passed / "compile_commands.json").write_text(json.dumps([entry for entry, _ in work.values()]))
+    remembered = [path for path, (_, key) in work.items() if (passed / key).exists()]
+    for path in remembered:
+        del work[path]
     print(f"clang-tidy: {reason}: {len(work)} files to check, {len(remembered)} passed before", flush=True)
 
     def check(item):
-        source, key = item
-        command = ["clang-tidy", "-p", passed, "--quiet", "--extra-arg=-Wno-unknown-warning-option", source]
+        path, (_, key) = item
+        command = ["clang-tidy", "-p", passed, "--quiet", "--extra-arg=-Wno-unknown-warning-option",
+                   "--extra-arg=-Wno-pragma-once-outside-header", path]
         done = subprocess.run(command, capture_output=True, text=True)
-        if done.returncode == 0 and key:
+        if done.returncode == 0:
             (passed / key).touch()
-        return source, done
+        return path, done
 
     failed = 0
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for source, done in pool.map(check, work.items()):
+        for path, done in pool.map(check, work.items()):
             if done.returncode != 0:
                 failed += 1
-                print(f"{source.relative_to(ROOT)}:\n{done.stdout}{done.stderr}", flush=True)
+                print(f"{path.relative_to(ROOT)}:\n{done.stdout}{done.stderr}", flush=True)
     print(f"clang-tidy: {len(work)} files checked, {failed} with findings")
     if "--record" in sys.argv[2:] and not failed:
         if git("status", "--porcelain", "--", "*.cpp", "*.h", "*CMakeLists.txt"):
