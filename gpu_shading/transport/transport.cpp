@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "gpu_shading/error.h"
@@ -18,6 +19,15 @@ void require_share(double value, SurfaceId surface) {
     throw Error(
         fmt::format("the reflectance of surface {} is {}; expected 0 to 1", surface, value));
   }
+}
+
+// FNV-1a.
+std::uint32_t seed_of(std::string_view name) {
+  constexpr std::uint32_t offset = 2166136261U;
+  constexpr std::uint32_t prime = 16777619U;
+  std::uint32_t hash = offset;
+  for (unsigned char const letter : name) hash = (hash ^ letter) * prime;
+  return hash;
 }
 
 }  // namespace
@@ -55,7 +65,7 @@ std::vector<Transported> Transport::to(std::span<SurfaceId const> receivers,
   SolarHours const year(request);
   std::vector<std::optional<Transported>> found(receivers.size());
   for_each_index(receivers.size(), [&](std::size_t i) {
-    auto const seed = static_cast<std::uint32_t>(receivers[i]);
+    auto const seed = seed_of(scene_[receivers[i]].name);
     found[i] = light_on({scene, request, year, conditions}, receivers[i], seed);
   });
   std::vector<Transported> lights;

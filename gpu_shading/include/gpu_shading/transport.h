@@ -150,7 +150,7 @@ class Transport {
   Transported to(SurfaceId receiver, TransportRequest const& request,
                  RayConditions const& conditions = {}, std::uint32_t seed = 0) const;
 
-  // Several receivers, in their order, each with its SurfaceId as the seed.
+  // Several receivers, in their order, each with a seed of its name: the same in any order.
   std::vector<Transported> to(std::span<SurfaceId const> receivers, TransportRequest const& request,
                               RayConditions const& conditions = {}) const;
 
