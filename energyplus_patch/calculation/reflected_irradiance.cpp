@@ -243,8 +243,7 @@ void ReflectedIrradiance::describe() const {
 }
 
 double ground_reflectance(double irradiance, double open, double ground_view) {
-  constexpr double least = 1e-9;
-  return std::max(least, irradiance / (open * ground_view));
+  return std::max(min_ground_reflectance, irradiance / (open * ground_view));
 }
 
 }  // namespace gpu_shading::energyplus

@@ -80,8 +80,8 @@ class ReflectedIrradiance {
 };
 
 // The reflectance of a receiver's own ground by which EnergyPlus's light from the ground comes to
-// `irradiance` (W/m2), at least 1e-9: EnergyPlus takes 0 as Site:GroundReflectance. `open`: of
-// level ground in the open, W/m2, above 0.
+// `irradiance` (W/m2), at least min_ground_reflectance. `open`: of level ground in the open, W/m2,
+// above 0.
 double ground_reflectance(double irradiance, double open, double ground_view);
 
 }  // namespace gpu_shading::energyplus

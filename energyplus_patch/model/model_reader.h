@@ -53,7 +53,7 @@ struct Model {
 struct Reader {
   MentionFinder find_mentions;   // for the model's own file; without it, lean input is not planned
   bool daylight_rays = false;    // rays of daylighting can be answered
-  bool reflected_light = false;  // reflected light can be set at each timestep
+  bool reflected_light = false;  // reflected light can be passed to EnergyPlus
   bool horizons = true;  // of sites; false to check a model without reading all that is far away
   std::optional<Release> release = std::nullopt;  // to check the model's version against
 };

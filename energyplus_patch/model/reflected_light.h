@@ -23,9 +23,13 @@ struct ReflectedLight {
   };
 
   std::vector<Receiver> receivers;  // empty: EnergyPlus's own terms
+  std::string schedule_limits;      // the ScheduleTypeLimits of their schedules
   // Diffuse solar reflectances, 0 .. 1, of the outsides of walls, roofs, floors and opaque doors,
   // by EnergyPlus's names; windows are missing.
   std::map<std::string, double> reflectances;
 };
+
+// EnergyPlus takes the reflectance 0 of a surface's own ground as Site:GroundReflectance.
+inline constexpr double min_ground_reflectance = 1e-9;
 
 }  // namespace gpu_shading::energyplus

@@ -249,15 +249,8 @@ class InputMaker {
     made_.added.push_back(ground_object(receiver, ground));
     if (made_.light.receivers.empty()) {
       made_.added.push_back({"ScheduleTypeLimits", {{"name", names_.limits}}});
+      made_.light.schedule_limits = names_.limits;
     }
-    // Until it is set: EnergyPlus takes 0 for blank.
-    constexpr double default_reflectance = 0.2;
-    constexpr double min_reflectance = 1e-9;
-    auto const reflectance = std::max(default_reflectance * (unseen ? view : 1.0), min_reflectance);
-    made_.added.push_back({"Schedule:Constant",
-                           {{"name", receiver},
-                            {"schedule_type_limits_name", names_.limits},
-                            {"hourly_value", reflectance}}});
     made_.light.receivers.push_back({name, receiver, unseen ? 1.0 : view});
     return std::nullopt;
   }
@@ -277,6 +270,17 @@ ReflectedLightInput read_reflected_light(std::vector<InputObject> const& objects
                                          ShadingInput const& input,
                                          MentionFinder const& find_mentions) {
   return InputMaker(objects, more, input, find_mentions).make();
+}
+
+std::vector<NewObject> constant_schedules(ReflectedLight const& light) {
+  std::vector<NewObject> schedules;
+  for (auto const& receiver : light.receivers) {
+    schedules.push_back({"Schedule:Constant",
+                         {{"name", receiver.schedule},
+                          {"schedule_type_limits_name", light.schedule_limits},
+                          {"hourly_value", min_ground_reflectance}}});
+  }
+  return schedules;
 }
 
 }  // namespace gpu_shading::energyplus

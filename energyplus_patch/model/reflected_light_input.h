@@ -12,7 +12,8 @@
 
 namespace gpu_shading::energyplus {
 
-// Reflected light, and what passes it to EnergyPlus: a ground of its own for each receiver.
+// Reflected light, and what passes it to EnergyPlus: a ground of its own for each receiver. What is
+// still to be added are the receivers' schedules.
 struct ReflectedLightInput {
   ReflectedLight light;
   std::vector<FieldChange> changes;
@@ -28,5 +29,8 @@ ReflectedLightInput read_reflected_light(std::vector<InputObject> const& objects
                                          std::vector<InputObject> const& more,
                                          ShadingInput const& input,
                                          MentionFinder const& find_mentions);
+
+// The receivers' schedules, to be set while EnergyPlus runs.
+std::vector<NewObject> constant_schedules(ReflectedLight const& light);
 
 }  // namespace gpu_shading::energyplus

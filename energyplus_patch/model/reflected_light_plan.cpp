@@ -90,7 +90,7 @@ ReflectedLightPlan plan_reflected_light(ReflectingModel const& model, Options co
     if (asked || has_shades) {
       plan.warnings.emplace_back(
           "EnergyPlus's own light from the ground is used, which GPUShading objects do not dim: "
-          "only the method patched replaces it");
+          "this method cannot replace it");
     }
     return plan;
   }

@@ -25,8 +25,9 @@ struct ReflectingModel {
   MentionFinder const& find_mentions;
 };
 
-// `can_be_set`: the schedules of the receivers can be set while EnergyPlus runs. Where this
-// module's light replaces EnergyPlus's solar reflections, `shading` has none from then on.
+// `can_be_set`: the schedules of the receivers can be made before EnergyPlus runs, or set while it
+// does. Where this module's light replaces EnergyPlus's solar reflections, `shading` has none from
+// then on.
 ReflectedLightPlan plan_reflected_light(ReflectingModel const& model, Options const& options,
                                         bool can_be_set, ShadingInput& shading);
 

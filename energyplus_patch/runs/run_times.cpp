@@ -96,7 +96,7 @@ double sunlit_fraction(double projected_area, glm::dvec3 const& area, glm::dvec3
   return std::clamp(projected_area / facing, 0.0, 1.0);
 }
 
-RunTimes read_run_times(std::istream& eso) {
+RunTimes read_run_times(std::istream& eso, Repeated repeated) {
   RunTimes run;
   auto const dictionary = read_dictionary(eso, run);
   std::map<std::size_t, RunTime> times;
@@ -104,7 +104,7 @@ RunTimes read_run_times(std::istream& eso) {
   auto const close = [&] {
     if (!current) return;
     auto const [place, added] = times.try_emplace(row_of(*current, run.steps_per_hour), *current);
-    if (!added && differ(place->second, *current)) {
+    if (!added && repeated == Repeated::alike && differ(place->second, *current)) {
       throw Error(
           fmt::format("RunPeriod: two run periods have different sun positions or transmittance "
                       "schedules on {:02}/{:02}, which one schedule of sunlit fractions cannot "

@@ -20,11 +20,12 @@ struct RunTime {
   int timestep = 0;  // timestep of the hour, from 1
   SunDirection sun;  // as EnergyPlus uses it for the whole timestep
   std::vector<double> schedules;
-  // From run_for_beam():
-  double beam = 0.0;         // direct normal irradiance, W/m2
-  double diffuse = 0.0;      // diffuse horizontal irradiance, W/m2
-  double temperature = 0.0;  // of the air, degC
-  double wind = 0.0;         // speed, m/s
+  // From run_for_times() and run_for_beam():
+  double beam = 0.0;                 // direct normal irradiance, W/m2
+  double diffuse = 0.0;              // diffuse horizontal irradiance, W/m2
+  double reflected_by_ground = 0.0;  // of level ground in the open, W/m2
+  double temperature = 0.0;          // of the air, degC
+  double wind = 0.0;                 // speed, m/s
 
   bool operator==(RunTime const&) const = default;
 };
@@ -58,16 +59,18 @@ bool sun_is_up(SunDirection sun);
 double sunlit_fraction(double projected_area, glm::dvec3 const& area, glm::dvec3 const& sun);
 
 // EnergyPlus's output variables of the weather, and where their values are kept.
-inline constexpr std::array<std::pair<std::string_view, double RunTime::*>, 4> weather_variables{
+inline constexpr std::array<std::pair<std::string_view, double RunTime::*>, 5> weather_variables{
     {{"Site Direct Solar Radiation Rate per Area", &RunTime::beam},
      {"Site Diffuse Solar Radiation Rate per Area", &RunTime::diffuse},
+     {"Site Ground Reflected Solar Radiation Rate per Area", &RunTime::reflected_by_ground},
      {"Site Outdoor Air Drybulb Temperature", &RunTime::temperature},
      {"Site Wind Speed", &RunTime::wind}}};
 
 // Reads an eplusout.eso with Site Solar Azimuth Angle, Site Solar Altitude Angle, Schedule Value
-// and, perhaps, weather_variables at every timestep. Throws Error if two
-// run periods have different sun positions at the same time of the year.
-RunTimes read_run_times(std::istream& eso);
+// and, perhaps, weather_variables at every timestep. Throws Error if two periods have different sun
+// positions or schedule values at the same time of the year, unless the first counts.
+enum class Repeated { alike, first };
+RunTimes read_run_times(std::istream& eso, Repeated repeated = Repeated::alike);
 
 // The year in which the first run period of an eplusout.eio begins. Throws Error if it names none.
 int read_first_year(std::istream& eio);

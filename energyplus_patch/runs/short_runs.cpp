@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -62,8 +64,8 @@ enum class Control {
 void reduce_to_surfaces(ModelEditor& model, Control control) {
   bool const own = control == Control::of_model;
   model.remove([&](std::string_view type) {
-    return is_extension(type) || starts(type, "Output") || same_name(type, "ShadowCalculation") ||
-           (!own && same_name(type, "SimulationControl"));
+    return is_extension(type) || starts(type, "Output") || starts(type, "SurfaceProperty") ||
+           same_name(type, "ShadowCalculation") || (!own && same_name(type, "SimulationControl"));
   });
   if (!own) model.add({"SimulationControl", simulation_control(Periods::run)});
   shorten_run_periods(model);
@@ -92,7 +94,7 @@ void reduce_to_times(ModelEditor& model, std::vector<std::string> const& schedul
     bool const kept = same_name(type, "Version") || same_name(type, "Timestep") ||
                       same_name(type, "Site:Location") ||
                       same_name(type, "Site:VariableLocation") || starts(type, "RunPeriod") ||
-                      starts(type, "Schedule") ||
+                      starts(type, "Site:GroundReflectance") || starts(type, "Schedule") ||
                       (periods != Periods::run && starts(type, "SizingPeriod"));
     return !kept || same_name(type, "Schedule:File:Shading");
   });
@@ -108,6 +110,29 @@ void reduce_to_times(ModelEditor& model, std::vector<std::string> const& schedul
     if (is_own_schedule(schedule)) add_own_schedule(model, schedule);
     report_at_timesteps(model, schedule, "Schedule Value");
   }
+}
+
+void report_weather(ModelEditor& model) {
+  for (auto const& [variable, member] : weather_variables) {
+    report_at_timesteps(model, "*", variable);
+  }
+}
+
+bool has_sizing_periods(ModelEditor& model) {
+  bool found = false;
+  for (char const* const type : {"SizingPeriod:DesignDay", "SizingPeriod:WeatherFileDays",
+                                 "SizingPeriod:WeatherFileConditionType"}) {
+    model.edit(type, [&](EditedObject const&) { found = true; });
+  }
+  return found;
+}
+
+// Adds the times of the year that a run lacks. Both have the same schedules and timesteps.
+void add_missing(RunTimes& run, RunTimes const& more) {
+  auto const row = [&](RunTime const& time) { return row_of(time, run.steps_per_hour); };
+  std::vector<RunTime> all;
+  std::ranges::set_union(run.times, more.times, std::back_inserter(all), {}, row, row);
+  run.times = std::move(all);
 }
 
 // Replaces all run periods by one that EnergyPlus extends to a year (-a): the first, which sets the
@@ -212,14 +237,40 @@ std::vector<DrawnSurface> run_for_surfaces(EnergyPlusCall const& call) {
   }
 }
 
-RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> const& schedules) {
+bool runs_periods(EnergyPlusCall const& call) {
+  if (call.annual || call.design_days) return call.annual;
   auto const model = edit_model(call.model);
-  reduce_to_times(*model, schedules);
-  TemporaryFolder const folder;
-  auto periods = call;
-  periods.design_days = false;
-  auto file = run(periods, *model, false, folder, "eplusout.eso");
-  return read_run_times(file);
+  bool any = false;
+  bool wanted = true;
+  model->edit("RunPeriod", [&](EditedObject const&) { any = true; });
+  model->edit("SimulationControl", [&](EditedObject const& control) {
+    wanted = !same_name(control.get({4, "run_simulation_for_weather_file_run_periods"}), "No");
+  });
+  return any && wanted;
+}
+
+RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> const& schedules) {
+  auto const times_of = [&](Periods periods) {
+    auto const model = edit_model(call.model);
+    reduce_to_times(*model, schedules, periods);
+    report_weather(*model);
+    TemporaryFolder const folder;
+    auto part = call;
+    part.design_days = false;
+    part.annual = call.annual && periods == Periods::run;
+    auto file = run(part, *model, false, folder, "eplusout.eso");
+    return read_run_times(file, periods == Periods::run ? Repeated::alike : Repeated::first);
+  };
+  RunTimes times;
+  if (runs_periods(call)) times = times_of(Periods::run);
+  constexpr int hours_of_year = 8760;
+  bool const whole_year =
+      times.steps_per_hour > 0 &&
+      times.times.size() >= static_cast<std::size_t>(hours_of_year * times.steps_per_hour);
+  if (whole_year || !has_sizing_periods(*edit_model(call.model))) return times;
+  if (times.times.empty()) return times_of(Periods::sizing);
+  add_missing(times, times_of(Periods::sizing));
+  return times;
 }
 
 RunTimes run_for_year(EnergyPlusCall const& call, std::vector<std::string> const& schedules,
@@ -234,20 +285,14 @@ RunTimes run_for_year(EnergyPlusCall const& call, std::vector<std::string> const
 RunTimes run_for_beam(EnergyPlusCall const& call, std::vector<std::string> const& schedules) {
   auto const model = edit_model(call.model);
   reduce_to_times(*model, schedules);
-  for (auto const& [variable, member] : weather_variables) {
-    report_at_timesteps(*model, "*", variable);
-  }
+  report_weather(*model);
   return run_whole_year(call, *model);
 }
 
 ScheduleDays run_for_schedules(EnergyPlusCall const& call,
                                std::vector<std::string> const& schedules) {
   auto const model = edit_model(call.model);
-  bool sizing = false;
-  for (char const* const type : {"SizingPeriod:DesignDay", "SizingPeriod:WeatherFileDays",
-                                 "SizingPeriod:WeatherFileConditionType"}) {
-    model->edit(type, [&](EditedObject const&) { sizing = true; });
-  }
+  bool const sizing = has_sizing_periods(*model);
   reduce_to_times(*model, schedules,
                   call.design_days ? Periods::sizing
                   : sizing         ? Periods::all

@@ -28,9 +28,13 @@ struct EnergyPlusCall {
 // with EnergyPlus's reasons if it does not get there.
 std::vector<DrawnSurface> run_for_surfaces(EnergyPlusCall const& call);
 
-// Every timestep of the model's run periods, with EnergyPlus's own sun and schedule values, from a
-// run of the calendar and the schedules alone. Schedules that EnergyPlus does not know there
-// (another program's, for example) are left out. Throws Error likewise.
+// Whether EnergyPlus is to run one of the model's run periods, beside its design days.
+bool runs_periods(EnergyPlusCall const& call);
+
+// Every timestep of the model's run periods and, on dates without one, of its design days, with
+// EnergyPlus's own sun, weather and schedule values, from runs of the calendar and the schedules
+// alone. Schedules that EnergyPlus does not know there (another program's, for example) are left
+// out. Throws Error likewise.
 RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> const& schedules);
 
 // The same for a whole year, whatever the model's run periods and timestep; the year is that of its
@@ -38,8 +42,7 @@ RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> cons
 RunTimes run_for_year(EnergyPlusCall const& call, std::vector<std::string> const& schedules,
                       int steps_per_hour);
 
-// The same at the model's own timestep, with the weather file's irradiance, temperature and wind as
-// EnergyPlus uses them.
+// The same at the model's own timestep, with the weather.
 RunTimes run_for_beam(EnergyPlusCall const& call, std::vector<std::string> const& schedules);
 
 // The values of schedules on every day of the model's design days and run periods, or of the design

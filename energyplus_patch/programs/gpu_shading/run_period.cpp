@@ -9,7 +9,7 @@
 #include "model/model_reader.h"
 #include "platform/console.h"
 #include "platform/text.h"
-#include "routes/schedules/rendered_fractions.h"
+#include "routes/schedules/rendered_run.h"
 #include "runs/installation.h"
 #include "runs/short_runs.h"
 

@@ -14,7 +14,7 @@
 #include "platform/process.h"
 #include "platform/text.h"
 #include "programs/gpu_shading/commands.h"
-#include "routes/schedules/rendered_fractions.h"
+#include "routes/schedules/rendered_run.h"
 #include "runs/installation.h"
 #include "runs/short_runs.h"
 #include "scene/digest.h"

@@ -19,7 +19,8 @@
 #include "routes/hosted_run.h"
 #include "routes/opengl/opengl_functions.h"
 #include "routes/opengl/schedule_clock.h"
-#include "routes/schedules/rendered_fractions.h"
+#include "routes/schedules/rendered_run.h"
+#include "routes/schedules/schedule_table.h"
 #include "runs/drawing.h"
 #include "runs/installation.h"
 
@@ -102,6 +103,7 @@ HostedText read_hosted(Path const& path, Choices const& choices) {
     model = naming(path.string(), [&] {
       Reader reader{find};
       reader.release = read_release(own_folder());
+      reader.reflected_light = choices.task == std::nullopt;
       return understand(std::move(objects), path, choices, reader);
     });
     return rewrite_for(*model);
@@ -114,6 +116,26 @@ HostedText read_hosted(Path const& path, Choices const& choices) {
     text = rewrite_idf_model(text, path, take);
   }
   return {std::move(model.value()), std::move(text), std::move(task)};
+}
+
+// Traces the reflected light of a run, and passes it by schedules of the edited model at
+// hosted.path.
+void add_grounds(ModelEditor& editor, HostedModel& hosted, Model const& model,
+                 EnergyPlusCall const& call) {
+  auto const& light = model.reflected_light;
+  if (light.receivers.empty()) return;
+  auto& lines = hosted.messages;
+  Messages const messages{[&](std::string const& line) { lines.warnings.push_back(line); },
+                          [&](std::string const& line) { lines.remarks.push_back(line); },
+                          [](std::string const&) {}};
+  auto const made =
+      render_run(model, hosted.input.named, run_for_times(call, shade_schedules(model)), messages,
+                 hosted.input.simulation.latitude, Rendered::grounds);
+  constexpr char const* file = "gpu_shading_grounds.csv";
+  write_whole_file(hosted.path.parent_path() / file,
+                   [&](std::ostream& out) { write_schedule_file(made.grounds, out); });
+  add_ground_schedules(editor, light, made.grounds, file);
+  write_whole_file(hosted.path, [&](std::ostream& out) { out << editor.text(); });
 }
 
 // Writes the model into `folder`, and has EnergyPlus list its surfaces. `call`: with the user's
@@ -138,13 +160,15 @@ HostedModel prepare_hosted(HostedText read, EnergyPlusCall call, Path const& fol
   call.model = hosted.path;
   add_schedules(hosted, model, call);
   hosted.input.named = surfaces_of(run_for_surfaces(call), model.shading);
-  hosted.input.model = std::move(model);
   hosted.input.simulation.messages = messages_of_run(read.task);
   hosted.input.task = read.task;
   hosted.input.simulation.latitude = [weather = call.weather] {
     if (!weather) throw Error("-w: a weather file is required (it sets the site)");
     return glm::radians(read_weather_site(*weather).latitude);
   };
+  if (!read.task) add_grounds(*editor, hosted, model, call);
+  hosted.input.model = std::move(model);
+  hosted.input.model.reflected_light.receivers.clear();
   return hosted;
 }
 

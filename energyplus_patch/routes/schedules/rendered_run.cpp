@@ -1,16 +1,15 @@
-#include "routes/schedules/rendered_fractions.h"
+#include "routes/schedules/rendered_run.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <glm/geometric.hpp>
-#include <iterator>
 #include <memory>
-#include <ostream>
 #include <set>
 #include <utility>
 
+#include "model/idf/model_editor.h"
+#include "model/reflected_light_input.h"
 #include "platform/progress.h"
 #include "runs/drawing.h"
 #include "scene/run_schedules.h"
@@ -29,85 +28,99 @@ float fraction(Session& session, Receiver const& receiver, glm::dvec3 const& sun
       sunlit_fraction(session.projected_sunlit_area(receiver.id), receiver.area, sun));
 }
 
-constexpr int hours_of_day = 24;
-
-// Calls `row` for each timestep of a leap year with the table's fractions at that time, or nullptr.
-template <typename Row>
-void for_each_row(SunlitFractions const& table, Row const& row) {
-  constexpr std::array<int, 12> days{31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-  std::size_t at = 0;
-  for (int month = 1; month <= static_cast<int>(days.size()); ++month) {
-    for (int day = 1; day <= days.at(static_cast<std::size_t>(month - 1)); ++day) {
-      for (int hour = 1; hour <= hours_of_day; ++hour) {
-        for (int step = 1; step <= table.steps_per_hour; ++step) {
-          RunTime const time{month, day, hour, step, {}, {}};
-          auto const number = row_of(time, table.steps_per_hour);
-          bool const known =
-              at < table.times.size() && row_of(table.times[at], table.steps_per_hour) == number;
-          row(known ? &table.fractions[at] : nullptr);
-          if (known) ++at;
-        }
-      }
+// The session of a run that is computed before EnergyPlus begins it.
+class TimedSession {
+ public:
+  TimedSession(Model model, std::vector<Surface> const& surfaces, RunTimes const& run,
+               Messages const& messages, std::function<double()> const& latitude)
+      : session_(std::move(model)) {
+    for (auto const& surface : surfaces) {
+      auto const id = session_.add(surface);
+      if (!is_exterior(surface.name, session_.input())) continue;
+      receivers_.push_back({id, area(surface.polygon) * normal(surface.polygon)});
+      names_.push_back(surface.name);
     }
+    auto schedules = schedules_of(run, now_);
+    schedules.position = nullptr;  // the weather that moving shades need is not known here
+    session_.start({messages, std::move(schedules), latitude});
   }
-}
+
+  std::vector<std::string> const& names() const { return names_; }
+
+  void set_time(RunTime const& time) {
+    *now_ = &time;
+    session_.set_time({time.hour, time.timestep});
+    session_.set_sun(time.sun);
+  }
+
+  std::vector<float> fractions(RunTime const& time) {
+    std::vector<float> row;
+    row.reserve(receivers_.size());
+    for (auto const& receiver : receivers_) {
+      row.push_back(fraction(session_, receiver, to_vector(time.sun)));
+    }
+    return row;
+  }
+
+  std::vector<float> grounds(RunTime const& time) {
+    SkyWeather const weather{to_vector(time.sun), time.beam, time.diffuse};
+    double const open = weather.open_ground();
+    auto const values = session_.ground_reflectances(
+        {{time.hour, time.timestep}, weather, open > 0.0 ? time.reflected_by_ground / open : 0.0});
+    return {values.begin(), values.end()};
+  }
+
+  void finish() { session_.finish(); }
+
+ private:
+  Session session_;
+  std::shared_ptr<RunTime const*> now_ = std::make_shared<RunTime const*>(nullptr);
+  std::vector<Receiver> receivers_;
+  std::vector<std::string> names_;
+};
 
 }  // namespace
 
-SunlitFractions render_fractions(Model model, std::vector<Surface> const& surfaces,
-                                 RunTimes const& run, Messages const& messages,
-                                 std::function<double()> const& latitude) {
-  auto const now = std::make_shared<RunTime const*>(nullptr);
-  SunlitFractions table;
-  table.steps_per_hour = run.steps_per_hour;
-  model.options.update.every_timestep = true;
-  Session session(std::move(model));
-  std::vector<Receiver> receivers;
-  for (auto const& surface : surfaces) {
-    auto const id = session.add(surface);
-    if (!is_exterior(surface.name, session.input())) continue;
-    receivers.push_back({id, area(surface.polygon) * normal(surface.polygon)});
-    table.surfaces.push_back(surface.name);
+RenderedRun render_run(Model model, std::vector<Surface> const& surfaces, RunTimes const& run,
+                       Messages const& messages, std::function<double()> const& latitude,
+                       Rendered wanted) {
+  RenderedRun made;
+  made.sunlit.steps_per_hour = made.grounds.steps_per_hour = run.steps_per_hour;
+  made.grounds.otherwise = min_ground_reflectance;
+  for (auto const& receiver : model.reflected_light.receivers) {
+    made.grounds.columns.push_back(receiver.surface);
   }
-  auto schedules = schedules_of(run, now);
-  schedules.position = nullptr;  // the weather that moving shades need is not known here
-  session.start({messages, std::move(schedules), latitude});
-  Progress progress("rendering sunlit fractions", run.times.size());
+  model.options.update.every_timestep = true;
+  TimedSession session(std::move(model), surfaces, run, messages, latitude);
+  if (wanted == Rendered::all) made.sunlit.columns = session.names();
+  Progress progress("rendering a run's shading", run.times.size());
   for (std::size_t i = 0; i < run.times.size(); ++i) {
     auto const& time = run.times[i];
-    auto const sun = to_vector(time.sun);
     if (!sun_is_up(time.sun)) continue;
-    *now = &time;
-    session.set_time({time.hour, time.timestep});
-    session.set_sun(time.sun);
-    auto& row = table.fractions.emplace_back();
-    row.reserve(receivers.size());
-    for (auto const& receiver : receivers) row.push_back(fraction(session, receiver, sun));
-    table.times.push_back(time);
+    session.set_time(time);
+    if (wanted == Rendered::all) {
+      made.sunlit.values.push_back(session.fractions(time));
+      made.sunlit.times.push_back(time);
+    }
+    if (auto row = session.grounds(time); !row.empty()) {
+      made.grounds.values.push_back(std::move(row));
+      made.grounds.times.push_back(time);
+    }
     progress.at(i + 1);
   }
   session.finish();
-  return table;
+  return made;
 }
 
-void write_schedule_file(SunlitFractions const& table, std::ostream& out) {
-  for (std::size_t i = 0; i < table.surfaces.size(); ++i) {
-    out << (i == 0 ? "" : ",") << table.surfaces[i];
+void add_ground_schedules(ModelEditor& editor, ReflectedLight const& light,
+                          ScheduleTable const& grounds, std::string const& file) {
+  if (grounds.empty()) {
+    for (auto const& schedule : constant_schedules(light)) editor.add(schedule);
+    return;
   }
-  out << '\n';
-  std::string dark;
-  for (std::size_t i = 0; i < table.surfaces.size(); ++i) dark += i == 0 ? "0" : ",0";
-  for_each_row(table, [&](std::vector<float> const* fractions) {
-    if (fractions == nullptr) {
-      out << dark << '\n';
-      return;
-    }
-    fmt::memory_buffer line;
-    for (std::size_t i = 0; i < fractions->size(); ++i) {
-      fmt::format_to(std::back_inserter(line), "{}{:.7g}", i == 0 ? "" : ",", (*fractions)[i]);
-    }
-    out.write(line.data(), static_cast<std::streamsize>(line.size())) << '\n';
-  });
+  for (std::size_t i = 0; i < light.receivers.size(); ++i) {
+    editor.add(file_schedule(grounds, i, light.receivers[i].schedule, light.schedule_limits, file));
+  }
 }
 
 std::optional<std::string> warn_of_actuated(Model const& model) {

@@ -1,39 +1,38 @@
 #pragma once
 
 #include <functional>
-#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "calculation/session.h"
 #include "model/model_reader.h"
+#include "routes/schedules/schedule_table.h"
 #include "runs/run_times.h"
 
 namespace gpu_shading::energyplus {
 
-// Sunlit fractions of surfaces, 0 .. 1, at the times of a run when the sun is up.
-struct SunlitFractions {
-  std::vector<std::string> surfaces;
-  int steps_per_hour = 0;
-  std::vector<RunTime> times;                 // in the order of the year
-  std::vector<std::vector<float>> fractions;  // by time, then surface
+class ModelEditor;
 
-  bool empty() const { return times.empty(); }
+// What EnergyPlus is given before a run, by surface.
+struct RenderedRun {
+  ScheduleTable sunlit;  // fractions, 0 .. 1, of the exterior surfaces
+  ScheduleTable
+      grounds;  // reflectances of their own grounds, of Model::reflected_light's receivers
 };
 
-// Renders the sunlit fractions of every exterior surface at every timestep with the sun up,
-// including the run's schedule values; interpolated from samples if the model's options say so.
-// `surfaces`: those of the whole model. `latitude`: the site's, in radians; only called when
-// sampling. Throws Error.
-SunlitFractions render_fractions(Model model, std::vector<Surface> const& surfaces,
-                                 RunTimes const& run, Messages const& messages,
-                                 std::function<double()> const& latitude);
+enum class Rendered { all, grounds };
 
-// The file for EnergyPlus's Schedule:File objects: names of the surfaces in the first line, then a
-// row for every timestep of a leap year, by which EnergyPlus counts; 0 at times that the table
-// lacks.
-void write_schedule_file(SunlitFractions const& table, std::ostream& out);
+// Computes every timestep with the sun up, including the run's schedule values; fractions are
+// interpolated from samples if the model's options say so. `surfaces`: those of the whole model.
+// `latitude`: the site's, in radians; only called when sampling, or for grounds. Throws Error.
+RenderedRun render_run(Model model, std::vector<Surface> const& surfaces, RunTimes const& run,
+                       Messages const& messages, std::function<double()> const& latitude,
+                       Rendered wanted = Rendered::all);
+
+// Adds a schedule for each receiver of reflected light, of a file with `grounds`.
+void add_ground_schedules(ModelEditor& editor, ReflectedLight const& light,
+                          ScheduleTable const& grounds, std::string const& file);
 
 // The transmittance, deployment, leaf, position and availability schedules of a model's shades, in
 // upper case, without duplicates.

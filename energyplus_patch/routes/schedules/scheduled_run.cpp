@@ -17,7 +17,7 @@
 #include "platform/process.h"
 #include "platform/text.h"
 #include "routes/hosted_run.h"
-#include "routes/schedules/rendered_fractions.h"
+#include "routes/schedules/rendered_run.h"
 #include "runs/drawing.h"
 #include "runs/installation.h"
 
@@ -40,6 +40,11 @@ std::string describe_limits(Model const& model) {
   }
   if (model.shading.all_shading_wanted || !model.shading.wanted_shading.empty()) {
     text += "; shading surfaces themselves count as sunlit";
+  }
+  if (!model.reflected_light.receivers.empty()) {
+    text +=
+        "; a sizing period on a date of the run periods divides what reflected light reaches a "
+        "surface as they do";
   }
   if (model.options.lean == Lean::on) text += "; lean input is off";
   return text;
@@ -69,15 +74,6 @@ class Collected {
   Say say_;
 };
 
-bool runs_periods(EnergyPlusCall const& call, ModelEditor& model) {
-  if (call.annual || call.design_days) return call.annual;
-  bool runs = true;
-  model.edit("SimulationControl", [&](EditedObject const& control) {
-    runs = !same_name(control.get({4, "run_simulation_for_weather_file_run_periods"}), "No");
-  });
-  return runs;
-}
-
 // Latitude of the site that determines the sun in run periods; radians.
 double latitude_of(EnergyPlusCall const& call) {
   if (!call.weather)
@@ -85,19 +81,20 @@ double latitude_of(EnergyPlusCall const& call) {
   return glm::radians(read_weather_site(*call.weather).latitude);
 }
 
-SunlitFractions render(EnergyPlusCall const& call, Model model, Collected& out) {
+RenderedRun render(EnergyPlusCall const& call, Model model, Collected& out) {
+  auto const wanted = runs_periods(call) ? Rendered::all : Rendered::grounds;
+  if (wanted == Rendered::grounds && model.reflected_light.receivers.empty()) return {};
   auto const run = run_for_times(call, shade_schedules(model));
   if (run.times.empty()) return {};
   if (auto const warning = warn_of_actuated(model)) out.warn(*warning);
   auto const surfaces = surfaces_of(run_for_surfaces(call), model.shading);
-  return render_fractions(std::move(model), surfaces, run, out.messages(),
-                          [&] { return latitude_of(call); });
+  return render_run(
+      std::move(model), surfaces, run, out.messages(), [&] { return latitude_of(call); }, wanted);
 }
 
 // `file`: beside the model, so that both can be copied together.
-void add_schedules(ModelEditor& editor, SunlitFractions const& table, std::string const& file) {
-  constexpr int minutes_of_hour = 60;
-  constexpr int hours_of_leap_year = 8784;
+void add_sunlit_schedules(ModelEditor& editor, ScheduleTable const& table,
+                          std::string const& file) {
   constexpr std::string_view limits = "GPU SHADING SUNLIT FRACTION";
   editor.add({"ScheduleTypeLimits",
               {{"name", limits},
@@ -105,20 +102,10 @@ void add_schedules(ModelEditor& editor, SunlitFractions const& table, std::strin
                {"upper_limit_value", 1},
                {"numeric_type", "Continuous"}}});
   std::unordered_map<std::string, std::string> schedule_of;
-  for (std::size_t i = 0; i < table.surfaces.size(); ++i) {
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
     auto const name = fmt::format("{} {}", limits, i + 1);
-    schedule_of[upper(table.surfaces[i])] = name;
-    editor.add({"Schedule:File",
-                {{"name", name},
-                 {"schedule_type_limits_name", limits},
-                 {"file_name", file},
-                 {"column_number", i + 1},
-                 {"rows_to_skip_at_top", 1},
-                 {"number_of_hours_of_data", hours_of_leap_year},
-                 {"column_separator", "Comma"},
-                 {"interpolate_to_timestep", "No"},
-                 {"minutes_per_item", minutes_of_hour / table.steps_per_hour},
-                 {"adjust_schedule_for_daylight_savings", "No"}}});
+    schedule_of[upper(table.columns[i])] = name;
+    editor.add(file_schedule(table, i, name, std::string(limits), file));
   }
   // A surface may already have the object for other properties.
   editor.edit(local_environment, [&](EditedObject& object) {
@@ -127,7 +114,7 @@ void add_schedules(ModelEditor& editor, SunlitFractions const& table, std::strin
     object.set(sunlit_schedule, found->second);
     schedule_of.erase(found);
   });
-  for (auto const& surface : table.surfaces) {
+  for (auto const& surface : table.columns) {
     auto const found = schedule_of.find(upper(surface));
     if (found == schedule_of.end()) continue;
     editor.add(environment_object({.name = found->second + " OF ITS SURFACE",
@@ -145,6 +132,7 @@ ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choi
   editor->remove([](std::string_view type) { return is_extension(type); });
   Reader reader;
   reader.release = read_release(call.program.parent_path());
+  reader.reflected_light = true;
   auto model = read_model(call.model, choices, reader);
   if (model.surrounding_objects) editor->merge(read_text_file(*model.surrounding_objects));
   if (model.options.mode == Mode::off) {
@@ -152,9 +140,20 @@ ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choi
   } else {
     for (auto const& warning : model.early_warnings) out.warn(warning);
     out.warn(describe_limits(model));
-    SunlitFractions table;
-    if (runs_periods(call, *editor)) table = render(call, std::move(model), out);
-    if (table.empty()) {
+    editor->apply(model.field_changes);
+    for (auto const& object : model.new_objects) editor->add(object);
+    auto const light = model.reflected_light;
+    auto const made = render(call, std::move(model), out);
+    auto const write = [&](char const* name, ScheduleTable const& table) {
+      write_whole_file(folder / name,
+                       [&](std::ostream& file) { write_schedule_file(table, file); });
+      return name;
+    };
+    if (!light.receivers.empty()) {
+      add_ground_schedules(*editor, light, made.grounds,
+                           write("gpu_shading_grounds.csv", made.grounds));
+    }
+    if (made.sunlit.empty()) {
       out.warn(
           "no run period with the sun above the horizon is run: all shading is computed by polygon "
           "clipping");
@@ -162,10 +161,7 @@ ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choi
     } else {
       // With Periodic, a day's schedule values would apply to the whole period.
       editor->apply(shading_method("Scheduled", "Timestep"));
-      constexpr char const* fractions = "gpu_shading_sunlit.csv";
-      write_whole_file(folder / fractions,
-                       [&](std::ostream& file) { write_schedule_file(table, file); });
-      add_schedules(*editor, table, fractions);
+      add_sunlit_schedules(*editor, made.sunlit, write("gpu_shading_sunlit.csv", made.sunlit));
     }
   }
   ScheduledModel done;

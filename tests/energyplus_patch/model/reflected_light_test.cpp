@@ -143,14 +143,16 @@ TEST(ReflectedLight, EachReceiverGetsAGroundOfItsOwn) {
   EXPECT_THAT(input.changes, IsEmpty());
   EXPECT_THAT(input.remarks, IsEmpty());
   std::string added;
-  for (auto const& object : input.added) added += format_idf(object.type, idf_fields(object));
+  for (auto const& objects : {input.added, constant_schedules(input.light)}) {
+    for (auto const& object : objects) added += format_idf(object.type, idf_fields(object));
+  }
   EXPECT_THAT(added, HasSubstr("SurfaceProperty:LocalEnvironment,\n  GPU SHADING GROUND OF PANE,\n"
                                "  Pane,\n  ,\n  ,\n  ,\n  GPU SHADING GROUND OF PANE;\n"));
   EXPECT_THAT(added, HasSubstr("SurfaceProperty:GroundSurfaces,\n  GPU SHADING GROUND OF PANE,\n"
                                "  GROUND,\n  0.5,\n  ,\n  GPU SHADING GROUND OF PANE;\n"));
   EXPECT_THAT(added,
               HasSubstr("Schedule:Constant,\n  GPU SHADING GROUND OF PANE,\n  GPU SHADING GROUND,\n"
-                        "  0.2;\n"));
+                        "  1e-09;\n"));
 }
 
 TEST(ReflectedLight, TypedViewFactorsOfTheUserStay) {
@@ -230,8 +232,8 @@ TEST(ReflectedLight, LocalEnvironmentsOfTheModelAreUsed) {
   EXPECT_EQ(input.changes[0].field.index, 5U);
   EXPECT_EQ(input.changes[0].value, "GPU SHADING GROUND OF A");
   EXPECT_EQ(input.changes[1].object, "Around");
-  ASSERT_EQ(input.added.size(), 5U);
-  EXPECT_THAT(idf_fields(input.added[3]), ElementsAre("GPU SHADING GROUND OF E", "GROUND", "0.3",
+  ASSERT_EQ(input.added.size(), 3U);
+  EXPECT_THAT(idf_fields(input.added[2]), ElementsAre("GPU SHADING GROUND OF E", "GROUND", "0.3",
                                                       "Warm", "GPU SHADING GROUND OF E"));
   EXPECT_THAT(input.remarks, ElementsAre(HasSubstr("with a ground of its own): B, C, D, F")));
 }
@@ -250,9 +252,9 @@ TEST(ReflectedLight, ViewFactorsOfSurroundingsAreKept) {
           environment({.name = walls, .surface = "B", .surroundings = walls}) +
           "SurfaceProperty:SurroundingSurfaces,GPU SHADING VIEWS OF B,0.4,,0.0,,Walls,0.6,Warm;");
   EXPECT_THAT(receivers(input), ElementsAre("A", "B"));
-  ASSERT_EQ(input.added.size(), 5U);
+  ASSERT_EQ(input.added.size(), 3U);
   EXPECT_EQ(input.added[0].items[0][1].value, 0.7);
-  EXPECT_EQ(input.added[3].items[0][1].value, 1e-17);
+  EXPECT_EQ(input.added[2].items[0][1].value, 1e-17);
   EXPECT_EQ(input.changes[0].object, "GPU SHADING VIEWS OF A");
 }
 
@@ -316,8 +318,6 @@ TEST(ReflectedLight, BothFormatsAreChangedAlike) {
       nlohmann::json::array({{{"ground_surface_name", "GROUND"},
                               {"ground_surface_view_factor", 1e-17},
                               {"ground_surface_reflectance_schedule_name", name}}});
-  expected["Schedule:Constant"][name] = {{"schedule_type_limits_name", "GPU SHADING GROUND"},
-                                         {"hourly_value", 1e-9}};
   expected["ScheduleTypeLimits"]["GPU SHADING GROUND"] = nlohmann::json::object();
   rewrite_epjson(model, {input.changes, {}, input.added});
   EXPECT_EQ(model, expected);

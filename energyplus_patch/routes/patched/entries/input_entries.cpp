@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <ios>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <system_error>
 
+#include "model/reflected_light_input.h"
 #include "platform/console.h"
 #include "platform/error_line.h"
 #include "routes/patched/entries/entries.h"
@@ -93,7 +96,10 @@ Rewrite take_model(std::vector<InputObject> objects, Path const& path,
     warn_of_opaque_shades(run);
     warn_of_missing_surroundings(run);
   }
-  return rewrite_for(*run.model);
+  auto rewrite = rewrite_for(*run.model);
+  std::ranges::move(constant_schedules(run.model->reflected_light),
+                    std::back_inserter(rewrite.added));
+  return rewrite;
 }
 
 // EnergyPlus passes the state here, before the input is read and after its preprocessors.

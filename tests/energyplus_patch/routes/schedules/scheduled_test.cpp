@@ -11,7 +11,7 @@
 
 #include "gpu_shading/error.h"
 #include "platform/progress.h"
-#include "routes/schedules/rendered_fractions.h"
+#include "routes/schedules/schedule_table.h"
 #include "runs/drawing.h"
 #include "runs/run_times.h"
 
@@ -142,15 +142,6 @@ TEST(RunTimes, RunPeriodsThatDisagree) {
   EXPECT_THROW(read_run_times(other), Error);
 }
 
-SunlitFractions table_of(int month, int day) {
-  SunlitFractions table;
-  table.surfaces = {"WALL", "WINDOW"};
-  table.steps_per_hour = 2;
-  table.times.push_back({month, day, 12, 2, {}, {}});
-  table.fractions.push_back({0.25F, 1.0F});
-  return table;
-}
-
 std::vector<std::string> lines_of(std::string const& text) {
   std::istringstream in(text);
   std::vector<std::string> lines;
@@ -158,14 +149,15 @@ std::vector<std::string> lines_of(std::string const& text) {
   return lines;
 }
 
-TEST(SunlitFractions, ScheduleFileIsOfALeapYear) {
+TEST(ScheduleTable, FileIsOfALeapYear) {
+  ScheduleTable const table{{"WALL", "WINDOW"}, 1e-9, 2, {{3, 1, 12, 2, {}, {}}}, {{0.25F, 1.0F}}};
   std::ostringstream out;
-  write_schedule_file(table_of(3, 1), out);
+  write_schedule_file(table, out);
   auto const lines = lines_of(out.str());
   ASSERT_EQ(lines.size(), 1U + 366U * 48U);
   EXPECT_EQ(lines[0], "WALL,WINDOW");
   EXPECT_EQ(lines[1 + 60 * 48 + 23], "0.25,1");
-  EXPECT_EQ(lines[1 + 60 * 48 + 24], "0,0");
+  EXPECT_EQ(lines[1 + 60 * 48 + 24], "1e-09,1e-09");
 }
 
 std::string shown(bool terminal, Progress::Clock::duration patience) {
