@@ -80,11 +80,14 @@ void add_pane(InputObject const& material, Panes& panes, std::vector<std::string
   }
 }
 
+SimpleGlazing rating(InputObject const& material) {
+  return {number(material, "u_factor", "U-Factor", 1e-6, 7.0),
+          number(material, "solar_heat_gain_coefficient", "Solar Heat Gain Coefficient", 1e-6,
+                 0.999999)};
+}
+
 GlazingTransmittance rated(InputObject const& material) {
-  auto const solar =
-      Transmittance::glazing(SimpleGlazing{number(material, "u_factor", "U-Factor", 1e-6, 7.0),
-                                           number(material, "solar_heat_gain_coefficient",
-                                                  "Solar Heat Gain Coefficient", 1e-6, 0.999999)});
+  auto const solar = Transmittance::glazing(rating(material));
   auto visible = solar;
   if (!material["visible_transmittance"].empty()) {
     visible = Transmittance::with_normal(
@@ -93,14 +96,17 @@ GlazingTransmittance rated(InputObject const& material) {
   return {Transmittance::fitted_in_cosine(solar), Transmittance::fitted_in_cosine(visible)};
 }
 
-}  // namespace
+// What a construction is made of.
+struct Glazing {
+  Panes panes;
+  InputObject const* rated = nullptr;  // in their place
+};
 
-GlazingTransmittance construction_transmittance(std::vector<InputObject> const& objects,
-                                                std::string const& name,
-                                                std::vector<std::string>& warnings) {
+Glazing glazing_of(std::vector<InputObject> const& objects, std::string const& name,
+                   std::vector<std::string>& warnings) {
   auto const* const construction = find(objects, "Construction", name);
   if (construction == nullptr) throw Error(fmt::format("there is no Construction \"{}\"", name));
-  Panes panes;
+  Glazing glazing;
   for (auto const& layer : construction->list) {
     if (layer.empty()) continue;
     auto const* const material = find(objects, "WindowMaterial:", layer);
@@ -110,14 +116,31 @@ GlazingTransmittance construction_transmittance(std::vector<InputObject> const& 
           "WindowMaterial:Glazing, WindowMaterial:Gas or WindowMaterial:SimpleGlazingSystem",
           construction->name, layer));
     }
-    if (material->type == "WindowMaterial:SimpleGlazingSystem") return rated(*material);
-    if (material->type == "WindowMaterial:Glazing") add_pane(*material, panes, warnings);
+    if (material->type == "WindowMaterial:SimpleGlazingSystem") return {{}, material};
+    if (material->type == "WindowMaterial:Glazing") add_pane(*material, glazing.panes, warnings);
   }
-  if (panes.solar.empty()) {
+  if (glazing.panes.solar.empty()) {
     throw Error(fmt::format("Construction {}: has no glazing layer", construction->name));
   }
+  return glazing;
+}
+
+}  // namespace
+
+GlazingTransmittance construction_transmittance(std::vector<InputObject> const& objects,
+                                                std::string const& name,
+                                                std::vector<std::string>& warnings) {
+  auto const [panes, material] = glazing_of(objects, name, warnings);
+  if (material != nullptr) return rated(*material);
   return {Transmittance::fitted_in_cosine(Transmittance::glazing(panes.solar)),
           Transmittance::fitted_in_cosine(Transmittance::glazing(panes.visible))};
+}
+
+double construction_reflectance(std::vector<InputObject> const& objects, std::string const& name) {
+  std::vector<std::string> scattering;
+  auto const [panes, material] = glazing_of(objects, name, scattering);
+  return material != nullptr ? normal_reflectance(rating(*material))
+                             : normal_reflectance(panes.solar);
 }
 
 }  // namespace gpu_shading::energyplus

@@ -55,4 +55,9 @@ GlazingTransmittance construction_transmittance(std::vector<InputObject> const& 
                                                 std::string const& construction,
                                                 std::vector<std::string>& warnings);
 
+// Solar reflectance of such a construction's outside at normal incidence, 0 .. 1. Throws Error as
+// construction_transmittance() does.
+double construction_reflectance(std::vector<InputObject> const& objects,
+                                std::string const& construction);
+
 }  // namespace gpu_shading::energyplus

@@ -30,37 +30,44 @@ void check(GlassLayer const& layer, std::size_t number) {
   in_sum("back reflectance", layer.back_reflectance);
 }
 
-// Engineering Reference, "Glazing System Properties": pane by pane, the transmittance of the
-// previous panes and their reflectance for light from inside.
-double through(std::vector<Pane> const& panes, double cosine) {
-  double transmittance = 1.0;
-  double back_reflectance = 0.0;
-  for (Pane const& pane : panes) {
-    PaneProperties const p = pane.at(cosine);
-    double const kept = 1.0 - p.front_reflectance * back_reflectance;
-    // Between perfect mirrors, at grazing incidence, nothing is transmitted: T vanishes faster.
-    if (kept <= 0.0) return 0.0;
-    transmittance *= p.transmittance / kept;
-    back_reflectance =
-        p.back_reflectance + p.transmittance * p.transmittance * back_reflectance / kept;
-  }
-  return transmittance;
-}
-
-}  // namespace
-
-Transmittance Transmittance::glazing(std::span<GlassLayer const> layers) {
+std::vector<Pane> panes_of(std::span<GlassLayer const> layers) {
   if (layers.empty()) throw Error("glazing has no panes, expected 1 or more");
   std::vector<Pane> panes;
   for (GlassLayer const& layer : layers) {
     check(layer, panes.size() + 1);
     panes.emplace_back(layer);
   }
-  return Transmittance([panes = std::move(panes)](double angle) {
+  return panes;
+}
+
+// Engineering Reference, "Glazing System Properties": pane by pane, those of the previous panes.
+PaneProperties of_all(std::vector<Pane> const& panes, double cosine) {
+  PaneProperties all{1.0, 0.0, 0.0};
+  for (Pane const& pane : panes) {
+    PaneProperties const p = pane.at(cosine);
+    double const kept = 1.0 - p.front_reflectance * all.back_reflectance;
+    // Between perfect mirrors, at grazing incidence, nothing is transmitted: T vanishes faster.
+    if (kept <= 0.0) return {0.0, all.front_reflectance, p.back_reflectance};
+    all.front_reflectance += all.transmittance * all.transmittance * p.front_reflectance / kept;
+    all.transmittance *= p.transmittance / kept;
+    all.back_reflectance =
+        p.back_reflectance + p.transmittance * p.transmittance * all.back_reflectance / kept;
+  }
+  return all;
+}
+
+}  // namespace
+
+Transmittance Transmittance::glazing(std::span<GlassLayer const> layers) {
+  return Transmittance([panes = panes_of(layers)](double angle) {
     // The cosine of the double closest to pi/2 is 6e-17.
     double const cosine = std::cos(angle);
-    return through(panes, cosine < 1e-15 ? 0.0 : cosine);
+    return of_all(panes, cosine < 1e-15 ? 0.0 : cosine).transmittance;
   });
+}
+
+double normal_reflectance(std::span<GlassLayer const> layers) {
+  return of_all(panes_of(layers), 1.0).front_reflectance;
 }
 
 }  // namespace gpu_shading

@@ -72,9 +72,15 @@ double normal_transmittance(SimpleGlazing const& window) {
   return std::clamp(std::lerp(low, high, share(window.u_factor, 3.4, 4.5)), 0.0, 1.0);
 }
 
-}  // namespace
+// Step 1, in winter: of the layer between the air films, m2 K/W.
+double resistance(double u) {
+  double const inside =
+      u < 5.85 ? 1.0 / (0.359073 * std::log(u) + 6.949915) : 1.0 / (1.788041 * u - 2.886625);
+  double const outside = 1.0 / (0.025342 * u + 29.163853);
+  return std::max(1.0 / u - inside - outside, 0.001);  // as EnergyPlus limits it
+}
 
-Transmittance Transmittance::glazing(SimpleGlazing const& window) {
+void check(SimpleGlazing const& window) {
   if (!(window.u_factor > 0.0 && window.u_factor <= 7.0)) {
     throw Error(fmt::format("U-factor is {:.9g} W/(m2 K), expected above 0 and at most 7",
                             window.u_factor));
@@ -82,10 +88,40 @@ Transmittance Transmittance::glazing(SimpleGlazing const& window) {
   if (!(window.shgc > 0.0 && window.shgc < 1.0)) {
     throw Error(fmt::format("SHGC is {:.9g}, expected between 0 and 1", window.shgc));
   }
+}
+
+}  // namespace
+
+Transmittance Transmittance::glazing(SimpleGlazing const& window) {
+  check(window);
   return Transmittance(
       [curve = angular_curve(window), normal = normal_transmittance(window)](double angle) {
         return normal * normalised(curve, std::cos(angle), 0.0);
       });
+}
+
+double normal_reflectance(SimpleGlazing const& window) {
+  check(window);
+  double const transmittance = normal_transmittance(window);
+  double const absorbed_inwards = window.shgc - transmittance;
+  // In summer.
+  struct Films {
+    double inside, outside;  // m2 K/W
+  };
+  double const x = absorbed_inwards;
+  Films const low{1.0 / (((199.8208128 * x - 90.639733) * x + 19.737055) * x + 6.766575),
+                  1.0 / (5.763355 * x + 20.541528)};
+  Films const high{1.0 / (((29.436546 * x - 21.943415) * x + 9.945872) * x + 7.426151),
+                   1.0 / (2.225824 * x + 20.57708)};
+  double const u = window.u_factor;
+  double const t = share(u, 3.4, 4.5);
+  // Between both ranges EnergyPlus 25.2 leads away from `high`.
+  double const towards = t < 1.0 ? -t : 1.0;
+  double const inside = std::lerp(low.inside, high.inside, towards);
+  double const outside = std::lerp(low.outside, high.outside, towards);
+  double const layer = resistance(u);
+  double const inward = (outside + 0.5 * layer) / (outside + layer + inside);
+  return std::clamp(1.0 - transmittance - absorbed_inwards / inward, 0.0, 1.0);
 }
 
 }  // namespace gpu_shading

@@ -81,6 +81,12 @@ class Transmittance {
   std::function<double(double)> model_;
 };
 
+// Solar reflectance, 0 .. 1, at normal incidence of the outermost pane with what lies behind it, or
+// of a rated window ("Simple Window Model", step 5). They throw Error as Transmittance::glazing()
+// does.
+double normal_reflectance(std::span<GlassLayer const> layers);
+double normal_reflectance(SimpleGlazing const& window);
+
 // A table of angle and transmittance from a text file, separated by commas, semicolons, tabs or
 // blanks. One of
 //  - two columns, angle in degrees and transmittance, with or without a line of headings;

@@ -251,6 +251,56 @@ TEST(SimpleGlazing, NamesTheRatingThatIsWrong) {
             "SHGC is 1, expected between 0 and 1");
 }
 
+// As EnergyPlus 25.2 lists them in its .eio file, also for U between both ranges.
+TEST(NormalReflectance, OfARatingIsEnergyPlusS) {
+  struct Rated {
+    SimpleGlazing window;
+    double reflectance;
+  };
+  for (auto const& [window, expected] : std::vector<Rated>{{{5.8, 0.8}, 4.53258e-2},
+                                                           {{5.8, 0.5}, 0.11669},
+                                                           {{6.5, 0.3}, 0.33375},
+                                                           {{3.95, 0.5}, 0.27188},
+                                                           {{3.6, 0.6}, 0.24462},
+                                                           {{4.4, 0.45}, 0.22930},
+                                                           {{2.0, 0.4}, 0.48237},
+                                                           {{1.4, 0.6}, 0.30517},
+                                                           {{2.0, 0.1}, 0.81796},
+                                                           {{0.9, 0.9}, 4.41711e-2}}) {
+    EXPECT_NEAR(normal_reflectance(window), expected, 6e-6) << window.u_factor << window.shgc;
+  }
+}
+
+// Light that is followed from pane to pane until none is left.
+double returned(std::vector<GlassLayer> const& layers) {
+  std::vector<double> inwards(layers.size(), 0.0);  // that meets a pane
+  std::vector<double> outwards(layers.size(), 0.0);
+  inwards.front() = 1.0;
+  double returned = 0.0;
+  for (int step = 0; step < 1000; ++step) {
+    std::vector<double> next_in(layers.size(), 0.0);
+    std::vector<double> next_out(layers.size(), 0.0);
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      auto const& [transmittance, front, back] = layers[i];
+      double const from_front = front * inwards[i] + transmittance * outwards[i];
+      (i == 0 ? returned : next_out[i - 1]) += from_front;
+      if (i + 1 < layers.size()) next_in[i + 1] += transmittance * inwards[i] + back * outwards[i];
+    }
+    inwards = next_in;
+    outwards = next_out;
+  }
+  return returned;
+}
+
+TEST(NormalReflectance, OfPanesIsTheLightThatComesBack) {
+  GlassLayer const solar_control{0.2, 0.4, 0.3};
+  EXPECT_NEAR(normal_reflectance(std::vector{clear}), 0.071, 1e-12);
+  for (auto const& layers :
+       {std::vector{low_e, clear}, {solar_control, clear}, {clear, low_e, solar_control}}) {
+    EXPECT_NEAR(normal_reflectance(layers), returned(layers), 1e-12);
+  }
+}
+
 Transmittance polynomial(std::vector<double> const& coefficients) {
   return Transmittance::polynomial_in_cosine(coefficients);
 }
