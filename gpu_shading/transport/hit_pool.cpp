@@ -10,8 +10,6 @@
 namespace gpu_shading {
 namespace {
 
-// Normals that are alike are one group.
-constexpr double normal_steps = 500.0;
 constexpr int curve_bits = 21;  // of each axis
 
 // Bits of a number of curve_bits, two places apart.
@@ -51,18 +49,6 @@ std::vector<std::uint64_t> along_curve(std::vector<KeptHit> const& hits, glm::dv
   return keys;
 }
 
-// Equal for normals that are alike.
-std::uint64_t rounded(glm::dvec3 const& normal) {
-  constexpr int axis_bits = 16;
-  constexpr double middle = 1U << (axis_bits - 1);
-  std::uint64_t bits = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    auto const step = std::lround(normal[axis] * normal_steps + middle);
-    bits = bits << axis_bits | static_cast<std::uint64_t>(step);
-  }
-  return bits;
-}
-
 struct Place {
   std::uint64_t normal;
   std::uint64_t along;
@@ -77,7 +63,7 @@ HitPool::HitPool(std::vector<KeptHit> hits, std::size_t paths, glm::dvec3 const&
   std::vector<Place> order;
   order.reserve(hits.size());
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    order.push_back({rounded(hits[i].normal), keys[i], i});
+    order.push_back({normal_key(hits[i].normal), keys[i], i});
   }
   std::ranges::sort(order, {}, [](Place const& place) {
     return std::tuple(place.normal, place.along, place.hit);
@@ -93,38 +79,41 @@ HitPool::HitPool(std::vector<KeptHit> hits, std::size_t paths, glm::dvec3 const&
   groups_.push_back(hits_.size());
 }
 
-PooledBeam HitPool::beam(RayScene const& rays, RayConditions const& conditions,
-                         glm::dvec3 const& sun, int draws, std::uint64_t key) const {
-  // Weight times cosine up to the end of each group.
+std::vector<DrawnHit> HitPool::draw(std::span<LightDirection const> directions, int draws,
+                                    std::uint64_t key) const {
+  // Share times weight times cosine up to the end of each group, by direction.
+  std::size_t const groups = groups_.size() - 1;
   std::vector<double> sums;
-  sums.reserve(groups_.size());
+  sums.reserve(directions.size() * groups);
   double total = 0.0;
-  for (std::size_t g = 0; g + 1 < groups_.size(); ++g) {
-    double const cosine = std::max(0.0, glm::dot(hits_[groups_[g]].normal, sun));
-    sums.push_back(total += cosine * (up_to_[groups_[g + 1]] - up_to_[groups_[g]]));
+  for (auto const& direction : directions) {
+    for (std::size_t g = 0; g < groups; ++g) {
+      double const cosine = std::max(0.0, glm::dot(hits_[groups_[g]].normal, direction.towards));
+      total += direction.share * cosine * (up_to_[groups_[g + 1]] - up_to_[groups_[g]]);
+      sums.push_back(total);
+    }
   }
-  PooledBeam beam;
-  if (total <= 0.0) return beam;
+  std::vector<DrawnHit> drawn;
+  if (groups == 0 || total <= 0.0) return drawn;
+  drawn.reserve(static_cast<std::size_t>(draws));
   double const share = total / draws;
   double const start = random_at(key);
   for (int k = 0; k < draws; ++k) {
     double const place = (k + start) * share;
     auto const found = std::upper_bound(sums.begin(), std::prev(sums.end()), place);
-    auto const g = static_cast<std::size_t>(found - sums.begin());
-    double const before = g == 0 ? 0.0 : sums[g - 1];
+    auto const at = static_cast<std::size_t>(found - sums.begin());
+    auto const g = at % groups;
+    double const before = at == 0 ? 0.0 : sums[at - 1];
     double const within = std::clamp((place - before) / (*found - before), 0.0, 1.0);
     double const weight =
         up_to_[groups_[g]] + within * (up_to_[groups_[g + 1]] - up_to_[groups_[g]]);
     auto const first = up_to_.begin() + static_cast<std::ptrdiff_t>(groups_[g]) + 1;
     auto const last = up_to_.begin() + static_cast<std::ptrdiff_t>(groups_[g + 1]);
-    auto const& hit =
-        hits_[static_cast<std::size_t>(std::upper_bound(first, last, weight) - up_to_.begin()) - 1];
-    Ray ray{hit.point, sun};
-    ray.from = hit.surface;
-    part_of(beam.light, hit.by_ground) += share * rays.transmittance(ray, conditions);
-    ++beam.rays;
+    auto const hit =
+        static_cast<std::size_t>(std::upper_bound(first, last, weight) - up_to_.begin()) - 1;
+    drawn.push_back({&hits_[hit], at / groups, share / directions[at / groups].share});
   }
-  return beam;
+  return drawn;
 }
 
 }  // namespace gpu_shading

@@ -3,16 +3,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
+#include "transport/mirrors.h"
 #include "transport/reverse_paths.h"
 
 namespace gpu_shading {
 
-// Irradiance of the receiver for a beam of 1 W/m2.
-struct PooledBeam {
-  LightByGround light;
-  std::size_t rays = 0;
+// A hit that was drawn for one of several directions.
+struct DrawnHit {
+  KeptHit const* hit = nullptr;
+  std::size_t direction = 0;
+  // Irradiance of the receiver, if a beam of 1 W/m2 from there reaches the hit.
+  double weight = 0.0;
 };
 
 // The hits of paths, in an order in which neighbours are alike: by normal, then along a
@@ -23,10 +27,10 @@ class HitPool {
   // logarithm.
   HitPool(std::vector<KeptHit> hits, std::size_t paths, glm::dvec3 const& centre, double size);
 
-  // By shadow rays from `draws` hits, drawn systematically in proportion to weight times cosine.
-  // `key`: of the random start.
-  PooledBeam beam(RayScene const& rays, RayConditions const& conditions, glm::dvec3 const& sun,
-                  int draws, std::uint64_t key) const;
+  // Drawn systematically in proportion to weight times cosine times the direction's share. None if
+  // all face away. `key`: of the random start.
+  std::vector<DrawnHit> draw(std::span<LightDirection const> directions, int draws,
+                             std::uint64_t key) const;
 
  private:
   std::vector<KeptHit> hits_;

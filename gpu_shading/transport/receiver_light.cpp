@@ -18,6 +18,8 @@ constexpr std::size_t paths_of_replicate = 1024;
 // for most receivers. The spread of equally weighted replicates is that of their mean all the same.
 constexpr int first_draws = 16;
 constexpr int later_draws = 32;
+constexpr int straight_for_mirrored =
+    4;  // draws, for each of a mirrored sun: glass reflects little
 constexpr std::size_t least_replicates = 4;
 constexpr std::size_t most_replicates = 128;
 constexpr std::size_t direct_rays = 8;  // from the receiver to a sun of the first table
@@ -94,24 +96,74 @@ struct Positions {
   std::vector<std::array<SunTable::Corner, 4>> hours;
 };
 
+// Where the sun's light is last reflected diffusely before it reaches the receiver.
+class LitPlaces {
+ public:
+  LitPlaces(LightRequest const& request, Receiver const& receiver, std::vector<KeptHit> hits,
+            std::uint32_t seed)
+      : request_(request), receiver_(receiver.id), conditions_(request.conditions) {
+    auto const make_pool = [&](std::vector<KeptHit> of) {
+      return HitPool(std::move(of), paths_of_replicate, receiver.points.at(0.5, 0.5),
+                     std::sqrt(area(request.scene.scene[receiver.id].polygon)));
+    };
+    conditions_.receiver = std::nullopt;
+    if (!request.scene.mirrors.empty()) {
+      auto by_mirror = hits;
+      for (std::size_t i = 0; i < paths_of_replicate; ++i) {
+        auto const point =
+            receiver.points.at(sobol_points().at(i, 0, seed), sobol_points().at(i, 1, seed));
+        by_mirror.push_back({point, receiver.points.normal(), 1.0, receiver.id, 0, true});
+      }
+      by_mirror_ = make_pool(std::move(by_mirror));
+    }
+    straight_ = make_pool(std::move(hits));
+  }
+
+  // Of a beam of 1 W/m2. Adds up its rays.
+  LightByGround beam(glm::dvec3 const& sun, int draws, std::uint64_t key, std::size_t& rays) const {
+    auto const& scene = request_.scene;
+    LightByGround light;
+    std::array const straight{LightDirection{sun}};
+    for (auto const& [hit, direction, weight] : straight_->draw(straight, draws, key)) {
+      Ray ray{hit->point, sun};
+      ray.from = hit->surface;
+      part_of(light, hit->by_ground) += weight * scene.rays.transmittance(ray, conditions_);
+      ++rays;
+    }
+    if (!by_mirror_) return light;
+    auto const images = scene.mirrors.images(sun);
+    for (auto const& [hit, image, weight] :
+         by_mirror_->draw(images, draws / straight_for_mirrored, ~key)) {
+      Ray ray{hit->point, images[image].towards};
+      ray.from = hit->surface;
+      auto conditions = conditions_;
+      if (hit->on_receiver) conditions.receiver = receiver_;
+      part_of(light, hit->by_ground) +=
+          weight * scene.mirrors.reflected(scene.rays, conditions, ray, image, sun, rays);
+    }
+    return light;
+  }
+
+ private:
+  LightRequest const& request_;
+  SurfaceId receiver_;
+  RayConditions conditions_;
+  std::optional<HitPool> straight_;
+  std::optional<HitPool> by_mirror_;  // with places on the receiver itself
+};
+
 Replicate replicate_of(LightRequest const& request, Receiver const& receiver,
                        Positions const& positions, std::uint32_t seed, int draws) {
-  auto const& scene = request.scene;
-  auto paths =
-      trace_paths(scene, receiver.id, receiver.points, sobol_points(), seed, request.conditions);
+  auto paths = trace_paths(request.scene, receiver.id, receiver.points, sobol_points(), seed,
+                           request.conditions);
   Replicate replicate;
   replicate.sky = paths.sky;
   replicate.sky_direct = paths.sky_direct;
   replicate.rays = paths.rays;
-  HitPool const pool(std::move(paths.hits), paths_of_replicate, receiver.points.at(0.5, 0.5),
-                     std::sqrt(area(scene.scene[receiver.id].polygon)));
-  auto conditions = request.conditions;
-  conditions.receiver = std::nullopt;
+  LitPlaces const places(request, receiver, std::move(paths.hits), seed);
   std::uint64_t key = std::uint64_t{seed} << 32U;
   auto const ask = [&](glm::dvec3 const& sun) {
-    auto const beam = pool.beam(scene.rays, conditions, sun, draws, ++key);
-    replicate.rays += beam.rays;
-    return beam.light;
+    return places.beam(sun, draws, ++key, replicate.rays);
   };
   for (auto const& sun : positions.table.suns()) replicate.beam.push_back(ask(sun));
   replicate.hourly.reserve(positions.hours.size());

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/triangulation.h"
+#include "transport/mirrors.h"
 
 namespace gpu_shading {
 namespace {
@@ -74,12 +75,6 @@ struct Reflection {
   double mirrored = 0.0;  // 0 .. 1 - reflectance
 };
 
-// Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994.
-double reflected_by_mirror(double at_normal, double cosine) {
-  if (at_normal <= 0.0) return 0.0;
-  return at_normal + (1.0 - at_normal) * std::pow(1.0 - std::abs(cosine), 5.0);
-}
-
 Reflection reflect(TransportScene const& scene, Segment const& segment,
                    glm::dvec3 const& direction) {
   if (segment.end == Segment::End::ground) {
@@ -89,8 +84,8 @@ Reflection reflect(TransportScene const& scene, Segment const& segment,
   auto const& normal = scene.normals[segment.surface];
   bool const front = glm::dot(normal, direction) < 0.0;
   double const diffuse = front ? faces.front : faces.back;
-  double const mirrored = reflected_by_mirror(faces.specular, -glm::dot(normal, direction));
-  return {front ? normal : -normal, diffuse, faces.is_ground, std::min(mirrored, 1.0 - diffuse)};
+  double const mirrored = mirror_reflectance(faces, diffuse, glm::dot(normal, direction));
+  return {front ? normal : -normal, diffuse, faces.is_ground, mirrored};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gpu_shading/transport.h"
+#include "transport/mirrors.h"
 #include "transport/sobol_points.h"
 
 namespace gpu_shading {
@@ -38,7 +39,8 @@ struct KeptHit {
   // Irradiance of the receiver for an irradiance of 1 of this place, times the number of paths.
   double weight = 0.0;
   std::optional<SurfaceId> surface = std::nullopt;  // none: the ground
-  int by_ground = 0;  // how many of the reflections up to the receiver are the ground's
+  int by_ground = 0;         // how many of the reflections up to the receiver are the ground's
+  bool on_receiver = false;  // not yet reflected
 };
 
 // The part of light that the ground reflected so many times.
@@ -61,6 +63,7 @@ struct TransportScene {
   std::span<glm::dvec3 const> normals;  // by surface, as are the reflectances
   std::span<FaceReflectances const> reflectances;
   std::optional<ReflectingGround> ground;
+  Mirrors const& mirrors;
 };
 
 // Dimensions of the points that trace_paths() takes: a place, and the first directions.

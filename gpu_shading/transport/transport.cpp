@@ -45,15 +45,17 @@ Transport::Transport(Scene const& scene, RayScene const& rays,
     require_share(reflectances_[id].front, id);
     require_share(reflectances_[id].back, id);
     require_share(reflectances_[id].specular, id);
+    require_share(reflectances_[id].grazing, id);
     require_share(
         std::max(reflectances_[id].front, reflectances_[id].back) + reflectances_[id].specular, id);
     normals_.push_back(normal(scene[id].polygon));
   }
+  mirrors_ = std::make_shared<Mirrors const>(scene, normals_, reflectances_);
 }
 
 Transported Transport::to(SurfaceId receiver, TransportRequest const& request,
                           RayConditions const& conditions, std::uint32_t seed) const {
-  TransportScene const scene{scene_, rays_, normals_, reflectances_, ground_};
+  TransportScene const scene{scene_, rays_, normals_, reflectances_, ground_, *mirrors_};
   SolarHours const year(request);
   return light_on({scene, request, year, conditions}, receiver, seed);
 }
@@ -61,7 +63,7 @@ Transported Transport::to(SurfaceId receiver, TransportRequest const& request,
 std::vector<Transported> Transport::to(std::span<SurfaceId const> receivers,
                                        TransportRequest const& request,
                                        RayConditions const& conditions) const {
-  TransportScene const scene{scene_, rays_, normals_, reflectances_, ground_};
+  TransportScene const scene{scene_, rays_, normals_, reflectances_, ground_, *mirrors_};
   SolarHours const year(request);
   std::vector<std::optional<Transported>> found(receivers.size());
   for_each_index(receivers.size(), [&](std::size_t i) {

@@ -14,16 +14,19 @@
 
 namespace gpu_shading {
 
+class Mirrors;
+
 // Reflectances of a surface's faces, 0 .. 1; the front is the side that the normal points to. For a
 // perforated sheet: of its solid part.
 struct FaceReflectances {
   double front = 0.0;  // diffuse (Lambertian)
   double back = 0.0;
   bool is_ground = false;  // terrain: its reflections count as the ground's
-  // Of both faces as mirrors, at normal incidence, not more than what the diffuse ones leave; it
-  // rises with the angle as by Schlick (1994). Receivers see surroundings and the sky in such a
-  // mirror, and so does whatever reflects diffusely, but not the sun.
+  // Of both faces as mirrors, at normal incidence, not more than what the diffuse ones leave. With
+  // the angle it rises to `grazing` as by Schlick (1994). The sun reaches receivers, and whatever
+  // reflects diffusely, by way of one mirror; surroundings and the sky by any number.
   double specular = 0.0;
+  double grazing = 1.0;
 };
 
 // A horizontal plane without end, which reflects diffusely.
@@ -160,6 +163,7 @@ class Transport {
   std::vector<glm::dvec3> normals_;
   std::vector<FaceReflectances> reflectances_;
   std::optional<ReflectingGround> ground_;
+  std::shared_ptr<Mirrors const> mirrors_;
 };
 
 }  // namespace gpu_shading

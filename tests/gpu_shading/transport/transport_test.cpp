@@ -452,6 +452,61 @@ TEST(Transport, OfAMirrorIsTheSkyInIt) {
   EXPECT_NEAR(light.sky.once, 0.15, 1e-3);
 }
 
+// Schlick's approximation for a mirror's angle of incidence.
+double at_angle(double at_normal, double cosine) {
+  return at_normal + (1.0 - at_normal) * std::pow(1.0 - cosine, 5.0);
+}
+
+// A patch across the street from a mirror that faces south is lit where the mirrored ray meets it.
+TEST(Transport, OfTheMirroredSunIsItsReflectanceTimesTheCosine) {
+  constexpr double width = 12.0;
+  constexpr double height = 9.0;
+  constexpr double z = 3.0;
+  constexpr double at_normal = 0.3;
+  Room room;
+  room.add(south_facing(-far, width, 0, 2 * far, height), FaceReflectances{.specular = at_normal});
+  auto const patch =
+      room.add_receiver(parallelogram({0.005, 0, z - 0.005}, {-0.01, 0, 0}, {0, 0, 0.01}));
+  auto const hours = clear_hours();
+  auto const light = room.light(patch, request_for(hours));
+  int lit = 0;
+  int unlit = 0;
+  for (std::size_t i = 0; i < light.beam.size(); ++i) {
+    auto const& sun = light.table.suns()[i];
+    double const rise = sun.y < 0.0 ? z + width * sun.z / -sun.y : height;
+    if (std::abs(rise - height) < 0.02) continue;
+    bool const is_lit = rise < height;
+    ++(is_lit ? lit : unlit);
+    double const expected = is_lit ? at_angle(at_normal, -sun.y) * -sun.y : 0.0;
+    EXPECT_NEAR(light.beam[i].none, expected, 1e-9) << sun.y << " " << sun.z;
+  }
+  EXPECT_GT(lit, 20);
+  EXPECT_GT(unlit, 20);
+}
+
+// Ground before a mirror without end has the sun twice, and the patch sees half of it.
+TEST(Transport, OfGroundBeforeAMirrorHasTheSunTwice) {
+  constexpr double at_normal = 0.3;
+  constexpr double reflectance = 0.4;
+  Room room;
+  room.add(south_facing(-far, 0, 0, 2 * far, far), FaceReflectances{.specular = at_normal});
+  auto const patch = room.add_receiver(south_facing(-0.5, -0.01, 1, 1, 1));
+  auto const hours = clear_hours();
+  auto const light = room.light(patch, request_for(hours), ReflectingGround{0.0, reflectance});
+  double sum = 0.0;
+  double expected_sum = 0.0;
+  for (std::size_t i = 0; i < light.beam.size(); ++i) {
+    auto const& sun = light.table.suns()[i];
+    if (sun.y > -0.1) continue;
+    double const expected = 0.5 * reflectance * sun.z * (1.0 + at_angle(at_normal, -sun.y));
+    // A path may meet the ground so far away that the mirror ends.
+    EXPECT_NEAR(light.beam[i].once, expected, 0.03 * expected) << sun.y << " " << sun.z;
+    sum += light.beam[i].once;
+    expected_sum += expected;
+  }
+  EXPECT_NEAR(sum, expected_sum, 0.002 * expected_sum);
+}
+
 TEST(Transport, IsTheSameAgain) {
   Room room;
   for (int i = 0; i < 5; ++i) room.add(level(-3, -0.6, 1 + 0.4 * i, 6, 0.5), 0.7);
