@@ -63,6 +63,26 @@ struct Reflectors {
   double ground_height = 0.0;
 };
 
+FaceReflectances reflectances_of(Model const& model, std::string const& name) {
+  auto const& finishes = model.reflected_light.reflectances;
+  auto const& mirrors = model.reflected_light.mirrors;
+  FaceReflectances faces;
+  double glazed = 1.0;
+  if (auto const shade = model.shading.shading_surfaces.find(name);
+      shade != model.shading.shading_surfaces.end()) {
+    glazed = shade->second.glazed;
+    faces.front = shade->second.reflectance * (1.0 - glazed);
+    faces.back = faces.front;
+  } else if (auto const finish = finishes.find(name); finish != finishes.end()) {
+    faces.front = finish->second;
+  }
+  if (auto const mirror = mirrors.find(name); mirror != mirrors.end()) {
+    faces.grazing = glazed;
+    faces.specular = std::min(glazed * mirror->second, 1.0 - faces.front);
+  }
+  return faces;
+}
+
 Reflectors reflectors_of(SceneAssembly const& assembly, Scene const& scene, double ground) {
   auto const& model = assembly.model();
   auto const kinds = kinds_of(assembly, scene);
@@ -79,14 +99,8 @@ Reflectors reflectors_of(SceneAssembly const& assembly, Scene const& scene, doub
     if (kinds[id] == ShadeKind::terrain) {
       terrain.push_back(id);
       faces = {ground, ground, true};
-    } else if (auto const shade = model.shading.shading_surfaces.find(name);
-               shade != model.shading.shading_surfaces.end()) {
-      // What is glazed reflects as a mirror does, which paths leave out.
-      faces.front = shade->second.reflectance * (1.0 - shade->second.glazed);
-      faces.back = faces.front;
-    } else if (auto const finish = model.reflected_light.reflectances.find(name);
-               finish != model.reflected_light.reflectances.end()) {
-      faces.front = finish->second;
+    } else {
+      faces = reflectances_of(model, name);
     }
   }
   made.ground_height = lowest_of(scene, terrain.empty() ? assembly.shown_receivers() : terrain);

@@ -27,6 +27,9 @@ struct ReflectedLight {
   // Diffuse solar reflectances, 0 .. 1, of the outsides of walls, roofs, floors and opaque doors,
   // by EnergyPlus's names; windows are missing.
   std::map<std::string, double> reflectances;
+  // Solar reflectances of glass, a mirror, at normal incidence, 0 .. 1: of windows and glass doors,
+  // and of the glazed part of shading surfaces.
+  std::map<std::string, double> mirrors;
 };
 
 // EnergyPlus takes the reflectance 0 of a surface's own ground as Site:GroundReflectance.

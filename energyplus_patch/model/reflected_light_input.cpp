@@ -9,9 +9,11 @@
 #include <unordered_map>
 #include <utility>
 
+#include "gpu_shading/error.h"
 #include "model/ground_views.h"
 #include "model/idf/local_environment.h"
 #include "model/input/surrounding_groups.h"
+#include "model/input/transparent_shades.h"
 #include "platform/text.h"
 
 namespace gpu_shading::energyplus {
@@ -74,16 +76,53 @@ bool is_opaque_door(InputObject const& object) {
                                    same_name(object["surface_type"], "Door"));
 }
 
+bool is_outdoors(InputObject const& object, ShadingInput const& input) {
+  auto const name = upper(object.name);
+  return (input.base_of.contains(name) || input.zone_of.contains(name)) &&
+         !input.not_exterior.contains(input.base_surface(name)) &&
+         !object["construction_name"].empty();
+}
+
 std::map<std::string, double> reflectances_of(std::vector<InputObject> const& objects,
                                               ShadingInput const& input, Layers const& layers) {
   std::map<std::string, double> found;
   for (auto const& object : objects) {
     auto const name = upper(object.name);
-    bool const opening = input.base_of.contains(name);
-    if (!opening && !input.zone_of.contains(name)) continue;
-    if (object["construction_name"].empty() || (opening && !is_opaque_door(object))) continue;
-    if (input.not_exterior.contains(input.base_surface(name))) continue;
+    if (!is_outdoors(object, input)) continue;
+    if (input.base_of.contains(name) && !is_opaque_door(object)) continue;
     found.try_emplace(name, layers.reflectance(object));
+  }
+  return found;
+}
+
+// As ReflectedLight has them. `black`: gets the surfaces whose glazing cannot be interpreted.
+std::map<std::string, double> mirrors_of(std::vector<InputObject> const& objects,
+                                         ShadingInput const& input,
+                                         std::vector<std::string>& black) {
+  std::unordered_map<std::string, std::optional<double>> by_construction;
+  auto const reflectance = [&](std::string const& construction) {
+    auto const [entry, added] = by_construction.try_emplace(construction);
+    try {
+      if (added) entry->second = construction_reflectance(objects, construction);
+    } catch (Error const&) {
+    }
+    return entry->second;
+  };
+  std::map<std::string, double> found;
+  auto const add = [&](std::string const& name, std::string const& construction) {
+    if (auto const glass = reflectance(construction)) {
+      found.try_emplace(name, *glass);
+    } else {
+      black.push_back(name);
+    }
+  };
+  for (auto const& object : objects) {
+    auto const name = upper(object.name);
+    if (!input.base_of.contains(name) || is_opaque_door(object)) continue;
+    if (is_outdoors(object, input)) add(name, upper(object["construction_name"]));
+  }
+  for (auto const& [name, shade] : input.shading_surfaces) {
+    if (shade.glazed > 0.0) add(name, shade.glazing);
   }
   return found;
 }
@@ -191,6 +230,7 @@ class InputMaker {
     environments_.add(objects);
     environments_.add(more);
     made_.light.reflectances = reflectances_of(objects, input, layers_);
+    made_.light.mirrors = mirrors_of(objects, input, black_);
     names_ = free_names(surfaces_, find_mentions);
   }
 
@@ -198,8 +238,14 @@ class InputMaker {
     for (auto const& [name, surface] : surfaces_) {
       if (auto const kept = add(name, surface)) kept_[*kept].push_back(name);
     }
+    constexpr std::size_t max_names = 5;
+    if (!black_.empty()) {
+      made_.remarks.push_back(
+          fmt::format("glass that is not of WindowMaterial:Glazing with SpectralAverage or "
+                      "WindowMaterial:SimpleGlazingSystem reflects nothing: {}",
+                      listed(black_, max_names)));
+    }
     for (auto const& [kept, names] : kept_) {
-      constexpr std::size_t max_names = 5;
       made_.remarks.push_back(fmt::format(
           "EnergyPlus's own light from the ground is kept for {} surface{} ({}): {}", names.size(),
           names.size() == 1 ? "" : "s", reason_of(kept), listed(names, max_names)));
@@ -260,6 +306,7 @@ class InputMaker {
   std::map<std::string, ExposedSurface> surfaces_;
   NewNames names_;
   std::map<Kept, std::vector<std::string>> kept_;
+  std::vector<std::string> black_;
   ReflectedLightInput made_;
 };
 

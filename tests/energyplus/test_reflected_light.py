@@ -73,8 +73,25 @@ def awning(reflectance):
     return shade("Awning", [(0, 0, 0.7), (0, -1.5, 0.6), (6, -1.5, 0.6), (6, 0, 0.7)], reflectance)
 
 
-SCENES = {"louvres": louvres, "egg crate": egg_crate, "street": street, "awning": awning}
+def thin_sheet(reflectance):
+    """Before the window, half open."""
+    return (shade("Sheet", [(0, -0.3, 3), (0, -0.3, 0.5), (6, -0.3, 0.5), (6, -0.3, 3)], reflectance)
+            + "GPUShading:PerforatedScreen,Holes,Sheet,Round,,Staggered60,0.005,,0.0067339,,1e-5;\n")
+
+
+def glazed_street(reflectance):
+    """Behind the box, a facade all of glass faces south."""
+    return (test_site.shade("Facade", [(-14, 12, 9), (-14, 12, 0), (20, 12, 0), (20, 12, 9)])
+            + "ShadingProperty:Reflectance,Facade,0,0,1,Coated Glass;\nConstruction,Coated Glass,Coated Pane;\n"
+            + f"WindowMaterial:Glazing,Coated Pane,SpectralAverage,,0.006,0.1,{reflectance},{reflectance},"
+            + "0.1,0.2,0.2,0,0.84,0.84,1;\n")
+
+
+SCENES = {"louvres": louvres, "egg crate": egg_crate, "street": street, "awning": awning,
+          "thin sheet": thin_sheet, "glazed street": glazed_street}
 WINDOW = "SOUTH WINDOW"
+RECEIVERS = {"glazed street": "NORTH"}  # else the window
+GLASS = 0.30517  # of it, in EnergyPlus's .eio file
 BOX = ("SOUTH", "EAST", "NORTH", "WEST", "ROOF", "FLOOR")
 WALLS = 0.3  # of the box: EnergyPlus's default absorptance is 0.7
 
@@ -118,14 +135,16 @@ def test_reflected_light_is_radiance_s(patched, weather, tmp_path, box, scene, r
         pytest.skip(f"{radiance.FOLDER} is missing: scripts/setup could not fetch pyradiance")
     text = bare(box) + SCENES[scene](reflectance)
     model, run = run_days(patched, weather, tmp_path, with_days(text, (6, 9, 12), 1000, 0))
-    ground, shades = (values_of(run, name)[WINDOW] for name in (BY_GROUND, BY_SHADES))
+    receiver = RECEIVERS.get(scene, WINDOW)
+    ground, shades = (values_of(run, name)[receiver] for name in (BY_GROUND, BY_SHADES))
     ours = {sun: (by_ground + by_shades) / 1000.0
             for sun, by_ground, by_shades in zip(suns_of(run), ground, shades, strict=True)}
     surfaces = radiance.surfaces(patched.parent / "gpu_shading", model)
 
     suns = radiance.spread([sun for sun in ours if sun[1] > 5], 7)
-    theirs = {sun: radiance_reflections.reflected(surfaces, WINDOW, radiance_reflections.sun(radiance.towards(sun)),
-                                                  tmp_path, reflectances(reflectance)) for sun in suns}
+    theirs = {sun: radiance_reflections.reflected(surfaces, receiver, radiance_reflections.sun(radiance.towards(sun)),
+                                                  tmp_path, reflectances(reflectance),
+                                                  {WINDOW: GLASS, "FACADE": reflectance}) for sun in suns}
     for sun in suns:
         print(f"{scene} {reflectance} {sun[0]:6.1f} {sun[1]:5.1f}: {ours[sun]:.4f} {theirs[sun]:.4f}")
     mean = sum(theirs.values()) / len(suns)
@@ -142,7 +161,7 @@ def test_sky_reflected_by_a_street_is_radiance_s(patched, weather, tmp_path, box
     model, run = run_days(patched, weather, tmp_path, with_days(bare(box) + street(0.5), (6,), 0, 100))
     surfaces = radiance.surfaces(patched.parent / "gpu_shading", model)
     theirs = radiance_reflections.reflected(
-        surfaces, WINDOW, radiance_reflections.SKY, tmp_path, reflectances(0.5))
+        surfaces, WINDOW, radiance_reflections.SKY, tmp_path, reflectances(0.5), {WINDOW: GLASS})
     noon = next(i for i, sun in enumerate(suns_of(run)) if sun[1] > 60)
     ours = sum(values_of(run, name)[WINDOW][noon] for name in (BY_GROUND, BY_SHADES)) / 100.0
     print(ours, theirs)

@@ -146,6 +146,7 @@ void read_reflectances(std::vector<InputObject> const& objects, ShadingInput& in
     surface->second.visible_reflectance =
         share(object, "diffuse_visible_reflectance_of_unglazed_part_of_shading_surface", 0.2);
     surface->second.glazed = share(object, "fraction_of_shading_surface_that_is_glazed", 0.0);
+    surface->second.glazing = upper(object["glazing_construction_name"]);
   }
 }
 

@@ -31,6 +31,7 @@ struct ShadingInput {
     double reflectance = 0.2;
     double visible_reflectance = 0.2;
     double glazed = 0.0;
+    std::string glazing = {};  // construction of the glazed part, or ""
   };
 
   std::string version;                         // version of the input, e.g. "9.6"

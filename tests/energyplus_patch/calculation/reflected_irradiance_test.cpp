@@ -26,8 +26,9 @@ Surface surface_of(std::string name, Ring outline) {
 // A wall of 2 x 2 m that faces south, on the ground, and what stands before it.
 class Wall {
  public:
-  explicit Wall(std::string const& idf = "", std::vector<Surface> const& shades = {})
-      : assembly_(model_of(idf)) {
+  explicit Wall(std::string const& idf = "", std::vector<Surface> const& shades = {},
+                std::map<std::string, double> const& mirrors = {})
+      : assembly_(model_of(idf, mirrors)) {
     assembly_.add(surface_of("WALL", {{0, 0, 2}, {0, 0, 0}, {2, 0, 0}, {2, 0, 2}}));
     for (auto const& shade : shades) assembly_.add(shade);
     assembly_.complete({[](std::string const&) { return std::pair(0.0, 1.0); },
@@ -51,10 +52,11 @@ class Wall {
     return {ignore, ignore, ignore};
   }
 
-  static Model model_of(std::string const& idf) {
+  static Model model_of(std::string const& idf, std::map<std::string, double> const& mirrors) {
     Model model;
     model.shading = read_shading_input(read_idf("Wall:Exterior,WALL,,ZONE;" + idf));
     model.reflected_light.receivers = {{"WALL", "GROUND OF WALL", 0.5}};
+    model.reflected_light.mirrors = mirrors;
     return model;
   }
 
@@ -77,18 +79,27 @@ TEST(ReflectedIrradiance, GroundOfAnotherReflectanceIsWeighedAnew) {
   EXPECT_EQ(wall.at(high_sun, 0.0).sum(), 0.0);
 }
 
+// At the foot of the wall, so that it hides the ground.
+Surface ledge() {
+  return surface_of("LEDGE",
+                    {{-far, 0, 0.001}, {-far, -far, 0.001}, {far, -far, 0.001}, {far, 0, 0.001}});
+}
+
 TEST(ReflectedIrradiance, LedgeAboveBlackGroundReflectsAsItsReflectance) {
-  // A ledge at the foot of the wall that hides the ground: of its reflectance in place of the
-  // ground's.
   std::string const idf =
       "Shading:Building:Detailed,LEDGE;ShadingProperty:Reflectance,LEDGE,0.5,0.5,0;";
-  Wall wall(
-      idf,
-      {surface_of("LEDGE",
-                  {{-far, 0, 0.001}, {-far, -far, 0.001}, {far, -far, 0.001}, {far, 0, 0.001}})});
+  Wall wall(idf, {ledge()});
   auto const light = wall.at(beam_alone, 0.2);
   EXPECT_NEAR(light.by_shades, beam_alone.open_ground() * 0.5 * 0.5, 0.005 * light.by_shades);
   EXPECT_LT(light.by_ground, 0.01 * light.by_shades);
+}
+
+TEST(ReflectedIrradiance, GlazedLedgeShowsTheSky) {
+  std::string const idf =
+      "Shading:Building:Detailed,LEDGE;ShadingProperty:Reflectance,LEDGE,0.5,0.5,1;";
+  Wall wall(idf, {ledge()}, {{"LEDGE", 1.0}});
+  SkyWeather const sky{high_sun.towards_sun, 0.0, 100.0, 80};
+  EXPECT_NEAR(wall.at(sky, 0.2).by_shades, 50.0, 0.3);
 }
 
 TEST(ReflectedIrradiance, ScheduledShadeDimsInProportionBetweenItsStates) {

@@ -19,7 +19,9 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
 
-constexpr char const* rules = "GlobalGeometryRules,UpperLeftCorner,Counterclockwise,World;\n";
+constexpr char const* rules =
+    "GlobalGeometryRules,UpperLeftCorner,Counterclockwise,World;Construction,Glass,Clear;"
+    "WindowMaterial:Glazing,Clear,SpectralAverage,,0.006,0.775,0.071,0.08;\n";
 // Facing south, up and down; a roof that rises by 3 on 4.
 constexpr char const* south = "0,0,3,0,0,0,4,0,0,4,0,3;\n";
 constexpr char const* up = "0,0,3,4,0,3,4,4,3,0,4,3;\n";
@@ -170,7 +172,7 @@ TEST(ReflectedLight, TypedViewFactorsOfTheUserStay) {
 TEST(ReflectedLight, SurfacesThatFaceUpSeeAGround) {
   auto const input =
       read_input(rules + wall("Blank", "", up, "Roof") + wall("Zero", "0", up, "Roof") +
-                 wall("One", "1", up, "Roof") + "Roof,Simple,B,Room;Window,Skylight,G,Blank;" +
+                 wall("One", "1", up, "Roof") + "Roof,Simple,B,Room;Window,Skylight,Glass,Blank;" +
                  window("Dome", "Blank", "", "TubularDaylightDome", up));
   ASSERT_THAT(receivers(input), ElementsAre("BLANK", "ZERO"));
   EXPECT_EQ(input.light.receivers[0].ground_view, 1.0);
@@ -206,13 +208,34 @@ TEST(ReflectedLight, ReflectancesAreThoseOfTheOutsideLayers) {
                  window("Hatch", "White", "", "Door") + window("Pane", "White") +
                  "BuildingSurface:Detailed,Inside,Wall,White,Room,,Adiabatic,,,,,," + south +
                  "Construction,White,Paint,Brick;Construction,Odd,Brick;Construction,Board,Board;"
-                 "Construction,Glass,Brick;"
                  "Material,Paint,Rough,0.01,1,1,1,0.9,0.1;Material,Brick,Rough,0.1,1,1,1;"
                  "Material:NoMass,Board,Rough,2,0.9,7;");
   EXPECT_THAT(input.light.reflectances,
               ElementsAre(testing::Pair("BOARD", 0.0), testing::Pair("DEFAULT", 1.0 - 0.7),
                           testing::Pair("ENTRY", 0.9), testing::Pair("HATCH", 1.0 - 0.7),
                           testing::Pair("LOST", 1.0 - 0.7), testing::Pair("WHITE", 0.9)));
+}
+
+TEST(ReflectedLight, GlassIsAMirror) {
+  auto const shade = [](std::string const& name, std::string const& properties) {
+    return "Shading:Building:Detailed," + name + ",," + south + "ShadingProperty:Reflectance," +
+           name + "," + properties + ";";
+  };
+  auto const input =
+      read_input(rules + wall("South") + window("Pane", "South") +
+                 window("Hatch", "South", "", "Door") + "GlazedDoor,Entry,Rated,South;" +
+                 "BuildingSurface:Detailed,Inside,Wall,B,Room,,Adiabatic,,,,,," + south +
+                 window("Within", "Inside") + shade("Tower", "0.5,0.5,0.25,glass") +
+                 shade("Fence", "0.5,0.5,0,Glass") + shade("Booth", "0.5,0.5,1,Lost") +
+                 "Window,Slit,Measured,South;"
+                 "Construction,Rated,System;Construction,Measured,Spectrum;"
+                 "WindowMaterial:Glazing,Spectrum,Spectral,Data,0.006;"
+                 "WindowMaterial:SimpleGlazingSystem,System,2.0,0.4;");
+  EXPECT_THAT(input.light.mirrors,
+              ElementsAre(testing::Pair("ENTRY", testing::DoubleNear(0.48237, 6e-6)),
+                          testing::Pair("PANE", testing::DoubleNear(0.071, 1e-12)),
+                          testing::Pair("TOWER", testing::DoubleNear(0.071, 1e-12))));
+  EXPECT_THAT(input.remarks, ElementsAre(HasSubstr("reflects nothing: SLIT, BOOTH")));
 }
 
 TEST(ReflectedLight, LocalEnvironmentsOfTheModelAreUsed) {
