@@ -13,6 +13,7 @@
 #include "gpu_shading/sun_position.h"
 #include "platform/text.h"
 #include "reports/sky_mask.h"
+#include "scene/sky_grid.h"
 
 namespace gpu_shading::energyplus {
 namespace {
@@ -121,6 +122,30 @@ std::vector<WeightedPositions> around(std::vector<double> const& values) {
   return simplex_from(std::move(low), std::move(between));
 }
 
+std::vector<glm::dvec3> patch_directions() {
+  std::vector<glm::dvec3> directions;
+  for (auto const& patch : sky_patches()) directions.push_back(to_vector(patch));
+  return directions;
+}
+
+// Of a sky with these radiances of its patches, 1/sr, that gives 1 W/m2 to level ground in the
+// open. The patches' middles stand for them, so that a uniform sky is what its own rays say.
+LightByGround light_of_sky(Transported const& table, std::vector<double> const& radiances) {
+  LightByGround seen;
+  LightByGround uniform;
+  for (std::size_t patch = 0; patch < radiances.size(); ++patch) {
+    double const solid_angle = patch_solid_angles()[patch];
+    seen += radiances[patch] * solid_angle * table.lights[patch];
+    uniform += solid_angle / std::numbers::pi * table.lights[patch];
+  }
+  auto const scaled = [](double of_all, double part, double whole) {
+    return whole > 0.0 ? of_all * part / whole : of_all;
+  };
+  return {scaled(table.sky.none, seen.none, uniform.none),
+          scaled(table.sky.once, seen.once, uniform.once),
+          scaled(table.sky.more, seen.more, uniform.more)};
+}
+
 constexpr double percent = 100.0;
 
 double hourly_error(Transported const& table) {
@@ -174,6 +199,9 @@ std::vector<Transported> ReflectedIrradiance::trace(State const& state) const {
   TransportRequest request;
   request.latitude = latitude_;
   request.hours = hours;
+  std::vector<glm::dvec3> patches;
+  if (has_sky_patches()) patches = patch_directions();
+  request.lights = patches;
   std::span const schedules(state.schedules);
   auto const factors = scene_.optics().factors().size();
   return transport.to(
@@ -196,6 +224,8 @@ std::vector<Reflected> ReflectedIrradiance::at(Time const& time,
   if (traced_ground_ <= 0.0) traced_ground_ = ground > 0.0 ? ground : usual_ground;
   double const ratio = ground / traced_ground_;
   auto const sun = to_hour_direction(to_direction(weather.towards_sun), latitude_);
+  std::vector<double> radiances;
+  if (has_sky_patches() && weather.diffuse > 0.0) radiances = perez_radiances(weather);
   std::vector<Reflected> all(at_.size());
   for (auto const& [state, weight] : states(moment, corners)) {
     auto const& tables = traced(state);
@@ -203,8 +233,9 @@ std::vector<Reflected> ReflectedIrradiance::at(Time const& time,
       if (!at_[i]) continue;
       auto const& table = tables[*at_[i]];
       auto const beam = table.beam_at(sun);
-      double const shades = weather.beam * beam.none + weather.diffuse * table.sky.none;
-      double const sum = weather.beam * beam.at(ratio) + weather.diffuse * table.sky.at(ratio);
+      auto const sky = radiances.empty() ? table.sky : light_of_sky(table, radiances);
+      double const shades = weather.beam * beam.none + weather.diffuse * sky.none;
+      double const sum = weather.beam * beam.at(ratio) + weather.diffuse * sky.at(ratio);
       all[i].by_shades += weight * shades;
       all[i].by_ground += weight * (sum - shades);
     }

@@ -22,7 +22,7 @@ constexpr int per_patch = per_side * per_side;
 
 struct Dome {
   std::vector<glm::dvec3> directions;  // per_patch for each patch
-  std::vector<double> solid_angles;    // of each direction, by patch, sr
+  std::vector<double> solid_angles;    // by patch, sr
 };
 
 Dome const& dome() {
@@ -37,7 +37,7 @@ Dome const& dome() {
         dome.directions.push_back(to_vector(
             {centre.azimuth + (across - 0.5) * sky_step, std::asin(low + up * (high - low))}));
       }
-      dome.solid_angles.push_back((high - low) * sky_step / per_patch);
+      dome.solid_angles.push_back((high - low) * sky_step);
     }
     return dome;
   }();
@@ -156,18 +156,20 @@ std::vector<double> perez_radiances(SkyWeather const& weather) {
       height += direction.z;
     }
     radiances.push_back(sum / per_patch);
-    horizontal += radiances.back() * height * solid_angles[patch];
+    horizontal += radiances.back() * height * solid_angles[patch] / per_patch;
   }
   for (auto& radiance : radiances) radiance /= horizontal;
   return radiances;
 }
+
+std::vector<double> const& patch_solid_angles() { return dome().solid_angles; }
 
 std::vector<double> patch_projections(glm::dvec3 const& normal) {
   auto const& [directions, solid_angles] = dome();
   std::vector<double> projections;
   for (std::size_t patch = 0; patch < solid_angles.size(); ++patch) {
     auto const first = directions.begin() + static_cast<std::ptrdiff_t>(patch * per_patch);
-    projections.push_back(solid_angles[patch] *
+    projections.push_back(solid_angles[patch] / per_patch *
                           std::accumulate(first, first + per_patch, 0.0,
                                           [&](double sum, glm::dvec3 const& direction) {
                                             return sum + std::max(glm::dot(normal, direction), 0.0);

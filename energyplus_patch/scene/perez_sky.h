@@ -23,6 +23,9 @@ struct SkyWeather {
 // Radiance's gendaymtx has.
 std::vector<double> perez_radiances(SkyWeather const& weather);
 
+// Of each of sky_patches(), sr.
+std::vector<double> const& patch_solid_angles();
+
 // The integral of the cosine of incidence on a plane over each of sky_patches(), sr; `normal`:
 // unit. Their sum is pi times the plane's view factor to the sky.
 std::vector<double> patch_projections(glm::dvec3 const& normal);

@@ -175,6 +175,7 @@ Replicate replicate_of(LightRequest const& request, Receiver const& receiver,
   for (auto const probe : request.year.probes) {
     replicate.gaps.push_back(ask(request.year.suns[probe]).sum() - replicate.hourly[probe]);
   }
+  for (auto const& light : request.transport.lights) replicate.lights.push_back(ask(light));
   return replicate;
 }
 
@@ -189,9 +190,13 @@ Transported mean_of(std::vector<Replicate> const& replicates, SunTable const& ta
                     Errors const& errors) {
   Transported mean{table};
   mean.beam.resize(table.suns().size());
+  mean.lights.resize(replicates.front().lights.size());
   auto const share = 1.0 / double(replicates.size());
   for (auto const& replicate : replicates) {
     for (std::size_t i = 0; i < mean.beam.size(); ++i) mean.beam[i] += share * replicate.beam[i];
+    for (std::size_t i = 0; i < mean.lights.size(); ++i) {
+      mean.lights[i] += share * replicate.lights[i];
+    }
     mean.sky += share * replicate.sky;
     mean.sky_direct += share * replicate.sky_direct;
   }
@@ -209,7 +214,8 @@ Transported light_on(LightRequest const& request, SurfaceId id, std::uint32_t se
   Receiver const receiver{id, seed * far_apart, ReceiverPoints(request.scene.scene[id].polygon)};
   if (receiver.points.empty()) {
     auto const table = table_of(request.transport.latitude, grids.front());
-    return {table, std::vector<LightByGround>(table.suns().size())};
+    return {table, std::vector<LightByGround>(table.suns().size()),
+            std::vector<LightByGround>(request.transport.lights.size())};
   }
   std::size_t rays = 0;
   auto const hours = hours_of(request, receiver, rays);

@@ -27,9 +27,10 @@ struct ReceiverHours {
 
 // One of several independent answers.
 struct Replicate {
-  std::vector<LightByGround> beam;  // by sun of the table
-  std::vector<double> hourly;       // by the table, of a beam of 1 W/m2
-  std::vector<double> gaps;         // of the probes' own answers to the table's
+  std::vector<LightByGround> beam;    // by sun of the table
+  std::vector<LightByGround> lights;  // by light of the request
+  std::vector<double> hourly;         // by the table, of a beam of 1 W/m2
+  std::vector<double> gaps;           // of the probes' own answers to the table's
   LightByGround sky;
   double sky_direct = 0.0;
   std::size_t rays = 0;

@@ -1,6 +1,7 @@
 """Light that surfaces and the ground reflect, by Radiance's rtrace: of every number of reflections."""
 
 import math
+import subprocess
 from random import Random
 
 import radiance
@@ -58,6 +59,15 @@ def sun(direction):
 # A uniform sky of unit irradiance on level ground.
 SKY = (f"void glow sky\n0\n0\n4 {1 / math.pi} {1 / math.pi} {1 / math.pi} 0\n"
        "sky source dome\n0\n0\n4 0 0 1 180\n")
+
+
+def perez_sky(sun, beam, diffuse):
+    """The sky alone, by gendaylit. `sun`: azimuth and altitude, degrees; irradiance in W/m2."""
+    words = ["-ang", sun[1], sun[0] - 180, "-W", beam, diffuse, "-O", 1, "-g", 0]
+    told = subprocess.run([radiance.FOLDER / "bin" / "gendaylit", *map(str, words)], capture_output=True, text=True,
+                          check=True).stdout
+    return (told[told.index("void brightfunc skyfunc"):]
+            + "\nskyfunc glow sky\n0\n0\n4 1 1 1 0\nsky source dome\n0\n0\n4 0 0 1 180\n")
 
 
 def reflected(surfaces, receiver, light, folder, reflectance_of, mirrors=None, ground=0.2, points=400, seed=1):

@@ -168,6 +168,31 @@ def test_sky_reflected_by_a_street_is_radiance_s(patched, weather, tmp_path, box
     assert ours == pytest.approx(theirs, rel=0.03)
 
 
+def test_sky_by_patch_is_radiance_s(patched, weather, tmp_path, box):
+    """A clear sky, bright around the sun, in a street that is open to the south-west."""
+    if radiance.is_missing():
+        pytest.skip(f"{radiance.FOLDER} is missing: scripts/setup could not fetch pyradiance")
+    text = with_days(bare(box) + street(0.5), (6,), 600, 150)
+    light = {}
+    for sky in ("perez-patches", "energyplus"):
+        model, run = run_days(patched, weather, tmp_path, text, f"--gpu-shading-sky={sky}")
+        light[sky] = [sum(each) for each in zip(*(values_of(run, name)[WINDOW] for name in (BY_GROUND, BY_SHADES)),
+                                                strict=True)]
+    surfaces = radiance.surfaces(patched.parent / "gpu_shading", model)
+    differences = []
+    for hour in (8, 12, 16):
+        sun = suns_of(run)[hour]
+        theirs = [strength * radiance_reflections.reflected(surfaces, WINDOW, each, tmp_path, reflectances(0.5),
+                                                            {WINDOW: GLASS})
+                  for strength, each in ((600, radiance_reflections.sun(radiance.towards(sun))),
+                                         (1, radiance_reflections.perez_sky(sun, 600, 150)))]
+        ours = {sky: values[hour] for sky, values in light.items()}
+        print(sun, ours, theirs)
+        assert ours["perez-patches"] == pytest.approx(sum(theirs), rel=0.03)
+        differences.append(abs(ours["perez-patches"] - ours["energyplus"]))
+    assert max(differences) > 1
+
+
 def test_incident_light_is_the_sum_of_its_parts(patched, weather, tmp_path, box):
     """At each timestep, for windows, walls and the flat roof, with beam and sky."""
     _, run = run_days(patched, weather, tmp_path, with_days(bare(box) + street(0.5), (3, 6), 700, 150))

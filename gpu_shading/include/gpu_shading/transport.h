@@ -52,6 +52,8 @@ struct TransportRequest {
   double hourly = 0.02;
   double annual = 0.005;
   double floor = 0.1;
+  // Unit vectors to other lights, whose beams are wanted, too: the patches of a sky.
+  std::span<glm::dvec3 const> lights;
   std::size_t most_rays = 1'500'000;  // after which the answer is as it is; the errors say so
 };
 
@@ -113,6 +115,8 @@ struct Transported {
   SunTable table;
   // For a beam of 1 W/m2 (normal) from each sun of the table.
   std::vector<LightByGround> beam = {};
+  // The same from each of TransportRequest::lights.
+  std::vector<LightByGround> lights = {};
   // For a uniform sky that gives 1 W/m2 to level ground in the open: by reflections, and straight.
   LightByGround sky = {};
   double sky_direct = 0.0;
