@@ -318,16 +318,30 @@ std::vector<double> Session::ground_reflectances(ReflectedIrradiance::Time const
   std::vector<WeightedPositions> const standing{{scene_.positions()}};
   auto const all = reflected_->at(time, corners_.empty() ? standing : corners_);
   std::ranges::copy(all, reflected_now_.begin());  // which EnergyPlus's outputs point to
-  for (std::size_t i = 0; record_ && i < all.size(); ++i) {
-    auto const id = reflected_->surface(i);
-    if (id) record_->note_reflected(*id, all[i].by_ground, all[i].by_shades);
-  }
   auto const& receivers = scene_.model().reflected_light.receivers;
   std::vector<double> reflectances;
   for (std::size_t i = 0; i < receivers.size(); ++i) {
     reflectances.push_back(ground_reflectance(all[i].sum(), open, receivers[i].ground_view));
   }
   return reflectances;
+}
+
+std::vector<std::string> Session::recorded_receivers() const {
+  std::vector<std::string> names;
+  for (auto const id : record_->receivers()) names.push_back(scene_.surfaces()[id].name);
+  return names;
+}
+
+void Session::note_diffuse(int hour, std::vector<DiffuseLight> light) {
+  // EnergyPlus takes all that was traced for light from the ground.
+  for (std::size_t i = 0; i < reflected_now_.size(); ++i) {
+    auto const id = reflected_->surface(i);
+    auto const place = id ? record_->place_of(*id) : std::nullopt;
+    if (!place) continue;
+    light[*place].by_ground = reflected_now_[i].by_ground;
+    light[*place].by_shades = reflected_now_[i].by_shades;
+  }
+  record_->note_diffuse(hour, light);
 }
 
 double Session::with_pv_loss(SurfaceId id, double projected_area) {

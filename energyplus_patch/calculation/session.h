@@ -90,9 +90,15 @@ class Session : public ShadingCalculation {
 
   // Whether the model's receivers of reflected light get all of it from here.
   bool reflects_light() const { return !scene_.model().reflected_light.receivers.empty(); }
-  // At each timestep: the reflectance of the own ground of each of them, in the model's order;
-  // empty while nothing lights the ground.
+  // At the beginning of each timestep: the reflectance of the own ground of each of them, in the
+  // model's order; empty while nothing lights the ground.
   std::vector<double> ground_reflectances(ReflectedIrradiance::Time const& time);
+
+  // Whether the light on receivers is recorded, and the names of these.
+  bool records_light() const { return record_.has_value(); }
+  std::vector<std::string> recorded_receivers() const;
+  // At the end of each timestep: what EnergyPlus gave them, in this order.
+  void note_diffuse(int hour, std::vector<DiffuseLight> light);
 
   std::string vendor() override;
 

@@ -17,13 +17,32 @@ constexpr double watt_hours = 1000.0;  // per kWh
 
 }  // namespace
 
+double ReceivedLight::of_month(Kind kind, std::size_t month) const {
+  double sum = 0.0;
+  for (std::size_t hour = 0; hour < hours_; ++hour) sum += at(kind, month, hour);
+  return sum;
+}
+
+double ReceivedLight::of_run(Kind kind) const {
+  double sum = 0.0;
+  for (std::size_t month = 0; month < months; ++month) sum += of_month(kind, month);
+  return sum;
+}
+
 RunRecord::RunRecord(std::vector<glm::dvec3> areas, std::vector<SurfaceId> receivers)
-    : areas_(std::move(areas)), receivers_(std::move(receivers)), columns_(areas_.size()) {
-  for (std::size_t i = 0; i < receivers_.size(); ++i) columns_[receivers_[i]] = i;
-  for (auto* const period : {&run_period_, &design_days_}) {
-    period->beam.assign(receivers_.size(), 0.0);
-    period->months.assign(receivers_.size(), {});
-  }
+    : areas_(std::move(areas)), receivers_(std::move(receivers)), places_(areas_.size()) {
+  for (std::size_t i = 0; i < receivers_.size(); ++i) places_[receivers_[i]] = i;
+}
+
+bool RunRecord::counts() const {
+  return day_ && !day_->warm_up && day_->kind != RunDay::Kind::other && day_->month >= 1 &&
+         day_->month <= static_cast<int>(ReceivedLight::months);
+}
+
+void RunRecord::make_room(Period& period) const {
+  constexpr std::size_t max_hourly = 4000;  // 40 MB
+  period.light.resize(receivers_.size(),
+                      ReceivedLight(receivers_.size() > max_hourly ? 1 : hours_of_day));
 }
 
 void RunRecord::begin_day(RunDay const& day, Beam const& beam) {
@@ -33,8 +52,12 @@ void RunRecord::begin_day(RunDay const& day, Beam const& beam) {
   end_day();
   day_ = day;
   step_ = nullptr;
-  bool const counts = day.kind != RunDay::Kind::other && !day.warm_up;
-  beam_ = counts ? beam() : std::vector<double>{};
+  if (counts()) {
+    beam_ = beam();
+    make_room(period());
+  } else {
+    beam_.clear();
+  }
 }
 
 void RunRecord::begin_step(Moment moment, std::vector<float> shares) {
@@ -66,45 +89,49 @@ void RunRecord::set_sun(SunDirection sun) {
 }
 
 void RunRecord::note(SurfaceId receiver, double projected_area) {
-  if (step_ == nullptr || !columns_[receiver]) return;
+  if (step_ == nullptr || !places_[receiver]) return;
   double const unshaded = glm::dot(areas_[receiver], towards_sun_);
   if (unshaded <= 0.0) return;
-  step_->fractions[*columns_[receiver]] =
+  step_->fractions[*places_[receiver]] =
       static_cast<float>(std::clamp(projected_area / unshaded, 0.0, 1.0));
 }
 
-void RunRecord::note_reflected(SurfaceId receiver, double by_ground, double by_shades) {
-  if (!day_ || day_->warm_up || day_->kind == RunDay::Kind::other || !columns_[receiver]) return;
-  auto& reflected = period().reflected;
-  reflected.resize(receivers_.size());
-  auto& [of_ground, of_shades] = reflected[*columns_[receiver]];
+void RunRecord::note_diffuse(int hour, std::vector<DiffuseLight> const& light) {
+  if (!counts()) return;
+  period().has_diffuse = true;
   auto const month = static_cast<std::size_t>(day_->month) - 1;
-  if (month >= of_ground.size()) return;
+  auto const from_0 = static_cast<std::size_t>(hour) - 1;
   double const hours = 1.0 / day_->steps_per_hour / watt_hours;
-  of_ground.at(month) += by_ground * hours;
-  of_shades.at(month) += by_shades * hours;
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    auto const& [sky, by_ground, by_shades] = light[i];
+    auto& received = period().light[i];
+    received.add(ReceivedLight::sky, month, from_0, sky * hours);
+    received.add(ReceivedLight::by_ground, month, from_0, by_ground * hours);
+    received.add(ReceivedLight::by_shades, month, from_0, by_shades * hours);
+  }
 }
 
 void RunRecord::end() {
   end_day();
   day_.reset();
   for (auto* const period : {&run_period_, &design_days_}) share_beam(*period);
+  make_room(of_design_days() ? design_days_ : run_period_);
 }
 
 void RunRecord::end_day() {
   if (!day_ || day_->kind == RunDay::Kind::other) return;
   if (has_new_steps_) keep_day();
-  if (!day_->warm_up) {
+  if (counts()) {
     ++period().simulated;
+    ++period().days_of_months.at(static_cast<std::size_t>(day_->month) - 1);
     add_beam();
     add_normal_beam();
   }
 }
 
 void RunRecord::add_beam() {
-  auto& beam = period().beam;
-  auto& months = period().months;
   auto const month = static_cast<std::size_t>(day_->month) - 1;
+  auto const per_hour = static_cast<std::size_t>(day_->steps_per_hour);
   auto const steps = std::min(steps_.size(), beam_.size());
   for (std::size_t i = 0; i < steps; ++i) {
     if (!steps_[i].sun || beam_[i] <= 0.0) continue;
@@ -114,9 +141,8 @@ void RunRecord::add_beam() {
       float const fraction = steps_[i].fractions[k];
       if (fraction <= 0.0F) continue;
       auto const& area = areas_[receivers_[k]];
-      double const added = energy * fraction * glm::dot(area, towards_sun) / glm::length(area);
-      beam[k] += added;
-      if (month < months[k].size()) months[k].at(month) += added;
+      period().light[k].add(ReceivedLight::beam, month, i / per_hour,
+                            energy * fraction * glm::dot(area, towards_sun) / glm::length(area));
     }
   }
 }

@@ -25,9 +25,44 @@ struct RunDay {
   int steps_per_hour = 1;
 };
 
-// The sunlit fractions that EnergyPlus was given, by day and hour, and the beam solar energy that
-// they make of the weather: of the run periods, or of the design days where there are no others.
-// EnergyPlus multiplies the same numbers.
+// Light on a receiver that is not beam, W/m2.
+struct DiffuseLight {
+  double sky = 0.0;        // of the sky, straight from it
+  double by_ground = 0.0;  // reflected, on paths on which the ground reflects
+  double by_shades = 0.0;  // reflected by shades, neighbours and the building alone
+};
+
+// Energy of each kind of light on a receiver, kWh/m2, by month and, with `hours` 24, by hour of the
+// day; both from 0.
+class ReceivedLight {
+ public:
+  enum Kind : std::size_t { beam, sky, by_ground, by_shades };
+  static constexpr std::size_t kinds = 4;
+  static constexpr std::size_t months = 12;
+
+  // `hours`: 24 or 1.
+  explicit ReceivedLight(std::size_t hours) : hours_(hours), energy_(kinds * months * hours) {}
+
+  std::size_t hours() const { return hours_; }
+  // Without hours, that of the month is at hour 0.
+  double at(Kind kind, std::size_t month, std::size_t hour) const {
+    return energy_[(kind * months + month) * hours_ + hour];
+  }
+  void add(Kind kind, std::size_t month, std::size_t hour, double energy) {
+    energy_[(kind * months + month) * hours_ + (hours_ > 1 ? hour : 0)] += energy;
+  }
+  double of_month(Kind kind, std::size_t month) const;
+  double of_run(Kind kind) const;
+
+ private:
+  std::size_t hours_;
+  std::vector<double> energy_;
+};
+
+// The sunlit fractions that EnergyPlus was given, by day and hour, and the light on receivers: the
+// beam solar energy that they make of the weather, as EnergyPlus multiplies the same numbers, and
+// what EnergyPlus says of the rest. Of the run periods, or of the design days where there are no
+// others.
 class RunRecord {
  public:
   struct Hour {
@@ -68,28 +103,26 @@ class RunRecord {
   void begin_step(Moment moment, std::vector<float> shares = {});
   void set_sun(SunDirection sun);
   void note(SurfaceId receiver, double projected_area);
-  // Light that reflections bring a receiver at a timestep of the day, W/m2: on paths on which the
-  // ground reflects, and on others.
-  void note_reflected(SurfaceId receiver, double by_ground, double by_shades);
+  // At an hour of the day, 1 .. 24, for one timestep; by receiver.
+  void note_diffuse(int hour, std::vector<DiffuseLight> const& light);
   void end();
 
   std::vector<SurfaceId> const& receivers() const { return receivers_; }
+  // Its place among the receivers.
+  std::optional<std::size_t> place_of(SurfaceId surface) const { return places_[surface]; }
   // Days with answers of their own. Some are left out where they would take too much memory.
   std::vector<Day> const& days() const { return kept().days; }
   bool of_design_days() const { return run_period_.simulated == 0; }
   // The days that EnergyPlus simulated, without warm-up.
   std::size_t simulated() const { return kept().simulated; }
-  // By receiver, kWh/m2.
-  std::vector<double> const& beam() const { return kept().beam; }
-  // The same of each month, January first.
-  using Months = std::array<double, 12>;
-  std::vector<Months> const& months() const { return kept().months; }
-  // The same of light that reflections bring, if any was noted.
-  struct Reflected {
-    Months by_ground{};
-    Months by_shades{};
-  };
-  std::vector<Reflected> const& reflected() const { return kept().reflected; }
+  // The days among them of each month, January first.
+  std::array<int, ReceivedLight::months> const& days_of_months() const {
+    return kept().days_of_months;
+  }
+  // By receiver, after end(). Without hours where they would take too much memory.
+  std::vector<ReceivedLight> const& light() const { return kept().light; }
+  // Whether light that is not beam was noted.
+  bool has_diffuse() const { return kept().has_diffuse; }
 
  private:
   struct Step {
@@ -103,10 +136,10 @@ class RunRecord {
     std::size_t stride = 1;  // one of so many days is kept
     std::size_t offered = 0;
     std::size_t simulated = 0;
-    std::vector<double> beam;
-    std::vector<Months> months;
-    std::vector<Reflected> reflected;  // empty: none was noted
-    std::size_t last = 0;              // among `days`: whose answers hold
+    std::array<int, ReceivedLight::months> days_of_months{};
+    std::vector<ReceivedLight> light;
+    bool has_diffuse = false;
+    std::size_t last = 0;  // among `days`: whose answers hold
     // Of the days that these held for, by hour.
     std::array<double, 24> normal_beam{};
     int beam_days = 0;
@@ -114,6 +147,9 @@ class RunRecord {
 
   Period& period() { return day_->kind == RunDay::Kind::run_period ? run_period_ : design_days_; }
   Period const& kept() const { return of_design_days() ? design_days_ : run_period_; }
+  // Whether this day is of the run.
+  bool counts() const;
+  void make_room(Period& period) const;
   void end_day();
   void add_beam();
   void add_normal_beam();
@@ -124,7 +160,7 @@ class RunRecord {
 
   std::vector<glm::dvec3> areas_;
   std::vector<SurfaceId> receivers_;
-  std::vector<std::optional<std::size_t>> columns_;  // of receivers, by surface
+  std::vector<std::optional<std::size_t>> places_;  // among receivers_, by surface
   std::optional<RunDay> day_;
   std::vector<double> beam_;  // of the day
   std::vector<Step> steps_;

@@ -135,15 +135,45 @@ class PageStyles {
   std::vector<PageStyle> styles_;  // receivers', opaque casters', others
 };
 
-PageReceiver receiver_of(Surface const& surface, double beam, RunRecord::Months const& months,
-                         bool window) {
+// Of a kind of light that the page shows, kWh/m2 in an hour of a month; beyond them: of all.
+double energy_of(ReceivedLight const& light, std::size_t kind, std::size_t month,
+                 std::size_t hour) {
+  if (kind < ReceivedLight::kinds) {
+    return light.at(static_cast<ReceivedLight::Kind>(kind), month, hour);
+  }
+  double sum = 0.0;
+  for (std::size_t one = 0; one < ReceivedLight::kinds; ++one) {
+    sum += energy_of(light, one, month, hour);
+  }
+  return sum;
+}
+
+void add_light(PageReceiver& receiver, ReceivedLight const& light, RunRecord const& record) {
+  receiver.beam = light.of_run(ReceivedLight::beam);
+  std::size_t const kinds = record.has_diffuse() ? ReceivedLight::kinds + 1 : 1;
+  receiver.months.resize(kinds);
+  if (light.hours() > 1) receiver.mean_days.resize(kinds);
+  for (std::size_t kind = 0; kind < kinds; ++kind) {
+    for (std::size_t month = 0; month < ReceivedLight::months; ++month) {
+      constexpr double watts = 1000.0;
+      double const days = std::max(1, record.days_of_months().at(month));
+      for (std::size_t hour = 0; hour < light.hours(); ++hour) {
+        double const energy = energy_of(light, kind, month, hour);
+        receiver.months[kind].at(month) += energy;
+        if (light.hours() > 1) {
+          receiver.mean_days[kind].at(month).at(hour) = energy * watts / days;
+        }
+      }
+    }
+  }
+}
+
+PageReceiver receiver_of(Surface const& surface, bool window) {
   auto const facing = facing_of(normal(surface.polygon));
   PageReceiver receiver;
   receiver.area = area(surface.polygon);
   receiver.azimuth = facing.azimuth;
   receiver.tilt = facing.tilt;
-  receiver.beam = beam;
-  receiver.months = months;
   receiver.window = window;
   return receiver;
 }
@@ -271,11 +301,8 @@ std::vector<SurfaceId> add_surfaces(RunPage& page, SceneAssembly const& assembly
     ids.push_back(id);
     page.surfaces.push_back({scene[id].name, scene[id].polygon, 0});
     page.receivers.push_back(
-        receiver_of(scene[id], record.beam()[i], record.months()[i],
-                    assembly.model().shading.base_of.contains(scene[id].name)));
-    if (record.reflected().empty()) continue;
-    auto const& [by_ground, by_shades] = record.reflected()[i];
-    page.receivers.back().reflected = {by_ground, by_shades};
+        receiver_of(scene[id], assembly.model().shading.base_of.contains(scene[id].name)));
+    add_light(page.receivers.back(), record.light()[i], record);
   }
   for (auto const id : drawn_casters(assembly, scene, record)) {
     auto const& surface = scene[id];
@@ -312,7 +339,7 @@ RunPage page_of(SceneAssembly const& assembly, DeviceInfo const& device, RunReco
       {"Receivers", std::to_string(page.receivers.size())},
       {"Other surfaces drawn", std::to_string(page.surfaces.size() - page.receivers.size())},
       {"Shading computed on", gpu_shading::describe(device)},
-      {"Reflected light", record.reflected().empty()
+      {"Reflected light", assembly.model().reflected_light.receivers.empty()
                               ? "EnergyPlus's own, which shades do not dim"
                               : "by ground, shades and neighbours, all of it"},
   };
@@ -325,7 +352,7 @@ RunPage page_of(SceneAssembly const& assembly, DeviceInfo const& device, RunReco
   return page;
 }
 
-// Receivers with a mask: one byte for each cell of the sky.
+// Receivers with a mask: one byte for each cell of the sky; and with mean days: two for each hour.
 constexpr std::size_t max_skies = 300;
 
 std::uint8_t sky_code(BeamShare const& share) {
@@ -349,8 +376,8 @@ std::string sky_state_of(SceneAssembly const& assembly) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-// Masks of the largest receivers, windows first.
-void add_skies(RunPage& page, SceneAssembly& assembly, RunRecord const& record) {
+// All or max_skies of the receivers, the largest, windows first.
+std::vector<std::size_t> largest_of(RunPage const& page) {
   std::vector<std::size_t> order(page.receivers.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
@@ -358,6 +385,20 @@ void add_skies(RunPage& page, SceneAssembly& assembly, RunRecord const& record) 
     return std::pair(second.window, second.area) < std::pair(first.window, first.area);
   });
   if (order.size() > max_skies) order.resize(max_skies);
+  return order;
+}
+
+// After they are written to their table.
+void leave_out_mean_days(RunPage& page) {
+  std::vector<bool> kept(page.receivers.size(), false);
+  for (auto const number : largest_of(page)) kept[number] = true;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (!kept[i]) page.receivers[i].mean_days.clear();
+  }
+}
+
+void add_skies(RunPage& page, SceneAssembly& assembly, RunRecord const& record) {
+  auto const order = largest_of(page);
   if (order.empty()) return;
   assembly.optics().update({});
   page.sky_state = sky_state_of(assembly);
@@ -384,8 +425,8 @@ void add_skies(RunPage& page, SceneAssembly& assembly, RunRecord const& record) 
   }
   if (order.size() < page.receivers.size()) {
     page.notes.push_back(
-        fmt::format("Shading masks of the {} largest receivers are shown, windows first; "
-                    "gpu_shading mask draws others.",
+        fmt::format("Shading masks and mean days of the {} largest receivers are shown, windows "
+                    "first; gpu_shading mask draws other masks, run_mean_days.csv has all.",
                     order.size()));
   }
 }
@@ -473,19 +514,43 @@ void write_facts(RunPage const& page, std::ostream& csv) {
   for (auto const& note : page.notes) csv << fmt::format("Note,{}\n", csv_field(note));
 }
 
+// The heads of the page's kinds of light.
+std::string light_heads(std::string_view unit) {
+  return fmt::format(
+      "beam [{0}],sky [{0}],reflected by ground [{0}],reflected by shades [{0}],all [{0}]\n", unit);
+}
+
+// Blank where only the beam is known.
+std::string light_fields(std::vector<double> const& kinds) {
+  auto const fields = fmt::format("{:.1f}", fmt::join(kinds, ","));
+  return fields + (kinds.size() > 1 ? "\n" : ",,,,\n");
+}
+
 void write_months(RunPage const& page, std::ostream& csv) {
-  csv << "receiver,month,beam [kWh/m2],reflected by ground [kWh/m2],"
-         "reflected by shades [kWh/m2]\n";
+  csv << "receiver,month," << light_heads("kWh/m2");
   for (std::size_t i = 0; i < page.receivers.size(); ++i) {
-    auto const& [months, reflected] =
-        std::tie(page.receivers[i].months, page.receivers[i].reflected);
-    for (std::size_t month = 0; month < months.size(); ++month) {
-      csv << fmt::format("{},{},{:.1f}", csv_field(page.surfaces[i].name), month + 1,
-                         months.at(month));
-      // Blank where EnergyPlus reflects light, which does not tell these apart.
-      csv << (reflected.empty() ? ",,\n"
-                                : fmt::format(",{:.1f},{:.1f}\n", reflected[0].at(month),
-                                              reflected[1].at(month)));
+    auto const name = csv_field(page.surfaces[i].name);
+    for (std::size_t month = 0; month < ReceivedLight::months; ++month) {
+      std::vector<double> kinds;
+      for (auto const& months : page.receivers[i].months) kinds.push_back(months.at(month));
+      csv << fmt::format("{},{},{}", name, month + 1, light_fields(kinds));
+    }
+  }
+}
+
+void write_mean_days(RunPage const& page, std::ostream& csv) {
+  csv << "receiver,month,hour," << light_heads("W/m2");
+  for (std::size_t i = 0; i < page.receivers.size(); ++i) {
+    auto const& mean_days = page.receivers[i].mean_days;
+    if (mean_days.empty()) continue;
+    auto const name = csv_field(page.surfaces[i].name);
+    for (std::size_t month = 0; month < mean_days.front().size(); ++month) {
+      for (std::size_t hour = 0; hour < mean_days.front()[month].size(); ++hour) {
+        std::vector<double> kinds;
+        for (auto const& months : mean_days) kinds.push_back(months.at(month).at(hour));
+        if (kinds.back() <= 0.0) continue;
+        csv << fmt::format("{},{},{},{}", name, month + 1, hour + 1, light_fields(kinds));
+      }
     }
   }
 }
@@ -560,6 +625,8 @@ void write_run(StagedFiles& files, std::filesystem::path const& folder, SceneAss
   add_from(page, folder, "Modules", [&] { add_modules_of(page, folder / "modules"); });
   add_skies(page, assembly, record);
   simplify(page);
+  files.write(mean_days_table, [&](std::ostream& csv) { write_mean_days(page, csv); });
+  leave_out_mean_days(page);
   files.write(facts_table, [&](std::ostream& csv) { write_facts(page, csv); });
   files.write(receivers_table, [&](std::ostream& csv) { write_receivers(page, csv); });
   files.write(months_table, [&](std::ostream& csv) { write_months(page, csv); });

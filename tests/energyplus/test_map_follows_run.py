@@ -14,7 +14,7 @@ from test_moving import AWNING, FULL, by_the_hour, moving, of_hours, room, surfa
 from test_run_page import content_of
 
 TREES = energyplus.REPOSITORY / "idf_examples" / "trees"
-MONTH_BEAMS = 7  # of a receiver on the page
+MONTHS_OF_LIGHT = 7  # of a receiver on the page: those of the beam are first
 
 
 def beam_of_run(patched, path, weather, folder):
@@ -109,7 +109,7 @@ def test_the_two_beams_of_a_page_are_one(patched, weather, tmp_path):
     assert run.completed, run.why()
     content = content_of(tmp_path / "report" / "index.html")
     receiver = content["receivers"][content["names"].index("WINDOW")]
-    of_run = sum(receiver[MONTH_BEAMS])
+    of_run = sum(receiver[MONTHS_OF_LIGHT][0])
     of_map = energies_of(tmp_path / "report" / "maps")["WINDOW"]
     assert of_map == pytest.approx(beams_of(run, 1)["WINDOW"], rel=0.005)
     # The page multiplies hourly weather and fractions, and rounds months to 0.1.

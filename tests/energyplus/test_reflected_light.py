@@ -8,7 +8,7 @@ import pytest
 import radiance
 import radiance_reflections
 import test_site
-from output_files import values_of
+from output_files import rows_of, values_of
 from shading_runs import energyplus
 
 BY_GROUND = "GPU Shading Solar Radiation Reflected by Ground Rate per Area"
@@ -377,3 +377,44 @@ def test_an_exported_model_has_its_light_in_files(patched, weather, tmp_path, bo
     theirs = values_of(run, GROUND_LIGHT)
     for name, light in ours.items():
         assert theirs[name] == pytest.approx(light, rel=1e-6, abs=1e-6), name
+
+
+LIGHT = ("beam", "sky", "reflected by ground", "reflected by shades", "all")
+
+
+@pytest.mark.parametrize("distribution, option, shades", [
+    ("FullExterior", "all", louvres), ("FullExterior", "energyplus", street),
+    ("FullExteriorWithReflections", "energyplus", street)])
+def test_the_report_has_the_light_of_each_month_and_hour(patched, weather, tmp_path, box, distribution, option, shades):
+    """Against EnergyPlus's outputs, from which the sky's part is read at each timestep."""
+    text = re.sub(r"Full(In|Ex)terior[A-Za-z]*", distribution, bare(box)) + shades(0.5) + "Output:SQLite,Simple;\n"
+    text = re.sub(r"Output:Variable,[^;]*;[^\n]*\n", "", text)
+    text = text.replace("Timestep,4;", "Timestep,2;") + "".join(
+        f"Output:Variable,*,{INCIDENT.format(part)},Hourly;\n" for part in ("", *PARTS))
+    (tmp_path / "model.idf").write_text(text)
+    report = tmp_path / "report"
+    run = energyplus.run(patched, tmp_path / "model.idf", weather, tmp_path / "out",
+                         ["--gpu-shading", f"--gpu-shading-reflections={option}", f"--gpu-shading-report={report}"])
+    assert run.completed, run.why()
+    theirs = {part: values_of(run, INCIDENT.format(part)) for part in ("", *PARTS)}
+    months = {(row["receiver"], int(row["month"])): row for row in rows_of(report / "run_months.csv")}
+    mean_days = {(row["receiver"], int(row["month"]), int(row["hour"])): row
+                 for row in rows_of(report / "run_mean_days.csv")}
+    receivers = {name for name, _ in months}
+    assert receivers >= {WINDOW, "SOUTH", "ROOF"}
+    begin = 0
+    for month, days in enumerate((31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31), start=1):
+        for name in receivers:
+            expected = {part: values[name][begin:begin + 24 * days] for part, values in theirs.items()}
+            row = {kind: float(months[name, month][f"{kind} [kWh/m2]"]) for kind in LIGHT}
+            assert row["beam"] == pytest.approx(sum(expected["Beam "]) / 1000, abs=0.051 + 1e-4 * row["beam"])
+            assert row["sky"] == pytest.approx(sum(expected["Sky Diffuse "]) / 1000, abs=0.051)
+            assert row["all"] == pytest.approx(sum(expected[""]) / 1000, abs=0.051 + 1e-4 * row["beam"])
+            assert row["all"] == pytest.approx(sum(row[kind] for kind in LIGHT[:-1]), abs=0.21)
+            for hour in range(1, 25):
+                total = sum(expected[""][hour - 1::24]) / days
+                found = mean_days.get((name, month, hour))
+                assert float(found["all [W/m2]"] if found else 0) == pytest.approx(total, abs=0.06 + 1e-4 * total)
+        begin += 24 * days
+    by_shades = max(float(row["reflected by shades [kWh/m2]"]) for row in months.values())
+    assert (by_shades > 1) == (option == "all" or "With" in distribution)

@@ -66,6 +66,10 @@ LOOK = """() => {
     new KeyboardEvent("keydown", {key, bubbles: true}));
   tab("ArrowRight");
   seen.months = [...document.querySelectorAll("#months-plot .bar title")].map((title) => title.textContent);
+  seen.meanDays = KINDS_OF_LIGHT.map((_, kind) => {
+    fire("light", String(kind), "change");
+    return [...document.querySelectorAll("#mean-days-plot .field title")].map((title) => title.textContent);
+  });
   tab("ArrowRight");
   seen.suns = document.querySelectorAll("#sky-plot circle").length;
   seen.skyKeys = [...document.querySelectorAll("#sky-keys li")].map((key) => key.textContent);
@@ -197,8 +201,8 @@ def test_beam_by_hour_and_month(run, on_desktop):
     [march] = [float(row["beam [kWh/m2]"]) for row in rows_of(report / "run_months.csv")
                if (row["receiver"], row["month"]) == (HOSTILE, "3")]
     assert march == pytest.approx(sum(theirs.values()) / 4000, abs=0.051)
-    of_beam = [month for month in on_desktop["months"] if ", reflected by " not in month]
-    assert of_beam[2] == f"March: {march:.1f} kWh/m\u00b2"
+    of_beam = [month for month in on_desktop["months"] if ", beam: " in month]
+    assert of_beam[2] == f"March, beam: {march:.1f} kWh/m\u00b2"
     assert sum(float(month.split(": ")[1].split()[0]) for month in of_beam) == pytest.approx(march)
     # 1 March stands for 20 days, 21 March for two.
     beams = [text.split(": ") for text in on_desktop["beams"]]
@@ -206,6 +210,20 @@ def test_beam_by_hour_and_month(run, on_desktop):
     energy = sum({"1 March, ": 20, "21 March,": 2}[when[:9]] * float(beam.split()[0]) / 1000
                  for when, beam in ((f"{day} ", beam) for day, beam in beams) if beam.endswith("m\u00b2"))
     assert energy == pytest.approx(march, rel=0.05)
+
+
+def test_light_by_month_and_hour(run, on_desktop):
+    table = rows_of(run[1] / "run_mean_days.csv")
+    for kind, fields in zip(("beam", "sky", "reflected by ground", "reflected by shades", "all"),
+                            on_desktop["meanDays"], strict=True):
+        rows = [row for row in table if row["receiver"] == HOSTILE]
+        for field, row in zip(fields, rows, strict=True):
+            when, watts = field.rsplit(": ", 1)
+            assert when == f"mean day of March, {int(row['hour']):02}:00"
+            assert float(watts.split()[0]) == pytest.approx(float(row[f"{kind} [W/m2]"]), abs=0.551), (kind, when)
+        [month] = [float(row[f"{kind} [kWh/m2]"]) for row in rows_of(run[1] / "run_months.csv")
+                   if (row["receiver"], row["month"]) == (HOSTILE, "3")]
+        assert sum(float(row[f"{kind} [W/m2]"]) for row in rows) * 22 / 1000 == pytest.approx(month, abs=0.07)
 
 
 def test_the_sky_of_a_receiver(run, on_desktop):
@@ -229,7 +247,7 @@ def test_the_sky_of_a_receiver(run, on_desktop):
 def test_every_number_is_in_a_table(run, on_desktop):
     tables = [*run[1].glob("run_*.csv"), run[1] / "maps" / "maps.csv"]
     texts = on_desktop["texts"]
-    assert len(tables) == 6 and len(texts) > 150
+    assert len(tables) == 7 and len(texts) > 150
     assert not_in_tables(texts, tables) == []
     assert not_in_tables([*texts, "7.654321 kWh"], tables) == ["7.654321"]
 

@@ -11,6 +11,7 @@ inline constexpr char const* stages_table = "stages.csv";
 inline constexpr char const* facts_table = "run_facts.csv";
 inline constexpr char const* hours_table = "run_hours.csv";
 inline constexpr char const* months_table = "run_months.csv";
+inline constexpr char const* mean_days_table = "run_mean_days.csv";
 inline constexpr char const* skies_table = "run_sky.csv";
 inline constexpr char const* receivers_table = "run_receivers.csv";
 

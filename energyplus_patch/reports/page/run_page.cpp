@@ -204,13 +204,19 @@ Json to_json(PageReceiver const& receiver) {
   constexpr double thousandths = 1e3;
   constexpr double tenths = 10.0;
   constexpr double ten_thousandths = 1e4;
-  auto const to_tenths = [](std::array<double, 12> const& months) {
-    Json list = Json::array();
+  Json light = Json::array();
+  for (auto const& months : receiver.months) {
+    auto& list = light.emplace_back(Json::array());
     for (double const month : months) list.push_back(rounded(month, tenths));
-    return list;
-  };
-  Json reflected = Json::array();
-  for (auto const& months : receiver.reflected) reflected.push_back(to_tenths(months));
+  }
+  std::vector<std::uint16_t> mean_days;
+  for (auto const& months : receiver.mean_days) {
+    for (auto const& hours : months) {
+      for (double const hour : hours) {
+        mean_days.push_back(static_cast<std::uint16_t>(std::lround(hour)));
+      }
+    }
+  }
   return {rounded(receiver.area, thousandths),
           rounded(receiver.azimuth, tenths),
           rounded(receiver.tilt, tenths),
@@ -218,8 +224,8 @@ Json to_json(PageReceiver const& receiver) {
           rounded(receiver.beam, tenths),
           rounded(receiver.beam * receiver.area, tenths),
           receiver.window ? 1 : 0,
-          to_tenths(receiver.months),
-          reflected};
+          light,
+          base64(mean_days)};
 }
 
 Json to_json(PageDay const& day) {

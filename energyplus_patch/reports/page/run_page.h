@@ -58,12 +58,14 @@ struct PageReceiver {
   // Of the sunlit fraction on the page's days, over the hours during all of which the sun faces it;
   // empty if there are none.
   std::optional<double> mean = std::nullopt;
-  double beam = 0.0;                // of the run, kWh/m2
-  std::array<double, 12> months{};  // of it, January first
-  // The same of light reflected by the ground, and by shades, neighbours and the building alone.
-  // Empty: EnergyPlus's own.
-  std::vector<std::array<double, 12>> reflected = {};
+  double beam = 0.0;    // of the run, kWh/m2
   bool window = false;  // or a door
+  // kWh/m2 of each month, January first: the beam, the sky's light, what the ground and what
+  // shades, neighbours and the building alone reflect, and the sum. The beam alone if no more is
+  // known.
+  std::vector<std::array<double, 12>> months = {};
+  // W/m2 of the same by month and hour of the months' mean days; empty: left out.
+  std::vector<std::array<std::array<double, 24>, 12>> mean_days = {};
 };
 
 // What a receiver sees of the sky, in cells of SkyGrid(sky_step).

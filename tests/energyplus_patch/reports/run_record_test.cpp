@@ -32,6 +32,10 @@ void shade(RunRecord& record) {
   record.note(0, 0.5 * 2.0 * std::cos(60.0 * degree));
 }
 
+double beam_of_run(RunRecord const& record, std::size_t receiver) {
+  return record.light()[receiver].of_run(ReceivedLight::beam);
+}
+
 TEST(RunRecord, AddsTheBeamOfDaysWithoutWarmUp) {
   auto record = record_of_a_box();
   record.begin_day(day_of(3, 1, true), beam_of(500.0));
@@ -49,12 +53,43 @@ TEST(RunRecord, AddsTheBeamOfDaysWithoutWarmUp) {
   EXPECT_LT(hours.front().fractions[1], 0.0F);
   // Nothing can shade the roof: EnergyPlus does not ask about it.
   EXPECT_EQ(hours.front().fractions[2], 1.0F);
-  EXPECT_NEAR(record.beam()[0], 0.8 * 0.5 * std::cos(60.0 * degree), 1e-6);
-  EXPECT_EQ(record.months()[0][2], record.beam()[0]);
-  EXPECT_EQ(record.months()[0][3], 0.0);
+  EXPECT_NEAR(beam_of_run(record, 0), 0.8 * 0.5 * std::cos(60.0 * degree), 1e-6);
+  auto const& light = record.light()[0];
+  EXPECT_EQ(light.at(ReceivedLight::beam, 2, 11), beam_of_run(record, 0));
+  EXPECT_EQ(light.of_month(ReceivedLight::beam, 2), beam_of_run(record, 0));
+  EXPECT_EQ(light.of_month(ReceivedLight::beam, 3), 0.0);
+  EXPECT_EQ(record.days_of_months()[2], 2);
+  EXPECT_FALSE(record.has_diffuse());
   EXPECT_EQ(hours.front().beam, 400.0);  // the mean of both days
-  EXPECT_EQ(record.beam()[1], 0.0);
-  EXPECT_NEAR(record.beam()[2], 0.8 * std::sin(60.0 * degree), 1e-6);
+  EXPECT_EQ(beam_of_run(record, 1), 0.0);
+  EXPECT_NEAR(beam_of_run(record, 2), 0.8 * std::sin(60.0 * degree), 1e-6);
+}
+
+TEST(RunRecord, AddsLightThatIsNotBeamByMonthAndHour) {
+  auto record = record_of_a_box();
+  std::vector<DiffuseLight> const light{{100.0, 20.0, 3.0}, {50.0, 10.0, 0.0}, {}};
+  auto day = day_of(3, 31, true);
+  day.steps_per_hour = 2;
+  record.begin_day(day, beam_of(0.0));
+  record.note_diffuse(10, light);  // of the warm-up
+  day.warm_up = false;
+  record.begin_day(day, beam_of(0.0));
+  record.note_diffuse(10, light);
+  record.note_diffuse(10, light);
+  record.note_diffuse(11, light);
+  day.month = 4;
+  record.begin_day(day, beam_of(0.0));
+  record.note_diffuse(10, light);
+  record.end();
+  EXPECT_TRUE(record.has_diffuse());
+  auto const& wall = record.light()[0];
+  EXPECT_NEAR(wall.at(ReceivedLight::sky, 2, 9), 0.1, 1e-12);
+  EXPECT_NEAR(wall.at(ReceivedLight::sky, 2, 10), 0.05, 1e-12);
+  EXPECT_NEAR(wall.of_month(ReceivedLight::by_ground, 2), 0.03, 1e-12);
+  EXPECT_NEAR(wall.of_month(ReceivedLight::by_ground, 3), 0.01, 1e-12);
+  EXPECT_NEAR(wall.of_run(ReceivedLight::by_shades), 0.006, 1e-12);
+  EXPECT_NEAR(record.light()[1].of_run(ReceivedLight::sky), 0.1, 1e-12);
+  EXPECT_EQ(wall.of_run(ReceivedLight::beam), 0.0);
 }
 
 TEST(RunRecord, KeepsTheSharesOfTheTimestepAtTheEndOfEachHour) {
@@ -91,7 +126,7 @@ TEST(RunRecord, AsksForTheBeamOnceADay) {
   EXPECT_EQ(asked, 2);
   record.end();
   EXPECT_EQ(record.simulated(), 2U);
-  EXPECT_NEAR(record.beam()[0], 2 * 0.5 * 0.5 * std::cos(60.0 * degree), 1e-6);
+  EXPECT_NEAR(beam_of_run(record, 0), 2 * 0.5 * 0.5 * std::cos(60.0 * degree), 1e-6);
 }
 
 TEST(RunRecord, LeavesPatchesOfTheSkyOut) {
@@ -144,6 +179,9 @@ TEST(RunRecord, KeepsFewerDaysOfManyReceivers) {
   EXPECT_EQ(record.simulated(), 48U);
   EXPECT_LE(record.days().size() * 5 * receivers, std::size_t{1} << 24U);
   EXPECT_GE(record.days().size(), 12U);
+  EXPECT_EQ(record.light().size(), receivers);
+  EXPECT_EQ(record.light()[0].hours(), 1U);
+  EXPECT_GT(beam_of_run(record, 0), 0.0);
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
-// Beam solar energy on a receiver: by day and hour, and by month.
+// Light on a receiver: the beam by day and hour; the beam and the rest by month, and by hour of the months' mean days.
 
 const WINDOW = 6;
-const MONTH_BEAMS = 7;
-const MONTH_REFLECTED = 8;
+const MONTHS_OF_LIGHT = 7;
+const MEAN_DAYS = 8;
+// As a receiver has them, if more than the beam is known.
+const KINDS_OF_LIGHT = ["beam", "sky", "reflected by ground", "reflected by shades", "all light"];
 
 // W per m2 of the receiver, with the mean beam of the days that the page's day stands for; null behind it.
 function beamOf(receiver, day, hour) {
@@ -20,24 +22,22 @@ function mostBeam(receiver) {
   return Math.max(100, 100 * Math.ceil(Math.max(...beams) / 100));
 }
 
-// Beam, and light reflected by the ground and by shades, one on the other.
+// The kinds of light, one on the other.
 function monthBars(receiver) {
-  const months = content.receivers[receiver][MONTH_BEAMS];
-  const layers = [["beam", months], ...content.receivers[receiver][MONTH_REFLECTED].map((light, i) =>
-    [["reflected by the ground", "reflected by shades"][i], light])];
-  const sums = months.map((_, i) => layers.reduce((sum, [, light]) => sum + light[i], 0));
+  const light = content.receivers[receiver][MONTHS_OF_LIGHT];
+  const sums = light[light.length - 1];
+  const layers = light.length > 1 ? light.slice(0, -1) : light;
   const most = Math.max(...sums, 0.1);
   const plot = svg("svg", {viewBox: "0 0 366 170", role: "img",
-    "aria-label": `Beam energy on ${content.names[receiver]} by month, kWh per m2`});
+    "aria-label": `Light on ${content.names[receiver]} by month, kWh per m2`});
   sums.forEach((sum, i) => {
     const x = 8 + 29.5 * i;
     let y = 142;
-    layers.forEach(([name, light], layer) => {
-      const height = 120 * light[i] / most;
+    layers.forEach((months, layer) => {
+      const height = 120 * months[i] / most;
       y -= height;
       const bar = svg("rect", {x, y, width: 22, height, class: `bar light-${layer}`});
-      const what = layer > 0 ? `, ${name}` : "";
-      bar.append(svg("title", {}, `${MONTHS[i]}${what}: ${numberText(light[i], 1)} kWh/m\u00b2`));
+      bar.append(svg("title", {}, `${MONTHS[i]}, ${KINDS_OF_LIGHT[layer]}: ${numberText(months[i], 1)} kWh/m\u00b2`));
       plot.append(bar);
     });
     plot.append(svg("text", {x: x + 11, y: y - 5, "text-anchor": "middle"}, numberText(sum, sum < 10 ? 1 : 0)),
@@ -45,4 +45,21 @@ function monthBars(receiver) {
   });
   plot.append(svg("path", {d: "M4 142H362", class: "axis"}));
   return plot;
+}
+
+// How many kinds the page has: one, or all.
+function lightCount() { return content.receivers.length > 0 ? content.receivers[0][MONTHS_OF_LIGHT].length : 1; }
+
+// A carpet of the mean days of the months, and the value of its yellow.
+function meanDayCarpet(receiver, kind) {
+  const values = shortsOf(content.receivers[receiver][MEAN_DAYS]);
+  const at = (one, month, hour) => values[(12 * one + month - 1) * 24 + hour - 1];
+  const hours = [...Array(24).keys()].map((hour) => hour + 1);
+  const isLit = (month, hour) => at(lightCount() - 1, month, hour) > 0;
+  const days = MONTHS.map((_, i) => ({month: i + 1, hours: hours.filter((hour) => isLit(i + 1, hour)).map((hour) => [hour])}))
+    .filter((day) => day.hours.length > 0);
+  const valueAt = (d, h) => at(kind, days[d].month, days[d].hours[h][0]);
+  const most = Math.max(10, 10 * Math.ceil(Math.max(...days.flatMap((day, d) => day.hours.map((_, h) => valueAt(d, h)))) / 10));
+  return [most, carpet(null, () => {}, {about: `Mean days of ${KINDS_OF_LIGHT[kind]} on ${content.names[receiver]}`, days,
+    value: (d, h) => valueAt(d, h) / most, text: (d, h) => `${valueAt(d, h)} W/m\u00b2`})];
 }

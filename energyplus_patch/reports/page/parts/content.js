@@ -30,7 +30,8 @@ content.shares = content.shares.map(bytesOf);
 const MONTHS = ["January", "February", "March", "April", "May", "June", "July", "August", "September", "October",
   "November", "December"];
 
-function dayText(day) { return `${day.day} ${MONTHS[day.month - 1]}`; }
+// Without a day: the month's mean day.
+function dayText(day) { return `${day.day || "mean day of"} ${MONTHS[day.month - 1]}`; }
 function hourText(hour) { return `${String(hour).padStart(2, "0")}:00`; }
 
 // Percent, or content.turnedAway.

@@ -103,9 +103,19 @@ function showCharts() {
       text: (d, h) => beamOf(receiver, d, h) === null ? percentText(content.turnedAway)
         : `${Math.round(beamOf(receiver, d, h))} W/m\u00b2`}));
   }
-  part("of-reflected").hidden = content.receivers[receiver][MONTH_REFLECTED].length === 0;
-  if (drawn("months")) part("months-plot").replaceChildren(monthBars(receiver));
+  if (drawn("months")) showMonths();
   if (drawn("sky")) showSky(now);
+}
+
+function showMonths() {
+  const {receiver} = state;
+  part("months-plot").replaceChildren(monthBars(receiver));
+  const known = content.receivers[receiver][MEAN_DAYS].length > 0;
+  part("mean-days").hidden = !known;
+  if (!known) return;
+  const [most, plot] = meanDayCarpet(receiver, Number(part("light").value));
+  part("mean-days-scale").textContent = `blue 0, yellow ${most} W/m\u00b2`;
+  part("mean-days-plot").replaceChildren(plot);
 }
 
 function showSky(now) {
@@ -140,6 +150,10 @@ function addPanels() {
       part(`tab-${next}`).focus();
     });
   });
+  part("of-diffuse").hidden = lightCount() === 1;
+  part("light").append(...KINDS_OF_LIGHT.slice(0, lightCount()).map((name, kind) => new Option(name, kind)));
+  part("light").value = lightCount() - 1;
+  part("light").addEventListener("change", showCharts);
   part("projection").addEventListener("change", showCharts);
   part("save-chart").addEventListener("click", () => saveChart(document.querySelector(".panel:not([hidden]) svg"),
     content.names[state.receiver]));

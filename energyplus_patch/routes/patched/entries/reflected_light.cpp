@@ -1,4 +1,6 @@
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
@@ -27,6 +29,21 @@ void set_grounds(State& state, Run& run) {
   }
 }
 
+void note_light(State& state, Run& run) {
+  auto const& functions = installation().functions;
+  if (functions.sky_weather(state).open_ground() <= 0.0) return;
+  if (run.irradiances.empty()) {
+    for (auto const& receiver : run.session->recorded_receivers()) {
+      run.irradiances.push_back(functions.irradiances_of(state, receiver));
+    }
+  }
+  std::vector<DiffuseLight> light;
+  for (auto const& numbers : run.irradiances) {
+    light.push_back(functions.diffuse_light(state, numbers));
+  }
+  run.session->note_diffuse(functions.moment(state).hour, std::move(light));
+}
+
 // EnergyPlus has the shading and the weather of a timestep, and is about to irradiate its surfaces.
 void at_timestep(State* state) {
   auto& run = this_run();
@@ -34,10 +51,21 @@ void at_timestep(State* state) {
   guarded([&] { set_grounds(*state, run); });
 }
 
+// Surfaces are irradiated.
+void at_end_of_timestep(State* state) {
+  auto& run = this_run();
+  if (run.session == nullptr || !run.session->records_light()) return;
+  guarded([&] { note_light(*state, run); });
+}
+
 }  // namespace
 
 void follow_reflected_light(State& state) {
   installation().functions.at_each_timestep(state, &at_timestep);
+}
+
+void record_light(State& state) {
+  installation().functions.at_end_of_timesteps(state, &at_end_of_timestep);
 }
 
 }  // namespace gpu_shading::energyplus

@@ -47,7 +47,9 @@ struct Run {
   std::ostream* eio = nullptr;
   Session* session = nullptr;            // while EnergyPlus has one
   std::optional<GroundNumbers> grounds;  // once they are known
-  std::string unwritten;                 // why its output is not complete, "" where it is
+  // By Session::recorded_receivers(), once they are known.
+  std::vector<EnergyPlusFunctions::Irradiances> irradiances;
+  std::string unwritten;  // why its output is not complete, "" where it is
 };
 Run& this_run();
 

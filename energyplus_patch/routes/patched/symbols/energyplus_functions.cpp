@@ -154,11 +154,44 @@ namespace {
 constexpr char const* reflected_by_ground = "Site Ground Reflected Solar Radiation Rate per Area";
 constexpr char const* whole_site = "Environment";
 
+// On the outside of a surface.
+std::string incident(std::string_view light) {
+  return fmt::format("Surface Outside Face Incident {}Solar Radiation Rate per Area", light);
+}
+constexpr std::array<std::string_view, 4> kinds_of_light{"", "Beam ", "Sky Diffuse ",
+                                                         "Ground Diffuse "};
+
 }  // namespace
 
 void EnergyPlusFunctions::at_each_timestep(State& state, void (*function)(State*)) const {
   symbol::request_variable.in(symbols_)(&state, reflected_by_ground, whole_site);
   symbol::call_after_init_heat_balance.in(symbols_)(&state, function);
+}
+
+void EnergyPlusFunctions::at_end_of_timesteps(State& state, void (*function)(State*)) const {
+  for (auto const& light : kinds_of_light) {
+    symbol::request_variable.in(symbols_)(&state, incident(light).c_str(), "*");
+  }
+  symbol::call_at_end_of_timestep.in(symbols_)(&state, function);
+}
+
+EnergyPlusFunctions::Irradiances EnergyPlusFunctions::irradiances_of(
+    State& state, std::string const& surface) const {
+  Irradiances numbers{};
+  std::ranges::transform(kinds_of_light, numbers.begin(), [&](std::string_view light) {
+    return symbol::variable_handle.in(symbols_)(&state, incident(light).c_str(), surface.c_str());
+  });
+  return numbers;
+}
+
+DiffuseLight EnergyPlusFunctions::diffuse_light(State& state, Irradiances const& numbers) const {
+  if (std::ranges::min(numbers) < 0) return {};
+  auto const [all, beam, sky, ground] = numbers;
+  DiffuseLight light{variable(state, sky), variable(state, ground)};
+  // EnergyPlus's own solar reflections, if it has them; otherwise rounding.
+  light.by_shades =
+      std::max(0.0, variable(state, all) - variable(state, beam) - light.sky - light.by_ground);
+  return light;
 }
 
 int EnergyPlusFunctions::light_of_ground(State& state) const {

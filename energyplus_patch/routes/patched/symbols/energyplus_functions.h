@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -57,8 +58,14 @@ class EnergyPlusFunctions {
   // Calls `function` at each zone timestep, after the shading and before surfaces are irradiated.
   // Before the simulation begins. For Need::reflected_light, as are the functions below.
   void at_each_timestep(State& state, void (*function)(State*)) const;
-  // In `function`: the number of a variable, what level ground in the open reflects, W/m2; Error if
-  // EnergyPlus has none. Finding it takes time, as for a schedule.
+  // The same at the end of each zone timestep.
+  void at_end_of_timesteps(State& state, void (*function)(State*)) const;
+  // In that: the numbers of a surface's variables, and what they say; all 0 if EnergyPlus has none.
+  using Irradiances = std::array<int, 4>;
+  Irradiances irradiances_of(State& state, std::string const& surface) const;
+  DiffuseLight diffuse_light(State& state, Irradiances const& numbers) const;
+  // In the function of at_each_timestep(): the number of a variable, what level ground in the open
+  // reflects, W/m2; Error if EnergyPlus has none. Finding it takes time, as for a schedule.
   int light_of_ground(State& state) const;
   double variable(State& state, int number) const;
   // The number by which a schedule is set; Error if EnergyPlus has none of this name.

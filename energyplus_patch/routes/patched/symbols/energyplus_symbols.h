@@ -61,7 +61,7 @@ enum class Need {
   surface_ids,      // mirrored shading surfaces are taken as shaded
   run_days,         // the report has no days
   outputs,          // moving shades have no output variables
-  reflected_light,  // EnergyPlus's own terms alone reflect light
+  reflected_light,  // EnergyPlus's own terms alone reflect light, and the report has beam alone
   daylight_rays,    // hidden casters dim no rays of daylighting
   daylight_memory   // EnergyPlus computes daylighting again where nothing has changed
 };
