@@ -89,6 +89,8 @@ void Session::start(Simulation simulation) {
   if (options.report) {
     prepare_report(*options.report);
     prepare_page(*options.report);
+  }
+  if (options.report || scene_.model().reflected_light.undimmed) {
     record_.emplace(scene_.areas(), scene_.shown_receivers());
   }
   if (auto const& shades = scene_.model().moving_shades; !shades.empty()) {
@@ -407,6 +409,10 @@ void Session::finish() {
   if (reflected_) reflected_->describe();
   write_cache(answers_->rendered(), messages_);
   if (failed_) return;
+  if (record_) record_->end();
+  if (scene_.model().reflected_light.undimmed) {
+    warn_of_ground_light(scene_.surfaces(), *record_, messages_);
+  }
   write_reports();
   if (step_error_) describe_step_error();
 }
@@ -443,7 +449,6 @@ void Session::write_reports() {
   auto& rendered = answers_->rendered();
   auto const& known = rendered.known();
   auto const& optics = scene_.optics();
-  record_->end();
   std::vector<std::string> heads;
   for (auto const& schedule : optics.deployment_names()) heads.push_back("share by " + schedule);
   for (auto const& shade : scene_.model().moving_shades) {

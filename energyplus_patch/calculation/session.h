@@ -134,7 +134,7 @@ class Session : public ShadingCalculation {
   Moment moment_;
   bool failed_ = false;
   std::optional<SunQuestions> answers_;  // once started
-  std::optional<RunRecord> record_;      // for the report
+  std::optional<RunRecord> record_;      // for the report, or ReflectedLight::undimmed
   std::optional<ShadeControl> control_;  // of moving shades
   std::optional<StepError> step_error_;
   std::optional<PvLoss> pv_loss_;  // with --gpu-shading-pv

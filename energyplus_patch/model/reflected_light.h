@@ -23,6 +23,7 @@ struct ReflectedLight {
   };
 
   std::vector<Receiver> receivers;  // empty: EnergyPlus's own terms
+  bool undimmed = false;            // these are asked for, although objects of ours shade
   std::string schedule_limits;      // the ScheduleTypeLimits of their schedules
   // Diffuse solar reflectances, 0 .. 1, of the outsides of walls, roofs, floors and opaque doors,
   // by EnergyPlus's names; windows are missing.

@@ -75,6 +75,7 @@ ReflectedLightPlan plan_reflected_light(ReflectingModel const& model, Options co
   bool const has_shades = std::ranges::any_of(model.objects, is_shade);
   if (options.reflections == Reflections::energyplus) {
     if (has_shades) {
+      plan.input.light.undimmed = true;
       plan.warnings.emplace_back(
           "Reflections is energyplus: GPUShading objects neither reflect light nor dim that from "
           "the ground");

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gpu_shading/error.h"
@@ -188,6 +190,31 @@ void describe_answers(SunQuestions const& answers, Options const& options,
         sampled->answered(), sampled->sampled(), name_of(options.update),
         describe_expected_error(sampled->expected_error(), *options.update.sampling)));
   }
+}
+
+void warn_of_ground_light(Scene const& surfaces, RunRecord const& record,
+                          Messages const& messages) {
+  constexpr double negligible = 0.1;
+  std::vector<std::pair<double, SurfaceId>> shares;
+  for (std::size_t i = 0; i < record.receivers().size(); ++i) {
+    auto const& light = record.light()[i];
+    double const ground = light.of_run(ReceivedLight::by_ground);
+    double const all =
+        light.of_run(ReceivedLight::beam) + light.of_run(ReceivedLight::sky) + ground;
+    if (ground > negligible * all) shares.emplace_back(ground / all, record.receivers()[i]);
+  }
+  if (shares.empty()) return;
+  std::ranges::stable_sort(shares, std::greater{}, &std::pair<double, SurfaceId>::first);
+  std::vector<std::string> names;
+  for (auto const& [share, id] : shares) {
+    names.push_back(fmt::format("{} ({:.0f} %)", surfaces[id].name, 100.0 * share));
+  }
+  constexpr std::size_t max_listed = 3;
+  messages.warning(
+      fmt::format("light from the ground that no GPUShading object dims is over 10 % of the beam, "
+                  "sky and ground "
+                  "light on {} surface{}: {}; see --gpu-shading-reflections",
+                  names.size(), names.size() == 1 ? "" : "s", listed(names, max_listed)));
 }
 
 }  // namespace gpu_shading::energyplus

@@ -5,6 +5,7 @@
 
 #include "answers/sun_questions.h"
 #include "platform/messages.h"
+#include "reports/run_record.h"
 #include "scene/scene_assembly.h"
 
 namespace gpu_shading::energyplus {
@@ -23,5 +24,9 @@ void describe_scene(SceneAssembly const& scene, Messages const& messages);
 // After the last question: what rendered how much, and which receivers may miss the target error.
 void describe_answers(SunQuestions const& answers, Options const& options,
                       Messages const& messages);
+
+// At the end of a run whose light from the ground no object of ours dims: names the receivers that
+// get over a tenth of their light from there, the largest shares first.
+void warn_of_ground_light(Scene const& surfaces, RunRecord const& record, Messages const& messages);
 
 }  // namespace gpu_shading::energyplus

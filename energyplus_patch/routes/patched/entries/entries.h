@@ -49,7 +49,7 @@ std::vector<EntryPatch> glfw_entries();
 
 // Has EnergyPlus ask for the light that this run's model reflects, at each timestep.
 void follow_reflected_light(State& state);
-// Has EnergyPlus hand over the light that is not beam at the end of each timestep, for the report.
+// Has EnergyPlus hand over the light that is not beam at the end of each timestep.
 void record_light(State& state);
 
 // The memory of this thread's run; nullptr if EnergyPlus's daylighting is left alone.
