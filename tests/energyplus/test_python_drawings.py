@@ -62,6 +62,36 @@ def test_a_frame_says_what_is_missing(gs, run, tmp_path):
         gs.Run(tmp_path, ()).frame()
 
 
+def test_light_is_that_of_energyplus(gs, courtyard, weather, tmp_path):
+    pandas = pytest.importorskip("pandas", reason="pandas is missing: run scripts/setup")
+    model = input_file.read(courtyard)
+    model.remove(lambda name: name == "runperiod")
+    model.add("RunPeriod", ["Days", 11, 29, 2017, 12, 2, 2017])
+    model.add("Output:SQLite", ["Simple"])
+    kinds = {"all": "", "beam": "Beam ", "sky": "Sky Diffuse ", "reflected by ground": "Ground Diffuse "}
+    variables = {kind: f"Surface Outside Face Incident {word}Solar Radiation Rate per Area" for kind, word in
+                 kinds.items()}
+    for variable in variables.values():
+        model.add_output_variable(variable, "Hourly")
+    model.write(tmp_path / "courtyard.idf")
+    done = gs.run(tmp_path / "courtyard.idf", weather, tmp_path / "out", report=True)
+    months, hours = done.light(), done.light("hour")
+    window = "WEST COURT BACK WINDOW"
+    for kind, variable in variables.items():
+        theirs = done.frame(variable)[window]
+        beginning = theirs.index - pandas.Timedelta(hours=1)
+        for month in (11, 12):
+            of_month = theirs[beginning.month == month]
+            assert months[kind][window, month] == pytest.approx(of_month.sum() / 1000, abs=0.051)
+            noon = of_month[of_month.index.hour == 12].mean()
+            assert hours[kind][window, month, 12] == pytest.approx(noon, abs=0.051)
+    assert months["all"].sum() > 10
+    with pytest.raises(gs.InvalidInput, match="'day', expected month or hour"):
+        done.light("day")
+    with pytest.raises(gs.InvalidInput, match="the run needs report=True"):
+        gs.Run(tmp_path, ()).light()
+
+
 def test_a_summary_is_that_of_energyplus(run):
     summary = run.summary()
     end = (run.folder / "eplusout.end").read_text()

@@ -24,6 +24,7 @@ from gpu_shading._reading import reading, regular
 from gpu_shading.errors import InvalidInput, RunError
 from gpu_shading.pv import Power, write_reductions
 
+_REPORT = "report"  # in the output folder
 _FREQUENCIES = ("Each Call", "TimeStep", "Hourly", "Daily", "Monthly", "RunPeriod", "Annual")
 
 
@@ -120,6 +121,23 @@ class Run:
         table.index.name = "time"
         return table
 
+    def light(self, by: str = "month") -> Any:
+        """A pandas DataFrame of the light on each receiver, from the report of a run with `report`: "beam", "sky",
+        "reflected by ground", "reflected by shades" and "all", by receiver and month in kWh/m2; or, with `by` "hour",
+        by hour of each month's mean day too, in W/m2, without dark hours. All but the beam is NaN where only the beam
+        is known."""
+        pandas_ = _needed("pandas", "frames")
+        tables = {"month": ("run_months.csv", 2), "hour": ("run_mean_days.csv", 3)}
+        if by not in tables:
+            raise InvalidInput(f"by: {by!r}, expected month or hour")
+        name, keys = tables[by]
+        path = self.folder / _REPORT / name
+        if not path.is_file():
+            raise InvalidInput(f"{path}: no such file: the run needs report=True")
+        with reading(path, "a table of a report"):
+            table = pandas_.read_csv(path, index_col=list(range(keys)))
+        return table.rename(columns=lambda head: head.partition(" [")[0])
+
     def summary(self) -> Summary:
         """Warnings, errors, time, variables, and the site's energy if the tables are in eplusout.sql."""
         end = _text(self.folder / "eplusout.end")
@@ -191,14 +209,15 @@ def _time(row: tuple[Any, ...], zone: datetime.tzinfo) -> datetime.datetime:
 def run(model: _programs.Name, weather: _programs.Name, folder: _programs.Name | None = None, *,
         shading: bool = True, error: float | None = None, resolution: int | None = None, update: str | None = None,
         device: str | None = None, extensions: _programs.Name | None = None, threads: int | None = None,
-        pv: Sequence[Power] | None = None, arguments: Sequence[str] = ()) -> Run:
+        pv: Sequence[Power] | None = None, report: bool = False, arguments: Sequence[str] = ()) -> Run:
     """Runs `energyplus --gpu-shading` on an IDF or epJSON file with an EPW file.
 
     `folder`: the output folder, new or empty; if None, a new one among the temporary files. `shading`: False for
     EnergyPlus's own polygon clipping. Options of the renderer, as the flags `--gpu-shading-error` and so on: `error` or
     `resolution`, `update`, `device`, a side file of `extensions`, and the number of `threads`. `pv`: the power() of
     modules, whose loss by partly shaded cells is taken from the sunlit fractions of their surfaces, so that
-    EnergyPlus's generators have it. `arguments`: more for EnergyPlus, such as ["-D"]. A run that does not complete
+    EnergyPlus's generators have it. `report`: writes the run's page and tables into the folder's folder "report", for
+    Run.light(). `arguments`: more for EnergyPlus, such as ["-D"]. A run that does not complete
     raises RunError with EnergyPlus's reason.
     """
     program = _programs.prefix() / "energyplus"
@@ -213,6 +232,8 @@ def run(model: _programs.Name, weather: _programs.Name, folder: _programs.Name |
     if pv is not None:
         write_reductions(pv, out / "pv_reductions.csv")
         flags.append(f"--gpu-shading-pv={out / 'pv_reductions.csv'}")
+    if report:
+        flags.append(f"--gpu-shading-report={out / _REPORT}")
     command: list[str | Path] = [program, *flags, *arguments, "-w", inputs[0], "-d", out, inputs[1]]
     # A session of its own, so that helpers of EnergyPlus end with it.
     with subprocess.Popen(command, cwd=out, env=_programs.environment(), stdin=subprocess.DEVNULL,
