@@ -13,6 +13,7 @@ QUANTITIES = (
     ("Cooling", results.COOLING),
     ("Lighting", results.LIGHTS),
 )
+LIGHT_ON_WINDOWS = ("Sky's light on windows", "Reflected light on windows")  # as Results.light has them
 HOURS = 24
 SAME = 9  # decimals in which the sunlit fractions of equal hours agree
 
@@ -85,6 +86,11 @@ def energies(runs, calendar):
         return [Amount(title, [float(values[positions].sum()) for values in hourly[variable]])
                 for title, variable in QUANTITIES if any(run.results.values[variable] for run in runs)]
 
+    def light(environment, months):
+        return [Amount(title, [sum(sums[kind] for (name, month), sums in run.results.light.items()
+                                   if name == environment and month in months) / results.J_PER_KWH for run in runs])
+                for kind, title in enumerate(LIGHT_ON_WINDOWS) if any(run.results.light for run in runs)]
+
     by_environment, by_month = {}, {}
     for position in calendar.positions:
         environment, month = calendar.times[position][:2]
@@ -93,8 +99,10 @@ def energies(runs, calendar):
             by_month.setdefault((environment, month), []).append(position)
     several = len({environment for environment, _ in by_month}) > 1
     names = [f"{environment}: {month_name(month)}" if several else month_name(month) for environment, month in by_month]
-    return ([(environment, amounts(positions)) for environment, positions in by_environment.items()],
-            list(zip(names, map(amounts, by_month.values()), strict=True)))
+    return ([(environment, amounts(positions) + light(environment, range(1, 13)))
+             for environment, positions in by_environment.items()],
+            [(name, amounts(positions) + light(environment, [month]))
+             for name, ((environment, month), positions) in zip(names, by_month.items(), strict=True)])
 
 
 @dataclass

@@ -1,4 +1,4 @@
-"""Reads sunlit fractions and transmitted solar radiation from eplusout.sql, and compares runs."""
+"""Reads sunlit fractions and solar radiation from eplusout.sql, and compares runs."""
 
 import sqlite3
 from array import array
@@ -17,6 +17,9 @@ IDEAL_HEATING = "Zone Ideal Loads Zone Total Heating Energy"
 IDEAL_COOLING = "Zone Ideal Loads Zone Total Cooling Energy"
 LIGHTS = "Zone Lights Electricity Energy"
 VARIABLES = (SUNLIT, COSINE, SOLAR, BEAM, HEATING, COOLING, LIGHTS)
+# W/m2 on surfaces: all, and what is not reflected.
+INCIDENT = tuple(f"Surface Outside Face Incident {part}Solar Radiation Rate per Area"
+                 for part in ("", "Beam ", "Sky Diffuse "))
 OF_ZONES = (HEATING, COOLING, LIGHTS)
 # With the number of a reference point; the key is the Daylighting:Controls.
 POINT = "Daylighting Reference Point {} Illuminance"
@@ -49,6 +52,8 @@ def instrument(model, frequency="Hourly"):
     for variable in VARIABLES:
         if variable != LIGHTS or points:
             model.add_output_variable(variable, frequency)
+    for variable in INCIDENT:
+        model.add_output_variable(variable, "Monthly")
     for number in range(1, points + 1):
         model.add_output_variable(POINT.format(number), frequency)
     # At every timestep: an hourly mean of the azimuth is wrong where the sun passes north.
@@ -99,7 +104,8 @@ def mean_direction(directions):
 
 class Results:
     """All values of one run: values[variable][receiver or zone name] is an array over times, and so is
-    illuminance["CONTROLS, point 1"], in lux.
+    illuminance["CONTROLS, point 1"], in lux. light has {(environment, month): (sky, reflected)} on windows, in J with
+    multipliers.
 
     times are (environment, month, day, hour 1 .. 24, minute) at the end of the hour; multipliers are those of zones;
     steps are those with the sun above the horizon.
@@ -181,7 +187,30 @@ class Results:
             directions.setdefault((name, month, day, hour + (minute > 0)), []).append((azimuth, altitude))
             if altitude > 0.0:
                 self.steps.append(Step(name, interval / 60.0, azimuth, altitude, beam, values.get(time_index, {})))
+        self.light = self._light_on_windows(data, environments, [60.0 * rows[i][6] for i in time_indices])
         self.sun = {when: mean_direction(found) for when, found in directions.items()}
+
+    def _light_on_windows(self, data, environments, lengths):
+        seconds = {}  # of the days that a month's means are of
+        for (environment, month, *_), length, is_warmup in zip(self.times, lengths, self.is_warmup, strict=True):
+            seconds[environment, month] = seconds.get((environment, month), 0.0) + (0.0 if is_warmup else length)
+        means = {}
+        for time_index, name, key, value in data.execute(
+            "SELECT TimeIndex, Name, KeyValue, Value FROM ReportData JOIN ReportDataDictionary USING "
+            "(ReportDataDictionaryIndex) WHERE ReportingFrequency = 'Monthly' AND Name IN (?, ?, ?)", INCIDENT,
+        ):
+            if key in self.values[SOLAR]:
+                means.setdefault((time_index, key), {})[name] = value
+        months = {row[0]: (environments.get(row[1], ("?",))[0], row[2]) for row in data.execute(
+            "SELECT TimeIndex, EnvironmentPeriodIndex, Month FROM Time")}
+        light = {}
+        for (time_index, key), mean in means.items():
+            total, beam, sky = (mean.get(name, 0.0) for name in INCIDENT)
+            weight = self.receivers[key].area * self.multiplier(SOLAR, key) * seconds.get(months[time_index], 0.0)
+            sums = light.setdefault(months[time_index], [0.0, 0.0])
+            sums[0] += weight * sky
+            sums[1] += weight * (total - beam - sky)
+        return light
 
     def sun_up(self, receiver):
         """Indices of the times when the sun faces the receiver."""

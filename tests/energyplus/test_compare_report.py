@@ -4,6 +4,7 @@ import csv
 import hashlib
 import html
 import re
+import sqlite3
 import subprocess
 
 import daylit_rooms
@@ -24,6 +25,7 @@ QUANTITIES = {
     "Heating": "Zone Air System Sensible Heating Energy",
     "Cooling": "Zone Air System Sensible Cooling Energy",
 }
+INCIDENT = "Surface Outside Face Incident {}Solar Radiation Rate per Area"
 WEST_ZONES = 3  # of which the model has one
 RECEIVERS = 3
 
@@ -78,6 +80,8 @@ def model(courtyard, tmp_path_factory):
     own = input_file.Idf(text)
     for place, value in ((1, "9"), (2, "29"), (4, "10"), (5, "1")):
         own.set_field("RunPeriod", (place,), value)
+    for part in ("", "Beam ", "Sky Diffuse "):
+        own.add_output_variable(INCIDENT.format(part), "Hourly")
     own.write(folder / "yard.idf")
     (folder / "glass.idf").write_text("GPUShading:TransparentShade, Glass, *, Constant, 0.4;\n")
     return folder / "yard.idf"
@@ -116,7 +120,7 @@ def hourly_sum(eso, variable):
 
 def test_energies_are_those_reported(page, reported):
     rows = {row[1]: list(map(number, row[2:])) for row in page.tables["table-energy"][1:]}
-    assert list(rows) == list(QUANTITIES)
+    assert list(rows) == [*QUANTITIES, "Sky's light on windows", "Reflected light on windows"]
     for quantity, variable in QUANTITIES.items():
         before, after = (sum(hourly_sum(eso, variable).values()) for eso in reported)
         assert rows[quantity][:2] == pytest.approx([before, after], abs=ENERGY)
@@ -124,6 +128,21 @@ def test_energies_are_those_reported(page, reported):
         if before:
             assert rows[quantity][3] == pytest.approx(100 * (after / before - 1), abs=PERCENT)
     assert abs(rows["Transmitted solar radiation"][2]) > 1.0  # of the beam more, of the ground's light less
+
+
+def test_light_on_windows_is_that_reported(page, variants, reported):
+    rows = {row[1]: list(map(number, row[2:4])) for row in page.tables["table-energy"][1:]}
+    for run, eso in enumerate(reported):
+        with sqlite3.connect(variants / "ab"[run] / "eplusout.sql") as data:
+            areas = dict(data.execute("SELECT SurfaceName, Area FROM Surfaces"))
+        weights = {key: areas[key] * (WEST_ZONES if key.startswith("WEST") else 1) / 1000
+                   for key in eso.keys(QUANTITIES["beam alone"])}
+        total, beam, sky = (sum(weight * sum(eso.values[INCIDENT.format(part), key].values())
+                                for key, weight in weights.items()) for part in ("", "Beam ", "Sky Diffuse "))
+        assert rows["Sky's light on windows"][run] == pytest.approx(sky, abs=ENERGY)
+        assert rows["Reflected light on windows"][run] == pytest.approx(total - beam - sky, abs=ENERGY)
+    # Glass lets more of the sky's light pass.
+    assert rows["Sky's light on windows"][1] > rows["Sky's light on windows"][0] > 1
 
 
 def test_months_are_those_reported(page, reported):
@@ -241,8 +260,8 @@ def test_the_page_in_a_browser(variants, tmp_path, width, options):
     assert seen["folded"] == RECEIVERS - 1
     assert seen["wide"] <= width
     assert seen["outside"] == [] and seen["scrolled"] == []
-    # Two of all receivers, three of months, one of seconds; of each receiver three maps, scatter and histogram.
-    assert len(seen["charts"]) == 2 + 3 + 1 + 5 * RECEIVERS
+    # Two of all receivers, five of months, one of seconds; of each receiver three maps, scatter and histogram.
+    assert len(seen["charts"]) == 2 + 5 + 1 + 5 * RECEIVERS
     for label, marks, chart_width in seen["charts"]:
         assert marks >= 3, label
         assert 150 < chart_width <= width, label
