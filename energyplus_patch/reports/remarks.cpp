@@ -206,6 +206,7 @@ void warn_of_ground_light(Scene const& surfaces, RunRecord const& record,
   if (shares.empty()) return;
   std::ranges::stable_sort(shares, std::greater{}, &std::pair<double, SurfaceId>::first);
   std::vector<std::string> names;
+  names.reserve(shares.size());
   for (auto const& [share, id] : shares) {
     names.push_back(fmt::format("{} ({:.0f} %)", surfaces[id].name, 100.0 * share));
   }

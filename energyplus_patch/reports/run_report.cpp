@@ -547,6 +547,7 @@ void write_mean_days(RunPage const& page, std::ostream& csv) {
     for (std::size_t month = 0; month < mean_days.front().size(); ++month) {
       for (std::size_t hour = 0; hour < mean_days.front()[month].size(); ++hour) {
         std::vector<double> kinds;
+        kinds.reserve(mean_days.size());
         for (auto const& months : mean_days) kinds.push_back(months.at(month).at(hour));
         if (kinds.back() <= 0.0) continue;
         csv << fmt::format("{},{},{},{}", name, month + 1, hour + 1, light_fields(kinds));
