@@ -5,8 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "gpu_shading/transmittance.h"
-
 namespace gpu_shading {
 
 // Solar properties of a glass pane at normal incidence, each 0 .. 1; transmittance plus either
