@@ -53,7 +53,7 @@ struct TransportRequest {
   double annual = 0.005;
   double floor = 0.1;
   // Unit vectors to other lights, whose beams are wanted, too: the patches of a sky.
-  std::span<glm::dvec3 const> lights;
+  std::span<glm::dvec3 const> lights = {};
   std::size_t most_rays = 1'500'000;  // after which the answer is as it is; the errors say so
 };
 

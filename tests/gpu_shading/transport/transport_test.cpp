@@ -568,6 +568,7 @@ TEST(Transport, OfSeveralReceiversIsTheSameInAnyOrderAndWithAnyThreads) {
     std::vector<double> heights{9.0, 1.0, 5.0};
     if (threads == 1) std::ranges::reverse(heights);
     std::vector<SurfaceId> windows;
+    windows.reserve(heights.size());
     for (double const z : heights) {
       windows.push_back(room.add_receiver(parallelogram({1, 0, z}, {-2, 0, 0}, {0, 0, 2}),
                                           "window at " + std::to_string(z)));
