@@ -132,7 +132,8 @@ def test_what_it_lacks_is_one_warning_each(patched, box, weather, tmp_path):
     model = tmp_path / "model.idf"
     model.write_text(box.replace("FullInteriorAndExterior", "FullExteriorWithReflections")
                      + "GPUShading:TransparentShade,Glass,Louvre 1,Constant,0.5;\n")
-    run = energyplus.run(patched, model, weather, tmp_path / "out", ["-D", FLAG, "--gpu-shading-reflections=energyplus"])
+    run = energyplus.run(patched, model, weather, tmp_path / "out",
+                         ["-D", FLAG, "--gpu-shading-reflections=energyplus"])
     assert run.completed, run.why()
     for text in (run.errors, run.text("eplusout.err")):
         assert text.count("EnergyPlus does not draw mirrored shading surfaces") == 1
