@@ -263,10 +263,9 @@ RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> cons
   };
   RunTimes times;
   if (runs_periods(call)) times = times_of(Periods::run);
-  constexpr int hours_of_year = 8760;
-  bool const whole_year =
-      times.steps_per_hour > 0 &&
-      times.times.size() >= static_cast<std::size_t>(hours_of_year * times.steps_per_hour);
+  constexpr std::size_t hours_of_year = 8760;
+  auto const steps = static_cast<std::size_t>(times.steps_per_hour);
+  bool const whole_year = steps > 0 && times.times.size() >= hours_of_year * steps;
   if (whole_year || !has_sizing_periods(*edit_model(call.model))) return times;
   if (times.times.empty()) return times_of(Periods::sizing);
   add_missing(times, times_of(Periods::sizing));
