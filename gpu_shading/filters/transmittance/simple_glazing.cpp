@@ -115,7 +115,7 @@ double normal_reflectance(SimpleGlazing const& window) {
                    1.0 / (2.225824 * x + 20.57708)};
   double const u = window.u_factor;
   double const t = share(u, 3.4, 4.5);
-  // Between both ranges EnergyPlus 25.2 leads away from `high`.
+  // Between both ranges EnergyPlus leads away from `high`.
   double const towards = t < 1.0 ? -t : 1.0;
   double const inside = std::lerp(low.inside, high.inside, towards);
   double const outside = std::lerp(low.outside, high.outside, towards);

@@ -251,7 +251,7 @@ TEST(SimpleGlazing, NamesTheRatingThatIsWrong) {
             "SHGC is 1, expected between 0 and 1");
 }
 
-// As EnergyPlus 25.2 lists them in its .eio file, also for U between both ranges.
+// As EnergyPlus lists them in its .eio file, also for U between both ranges.
 TEST(NormalReflectance, OfARatingIsEnergyPlusS) {
   struct Rated {
     SimpleGlazing window;
