@@ -128,22 +128,36 @@ std::vector<glm::dvec3> patch_directions() {
   return directions;
 }
 
-// Of a sky with these radiances of its patches, 1/sr, that gives 1 W/m2 to level ground in the
-// open. The patches' middles stand for them, so that a uniform sky is what its own rays say.
-LightByGround light_of_sky(Transported const& table, std::vector<double> const& radiances) {
-  LightByGround seen;
+// Makes the lights of a table, which are patches of the sky, those of patches with a radiance of
+// 1/sr. The patches' middles stand for them, so that a uniform sky is what its own rays say.
+void weigh_patches(Transported& table) {
+  auto const upward = patch_projections({0.0, 0.0, 1.0});
   LightByGround uniform;
-  for (std::size_t patch = 0; patch < radiances.size(); ++patch) {
-    double const solid_angle = patch_solid_angles()[patch];
-    seen += radiances[patch] * solid_angle * table.lights[patch];
-    uniform += solid_angle / std::numbers::pi * table.lights[patch];
+  for (std::size_t patch = 0; patch < table.lights.size(); ++patch) {
+    auto& light = table.lights[patch];
+    light = patch_solid_angles()[patch] * light;
+    uniform += 1.0 / std::numbers::pi * light;
   }
-  auto const scaled = [](double of_all, double part, double whole) {
-    return whole > 0.0 ? of_all * part / whole : of_all;
-  };
-  return {scaled(table.sky.none, seen.none, uniform.none),
-          scaled(table.sky.once, seen.once, uniform.once),
-          scaled(table.sky.more, seen.more, uniform.more)};
+  for (std::size_t patch = 0; patch < table.lights.size(); ++patch) {
+    // Where no ray to a patch found any, all of a sky's light is the uniform one's.
+    auto const scaled = [&](double of_all, double part, double whole) {
+      return of_all * (whole > 0.0 ? part / whole : upward[patch]);
+    };
+    auto& light = table.lights[patch];
+    light = {scaled(table.sky.none, light.none, uniform.none),
+             scaled(table.sky.once, light.once, uniform.once),
+             scaled(table.sky.more, light.more, uniform.more)};
+  }
+}
+
+// Of a sky with these radiances of its patches, 1/sr, that gives 1 W/m2 to level ground in the
+// open.
+LightByGround light_of_sky(Transported const& table, std::vector<double> const& radiances) {
+  LightByGround light;
+  for (std::size_t patch = 0; patch < radiances.size(); ++patch) {
+    light += radiances[patch] * table.lights[patch];
+  }
+  return light;
 }
 
 constexpr double percent = 100.0;
@@ -204,9 +218,11 @@ std::vector<Transported> ReflectedIrradiance::trace(State const& state) const {
   request.lights = patches;
   std::span const schedules(state.schedules);
   auto const factors = scene_.optics().factors().size();
-  return transport.to(
+  auto tables = transport.to(
       ids_, request,
       {.factors = schedules.first(factors), .deployments = schedules.subspan(factors)});
+  if (has_sky_patches()) std::ranges::for_each(tables, weigh_patches);
+  return tables;
 }
 
 std::vector<Transported> const& ReflectedIrradiance::traced(State const& state) {
