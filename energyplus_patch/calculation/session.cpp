@@ -90,7 +90,7 @@ void Session::start(Simulation simulation) {
     prepare_report(*options.report);
     prepare_page(*options.report);
   }
-  if (options.report || scene_.model().reflected_light.undimmed) {
+  if (scene_.model().records_light()) {
     record_.emplace(scene_.areas(), scene_.shown_receivers());
   }
   if (auto const& shades = scene_.model().moving_shades; !shades.empty()) {

@@ -47,6 +47,9 @@ struct Model {
   std::vector<std::string> early_warnings;  // for before the run, since EnergyPlus may stop
   std::vector<std::string> warnings;        // more of them, about moving shades and view factors
   std::vector<std::string> remarks;
+
+  // Whether the light on receivers is recorded during a run.
+  bool records_light() const { return options.report || reflected_light.undimmed; }
 };
 
 // The EnergyPlus that reads a model.

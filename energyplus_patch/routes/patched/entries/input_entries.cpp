@@ -92,8 +92,9 @@ Rewrite take_model(std::vector<InputObject> objects, Path const& path,
   if (run.model->options.mode != Mode::off) {
     for (auto const& warning : run.model->early_warnings) messages_of(run).warning(warning);
     if (!run.model->reflected_light.receivers.empty()) follow_reflected_light(*run.state);
-    bool const recorded = run.model->options.report || run.model->reflected_light.undimmed;
-    if (recorded && installed.serves(Need::reflected_light)) record_light(*run.state);
+    if (run.model->records_light() && installed.serves(Need::reflected_light)) {
+      record_light(*run.state);
+    }
   } else {
     warn_of_opaque_shades(run);
     warn_of_missing_surroundings(run);
