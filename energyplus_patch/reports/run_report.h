@@ -20,8 +20,8 @@ namespace gpu_shading::energyplus {
 //                      (degrees), direct normal irradiance (W/m2), the mean of the days that the
 //                      day stands for, and the sunlit fraction of each receiver, 0 if it faces away
 //   run_months.csv     receiver, month; kWh/m2 of beam, the sky's light, light reflected by the
-//   ground
-//                      and by shades alone, and their sum; all but beam blank if they are not known
+//                      ground and by shades alone, and their sum; all but beam blank if they are
+//                      not known
 //   run_mean_days.csv  the same in W/m2 by hour of the mean day of each month, without dark hours;
 //                      none of models with very many receivers
 //   run_sky.csv        receivers with a shading mask: view factor to the sky, and without shades

@@ -18,8 +18,8 @@ constexpr std::size_t paths_of_replicate = 1024;
 // for most receivers. The spread of equally weighted replicates is that of their mean all the same.
 constexpr int first_draws = 16;
 constexpr int later_draws = 32;
-constexpr int straight_for_mirrored =
-    4;  // draws, for each of a mirrored sun: glass reflects little
+// Draws of the sun for each of a mirrored one: glass reflects little.
+constexpr int straight_for_mirrored = 4;
 constexpr std::size_t least_replicates = 4;
 constexpr std::size_t most_replicates = 128;
 constexpr std::size_t direct_rays = 8;  // from the receiver to a sun of the first table
