@@ -237,19 +237,19 @@ std::vector<DrawnSurface> run_for_surfaces(EnergyPlusCall const& call) {
   }
 }
 
-bool runs_periods(EnergyPlusCall const& call) {
+bool runs_periods(EnergyPlusCall const& call, ModelEditor& model) {
   if (call.annual || call.design_days) return call.annual;
-  auto const model = edit_model(call.model);
   bool any = false;
   bool wanted = true;
-  model->edit("RunPeriod", [&](EditedObject const&) { any = true; });
-  model->edit("SimulationControl", [&](EditedObject const& control) {
+  model.edit("RunPeriod", [&](EditedObject const&) { any = true; });
+  model.edit("SimulationControl", [&](EditedObject const& control) {
     wanted = !same_name(control.get({4, "run_simulation_for_weather_file_run_periods"}), "No");
   });
   return any && wanted;
 }
 
-RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> const& schedules) {
+RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> const& schedules,
+                       Dates dates) {
   auto const times_of = [&](Periods periods) {
     auto const model = edit_model(call.model);
     reduce_to_times(*model, schedules, periods);
@@ -261,12 +261,13 @@ RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> cons
     auto file = run(part, *model, false, folder, "eplusout.eso");
     return read_run_times(file, periods == Periods::run ? Repeated::alike : Repeated::first);
   };
+  auto const whole = edit_model(call.model);
   RunTimes times;
-  if (runs_periods(call)) times = times_of(Periods::run);
+  if (runs_periods(call, *whole)) times = times_of(Periods::run);
   constexpr std::size_t hours_of_year = 8760;
   auto const steps = static_cast<std::size_t>(times.steps_per_hour);
   bool const whole_year = steps > 0 && times.times.size() >= hours_of_year * steps;
-  if (whole_year || !has_sizing_periods(*edit_model(call.model))) return times;
+  if (dates == Dates::of_run_periods || whole_year || !has_sizing_periods(*whole)) return times;
   if (times.times.empty()) return times_of(Periods::sizing);
   add_missing(times, times_of(Periods::sizing));
   return times;

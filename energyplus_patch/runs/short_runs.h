@@ -29,13 +29,15 @@ struct EnergyPlusCall {
 std::vector<DrawnSurface> run_for_surfaces(EnergyPlusCall const& call);
 
 // Whether EnergyPlus is to run one of the model's run periods, beside its design days.
-bool runs_periods(EnergyPlusCall const& call);
+bool runs_periods(EnergyPlusCall const& call, ModelEditor& model);
 
-// Every timestep of the model's run periods and, on dates without one, of its design days, with
-// EnergyPlus's own sun, weather and schedule values, from runs of the calendar and the schedules
-// alone. Schedules that EnergyPlus does not know there (another program's, for example) are left
-// out. Throws Error likewise.
-RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> const& schedules);
+// Every timestep of the model's run periods and, with Dates::all, on dates without one of its
+// design days, with EnergyPlus's own sun, weather and schedule values, from runs of the calendar
+// and the schedules alone. Schedules that EnergyPlus does not know there (another program's, for
+// example) are left out. Throws Error likewise.
+enum class Dates { of_run_periods, all };
+RunTimes run_for_times(EnergyPlusCall const& call, std::vector<std::string> const& schedules,
+                       Dates dates);
 
 // The same for a whole year, whatever the model's run periods and timestep; the year is that of its
 // first run period.

@@ -15,6 +15,12 @@ struct SkyWeather {
 
   // Irradiance of level ground in the open, W/m2.
   double open_ground() const { return beam * std::max(0.0, towards_sun.z) + diffuse; }
+
+  // The reflectance of level ground in the open that reflects so much, W/m2; 0 without light.
+  double ground_reflectance(double reflected) const {
+    double const open = open_ground();
+    return open > 0.0 ? reflected / open : 0.0;
+  }
 };
 
 // The sky's mean radiance in each of sky_patches(), in 1/sr, for a diffuse horizontal irradiance of

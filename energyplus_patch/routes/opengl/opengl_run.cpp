@@ -20,7 +20,6 @@
 #include "routes/opengl/opengl_functions.h"
 #include "routes/opengl/schedule_clock.h"
 #include "routes/schedules/rendered_run.h"
-#include "routes/schedules/schedule_table.h"
 #include "runs/drawing.h"
 #include "runs/installation.h"
 
@@ -129,12 +128,9 @@ void add_grounds(ModelEditor& editor, HostedModel& hosted, Model const& model,
                           [&](std::string const& line) { lines.remarks.push_back(line); },
                           [](std::string const&) {}};
   auto const made =
-      render_run(model, hosted.input.named, run_for_times(call, shade_schedules(model)), messages,
-                 hosted.input.simulation.latitude, Rendered::grounds);
-  constexpr char const* file = "gpu_shading_grounds.csv";
-  write_whole_file(hosted.path.parent_path() / file,
-                   [&](std::ostream& out) { write_schedule_file(made.grounds, out); });
-  add_ground_schedules(editor, light, made.grounds, file);
+      render_run(model, hosted.input.named, run_for_times(call, shade_schedules(model), Dates::all),
+                 messages, hosted.input.simulation.latitude, Rendered::grounds);
+  add_ground_schedules(editor, light, made.grounds, hosted.path.parent_path());
   write_whole_file(hosted.path, [&](std::ostream& out) { out << editor.text(); });
 }
 

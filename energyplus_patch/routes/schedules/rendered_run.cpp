@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <ostream>
 #include <set>
 #include <utility>
 
 #include "model/idf/model_editor.h"
 #include "model/reflected_light_input.h"
+#include "platform/files.h"
 #include "platform/progress.h"
 #include "runs/drawing.h"
 #include "scene/run_schedules.h"
@@ -41,7 +43,7 @@ class TimedSession {
       names_.push_back(surface.name);
     }
     auto schedules = schedules_of(run, now_);
-    schedules.position = nullptr;  // the weather that moving shades need is not known here
+    schedules.position = nullptr;  // shades do not move by this method
     session_.start({messages, std::move(schedules), latitude});
   }
 
@@ -64,9 +66,10 @@ class TimedSession {
 
   std::vector<float> grounds(RunTime const& time) {
     SkyWeather const weather{to_vector(time.sun), time.beam, time.diffuse};
-    double const open = weather.open_ground();
-    auto const values = session_.ground_reflectances(
-        {{time.hour, time.timestep}, weather, open > 0.0 ? time.reflected_by_ground / open : 0.0});
+    auto const values =
+        session_.ground_reflectances({{time.hour, time.timestep},
+                                      weather,
+                                      weather.ground_reflectance(time.reflected_by_ground)});
     return {values.begin(), values.end()};
   }
 
@@ -113,7 +116,9 @@ RenderedRun render_run(Model model, std::vector<Surface> const& surfaces, RunTim
 }
 
 void add_ground_schedules(ModelEditor& editor, ReflectedLight const& light,
-                          ScheduleTable const& grounds, std::string const& file) {
+                          ScheduleTable const& grounds, std::filesystem::path const& folder) {
+  constexpr char const* file = "gpu_shading_grounds.csv";
+  write_whole_file(folder / file, [&](std::ostream& out) { write_schedule_file(grounds, out); });
   if (grounds.empty()) {
     for (auto const& schedule : constant_schedules(light)) editor.add(schedule);
     return;

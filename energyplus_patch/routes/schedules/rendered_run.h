@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -16,9 +17,8 @@ class ModelEditor;
 
 // What EnergyPlus is given before a run, by surface.
 struct RenderedRun {
-  ScheduleTable sunlit;  // fractions, 0 .. 1, of the exterior surfaces
-  ScheduleTable
-      grounds;  // reflectances of their own grounds, of Model::reflected_light's receivers
+  ScheduleTable sunlit;   // fractions, 0 .. 1, of the exterior surfaces
+  ScheduleTable grounds;  // reflectances of the own grounds of Model::reflected_light's receivers
 };
 
 enum class Rendered { all, grounds };
@@ -30,9 +30,10 @@ RenderedRun render_run(Model model, std::vector<Surface> const& surfaces, RunTim
                        Messages const& messages, std::function<double()> const& latitude,
                        Rendered wanted = Rendered::all);
 
-// Adds a schedule for each receiver of reflected light, of a file with `grounds`.
+// Adds a schedule for each receiver of reflected light, by a file with `grounds` in the model's
+// folder.
 void add_ground_schedules(ModelEditor& editor, ReflectedLight const& light,
-                          ScheduleTable const& grounds, std::string const& file);
+                          ScheduleTable const& grounds, std::filesystem::path const& folder);
 
 // The transmittance, deployment, leaf, position and availability schedules of a model's shades, in
 // upper case, without duplicates.

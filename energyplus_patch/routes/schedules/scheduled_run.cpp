@@ -81,10 +81,11 @@ double latitude_of(EnergyPlusCall const& call) {
   return glm::radians(read_weather_site(*call.weather).latitude);
 }
 
-RenderedRun render(EnergyPlusCall const& call, Model model, Collected& out) {
-  auto const wanted = runs_periods(call) ? Rendered::all : Rendered::grounds;
-  if (wanted == Rendered::grounds && model.reflected_light.receivers.empty()) return {};
-  auto const run = run_for_times(call, shade_schedules(model));
+RenderedRun render(EnergyPlusCall const& call, Model model, Rendered wanted, Collected& out) {
+  bool const reflects = !model.reflected_light.receivers.empty();
+  if (wanted == Rendered::grounds && !reflects) return {};
+  auto const run =
+      run_for_times(call, shade_schedules(model), reflects ? Dates::all : Dates::of_run_periods);
   if (run.times.empty()) return {};
   if (auto const warning = warn_of_actuated(model)) out.warn(*warning);
   auto const surfaces = surfaces_of(run_for_surfaces(call), model.shading);
@@ -143,16 +144,9 @@ ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choi
     editor->apply(model.field_changes);
     for (auto const& object : model.new_objects) editor->add(object);
     auto const light = model.reflected_light;
-    auto const made = render(call, std::move(model), out);
-    auto const write = [&](char const* name, ScheduleTable const& table) {
-      write_whole_file(folder / name,
-                       [&](std::ostream& file) { write_schedule_file(table, file); });
-      return name;
-    };
-    if (!light.receivers.empty()) {
-      add_ground_schedules(*editor, light, made.grounds,
-                           write("gpu_shading_grounds.csv", made.grounds));
-    }
+    auto const wanted = runs_periods(call, *editor) ? Rendered::all : Rendered::grounds;
+    auto const made = render(call, std::move(model), wanted, out);
+    if (!light.receivers.empty()) add_ground_schedules(*editor, light, made.grounds, folder);
     if (made.sunlit.empty()) {
       out.warn(
           "no run period with the sun above the horizon is run: all shading is computed by polygon "
@@ -161,7 +155,10 @@ ScheduledModel prepare_scheduled(EnergyPlusCall const& call, Choices const& choi
     } else {
       // With Periodic, a day's schedule values would apply to the whole period.
       editor->apply(shading_method("Scheduled", "Timestep"));
-      add_sunlit_schedules(*editor, made.sunlit, write("gpu_shading_sunlit.csv", made.sunlit));
+      constexpr char const* fractions = "gpu_shading_sunlit.csv";
+      write_whole_file(folder / fractions,
+                       [&](std::ostream& file) { write_schedule_file(made.sunlit, file); });
+      add_sunlit_schedules(*editor, made.sunlit, fractions);
     }
   }
   ScheduledModel done;

@@ -21,8 +21,7 @@ void set_grounds(State& state, Run& run) {
   auto const& functions = installation().functions;
   if (!run.grounds) run.grounds = find_grounds(state, run.model->reflected_light);
   auto const weather = functions.sky_weather(state);
-  double const open = weather.open_ground();
-  double const ground = open > 0.0 ? functions.variable(state, run.grounds->light) / open : 0.0;
+  double const ground = weather.ground_reflectance(functions.variable(state, run.grounds->light));
   auto const values = run.session->ground_reflectances({functions.moment(state), weather, ground});
   for (std::size_t i = 0; i < values.size(); ++i) {
     functions.set_schedule(state, run.grounds->schedules[i], values[i]);
