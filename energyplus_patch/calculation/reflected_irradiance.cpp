@@ -160,6 +160,23 @@ LightByGround light_of_sky(Transported const& table, std::vector<double> const& 
   return light;
 }
 
+// What a tracing is for, and how accurate it has to be.
+struct Tracing {
+  std::vector<SurfaceId> const& receivers;
+  double ground;  // its reflectance
+  TransportRequest request;
+};
+
+std::vector<Transported> trace(SceneAssembly const& assembly, std::vector<double> const& positions,
+                               RayConditions const& conditions, Tracing const& tracing) {
+  auto const scene = assembly.scene_at(positions);
+  auto reflectors = reflectors_of(assembly, scene, tracing.ground);
+  RayScene const rays(scene, {RayFaces::both, ScreenDetail::automatic, reflectors.casters});
+  Transport const transport(scene, rays, std::move(reflectors.reflectances),
+                            ReflectingGround{reflectors.ground_height, tracing.ground});
+  return transport.to(tracing.receivers, tracing.request, conditions);
+}
+
 constexpr double percent = 100.0;
 
 double hourly_error(Transported const& table) {
@@ -204,23 +221,19 @@ std::vector<ReflectedIrradiance::WeightedState> ReflectedIrradiance::states(
 }
 
 std::vector<Transported> ReflectedIrradiance::trace(State const& state) const {
-  auto const scene = scene_.scene_at(state.positions);
-  auto reflectors = reflectors_of(scene_, scene, traced_ground_);
-  RayScene const rays(scene, {RayFaces::both, ScreenDetail::automatic, reflectors.casters});
-  Transport const transport(scene, rays, std::move(reflectors.reflectances),
-                            ReflectingGround{reflectors.ground_height, traced_ground_});
   auto const hours = ordinary_year(latitude_);
+  std::vector<glm::dvec3> patches;
+  if (has_sky_patches()) patches = patch_directions();
   TransportRequest request;
   request.latitude = latitude_;
   request.hours = hours;
-  std::vector<glm::dvec3> patches;
-  if (has_sky_patches()) patches = patch_directions();
   request.lights = patches;
   std::span const schedules(state.schedules);
   auto const factors = scene_.optics().factors().size();
-  auto tables = transport.to(
-      ids_, request,
-      {.factors = schedules.first(factors), .deployments = schedules.subspan(factors)});
+  auto tables = energyplus::trace(
+      scene_, state.positions,
+      {.factors = schedules.first(factors), .deployments = schedules.subspan(factors)},
+      {ids_, traced_ground_, request});
   if (has_sky_patches()) std::ranges::for_each(tables, weigh_patches);
   return tables;
 }
@@ -301,6 +314,33 @@ void ReflectedIrradiance::describe() const {
       rays / 1e6, ids_.size(), ids_.size() == 1 ? "" : "s",
       known_.size() > 1 ? fmt::format(" and {} states of shades", known_.size()) : "",
       percent * hourly, percent * annual, printable(scene_.surfaces()[worst].name)));
+}
+
+std::vector<double> undimmed_to_traced(SceneAssembly const& scene, double latitude,
+                                       std::vector<SurfaceId> const& ids) {
+  auto const hours = ordinary_year(latitude);
+  TransportRequest request;
+  request.latitude = latitude;
+  request.hours = hours;
+  request.hourly = 0.2;
+  request.annual = 0.05;
+  auto const& optics = scene.optics();
+  auto const tables = trace(scene, scene.positions(),
+                            {.factors = optics.factors(), .deployments = optics.deployments()},
+                            {ids, usual_ground, request});
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    double const view = 0.5 * (1.0 - normal(scene.surfaces()[ids[i]].polygon).z);
+    double undimmed = 0.0;
+    double traced = 0.0;
+    for (auto const& hour : hours) {
+      double const height = to_vector(to_direction(hour.sun, latitude)).z;
+      undimmed += (hour.beam * height + hour.diffuse) * usual_ground * view;
+      traced += hour.beam * tables[i].beam_at(hour.sun).sum() + hour.diffuse * tables[i].sky.sum();
+    }
+    ratios.push_back(undimmed / traced);
+  }
+  return ratios;
 }
 
 double ground_reflectance(double irradiance, double open, double ground_view) {

@@ -80,6 +80,12 @@ class ReflectedIrradiance {
   std::map<State, std::vector<Transported>> known_;  // in the order of ids_
 };
 
+// Of an ordinary year: EnergyPlus's own light from the ground, which nothing dims, divided by all
+// reflected light that is traced, with the shades as they are now; by surface of the scene, which
+// is in `ids`. Within some 10 %.
+std::vector<double> undimmed_to_traced(SceneAssembly const& scene, double latitude,
+                                       std::vector<SurfaceId> const& ids);
+
 // The reflectance of a receiver's own ground by which EnergyPlus's light from the ground comes to
 // `irradiance` (W/m2), at least min_ground_reflectance. `open`: of level ground in the open, W/m2,
 // above 0.

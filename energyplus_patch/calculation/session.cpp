@@ -84,6 +84,7 @@ SurfaceId Session::in_scene(SurfaceId id) const {
 void Session::start(Simulation simulation) {
   if (answers_) throw Error("the surfaces of a model can be set once");
   messages_ = std::move(simulation.messages);
+  latitude_ = simulation.latitude;
   scene_.complete(std::move(simulation.schedules));
   auto const& options = scene_.model().options;
   if (options.report) {
@@ -108,7 +109,7 @@ void Session::start(Simulation simulation) {
   }
   if (!scene_.model().pv_reductions.empty()) pv_loss_.emplace(scene_);
   if (reflects_light()) {
-    reflected_.emplace(scene_, simulation.latitude(), messages_);
+    reflected_.emplace(scene_, latitude_(), messages_);
     add_reflected_outputs(simulation);
   }
   if (options.cache) prepare_cache_folder(*options.cache);
@@ -411,7 +412,10 @@ void Session::finish() {
   if (failed_) return;
   if (record_) record_->end();
   if (scene_.model().reflected_light.undimmed) {
-    warn_of_ground_light(scene_.surfaces(), *record_, messages_);
+    warn_of_ground_light(
+        scene_.surfaces(), *record_,
+        [this](auto const& ids) { return undimmed_to_traced(scene_, latitude_(), ids); },
+        messages_);
   }
   write_reports();
   if (step_error_) describe_step_error();

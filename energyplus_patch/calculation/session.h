@@ -131,6 +131,7 @@ class Session : public ShadingCalculation {
   // By EnergyPlus's id: the id in the scene, or a placeholder.
   std::vector<std::variant<SurfaceId, Surface>> added_;
   Messages messages_;
+  std::function<double()> latitude_;  // of the site, radians
   Moment moment_;
   bool failed_ = false;
   std::optional<SunQuestions> answers_;  // once started

@@ -95,6 +95,13 @@ void warn_of_uncertain_receivers(SunQuestions const& answers, Messages const& me
   warn(found.narrow, "where less than a fifth of a bounding rectangle is filled, behind a screen");
 }
 
+std::string describe_ratio(double ratio) {
+  constexpr double most = 1000.0;
+  auto const times = ratio > most ? fmt::format("over {:.0f}", most)
+                                  : fmt::format("{:.{}f}", ratio, ratio < 10.0 ? 1 : 0);
+  return fmt::format(", {} times all reflected light", times);
+}
+
 std::string describe_expected_error(double error, Sampling sampling) {
   // The paper's grids have no estimate.
   if (error == 0.0) return "";
@@ -192,8 +199,10 @@ void describe_answers(SunQuestions const& answers, Options const& options,
   }
 }
 
-void warn_of_ground_light(Scene const& surfaces, RunRecord const& record,
-                          Messages const& messages) {
+void warn_of_ground_light(
+    Scene const& surfaces, RunRecord const& record,
+    std::function<std::vector<double>(std::vector<SurfaceId> const&)> const& ratios,
+    Messages const& messages) {
   constexpr double negligible = 0.1;
   std::vector<std::pair<double, SurfaceId>> shares;
   for (std::size_t i = 0; i < record.receivers().size(); ++i) {
@@ -205,17 +214,22 @@ void warn_of_ground_light(Scene const& surfaces, RunRecord const& record,
   }
   if (shares.empty()) return;
   std::ranges::stable_sort(shares, std::greater{}, &std::pair<double, SurfaceId>::first);
-  std::vector<std::string> names;
-  names.reserve(shares.size());
-  for (auto const& [share, id] : shares) {
-    names.push_back(fmt::format("{} ({:.0f} %)", surfaces[id].name, 100.0 * share));
-  }
   constexpr std::size_t max_listed = 3;
-  messages.warning(
-      fmt::format("light from the ground that no GPUShading object dims is over 10 % of the beam, "
-                  "sky and ground "
-                  "light on {} surface{}: {}; see --gpu-shading-reflections",
-                  names.size(), names.size() == 1 ? "" : "s", listed(names, max_listed)));
+  std::vector<SurfaceId> worst;
+  for (auto const& [share, id] : shares) {
+    if (worst.size() < max_listed) worst.push_back(id);
+  }
+  auto const of_worst = ratios(worst);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    auto const& [share, id] = shares[i];
+    auto const much = i < worst.size() ? describe_ratio(of_worst[i]) : "";
+    names.push_back(fmt::format("{} ({:.0f} %{})", surfaces[id].name, 100.0 * share, much));
+  }
+  messages.warning(fmt::format(
+      "light from the ground that no GPUShading object dims is over 10 % of the beam, sky and "
+      "ground light on {} surface{}: {}; see --gpu-shading-reflections",
+      names.size(), names.size() == 1 ? "" : "s", listed(names, max_listed)));
 }
 
 }  // namespace gpu_shading::energyplus

@@ -26,7 +26,11 @@ void describe_answers(SunQuestions const& answers, Options const& options,
                       Messages const& messages);
 
 // At the end of a run whose light from the ground no object of ours dims: names the receivers that
-// get over a tenth of their light from there, the largest shares first.
-void warn_of_ground_light(Scene const& surfaces, RunRecord const& record, Messages const& messages);
+// get over a tenth of their light from there, the largest shares first. `ratios`: for a few of
+// them, that light divided by all reflected light.
+void warn_of_ground_light(
+    Scene const& surfaces, RunRecord const& record,
+    std::function<std::vector<double>(std::vector<SurfaceId> const&)> const& ratios,
+    Messages const& messages);
 
 }  // namespace gpu_shading::energyplus

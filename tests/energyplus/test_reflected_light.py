@@ -269,23 +269,30 @@ def test_who_reflects(patched, weather, tmp_path, box, objects, option, ours):
         option == "energyplus" and bool(objects))
 
 
-def test_a_warning_has_the_share_of_light_from_the_ground(patched, weather, tmp_path, box):
+def test_a_warning_says_how_much_light_from_the_ground_is_too_high(patched, weather, tmp_path, box):
     """Behind a dense screen, against EnergyPlus's outputs."""
     sheet = (shade("Sheet", [(-9, -0.4, 9), (-9, -0.4, 0), (15, -0.4, 0), (15, -0.4, 9)], 0.2)
              + "GPUShading:PerforatedScreen,Holes,Sheet,Round,,Staggered60,0.005,,0.012,,0.005;\n")
-    _, run = run_days(patched, weather, tmp_path, with_days(bare(box) + sheet, (3, 6), 700, 150),
-                      "--gpu-shading-reflections=energyplus")
+    model = with_days(bare(box) + sheet, (3, 6, 9, 12), 700, 150)
+    _, run = run_days(patched, weather, tmp_path, model, "--gpu-shading-reflections=energyplus")
+    _, traced = run_days(patched, weather, tmp_path, model)
     shares = {}
+    times = {}
     for name in ("SOUTH", WINDOW, "EAST", "WEST", "NORTH", "ROOF"):
         beam, sky, ground = (sum(values_of(run, INCIDENT.format(part))[name]) for part in PARTS)
         shares[name] = 100 * ground / (beam + sky + ground)
+        times[name] = ground / max(1e-9, sum(values_of(traced, INCIDENT.format(PARTS[2]))[name]))
     assert shares[WINDOW] > 50 and shares["ROOF"] == 0
     [said] = re.findall(r"light from the ground that no GPUShading object.*?; see",
                         re.sub(r"\s*\*\*\s*~~~\s*\*\*\s*", " ", (run.folder / "eplusout.err").read_text()), re.S)
     assert f"on {sum(share > 10 for share in shares.values())} surfaces: " in said
-    named = {name: float(share) for name, share in re.findall(r"([A-Z ]+) \((\d+) %\)", said)}
-    assert {name.strip(): share for name, share in named.items()} == {
+    named = {name.strip(): (float(share), float(ratio))
+             for name, share, ratio in re.findall(r"([A-Z ]+) \((\d+) %, ([\d.]+) times all reflected light\)", said)}
+    assert {name: share for name, (share, _) in named.items()} == {
         name: round(shares[name]) for name in sorted(shares, key=lambda name: -shares[name])[:3]}
+    assert times[WINDOW] > 5
+    for name, (_, ratio) in named.items():
+        assert ratio == pytest.approx(times[name], rel=0.15)
 
 
 DOWN_AFTER_NOON = """
