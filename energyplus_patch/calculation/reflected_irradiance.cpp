@@ -30,15 +30,18 @@ std::vector<TransportHour> ordinary_year(double latitude) {
   constexpr int days = 365;
   constexpr int days_apart = 15;
   constexpr int hours_of_day = 24;
+  constexpr double golden = 0.618034;
   constexpr double half_of_time = 0.5;
   constexpr double solar_constant = 1353.0;
   constexpr double overcast = 200.0;  // W/m2, of a sun in the zenith
   std::vector<TransportHour> hours;
   for (int day = 1; day <= days; day += days_apart) {
     double const declination = sun_of_day(day).declination;
+    // Other minutes on each day: suns lie anywhere in the cells of a table of full hours.
+    double const later = std::fmod(day * golden, 1.0);
     for (int hour = 0; hour < hours_of_day; ++hour) {
       HourDirection const sun{declination,
-                              (2.0 * (hour + 0.5) / hours_of_day - 1.0) * std::numbers::pi};
+                              (2.0 * (hour + later) / hours_of_day - 1.0) * std::numbers::pi};
       double const height = to_vector(to_direction(sun, latitude)).z;
       if (height <= 0.0) continue;
       double const clear = solar_constant * std::pow(0.7, std::pow(height, -0.678));

@@ -81,6 +81,7 @@ ReceiverHours hours_of(LightRequest const& request, Receiver const& receiver, st
                         hour.diffuse * 0.5 * (1.0 + normal.z);
     hours.least.push_back(request.transport.floor * open);
   }
+  hours.probes = choose_probes(request.year, hours);
   return hours;
 }
 
@@ -153,7 +154,8 @@ class LitPlaces {
 };
 
 Replicate replicate_of(LightRequest const& request, Receiver const& receiver,
-                       Positions const& positions, std::uint32_t seed, int draws) {
+                       Positions const& positions, std::vector<Probe> const& probes,
+                       std::uint32_t seed, int draws) {
   auto paths = trace_paths(request.scene, receiver.id, receiver.points, sobol_points(), seed,
                            request.conditions);
   Replicate replicate;
@@ -172,8 +174,9 @@ Replicate replicate_of(LightRequest const& request, Receiver const& receiver,
     for (auto const& corner : corners) sum += corner.share * replicate.beam[corner.sun].sum();
     replicate.hourly.push_back(sum);
   }
-  for (auto const probe : request.year.probes) {
-    replicate.gaps.push_back(ask(request.year.suns[probe]).sum() - replicate.hourly[probe]);
+  for (auto const& probe : probes) {
+    replicate.gaps.push_back(ask(request.year.suns[probe.hour]).sum() -
+                             replicate.hourly[probe.hour]);
   }
   for (auto const& light : request.transport.lights) replicate.lights.push_back(ask(light));
   return replicate;
@@ -228,7 +231,7 @@ Transported light_on(LightRequest const& request, SurfaceId id, std::uint32_t se
       int const draws = first == 0 ? first_draws : later_draws;
       replicates.resize(std::max(least_replicates, first + 1));
       for_each_index(replicates.size() - first, [&](std::size_t i) {
-        replicates[first + i] = replicate_of(request, receiver, positions,
+        replicates[first + i] = replicate_of(request, receiver, positions, hours.probes,
                                              next + static_cast<std::uint32_t>(first + i), draws);
       });
       for (auto i = first; i < replicates.size(); ++i) rays += replicates[i].rays;

@@ -11,6 +11,17 @@ constexpr int most_probes = 48;
 
 double square(double x) { return x * x; }
 
+double mean_of(std::vector<double> const& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+}
+
+double error_of_mean(std::vector<double> const& values) {
+  double const mean = mean_of(values);
+  double squares = 0.0;
+  for (double const value : values) squares += square(value - mean);
+  return std::sqrt(squares) / double(values.size());
+}
+
 // The mean product of the values of different replicates: the square of their mean without noise of
 // its own.
 double mean_product(std::vector<double> const& values) {
@@ -27,20 +38,36 @@ double mean_product(std::vector<double> const& values) {
 }  // namespace
 
 SolarHours::SolarHours(TransportRequest const& request) {
-  std::vector<double> up_to;
   for (auto const& hour : request.hours) {
     auto const sun = to_vector(to_direction(hour.sun, request.latitude));
     if (sun.z <= 0.0 || hour.beam + hour.diffuse <= 0.0) continue;
     hours.push_back(hour);
     suns.push_back(sun);
-    up_to.push_back(beam += hour.beam);
   }
-  for (int i = 0; i < most_probes && beam > 0.0; ++i) {
-    double const place = (i + 0.5) / most_probes * beam;
-    auto const found = std::upper_bound(up_to.begin(), std::prev(up_to.end()), place);
-    auto const hour = static_cast<std::size_t>(found - up_to.begin());
-    if (probes.empty() || probes.back() != hour) probes.push_back(hour);
+}
+
+std::vector<Probe> choose_probes(SolarHours const& year, ReceiverHours const& receiver) {
+  std::vector<double> costs;
+  double beam = 0.0;
+  double cost = 0.0;
+  for (std::size_t h = 0; h < year.hours.size(); ++h) {
+    auto const& hour = year.hours[h];
+    double const total = std::max(hour.beam * receiver.direct[h], receiver.least[h]);
+    costs.push_back(total > 0.0 ? square(hour.beam) / total : 0.0);
+    beam += hour.beam;
+    cost += costs.back();
   }
+  std::vector<Probe> probes;
+  double up_to = 0.0;
+  int chosen = 0;
+  for (std::size_t h = 0; h < year.hours.size() && cost > 0.0; ++h) {
+    double const share = 0.5 * (year.hours[h].beam / beam + costs[h] / cost);
+    up_to += share;
+    int const due = std::min(static_cast<int>(most_probes * up_to + 0.5), most_probes);
+    if (due > chosen) probes.push_back({h, (due - chosen) / (most_probes * share)});
+    chosen = due;
+  }
+  return probes;
 }
 
 Errors errors_of(std::vector<Replicate> const& replicates, SolarHours const& year,
@@ -82,32 +109,31 @@ Errors errors_of(std::vector<Replicate> const& replicates, SolarHours const& yea
   for (double const sum : sums) of_sums += square(sum);
   errors.annual_noise = std::sqrt(of_sums / freedom) / all;
 
-  if (year.probes.empty()) return errors;
-  auto const probes = double(year.probes.size());
-  double const share = year.beam / all;  // each probe stands for as much of the beam as any other
-  std::vector<double> mean_gaps;         // by replicate
-  mean_gaps.reserve(replicates.size());
-  for (auto const& replicate : replicates) {
-    mean_gaps.push_back(share / probes *
-                        std::accumulate(replicate.gaps.begin(), replicate.gaps.end(), 0.0));
-  }
-  errors.annual_interpolation = std::sqrt(std::max(0.0, mean_product(mean_gaps)));
-  std::vector<double> squared_gaps;  // by probe
-  for (std::size_t i = 0; i < year.probes.size(); ++i) {
+  if (receiver.probes.empty()) return errors;
+  auto const probes = double(receiver.probes.size());
+  std::vector<double> gaps_of_year;  // by probe, as if all were like it
+  std::vector<double> squared_gaps;  // the same
+  for (std::size_t i = 0; i < receiver.probes.size(); ++i) {
+    auto const& probe = receiver.probes[i];
+    double const energy = probe.hours * year.hours[probe.hour].beam / all;
     std::vector<double> gaps;
     gaps.reserve(replicates.size());
     for (auto const& replicate : replicates) gaps.push_back(replicate.gaps[i]);
-    auto const h = year.probes[i];
-    squared_gaps.push_back(
-        totals[h] > 0.0 ? share * year.hours[h].beam * mean_product(gaps) / totals[h] : 0.0);
+    gaps_of_year.push_back(probes * energy * mean_of(gaps));
+    double const total = totals[probe.hour];
+    squared_gaps.push_back(total > 0.0 ? probes * energy * year.hours[probe.hour].beam *
+                                             mean_product(gaps) / total
+                                       : 0.0);
   }
-  double const mean = std::accumulate(squared_gaps.begin(), squared_gaps.end(), 0.0) / probes;
-  double variance = 0.0;
-  for (double const gap : squared_gaps) variance += square(gap - mean) / probes;
-  errors.interpolation = std::sqrt(std::max(0.0, mean));
-  bool const sure = mean - 2.0 * std::sqrt(variance / probes) > 0.5 * square(request.hourly);
+  // Both as what few probes say of a year, or worse: replicates are added until errors are small,
+  // and those would end that look small by chance.
+  errors.annual_interpolation = std::hypot(mean_of(gaps_of_year), error_of_mean(gaps_of_year));
+  double const mean = mean_of(squared_gaps);
+  double const unsure = error_of_mean(squared_gaps);
+  errors.interpolation = std::sqrt(std::max(0.0, mean + unsure));
+  bool const sure = mean - 2.0 * unsure > 0.5 * square(request.hourly);
   errors.needs_finer_table =
-      sure || errors.interpolation > std::max(0.7 * request.hourly, 2.0 * errors.noise);
+      sure || std::sqrt(std::max(0.0, mean)) > std::max(0.7 * request.hourly, 2.0 * errors.noise);
   return errors;
 }
 

@@ -8,22 +8,30 @@
 
 namespace gpu_shading {
 
-// The hours with sun of a request, and those among them at whose suns the error of interpolation
-// is measured: spread by their beam.
+// The hours with sun of a request.
 struct SolarHours {
   explicit SolarHours(TransportRequest const& request);
 
   std::vector<TransportHour> hours;
   std::vector<glm::dvec3> suns;  // unit vectors
-  std::vector<std::size_t> probes;
-  double beam = 0.0;  // of all hours
+};
+
+// An hour at whose sun the error of interpolation is measured.
+struct Probe {
+  std::size_t hour = 0;
+  double hours = 1.0;  // for which it stands
 };
 
 // What the errors of a receiver's light are relative to.
 struct ReceiverHours {
   std::vector<double> direct;  // of a beam of 1 W/m2, without a reflection, by hour
   std::vector<double> least;   // W/m2, by hour
+  std::vector<Probe> probes;   // as choose_probes() has them
 };
+
+// Half of them by their beam, and half by what a given gap costs, the beam's square by the total: a
+// sun that goes behind the receiver's plane is seldom, and its light small.
+std::vector<Probe> choose_probes(SolarHours const& year, ReceiverHours const& receiver);
 
 // One of several independent answers.
 struct Replicate {
