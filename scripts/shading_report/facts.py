@@ -13,7 +13,9 @@ QUANTITIES = (
     ("Cooling", results.COOLING),
     ("Lighting", results.LIGHTS),
 )
-LIGHT_ON_WINDOWS = ("Sky's light on windows", "Reflected light on windows")  # as Results.light has them
+# As Results.light has them.
+LIGHT_ON_WINDOWS = ("Sky's light on windows", "Reflected light on windows", "of that without the ground")
+PARTS = ("beam alone", LIGHT_ON_WINDOWS[-1])  # of the quantity before
 HOURS = 24
 SAME = 9  # decimals in which the sunlit fractions of equal hours agree
 
@@ -86,10 +88,15 @@ def energies(runs, calendar):
         return [Amount(title, [float(values[positions].sum()) for values in hourly[variable]])
                 for title, variable in QUANTITIES if any(run.results.values[variable] for run in runs)]
 
+    def light_of(run, kind, environment, months):
+        found = [sums[kind] for (name, month), sums in run.results.light.items()
+                 if name == environment and month in months and sums[kind] is not None]
+        return sum(found) / results.J_PER_KWH if found else None
+
     def light(environment, months):
-        return [Amount(title, [sum(sums[kind] for (name, month), sums in run.results.light.items()
-                                   if name == environment and month in months) / results.J_PER_KWH for run in runs])
-                for kind, title in enumerate(LIGHT_ON_WINDOWS) if any(run.results.light for run in runs)]
+        found = [Amount(title, [light_of(run, kind, environment, months) for run in runs])
+                 for kind, title in enumerate(LIGHT_ON_WINDOWS)]
+        return [amount for amount in found if any(value is not None for value in amount.values)]
 
     by_environment, by_month = {}, {}
     for position in calendar.positions:

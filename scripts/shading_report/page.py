@@ -151,7 +151,7 @@ def _months(runs, by_month):
     names = [name for name, _ in by_month]
     found = []
     for number, amount in enumerate(by_month[0][1]):
-        if amount.title == "beam alone":
+        if amount.title in facts.PARTS:
             continue
         series = [(run.label, [amounts[number].values[i] for _, amounts in by_month]) for i, run in enumerate(runs)]
         found.append(charts.months(names, series, amount.title, f"{amount.title} by month in each run, kWh"))

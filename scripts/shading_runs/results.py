@@ -20,6 +20,8 @@ VARIABLES = (SUNLIT, COSINE, SOLAR, BEAM, HEATING, COOLING, LIGHTS)
 # W/m2 on surfaces: all, and what is not reflected.
 INCIDENT = tuple(f"Surface Outside Face Incident {part}Solar Radiation Rate per Area"
                  for part in ("", "Beam ", "Sky Diffuse "))
+# The part of what is reflected that no ground reflects, of runs in which this module traces it; W/m2.
+BY_SHADES = "GPU Shading Solar Radiation Reflected by Shades Rate per Area"
 OF_ZONES = (HEATING, COOLING, LIGHTS)
 # With the number of a reference point; the key is the Daylighting:Controls.
 POINT = "Daylighting Reference Point {} Illuminance"
@@ -52,7 +54,7 @@ def instrument(model, frequency="Hourly"):
     for variable in VARIABLES:
         if variable != LIGHTS or points:
             model.add_output_variable(variable, frequency)
-    for variable in INCIDENT:
+    for variable in (*INCIDENT, BY_SHADES):
         model.add_output_variable(variable, "Monthly")
     for number in range(1, points + 1):
         model.add_output_variable(POINT.format(number), frequency)
@@ -191,13 +193,15 @@ class Results:
         self.sun = {when: mean_direction(found) for when, found in directions.items()}
 
     def _light_on_windows(self, data, environments, lengths):
+        """{(environment, month): [of the sky, reflected, reflected without the ground or None]}, J."""
         seconds = {}  # of the days that a month's means are of
         for (environment, month, *_), length, is_warmup in zip(self.times, lengths, self.is_warmup, strict=True):
             seconds[environment, month] = seconds.get((environment, month), 0.0) + (0.0 if is_warmup else length)
         means = {}
         for time_index, name, key, value in data.execute(
             "SELECT TimeIndex, Name, KeyValue, Value FROM ReportData JOIN ReportDataDictionary USING "
-            "(ReportDataDictionaryIndex) WHERE ReportingFrequency = 'Monthly' AND Name IN (?, ?, ?)", INCIDENT,
+            "(ReportDataDictionaryIndex) WHERE ReportingFrequency = 'Monthly' AND Name IN (?, ?, ?, ?)",
+            (*INCIDENT, BY_SHADES),
         ):
             if key in self.values[SOLAR]:
                 means.setdefault((time_index, key), {})[name] = value
@@ -207,9 +211,11 @@ class Results:
         for (time_index, key), mean in means.items():
             total, beam, sky = (mean.get(name, 0.0) for name in INCIDENT)
             weight = self.receivers[key].area * self.multiplier(SOLAR, key) * seconds.get(months[time_index], 0.0)
-            sums = light.setdefault(months[time_index], [0.0, 0.0])
+            sums = light.setdefault(months[time_index], [0.0, 0.0, None])
             sums[0] += weight * sky
             sums[1] += weight * (total - beam - sky)
+            if BY_SHADES in mean:
+                sums[2] = (sums[2] or 0.0) + weight * mean[BY_SHADES]
         return light
 
     def sun_up(self, receiver):

@@ -86,6 +86,10 @@ def test_light_is_that_of_energyplus(gs, courtyard, weather, tmp_path):
             noon = of_month[of_month.index.hour == 12].mean()
             assert hours[kind][window, month, 12] == pytest.approx(noon, abs=0.051)
     assert months["all"].sum() > 10
+    summary = done.summary()
+    for kind, energy in summary.light[window].items():
+        assert energy == pytest.approx(months[kind][window].sum(), abs=1e-9)
+    assert f"<td>{window}</td>" in summary._repr_html_()
     with pytest.raises(gs.InvalidInput, match="'day', expected month or hour"):
         done.light("day")
     with pytest.raises(gs.InvalidInput, match="the run needs report=True"):

@@ -208,6 +208,15 @@ def test_incident_light_is_the_sum_of_its_parts(patched, weather, tmp_path, box)
             assert ground == pytest.approx(sum(part[name][step] for part in reflected), rel=1e-9, abs=1e-6), name
 
 
+def test_outputs_have_the_frequency_that_is_asked_for(patched, weather, tmp_path, box):
+    monthly = "".join(f"Output:Variable,{WINDOW},{name},Monthly;\n" for name in (BY_GROUND, BY_SHADES))
+    _, run = run_days(patched, weather, tmp_path, with_days(bare(box) + street(0.5), (6,), 700, 150) + monthly)
+    for name in (BY_GROUND, BY_SHADES):
+        steps = values_of(run, name, "Zone Timestep")[WINDOW]
+        [mean] = values_of(run, name, "Monthly")[WINDOW]
+        assert mean == pytest.approx(sum(steps) / len(steps), rel=1e-9)
+
+
 def passing(angle, thickness, diameter, share):
     """What passes round holes, straight and black: two discs' overlap."""
     shift = thickness * math.tan(angle) / diameter

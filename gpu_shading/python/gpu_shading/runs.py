@@ -20,11 +20,12 @@ import numpy as np
 
 from gpu_shading import _html, _programs
 from gpu_shading._arrays import Floats, number
-from gpu_shading._reading import reading, regular
+from gpu_shading._reading import reading, regular, rows_of
 from gpu_shading.errors import InvalidInput, RunError
 from gpu_shading.pv import Power, write_reductions
 
 _REPORT = "report"  # in the output folder
+_MONTHS = "run_months.csv"
 _FREQUENCIES = ("Each Call", "TimeStep", "Hourly", "Daily", "Monthly", "RunPeriod", "Annual")
 
 
@@ -42,11 +43,18 @@ class Summary:
     """Output variables in eplusout.eso."""
     site_energy: float | None
     """Total Site Energy, kWh; None if the model does not ask for its tables in eplusout.sql."""
+    light: dict[str, dict[str, float | None]]
+    """Of a run with `report`: by receiver, the kinds of light of Run.light(), kWh/m2; None where it is not known."""
 
     def _repr_html_(self) -> str:
         rows: list[tuple[str, object]] = [("Warnings", self.warnings), ("Severe errors", self.severe),
                                           ("Seconds", self.seconds), ("Site energy, kWh", self.site_energy)]
-        return _html.table(["", ""], [*rows, *(("", line) for line in self.messages)])
+        page = _html.table(["", ""], [*rows, *(("", line) for line in self.messages)])
+        if not self.light:
+            return page
+        kinds = tuple(next(iter(self.light.values())))
+        return page + _html.table(["Light, kWh/m2", *kinds],
+                                  [(name, *kinds_of.values()) for name, kinds_of in self.light.items()])
 
 
 @dataclass(frozen=True)
@@ -127,7 +135,7 @@ class Run:
         by hour of each month's mean day too, in W/m2, without dark hours. All but the beam is NaN where only the beam
         is known."""
         pandas_ = _needed("pandas", "frames")
-        tables = {"month": ("run_months.csv", 2), "hour": ("run_mean_days.csv", 3)}
+        tables = {"month": (_MONTHS, 2), "hour": ("run_mean_days.csv", 3)}
         if by not in tables:
             raise InvalidInput(f"by: {by!r}, expected month or hour")
         name, keys = tables[by]
@@ -139,16 +147,32 @@ class Run:
         return table.rename(columns=lambda head: head.partition(" [")[0])
 
     def summary(self) -> Summary:
-        """Warnings, errors, time, variables, and the site's energy if the tables are in eplusout.sql."""
+        """Warnings, errors, time, variables, the site's energy if the tables are in eplusout.sql, and light if there
+        is a report."""
         end = _text(self.folder / "eplusout.end")
         counts = re.search(r"(\d+) Warning; *(\d+) Severe", end)
         spent = re.search(r"Elapsed Time=(\d+)hr *(\d+)min *(\d+\.?\d*)sec", end)
         hours, minutes, seconds = (float(part) for part in spent.groups()) if spent else (0.0, 0.0, float("nan"))
         return Summary(int(counts[1]) if counts else 0, int(counts[2]) if counts else 0,
-                       3600 * hours + 60 * minutes + seconds, self.messages, self._variables(), self._site_energy())
+                       3600 * hours + 60 * minutes + seconds, self.messages, self._variables(), self._site_energy(),
+                       self._light())
 
     def _repr_html_(self) -> str:
         return self.summary()._repr_html_()
+
+    def _light(self) -> dict[str, dict[str, float | None]]:
+        found: dict[str, dict[str, float | None]] = {}
+        path = self.folder / _REPORT / _MONTHS
+        if not path.is_file():
+            return found
+        with reading(path, "a table of a report"):
+            for row in rows_of(path):
+                sums = found.setdefault(row.pop("receiver"), {})
+                del row["month"]
+                for head, text in row.items():
+                    kind = head.partition(" [")[0]
+                    sums[kind] = (sums.get(kind) or 0.0) + float(text) if text else None
+        return found
 
     def _variables(self) -> tuple[str, ...]:
         found: dict[str, None] = {}

@@ -139,14 +139,14 @@ void EnergyPlusFunctions::add_output(State& state, std::string const& name, std:
   constexpr int average = 0;
   constexpr int invalid = -1;
   constexpr int no_index_group = -999;
-  constexpr int each_call = 0;
+  constexpr int hourly = 2;  // any other would override the frequency that a model asks for
   int const units = unit == "deg"    ? degrees
                     : unit == "m"    ? metres
                     : unit == "W/m2" ? watts_per_square_metre
                                      : none;
   symbol::setup_output_variable.in(symbols_)(state, name, units, value, zone_timestep, average,
                                              object, invalid, invalid, invalid, {}, {}, 1, 1, {},
-                                             no_index_group, {}, each_call);
+                                             no_index_group, {}, hourly);
 }
 
 namespace {
