@@ -185,8 +185,8 @@ Replicate replicate_of(LightRequest const& request, Receiver const& receiver,
 bool are_small(Errors const& errors, std::size_t replicates, TransportRequest const& request) {
   // Student's t for few replicates, one-sided 84 %.
   double const t = 1.0 + 2.5 / double(replicates);
-  return t * std::hypot(errors.noise, errors.interpolation) < request.hourly &&
-         t * std::hypot(errors.annual_noise, errors.annual_interpolation) < request.annual;
+  return std::hypot(t * errors.noise, errors.interpolation) < request.hourly &&
+         std::hypot(t * errors.annual_noise, errors.annual_interpolation) < request.annual;
 }
 
 Transported mean_of(std::vector<Replicate> const& replicates, SunTable const& table,
