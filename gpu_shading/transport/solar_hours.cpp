@@ -63,7 +63,7 @@ std::vector<Probe> choose_probes(SolarHours const& year, ReceiverHours const& re
   for (std::size_t h = 0; h < year.hours.size() && cost > 0.0; ++h) {
     double const share = 0.5 * (year.hours[h].beam / beam + costs[h] / cost);
     up_to += share;
-    int const due = std::min(static_cast<int>(most_probes * up_to + 0.5), most_probes);
+    int const due = std::min(static_cast<int>(std::lround(most_probes * up_to)), most_probes);
     if (due > chosen) probes.push_back({h, (due - chosen) / (most_probes * share)});
     chosen = due;
   }

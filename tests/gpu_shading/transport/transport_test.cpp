@@ -275,6 +275,7 @@ TEST(Transport, ErrorsAreThoseThatAreStated) {
   slots.add_receiver(south_facing(-1, 0, 1, 2, 2));
   auto const hours = clear_hours(0.618);
   std::vector<glm::dvec3> suns;
+  suns.reserve(hours.size());
   for (auto const& hour : hours) suns.push_back(to_vector(to_direction(hour.sun, latitude)));
   for (Room const* room : {&slats, &street, &court, &slots}) {
     auto request = request_for(hours);
