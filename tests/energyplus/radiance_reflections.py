@@ -1,6 +1,7 @@
 """Light that surfaces and the ground reflect, by Radiance's rtrace: of every number of reflections."""
 
 import math
+import re
 import subprocess
 from random import Random
 
@@ -13,7 +14,7 @@ OPEN = 0.5  # of a sheet, at any angle
 RAYS = 96  # from each place at which light is reflected
 
 
-def _plastic(name, reflectance):
+def plastic(name, reflectance):
     return f"void plastic {name}\n0\n0\n5 {reflectance:.9g} {reflectance:.9g} {reflectance:.9g} 0 0\n"
 
 
@@ -23,8 +24,8 @@ def _mirror(name, at_normal):
             f"by_angle_{name} mirror {name}\n0\n0\n3 1 1 1\n")
 
 
-def _scene(surfaces, reflectance_of, mirrors, ground, black):
-    parts = [_plastic("black", 0.0), _plastic("ground", 0.0 if black else ground)]
+def _scene(surfaces, reflectance_of, mirrors, ground, black, added):
+    parts = [plastic("black", 0.0), plastic("ground", 0.0 if black else ground)]
     size = GROUND_SIZE
     parts.append(radiance.polygon("ground", "earth", [(-size, -size, 0.0), (size, -size, 0.0),
                                                       (size, size, 0.0), (-size, size, 0.0)]))
@@ -39,12 +40,14 @@ def _scene(surfaces, reflectance_of, mirrors, ground, black):
         if name in mirrors and not black:
             parts.append(_mirror(material, mirrors[name]))
         else:
-            parts.append(_plastic(material, 0.0 if black or casts == "not" else reflectance_of(name)))
+            parts.append(plastic(material, 0.0 if black or casts == "not" else reflectance_of(name)))
         if casts.startswith("perforated"):
             solid, material = material, f"sheet_{number}"
             parts.append(f"void mixfunc {material}\n4 {solid} void solid solid.cal\n0\n1 {1 - OPEN:.9g}\n")
         parts.append(radiance.polygon(material, f"surface_{number}", vertices))
-    return "".join(parts)
+    if black:
+        added = re.sub(r"(void plastic \S+\n0\n0\n5) \S+ \S+ \S+", r"\1 0 0 0", added)
+    return "".join(parts) + added
 
 
 def sun(direction):
@@ -70,11 +73,12 @@ def perez_sky(sun, beam, diffuse):
             + "\nskyfunc glow sky\n0\n0\n4 1 1 1 0\nsky source dome\n0\n0\n4 0 0 1 180\n")
 
 
-def reflected(surfaces, receiver, light, folder, reflectance_of, mirrors=None, ground=0.2, points=400, seed=1):
+def reflected(surfaces, receiver, light, folder, reflectance_of, mirrors=None, ground=0.2, points=400, seed=1,
+              added=""):
     """Irradiance of a rectangle by way of reflections, for a light of 1 W/m2.
 
     surfaces: as radiance.surfaces() has them; the ground is at z = 0. mirrors: reflectances at normal incidence by
-    name; the sun is seen in one mirror at most.
+    name; the sun is seen in one mirror at most. added: more of the scene, as Radiance's text.
     """
     random = Random(seed)
     (folder / "solid.cal").write_text("solid = A1;\n")
@@ -82,8 +86,9 @@ def reflected(surfaces, receiver, light, folder, reflectance_of, mirrors=None, g
     places = list(radiance.sample_points(surfaces[receiver][0], [], points, random))
     rays = "".join(" ".join(f"{value:.9g}" for part in pair for value in part) + "\n" for pair in places)
     means = []
-    for black, bounces in ((False, BOUNCES), (True, 1)):
-        (folder / "scene.rad").write_text(_scene(surfaces, reflectance_of, mirrors or {}, ground, black) + light)
+    straight = 1 if " glow " in light else 0  # only light sources are found without a bounce
+    for black, bounces in ((False, BOUNCES), (True, straight)):
+        (folder / "scene.rad").write_text(_scene(surfaces, reflectance_of, mirrors or {}, ground, black, added) + light)
         words = f"-I -ab {bounces} -ad {RAYS} -as 0 -aa 0 -lw 1e-7 -lr -20 -ss 0 -st 0 -dt 0 -dj 0 -dc 1 -ds 0 -dr 1"
         answers = radiance.trace(folder, "scene.rad", rays, *words.split())
         means.append(sum(float(line.split()[0]) for line in answers.splitlines() if line) / len(places))

@@ -7,165 +7,51 @@ import subprocess
 import pytest
 import radiance
 import radiance_reflections
-import test_site
 from output_files import rows_of, values_of
+from reflecting_scenes import (
+    BY_GROUND,
+    BY_SHADES,
+    GLASS,
+    INCIDENT,
+    PARTS,
+    SCENES,
+    WINDOW,
+    Comparison,
+    awning,
+    bare,
+    egg_crate,
+    louvres,
+    reflectances,
+    run_days,
+    shade,
+    street,
+    suns_of,
+    with_days,
+)
 from shading_runs import energyplus
-
-BY_GROUND = "GPU Shading Solar Radiation Reflected by Ground Rate per Area"
-BY_SHADES = "GPU Shading Solar Radiation Reflected by Shades Rate per Area"
-INCIDENT = "Surface Outside Face Incident {}Solar Radiation Rate per Area"
-PARTS = ("Beam ", "Sky Diffuse ", "Ground Diffuse ")
-OUTPUTS = "".join(f"Output:Variable,*,{name},Timestep;\n" for name in (
-    BY_GROUND, BY_SHADES, INCIDENT.format(""), *(INCIDENT.format(part) for part in PARTS),
-    "Site Solar Azimuth Angle", "Site Solar Altitude Angle")) + "Output:SQLite,Simple;\n"
-# A day whose beam and diffuse irradiance are given, W/m2.
-DAY = """
-Schedule:Day:Hourly,Beam of {name},,{beam};
-Schedule:Day:Hourly,Sky of {name},,{sky};
-SizingPeriod:DesignDay,{name},{month},21,SummerDesignDay,20,0,DefaultMultipliers,,WetBulb,
-  10,,,,,98000,2,180,No,No,No,Schedule,Beam of {name},Sky of {name},,,;
-"""
-
-
-def with_days(model, months, beam, sky):
-    """A model's text with days of constant irradiance instead of its own, and the outputs above."""
-    model = re.sub(r"SizingPeriod:DesignDay,.*?;[^\n]*\n|Output:Variable,[^;]*;[^\n]*\n", "", model, flags=re.S)
-    model = re.sub(r"Timestep,\d+;", "Timestep,1;", model)
-    return model + OUTPUTS + "".join(
-        DAY.format(name=f"Day {month}", month=month, beam=",".join([str(beam)] * 24), sky=",".join([str(sky)] * 24))
-        for month in months)
-
-
-def shade(name, corners, reflectance):
-    return (test_site.shade(name, corners)
-            + f"ShadingProperty:Reflectance,{name},{reflectance},{reflectance},0;\n")
-
-
-def louvres(reflectance):
-    """21 blades before the box's window, a little tilted."""
-    text = ""
-    for i in range(21):
-        z = 0.8 + 0.1 * i
-        text += shade(f"Blade {i}", [(1.2, -0.06, z), (1.2, -0.16, z - 0.04), (4.8, -0.16, z - 0.04), (4.8, -0.06, z)],
-                      reflectance)
-    return text
-
-
-def egg_crate(reflectance):
-    text = ""
-    for i in range(11):
-        z = 0.8 + 0.2 * i
-        text += shade(f"Shelf {i}", [(1.5, -0.01, z), (1.5, -0.21, z), (4.5, -0.21, z), (4.5, -0.01, z)], reflectance)
-    for i in range(16):
-        x = 1.5 + 0.2 * i
-        text += shade(f"Fin {i}", [(x, -0.01, 2.8), (x, -0.01, 0.8), (x, -0.21, 0.8), (x, -0.21, 2.8)], reflectance)
-    return text
-
-
-def street(reflectance):
-    """A house across the street, and one beside it."""
-    return (shade("Opposite", [(20, -8, 9), (20, -8, 0), (-14, -8, 0), (-14, -8, 9)], reflectance)
-            + shade("Beside", [(-4, 0, 6), (-4, -5, 6), (-4, -5, 0), (-4, 0, 0)], reflectance))
-
-
-def awning(reflectance):
-    """Below the window, so that it reflects the sun to it."""
-    return shade("Awning", [(0, 0, 0.7), (0, -1.5, 0.6), (6, -1.5, 0.6), (6, 0, 0.7)], reflectance)
-
-
-def thin_sheet(reflectance):
-    """Before the window, half open."""
-    return (shade("Sheet", [(0, -0.3, 3), (0, -0.3, 0.5), (6, -0.3, 0.5), (6, -0.3, 3)], reflectance)
-            + "GPUShading:PerforatedScreen,Holes,Sheet,Round,,Staggered60,0.005,,0.0067339,,1e-5;\n")
-
-
-def glazed_street(reflectance):
-    """Behind the box, a facade all of glass faces south."""
-    return (test_site.shade("Facade", [(-14, 12, 9), (-14, 12, 0), (20, 12, 0), (20, 12, 9)])
-            + "ShadingProperty:Reflectance,Facade,0,0,1,Coated Glass;\nConstruction,Coated Glass,Coated Pane;\n"
-            + f"WindowMaterial:Glazing,Coated Pane,SpectralAverage,,0.006,0.1,{reflectance},{reflectance},"
-            + "0.1,0.2,0.2,0,0.84,0.84,1;\n")
-
-
-SCENES = {"louvres": louvres, "egg crate": egg_crate, "street": street, "awning": awning,
-          "thin sheet": thin_sheet, "glazed street": glazed_street}
-WINDOW = "SOUTH WINDOW"
-RECEIVERS = {"glazed street": "NORTH"}  # else the window
-GLASS = 0.30517  # of it, in EnergyPlus's .eio file
-BOX = ("SOUTH", "EAST", "NORTH", "WEST", "ROOF", "FLOOR")
-WALLS = 0.3  # of the box: EnergyPlus's default absorptance is 0.7
-
-
-def reflectances(of_shades):
-    """Of each surface by its name, as Radiance takes them."""
-    def of(name):
-        if name.upper() == WINDOW:
-            return 0.0
-        return WALLS if name.upper() in BOX else of_shades
-
-    return of
-
-
-def bare(box):
-    """The box without its louvre."""
-    return re.sub(r"Shading:Building:Detailed,[^;]*;[^\n]*\n", "", box)
-
-
-def run_days(patched, weather, tmp_path, text, *options):
-    model = tmp_path / "model.idf"
-    model.write_text(text)
-    folder = tmp_path / f"out{len(list(tmp_path.glob('out*')))}"
-    run = energyplus.run(patched, model, weather, folder,
-                         ["-D", "--gpu-shading", "--gpu-shading-reflections=all", *options])
-    assert run.completed, run.why()
-    return model, run
-
-
-def suns_of(run):
-    """[(azimuth, altitude)] of each timestep."""
-    azimuths, altitudes = (next(iter(values_of(run, f"Site Solar {angle} Angle").values()))
-                           for angle in ("Azimuth", "Altitude"))
-    return list(zip(azimuths, altitudes, strict=True))
 
 
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("reflectance", [0.2, 0.5, 0.8])
 def test_reflected_light_is_radiance_s(patched, weather, tmp_path, box, scene, reflectance):
+    """tests/bench/reflected_light.py has more suns and points."""
     if radiance.is_missing():
         pytest.skip(f"{radiance.FOLDER} is missing: scripts/setup could not fetch pyradiance")
-    text = bare(box) + SCENES[scene](reflectance)
-    model, run = run_days(patched, weather, tmp_path, with_days(text, (6, 9, 12), 1000, 0))
-    receiver = RECEIVERS.get(scene, WINDOW)
-    ground, shades = (values_of(run, name)[receiver] for name in (BY_GROUND, BY_SHADES))
-    ours = {sun: (by_ground + by_shades) / 1000.0
-            for sun, by_ground, by_shades in zip(suns_of(run), ground, shades, strict=True)}
-    surfaces = radiance.surfaces(patched.parent / "gpu_shading", model)
-
-    suns = radiance.spread([sun for sun in ours if sun[1] > 5], 7)
-    theirs = {sun: radiance_reflections.reflected(surfaces, receiver, radiance_reflections.sun(radiance.towards(sun)),
-                                                  tmp_path, reflectances(reflectance),
-                                                  {WINDOW: GLASS, "FACADE": reflectance}) for sun in suns}
+    points = 200
+    found = Comparison(patched, weather, tmp_path, box, scene, reflectance, (6, 9, 12))
+    suns = radiance.spread(list(found.ours), 7)
+    theirs = {sun: found.theirs(sun, points) for sun in suns}
     for sun in suns:
-        print(f"{scene} {reflectance} {sun[0]:6.1f} {sun[1]:5.1f}: {ours[sun]:.4f} {theirs[sun]:.4f}")
+        print(f"{scene} {reflectance} {sun[0]:6.1f} {sun[1]:5.1f}: {found.ours[sun]:.4f} {theirs[sun]:.4f}")
     mean = sum(theirs.values()) / len(suns)
-    rms = math.sqrt(sum((ours[sun] - theirs[sun]) ** 2 for sun in suns) / len(suns)) / mean
-    print(f"{scene} {reflectance}: sum {sum(ours[sun] for sun in suns) / mean / len(suns):.4f}, rms {rms:.4f}")
+    rms = math.sqrt(sum((found.ours[sun] - theirs[sun]) ** 2 for sun in suns) / len(suns)) / mean
+    sky = found.their_sky(points)
+    print(f"{scene} {reflectance}: sum {sum(found.ours[sun] for sun in suns) / mean / len(suns):.4f}, rms {rms:.4f}, "
+          f"sky {found.our_sky:.4f} {sky:.4f}")
     # Of reflected light alone, while errors are stated of all light.
-    assert sum(ours[sun] for sun in suns) == pytest.approx(mean * len(suns), rel=0.03)
+    assert sum(found.ours[sun] for sun in suns) == pytest.approx(mean * len(suns), rel=0.035)
     assert rms < 0.08
-
-
-def test_sky_reflected_by_a_street_is_radiance_s(patched, weather, tmp_path, box):
-    if radiance.is_missing():
-        pytest.skip(f"{radiance.FOLDER} is missing: scripts/setup could not fetch pyradiance")
-    model, run = run_days(patched, weather, tmp_path, with_days(bare(box) + street(0.5), (6,), 0, 100))
-    surfaces = radiance.surfaces(patched.parent / "gpu_shading", model)
-    theirs = radiance_reflections.reflected(
-        surfaces, WINDOW, radiance_reflections.SKY, tmp_path, reflectances(0.5), {WINDOW: GLASS})
-    noon = next(i for i, sun in enumerate(suns_of(run)) if sun[1] > 60)
-    ours = sum(values_of(run, name)[WINDOW][noon] for name in (BY_GROUND, BY_SHADES)) / 100.0
-    print(ours, theirs)
-    assert ours == pytest.approx(theirs, rel=0.03)
+    assert found.our_sky == pytest.approx(sky, rel=0.03)
 
 
 def test_sky_by_patch_is_radiance_s(patched, weather, tmp_path, box):

@@ -45,7 +45,8 @@ struct TransportHour {
 struct TransportRequest {
   double latitude = 0.0;  // radians
   // Errors are relative to the light of these hours, each with its own weight; those with the sun
-  // below the horizon are left out.
+  // below the horizon are left out. Their suns should be between those of a SunTable, as a year's
+  // are: hours at the same hour angles every day may all be on its grid.
   std::span<TransportHour const> hours;
   // Wanted root-mean-square error of hourly values, weighted by energy, and error of their sum, of
   // the larger of the receiver's light and `floor` times that of a receiver without any shade.
@@ -121,7 +122,8 @@ struct Transported {
   LightByGround sky = {};
   double sky_direct = 0.0;
   // Measured, relative as TransportRequest says: noise of the hours and of their sum, and the
-  // errors of both by interpolation between suns.
+  // errors of both by interpolation between suns (of hours: one standard error above what some suns
+  // show). Errors of suns close to one another have the same sign.
   double noise = 0.0;
   double annual_noise = 0.0;
   double interpolation = 0.0;
