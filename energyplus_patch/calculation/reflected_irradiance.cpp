@@ -30,7 +30,6 @@ std::vector<TransportHour> ordinary_year(double latitude) {
   constexpr int days = 365;
   constexpr int days_apart = 15;
   constexpr int hours_of_day = 24;
-  constexpr double golden = 0.618034;
   constexpr double half_of_time = 0.5;
   constexpr double solar_constant = 1353.0;
   constexpr double overcast = 200.0;  // W/m2, of a sun in the zenith
@@ -38,7 +37,7 @@ std::vector<TransportHour> ordinary_year(double latitude) {
   for (int day = 1; day <= days; day += days_apart) {
     double const declination = sun_of_day(day).declination;
     // Other minutes on each day: suns lie anywhere in the cells of a table of full hours.
-    double const later = std::fmod(day * golden, 1.0);
+    double const later = std::fmod(day / std::numbers::phi, 1.0);
     for (int hour = 0; hour < hours_of_day; ++hour) {
       HourDirection const sun{declination,
                               (2.0 * (hour + later) / hours_of_day - 1.0) * std::numbers::pi};
@@ -167,7 +166,7 @@ LightByGround light_of_sky(Transported const& table, std::vector<double> const& 
 struct Tracing {
   std::vector<SurfaceId> const& receivers;
   double ground;  // its reflectance
-  TransportRequest request;
+  TransportRequest const& request;
 };
 
 std::vector<Transported> trace(SceneAssembly const& assembly, std::vector<double> const& positions,
@@ -227,10 +226,7 @@ std::vector<Transported> ReflectedIrradiance::trace(State const& state) const {
   auto const hours = ordinary_year(latitude_);
   std::vector<glm::dvec3> patches;
   if (has_sky_patches()) patches = patch_directions();
-  TransportRequest request;
-  request.latitude = latitude_;
-  request.hours = hours;
-  request.lights = patches;
+  TransportRequest const request{.latitude = latitude_, .hours = hours, .lights = patches};
   std::span const schedules(state.schedules);
   auto const factors = scene_.optics().factors().size();
   auto tables = energyplus::trace(
@@ -322,11 +318,8 @@ void ReflectedIrradiance::describe() const {
 std::vector<double> undimmed_to_traced(SceneAssembly const& scene, double latitude,
                                        std::vector<SurfaceId> const& ids) {
   auto const hours = ordinary_year(latitude);
-  TransportRequest request;
-  request.latitude = latitude;
-  request.hours = hours;
-  request.hourly = 0.2;
-  request.annual = 0.05;
+  TransportRequest const request{
+      .latitude = latitude, .hours = hours, .hourly = 0.2, .annual = 0.05};
   auto const& optics = scene.optics();
   auto const tables = trace(scene, scene.positions(),
                             {.factors = optics.factors(), .deployments = optics.deployments()},

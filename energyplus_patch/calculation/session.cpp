@@ -84,7 +84,7 @@ SurfaceId Session::in_scene(SurfaceId id) const {
 void Session::start(Simulation simulation) {
   if (answers_) throw Error("the surfaces of a model can be set once");
   messages_ = std::move(simulation.messages);
-  latitude_ = simulation.latitude;
+  latitude_ = std::move(simulation.latitude);
   scene_.complete(std::move(simulation.schedules));
   auto const& options = scene_.model().options;
   if (options.report) {
@@ -113,8 +113,7 @@ void Session::start(Simulation simulation) {
     add_reflected_outputs(simulation);
   }
   if (options.cache) prepare_cache_folder(*options.cache);
-  answers_.emplace(
-      SunQuestions::Site{scene_.areas(), options.update.sampling, std::move(simulation.latitude)});
+  answers_.emplace(SunQuestions::Site{scene_.areas(), options.update.sampling, latitude_});
   answers_->open(open_renderer(scene_, scene_.receivers(), options.device, messages_));
   check_device(answers_->rendered().renderer().device(), options, messages_);
   describe_scene(scene_, messages_);

@@ -127,6 +127,15 @@ std::map<std::string, double> mirrors_of(std::vector<InputObject> const& objects
   return found;
 }
 
+// `black`: as mirrors_of() has it.
+ReflectedLight reflectors_of(std::vector<InputObject> const& objects, ShadingInput const& input,
+                             Layers const& layers, std::vector<std::string>& black) {
+  ReflectedLight light;
+  light.reflectances = reflectances_of(objects, input, layers);
+  light.mirrors = mirrors_of(objects, input, black);
+  return light;
+}
+
 // The surfaces' own local environments.
 class Environments {
  public:
@@ -229,8 +238,7 @@ class InputMaker {
       : layers_(objects), surfaces_(exposed_surfaces(objects)) {
     environments_.add(objects);
     environments_.add(more);
-    made_.light.reflectances = reflectances_of(objects, input, layers_);
-    made_.light.mirrors = mirrors_of(objects, input, black_);
+    made_.light = reflectors_of(objects, input, layers_, black_);
     names_ = free_names(surfaces_, find_mentions);
   }
 
@@ -311,6 +319,11 @@ class InputMaker {
 };
 
 }  // namespace
+
+ReflectedLight read_reflectors(std::vector<InputObject> const& objects, ShadingInput const& input) {
+  std::vector<std::string> black;
+  return reflectors_of(objects, input, Layers(objects), black);
+}
 
 ReflectedLightInput read_reflected_light(std::vector<InputObject> const& objects,
                                          std::vector<InputObject> const& more,

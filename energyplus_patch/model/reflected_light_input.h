@@ -30,6 +30,9 @@ ReflectedLightInput read_reflected_light(std::vector<InputObject> const& objects
                                          ShadingInput const& input,
                                          MentionFinder const& find_mentions);
 
+// What reflects, for no receivers. Never throws Error.
+ReflectedLight read_reflectors(std::vector<InputObject> const& objects, ShadingInput const& input);
+
 // The receivers' schedules, to be set while EnergyPlus runs.
 std::vector<NewObject> constant_schedules(ReflectedLight const& light);
 

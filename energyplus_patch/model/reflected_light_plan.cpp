@@ -76,9 +76,7 @@ ReflectedLightPlan plan_reflected_light(ReflectingModel const& model, Options co
   if (options.reflections == Reflections::energyplus) {
     if (has_shades) {
       // What reflects, to say by how much the light from the ground is too high.
-      plan.input.light =
-          read_reflected_light(model.objects, model.more, shading, model.find_mentions).light;
-      plan.input.light.receivers.clear();
+      plan.input.light = read_reflectors(model.objects, shading);
       plan.input.light.undimmed = true;
       plan.warnings.emplace_back(
           "Reflections is energyplus: GPUShading objects neither reflect light nor dim that from "

@@ -216,8 +216,8 @@ void warn_of_ground_light(
   std::ranges::stable_sort(shares, std::greater{}, &std::pair<double, SurfaceId>::first);
   constexpr std::size_t max_listed = 3;
   std::vector<SurfaceId> worst;
-  for (auto const& [share, id] : shares) {
-    if (worst.size() < max_listed) worst.push_back(id);
+  for (std::size_t i = 0; i < std::min(max_listed, shares.size()); ++i) {
+    worst.push_back(shares[i].second);
   }
   auto const of_worst = ratios(worst);
   std::vector<std::string> names;

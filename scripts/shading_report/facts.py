@@ -15,7 +15,7 @@ QUANTITIES = (
 )
 # As Results.light has them.
 LIGHT_ON_WINDOWS = ("Sky's light on windows", "Reflected light on windows", "of that without the ground")
-PARTS = ("beam alone", LIGHT_ON_WINDOWS[-1])  # of the quantity before
+PARTS = (QUANTITIES[1][0], LIGHT_ON_WINDOWS[-1])  # of the quantity before
 HOURS = 24
 SAME = 9  # decimals in which the sunlit fractions of equal hours agree
 
