@@ -29,10 +29,10 @@ OUTPUTS = "".join(f"Output:Variable,*,{name},Hourly;\n" for name in (
 WAYS = {"stock": None, "energyplus": "energyplus", "all": "all", "auto": "auto"}
 
 
-def prepared(path, day):
+def prepared(path, day, folder):
     text = path.read_text(errors="replace")
     text = re.sub(r"(?im)^\s*Output:(Variable|Meter|SQLite|Table:[A-Za-z]+)\s*,[^;]*;", "", text)
-    path = Path(tempfile.mkdtemp()) / path.name
+    path = folder / path.name
     path.write_text(text + "\n" + OUTPUTS)
     if day != "design":
         model = input_file.read(path)
@@ -48,7 +48,6 @@ def check_sums(run, name):
                  for step, value in enumerate(values) if surface in parts[2]), default=0.0)
     if worst > 1e-6:
         print(f"{name}: total incident radiation is off by {worst:.2g} W/m2")
-    return worst
 
 
 def sums(run):
@@ -57,38 +56,43 @@ def sums(run):
     return beam, diffuse, sum(map(sum, ground.values())) / 1000 / max(1, len(ground))
 
 
+def balance(name, weather, flags, day, folder):
+    path = prepared(test_models.MODELS / name, day, folder)
+    runs = {}
+    for way, option in WAYS.items():
+        options = ["-D"] if day == "design" else []
+        options += (flags[0].split() if flags else [])
+        prefix = energyplus.official_prefix()
+        if option:
+            prefix = energyplus.patched_prefix()
+            options += ["--gpu-shading", f"--gpu-shading-reflections={option}"]
+        runs[way] = energyplus.run(prefix / "energyplus", path, weather, folder / way, options)
+        if not runs[way].completed:
+            print(f"{name}: {way}: {runs[way].why()}")
+            continue
+        check_sums(runs[way], f"{name}, {way}")
+        if way != "auto":
+            beam, diffuse, ground = sums(runs[way])
+            print(f"{name if way == 'stock' else '':46} {way:10} {beam:10.2f} {diffuse:10.2f} {ground:10.3f}",
+                  flush=True)
+    if runs["energyplus"].completed and runs["auto"].completed:
+        energy, auto = (snapshot(runs[way].folder) for way in ("energyplus", "auto"))
+        other = [file for file in differing(energy, auto) if file.endswith((".eso", ".mtr"))]
+        print(f"{'':46} auto is {'not ' if other else ''}as energyplus")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--day", default="03-21")
     parser.add_argument("models", nargs="*")
     arguments = parser.parse_args()
     rows = [row.split("\t") for row in (test_models.MODELS / "INDEX.tsv").read_text().splitlines() if row]
-    programs = {"stock": energyplus.official_prefix() / "energyplus"}
     print(f"{'model':46} {'':10} {'beam kWh':>10} {'diffuse':>10} {'ground/m2':>10}")
     for name, weather, _, *flags in rows:
         if arguments.models and not any(each in name for each in arguments.models):
             continue
-        path = prepared(test_models.MODELS / name, arguments.day)
-        runs = {}
-        for way, option in WAYS.items():
-            options = ["-D"] if arguments.day == "design" else []
-            options += (flags[0].split() if flags else [])
-            if option:
-                options += ["--gpu-shading", f"--gpu-shading-reflections={option}"]
-            runs[way] = energyplus.run(programs.get(way, energyplus.patched_prefix() / "energyplus"), path,
-                                       energyplus.find_weather(weather), path.parent / way, options)
-            if not runs[way].completed:
-                print(f"{name}: {way}: {runs[way].why()}")
-                continue
-            check_sums(runs[way], f"{name}, {way}")
-            if way != "auto":
-                beam, diffuse, ground = sums(runs[way])
-                print(f"{name if way == 'stock' else '':46} {way:10} {beam:10.2f} {diffuse:10.2f} {ground:10.3f}",
-                      flush=True)
-        if runs["energyplus"].completed and runs["auto"].completed:
-            energy, auto = (snapshot(runs[way].folder) for way in ("energyplus", "auto"))
-            other = [file for file in differing(energy, auto) if file.endswith((".eso", ".mtr"))]
-            print(f"{'':46} auto is {'' if not other else 'not '}as energyplus")
+        with tempfile.TemporaryDirectory() as folder:
+            balance(name, energyplus.find_weather(weather), flags, arguments.day, Path(folder))
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ import pytest
 from eso_file import EsoFile
 from html_page import DARK, Tables, look_at, not_in_tables, number, screenshot
 from PIL import Image
+from reflecting_scenes import BY_SHADES, INCIDENT
 from shading_runs import energyplus, input_file, methods
 from shading_runs.energyplus import Run
 from shading_runs.version import input_version
@@ -25,8 +26,6 @@ QUANTITIES = {
     "Heating": "Zone Air System Sensible Heating Energy",
     "Cooling": "Zone Air System Sensible Cooling Energy",
 }
-BY_SHADES = "GPU Shading Solar Radiation Reflected by Shades Rate per Area"
-INCIDENT = "Surface Outside Face Incident {}Solar Radiation Rate per Area"
 WEST_ZONES = 3  # of which the model has one
 RECEIVERS = 3
 

@@ -22,6 +22,7 @@ from reflecting_scenes import (
     egg_crate,
     louvres,
     reflectances,
+    reflected_of,
     run_days,
     shade,
     street,
@@ -32,7 +33,7 @@ from shading_runs import energyplus
 
 
 @pytest.mark.parametrize("scene", SCENES)
-@pytest.mark.parametrize("reflectance", [0.2, 0.8])
+@pytest.mark.parametrize("reflectance", [0.2, 0.5, 0.8])
 def test_reflected_light_is_radiance_s(patched, weather, tmp_path, box, scene, reflectance):
     """tests/bench/reflected_light.py has more suns and points."""
     if radiance.is_missing():
@@ -49,9 +50,9 @@ def test_reflected_light_is_radiance_s(patched, weather, tmp_path, box, scene, r
     sky = found.their_sky(points)
     print(f"{scene} {reflectance}: sum {sum(found.ours[sun] for sun in suns) / mean / len(suns):.4f}, rms {rms:.4f}, "
           f"sky {found.our_sky:.4f} {sky:.4f}")
-    assert sum(found.ours[sun] for sun in suns) == pytest.approx(mean * len(suns), rel=0.05)
+    assert sum(found.ours[sun] for sun in suns) == pytest.approx(mean * len(suns), rel=0.045)
     assert abs(sum(found.ours[sun] for sun in suns) / len(suns) - mean) < 0.025 * all_light
-    assert rms < 0.06
+    assert rms < 0.05
     assert found.our_sky == pytest.approx(sky, abs=0.03 * (sky + found.sky_direct))
 
 
@@ -63,8 +64,7 @@ def test_sky_by_patch_is_radiance_s(patched, weather, tmp_path, box):
     light = {}
     for sky in ("perez-patches", "energyplus"):
         model, run = run_days(patched, weather, tmp_path, text, f"--gpu-shading-sky={sky}")
-        light[sky] = [sum(each) for each in zip(*(values_of(run, name)[WINDOW] for name in (BY_GROUND, BY_SHADES)),
-                                                strict=True)]
+        light[sky] = reflected_of(run)
     surfaces = radiance.surfaces(patched.parent / "gpu_shading", model)
     differences = []
     for hour in (8, 12, 16):
@@ -75,7 +75,7 @@ def test_sky_by_patch_is_radiance_s(patched, weather, tmp_path, box):
                                          (1, radiance_reflections.perez_sky(sun, 600, 150)))]
         ours = {sky: values[hour] for sky, values in light.items()}
         print(sun, ours, theirs)
-        assert ours["perez-patches"] == pytest.approx(sum(theirs), rel=0.04)  # 2 % of all light
+        assert ours["perez-patches"] == pytest.approx(sum(theirs), rel=0.03)
         differences.append(abs(ours["perez-patches"] - ours["energyplus"]))
     assert max(differences) > 1
 
@@ -130,7 +130,7 @@ def test_a_sheet_dims_light_from_the_ground_by_its_diffuse_transmittance(patched
         if sun[1] >= 40 and 120 < sun[0] < 240:
             ratios.append(light / (1000 * math.sin(math.radians(sun[1])) * 0.2 * 0.5 * diffuse))
     print(ratios)
-    assert ratios == pytest.approx([1.0] * len(ratios), abs=0.05)  # 2 % of all light, of which this is half
+    assert ratios == pytest.approx([1.0] * len(ratios), abs=0.04)  # 2 % of all light, of which this is half
     assert sum(ratios) / len(ratios) == pytest.approx(1.0, abs=0.02)
 
 
@@ -200,7 +200,7 @@ Schedule:Compact,Down,,Through: 12/31,For: AllDays,Until: 12:00,0,Until: 24:00,1
 
 def noons(run, name=WINDOW):
     """Reflected light of the hours before and after noon of a day of constant irradiance."""
-    values = [sum(each) for each in zip(*(values_of(run, part)[name] for part in (BY_GROUND, BY_SHADES)), strict=True)]
+    values = reflected_of(run, name)
     return values[10], values[13]
 
 
