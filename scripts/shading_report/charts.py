@@ -18,6 +18,7 @@ from matplotlib.ticker import NullLocator
 RUN_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#F0E442", "#666666")
 HATCHES = ("", "///", "...", "xxx", "\\\\\\", "---", "|||", "+++")
 MARKS = ("o", "x", "+", "s", "^", "d", "v", "*")
+MOST_TICKS = 12
 IN_ROW = 6  # labels of runs below a chart, at most
 NOT_FACING = "#e4e4e4"
 GRID = {"color": "#d0d0d0", "linewidth": 0.6}
@@ -170,8 +171,8 @@ def histogram(others, description):
     return _svg(figure, description)
 
 
-def months(names, runs, title, description):
-    """Bars of each month, side by side. runs: [(label, kWh by month)]."""
+def bars(names, runs, title, description):
+    """Bars of each period, side by side. runs: [(label, kWh by period)]."""
     rows = -(-len(runs) // IN_ROW)
     figure, axes = _figure(4.6, 2.3 + 0.2 * rows, left=0.7, right=0.1, bottom=0.35 + 0.2 * rows)
     width = 0.8 / len(runs)
@@ -179,8 +180,9 @@ def months(names, runs, title, description):
         positions = np.arange(len(names)) + (number - (len(runs) - 1) / 2) * width
         axes.bar(positions, values, width, color=run_colour(number), hatch=_hatch(number), edgecolor="white",
                  linewidth=0.4, label=label)
-    numbers = [name if len(names) <= 12 else str(position) for position, name in enumerate(names, start=1)]
-    axes.set_xticks(range(len(names)), numbers, fontsize=8)
+    apart = -(-len(names) // MOST_TICKS)
+    labels = names if apart == 1 else [str(position) for position in range(1, len(names) + 1)]
+    axes.set_xticks(range(0, len(names), apart), labels[::apart], fontsize=8)
     axes.yaxis.set_major_formatter(_plain)
     axes.set_ylabel("kWh")
     axes.set_title(title, loc="left", fontsize=9, fontweight="bold")

@@ -12,10 +12,9 @@ QUANTITIES = (
     ("Heating", results.HEATING),
     ("Cooling", results.COOLING),
     ("Lighting", results.LIGHTS),
+    *((kind, kind) for kind in results.LIGHT),
 )
-# As Results.light has them.
-LIGHT_ON_WINDOWS = ("Sky's light on windows", "Reflected light on windows", "of that without the ground")
-PARTS = (QUANTITIES[1][0], LIGHT_ON_WINDOWS[-1])  # of the quantity before
+PARTS = (QUANTITIES[1][0], results.WITHOUT_GROUND)  # of the quantity before
 HOURS = 24
 SAME = 9  # decimals in which the sunlit fractions of equal hours agree
 
@@ -81,35 +80,26 @@ class Amount:
 
 
 def energies(runs, calendar):
-    """[(environment, [Amount of each quantity])] and, for run periods, [(month, [Amount ...])]."""
-    hourly = {variable: [building(run.results, variable) for run in runs] for _, variable in QUANTITIES}
+    """[(environment, [Amount of each quantity])] and, for run periods, [(month, ...)] and [(hour of the day, ...)]."""
+    hourly = {title: [building(run.results, variable) if run.results.values[variable] else None for run in runs]
+              for title, variable in QUANTITIES}
 
     def amounts(positions):
-        return [Amount(title, [float(values[positions].sum()) for values in hourly[variable]])
-                for title, variable in QUANTITIES if any(run.results.values[variable] for run in runs)]
+        return [Amount(title, [None if values is None else float(values[positions].sum()) for values in of_runs])
+                for title, of_runs in hourly.items() if any(values is not None for values in of_runs)]
 
-    def light_of(run, kind, environment, months):
-        found = [sums[kind] for (name, month), sums in run.results.light.items()
-                 if name == environment and month in months and sums[kind] is not None]
-        return sum(found) / results.J_PER_KWH if found else None
-
-    def light(environment, months):
-        found = [Amount(title, [light_of(run, kind, environment, months) for run in runs])
-                 for kind, title in enumerate(LIGHT_ON_WINDOWS)]
-        return [amount for amount in found if any(value is not None for value in amount.values)]
-
-    by_environment, by_month = {}, {}
+    by_environment, by_month, by_hour = {}, {}, {}
     for position in calendar.positions:
         environment, month = calendar.times[position][:2]
         by_environment.setdefault(environment, []).append(position)
         if environment in runs[0].results.weather_periods:
             by_month.setdefault((environment, month), []).append(position)
+            by_hour.setdefault(calendar.row[position], []).append(position)
     several = len({environment for environment, _ in by_month}) > 1
     names = [f"{environment}: {month_name(month)}" if several else month_name(month) for environment, month in by_month]
-    return ([(environment, amounts(positions) + light(environment, range(1, 13)))
-             for environment, positions in by_environment.items()],
-            [(name, amounts(positions) + light(environment, [month]))
-             for name, ((environment, month), positions) in zip(names, by_month.items(), strict=True)])
+    return ([(environment, amounts(positions)) for environment, positions in by_environment.items()],
+            [(name, amounts(positions)) for name, positions in zip(names, by_month.values(), strict=True)],
+            [(f"{hour:02d}–{hour + 1:02d} h", amounts(by_hour[hour])) for hour in sorted(by_hour)])
 
 
 @dataclass

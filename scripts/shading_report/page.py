@@ -145,16 +145,16 @@ def _overall(runs):
     return found
 
 
-def _months(runs, by_month):
-    if not by_month:
-        return []
-    names = [name for name, _ in by_month]
+def _bars(runs, periods, kind):
+    """A chart of each quantity. periods: [(name, [Amount ...])]; kind: month or hour."""
     found = []
-    for number, amount in enumerate(by_month[0][1]):
+    for number, amount in enumerate(periods[0][1] if periods else ()):
         if amount.title in facts.PARTS:
             continue
-        series = [(run.label, [amounts[number].values[i] for _, amounts in by_month]) for i, run in enumerate(runs)]
-        found.append(charts.months(names, series, amount.title, f"{amount.title} by month in each run, kWh"))
+        series = [(run.label, [amounts[number].values[i] or 0.0 for _, amounts in periods])
+                  for i, run in enumerate(runs)]
+        found.append(charts.bars([name for name, _ in periods], series, amount.title,
+                                 f"{amount.title} by {kind} in each run, kWh"))
     return found
 
 
@@ -183,7 +183,7 @@ def _gather(output, everything, weather, most, further):
     buildings, without_building = building.draw(
         runs, weather, {line.receiver.name: (number, line.sunlit[0])
                         for number, line in enumerate(numbered, start=1)})
-    by_environment, by_month = facts.energies(runs, calendar)
+    by_environment, by_month, by_hour = facts.energies(runs, calendar)
     timed = [(run.label, origin.stages(run)) for run in runs]
     return dict(
         model=runs[0].model.name,
@@ -199,8 +199,11 @@ def _gather(output, everything, weather, most, further):
         limit=limit,
         summaries=[results.summary(run.found) for run in runs[1:]],
         environments=by_environment,
+        parts=facts.PARTS,
         months=by_month,
-        month_charts=_months(runs, by_month),
+        month_charts=_bars(runs, by_month, "month"),
+        hours=by_hour,
+        hour_charts=_bars(runs, by_hour, "hour of the day"),
         peaks=facts.peaks(runs, calendar),
         daylight=facts.daylight(runs, calendar),
         lines=lines,

@@ -82,8 +82,8 @@ def _rows(page):
     runs = page["runs"]
     yield from _choice(runs, page)
     yield from _summaries(runs, page["limit"])
-    for section, periods in (("energy", page["environments"]), ("month", page["months"])):
-        for period, amounts in periods:
+    for section, periods in (("energy", "environments"), ("month", "months"), ("hour of the day", "hours")):
+        for period, amounts in page[periods]:
             yield from _amounts(section, period, [(amount.title, amount) for amount in amounts], runs, "kWh")
     for peak in page["peaks"]:
         yield from _amounts("peak", peak.title, [(peak.load, peak)], runs, "kW")

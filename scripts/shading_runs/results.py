@@ -17,11 +17,14 @@ IDEAL_HEATING = "Zone Ideal Loads Zone Total Heating Energy"
 IDEAL_COOLING = "Zone Ideal Loads Zone Total Cooling Energy"
 LIGHTS = "Zone Lights Electricity Energy"
 VARIABLES = (SUNLIT, COSINE, SOLAR, BEAM, HEATING, COOLING, LIGHTS)
-# W/m2 on surfaces: all, and what is not reflected.
+# On surfaces, W/m2: all, and what is not reflected.
 INCIDENT = tuple(f"Surface Outside Face Incident {part}Solar Radiation Rate per Area"
                  for part in ("", "Beam ", "Sky Diffuse "))
 # The part of what is reflected that no ground reflects, of runs in which this module traces it; W/m2.
 BY_SHADES = "GPU Shading Solar Radiation Reflected by Shades Rate per Area"
+# Made of these: energies on windows.
+SKY, REFLECTED, WITHOUT_GROUND = LIGHT = (
+    "Sky's light on windows", "Reflected light on windows", "of that without the ground")
 OF_ZONES = (HEATING, COOLING, LIGHTS)
 # With the number of a reference point; the key is the Daylighting:Controls.
 POINT = "Daylighting Reference Point {} Illuminance"
@@ -55,7 +58,7 @@ def instrument(model, frequency="Hourly"):
         if variable != LIGHTS or points:
             model.add_output_variable(variable, frequency)
     for variable in (*INCIDENT, BY_SHADES):
-        model.add_output_variable(variable, "Monthly")
+        model.add_output_variable(variable, frequency)
     for number in range(1, points + 1):
         model.add_output_variable(POINT.format(number), frequency)
     # At every timestep: an hourly mean of the azimuth is wrong where the sun passes north.
@@ -106,8 +109,7 @@ def mean_direction(directions):
 
 class Results:
     """All values of one run: values[variable][receiver or zone name] is an array over times, and so is
-    illuminance["CONTROLS, point 1"], in lux. light has {(environment, month): (sky, reflected)} on windows, in J with
-    multipliers.
+    illuminance["CONTROLS, point 1"], in lux. The variables of LIGHT are in J.
 
     times are (environment, month, day, hour 1 .. 24, minute) at the end of the hour; multipliers are those of zones;
     steps are those with the sun above the horizon.
@@ -133,18 +135,21 @@ class Results:
         }
         self.multipliers = {name: multiplier * of_list for name, multiplier, of_list in data.execute(
             "SELECT ZoneName, Multiplier, ListMultiplier FROM Zones ORDER BY ZoneIndex")}
+        names = (*VARIABLES, *INCIDENT, BY_SHADES)
         column = {}  # data dictionary index -> (variable, receiver or zone)
         for index, variable, key in data.execute(
             "SELECT ReportDataDictionaryIndex, Name, KeyValue FROM ReportDataDictionary "
-            f"WHERE ReportingFrequency = ? AND Name IN ({','.join('?' * len(VARIABLES))}) "
+            f"WHERE ReportingFrequency = ? AND Name IN ({','.join('?' * len(names))}) "
             "ORDER BY ReportDataDictionaryIndex DESC",
-            (frequency, *VARIABLES),
+            (frequency, *names),
         ):
             column[index] = (variable, key)
-        self.values = {variable: {} for variable in VARIABLES}
+        windows = {key for variable, key in column.values() if variable == SOLAR}
+        self.values = {variable: {} for variable in names}
         target = {}
         for index, (variable, key) in column.items():
-            if key in (self.multipliers if variable in OF_ZONES else self.receivers):
+            known = self.multipliers if variable in OF_ZONES else self.receivers if variable in VARIABLES else windows
+            if key in known:
                 # A model that asks for the same output itself has it twice; the later entry replaces the earlier.
                 target[index] = self.values[variable][key] = array("d")
         self.illuminance = {}
@@ -189,34 +194,19 @@ class Results:
             directions.setdefault((name, month, day, hour + (minute > 0)), []).append((azimuth, altitude))
             if altitude > 0.0:
                 self.steps.append(Step(name, interval / 60.0, azimuth, altitude, beam, values.get(time_index, {})))
-        self.light = self._light_on_windows(data, environments, [60.0 * rows[i][6] for i in time_indices])
+        self._add_light([60.0 * rows[i][6] for i in time_indices])
         self.sun = {when: mean_direction(found) for when, found in directions.items()}
 
-    def _light_on_windows(self, data, environments, lengths):
-        """{(environment, month): [of the sky, reflected, reflected without the ground or None]}, J."""
-        seconds = {}  # of the days that a month's means are of
-        for (environment, month, *_), length, is_warmup in zip(self.times, lengths, self.is_warmup, strict=True):
-            seconds[environment, month] = seconds.get((environment, month), 0.0) + (0.0 if is_warmup else length)
-        means = {}
-        for time_index, name, key, value in data.execute(
-            "SELECT TimeIndex, Name, KeyValue, Value FROM ReportData JOIN ReportDataDictionary USING "
-            "(ReportDataDictionaryIndex) WHERE ReportingFrequency = 'Monthly' AND Name IN (?, ?, ?, ?)",
-            (*INCIDENT, BY_SHADES),
-        ):
-            if key in self.values[SOLAR]:
-                means.setdefault((time_index, key), {})[name] = value
-        months = {row[0]: (environments.get(row[1], ("?",))[0], row[2]) for row in data.execute(
-            "SELECT TimeIndex, EnvironmentPeriodIndex, Month FROM Time")}
-        light = {}
-        for (time_index, key), mean in means.items():
-            total, beam, sky = (mean.get(name, 0.0) for name in INCIDENT)
-            weight = self.receivers[key].area * self.multiplier(SOLAR, key) * seconds.get(months[time_index], 0.0)
-            sums = light.setdefault(months[time_index], [0.0, 0.0, None])
-            sums[0] += weight * sky
-            sums[1] += weight * (total - beam - sky)
-            if BY_SHADES in mean:
-                sums[2] = (sums[2] or 0.0) + weight * mean[BY_SHADES]
-        return light
+    def _add_light(self, seconds):
+        """Puts the variables of LIGHT in the place of those that they are made of."""
+        total, beam, sky, by_shades = (self.values.pop(name) for name in (*INCIDENT, BY_SHADES))
+        all_reflected = {key: [a - b - c for a, b, c in zip(total[key], beam[key], sky[key], strict=True)]
+                         for key in total.keys() & beam.keys() & sky.keys()}
+        for kind, rates in zip(LIGHT, (sky, all_reflected, by_shades), strict=True):
+            self.values[kind] = {
+                key: array("d", (self.receivers[key].area * rate * length
+                                 for rate, length in zip(of_window, seconds, strict=True)))
+                for key, of_window in sorted(rates.items())}
 
     def sun_up(self, receiver):
         """Indices of the times when the sun faces the receiver."""

@@ -26,6 +26,7 @@ QUANTITIES = {
     "Heating": "Zone Air System Sensible Heating Energy",
     "Cooling": "Zone Air System Sensible Cooling Energy",
 }
+LIGHT = ("Sky's light on windows", "Reflected light on windows", "of that without the ground")
 WEST_ZONES = 3  # of which the model has one
 RECEIVERS = 3
 
@@ -121,8 +122,7 @@ def hourly_sum(eso, variable):
 
 def test_energies_are_those_reported(page, reported):
     rows = {row[1]: list(map(number, row[2:])) for row in page.tables["table-energy"][1:]}
-    assert list(rows) == [*QUANTITIES, "Sky's light on windows", "Reflected light on windows",
-                          "of that without the ground"]
+    assert list(rows) == [*QUANTITIES, *LIGHT]
     for quantity, variable in QUANTITIES.items():
         before, after = (sum(hourly_sum(eso, variable).values()) for eso in reported)
         assert rows[quantity][:2] == pytest.approx([before, after], abs=ENERGY)
@@ -134,7 +134,7 @@ def test_energies_are_those_reported(page, reported):
 
 def test_light_on_windows_is_that_reported(page, variants, reported):
     rows = {row[1]: list(map(number, row[2:4])) for row in page.tables["table-energy"][1:]
-            if row[1] in ("Sky's light on windows", "Reflected light on windows")}
+            if row[1] in LIGHT[:2]}
     for run, eso in enumerate(reported):
         with sqlite3.connect(variants / "ab"[run] / "eplusout.sql") as data:
             areas = dict(data.execute("SELECT SurfaceName, Area FROM Surfaces"))
@@ -161,6 +161,28 @@ def test_months_are_those_reported(page, reported):
             before, after = (sum(value for when, value in hourly_sum(eso, variable).items() if when[0] == month)
                              for eso in reported)
             assert rows[name] == pytest.approx([before, after, after - before], abs=ENERGY), quantity
+
+
+def test_hours_are_those_reported(page, reported):
+    tables = page.tables
+    for number_of, (quantity, variable) in enumerate(QUANTITIES.items(), start=1):
+        rows = {row[0]: list(map(number, row[1:])) for row in tables[f"table-hours-{number_of}"][1:]}
+        assert len(rows) == 24
+        for hour, (name, found) in enumerate(rows.items(), start=1):
+            assert name == f"{hour - 1:02d}–{hour:02d} h"
+            before, after = (sum(value for when, value in hourly_sum(eso, variable).items() if when[2] == hour)
+                             for eso in reported)
+            assert found == pytest.approx([before, after, after - before], abs=ENERGY), (quantity, name)
+    # The same light as of whole periods.
+    whole = {row[1]: row[2:4] for row in tables["table-energy"][1:]}
+    for number_of, quantity in enumerate(LIGHT, start=len(QUANTITIES) + 1):
+        rows = [row[1:3] for row in tables[f"table-hours-{number_of}"][1:]]
+        for run in (0, 1):
+            values = [row[run] for row in rows]
+            if not whole[quantity][run].strip("–"):
+                assert not "".join(values).strip("–")
+                continue
+            assert sum(map(number, values)) == pytest.approx(number(whole[quantity][run]), abs=24 * ENERGY)
 
 
 def test_peaks_are_the_largest_hours_reported(page, reported):
@@ -265,11 +287,12 @@ def test_the_page_in_a_browser(variants, tmp_path, width, options):
     assert len(seen["texts"]) > 300
     assert not_in_tables(seen["texts"], [variants / f"{name}.csv" for name in ("report", "receivers", "hourly")]) == []
     assert seen["width"] == width
-    assert seen["folded"] == RECEIVERS - 1
+    assert seen["folded"] == RECEIVERS - 1 + 1  # and the hours of the day
     assert seen["wide"] <= width
     assert seen["outside"] == [] and seen["scrolled"] == []
-    # Two of all receivers, five of months, one of seconds; of each receiver three maps, scatter and histogram.
-    assert len(seen["charts"]) == 2 + 5 + 1 + 5 * RECEIVERS
+    # Two of all receivers, five of months, five of hours, one of seconds; of each receiver three maps, scatter and
+    # histogram.
+    assert len(seen["charts"]) == 2 + 5 + 5 + 1 + 5 * RECEIVERS
     for label, marks, chart_width in seen["charts"]:
         assert marks >= 3, label
         assert 150 < chart_width <= width, label
