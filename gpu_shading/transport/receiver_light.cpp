@@ -29,7 +29,7 @@ struct Grid {
   double step;  // degrees
 };
 
-constexpr std::array<Grid, 3> grids{{{9, 7.5}, {25, 3.75}, {49, 1.875}}};
+constexpr std::array<Grid, 4> grids{{{9, 7.5}, {17, 5.0}, {25, 3.75}, {49, 1.875}}};
 
 SunTable table_of(double latitude, Grid const& grid) {
   return {latitude, grid.declinations, glm::radians(grid.step)};
