@@ -4,7 +4,7 @@
     light_balance.py [--day MM-DD] [MODEL ...]
 
 A line for each model, of a day of its weather file (or of its design days, with --day design): kWh through all windows
-of the beam and of diffuse light, and what exterior surfaces get from the ground, kWh/m2, by stock EnergyPlus, by
+of the beam and of diffuse light, and what a window gets from the ground, kWh/m2, in the mean, by stock EnergyPlus, by
 --gpu-shading-reflections=energyplus and by =all. Checked, at each timestep of each run: total incident radiation is
 beam, sky and ground; and models without objects of this module run as by =energyplus with =auto, to the digit.
 """
@@ -51,9 +51,11 @@ def check_sums(run, name):
 
 
 def sums(run):
-    beam, diffuse = (sum(map(sum, values_of(run, name).values())) / 1000 for name in TRANSMITTED)
+    beams, diffuse = (values_of(run, name) for name in TRANSMITTED)
     ground = values_of(run, INCIDENT.format(PARTS[2]))
-    return beam, diffuse, sum(map(sum, ground.values())) / 1000 / max(1, len(ground))
+    of_windows = [sum(ground[window]) / 1000 for window in beams]
+    return (sum(map(sum, beams.values())) / 1000, sum(map(sum, diffuse.values())) / 1000,
+            sum(of_windows) / max(1, len(of_windows)))
 
 
 def balance(name, weather, flags, day, folder):

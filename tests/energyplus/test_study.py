@@ -31,6 +31,19 @@ set = {{ "Schedule:Constant/cooling*/Hourly Value" = 22 }}
 name = "bare"
 remove = ["Shading:Building:Detailed"]
 """
+REFLECTING = """
+models = "model.idf"
+weather = "{weather}"
+options = {{ error = 0.01, update = "timestep", reflections = "all" }}
+
+[[variant]]
+name = "dark"
+
+[[variant]]
+name = "bright"
+set = {{ "ShadingProperty:Reflectance/*/Diffuse Solar Reflectance of Unglazed Part of Shading Surface" = 0.9 }}
+"""
+SOLAR = "Enclosure Windows Total Transmitted Solar Radiation Energy"
 
 
 @pytest.fixture(scope="module")
@@ -105,15 +118,14 @@ def test_numbers_are_those_of_runs(gs, place, reference, weather, tmp_path):
     """Read from the SQLite file there, and from eplusout.eso here."""
     found = rows(reference)
     assert list(found) == [f"b{number}/in/{variant}" for number in (1, 2) for variant in ("plain", "cool", "bare")]
-    solar, cooling = ("Enclosure Windows Total Transmitted Solar Radiation Energy",
-                      "Zone Ideal Loads Supply Air Total Cooling Energy")
+    cooling = "Zone Ideal Loads Supply Air Total Cooling Energy"
     text = (place / "buildings" / "b2" / "in.idf").read_text()
     (tmp_path / "model.idf").write_text(
         text.replace("Cooling Setpoint,Temperature,26", "Cooling Setpoint,Temperature,22") +
-        "".join(f"Output:Variable,*,{name},RunPeriod;\n" for name in (solar, cooling)))
+        "".join(f"Output:Variable,*,{name},RunPeriod;\n" for name in (SOLAR, cooling)))
     run = gs.run(tmp_path / "model.idf", weather, tmp_path / "out", error=0.01, update="timestep")
     row = found["b2/in/cool"]
-    assert float(row["Transmitted Solar [kWh]"]) == pytest.approx(run.values(solar)["BOX"][-1] / 3.6e6, rel=1e-6)
+    assert float(row["Transmitted Solar [kWh]"]) == pytest.approx(run.values(SOLAR)["BOX"][-1] / 3.6e6, rel=1e-6)
     (energy,) = run.values(cooling).values()
     assert energy[-1] > 1e6
     # Tables have two decimals.
@@ -130,6 +142,24 @@ def test_runs_of_one_scene_share_its_shading(reference):
         assert cool["Transmitted Solar [kWh]"] == plain["Transmitted Solar [kWh]"]
         assert float(bare["Transmitted Solar [kWh]"]) > float(plain["Transmitted Solar [kWh]"])
     assert len({row["scene"] for row in found.values()}) == 3  # without louvres, both are one box
+
+
+def test_reflected_light_of_variants_is_that_of_runs(gs, place, weather, tmp_path):
+    """Louvres of two reflectances are one scene, whose beam is rendered once."""
+    text = (place / "buildings" / "b2" / "in.idf").read_text()
+    white = "ShadingProperty:Reflectance,Louvre 1,{},0.2,0;\n"
+    assert "Louvre 1" in text
+    (tmp_path / "model.idf").write_text(text + white.format(0.2))
+    (tmp_path / "plan.toml").write_text(REFLECTING.format(weather=weather))
+    Command(tmp_path, "out", "--workers", "1").finish()
+    dark, bright = found = [rows(tmp_path / "out")[f"model/{name}"] for name in ("dark", "bright")]
+    assert dark["scene"] == bright["scene"] and bright["directions rendered"] == "0"
+    for row, reflectance in zip(found, (0.2, 0.9), strict=True):
+        model = tmp_path / f"{reflectance}.idf"
+        model.write_text(text + white.format(reflectance) + f"Output:Variable,*,{SOLAR},RunPeriod;\n")
+        run = gs.run(model, weather, tmp_path / str(reflectance), error=0.01, update="timestep", reflections="all")
+        assert float(row["Transmitted Solar [kWh]"]) == pytest.approx(run.values(SOLAR)["BOX"][-1] / 3.6e6, rel=1e-6)
+    assert float(bright["Transmitted Solar [kWh]"]) > 1.001 * float(dark["Transmitted Solar [kWh]"])
 
 
 def test_all_scenes_are_checked_before_runs(reference):

@@ -233,22 +233,23 @@ def _time(row: tuple[Any, ...], zone: datetime.tzinfo) -> datetime.datetime:
 def run(model: _programs.Name, weather: _programs.Name, folder: _programs.Name | None = None, *,
         shading: bool = True, error: float | None = None, resolution: int | None = None, update: str | None = None,
         device: str | None = None, extensions: _programs.Name | None = None, threads: int | None = None,
-        pv: Sequence[Power] | None = None, report: bool = False, arguments: Sequence[str] = ()) -> Run:
+        sky: str | None = None, reflections: str | None = None, pv: Sequence[Power] | None = None,
+        report: bool = False, arguments: Sequence[str] = ()) -> Run:
     """Runs `energyplus --gpu-shading` on an IDF or epJSON file with an EPW file.
 
     `folder`: the output folder, new or empty; if None, a new one among the temporary files. `shading`: False for
     EnergyPlus's own polygon clipping. Options of the renderer, as the flags `--gpu-shading-error` and so on: `error` or
-    `resolution`, `update`, `device`, a side file of `extensions`, and the number of `threads`. `pv`: the power() of
-    modules, whose loss by partly shaded cells is taken from the sunlit fractions of their surfaces, so that
-    EnergyPlus's generators have it. `report`: writes the run's page and tables into the folder's folder "report", for
-    Run.light(). `arguments`: more for EnergyPlus, such as ["-D"]. A run that does not complete
+    `resolution`, `update`, `device`, a side file of `extensions`, the number of `threads`, `sky`, and `reflections`.
+    `pv`: the power() of modules, whose loss by partly shaded cells is taken from the sunlit fractions of their
+    surfaces, so that EnergyPlus's generators have it. `report`: writes the run's page and tables into the folder's
+    folder "report", for Run.light(). `arguments`: more for EnergyPlus, such as ["-D"]. A run that does not complete
     raises RunError with EnergyPlus's reason.
     """
     program = _programs.prefix() / "energyplus"
     flags = ["--gpu-shading" if shading else "--gpu-shading=off"]
     for name, value in (("error", error), ("resolution", resolution), ("update", update), ("device", device),
                         ("file", None if extensions is None else _programs.file(extensions, "extensions")),
-                        ("threads", threads)):
+                        ("threads", threads), ("sky", sky), ("reflections", reflections)):
         if value is not None:
             flags.append(f"--gpu-shading-{name}={value}")
     inputs = [_programs.file(weather, "weather"), _programs.file(model, "model")]

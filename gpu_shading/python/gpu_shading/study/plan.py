@@ -20,8 +20,8 @@ from gpu_shading.errors import InvalidInput
 from gpu_shading.study import inputs
 from gpu_shading.study.find_models import find_models
 
-OPTIONS = ("error", "resolution", "update", "device", "threads", "lean", "method", "assets", "cache", "cache-size",
-           "cache-read-only")
+OPTIONS = ("error", "resolution", "update", "device", "threads", "sky", "reflections", "surroundings", "lean", "method",
+           "assets", "cache", "cache-size", "cache-read-only")
 LARGEST = {"shards": 1000, "limit": 1e7, "tries": 100, "workers": 10_000}
 MAX_RUNS = 1_000_000
 _JOBQUEUES = ("slurm", "pbs", "lsf")
