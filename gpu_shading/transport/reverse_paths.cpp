@@ -34,21 +34,27 @@ class Path {
   // Independent numbers for what Sobol's points have no dimension.
   double random() { return random_at(key_ ^ ++drawn_ * 0xd1342543de82ef95U); }
 
-  // Perforated sheets let a ray pass, or stop it by their solid part, by chance.
-  Segment follow(Ray ray) {
+  // Perforated sheets let a ray pass, or stop it by their solid part, by chance. Except for the
+  // first, where `at_sheet` is given: that gets what it stops, and the rest passes. Behind a dense
+  // one, few rays would see what is beyond.
+  Segment follow(Ray ray, std::optional<Segment>* at_sheet = nullptr) {
     bool const meets_ground =
         scene_.ground && ray.direction.z < 0.0 && ray.origin.z > scene_.ground->height;
     if (meets_ground) ray.length = (scene_.ground->height - ray.origin.z) / ray.direction.z;
     Segment segment;
     for (auto const& layer : scene_.rays.layers(ray, conditions_)) {
       bool const has_holes = scene_.scene[layer.surface].filter.find<PerforatedSheet>() != nullptr;
+      auto const stopped = [&](double share) {
+        return Segment{Segment::End::surface, layer.surface,
+                       ray.origin + layer.distance * ray.direction, share * segment.passed};
+      };
       if (layer.transmittance > 0.0 && !has_holes) {
         segment.passed *= layer.transmittance;
+      } else if (layer.transmittance > 0.0 && at_sheet != nullptr && !*at_sheet) {
+        *at_sheet = stopped(1.0 - layer.transmittance);
+        segment.passed *= layer.transmittance;
       } else if (layer.transmittance <= 0.0 || random() >= layer.transmittance) {
-        segment.end = Segment::End::surface;
-        segment.surface = layer.surface;
-        segment.point = ray.origin + layer.distance * ray.direction;
-        return segment;
+        return stopped(1.0);
       }
     }
     if (meets_ground) {
@@ -129,6 +135,63 @@ glm::dvec3 ReceiverPoints::at(double u, double v) const {
   return a + side * ((1.0 - v) * (b - a) + v * (c - a));
 }
 
+namespace {
+
+// What is the same for all paths from a receiver.
+struct PathRequest {
+  TransportScene const& scene;
+  SobolPoints const& points;
+  std::uint32_t seed;
+};
+
+// From the end of its first segment. `path`: whose numbers it takes.
+void trace_path(PathRequest const& request, Path& onwards, std::size_t point, Ray ray,
+                Segment segment, ReversePaths& paths) {
+  auto const coordinate = [&](std::size_t dimension) {
+    return request.points.at(point, dimension, request.seed);
+  };
+  double weight = 1.0;
+  int by_ground = 0;
+  std::size_t step = 0;  // of the reflections that are not a mirror's
+  for (int bounce = 0; bounce < most_bounces; ++bounce) {
+    if (bounce > 0) {
+      segment = onwards.follow(ray);
+      ++paths.rays;
+    }
+    weight *= segment.passed;
+    if (segment.end == Segment::End::sky) {
+      (bounce == 0 ? paths.sky_direct : part_of(paths.sky, by_ground)) += weight;
+    }
+    if (segment.end != Segment::End::ground && segment.end != Segment::End::surface) return;
+    auto const reflection = reflect(request.scene, segment, ray.direction);
+    auto const& normal = reflection.normal;
+    std::optional<SurfaceId> surface;
+    if (segment.end == Segment::End::surface) surface = segment.surface;
+    if (reflection.mirrored > 0.0 && onwards.random() < reflection.mirrored) {
+      ray = {segment.point, ray.direction - 2.0 * glm::dot(ray.direction, normal) * normal};
+      ray.from = surface;
+      continue;
+    }
+    double const reflectance = reflection.reflectance / (1.0 - reflection.mirrored);
+    if (weight * reflectance <= 0.0) return;
+    if (reflection.is_ground) ++by_ground;
+    paths.hits.push_back({segment.point, normal, weight * reflectance, surface, by_ground});
+    bool const by_sobol = step < path_bounces_by_sobol;
+    if (by_sobol) {
+      weight *= reflectance;
+    } else if (onwards.random() >= reflectance) {
+      return;
+    }
+    double const u = by_sobol ? coordinate(4 + 2 * step) : onwards.random();
+    double const v = by_sobol ? coordinate(5 + 2 * step) : onwards.random();
+    ++step;
+    ray = {segment.point, cosine_direction(normal, u, v)};
+    ray.from = surface;
+  }
+}
+
+}  // namespace
+
 ReversePaths trace_paths(TransportScene const& scene, SurfaceId receiver,
                          ReceiverPoints const& places, SobolPoints const& points,
                          std::uint32_t seed, RayConditions const& conditions) {
@@ -145,41 +208,11 @@ ReversePaths trace_paths(TransportScene const& scene, SurfaceId receiver,
     Ray ray{places.at(coordinate(0), coordinate(1)),
             cosine_direction(places.normal(), coordinate(2), coordinate(3))};
     ray.from = receiver;
-    double weight = 1.0;
-    int by_ground = 0;
-    std::size_t step = 0;  // of the reflections that are not a mirror's
-    for (int bounce = 0; bounce < most_bounces; ++bounce) {
-      auto const segment = (bounce == 0 ? from_receiver : onwards).follow(ray);
-      ++paths.rays;
-      weight *= segment.passed;
-      if (segment.end == Segment::End::sky) {
-        (bounce == 0 ? paths.sky_direct : part_of(paths.sky, by_ground)) += weight;
-      }
-      if (segment.end != Segment::End::ground && segment.end != Segment::End::surface) break;
-      auto const reflection = reflect(scene, segment, ray.direction);
-      auto const& normal = reflection.normal;
-      std::optional<SurfaceId> surface;
-      if (segment.end == Segment::End::surface) surface = segment.surface;
-      if (reflection.mirrored > 0.0 && onwards.random() < reflection.mirrored) {
-        ray = {segment.point, ray.direction - 2.0 * glm::dot(ray.direction, normal) * normal};
-        ray.from = surface;
-        continue;
-      }
-      double const reflectance = reflection.reflectance / (1.0 - reflection.mirrored);
-      if (weight * reflectance <= 0.0) break;
-      if (reflection.is_ground) ++by_ground;
-      paths.hits.push_back({segment.point, normal, weight * reflectance, surface, by_ground});
-      bool const by_sobol = step < path_bounces_by_sobol;
-      if (by_sobol) {
-        weight *= reflectance;
-      } else if (onwards.random() >= reflectance) {
-        break;
-      }
-      double const u = by_sobol ? coordinate(4 + 2 * step) : onwards.random();
-      double const v = by_sobol ? coordinate(5 + 2 * step) : onwards.random();
-      ++step;
-      ray = {segment.point, cosine_direction(normal, u, v)};
-      ray.from = surface;
+    std::optional<Segment> at_sheet;
+    auto const segment = from_receiver.follow(ray, &at_sheet);
+    ++paths.rays;
+    for (auto const& end : {std::optional(segment), at_sheet}) {
+      if (end) trace_path({scene, points, seed}, onwards, i, ray, *end, paths);
     }
   }
   double const share = 1.0 / static_cast<double>(points.count());

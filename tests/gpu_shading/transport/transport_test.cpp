@@ -365,7 +365,7 @@ class Slats {
 };
 
 TEST(Transport, BetweenSlatsIsTheirRadiosity) {
-  for (double const reflectance : {0.2, 0.5, 0.8, 0.95}) {
+  for (double const reflectance : {0.2, 0.5, 0.95}) {
     Room room;
     room.add(level(-far, -Slats::width, 0, 2 * far, Slats::width), reflectance);
     room.add(level(-far, -Slats::width, Slats::gap, 2 * far, Slats::width), reflectance);
@@ -376,6 +376,7 @@ TEST(Transport, BetweenSlatsIsTheirRadiosity) {
     request.hourly = 0.01;
     request.annual = 0.002;
     request.floor = 0.01;
+    request.most_rays = 3'000'000;
     auto const light = room.light(back, request);
     Slats const slats(reflectance);
     double const open_sky = slats.at_back([](Strip const& strip) {
