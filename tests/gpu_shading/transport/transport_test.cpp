@@ -216,6 +216,25 @@ TEST(Transport, BetweenASheetAndTheGroundIsAGeometricSeries) {
   }
 }
 
+// By chance, one path in 25 would pass, and the sky's light be 10 % off.
+TEST(Transport, DenseSheetLeavesLittleToChance) {
+  Room room;
+  auto const screen = std::make_shared<PerforatedScreen const>(
+      HolePattern({.hole = Hole::Round, .size = 2 * mm, .pitch = 9 * mm}), Sheet{});
+  double const open = screen->open_fraction();
+  ASSERT_NEAR(open, 0.04, 0.02);
+  BeamFilter filter;
+  filter.set(PerforatedSheet{screen});
+  room.add(south_facing(-far, -0.1, -far, 2 * far, 2 * far), 0.0, Casting::always, filter);
+  auto const window = room.add_receiver(south_facing(-0.5, 0, 0, 1, 1));
+  auto const hours = clear_hours();
+  auto const light = room.light(window, request_for(hours), ReflectingGround{-1.0, 0.2});
+  EXPECT_NEAR(light.sky_direct, 0.5 * open, 0.01 * 0.5 * open);
+  // The ground beyond sees half of the sky, and the other half through the sheet.
+  double const by_ground = 0.2 * 0.5 * (1.0 + open) * 0.5 * open;
+  EXPECT_NEAR(light.sky.sum(), by_ground, 0.02 * by_ground);
+}
+
 struct Off {
   double hourly = 0.0;  // rms by energy
   double annual = 0.0;
