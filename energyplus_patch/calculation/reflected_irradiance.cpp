@@ -225,7 +225,7 @@ std::vector<ReflectedIrradiance::WeightedState> ReflectedIrradiance::states(
 std::vector<Transported> ReflectedIrradiance::trace(State const& state) const {
   auto const hours = ordinary_year(latitude_);
   std::vector<glm::dvec3> patches;
-  if (has_sky_patches()) patches = patch_directions();
+  if (scene_.model().options.weighs_sky_patches()) patches = patch_directions();
   TransportRequest const request{.latitude = latitude_, .hours = hours, .lights = patches};
   std::span const schedules(state.schedules);
   auto const factors = scene_.optics().factors().size();
@@ -233,7 +233,7 @@ std::vector<Transported> ReflectedIrradiance::trace(State const& state) const {
       scene_, state.positions,
       {.factors = schedules.first(factors), .deployments = schedules.subspan(factors)},
       {ids_, traced_ground_, request});
-  if (has_sky_patches()) std::ranges::for_each(tables, weigh_patches);
+  if (scene_.model().options.weighs_sky_patches()) std::ranges::for_each(tables, weigh_patches);
   return tables;
 }
 
@@ -253,7 +253,8 @@ std::vector<Reflected> ReflectedIrradiance::at(Time const& time,
   double const ratio = ground / traced_ground_;
   auto const sun = to_hour_direction(to_direction(weather.towards_sun), latitude_);
   std::vector<double> radiances;
-  if (has_sky_patches() && weather.diffuse > 0.0) radiances = perez_radiances(weather);
+  if (scene_.model().options.weighs_sky_patches() && weather.diffuse > 0.0)
+    radiances = perez_radiances(weather);
   std::vector<Reflected> all(at_.size());
   for (auto const& [state, weight] : states(moment, corners)) {
     auto const& tables = traced(state);

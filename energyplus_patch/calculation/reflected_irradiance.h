@@ -69,7 +69,6 @@ class ReflectedIrradiance {
   std::vector<Transported> const& traced(State const& state);
   std::vector<Transported> trace(State const& state) const;
   void list(std::vector<Transported> const& tables) const;
-  bool has_sky_patches() const { return scene_.model().options.sky == SkyModel::perez_patches; }
 
   SceneAssembly const& scene_;
   double latitude_;

@@ -99,7 +99,7 @@ void Session::start(Simulation simulation) {
     step_error_.emplace();
     add_outputs(simulation);
   }
-  if (weighs_sky_patches()) {
+  if (scene_.model().options.weighs_sky_patches()) {
     if (!simulation.takes_sky_multipliers) {
       throw Error(
           "--gpu-shading-sky: perez-patches needs --gpu-shading-method patched, which this "

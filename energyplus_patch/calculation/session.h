@@ -83,10 +83,8 @@ class Session : public ShadingCalculation {
     return scene_.optics().has_schedules() || scene_.hides_moving_shades();
   }
 
-  // Whether sky_multipliers() are wanted in place of EnergyPlus's own.
-  bool weighs_sky_patches() const { return scene_.model().options.sky == SkyModel::perez_patches; }
-  // SkyMultipliers::at() with the shades as they are now, by EnergyPlus's id; negative for
-  // placeholders.
+  // For Options::weighs_sky_patches(): SkyMultipliers::at() with the shades as they are now, by
+  // EnergyPlus's id; negative for placeholders.
   std::vector<double> sky_multipliers(SkyWeather const& weather);
 
   // Whether the model's receivers of reflected light get all of it from here.

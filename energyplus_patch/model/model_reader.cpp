@@ -239,7 +239,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
     if (!model.surroundings.empty()) ensure_placeholders(model.lean, model.shading);
     prepare_for_moving_shades(model);
     for (auto const& modules : model.pv_modules) model.remarks.push_back(modules.describe());
-    if (model.options.sky == SkyModel::perez_patches) model.options.update.every_timestep = true;
+    if (model.options.weighs_sky_patches()) model.options.update.every_timestep = true;
     if (choices.pv) {
       model.pv_reductions = read_pv_reductions(*choices.pv, objects, model.shading);
       model.options.update.every_timestep = true;

@@ -145,6 +145,9 @@ struct Options {
   std::optional<CacheFolder> cache = std::nullopt;
   std::optional<std::filesystem::path> stages = std::nullopt;
   bool verbose = false;
+
+  // Whether the sky's light is weighed by its patches, in place of EnergyPlus's own terms.
+  bool weighs_sky_patches() const { return sky == SkyModel::perez_patches; }
 };
 
 // Precedence: `choices` (command line, then environment), GPUShading:Settings, the model's Pixel

@@ -104,9 +104,9 @@ void weigh_sky_patches(State& state, Session& session) {
 // The sky's diffuse irradiance at a timestep with the sun up.
 void sky_view_factors(State& state) {
   original_sky_view_factors(state);
-  auto* const session = this_run().session;
-  if (session == nullptr || !session->weighs_sky_patches()) return;
-  guarded([&] { weigh_sky_patches(state, *session); });
+  auto& run = this_run();
+  if (run.session == nullptr || !run.model->options.weighs_sky_patches()) return;
+  guarded([&] { weigh_sky_patches(state, *run.session); });
 }
 
 // Shading of the sky for the whole simulation.
