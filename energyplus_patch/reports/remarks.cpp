@@ -91,7 +91,9 @@ void warn_of_uncertain_receivers(SunQuestions const& answers, Messages const& me
     messages.warning(fmt::format("sunlit fractions may miss the target error {}: {}; see {}", why,
                                  listed(names, max_listed), "docs/explanation/limits.md"));
   };
-  warn(found.behind_layers, "behind two parallel layers of blades at different distances");
+  // The CPU measures errors there.
+  if (!answers.rendered().renderer().device().id.is_cpu())
+    warn(found.behind_layers, "behind two parallel layers of blades at different distances");
   warn(found.narrow, "where less than a fifth of a bounding rectangle is filled, behind a screen");
 }
 

@@ -100,6 +100,11 @@ std::optional<double> slope_along(SampledRepeats const& blades, PlaneFrame const
       blades.found, {}, [](Repeat const& each) { return glm::dot(each.edge, each.edge); });
   glm::dvec2 edge = glm::normalize(slid(longest->edge));
   if (edge.x < 0.0) edge = -edge;
+  constexpr double parallel = 0.02;
+  bool const all_parallel = std::ranges::all_of(blades.found, [&](Repeat const& each) {
+    return std::abs(cross(glm::normalize(slid(each.edge)), edge)) <= parallel;
+  });
+  if (!all_parallel) return std::nullopt;
   std::vector<double> distances;
   distances.reserve(blades.found.size());
   for (Repeat const& each : blades.found)

@@ -267,8 +267,13 @@ void QuestionBatch::enqueue(Asked const& asked, Found found, std::vector<Receive
   if (found.crowd_count > 0.0) {
     view.crowd = &parts_.casters;
     view.crowd_count = found.crowd_count;
-    view.grid = found.grid;
     view.is_window = seen.is_window;
+  }
+  TileSize const& size = parts_.receivers.size();
+  view.grid = found.grid;
+  if (!size.is_fixed() && !parts_.backend.samples_pixels()) {
+    view.turned = parts_.receivers.turned(view.receiver);
+    view.max_error = size.error();
   }
   Tile& tile = parts_.receivers.tile(view.receiver, found.side, found.lay);
   view.tile = &tile;

@@ -48,6 +48,8 @@ struct Receiver {
   std::list<std::vector<RelativePolygon>> seen_through;
   // Tiles created so far, by requested resolution, slope and stretch.
   std::map<std::tuple<int, double, double>, Tile> tiles;
+  // Its outline at the slopes of replicates, once asked for.
+  std::vector<Tile> turned;
 };
 
 // The surfaces of a scene as receivers; scene and casters must outlive it. Their tiles are created
@@ -86,6 +88,8 @@ class Receivers {
   double error_on_rectangle(Receiver const& receiver) const;
   // The address is valid until forget_many().
   Tile& tile(SurfaceId id, int side, TileLay const& lay);
+  // Its outline at the slopes of replicates.
+  std::span<Tile const> turned(SurfaceId id);
   // Tiles that are turned along blades may be as many as directions, and lists of interior surfaces
   // as many as questions.
   void forget_many();

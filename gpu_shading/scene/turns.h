@@ -15,6 +15,11 @@ inline constexpr double golden = 0.61803398874989484820;
 inline constexpr std::array turn_slopes{golden, -golden, golden* golden, -golden* golden};
 inline constexpr std::size_t turns = turn_slopes.size();
 
+// Slopes of several turns, along the rows of at most one of which an edge lies.
+inline constexpr std::size_t replicates_at_once = 3;
+inline constexpr std::array<double, replicates_at_once> replicate_slopes{golden, -golden,
+                                                                         1.0 / golden};
+
 // How much an edge is in step with the samples, by turn: 1 along a row or a column, less along
 // samples that are further apart, (1, 1) to (2, 1), and 0 where it meets them evenly. `edge`: in
 // lengths of the receiver's sides.

@@ -78,6 +78,13 @@ void PixelMask::start(int columns, int first_row, int end_row) {
   words_.assign(static_cast<std::size_t>(end_row - first_row) * stride_ + spare, 0);
 }
 
+void PixelMask::count_rows(std::span<double> counts) const {
+  for (std::size_t row = 0; row < words().size() / stride_; ++row) {
+    auto const of_row = words().subspan(row * stride_, stride_);
+    counts[row] += static_cast<double>(count_common(of_row, of_row));
+  }
+}
+
 bool PixelMask::any_lit(int first_row, int end_row, int first_column, int end_column) const {
   constexpr std::uint64_t all = ~std::uint64_t{0};
   int const last_column = end_column - 1;

@@ -54,6 +54,8 @@ class PixelMask {
   void darken(ConvexArea const& area);
 
   std::uint64_t lit() const { return count_common(words(), words()); }
+  // Adds the number of lit pixels of each row.
+  void count_rows(std::span<double> counts) const;
   // Whether some pixel of a rectangle is lit; ends are exclusive. `first_row` and the rest must be
   // within the mask.
   bool any_lit(int first_row, int end_row, int first_column, int end_column) const;

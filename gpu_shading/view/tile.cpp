@@ -11,12 +11,16 @@ namespace {
 
 constexpr int largest_side = 4096;
 
-void lay_out(Tile& tile, Mesh const& mesh, PlaneFrame const& frame) {
+void add_triangles(Tile& tile, Mesh const& mesh, PlaneFrame const& frame) {
   tile.triangles.clear();
   tile.triangles.reserve(mesh.indices.size());
   for (std::uint32_t const index : mesh.indices) {
     tile.triangles.emplace_back(tile.map(frame, mesh.vertices[index]));
   }
+}
+
+void lay_out(Tile& tile, Mesh const& mesh, PlaneFrame const& frame) {
+  add_triangles(tile, mesh, frame);
   PixelMask mask;
   mask.start(tile.side, 0, tile.side);
   light(mask, tile, pixels_of(tile));
@@ -75,14 +79,14 @@ Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, 
 
 View in_pixels(View view, TileGrid const& grid) {
   glm::dvec4 const shift(0.0, 0.0, 0.0, 1.0);
-  view.x = 0.5 * grid.width * (view.x + shift);
-  view.y = 0.5 * grid.rows * (view.y + shift);
+  view.x = 0.5 * grid.width * (view.x + shift) + grid.shift.x * shift;
+  view.y = 0.5 * grid.rows * (view.y + shift) + grid.shift.y * shift;
   view.x += grid.shear * view.y;
   return view;
 }
 
 glm::dvec2 on_grid(glm::dvec2 const& place, TileGrid const& grid) {
-  glm::dvec2 pixels = (0.5 * place + 0.5) * glm::dvec2(grid.width, grid.rows);
+  glm::dvec2 pixels = (0.5 * place + 0.5) * glm::dvec2(grid.width, grid.rows) + grid.shift;
   pixels.x += grid.shear * pixels.y;
   return pixels;
 }
@@ -93,6 +97,17 @@ void light(PixelMask& mask, Tile const& tile, TileGrid const& grid) {
     for (std::size_t k = 0; k < 3; ++k) corners.at(k) = on_grid(tile.triangles[i + k], grid);
     mask.light(area_within(corners, grid.side()));
   }
+}
+
+Tile turned_tile(Polygon const& polygon, PlaneFrame const& frame, double slope) {
+  Tile tile;
+  tile.side = 1;
+  tile.lay = {.slope = slope, .for_grids = true};
+  tile.map = fit_tile(frame, polygon.outline, tile.side, tile.lay);
+  tile.pixel_area = area(polygon);
+  tile.counted_pixels = 1;
+  add_triangles(tile, triangulate(polygon), frame);
+  return tile;
 }
 
 Tile bounding_tile(Polygon const& polygon, PlaneFrame const& frame, int side) {

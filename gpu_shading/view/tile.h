@@ -31,6 +31,9 @@ struct Tile {
 Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, int most,
                TileLay const& lay = {});
 
+// The receiver's outline for rows of samples that are turned by a slope. It counts as one pixel.
+Tile turned_tile(Polygon const& polygon, PlaneFrame const& frame, double slope);
+
 // For receivers that are still too thin: the whole bounding rectangle, which always has a pixel in
 // its centre.
 Tile bounding_tile(Polygon const& polygon, PlaneFrame const& frame, int side);
@@ -44,12 +47,15 @@ inline glm::dvec2 to_pixels(glm::dvec2 const& place, int side) {
 // or of others.
 struct TileGrid {
   int width = 0;  // columns across the tile
-  int rows = 0;
+  int rows = 0;   // up the tile
   double shear =
       0.0;  // columns by which a row is shifted to the right of the one below it; not < 0
+  glm::dvec2 shift{0.0};  // of the tile against the grid, 0 .. 1 columns and rows
 
-  int columns() const { return width + static_cast<int>(std::ceil(shear * rows)); }
-  int side() const { return std::max(columns(), rows); }
+  // Of a mask.
+  int columns() const { return width + static_cast<int>(std::ceil(shear * mask_rows() + shift.x)); }
+  int mask_rows() const { return shift.y > 0.0 ? rows + 1 : rows; }
+  int side() const { return std::max(columns(), mask_rows()); }
   bool operator==(TileGrid const&) const = default;
 
   // A vector of the reciprocal lattice, in cycles per tile: waves that are the same at all places.

@@ -88,32 +88,32 @@ void in_rows(int rows, int threads, Use use) {
   });
 }
 
-// Where a view is sampled, and whether it is ShadeCounts that counts shades there.
-struct Sampled {
-  TileGrid grid;
-  bool counting = false;
-};
-
-Sampled sampled(Tile const& tile, View const& view, CastersInView const& casters, Samples samples) {
-  if (samples == Samples::pixels) return {pixels_of(tile)};
-  if (casters.grid) return {*casters.grid};
-  bool const counting = can_be_counted(casters);
-  SampleUse const use = casters.opaque() ? SampleUse::coverage
-                        : counting       ? SampleUse::counting
-                                         : SampleUse::luminance;
-  return {sample_grid(tile, view, casters.bodies.screens, casters.repeats, use), counting};
+// Where a view is sampled.
+TileGrid sampled(Tile const& tile, View const& view, CastersInView const& casters,
+                 Samples samples) {
+  if (samples == Samples::pixels) return pixels_of(tile);
+  if (casters.grid) return *casters.grid;
+  return sample_grid(tile, view, casters.bodies.screens, casters.repeats, sample_use(casters));
 }
 
-// From samples to pixels of the tile, if `own` samples are the receiver's.
-void scale(LuminanceSums& sums, Tile const& tile, std::uint64_t own) {
+// From samples to pixels of the tile, if so many samples are the receiver's.
+void scale(LuminanceSums& sums, Tile const& tile, double samples) {
   // Multiplied first: exactly all pixels where all samples are sunlit.
   auto const pixels = static_cast<double>(tile.counted_pixels);
-  auto const samples = static_cast<double>(own);
   sums.unscheduled = sums.unscheduled * pixels / samples;
   for (LuminanceSums::Scheduled& part : sums.scheduled) part.sum = part.sum * pixels / samples;
 }
 
+double sum(std::vector<double> const& rows) {
+  return std::accumulate(rows.begin(), rows.end(), 0.0);
+}
+
 }  // namespace
+
+SampleUse sample_use(CastersInView const& casters) {
+  if (casters.opaque()) return SampleUse::coverage;
+  return can_be_counted(casters) ? SampleUse::counting : SampleUse::luminance;
+}
 
 struct Coverage::InteriorPiece {
   std::size_t surface;  // its index in the question
@@ -140,6 +140,7 @@ struct Coverage::Band {
 
   std::size_t first_word = 0;  // of the tile's words
   std::size_t words = 0;
+  std::size_t rows = 0;
   std::vector<Part> kept;  // with their memory, from one band to the next
   std::size_t count = 0;
 };
@@ -198,7 +199,7 @@ void Coverage::shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* pa
                      View const& pixels, CastersInView const& casters) const {
   std::vector<std::size_t> order;
   if (passed != nullptr && casters.areas.empty()) order = by_schedule(casters.shades);
-  cover(mask, shaded.columns(), pixels, casters, order,
+  cover(mask, std::max(shaded.columns(), mask.end_row()), pixels, casters, order,
         [&](ConvexArea const& area, Shade const& shade) {
           shaded.multiply(area, shade.transmittance);
           if (shade.schedule != Shade::unscheduled) passed->pass(area, shade.schedule);
@@ -228,44 +229,41 @@ struct Coverage::Rows {
   int threads;
 
   // Calls use(mask, first, end) for parts of the rows, in any order and by any threads, with the
-  // receiver's samples lit. Returns the number of these.
+  // receiver's samples lit. `own` takes the number of these by row.
   template <typename Use>
-  std::uint64_t each(Use use) const {
-    std::atomic<std::uint64_t> own = 0;
+  void each(std::vector<double>& own, Use use) const {
+    own.resize(static_cast<std::size_t>(grid.mask_rows()));
     // A crowd is shared by its casters.
     int const shares = casters.crowd != nullptr ? 1 : threads;
-    in_rows(grid.rows, shares, [&](int first, int end) {
+    in_rows(grid.mask_rows(), shares, [&](int first, int end) {
       static thread_local PixelMask mask;
       mask.start(grid.columns(), first, end);
       light(mask, tile, grid);
-      own += mask.lit();
+      mask.count_rows(std::span(own).subspan(static_cast<std::size_t>(first)));
       use(mask, first, end);
     });
-    return own;
   }
 
-  // With sums of rows: calls use(mask, first, end, sums). They are added up in order, however
-  // threads share them.
+  // With sums of rows: calls use(mask, first, end, sums).
   template <typename Use>
-  double sum_rows(std::uint64_t& own, Use use) const {
-    std::vector<double> sums(static_cast<std::size_t>(grid.rows));
-    own = each([&](PixelMask& mask, int first, int end) {
-      use(mask, first, end, std::span(sums).subspan(static_cast<std::size_t>(first)));
+  RowSums sum_rows(Use use) const {
+    RowSums sums;
+    std::vector<double>& lit = sums.lit.emplace_back(static_cast<std::size_t>(grid.mask_rows()));
+    each(sums.own, [&](PixelMask& mask, int first, int end) {
+      use(mask, first, end, std::span(lit).subspan(static_cast<std::size_t>(first)));
     });
-    return std::accumulate(sums.begin(), sums.end(), 0.0);
+    return sums;
   }
 
-  double lit(std::uint64_t& own) const {
-    std::atomic<std::uint64_t> sum = 0;
-    own = each([&](PixelMask& mask, int /*first*/, int /*end*/) {
+  RowSums lit() const {
+    return sum_rows([&](PixelMask& mask, int /*first*/, int /*end*/, std::span<double> sums) {
       coverage.darken(mask, tile, grid, pixels, casters, threads);
-      sum += mask.lit();
+      mask.count_rows(sums);
     });
-    return static_cast<double>(sum);
   }
 
-  double counted(std::uint64_t& own) const {
-    return sum_rows(own, [&](PixelMask& mask, int first, int end, std::span<double> sums) {
+  RowSums counted() const {
+    return sum_rows([&](PixelMask& mask, int first, int end, std::span<double> sums) {
       static thread_local ShadeCounts counts;
       counts.start(grid.columns(), first, end);
       coverage.cover(mask, grid.side(), pixels, casters, {},
@@ -276,9 +274,9 @@ struct Coverage::Rows {
     });
   }
 
-  double luminance(std::uint64_t& own) const {
+  RowSums luminance() const {
     bool const darkening = !any_transmits(casters.shades) && casters.bodies.all_or_nothing(pixels);
-    return sum_rows(own, [&](PixelMask& mask, int first, int end, std::span<double> sums) {
+    return sum_rows([&](PixelMask& mask, int first, int end, std::span<double> sums) {
       static thread_local LuminanceTile shaded;
       if (darkening) {
         shaded.lay_out(grid.columns(), first, end);
@@ -287,21 +285,21 @@ struct Coverage::Rows {
       }
       coverage.shade(mask, shaded, nullptr, pixels, casters);
       if (darkening) {
-        sums[0] = static_cast<double>(mask.lit());
+        mask.count_rows(sums);
       } else {
         shaded.sum_rows(mask, sums);
       }
     });
   }
 
-  LuminanceSums scheduled(std::uint64_t& own) const {
+  LuminanceSums scheduled(std::vector<double>& own) const {
     struct Part {
       PassedSchedules passed;
       std::vector<CombinationSums::Sum> row_sums;
     };
     std::mutex parts_mutex;
     std::map<int, Part> parts;  // by first row
-    own = each([&](PixelMask& mask, int first, int end) {
+    each(own, [&](PixelMask& mask, int first, int end) {
       static thread_local LuminanceTile shaded;
       Part part;
       shaded.start(grid.columns(), first, end);
@@ -323,43 +321,70 @@ struct Coverage::Rows {
     for (auto const& [first, part] : parts) totals.add(part.passed, part.row_sums);
     return totals.result();
   }
+
+  RowSums unscheduled(bool counting) const {
+    if (casters.opaque()) return lit();
+    return counting ? counted() : luminance();
+  }
+};
+
+// Casters in a view with its x and y in pixels, projected once for several parts of the rows.
+struct Coverage::Projected {
+  Projected(Coverage const& coverage, TileGrid const& grid, View const& in_pixels,
+            CastersInView const& in_view, int threads)
+      : pixels(in_pixels), casters(in_view) {
+    int const rows = grid.mask_rows();
+    if (casters.crowd != nullptr || rows_a_part(rows, threads) == rows) return;
+    std::vector<std::size_t> order;
+    if (any_scheduled(casters.shades)) order = by_schedule(casters.shades);
+    areas = coverage.areas(grid.side(), pixels, casters, order, threads);
+    casters.areas = areas;
+  }
+
+  View pixels;
+  CastersInView casters;
+  std::vector<std::vector<ShadedArea>> areas;
 };
 
 LuminanceSums Coverage::sums(Tile const& tile, View const& view, CastersInView const& casters,
                              Samples samples, int threads) const {
-  auto const [grid, counting] = sampled(tile, view, casters, samples);
-  View const pixels = in_pixels(view, grid);
-  bool const by_schedules = any_scheduled(casters.shades);
-  CastersInView in_parts = casters;
-  std::vector<std::vector<ShadedArea>> projected;
-  if (casters.crowd == nullptr && rows_a_part(grid.rows, threads) < grid.rows) {
-    std::vector<std::size_t> order;
-    if (by_schedules) order = by_schedule(casters.shades);
-    projected = areas(grid.side(), pixels, casters, order, threads);
-    in_parts.areas = projected;
-  }
-  Rows const rows{*this, tile, grid, pixels, in_parts, threads};
-  std::uint64_t own = 0;
+  bool const counting = samples == Samples::fine && sample_use(casters) == SampleUse::counting;
+  TileGrid const grid = sampled(tile, view, casters, samples);
+  Projected const projected(*this, grid, in_pixels(view, grid), casters, threads);
+  Rows const rows{*this, tile, grid, projected.pixels, projected.casters, threads};
   LuminanceSums sums;
-  if (casters.opaque()) {
-    sums.unscheduled = rows.lit(own);
-  } else if (counting) {
-    sums.unscheduled = rows.counted(own);
-  } else if (by_schedules) {
+  std::vector<double> own;
+  if (any_scheduled(casters.shades)) {
     sums = rows.scheduled(own);
   } else {
-    sums.unscheduled = rows.luminance(own);
+    RowSums const by_row = rows.unscheduled(counting);
+    sums.unscheduled = sum(by_row.lit.front());
+    own = by_row.own;
   }
   // Rows may all miss a small receiver that pixels meet.
-  if (own == 0) return this->sums(tile, view, casters, Samples::pixels, threads);
-  scale(sums, tile, own);
+  if (sum(own) == 0.0) return this->sums(tile, view, casters, Samples::pixels, threads);
+  scale(sums, tile, sum(own));
   return sums;
 }
 
-void Coverage::add_lit(PixelMask const& lit, Band const& band, std::span<LuminanceSums> sums) {
+RowSums Coverage::rows(TileGrid const& grid, Tile const& tile, View const& view,
+                       CastersInView const& casters, int threads) const {
+  Projected const projected(*this, grid, in_pixels(view, grid), casters, threads);
+  return Rows{*this, tile, grid, projected.pixels, projected.casters, threads}.unscheduled(
+      can_be_counted(casters));
+}
+
+void Coverage::add_lit(PixelMask const& lit, Band const& band,
+                       std::span<std::vector<double>> sums) {
+  std::size_t const stride = band.words / band.rows;
+  std::span<std::uint64_t const> const lit_words = band.rows_of(lit);
   for (Band::Part const& part : band.parts()) {
-    std::uint64_t const count = count_common(band.rows_of(lit), part.mask.words());
-    sums[part.piece->surface].unscheduled += static_cast<double>(count);
+    std::vector<double>& of_surface = sums[part.piece->surface];
+    for (std::size_t row = 0; row < band.rows; ++row) {
+      std::uint64_t const count = count_common(lit_words.subspan(row * stride, stride),
+                                               part.mask.words().subspan(row * stride, stride));
+      of_surface[band.first_word / stride + row] += static_cast<double>(count);
+    }
   }
 }
 
@@ -386,31 +411,49 @@ std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& v
                                                  CastersInView const& casters, Samples samples,
                                                  View const& behind,
                                                  std::span<SurfaceId const> interiors) const {
-  static thread_local PixelMask lit;
-  auto const [grid, counting] = sampled(tile, view, casters, samples);
-  View const pixels = in_pixels(view, grid);
-  lit.start(grid.columns(), 0, grid.rows);
-  light(lit, tile, grid);
-  std::uint64_t const own = lit.lit();
-  if (own == 0) return sums_inside(tile, view, casters, Samples::pixels, behind, interiors);
-  auto const pieces = interior_pieces(grid, in_pixels(behind, grid), interiors);
+  TileGrid const grid = sampled(tile, view, casters, samples);
   std::vector<LuminanceSums> sums(interiors.size());
+  double own = 0.0;
   if (casters.opaque()) {
-    darken(lit, tile, grid, pixels, casters, 1);
-    each_band(grid, lit, pieces, [&](Band const& band) { add_lit(lit, band, sums); });
+    RowSums const by_row = rows_inside(grid, tile, view, casters, behind, interiors);
+    own = sum(by_row.own);
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i].unscheduled = sum(by_row.lit[i]);
   } else {
+    static thread_local PixelMask lit;
     static thread_local LuminanceTile shaded;
     static thread_local PassedSchedules passed;
-    shaded.start(grid.columns(), 0, grid.rows);
-    passed.start(grid.columns(), 0, grid.rows);
-    shade(lit, shaded, &passed, pixels, casters);
+    int const rows = grid.mask_rows();
+    lit.start(grid.columns(), 0, rows);
+    light(lit, tile, grid);
+    own = static_cast<double>(lit.lit());
+    shaded.start(grid.columns(), 0, rows);
+    passed.start(grid.columns(), 0, rows);
+    shade(lit, shaded, &passed, in_pixels(view, grid), casters);
     std::vector<ScheduledTotals> totals(interiors.size());
-    each_band(grid, lit, pieces,
+    each_band(grid, lit, interior_pieces(grid, in_pixels(behind, grid), interiors),
               [&](Band const& band) { add_luminance(lit, shaded, passed, band, totals); });
     std::transform(totals.begin(), totals.end(), sums.begin(),
                    [](ScheduledTotals const& total) { return total.result(); });
   }
+  if (own == 0.0) return sums_inside(tile, view, casters, Samples::pixels, behind, interiors);
   for (LuminanceSums& part : sums) scale(part, tile, own);
+  return sums;
+}
+
+RowSums Coverage::rows_inside(TileGrid const& grid, Tile const& tile, View const& view,
+                              CastersInView const& casters, View const& behind,
+                              std::span<SurfaceId const> interiors) const {
+  static thread_local PixelMask lit;
+  auto const rows = static_cast<std::size_t>(grid.mask_rows());
+  RowSums sums;
+  sums.own.resize(rows);
+  sums.lit.assign(interiors.size(), std::vector<double>(rows));
+  lit.start(grid.columns(), 0, grid.mask_rows());
+  light(lit, tile, grid);
+  lit.count_rows(sums.own);
+  darken(lit, tile, grid, in_pixels(view, grid), casters, 1);
+  each_band(grid, lit, interior_pieces(grid, in_pixels(behind, grid), interiors),
+            [&](Band const& band) { add_lit(lit, band, sums.lit); });
   return sums;
 }
 
@@ -432,12 +475,13 @@ void Coverage::each_band(TileGrid const& grid, PixelMask const& lit,
   static thread_local Band band;
   static thread_local std::vector<std::uint64_t> covered;
   static thread_local std::vector<std::uint64_t> several;
-  std::size_t const words_a_row = lit.words().size() / static_cast<std::size_t>(grid.rows);
+  std::size_t const words_a_row = lit.words().size() / static_cast<std::size_t>(grid.mask_rows());
   int const rows = std::max(1, static_cast<int>(max_words / words_a_row));
-  for (int first = 0; first < grid.rows; first += rows) {
-    int const end = std::min(first + rows, grid.rows);
+  for (int first = 0; first < grid.mask_rows(); first += rows) {
+    int const end = std::min(first + rows, grid.mask_rows());
     band.first_word = static_cast<std::size_t>(first) * words_a_row;
-    band.words = static_cast<std::size_t>(end - first) * words_a_row;
+    band.rows = static_cast<std::size_t>(end - first);
+    band.words = band.rows * words_a_row;
     band.count = 0;
     covered.assign(band.words, 0);
     several.assign(band.words, 0);

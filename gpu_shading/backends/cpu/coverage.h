@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "backends/cpu/crowd_raster.h"
 #include "backends/cpu/lit_crowds.h"
 #include "backends/cpu/passed_schedules.h"
+#include "backends/cpu/replicates.h"
 #include "backends/cpu/surface_pieces.h"
 #include "backends/interface/view_backend.h"
 #include "filters/bodies.h"
@@ -48,6 +50,9 @@ struct CastersInView {
 // does.
 enum class Samples { fine, pixels };
 
+// What takes least time to sample casters, if no perforated sheet is among them.
+SampleUse sample_use(CastersInView const& casters);
+
 // Rasterises views on the CPU: as a rasteriser of triangles does, but with a bit for each pixel and
 // by convex pieces, and in double precision up to the edges. In place of OpenGL without a GPU it
 // takes a tenth of the time (tests/bench/opaque_cost). Any number of threads may ask.
@@ -62,12 +67,19 @@ class Coverage {
   // pixels. On so many threads at most; the same on any number.
   LuminanceSums sums(Tile const& tile, View const& view, CastersInView const& casters,
                      Samples samples, int threads) const;
+  // Row by row at the samples of a grid, without schedules.
+  RowSums rows(TileGrid const& grid, Tile const& tile, View const& view,
+               CastersInView const& casters, int threads) const;
   // The same over those pixels where each of `interiors` is the nearest in the view `behind`; of
   // surfaces in the same place the first has them.
   std::vector<LuminanceSums> sums_inside(Tile const& tile, View const& view,
                                          CastersInView const& casters, Samples samples,
                                          View const& behind,
                                          std::span<SurfaceId const> interiors) const;
+  // Row by row at the samples of a grid, with opaque casters.
+  RowSums rows_inside(TileGrid const& grid, Tile const& tile, View const& view,
+                      CastersInView const& casters, View const& behind,
+                      std::span<SurfaceId const> interiors) const;
 
   // Some rows of pixels as `pixels`, a view whose x and y are in pixels, has the casters: takes
   // those that opaque casters cover from the mask, and multiplies the luminance by what the others
@@ -80,6 +92,7 @@ class Coverage {
   struct Band;
 
   struct Rows;
+  struct Projected;
 
   // Covers the samples of a mask, in pixels, and calls dim(area, shade) for the pieces of casters
   // that transmit. `order` of the casters: none, as they come.
@@ -107,8 +120,8 @@ class Coverage {
   static void each_band(TileGrid const& grid, PixelMask const& lit,
                         std::span<InteriorPiece const> pieces, Use use);
   static void keep_nearest(Band& band, std::size_t word, int bit);
-  // Add the lit samples of each piece to the sums of its surface.
-  static void add_lit(PixelMask const& lit, Band const& band, std::span<LuminanceSums> sums);
+  // Add the lit samples of each piece to the sums of its surface, which are by row for the first.
+  static void add_lit(PixelMask const& lit, Band const& band, std::span<std::vector<double>> sums);
   static void add_luminance(PixelMask const& lit, LuminanceTile const& shaded,
                             PassedSchedules const& passed, Band const& band,
                             std::span<ScheduledTotals> totals);

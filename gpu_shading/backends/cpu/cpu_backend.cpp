@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "antialias/antialias.h"
+#include "backends/cpu/replicates.h"
 #include "gpu_shading/error.h"
 #include "platform/instructions.h"
 #include "platform/parallel.h"
 #include "platform/stopwatch.h"
+#include "view/tile_size.h"
 #include "view/view.h"
 
 namespace gpu_shading {
@@ -21,6 +24,28 @@ constexpr std::size_t worth_a_thread = 2500;
 // Pixels per side of a tile up to which holes smaller than pixels are replaced by their effective
 // transmittance, which takes no account of where the receiver's edges cut them, unless by rows.
 constexpr int largest_by_effect = 4096;
+
+// The rows of a replicate that may suffice.
+double rows_of(Tile const& tile, SampleUse use) {
+  if (use == SampleUse::luminance) return tile.side / std::sqrt(double{replicates_at_once});
+  return static_cast<double>(TileSize::rows_on(tile.side)) / replicates_at_once;
+}
+
+// The columns of a replicate; 0: as many as rows. A row's span costs nearly the same however fine
+// its columns are. The lattice's shear makes the rounding of spans to them random.
+int columns_of(double max_error, SampleUse use) {
+  if (use == SampleUse::luminance) return 0;
+  return static_cast<int>(128.0 / std::sqrt(max_error));
+}
+
+// Schedules and interior surfaces behind shades that transmit have no sums by row.
+bool can_be_measured(CastersInView const& casters, ReceiverView const& view) {
+  if (view.turned.empty() || view.at_pixels || view.grid || !casters.bodies.empty()) return false;
+  if (casters.opaque()) return true;
+  return !view.through && std::ranges::none_of(casters.shades, [](Shade const& shade) {
+    return shade.schedule != Shade::unscheduled;
+  });
+}
 
 }  // namespace
 
@@ -118,14 +143,19 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
   if (view.crowd != nullptr) {
     casters.crowd = &*crowd_;
     casters.question = {view.receiver, view.towards_sun};
-    casters.grid = view.grid;
     if (view.is_window) casters.known = &lit_crowds_;
   }
-  if (!view.at_pixels && !view.grid) casters.repeats = repeats_among(scene_, casters.surfaces);
+  casters.grid = view.grid;
+  bool const measurable = can_be_measured(casters, view);
+  if (!view.at_pixels && !view.grid && !measurable)
+    casters.repeats = repeats_among(scene_, casters.surfaces);
   Samples const samples = view.at_pixels ? Samples::pixels : Samples::fine;
   ViewSums sums;
   sums.receiver_pixels = tile.counted_pixels;
   try {
+    if (measurable) {
+      if (auto found = measured(view, casters, threads)) return *std::move(found);
+    }
     if (view.through) {
       View const behind = view_behind(*view.frame, tile.map, view.towards_sun, 1.0);
       sums.parts = coverage_.sums_inside(tile, in_front, casters, samples, behind, view.interiors);
@@ -135,6 +165,25 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
   } catch (Error const& error) {
     throw Error(fmt::format("surface '{}': {}", scene_[view.receiver].name, error.what()));
   }
+  return sums;
+}
+
+std::optional<ViewSums> CpuBackend::measured(ReceiverView const& view, CastersInView const& casters,
+                                             int threads) const {
+  SampleUse const use = sample_use(casters);
+  Replicates replicates(view.max_error, rows_of(*view.tile, use), columns_of(view.max_error, use));
+  do {
+    Tile const& tile = view.turned[replicates.turn()];
+    TileGrid const grid = replicates.grid();
+    View const in_front = view_in_front(*view.frame, tile.map, view.towards_sun);
+    View const behind = view_behind(*view.frame, tile.map, view.towards_sun, 1.0);
+    RowSums const sums =
+        view.through ? coverage_.rows_inside(grid, tile, in_front, casters, behind, view.interiors)
+                     : coverage_.rows(grid, tile, in_front, casters, threads);
+    if (!replicates.add(sums)) return std::nullopt;
+  } while (!replicates.done());
+  ViewSums sums{1, {}, replicates.uncertainty()};
+  for (double const fraction : replicates.means()) sums.parts.push_back({fraction, {}});
   return sums;
 }
 

@@ -35,6 +35,9 @@ class CpuBackend : public ViewBackend {
 
   ViewScreens note_screens(ReceiverView const& view, std::vector<ScreensAtDirection>& directions);
   ViewSums sums_of(ReceiverView const& view, ScreensInView const& screens, int threads);
+  // By samples whose error is measured. Empty if they miss the receiver.
+  std::optional<ViewSums> measured(ReceiverView const& view, CastersInView const& casters,
+                                   int threads) const;
 
   DeviceInfo device_;
   Scene const& scene_;

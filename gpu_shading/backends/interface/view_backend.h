@@ -42,6 +42,9 @@ struct ReceiverView {
   bool is_window = false;  // there are questions about the surfaces behind it
   // Where the crowd repeats: the samples that suffice.
   std::optional<TileGrid> grid = {};
+  // The receiver at several turns, for samples whose error is measured; otherwise none.
+  std::span<Tile const> turned = {};
+  double max_error = 0.0;  // of the sunlit fraction
 
   // Area of a pixel normal to the beam, m2; on a bounding tile, of all that is seen through it.
   double pixel_area() const { return tile->map.pixel_area(tile->side) * cosine; }
@@ -64,6 +67,8 @@ struct ViewSums {
   // parts are meaningless, and the tile must be a bounding one.
   std::uint64_t receiver_pixels = 0;
   std::vector<LuminanceSums> parts;  // one, or one for each of the view's interior surfaces
+  // The error that 99 % of such fractions stay within, where it is measured.
+  std::optional<double> uncertainty = {};
 };
 
 // What a back end rasterises. All but the meshes must outlive it.

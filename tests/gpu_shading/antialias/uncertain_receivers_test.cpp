@@ -99,8 +99,8 @@ TEST(UncertainReceivers, AreNarrowOnesBehindSheets) {
   EXPECT_THAT(find_uncertain_receivers(scene, both).narrow, ElementsAre(0U));
 }
 
-// The reason for the warning, and for the line in limits.md: the error of such a view.
-TEST(UncertainReceivers, BehindLayersMayMissTheirTarget) {
+// On the CPU, the error of such a view is measured.
+TEST(UncertainReceivers, BehindLayersMeetTheirTargetOnTheCpu) {
   constexpr double target = 1e-2;
   Scene scene = with_window();
   add_slats(scene, 305, 0.10);
@@ -117,7 +117,7 @@ TEST(UncertainReceivers, BehindLayersMayMissTheirTarget) {
     worst = std::max(worst, error / exact::projected_area(scene, sun, 0));
   }
   RecordProperty("worst", std::to_string(worst));
-  EXPECT_LT(worst, 0.2);
+  EXPECT_LT(worst, target);
 }
 
 }  // namespace
