@@ -171,8 +171,7 @@ TileGrid sample_grid(Tile const& tile, View const& view, ScreensInView const& sc
 
 std::optional<TileGrid> grid_along(SampledRepeats const& blades, View const& view, double slope,
                                    int rows, double max_error) {
-  // Several kinds beat with one another at frequencies that are not among theirs.
-  constexpr std::size_t max_kinds = 1;
+  constexpr std::size_t max_kinds = 6;
   // Blades run along the rows, so that columns need not be fine.
   int const columns_a_row = std::clamp(8192 / rows, 1, 9);
   Aliasing aliasing(view, OutlineSpectrum(slope));

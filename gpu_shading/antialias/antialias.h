@@ -49,7 +49,8 @@ struct ViewOnPixels {
 };
 
 // The slope of a turn (TileLay) at which each row of samples on a tile runs nearly along blades and
-// passes a few of them. Empty if they are few, or if their edges are not parallel.
+// passes a few of them. Empty if they are few, if their edges are not parallel, or if they are in
+// layers at other distances.
 std::optional<double> slope_along(SampledRepeats const& blades, PlaneFrame const& frame,
                                   glm::dvec3 const& towards_sun);
 
@@ -75,7 +76,7 @@ TileGrid sample_grid(Tile const& tile, View const& view, ScreensInView const& sc
                      SampledRepeats const& blades, SampleUse use);
 
 // A grid of about so many rows, however many the blades, on a tile turned by slope_along(). Empty
-// if it aliases with them by more than `max_error`, or if their distances are of several kinds.
+// if it aliases with them by more than `max_error`, or if their distances are of many kinds.
 std::optional<TileGrid> grid_along(SampledRepeats const& blades, View const& view, double slope,
                                    int rows, double max_error);
 

@@ -50,6 +50,20 @@ glm::dvec3 mean_step(Scene const& scene, SurfaceId id, SurfaceId back, glm::dvec
   return step;
 }
 
+// Whether nearly all distances between blades are the same, but for pieces in line. The blades of
+// layers beat with one another at frequencies that are not among theirs.
+bool in_one_layer(std::vector<double> distances) {
+  double const in_line = 1e-2 * std::ranges::max(distances);
+  std::erase_if(distances, [&](double distance) { return distance < in_line; });
+  if (distances.empty()) return true;
+  auto const middle = distances.begin() + std::ssize(distances) / 2;
+  std::ranges::nth_element(distances, middle);
+  double const usual = *middle;
+  auto const others = std::ranges::count_if(
+      distances, [&](double distance) { return std::abs(distance - usual) > 1e-2 * usual; });
+  return 8 * others <= std::ssize(distances);
+}
+
 }  // namespace
 
 std::optional<Repeat> repeat_of(Scene const& scene, SurfaceId id) {
@@ -109,6 +123,7 @@ std::optional<double> slope_along(SampledRepeats const& blades, PlaneFrame const
   distances.reserve(blades.found.size());
   for (Repeat const& each : blades.found)
     distances.push_back(std::abs(cross(slid(each.step), edge)));
+  if (!in_one_layer(distances)) return std::nullopt;
   // Most: gaps between groups of blades are farther.
   auto const most = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() * 3 / 4);
   std::ranges::nth_element(distances, most);
