@@ -52,7 +52,7 @@ def test_no_library_takes_another_ones_symbols(patched, courtyard, weather, tmp_
 
 def test_the_tested_release_has_every_symbol_of_the_table(official):
     rows = re.findall(r'^(?:FUNCTION|CLASS)\((\w+), (\w+),[^"]*"(\w+)"\)$', TABLE.read_text(), re.M)
-    assert len(rows) > 80
+    assert len(rows) > 70
     library = official.parent / "libenergyplusapi.so"
     listed = subprocess.run(["nm", "--defined-only", library], capture_output=True, text=True, check=True).stdout
     symbols = {line.split()[-1] for line in listed.splitlines()}

@@ -43,12 +43,13 @@ std::vector<Entry> daylight_entries();
 // Those of daylighting that compute again what is known: DaylightMemory.
 std::vector<Entry> daylight_memory_entries();
 
+// That by which the light is set that this run's model reflects.
+std::vector<Entry> reflected_light_entries();
+
 // The functions of GLFW 3 by which EnergyPlus's pixel counting gets an OpenGL context, and the
 // functions of OpenGL: those of opengl_function(). The library exports them all.
 std::vector<EntryPatch> glfw_entries();
 
-// Has EnergyPlus ask for the light that this run's model reflects, at each timestep.
-void follow_reflected_light(State& state);
 // Has EnergyPlus hand over the light that is not beam at the end of each timestep.
 void record_light(State& state);
 

@@ -91,7 +91,9 @@ Rewrite take_model(std::vector<InputObject> objects, Path const& path,
   run.model = understand(std::move(objects), path, installed.choices, reader);
   if (run.model->options.mode != Mode::off) {
     for (auto const& warning : run.model->early_warnings) messages_of(run).warning(warning);
-    if (!run.model->reflected_light.receivers.empty()) follow_reflected_light(*run.state);
+    if (!run.model->reflected_light.receivers.empty()) {
+      installed.functions.request_light_of_ground(*run.state);
+    }
     if (run.model->records_light() && installed.serves(Need::reflected_light)) {
       record_light(*run.state);
     }

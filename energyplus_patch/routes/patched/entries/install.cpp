@@ -51,8 +51,9 @@ class CannotPatch : public Error {
 
 std::vector<Entry> all_entries() {
   std::vector<Entry> entries;
-  for (auto const& part : {penumbra_entries(), input_entries(), shading_entries(),
-                           message_entries(), daylight_entries(), daylight_memory_entries()}) {
+  for (auto const& part :
+       {penumbra_entries(), input_entries(), shading_entries(), message_entries(),
+        daylight_entries(), daylight_memory_entries(), reflected_light_entries()}) {
     entries.insert(entries.end(), part.begin(), part.end());
   }
   return entries;
@@ -95,6 +96,8 @@ std::set<Need> find_served(SymbolTable const& symbols, std::vector<Entry> const&
   require(Need::sky_patches, Need::long_wave);
   require(Need::sky_patches, Need::run_days);
   require(Need::reflected_light, Need::run_days);
+  require(Need::reflected_light, Need::constants);
+  require(Need::reflected_light, Need::from_25_1);
   require(Need::daylight_memory, Need::daylight_rays);
   return served;
 }

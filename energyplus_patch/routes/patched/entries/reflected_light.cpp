@@ -1,18 +1,28 @@
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <utility>
 #include <vector>
 
+#include "gpu_shading/error.h"
 #include "routes/patched/entries/entries.h"
 #include "routes/patched/entries/run.h"
+#include "routes/patched/memory/constant_schedule.h"
 
 namespace gpu_shading::energyplus {
 namespace {
 
-GroundNumbers find_grounds(State& state, ReflectedLight const& light) {
+PointerTo<symbol::init_surface_heat_balance> original_init_surface_heat_balance = nullptr;
+
+Grounds find_grounds(State& state, ReflectedLight const& light) {
   auto const& functions = installation().functions;
-  GroundNumbers found{functions.light_of_ground(state), {}};
+  Grounds found{functions.light_of_ground(state), {}};
   for (auto const& receiver : light.receivers) {
-    found.schedules.push_back(functions.schedule_to_set(state, receiver.schedule));
+    auto* const value = find_constant_schedule(state, functions.symbols(), receiver.schedule);
+    if (value == nullptr) {
+      throw Error(fmt::format("EnergyPlus has no schedule {} to set", receiver.schedule));
+    }
+    found.schedules.push_back(value);
   }
   return found;
 }
@@ -24,7 +34,7 @@ void set_grounds(State& state, Run& run) {
   double const ground = weather.ground_reflectance(functions.variable(state, run.grounds->light));
   auto const values = run.session->ground_reflectances({functions.moment(state), weather, ground});
   for (std::size_t i = 0; i < values.size(); ++i) {
-    functions.set_schedule(state, run.grounds->schedules[i], values[i]);
+    *run.grounds->schedules[i] = values[i];
   }
 }
 
@@ -43,11 +53,13 @@ void note_light(State& state, Run& run) {
   run.session->note_diffuse(functions.moment(state).hour, std::move(light));
 }
 
-// EnergyPlus has the shading and the weather of a timestep, and is about to irradiate its surfaces.
-void at_timestep(State* state) {
+// At each timestep EnergyPlus has the shading and the weather, and is about to irradiate surfaces.
+void init_surface_heat_balance(State& state) {
   auto& run = this_run();
-  if (run.session == nullptr || !run.session->reflects_light()) return;
-  guarded([&] { set_grounds(*state, run); });
+  if (run.session != nullptr && run.session->reflects_light()) {
+    guarded([&] { set_grounds(state, run); });
+  }
+  original_init_surface_heat_balance(state);
 }
 
 // Surfaces are irradiated.
@@ -59,8 +71,9 @@ void at_end_of_timestep(State* state) {
 
 }  // namespace
 
-void follow_reflected_light(State& state) {
-  installation().functions.at_each_timestep(state, &at_timestep);
+std::vector<Entry> reflected_light_entries() {
+  return {watch(symbol::init_surface_heat_balance, &init_surface_heat_balance,
+                &original_init_surface_heat_balance)};
 }
 
 void record_light(State& state) {

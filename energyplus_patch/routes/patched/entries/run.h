@@ -32,10 +32,10 @@ struct Installation {
 };
 Installation& installation();
 
-// EnergyPlus's numbers of what reflected light is read and set by.
-struct GroundNumbers {
-  int light = 0;               // EnergyPlusFunctions::light_of_ground()
-  std::vector<int> schedules;  // of Model::reflected_light's receivers
+// What reflected light is read and set by.
+struct Grounds {
+  int light = 0;                   // EnergyPlusFunctions::light_of_ground()
+  std::vector<double*> schedules;  // current values, of Model::reflected_light's receivers
 };
 
 // One EnergyPlus run. EnergyPlus runs a state on one thread from its input to its end, and none of
@@ -45,8 +45,8 @@ struct Run {
   std::optional<Model> model;  // once the input is read
   // Once EnergyPlus has written its own line on shading; closed when it ends.
   std::ostream* eio = nullptr;
-  Session* session = nullptr;            // while EnergyPlus has one
-  std::optional<GroundNumbers> grounds;  // once they are known
+  Session* session = nullptr;      // while EnergyPlus has one
+  std::optional<Grounds> grounds;  // once they are known
   // By Session::recorded_receivers(), once they are known.
   std::vector<EnergyPlusFunctions::Irradiances> irradiances;
   std::string unwritten;  // why its output is not complete, "" where it is

@@ -163,9 +163,8 @@ constexpr std::array<std::string_view, 4> kinds_of_light{"", "Beam ", "Sky Diffu
 
 }  // namespace
 
-void EnergyPlusFunctions::at_each_timestep(State& state, void (*function)(State*)) const {
+void EnergyPlusFunctions::request_light_of_ground(State& state) const {
   symbol::request_variable.in(symbols_)(&state, reflected_by_ground, whole_site);
-  symbol::call_after_init_heat_balance.in(symbols_)(&state, function);
 }
 
 void EnergyPlusFunctions::at_end_of_timesteps(State& state, void (*function)(State*)) const {
@@ -202,17 +201,6 @@ int EnergyPlusFunctions::light_of_ground(State& state) const {
 
 double EnergyPlusFunctions::variable(State& state, int number) const {
   return symbol::variable_value.in(symbols_)(&state, number);
-}
-
-int EnergyPlusFunctions::schedule_to_set(State& state, std::string const& name) const {
-  int const handle = symbol::actuator_handle.in(symbols_)(&state, "Schedule:Constant",
-                                                          "Schedule Value", name.c_str());
-  if (handle < 0) throw Error(fmt::format("EnergyPlus has no schedule {} to set", name));
-  return handle;
-}
-
-void EnergyPlusFunctions::set_schedule(State& state, int schedule, double value) const {
-  symbol::set_actuator.in(symbols_)(&state, schedule, value);
 }
 
 class ScheduleInterface {

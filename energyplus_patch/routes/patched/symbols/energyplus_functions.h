@@ -55,22 +55,19 @@ class EnergyPlusFunctions {
   // Need::daylight_memory.
   bool sun_in_weather(State& state) const { return symbol::sun_is_up.in(symbols_)(&state) != 0; }
 
-  // Calls `function` at each zone timestep, after the shading and before surfaces are irradiated.
-  // Before the simulation begins. For Need::reflected_light, as are the functions below.
-  void at_each_timestep(State& state, void (*function)(State*)) const;
-  // The same at the end of each zone timestep.
+  // Calls `function` at the end of each zone timestep. Before the simulation begins. For
+  // Need::reflected_light, as are the functions below.
   void at_end_of_timesteps(State& state, void (*function)(State*)) const;
   // In that: the numbers of a surface's variables, and what they say; all 0 if EnergyPlus has none.
   using Irradiances = std::array<int, 4>;
   Irradiances irradiances_of(State& state, std::string const& surface) const;
   DiffuseLight diffuse_light(State& state, Irradiances const& numbers) const;
-  // In the function of at_each_timestep(): the number of a variable, what level ground in the open
-  // reflects, W/m2; Error if EnergyPlus has none. Finding it takes time, as for a schedule.
+  // Before the simulation begins: that the next is wanted.
+  void request_light_of_ground(State& state) const;
+  // The number of a variable, what level ground in the open reflects, W/m2; Error if EnergyPlus has
+  // none. Finding it takes time.
   int light_of_ground(State& state) const;
   double variable(State& state, int number) const;
-  // The number by which a schedule is set; Error if EnergyPlus has none of this name.
-  int schedule_to_set(State& state, std::string const& name) const;
-  void set_schedule(State& state, int schedule, double value) const;
 
   SymbolTable const& symbols() const { return symbols_; }
 
