@@ -65,6 +65,15 @@ def many_blades(reflectance):
         for i, z in enumerate(0.8 + 0.2 * i for i in range(11)) for j, x in enumerate(1 + 0.4 * j for j in range(11)))
 
 
+def test_mirrored_copies_reflect_nothing_more(patched, weather, tmp_path, box):
+    """EnergyPlus copies each shading surface for the sun on its back, and asks for the copies that an output names."""
+    text = with_days(bare(box) + street(0.5), (3,), 700, 150)
+    asked = text + "Output:Variable,Mir-Opposite,Surface Outside Face Sunlit Fraction,Timestep;\n"
+    (_, usual), (_, other) = (run_days(patched, weather, tmp_path, each) for each in (text, asked))
+    assert light(usual) == light(other)
+    assert max(values_of(other, "Surface Outside Face Sunlit Fraction")["Mir-OPPOSITE"]) > 0.5
+
+
 def test_a_cache_answers_the_same(patched, weather, tmp_path, box):
     text = with_days(bare(box) + street(0.5) + louvres(0.6), (3,), 700, 150)
     cache = f"--gpu-shading-cache={tmp_path / 'cache'}"
