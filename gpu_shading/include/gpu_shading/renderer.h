@@ -113,7 +113,7 @@ class Renderer {
   // Projected areas (m2 normal to the beam) of each of `interiors` that the sun lights through
   // `window` alone, behind the window's own casters; the nearest interior surface along a ray
   // receives it. In the order of `interiors`; their sum is at most the window's projected sunlit
-  // area.
+  // area, within the errors of both.
   std::vector<Sunlit> interior_sunlit_areas(SunDirection sun, SurfaceId window,
                                             std::span<SurfaceId const> interiors);
 
