@@ -47,7 +47,7 @@ def test_reflected_light_is_radiance_s(patched, weather, tmp_path, box, scene, r
     mean = sum(theirs.values()) / len(suns)
     all_light = sum(theirs[sun] + found.direct[sun] for sun in suns) / len(suns)
     rms = math.sqrt(sum((found.ours[sun] - theirs[sun]) ** 2 for sun in suns) / len(suns)) / all_light
-    sky = found.their_sky(points)
+    sky = found.their_sky(4 * points)  # Radiance draws others in each run
     print(f"{scene} {reflectance}: sum {sum(found.ours[sun] for sun in suns) / mean / len(suns):.4f}, rms {rms:.4f}, "
           f"sky {found.our_sky:.4f} {sky:.4f}")
     assert sum(found.ours[sun] for sun in suns) == pytest.approx(mean * len(suns), rel=0.045)
