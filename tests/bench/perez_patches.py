@@ -8,7 +8,6 @@ runs of a pair shade at every timestep, and follow each other.
 """
 
 import importlib.util
-import resource
 import statistics
 import sys
 import tempfile
@@ -16,6 +15,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 
+from processor_time import spent_by_children  # noqa: E402
 from shading_runs import energyplus  # noqa: E402
 
 EXAMPLES = energyplus.REPOSITORY / "idf_examples"
@@ -42,13 +42,12 @@ def models():
 
 def seconds(path, folder, *options):
     """Of the processors, by EnergyPlus and what it starts."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    before = spent_by_children()
     done = energyplus.run(energyplus.patched_prefix() / "energyplus", path, energyplus.find_weather(WEATHER), folder,
                           ["--gpu-shading", "--gpu-shading-update=timestep", "--gpu-shading-device=cpu", *options])
     if not done.completed:
         raise SystemExit(f"perez_patches: {path.stem}: {done.why()}")
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return spent_by_children() - before
 
 
 def main():

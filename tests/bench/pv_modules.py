@@ -11,7 +11,6 @@ December most, by the row before.
 import csv
 import math
 import os
-import resource
 import subprocess
 import sys
 import tempfile
@@ -19,6 +18,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 
+from processor_time import spent_by_children  # noqa: E402
 from shading_runs import energyplus  # noqa: E402
 
 EXAMPLE = energyplus.REPOSITORY / "idf_examples" / "pv_roof" / "pv_roof.idf"
@@ -41,13 +41,12 @@ def model(rows, modules):
 
 def measure(folder, first, last):
     """(CPU seconds, timesteps, share of bypass diodes with shade)"""
-    start = resource.getrusage(resource.RUSAGE_CHILDREN)
+    before = spent_by_children()
     environment = {key: value for key, value in os.environ.items() if not key.startswith("GPU_SHADING")}
     subprocess.run([energyplus.patched_prefix() / "gpu_shading", "modules", folder / "field.idf", "-w",
                     energyplus.find_weather(WEATHER), "--from", first, "--to", last, "-o", folder / "out"],
                    check=True, capture_output=True, env=environment)
-    end = resource.getrusage(resource.RUSAGE_CHILDREN)
-    seconds = end.ru_utime + end.ru_stime - start.ru_utime - start.ru_stime
+    seconds = spent_by_children() - before
     with open(folder / "out" / "times.csv", encoding="utf-8") as lines:
         times = sum(1 for _ in lines) - 1
     with open(folder / "out" / "strings.csv", newline="", encoding="utf-8") as lines:

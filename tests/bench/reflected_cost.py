@@ -8,7 +8,7 @@ other, and each figure is a median. --stock: also stock EnergyPlus with its own 
 """
 
 import argparse
-import resource
+import re
 import statistics
 import sys
 import tempfile
@@ -18,6 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / folder) for folder in ("scripts", "idf_examples/box_with_louvres")]
 
 import generate  # noqa: E402
+from processor_time import spent_by_children  # noqa: E402
 from shading_runs import energyplus  # noqa: E402
 
 WEATHER = "USA_CO_Golden-NREL.724666_TMY3.epw"
@@ -26,24 +27,15 @@ SCENES = {
     "courtyard": lambda: (ROOT / "idf_examples/courtyard/courtyard.idf").read_text(encoding="utf-8"),
     **{f"{count:,} louvres": lambda count=count: generate.model(count) for count in (20, 100, 1000)},
 }
-DISTRIBUTIONS = ("FullInteriorAndExterior", "FullExterior")
-
-
-def with_reflections(text):
-    for word in DISTRIBUTIONS:
-        if f"{word}," in text:
-            return text.replace(f"{word},", f"{word}WithReflections,")
-    return text
 
 
 def seconds(prefix, path, folder, options):
     """Of the processors, by EnergyPlus and what it starts."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    before = spent_by_children()
     done = energyplus.run(prefix / "energyplus", path, energyplus.find_weather(WEATHER), folder, options)
     if not done.completed:
         raise SystemExit(f"reflected_cost: {path.stem}: {done.why()}")
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return spent_by_children() - before
 
 
 def main():
@@ -53,18 +45,18 @@ def main():
     parser.add_argument("scenes", nargs="*", default=[*SCENES])
     arguments = parser.parse_args()
     ours = energyplus.patched_prefix()
-    flags = ["--gpu-shading", "--gpu-shading-device=cpu", "--gpu-shading-reflections"]
+    flags = ["--gpu-shading", "--gpu-shading-device=cpu"]
     print(f"{'':16} {'energyplus':>10} {'all':>8} {'ratio':>6}" + (f" {'stock, own':>10}" if arguments.stock else ""))
     with tempfile.TemporaryDirectory() as name:
         for scene in arguments.scenes:
             plain, reflecting = Path(name) / "plain.idf", Path(name) / "reflecting.idf"
             text = SCENES[scene]()
             plain.write_text(text, encoding="utf-8")
-            reflecting.write_text(with_reflections(text), encoding="utf-8")
+            reflecting.write_text(re.sub(r"(Full\w*Exterior),", r"\1WithReflections,", text), encoding="utf-8")
             rows = []
             for repeat in range(arguments.repeat):
                 folder = Path(name) / f"{scene} {repeat}"
-                row = [seconds(ours, plain, folder / way, [*flags[:-1], f"{flags[-1]}={way}"])
+                row = [seconds(ours, plain, folder / way, [*flags, f"--gpu-shading-reflections={way}"])
                        for way in ("energyplus", "all")]
                 if arguments.stock:
                     row.append(seconds(energyplus.official_prefix(), reflecting, folder / "stock", []))
