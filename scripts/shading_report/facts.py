@@ -14,7 +14,7 @@ QUANTITIES = (
     ("Lighting", results.LIGHTS),
     *((kind, kind) for kind in results.LIGHT),
 )
-PARTS = (QUANTITIES[1][0], results.WITHOUT_GROUND)  # of the quantity before
+PARTS = (QUANTITIES[1][0], results.LIGHT[-1])  # of the quantity before
 HOURS = 24
 SAME = 9  # decimals in which the sunlit fractions of equal hours agree
 

@@ -23,8 +23,7 @@ INCIDENT = tuple(f"Surface Outside Face Incident {part}Solar Radiation Rate per 
 # The part of what is reflected that no ground reflects, of runs in which this module traces it; W/m2.
 BY_SHADES = "GPU Shading Solar Radiation Reflected by Shades Rate per Area"
 # Made of these: energies on windows.
-SKY, REFLECTED, WITHOUT_GROUND = LIGHT = (
-    "Sky's light on windows", "Reflected light on windows", "of that without the ground")
+LIGHT = ("Sky's light on windows", "Reflected light on windows", "of that without the ground")
 OF_ZONES = (HEATING, COOLING, LIGHTS)
 # With the number of a reference point; the key is the Daylighting:Controls.
 POINT = "Daylighting Reference Point {} Illuminance"
@@ -201,12 +200,12 @@ class Results:
         """Puts the variables of LIGHT in the place of those that they are made of."""
         total, beam, sky, by_shades = (self.values.pop(name) for name in (*INCIDENT, BY_SHADES))
         all_reflected = {key: [a - b - c for a, b, c in zip(total[key], beam[key], sky[key], strict=True)]
-                         for key in total.keys() & beam.keys() & sky.keys()}
+                         for key in total if key in beam and key in sky}
         for kind, rates in zip(LIGHT, (sky, all_reflected, by_shades), strict=True):
             self.values[kind] = {
                 key: array("d", (self.receivers[key].area * rate * length
                                  for rate, length in zip(of_window, seconds, strict=True)))
-                for key, of_window in sorted(rates.items())}
+                for key, of_window in rates.items()}
 
     def sun_up(self, receiver):
         """Indices of the times when the sun faces the receiver."""
