@@ -94,49 +94,6 @@ Reflection reflect(TransportScene const& scene, Segment const& segment,
   return {front ? normal : -normal, diffuse, faces.is_ground, mirrored};
 }
 
-}  // namespace
-
-glm::dvec3 cosine_direction(glm::dvec3 const& normal, double u, double v) {
-  constexpr double steep = 0.9;
-  glm::dvec3 const other =
-      std::abs(normal.x) > steep ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
-  auto const across = glm::normalize(glm::cross(other, normal));
-  auto const along = glm::cross(normal, across);
-  double const radius = std::sqrt(u);
-  double const angle = 2.0 * std::numbers::pi * v;
-  return radius * std::cos(angle) * across + radius * std::sin(angle) * along +
-         std::sqrt(std::max(0.0, 1.0 - u)) * normal;
-}
-
-ReceiverPoints::ReceiverPoints(Polygon const& polygon) : normal_(gpu_shading::normal(polygon)) {
-  auto const mesh = triangulate(polygon);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    auto const& a = mesh.vertices[mesh.indices[i]];
-    auto const& b = mesh.vertices[mesh.indices[i + 1]];
-    auto const& c = mesh.vertices[mesh.indices[i + 2]];
-    double const area = 0.5 * glm::length(glm::cross(b - a, c - a));
-    if (area <= 0.0) continue;
-    corners_.insert(corners_.end(), {a, b, c});
-    up_to_.push_back(sum += area);
-  }
-  for (double& share : up_to_) share /= sum;
-}
-
-glm::dvec3 ReceiverPoints::at(double u, double v) const {
-  auto const found = std::upper_bound(up_to_.begin(), std::prev(up_to_.end()), u);
-  auto const triangle = static_cast<std::size_t>(found - up_to_.begin());
-  double const from = triangle == 0 ? 0.0 : up_to_[triangle - 1];
-  // The triangle's own share of u, so that a triangle's points are as even as those of all.
-  double const side = std::sqrt(std::clamp((u - from) / (*found - from), 0.0, 1.0));
-  auto const& a = corners_[3 * triangle];
-  auto const& b = corners_[3 * triangle + 1];
-  auto const& c = corners_[3 * triangle + 2];
-  return a + side * ((1.0 - v) * (b - a) + v * (c - a));
-}
-
-namespace {
-
 // What is the same for all paths from a receiver.
 struct PathRequest {
   TransportScene const& scene;
@@ -191,6 +148,45 @@ void trace_path(PathRequest const& request, Path& onwards, std::size_t point, Ra
 }
 
 }  // namespace
+
+glm::dvec3 cosine_direction(glm::dvec3 const& normal, double u, double v) {
+  constexpr double steep = 0.9;
+  glm::dvec3 const other =
+      std::abs(normal.x) > steep ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
+  auto const across = glm::normalize(glm::cross(other, normal));
+  auto const along = glm::cross(normal, across);
+  double const radius = std::sqrt(u);
+  double const angle = 2.0 * std::numbers::pi * v;
+  return radius * std::cos(angle) * across + radius * std::sin(angle) * along +
+         std::sqrt(std::max(0.0, 1.0 - u)) * normal;
+}
+
+ReceiverPoints::ReceiverPoints(Polygon const& polygon) : normal_(gpu_shading::normal(polygon)) {
+  auto const mesh = triangulate(polygon);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    auto const& a = mesh.vertices[mesh.indices[i]];
+    auto const& b = mesh.vertices[mesh.indices[i + 1]];
+    auto const& c = mesh.vertices[mesh.indices[i + 2]];
+    double const area = 0.5 * glm::length(glm::cross(b - a, c - a));
+    if (area <= 0.0) continue;
+    corners_.insert(corners_.end(), {a, b, c});
+    up_to_.push_back(sum += area);
+  }
+  for (double& share : up_to_) share /= sum;
+}
+
+glm::dvec3 ReceiverPoints::at(double u, double v) const {
+  auto const found = std::upper_bound(up_to_.begin(), std::prev(up_to_.end()), u);
+  auto const triangle = static_cast<std::size_t>(found - up_to_.begin());
+  double const from = triangle == 0 ? 0.0 : up_to_[triangle - 1];
+  // The triangle's own share of u, so that a triangle's points are as even as those of all.
+  double const side = std::sqrt(std::clamp((u - from) / (*found - from), 0.0, 1.0));
+  auto const& a = corners_[3 * triangle];
+  auto const& b = corners_[3 * triangle + 1];
+  auto const& c = corners_[3 * triangle + 2];
+  return a + side * ((1.0 - v) * (b - a) + v * (c - a));
+}
 
 ReversePaths trace_paths(TransportScene const& scene, SurfaceId receiver,
                          ReceiverPoints const& places, SobolPoints const& points,

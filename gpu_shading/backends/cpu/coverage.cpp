@@ -89,11 +89,11 @@ void in_rows(int rows, int threads, Use use) {
 }
 
 // Where a view is sampled.
-TileGrid sampled(Tile const& tile, View const& view, CastersInView const& casters,
-                 Samples samples) {
+TileGrid sampled(Tile const& tile, View const& view, CastersInView const& casters, Samples samples,
+                 SampleUse use) {
   if (samples == Samples::pixels) return pixels_of(tile);
   if (casters.grid) return *casters.grid;
-  return sample_grid(tile, view, casters.bodies.screens, casters.repeats, sample_use(casters));
+  return sample_grid(tile, view, casters.bodies.screens, casters.repeats, use);
 }
 
 // From samples to pixels of the tile, if so many samples are the receiver's.
@@ -102,10 +102,6 @@ void scale(LuminanceSums& sums, Tile const& tile, double samples) {
   auto const pixels = static_cast<double>(tile.counted_pixels);
   sums.unscheduled = sums.unscheduled * pixels / samples;
   for (LuminanceSums::Scheduled& part : sums.scheduled) part.sum = part.sum * pixels / samples;
-}
-
-double sum(std::vector<double> const& rows) {
-  return std::accumulate(rows.begin(), rows.end(), 0.0);
 }
 
 }  // namespace
@@ -322,9 +318,9 @@ struct Coverage::Rows {
     return totals.result();
   }
 
-  RowSums unscheduled(bool counting) const {
-    if (casters.opaque()) return lit();
-    return counting ? counted() : luminance();
+  RowSums unscheduled(SampleUse use) const {
+    if (use == SampleUse::coverage) return lit();
+    return use == SampleUse::counting ? counted() : luminance();
   }
 };
 
@@ -348,8 +344,10 @@ struct Coverage::Projected {
 
 LuminanceSums Coverage::sums(Tile const& tile, View const& view, CastersInView const& casters,
                              Samples samples, int threads) const {
-  bool const counting = samples == Samples::fine && sample_use(casters) == SampleUse::counting;
-  TileGrid const grid = sampled(tile, view, casters, samples);
+  // Pixels are too few to be worth counting.
+  SampleUse const use =
+      samples == Samples::pixels && !casters.opaque() ? SampleUse::luminance : sample_use(casters);
+  TileGrid const grid = sampled(tile, view, casters, samples, use);
   Projected const projected(*this, grid, in_pixels(view, grid), casters, threads);
   Rows const rows{*this, tile, grid, projected.pixels, projected.casters, threads};
   LuminanceSums sums;
@@ -357,21 +355,21 @@ LuminanceSums Coverage::sums(Tile const& tile, View const& view, CastersInView c
   if (any_scheduled(casters.shades)) {
     sums = rows.scheduled(own);
   } else {
-    RowSums const by_row = rows.unscheduled(counting);
-    sums.unscheduled = sum(by_row.lit.front());
-    own = by_row.own;
+    RowSums by_row = rows.unscheduled(use);
+    sums.unscheduled = total(by_row.lit.front());
+    own = std::move(by_row.own);
   }
+  double const of_receiver = total(own);
   // Rows may all miss a small receiver that pixels meet.
-  if (sum(own) == 0.0) return this->sums(tile, view, casters, Samples::pixels, threads);
-  scale(sums, tile, sum(own));
+  if (of_receiver == 0.0) return this->sums(tile, view, casters, Samples::pixels, threads);
+  scale(sums, tile, of_receiver);
   return sums;
 }
 
 RowSums Coverage::rows(TileGrid const& grid, Tile const& tile, View const& view,
-                       CastersInView const& casters, int threads) const {
+                       CastersInView const& casters, SampleUse use, int threads) const {
   Projected const projected(*this, grid, in_pixels(view, grid), casters, threads);
-  return Rows{*this, tile, grid, projected.pixels, projected.casters, threads}.unscheduled(
-      can_be_counted(casters));
+  return Rows{*this, tile, grid, projected.pixels, projected.casters, threads}.unscheduled(use);
 }
 
 void Coverage::add_lit(PixelMask const& lit, Band const& band,
@@ -411,13 +409,13 @@ std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& v
                                                  CastersInView const& casters, Samples samples,
                                                  View const& behind,
                                                  std::span<SurfaceId const> interiors) const {
-  TileGrid const grid = sampled(tile, view, casters, samples);
+  TileGrid const grid = sampled(tile, view, casters, samples, sample_use(casters));
   std::vector<LuminanceSums> sums(interiors.size());
   double own = 0.0;
   if (casters.opaque()) {
     RowSums const by_row = rows_inside(grid, tile, view, casters, behind, interiors);
-    own = sum(by_row.own);
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i].unscheduled = sum(by_row.lit[i]);
+    own = total(by_row.own);
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i].unscheduled = total(by_row.lit[i]);
   } else {
     static thread_local PixelMask lit;
     static thread_local LuminanceTile shaded;

@@ -67,9 +67,9 @@ class Coverage {
   // pixels. On so many threads at most; the same on any number.
   LuminanceSums sums(Tile const& tile, View const& view, CastersInView const& casters,
                      Samples samples, int threads) const;
-  // Row by row at the samples of a grid, without schedules.
+  // Row by row at the samples of a grid, without schedules. `use`: sample_use() of the casters.
   RowSums rows(TileGrid const& grid, Tile const& tile, View const& view,
-               CastersInView const& casters, int threads) const;
+               CastersInView const& casters, SampleUse use, int threads) const;
   // The same over those pixels where each of `interiors` is the nearest in the view `behind`; of
   // surfaces in the same place the first has them.
   std::vector<LuminanceSums> sums_inside(Tile const& tile, View const& view,

@@ -176,10 +176,12 @@ std::optional<ViewSums> CpuBackend::measured(ReceiverView const& view, CastersIn
     Tile const& tile = view.turned[replicates.turn()];
     TileGrid const grid = replicates.grid();
     View const in_front = view_in_front(*view.frame, tile.map, view.towards_sun);
-    View const behind = view_behind(*view.frame, tile.map, view.towards_sun, 1.0);
     RowSums const sums =
-        view.through ? coverage_.rows_inside(grid, tile, in_front, casters, behind, view.interiors)
-                     : coverage_.rows(grid, tile, in_front, casters, threads);
+        view.through
+            ? coverage_.rows_inside(grid, tile, in_front, casters,
+                                    view_behind(*view.frame, tile.map, view.towards_sun, 1.0),
+                                    view.interiors)
+            : coverage_.rows(grid, tile, in_front, casters, use, threads);
     if (!replicates.add(sums)) return std::nullopt;
   } while (!replicates.done());
   ViewSums sums{1, {}, replicates.uncertainty()};

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
 #include <numeric>
 
 namespace gpu_shading {
@@ -22,15 +24,6 @@ double student_t(double degrees_of_freedom) {
 // The inverse of the variance by a number of rows, between that behind jumps, whose square it is,
 // and behind kinks, whose fourth power it is.
 double cube(double rows) { return rows * rows * rows; }
-
-double part_of(std::size_t number, double step) {
-  double const value = static_cast<double>(number) * step;
-  return value - std::floor(value);
-}
-
-double total(std::vector<double> const& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
 
 // The sum of squared second differences between rows `step` apart.
 double roughness(std::vector<double> const& rows, std::size_t step) {
@@ -56,6 +49,10 @@ double variance_of_sum(std::vector<double> const& rows) {
 
 }  // namespace
 
+double total(std::vector<double> const& rows) {
+  return std::accumulate(rows.begin(), rows.end(), 0.0);
+}
+
 Replicates::Replicates(double max_error, double rows, int columns)
     : max_error_(max_error), columns_(columns), rows_(std::max(4.0, rows)) {}
 
@@ -66,13 +63,13 @@ int Replicates::rows() const {
 }
 
 TileGrid Replicates::grid() const {
-  constexpr double plastic = 0.7548776662466927;
-  std::size_t const number = answers_.size() + 1;
+  constexpr double plastic = 0.7548776662466927;  // the plastic number's reciprocal
+  auto const number = static_cast<double>(answers_.size() + 1);
   TileGrid grid;
   grid.rows = rows();
   grid.width = columns_ > 0 ? columns_ : grid.rows;
-  grid.shear = part_of(number, plastic * plastic);
-  grid.shift = {part_of(number, plastic), part_of(number, golden)};
+  grid.shear = glm::fract(number * (plastic * plastic));
+  grid.shift = glm::fract(number * glm::dvec2(plastic, golden));
   return grid;
 }
 

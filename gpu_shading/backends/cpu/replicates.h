@@ -15,6 +15,8 @@ struct RowSums {
   std::vector<std::vector<double>> lit;  // their luminance, or that on each interior surface
 };
 
+double total(std::vector<double> const& rows);
+
 // Independent answers to one question, from lattices of rows of other slopes, distances and
 // offsets. Their spread measures the error of their mean, whatever repeats in the view.
 //
