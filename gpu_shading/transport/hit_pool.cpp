@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace gpu_shading {
 namespace {
@@ -50,7 +51,7 @@ std::vector<std::uint64_t> along_curve(std::vector<KeptHit> const& hits, glm::dv
 }
 
 struct Place {
-  std::uint64_t normal;
+  std::pair<bool, std::uint64_t> group;  // on the receiver, and the normal's key
   std::uint64_t along;
   std::size_t hit;
 };
@@ -63,20 +64,34 @@ HitPool::HitPool(std::vector<KeptHit> hits, std::size_t paths, glm::dvec3 const&
   std::vector<Place> order;
   order.reserve(hits.size());
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    order.push_back({normal_key(hits[i].normal), keys[i], i});
+    order.push_back({{hits[i].on_receiver, normal_key(hits[i].normal)}, keys[i], i});
   }
   std::ranges::sort(order, {}, [](Place const& place) {
-    return std::tuple(place.normal, place.along, place.hit);
+    return std::tuple(place.group, place.along, place.hit);
   });
   hits_.reserve(hits.size());
   up_to_.reserve(hits.size() + 1);
   up_to_.push_back(0.0);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i == 0 || order[i].normal != order[i - 1].normal) groups_.push_back(i);
+    if (i == 0 || order[i].group != order[i - 1].group) groups_.push_back(i);
     hits_.push_back(hits[order[i].hit]);
     up_to_.push_back(up_to_.back() + hits_.back().weight / static_cast<double>(paths));
   }
   groups_.push_back(hits_.size());
+  std::size_t at = 0;
+  for (std::size_t part = 0; part < hits_.size(); ++part) {
+    double const weight = up_to_.back() * static_cast<double>(part) / double(hits_.size());
+    while (at + 1 < hits_.size() && up_to_[at + 1] <= weight) ++at;
+    guide_.push_back(at);
+  }
+}
+
+std::size_t HitPool::at_weight(double weight) const {
+  auto const part = static_cast<std::size_t>(weight / up_to_.back() * double(guide_.size()));
+  std::size_t at = guide_[std::min(part, guide_.size() - 1)];
+  while (at > 0 && up_to_[at] > weight) --at;
+  while (at + 1 < hits_.size() && up_to_[at + 1] <= weight) ++at;
+  return at;
 }
 
 std::vector<DrawnHit> HitPool::draw(std::span<LightDirection const> directions, int draws,
@@ -88,7 +103,10 @@ std::vector<DrawnHit> HitPool::draw(std::span<LightDirection const> directions, 
   double total = 0.0;
   for (auto const& direction : directions) {
     for (std::size_t g = 0; g < groups; ++g) {
-      double const cosine = std::max(0.0, glm::dot(hits_[groups_[g]].normal, direction.towards));
+      auto const& first = hits_[groups_[g]];
+      double const cosine = first.on_receiver && !direction.by_mirror
+                                ? 0.0
+                                : std::max(0.0, glm::dot(first.normal, direction.towards));
       total += direction.share * cosine * (up_to_[groups_[g + 1]] - up_to_[groups_[g]]);
       sums.push_back(total);
     }
@@ -107,10 +125,7 @@ std::vector<DrawnHit> HitPool::draw(std::span<LightDirection const> directions, 
     double const within = std::clamp((place - before) / (*found - before), 0.0, 1.0);
     double const weight =
         up_to_[groups_[g]] + within * (up_to_[groups_[g + 1]] - up_to_[groups_[g]]);
-    auto const first = up_to_.begin() + static_cast<std::ptrdiff_t>(groups_[g]) + 1;
-    auto const last = up_to_.begin() + static_cast<std::ptrdiff_t>(groups_[g + 1]);
-    auto const hit =
-        static_cast<std::size_t>(std::upper_bound(first, last, weight) - up_to_.begin()) - 1;
+    auto const hit = std::clamp(at_weight(weight), groups_[g], groups_[g + 1] - 1);
     drawn.push_back({&hits_[hit], at / groups, share / directions[at / groups].share});
   }
   return drawn;

@@ -19,8 +19,8 @@ struct DrawnHit {
   double weight = 0.0;
 };
 
-// The hits of paths, in an order in which neighbours are alike: by normal, then along a
-// space-filling curve as seen from the receiver.
+// The hits of paths, in an order in which neighbours are alike: by normal, those on the receiver
+// apart, then along a space-filling curve as seen from the receiver.
 class HitPool {
  public:
   // `paths`: how many the hits come from. Distances from `centre` beyond `size` count by their
@@ -33,9 +33,15 @@ class HitPool {
                              std::uint64_t key) const;
 
  private:
+  // The hit at which the sum of weights exceeds this one.
+  std::size_t at_weight(double weight) const;
+
   std::vector<KeptHit> hits_;
   std::vector<double> up_to_;        // the sum of weights before each hit, and of all
-  std::vector<std::size_t> groups_;  // the first hit of each normal, and the number of hits
+  std::vector<std::size_t> groups_;  // the first hit of each group, and the number of hits
+  // By as many equal parts of the weight as there are hits, the hit at which each begins (the guide
+  // table of Chen and Asau, 1974).
+  std::vector<std::size_t> guide_;
 };
 
 }  // namespace gpu_shading

@@ -53,7 +53,7 @@ std::vector<LightDirection> Mirrors::images(glm::dvec3 const& sun) const {
   std::vector<LightDirection> images;
   images.reserve(orientations_.size());
   for (auto const& [normal, extent] : orientations_) {
-    images.push_back({sun - 2.0 * glm::dot(sun, normal) * normal, extent});
+    images.push_back({sun - 2.0 * glm::dot(sun, normal) * normal, extent, true});
   }
   return images;
 }

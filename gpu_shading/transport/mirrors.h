@@ -17,7 +17,8 @@ std::uint64_t normal_key(glm::dvec3 const& normal);
 // Where a beam comes from.
 struct LightDirection {
   glm::dvec3 towards{0.0};
-  double share = 1.0;  // of the rays, in proportion
+  double share = 1.0;      // of the rays, in proportion
+  bool by_mirror = false;  // straight light on the receiver itself is no reflected light
 };
 
 // What a face reflects as a mirror, by the cosine of the angle of incidence (Schlick, "An

@@ -14,14 +14,11 @@ namespace gpu_shading {
 namespace {
 
 constexpr std::size_t paths_of_replicate = 1024;
-// Shadow rays for a sun, in a replicate. The first replicates have fewer, because they are enough
-// for most receivers. The spread of equally weighted replicates is that of their mean all the same.
-constexpr int first_draws = 16;
-constexpr int later_draws = 32;
+constexpr int draws_of_replicate = 16;  // shadow rays for a sun
 // Draws of the sun for each of a mirrored one: glass reflects little.
 constexpr int straight_for_mirrored = 4;
 constexpr std::size_t least_replicates = 4;
-constexpr std::size_t most_replicates = 128;
+constexpr std::size_t most_replicates = 1024;
 constexpr std::size_t direct_rays = 8;  // from the receiver to a sun of the first table
 
 struct Grid {
@@ -102,39 +99,29 @@ class LitPlaces {
  public:
   LitPlaces(LightRequest const& request, Receiver const& receiver, std::vector<KeptHit> hits,
             std::uint32_t seed)
-      : request_(request), receiver_(receiver.id), conditions_(request.conditions) {
-    auto const make_pool = [&](std::vector<KeptHit> of) {
-      return HitPool(std::move(of), paths_of_replicate, receiver.points.at(0.5, 0.5),
-                     std::sqrt(area(request.scene.scene[receiver.id].polygon)));
-    };
+      : request_(request),
+        receiver_(receiver.id),
+        conditions_(request.conditions),
+        pool_(with_receiver(request, receiver, std::move(hits), seed), paths_of_replicate,
+              receiver.points.at(0.5, 0.5),
+              std::sqrt(area(request.scene.scene[receiver.id].polygon))) {
     conditions_.receiver = std::nullopt;
-    if (!request.scene.mirrors.empty()) {
-      auto by_mirror = hits;
-      for (std::size_t i = 0; i < paths_of_replicate; ++i) {
-        auto const point =
-            receiver.points.at(sobol_points().at(i, 0, seed), sobol_points().at(i, 1, seed));
-        by_mirror.push_back({point, receiver.points.normal(), 1.0, receiver.id, 0, true});
-      }
-      by_mirror_ = make_pool(std::move(by_mirror));
-    }
-    straight_ = make_pool(std::move(hits));
   }
 
   // Of a beam of 1 W/m2. Adds up its rays.
-  LightByGround beam(glm::dvec3 const& sun, int draws, std::uint64_t key, std::size_t& rays) const {
+  LightByGround beam(glm::dvec3 const& sun, std::uint64_t key, std::size_t& rays) const {
     auto const& scene = request_.scene;
     LightByGround light;
     std::array const straight{LightDirection{sun}};
-    for (auto const& [hit, direction, weight] : straight_->draw(straight, draws, key)) {
+    for (auto const& [hit, direction, weight] : pool_.draw(straight, draws_of_replicate, key)) {
       Ray ray{hit->point, sun};
       ray.from = hit->surface;
       part_of(light, hit->by_ground) += weight * scene.rays.transmittance(ray, conditions_);
       ++rays;
     }
-    if (!by_mirror_) return light;
     auto const images = scene.mirrors.images(sun);
     for (auto const& [hit, image, weight] :
-         by_mirror_->draw(images, draws / straight_for_mirrored, ~key)) {
+         pool_.draw(images, draws_of_replicate / straight_for_mirrored, ~key)) {
       Ray ray{hit->point, images[image].towards};
       ray.from = hit->surface;
       auto conditions = conditions_;
@@ -146,16 +133,26 @@ class LitPlaces {
   }
 
  private:
+  // Places on the receiver itself are lit by mirrors.
+  static std::vector<KeptHit> with_receiver(LightRequest const& request, Receiver const& receiver,
+                                            std::vector<KeptHit> hits, std::uint32_t seed) {
+    for (std::size_t i = 0; i < paths_of_replicate && !request.scene.mirrors.empty(); ++i) {
+      auto const point =
+          receiver.points.at(sobol_points().at(i, 0, seed), sobol_points().at(i, 1, seed));
+      hits.push_back({point, receiver.points.normal(), 1.0, receiver.id, 0, true});
+    }
+    return hits;
+  }
+
   LightRequest const& request_;
   SurfaceId receiver_;
   RayConditions conditions_;
-  std::optional<HitPool> straight_;
-  std::optional<HitPool> by_mirror_;  // with places on the receiver itself
+  HitPool pool_;
 };
 
 Replicate replicate_of(LightRequest const& request, Receiver const& receiver,
                        Positions const& positions, std::vector<Probe> const& probes,
-                       std::uint32_t seed, int draws) {
+                       std::uint32_t seed) {
   auto paths = trace_paths(request.scene, receiver.id, receiver.points, sobol_points(), seed,
                            request.conditions);
   Replicate replicate;
@@ -164,9 +161,7 @@ Replicate replicate_of(LightRequest const& request, Receiver const& receiver,
   replicate.rays = paths.rays;
   LitPlaces const places(request, receiver, std::move(paths.hits), seed);
   std::uint64_t key = std::uint64_t{seed} << 32U;
-  auto const ask = [&](glm::dvec3 const& sun) {
-    return places.beam(sun, draws, ++key, replicate.rays);
-  };
+  auto const ask = [&](glm::dvec3 const& sun) { return places.beam(sun, ++key, replicate.rays); };
   for (auto const& sun : positions.table.suns()) replicate.beam.push_back(ask(sun));
   replicate.hourly.reserve(positions.hours.size());
   for (auto const& corners : positions.hours) {
@@ -228,11 +223,10 @@ Transported light_on(LightRequest const& request, SurfaceId id, std::uint32_t se
     std::vector<Replicate> replicates;
     while (true) {
       auto const first = replicates.size();
-      int const draws = first == 0 ? first_draws : later_draws;
-      replicates.resize(std::max(least_replicates, first + 1));
+      replicates.resize(std::max(least_replicates, first + 1 + first / 8));
       for_each_index(replicates.size() - first, [&](std::size_t i) {
         replicates[first + i] = replicate_of(request, receiver, positions, hours.probes,
-                                             next + static_cast<std::uint32_t>(first + i), draws);
+                                             next + static_cast<std::uint32_t>(first + i));
       });
       for (auto i = first; i < replicates.size(); ++i) rays += replicates[i].rays;
       auto const errors = errors_of(replicates, request.year, hours, request.transport);
