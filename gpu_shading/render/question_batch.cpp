@@ -226,7 +226,7 @@ std::optional<std::size_t> QuestionBatch::answer_exactly(Asked const& asked, Pol
                                  asked.question.through, asked.interiors},
                                 most_steps);
   if (!found) return std::nullopt;
-  answer(asked, found->sums, 1.0);
+  answer(asked, found->sums, 1.0, 0.0);
   return found->casters;
 }
 
@@ -313,7 +313,9 @@ void QuestionBatch::finish() {
   for (std::size_t i = 0; i < viewed_.size(); ++i) {
     Viewed const& viewed = viewed_[i];
     if (sums[i].receiver_pixels > 0) {
-      answer(viewed.asked, sums[i].parts, static_cast<double>(sums[i].receiver_pixels));
+      auto error = sums[i].uncertainty;
+      if (error) error = std::max(*error, Sunlit::rounding);
+      answer(viewed.asked, sums[i].parts, static_cast<double>(sums[i].receiver_pixels), error);
       if (!viewed.asked.question.through) count(viewed.casters, viewed.transmits);
     } else {
       Question const& question = viewed.asked.question;
@@ -326,10 +328,11 @@ void QuestionBatch::finish() {
   if (!again.empty()) finish();
 }
 
-void QuestionBatch::answer(Asked const& asked, std::span<LuminanceSums const> parts,
-                           double whole) const {
+void QuestionBatch::answer(Asked const& asked, std::span<LuminanceSums const> parts, double whole,
+                           std::optional<double> error) const {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     asked.question.answers[i] = sunlit(parts[i], asked, whole);
+    asked.question.answers[i].error = error;
   }
 }
 

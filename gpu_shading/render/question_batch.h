@@ -107,8 +107,9 @@ class QuestionBatch {
   void enqueue(Asked const& asked, Found found, std::vector<ReceiverView>& views);
   // Replaces the tiles of the last views by stretched ones whose pixels do not alias.
   void stretch_tiles(std::vector<ReceiverView>& views);
-  // `whole`: the sum over all of a receiver that is sunlit.
-  void answer(Asked const& asked, std::span<LuminanceSums const> parts, double whole) const;
+  // `whole`: the sum over all of a receiver that is sunlit. `error`: Sunlit::error.
+  void answer(Asked const& asked, std::span<LuminanceSums const> parts, double whole,
+              std::optional<double> error) const;
   Sunlit sunlit(LuminanceSums const& sums, Asked const& asked, double whole) const;
   void count(std::size_t casters, bool transmits);
 

@@ -15,15 +15,11 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "backends/cpu/cpu_backend.h"
 #include "gpu_shading/renderer.h"
 #include "platform/parallel.h"
-#include "render/renderer_with_backend.h"
 #include "support/exact.h"
 #include "support/invented_scenes.h"
 #include "support/processor_time.h"
@@ -34,21 +30,6 @@ namespace gpu_shading {
 namespace {
 
 constexpr int suns_a_scene = 8;
-
-// The CPU, which hands over the errors that it measures.
-class ErrorsOfCpu : public CpuBackend {
- public:
-  ErrorsOfCpu(BackendInput const& input, std::optional<double>& last)
-      : CpuBackend(input), last_(last) {}
-  std::vector<ViewSums> finish() override {
-    std::vector<ViewSums> sums = CpuBackend::finish();
-    if (!sums.empty()) last_ = sums.back().uncertainty;
-    return sums;
-  }
-
- private:
-  std::optional<double>& last_;
-};
 
 // Of sampled views at one target.
 class Errors {
@@ -122,10 +103,7 @@ void add_scene(InventedScene const& invented, std::vector<Errors>& errors) {
     options.device = on_cpu;
     options.error = at_target.target();
     options.samples_only = true;
-    std::optional<double> stated;
-    Renderer renderer = RendererWithBackend::make(scene, options, [&](BackendInput const& input) {
-      return std::make_unique<ErrorsOfCpu>(input, stated);
-    });
+    Renderer renderer(scene, options);
     for (std::size_t i = 0; i < exact.size(); ++i) {
       if (std::isnan(exact[i])) continue;
       std::size_t const before = renderer.statistics().receivers_drawn;
@@ -136,7 +114,7 @@ void add_scene(InventedScene const& invented, std::vector<Errors>& errors) {
       double const fraction =
           answer.projected_area / exact::projected_area(scene, invented.suns[i], 0);
       // Where none is measured, samples are chosen for the target.
-      at_target.add(std::abs(fraction - exact[i]), stated.value_or(options.error), seconds);
+      at_target.add(std::abs(fraction - exact[i]), answer.error.value_or(options.error), seconds);
     }
   }
 }
