@@ -1,5 +1,8 @@
 #include "answers/answer_store.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace gpu_shading::energyplus {
@@ -15,13 +18,21 @@ std::size_t bytes_of(std::vector<ScheduledPart> const& parts) {
 
 }  // namespace
 
+float kept_error(std::optional<double> error) {
+  return error ? static_cast<float>(*error) : std::numeric_limits<float>::quiet_NaN();
+}
+
+std::optional<double> error_of(float kept) {
+  return std::isnan(kept) ? std::nullopt : std::optional<double>(kept);
+}
+
 bool AnswerLimits::allow(Sunlit const& answer, double area) const {
   // Answers are rounded to single precision.
   constexpr double rounding = 1e-5;
   auto const most = area * (1.0 + rounding) + rounding * rounding;
   auto const allows = [&](double part) { return part >= 0.0 && part <= most; };
   double sum = answer.projected_area;
-  if (!allows(sum)) return false;
+  if (!allows(sum) || !(answer.error.value_or(0.0) >= 0.0)) return false;
   for (auto const& part : answer.scheduled) {
     sum += part.projected_area;
     if (!allows(part.projected_area) || !allows(sum)) return false;
@@ -35,6 +46,7 @@ bool AnswerLimits::allow(Sunlit const& answer, double area) const {
 
 Sunlit AnswerStore::Direction::sunlit(ReceiverNumber receiver) const {
   Sunlit answer;
+  answer.error = error(receiver);
   answer.projected_area = projected_area[receiver];
   auto const parts = scheduled.find(receiver);
   if (parts != scheduled.end()) answer.scheduled = parts->second;
@@ -53,6 +65,7 @@ std::vector<Sunlit> AnswerStore::Direction::sunlit(Interior const& answers) cons
   std::vector<Sunlit> found(answers.count);
   for (std::uint32_t i = 0; i < answers.count; ++i) {
     found[i].projected_area = interior_area[answers.first + i];
+    found[i].error = error_of(answers.error);
     auto const parts = interior_scheduled.find(answers.first + i);
     if (parts != interior_scheduled.end()) found[i].scheduled = parts->second;
   }
@@ -72,11 +85,9 @@ std::vector<float> AnswerStore::Direction::areas(Interior const& answers,
   return areas;
 }
 
-bool AnswerStore::make_room() {
-  if (bytes_ + sizeof(Direction) <= max_bytes_) return false;
+void AnswerStore::clear() {
   directions_.clear();
   bytes_ = 0;
-  return true;
 }
 
 AnswerStore::Direction& AnswerStore::at(SunDirection sun, std::uint32_t state) {
@@ -103,6 +114,13 @@ void AnswerStore::keep(Direction& direction, ReceiverNumber receiver, Sunlit ans
     bytes_ += (areas.size() - before) * sizeof areas.front();
   }
   areas[receiver] = static_cast<float>(answer.projected_area);
+  auto& errors = direction.errors;
+  if (answer.error != 0.0 || receiver < errors.size()) {
+    auto const before = errors.size();
+    errors.resize(std::max(before, receiver + std::size_t{1}), 0.0F);
+    bytes_ += (errors.size() - before) * sizeof errors.front();
+    errors[receiver] = kept_error(answer.error);
+  }
   if (answer.scheduled.empty()) return;
   bytes_ += bytes_of(answer.scheduled);
   direction.scheduled[receiver] = std::move(answer.scheduled);
@@ -113,9 +131,9 @@ void AnswerStore::copy(Direction const& from, ReceiverNumber known, Direction& d
   keep(direction, receiver, from.sunlit(known));
 }
 
-AnswerStore::Direction::Interior const& AnswerStore::keep_interior(Direction& direction,
-                                                                   std::uint64_t window_and_list,
-                                                                   std::vector<Sunlit> answers) {
+AnswerStore::Direction::Interior& AnswerStore::keep_interior(Direction& direction,
+                                                             std::uint64_t window_and_list,
+                                                             std::vector<Sunlit> answers) {
   auto& areas = direction.interior_area;
   auto const first = static_cast<std::uint32_t>(areas.size());
   bytes_ += sizeof(Direction::Interior) + answers.size() * sizeof areas.front();
@@ -128,7 +146,9 @@ AnswerStore::Direction::Interior const& AnswerStore::keep_interior(Direction& di
     direction.interior_scheduled[place] = std::move(answers[i].scheduled);
   }
   auto& kept = direction.interior[window_and_list];
-  kept = {first, static_cast<std::uint32_t>(answers.size())};
+  kept = {first, static_cast<std::uint32_t>(answers.size()), 0.0F, std::nullopt};
+  // All are of one view.
+  if (!answers.empty()) kept.error = kept_error(answers.front().error);
   return kept;
 }
 

@@ -52,9 +52,13 @@ struct AnswerLimits {
   bool allow(Sunlit const& answer, double area) const;
 };
 
+// Sunlit::error as it is kept: not a number where it was not measured.
+float kept_error(std::optional<double> error);
+std::optional<double> error_of(float kept);
+
 // Answers kept by direction and by the state of the screens' deployments: warm-up days, sizing
 // periods and the sky's patches come back to the same ones. They hold whatever the transmittance
-// schedules say, which are applied to them afterwards. Bounded by make_room().
+// schedules say, which are applied to them afterwards. Bounded by is_full().
 class AnswerStore {
  public:
   static constexpr std::size_t default_max_bytes = std::size_t{512} << 20U;
@@ -67,6 +71,7 @@ class AnswerStore {
     SunDirection sun;
     std::uint32_t state = 0;            // DeploymentStates
     std::vector<float> projected_area;  // by receiver; not a number, or too short, where unknown
+    std::vector<float> errors;          // kept_error() by receiver; too short where it is 0
     // Parts that pass scheduled shades, of the receivers that have such in view.
     Map<ReceiverNumber, std::vector<ScheduledPart>> scheduled;
     // What the sun lights of a list of interior surfaces through a window: places in
@@ -74,6 +79,8 @@ class AnswerStore {
     struct Interior {
       std::uint32_t first = 0;
       std::uint32_t count = 0;
+      float error = 0.0F;               // kept_error()
+      std::optional<SurfaceId> window;  // once EnergyPlus has asked
     };
     Map<std::uint64_t, Interior> interior;  // by window and list
     std::vector<float> interior_area;
@@ -85,6 +92,9 @@ class AnswerStore {
     bool knows(ReceiverNumber receiver) const {
       return receiver < projected_area.size() &&
              projected_area[receiver] == projected_area[receiver];
+    }
+    std::optional<double> error(ReceiverNumber receiver) const {
+      return receiver < errors.size() ? error_of(errors[receiver]) : 0.0;
     }
     // A known answer.
     Sunlit sunlit(ReceiverNumber receiver) const;
@@ -99,20 +109,20 @@ class AnswerStore {
     directions_.max_load_factor(0.25F);
   }
 
-  // Forgets everything, and returns true, when full. To be called before answers are added: their
-  // memory may exceed the bound by what is added until the next call.
-  bool make_room();
+  // To be asked before answers are added, and then cleared: their memory may exceed the bound by
+  // what is added until the next time.
+  bool is_full() const { return bytes_ + sizeof(Direction) > max_bytes_; }
+  void clear();
 
-  // The entry of a direction and a state, made where there is none. Valid until make_room() forgets
-  // it.
+  // The entry of a direction and a state, made where there is none. Valid until clear().
   Direction& at(SunDirection sun, std::uint32_t state);
 
   // nullptr where there is none.
   Direction const* find(SunDirection sun, std::uint32_t state) const;
 
   void keep(Direction& direction, ReceiverNumber receiver, Sunlit answer);
-  Direction::Interior const& keep_interior(Direction& direction, std::uint64_t window_and_list,
-                                           std::vector<Sunlit> answers);
+  Direction::Interior& keep_interior(Direction& direction, std::uint64_t window_and_list,
+                                     std::vector<Sunlit> answers);
 
   // Keeps what another direction knows of a receiver, whose number is another there.
   void copy(Direction const& from, ReceiverNumber known, Direction& direction,

@@ -12,7 +12,7 @@ namespace gpu_shading::energyplus {
 namespace {
 
 constexpr std::string_view magic = "GPUSHADE";
-constexpr std::uint32_t format_version = 3;
+constexpr std::uint32_t format_version = 4;
 constexpr std::size_t checksum_bytes = sizeof(Hash);
 constexpr char const* damaged = "is damaged";
 
@@ -111,6 +111,7 @@ void add(Writer& writer, AnswerStore::Direction const& direction) {
   writer.add(direction.sun.altitude);
   writer.add(direction.state);
   writer.add_list(direction.projected_area);
+  writer.add_list(direction.errors);
   writer.add_count(direction.scheduled.size());
   for (auto const& [receiver, parts] : direction.scheduled) {
     writer.add(receiver);
@@ -119,6 +120,7 @@ void add(Writer& writer, AnswerStore::Direction const& direction) {
   writer.add_count(direction.interior.size());
   for (auto const& [question, answers] : direction.interior) {
     writer.add(question);
+    writer.add(answers.error);
     writer.add_count(answers.count);
     for (auto const& answer : direction.sunlit(answers)) {
       writer.add(answer.projected_area);
@@ -134,16 +136,19 @@ void take_direction(Reader& reader, SceneAnswers& set) {
   auto const state = reader.take<std::uint32_t>();
   if (state >= set.states.size() || set.answers.find(sun, state) != nullptr) throw Error(damaged);
   auto& direction = set.answers.at(sun, state);
-  auto const areas = reader.take_list<float>();
-  if (areas.size() > set.receivers.size()) throw Error(damaged);
+  AnswerStore::Direction unscheduled;
+  unscheduled.projected_area = reader.take_list<float>();
+  unscheduled.errors = reader.take_list<float>();
+  auto const receivers = unscheduled.projected_area.size();
+  if (receivers > set.receivers.size() || unscheduled.errors.size() > receivers)
+    throw Error(damaged);
   std::unordered_map<ReceiverNumber, std::vector<ScheduledPart>> scheduled;
   for (auto left = reader.take_count(sizeof(ReceiverNumber)); left > 0; --left) {
     auto const receiver = reader.take<ReceiverNumber>();
     scheduled[receiver] = take_parts(reader);
   }
-  for (ReceiverNumber receiver = 0; receiver < areas.size(); ++receiver) {
-    Sunlit answer;
-    answer.projected_area = areas[receiver];
+  for (ReceiverNumber receiver = 0; receiver < receivers; ++receiver) {
+    Sunlit answer = unscheduled.sunlit(receiver);
     if (auto parts = scheduled.find(receiver); parts != scheduled.end()) {
       answer.scheduled = std::move(parts->second);
     }
@@ -155,10 +160,12 @@ void take_direction(Reader& reader, SceneAnswers& set) {
     // Out of order, adding each would take as long as there are others.
     if (before && question <= *before) throw Error(damaged);
     before = question;
+    auto const error = error_of(reader.take<float>());
     std::vector<Sunlit> answers(reader.take_count(sizeof(double) + sizeof(std::uint64_t)));
     for (auto& answer : answers) {
       answer.projected_area = reader.take<double>();
       answer.scheduled = take_parts(reader);
+      answer.error = error;
     }
     set.answers.keep_interior(direction, question, std::move(answers));
   }

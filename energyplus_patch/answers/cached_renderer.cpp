@@ -127,7 +127,9 @@ Renderer& CachedRenderer::renderer_in(std::uint32_t state) {
 
 // Directions that are held across this call are lost.
 void CachedRenderer::make_room() {
-  if (!known_.answers.make_room()) return;
+  if (!known_.answers.is_full()) return;
+  errors_of_forgotten_ = errors();
+  known_.answers.clear();
   last_ = nullptr;
   ahead_.clear();
 }
@@ -246,8 +248,8 @@ std::size_t CachedRenderer::render(Directions const& directions,
 }
 
 // nullptr: unknown.
-AnswerStore::Direction::Interior const* CachedRenderer::find_interior(Direction& direction,
-                                                                      std::uint64_t hash) {
+AnswerStore::Direction::Interior* CachedRenderer::find_interior(Direction& direction,
+                                                                std::uint64_t hash) {
   auto const known = direction.interior.find(hash);
   if (known != direction.interior.end()) return &known->second;
   return cache_ ? cache_->recall_interior(known_, direction, hash) : nullptr;
@@ -258,9 +260,11 @@ std::vector<float> CachedRenderer::interior(InteriorKey const& key, AskedSun con
   auto const& scene = renderer().scene();
   auto const window = key.question.window;
   auto& direction = direction_at(asked.sun);
-  if (auto const* const known = find_interior(direction, key.hash)) {
-    return direction.areas(*known, factors);
-  }
+  auto const answer = [&](Direction::Interior& known) {
+    known.window = window;
+    return direction.areas(known, factors);
+  };
+  if (auto* const known = find_interior(direction, key.hash)) return answer(*known);
   windows_.try_emplace(window, scene, window).first->second.ask(scene, key, to_vector(asked.sun));
   // Questions by the directions at which they are unknown: of most windows, these are the same.
   std::vector<std::pair<Directions, std::vector<InteriorKey const*>>> batches;
@@ -288,7 +292,7 @@ std::vector<float> CachedRenderer::interior(InteriorKey const& key, AskedSun con
   }
   for (auto const& [directions, questions] : batches) render_interiors(directions, questions);
   if (find_interior(direction, key.hash) == nullptr) render_interiors({&direction}, {&key});
-  return direction.areas(*find_interior(direction, key.hash), factors);
+  return answer(*find_interior(direction, key.hash));
 }
 
 std::vector<std::vector<Sunlit>> CachedRenderer::interior_at(std::span<SunDirection const> suns,
@@ -305,7 +309,9 @@ std::vector<std::vector<Sunlit>> CachedRenderer::interior_at(std::span<SunDirect
   std::vector<std::vector<Sunlit>> rows;
   rows.reserve(directions.size());
   for (auto* const direction : directions) {
-    rows.push_back(direction->sunlit(*find_interior(*direction, key.hash)));
+    auto& known = *find_interior(*direction, key.hash);
+    known.window = key.question.window;
+    rows.push_back(direction->sunlit(known));
   }
   return rows;
 }
@@ -333,6 +339,27 @@ void CachedRenderer::store() {
 
 CachedRenderer::Counts CachedRenderer::counts() const {
   return {directions_, cache_ ? cache_->directions_recalled() : 0, renderers_.statistics()};
+}
+
+AnswerErrors CachedRenderer::errors() const {
+  AnswerErrors errors = errors_of_forgotten_;
+  std::vector<glm::dvec3> facing;
+  facing.reserve(known_.receivers.size());
+  for (auto const id : known_.receivers) facing.push_back(normal(renderer().scene()[id].polygon));
+  known_.answers.for_each([&](Direction const& direction) {
+    if (!direction.asked && !direction.sampled) return;
+    auto const towards_sun = to_vector(direction.sun);
+    for (ReceiverNumber number = 0; number < direction.projected_area.size(); ++number) {
+      bool const wanted = direction.sampled || (number < asked_.size() && asked_[number]);
+      if (wanted && direction.knows(number) && glm::dot(facing[number], towards_sun) > 0.0) {
+        errors.add(known_.receivers[number], direction.error(number));
+      }
+    }
+    for (auto const& [question, answers] : direction.interior) {
+      if (answers.window) errors.add(*answers.window, error_of(answers.error));
+    }
+  });
+  return errors;
 }
 
 RendererOptions watched_options(Options const& options, Messages const& messages) {

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "answers/answer_errors.h"
 #include "answers/disk_cache.h"
 #include "answers/moved_renderers.h"
 #include "gpu_shading/renderer.h"
@@ -118,6 +119,9 @@ class CachedRenderer {
   Renderer const& renderer() const { return renderers_.at_rest(); }
   bool has_cache() const { return cache_.has_value(); }
   Counts counts() const;
+  // Of the answers that EnergyPlus asked for and of samples, where the sun is in front of the
+  // receiver.
+  AnswerErrors errors() const;
 
  private:
   using Direction = AnswerStore::Direction;
@@ -130,7 +134,7 @@ class CachedRenderer {
   Directions directions_ahead(std::span<SunDirection const> suns);
   void recall(Direction& direction);
   std::size_t render(Directions const& directions, std::span<ReceiverNumber const> receivers);
-  Direction::Interior const* find_interior(Direction& direction, std::uint64_t hash);
+  Direction::Interior* find_interior(Direction& direction, std::uint64_t hash);
   // Renders these, which are unknown, and keeps their answers.
   void render_interiors(Directions const& directions,
                         std::vector<InteriorKey const*> const& questions);
@@ -142,6 +146,7 @@ class CachedRenderer {
   std::uint32_t state_ = 0;
   std::size_t positions_ = 0;  // at the end of a state
   bool deployed_ = false;
+  AnswerErrors errors_of_forgotten_;
   Direction* last_ = nullptr;                           // asked about last
   Directions ahead_;                                    // known to follow, the next at the end
   std::vector<std::optional<ReceiverNumber>> numbers_;  // of receivers, by surface

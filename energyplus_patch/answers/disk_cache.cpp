@@ -83,8 +83,9 @@ void DiskCache::recall(SceneAnswers& run, AnswerStore::Direction& direction) {
   }
 }
 
-AnswerStore::Direction::Interior const* DiskCache::recall_interior(
-    SceneAnswers& run, AnswerStore::Direction& direction, std::uint64_t window_and_list) {
+AnswerStore::Direction::Interior* DiskCache::recall_interior(SceneAnswers& run,
+                                                             AnswerStore::Direction& direction,
+                                                             std::uint64_t window_and_list) {
   auto const* const found = find(run, direction);
   if (found == nullptr) return nullptr;
   auto const answers = found->interior.find(window_and_list);

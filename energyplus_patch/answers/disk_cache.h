@@ -26,9 +26,9 @@ class DiskCache {
   void recall(SceneAnswers& run, AnswerStore::Direction& direction);
 
   // The same for a question about interior surfaces; nullptr if it is not known.
-  AnswerStore::Direction::Interior const* recall_interior(SceneAnswers& run,
-                                                          AnswerStore::Direction& direction,
-                                                          std::uint64_t window_and_list);
+  AnswerStore::Direction::Interior* recall_interior(SceneAnswers& run,
+                                                    AnswerStore::Direction& direction,
+                                                    std::uint64_t window_and_list);
 
   // Number of directions of the run that received an answer.
   std::size_t directions_recalled() const { return directions_recalled_; }

@@ -28,6 +28,7 @@ void SunQuestions::open(CachedRenderer rendered) {
 
 void SunQuestions::close() {
   earlier_ += rendered_->counts();
+  earlier_errors_ += rendered_->errors();
   sampled_.reset();
   rendered_.reset();
 }
@@ -100,6 +101,12 @@ CachedRenderer::Counts SunQuestions::counts() const {
   auto counts = earlier_;
   if (rendered_) counts += rendered_->counts();
   return counts;
+}
+
+AnswerErrors SunQuestions::errors() const {
+  auto errors = earlier_errors_;
+  if (rendered_) errors += rendered_->errors();
+  return errors;
 }
 
 }  // namespace gpu_shading::energyplus

@@ -56,6 +56,7 @@ class SunQuestions {
   std::vector<bool> const& asked() const { return asked_; }
   // Sums over all scenes that were open.
   CachedRenderer::Counts counts() const;
+  AnswerErrors errors() const;
 
  private:
   AskedSun asked_sun() const;
@@ -73,7 +74,9 @@ class SunQuestions {
   std::optional<CachedRenderer> rendered_;
   std::optional<SampleInterpolation> sampled_;
   std::vector<bool> asked_;
-  CachedRenderer::Counts earlier_;  // of scenes before this one
+  // Of scenes before this one.
+  CachedRenderer::Counts earlier_;
+  AnswerErrors earlier_errors_;
 };
 
 }  // namespace gpu_shading::energyplus

@@ -403,7 +403,8 @@ void Session::finish() {
   bool const any = std::find(asked.begin(), asked.end(), true) != asked.end();
   if (!any && answers_->counts().directions == 0)
     return;  // the run ended before the first question
-  describe_answers(*answers_, scene_.model().options, messages_);
+  auto const errors = answers_->errors();
+  describe_answers(*answers_, errors, scene_.model().options, messages_);
   position_record_.describe(scene_.model().moving_shades, messages_);
   if (pv_loss_) pv_loss_->describe(messages_);
   if (reflected_) reflected_->describe();
@@ -416,7 +417,7 @@ void Session::finish() {
         [this](auto const& ids) { return undimmed_to_traced(scene_, latitude_(), ids); },
         messages_);
   }
-  write_reports();
+  write_reports(errors);
   if (step_error_) describe_step_error();
 }
 
@@ -443,7 +444,7 @@ void Session::describe_step_error() {
       found->mean, found->most, found->timesteps));
 }
 
-void Session::write_reports() {
+void Session::write_reports(AnswerErrors const& errors) {
   auto const& options = scene_.model().options;
   auto const stages = stages_of(answers_->counts().rendering);
   if (options.stages) write_stages(*options.stages, stages);
@@ -462,7 +463,7 @@ void Session::write_reports() {
                    scene_.shown_receivers(), known.answers, optics.factors(),
                    {std::move(heads), optics.deployment_names().size(), known.states}, stages,
                    [&](StagedFiles& files) {
-                     write_run(files, *options.report, scene_, rendered.renderer().device(),
+                     write_run(files, *options.report, scene_, rendered.renderer().device(), errors,
                                *record_, position_record_);
                      auto const& shades = scene_.model().moving_shades;
                      if (!shades.empty()) position_record_.write(files, shades);

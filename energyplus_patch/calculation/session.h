@@ -109,7 +109,7 @@ class Session : public ShadingCalculation {
  private:
   SurfaceId in_scene(SurfaceId id) const;
   SunQuestions& answers();
-  void write_reports();
+  void write_reports(AnswerErrors const& errors);
   void describe_step_error();
   std::string describe_time() const;
   void read_schedules();

@@ -1,6 +1,7 @@
 #include "reports/remarks.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <functional>
@@ -74,13 +75,58 @@ void list_transmitting_surfaces(SceneAssembly const& scene, Messages const& mess
   }
 }
 
-void warn_of_uncertain_receivers(SunQuestions const& answers, Messages const& messages) {
-  auto const& scene = answers.rendered().renderer().scene();
+// Receivers that EnergyPlus asked about.
+std::vector<SurfaceId> asked_receivers(SunQuestions const& answers) {
   auto const& asked = answers.asked();
+  auto const surfaces = answers.rendered().renderer().scene().size();
   std::vector<SurfaceId> receivers;
-  for (SurfaceId id = 0; id < std::min(asked.size(), scene.size()); ++id) {
+  for (SurfaceId id = 0; id < std::min(asked.size(), surfaces); ++id) {
     if (asked[id]) receivers.push_back(id);
   }
+  return receivers;
+}
+
+constexpr double most_views = 0.99;
+
+void list_errors(AnswerErrors const& errors, Options const& options, Messages const& messages) {
+  messages.eio(fmt::format(
+      "! <GPU Shading Error>, Target Error, Sampled Views, Error of 99 % of Sampled Views, Largest "
+      "Error, Exact Views, Views Without Measured Error\n"
+      "GPU Shading Error,{},{},{:.2g},{:.2g},{},{}\n",
+      options.resolution ? "" : fmt::format("{}", options.error), errors.sampled(),
+      errors.within(most_views), errors.largest(), errors.exact(), errors.not_measured()));
+}
+
+void warn_of_missed_targets(SunQuestions const& answers, AnswerErrors const& errors,
+                            Options const& options, Messages const& messages) {
+  if (options.resolution) return;
+  auto const& scene = answers.rendered().renderer().scene();
+  auto receivers = asked_receivers(answers);
+  std::erase_if(receivers, [&](SurfaceId id) {
+    // Errors are kept in single precision.
+    return errors.largest_of(id) <= static_cast<float>(options.error);
+  });
+  if (receivers.empty()) return;
+  std::ranges::stable_sort(receivers, std::greater{},
+                           [&](SurfaceId id) { return errors.largest_of(id); });
+  std::vector<std::string> names;
+  names.reserve(receivers.size());
+  for (SurfaceId const id : receivers) {
+    names.push_back(fmt::format("{} (within {:.2g})", scene[id].name, errors.largest_of(id)));
+  }
+  constexpr std::size_t max_listed = 3;
+  messages.warning(fmt::format(
+      "sunlit fractions of {} receiver{} cannot be brought within the target error of {}: {}; see "
+      "docs/explanation/accuracy.md",
+      names.size(), names.size() == 1 ? "" : "s", options.error, listed(names, max_listed)));
+}
+
+// Where errors are not measured, geometry foretells them.
+void warn_of_uncertain_receivers(SunQuestions const& answers, AnswerErrors const& errors,
+                                 Messages const& messages) {
+  auto const& scene = answers.rendered().renderer().scene();
+  auto receivers = asked_receivers(answers);
+  std::erase_if(receivers, [&](SurfaceId id) { return errors.all_measured_of(id); });
   auto const found = find_uncertain_receivers(scene, receivers);
   auto const warn = [&](std::vector<SurfaceId> const& ids, std::string_view why) {
     if (ids.empty()) return;
@@ -91,9 +137,7 @@ void warn_of_uncertain_receivers(SunQuestions const& answers, Messages const& me
     messages.warning(fmt::format("sunlit fractions may miss the target error {}: {}; see {}", why,
                                  listed(names, max_listed), "docs/explanation/limits.md"));
   };
-  // The CPU measures errors there.
-  if (!answers.rendered().renderer().device().id.is_cpu())
-    warn(found.behind_layers, "behind two parallel layers of blades at different distances");
+  warn(found.behind_layers, "behind two parallel layers of blades at different distances");
   warn(found.narrow, "where less than a fifth of a bounding rectangle is filled, behind a screen");
 }
 
@@ -173,8 +217,21 @@ void describe_scene(SceneAssembly const& scene, Messages const& messages) {
   list_transmitting_surfaces(scene, messages);
 }
 
-void describe_answers(SunQuestions const& answers, Options const& options,
-                      Messages const& messages) {
+std::string describe_errors(AnswerErrors const& errors) {
+  std::vector<std::string> parts;
+  if (errors.sampled() > 0) {
+    parts.push_back(fmt::format("99 % of {} sampled views within {:.2g}, all within {:.2g}",
+                                errors.sampled(), errors.within(most_views), errors.largest()));
+  }
+  if (errors.not_measured() > 0) {
+    parts.push_back(fmt::format("{} views not measured", errors.not_measured()));
+  }
+  parts.push_back(fmt::format("{} views exact, within {:.0e}", errors.exact(), Sunlit::rounding));
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+void describe_answers(SunQuestions const& answers, AnswerErrors const& errors,
+                      Options const& options, Messages const& messages) {
   auto const& rendered = answers.rendered();
   auto const& device = rendered.renderer().device();
   auto const& scene = rendered.renderer().scene();
@@ -183,16 +240,18 @@ void describe_answers(SunQuestions const& answers, Options const& options,
   for (SurfaceId id = 0; id < scene.size(); ++id) {
     if (scene[id].casting != Casting::never) ++casters;
   }
-  warn_of_uncertain_receivers(answers, messages);
+  list_errors(errors, options, messages);
+  warn_of_missed_targets(answers, errors, options, messages);
+  warn_of_uncertain_receivers(answers, errors, messages);
   auto const from_cache =
       rendered.has_cache() ? fmt::format(" rendered, {} from the cache", counts.recalled) : "";
   auto const asked = std::ranges::count(answers.asked(), true);
   auto const& did = counts.rendering;
-  messages.remark(
-      fmt::format("shading rendered by {}, {}: {} receivers, {} casters, {} directions{}, {} "
-                  "views drawn, {} clear, {:.2f} s",
-                  describe(device), describe_fineness(options), asked, casters, counts.directions,
-                  from_cache, did.receivers_drawn, did.receivers_clear, did.seconds));
+  messages.remark(fmt::format(
+      "shading rendered by {}, {}: {} receivers, {} casters, {} directions{}, {} "
+      "views drawn, {} clear, {:.2f} s; errors: {}",
+      describe(device), describe_fineness(options), asked, casters, counts.directions, from_cache,
+      did.receivers_drawn, did.receivers_clear, did.seconds, describe_errors(errors)));
   if (auto const& sampled = answers.sampled()) {
     messages.remark(fmt::format(
         "{} directions of the sun answered from samples at {}, --gpu-shading-update {}{}",

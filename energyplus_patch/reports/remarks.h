@@ -22,9 +22,13 @@ std::vector<std::string> remarks_of(Model const& model);
 // .eio's list of the surfaces that let light through.
 void describe_scene(SceneAssembly const& scene, Messages const& messages);
 
-// After the last question: what rendered how much, and which receivers may miss the target error.
-void describe_answers(SunQuestions const& answers, Options const& options,
-                      Messages const& messages);
+// After the last question: what rendered how much, the errors of its answers, and which receivers
+// miss the target error or may.
+void describe_answers(SunQuestions const& answers, AnswerErrors const& errors,
+                      Options const& options, Messages const& messages);
+
+// "99 % of 1200 sampled views within 0.00081, all within 0.00099; 300 views exact, within 1e-07"
+std::string describe_errors(AnswerErrors const& errors);
 
 // At the end of a run whose light from the ground no object of ours dims: names the receivers that
 // get over a tenth of their light from there, the largest shares first. `ratios`: for a few of

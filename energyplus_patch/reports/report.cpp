@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <optional>
 #include <tuple>
 
 #include "files/pictures.h"
@@ -27,6 +28,7 @@ struct Row {
   std::uint32_t state;
   double projected_area;
   double fraction;
+  std::optional<double> error;
 };
 
 std::vector<Row> collect(Renderer const& renderer, SurfaceId receiver, ReceiverNumber number,
@@ -42,7 +44,7 @@ std::vector<Row> collect(Renderer const& renderer, SurfaceId receiver, ReceiverN
     if (!direction.knows(number) || cosine <= 0.0 || full <= 0.0) return;
     double const answer = direction.area(number, factors);
     rows.push_back({receiver, direction.sun, direction.state, answer,
-                    std::min(1.0, answer / (full * cosine))});
+                    std::min(1.0, answer / (full * cosine)), direction.error(number)});
   });
   std::ranges::sort(rows, {}, [](Row const& row) {
     return std::tuple(row.sun.azimuth, row.sun.altitude, row.state);
@@ -91,6 +93,10 @@ std::string list(DeploymentStates::Shares const& shares) {
   std::string text;
   for (double const share : shares) text += fmt::format(",{:.6g}", share);
   return text;
+}
+
+std::string describe_error(std::optional<double> error) {
+  return error ? fmt::format("{:.2g}", std::max(*error, Sunlit::rounding)) : "";
 }
 
 void write_table(std::ostream& csv, Stages const& stages) {
@@ -142,17 +148,17 @@ std::size_t write_report(std::filesystem::path const& folder, CachedRenderer& re
   std::vector<Row> pictures;
   auto const write_sunlit = [&](std::ostream& csv) {
     csv << "receiver,sun azimuth [deg],sun altitude [deg],projected sunlit area [m2],sunlit "
-           "fraction"
+           "fraction,error"
         << heads_of(deployments) << '\n';
     for (ReceiverNumber number = 0; number < receivers.size(); ++number) {
       auto const receiver = receivers[number];
       if (!asked[receiver]) continue;
       auto const rows = collect(renderer, receiver, number, answers, factors);
       for (auto const& row : rows) {
-        csv << fmt::format("{},{:.4f},{:.4f},{:.7g},{:.6f}{}\n",
-                           csv_quoted(renderer.scene()[receiver].name),
-                           degrees_clockwise(row.sun.azimuth), glm::degrees(row.sun.altitude),
-                           row.projected_area, row.fraction, list(deployments.states[row.state]));
+        csv << fmt::format(
+            "{},{:.4f},{:.4f},{:.7g},{:.6f},{}{}\n", csv_quoted(renderer.scene()[receiver].name),
+            degrees_clockwise(row.sun.azimuth), glm::degrees(row.sun.altitude), row.projected_area,
+            row.fraction, describe_error(row.error), list(deployments.states[row.state]));
       }
       if (std::ranges::find(shown, receiver) == shown.end()) continue;
       auto const chosen = choose(rows);

@@ -39,9 +39,10 @@ inline constexpr std::size_t max_report_pictures = 300;
 
 // Writes into `folder` what a user needs to check a surprising number by eye:
 //   sunlit.csv       receiver, sun azimuth and altitude (degrees), projected sunlit area (m2),
-//                    sunlit fraction, and the share of screens in place by each deployment
-//                    schedule and the positions of moving shades, where there are any: every
-//                    answer that EnergyPlus was given, or interpolated between
+//                    sunlit fraction, the error that 99 % of such fractions stay within (blank
+//                    where it was not measured), and the share of screens in place by each
+//                    deployment schedule and the positions of moving shades, where there are any:
+//                    every answer that EnergyPlus was given, or interpolated between
 //   NAME_AZ_ALT.png  what the sun sees of a receiver, at up to three of its answers: the one most
 //                    shaded but lit, the one nearest to half sunlit, and the one at the highest
 //                    sun. With deployments NAME_AZ_ALT_SHARE[_SHARE ...].png, shares in percent,

@@ -29,6 +29,7 @@
 #include "reports/near_terrain.h"
 #include "reports/page/run_page.h"
 #include "reports/page_motions.h"
+#include "reports/remarks.h"
 #include "reports/report.h"
 #include "reports/sky_mask.h"
 
@@ -324,8 +325,9 @@ std::vector<SurfaceId> add_surfaces(RunPage& page, SceneAssembly const& assembly
   return ids;
 }
 
-RunPage page_of(SceneAssembly const& assembly, DeviceInfo const& device, RunRecord const& record,
-                std::vector<RunRecord::Day const*> const& days, PositionRecord const& positions) {
+RunPage page_of(SceneAssembly const& assembly, DeviceInfo const& device, AnswerErrors const& errors,
+                RunRecord const& record, std::vector<RunRecord::Day const*> const& days,
+                PositionRecord const& positions) {
   RunPage page;
   page.title = assembly.model().file;
   auto const ids = add_surfaces(page, assembly, record);
@@ -339,6 +341,7 @@ RunPage page_of(SceneAssembly const& assembly, DeviceInfo const& device, RunReco
       {"Receivers", std::to_string(page.receivers.size())},
       {"Other surfaces drawn", std::to_string(page.surfaces.size() - page.receivers.size())},
       {"Shading computed on", gpu_shading::describe(device)},
+      {"Errors of sunlit fractions", describe_errors(errors)},
       {"Reflected light", assembly.model().reflected_light.receivers.empty()
                               ? "EnergyPlus's own, which shades do not dim"
                               : "by ground, shades and neighbours, all of it"},
@@ -564,15 +567,19 @@ void write_skies(RunPage const& page, std::ostream& csv) {
   }
 }
 
-void write_receivers(RunPage const& page, std::ostream& csv) {
+void write_receivers(RunPage const& page, RunRecord const& record, AnswerErrors const& errors,
+                     std::ostream& csv) {
   csv << "receiver,area [m2],azimuth [deg],tilt [deg],mean sunlit fraction,beam [kWh/m2],"
-         "beam [kWh]\n";
+         "beam [kWh],largest error\n";
   for (std::size_t i = 0; i < page.receivers.size(); ++i) {
     auto const& receiver = page.receivers[i];
-    csv << fmt::format("{},{:.3f},{:.1f},{:.1f},{},{:.1f},{:.1f}\n",
-                       csv_field(page.surfaces[i].name), receiver.area, receiver.azimuth,
-                       receiver.tilt, receiver.mean ? fmt::format("{:.4f}", *receiver.mean) : "",
-                       receiver.beam, receiver.beam * receiver.area);
+    auto const id = record.receivers()[i];
+    csv << fmt::format(
+        "{},{:.3f},{:.1f},{:.1f},{},{:.1f},{:.1f},{}\n", csv_field(page.surfaces[i].name),
+        receiver.area, receiver.azimuth, receiver.tilt,
+        receiver.mean ? fmt::format("{:.4f}", *receiver.mean) : "", receiver.beam,
+        receiver.beam * receiver.area,
+        errors.all_measured_of(id) ? fmt::format("{:.2g}", errors.largest_of(id)) : "");
   }
 }
 
@@ -618,10 +625,11 @@ void prepare_page(std::filesystem::path const& folder) {
 }
 
 void write_run(StagedFiles& files, std::filesystem::path const& folder, SceneAssembly& assembly,
-               DeviceInfo const& device, RunRecord const& record, PositionRecord const& positions) {
+               DeviceInfo const& device, AnswerErrors const& errors, RunRecord const& record,
+               PositionRecord const& positions) {
   auto const days = chosen_days(record);
   assembly.set_positions(assembly.rest_positions());
-  auto page = page_of(assembly, device, record, days, positions);
+  auto page = page_of(assembly, device, errors, record, days, positions);
   add_maps(page, folder);
   add_from(page, folder, "Modules", [&] { add_modules_of(page, folder / "modules"); });
   add_skies(page, assembly, record);
@@ -629,7 +637,8 @@ void write_run(StagedFiles& files, std::filesystem::path const& folder, SceneAss
   files.write(mean_days_table, [&](std::ostream& csv) { write_mean_days(page, csv); });
   leave_out_mean_days(page);
   files.write(facts_table, [&](std::ostream& csv) { write_facts(page, csv); });
-  files.write(receivers_table, [&](std::ostream& csv) { write_receivers(page, csv); });
+  files.write(receivers_table,
+              [&](std::ostream& csv) { write_receivers(page, record, errors, csv); });
   files.write(months_table, [&](std::ostream& csv) { write_months(page, csv); });
   files.write(skies_table, [&](std::ostream& csv) { write_skies(page, csv); });
   files.write(hours_table, [&](std::ostream& csv) { write_hours(page, days, csv); });

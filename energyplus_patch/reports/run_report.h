@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "answers/answer_errors.h"
 #include "gpu_shading/device.h"
 #include "platform/staged_files.h"
 #include "reports/position_record.h"
@@ -15,7 +16,8 @@ namespace gpu_shading::energyplus {
 //   run_receivers.csv  receiver, area (m2), azimuth and tilt of the normal (degrees), mean sunlit
 //                      fraction of the page's days, over the hours during all of which the sun
 //                      faces it, blank if there are none, beam solar energy of the run (kWh/m2 and
-//                      kWh)
+//                      kWh), and the largest measured error of a sunlit fraction, blank if one was
+//                      not measured
 //   run_hours.csv      month and day, hour at whose end the sun is there, its azimuth and altitude
 //                      (degrees), direct normal irradiance (W/m2), the mean of the days that the
 //                      day stands for, and the sunlit fraction of each receiver, 0 if it faces away
@@ -31,7 +33,8 @@ namespace gpu_shading::energyplus {
 // the schedules' lowest values and screens fully deployed, which the optics then have, and of
 // moving shades at rest.
 void write_run(StagedFiles& files, std::filesystem::path const& folder, SceneAssembly& assembly,
-               DeviceInfo const& device, RunRecord const& record, PositionRecord const& positions);
+               DeviceInfo const& device, AnswerErrors const& errors, RunRecord const& record,
+               PositionRecord const& positions);
 
 // Throws Error if the folder has an index.html that is not of this report, or one that cannot be
 // replaced.

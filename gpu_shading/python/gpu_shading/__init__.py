@@ -27,7 +27,7 @@ from gpu_shading.pv_modules import ModuleField, Modules, modules, read_modules
 from gpu_shading.rays import Hits, Rays
 from gpu_shading.renderer import Renderer
 from gpu_shading.rule import Rule
-from gpu_shading.runs import Run, Summary, run
+from gpu_shading.runs import Run, ShadingErrors, Summary, run
 from gpu_shading.samples import read_samples, sample, write_samples
 from gpu_shading.scene import Scene, Surface
 from gpu_shading.study import Case, Study
@@ -35,7 +35,7 @@ from gpu_shading.study import Case, Study
 __all__ = [
     "Case", "Crown", "DeviceError", "Drawings", "Error", "FileError", "Hits", "InvalidInput", "Map", "Mask", "MaskHour",
     "ModuleField", "Modules", "Picture", "Power", "Rays", "Renderer", "Rule", "Run", "RunError", "Scene", "Screen",
-    "Sheet", "Study", "Summary", "Surface", "Transmittance", "__version__", "check", "limit_threads", "map", "mask",
-    "measures", "modules", "power", "prefix", "read_modules", "read_samples", "run", "sample", "screen", "view",
-    "write_reductions", "write_samples",
+    "ShadingErrors", "Sheet", "Study", "Summary", "Surface", "Transmittance", "__version__", "check", "limit_threads",
+    "map", "mask", "measures", "modules", "power", "prefix", "read_modules", "read_samples", "run", "sample", "screen",
+    "view", "write_reductions", "write_samples",
 ]

@@ -30,6 +30,23 @@ _FREQUENCIES = ("Each Call", "TimeStep", "Hourly", "Daily", "Monthly", "RunPerio
 
 
 @dataclass(frozen=True)
+class ShadingErrors:
+    """Errors of the sunlit fractions that a run was answered with, by view: a receiver at a direction of the sun."""
+
+    target: float | None
+    """None at a fixed resolution."""
+    sampled: int
+    """Views whose error was measured; 99 % of such fractions are within it."""
+    within: float
+    """What the errors of 99 % of the sampled views are within; 1e-7, which is rounding, if there are none."""
+    largest: float
+    exact: int
+    """Views that were answered without samples, within rounding."""
+    not_measured: int
+    """Sampled views whose error is not known."""
+
+
+@dataclass(frozen=True)
 class Summary:
     """Errors, time and energy of a run."""
 
@@ -45,10 +62,14 @@ class Summary:
     """Total Site Energy, kWh; None if the model does not ask for its tables in eplusout.sql."""
     light: dict[str, dict[str, float | None]]
     """Of a run with `report`: by receiver, the kinds of light of Run.light(), kWh/m2; None where it is not known."""
+    shading: ShadingErrors | None
+    """None if eplusout.eio does not state errors, as without `shading` or by the methods opengl and scheduled."""
 
     def _repr_html_(self) -> str:
         rows: list[tuple[str, object]] = [("Warnings", self.warnings), ("Severe errors", self.severe),
                                           ("Seconds", self.seconds), ("Site energy, kWh", self.site_energy)]
+        if self.shading:
+            rows.append(("Largest error of sunlit fractions", self.shading.largest))
         page = _html.table(["", ""], [*rows, *(("", line) for line in self.messages)])
         if not self.light:
             return page
@@ -147,15 +168,15 @@ class Run:
         return table.rename(columns=lambda head: head.partition(" [")[0])
 
     def summary(self) -> Summary:
-        """Warnings, errors, time, variables, the site's energy if the tables are in eplusout.sql, and light if there
-        is a report."""
+        """Warnings, errors, time, variables, the site's energy if the tables are in eplusout.sql, light if there is a
+        report, and errors of sunlit fractions."""
         end = _text(self.folder / "eplusout.end")
         counts = re.search(r"(\d+) Warning; *(\d+) Severe", end)
         spent = re.search(r"Elapsed Time=(\d+)hr *(\d+)min *(\d+\.?\d*)sec", end)
         hours, minutes, seconds = (float(part) for part in spent.groups()) if spent else (0.0, 0.0, float("nan"))
         return Summary(int(counts[1]) if counts else 0, int(counts[2]) if counts else 0,
                        3600 * hours + 60 * minutes + seconds, self.messages, self._variables(), self._site_energy(),
-                       self._light())
+                       self._light(), self._shading_errors())
 
     def _repr_html_(self) -> str:
         return self.summary()._repr_html_()
@@ -173,6 +194,16 @@ class Run:
                     kind = head.partition(" [")[0]
                     sums[kind] = (sums.get(kind) or 0.0) + float(text) if text else None
         return found
+
+    def _shading_errors(self) -> ShadingErrors | None:
+        path = self.folder / "eplusout.eio"
+        found = re.search(r"^GPU Shading Error,(.*)$", _text(path), re.MULTILINE)
+        if not found:
+            return None
+        with reading(path, "a file of EnergyPlus's"):
+            target, sampled, within, largest, exact, not_measured = found[1].split(",")
+            return ShadingErrors(float(target) if target else None, int(sampled), float(within), float(largest),
+                                 int(exact), int(not_measured))
 
     def _variables(self) -> tuple[str, ...]:
         found: dict[str, None] = {}

@@ -25,6 +25,25 @@ TEST(AnswerStore, SameDirectionSameEntry) {
   EXPECT_FALSE(answers.at(noon, 0).knows(3));
 }
 
+TEST(AnswerStore, KeepsMeasuredErrors) {
+  AnswerStore answers;
+  auto& direction = answers.at({0.1, 0.9}, 0);
+  auto sampled = lit(1.5);
+  sampled.error = 0.25;
+  auto unmeasured = lit(2.5);
+  unmeasured.error.reset();
+  answers.keep(direction, 1, sampled);
+  answers.keep(direction, 3, lit(3.5));
+  answers.keep(direction, 2, unmeasured);
+  auto const inside = answers.keep_interior(direction, 7, {sampled, sampled});
+  EXPECT_EQ(direction.sunlit(1).error, 0.25);
+  EXPECT_EQ(direction.sunlit(2).error, std::nullopt);
+  EXPECT_EQ(direction.sunlit(3).error, 0.0);
+  EXPECT_EQ(direction.sunlit(inside).back().error, 0.25);
+  answers.keep(direction, 1, lit(1.5));
+  EXPECT_EQ(direction.sunlit(1).error, 0.0);
+}
+
 // In a model of a hundred thousand surfaces, only those that were asked for take memory.
 TEST(AnswerStore, MemoryIsThatOfTheReceivers) {
   AnswerStore answers;
@@ -44,7 +63,7 @@ TEST(AnswerStore, MemoryIsBounded) {
   scheduled.scheduled.push_back({{{0, 1}, {1, 2}}, 0.5});
   std::size_t entries = 0;
   for (int i = 0; i < 5000; ++i) {
-    answers.make_room();
+    if (answers.is_full()) answers.clear();
     auto& direction = answers.at({i * 0.001, 0.5}, 0);
     for (ReceiverNumber receiver = 0; receiver < 10; ++receiver) {
       answers.keep(direction, receiver, scheduled);

@@ -97,5 +97,28 @@ TEST(CachedRenderer, ReceiversThatAreNeverAskedAboutAreRenderedOnce) {
   EXPECT_EQ(rendered() - first, asked);
 }
 
+// Louvres before a window; the floor behind it is asked for at one of two directions.
+TEST(CachedRenderer, ErrorsAreThoseOfWhatWasAskedFor) {
+  House house;
+  constexpr int louvres = 300;
+  for (int i = 0; i < louvres; ++i) {
+    auto const corner = glm::dvec3(-1.0, -0.2, -0.5 + 0.011 * i);
+    house.scene.add({"louvre", rectangle(corner, {4, 0.001 * i, 0}, {0, 0.01, 0.003})});
+  }
+  CachedRenderer answers(renderer_of(house.scene), std::nullopt, {});
+  std::vector<SunDirection> const ahead{sun(170, 30), sun(140, 30)};
+  answers.area(house.window, {sun(180, 40), ahead}, {});
+  answers.area(house.window, {sun(0, 40), {}}, {});  // which it faces away from
+  auto const outside = answers.errors();
+  EXPECT_EQ(outside.sampled(), 1U);
+  EXPECT_EQ(outside.exact() + outside.not_measured(), 0U);
+  answers.interior(InteriorKey({house.window, {house.floor}}), {sun(180, 40), ahead}, {});
+  auto const errors = answers.errors();
+  EXPECT_EQ(errors.sampled(), 2U);
+  EXPECT_GT(errors.largest_of(house.window), Sunlit::rounding);
+  EXPECT_EQ(errors.largest_of(house.window), errors.largest());
+  EXPECT_EQ(errors.largest_of(house.floor), Sunlit::rounding);
+}
+
 }  // namespace
 }  // namespace gpu_shading::energyplus

@@ -31,8 +31,10 @@ Hash scene_of(std::uint8_t number) {
   return hash;
 }
 
-Sunlit lit(double area, std::vector<ScheduledPart> scheduled = {}) {
+Sunlit lit(double area, std::vector<ScheduledPart> scheduled = {},
+           std::optional<double> error = 0.0) {
   Sunlit answer;
+  answer.error = error;
   answer.projected_area = area;
   answer.scheduled = std::move(scheduled);
   return answer;
@@ -48,8 +50,9 @@ SceneAnswers some_answers() {
   auto const all = set.states.number_of({1.0, 1.0});
   auto const half = set.states.number_of({0.5, 1.0});
   set.answers.keep(set.answers.at(noon, all), 0, lit(1.5));
-  set.answers.keep(set.answers.at(noon, half), 1, lit(2.5, parts));
-  set.answers.keep_interior(set.answers.at(noon, half), 99, {lit(0.75), lit(0.0, parts)});
+  set.answers.keep(set.answers.at(noon, half), 1, lit(2.5, parts, 0.25));
+  set.answers.keep_interior(set.answers.at(noon, half), 99,
+                            {lit(0.75, {}, std::nullopt), lit(0.0, parts, std::nullopt)});
   return set;
 }
 
@@ -62,13 +65,16 @@ void expect_some_answers(SceneAnswers const& set) {
   auto const* const half = set.answers.find(noon, 1);
   ASSERT_TRUE(all != nullptr && half != nullptr);
   EXPECT_EQ(all->projected_area[0], 1.5F);
+  EXPECT_EQ(all->error(0), 0.0);
   EXPECT_FALSE(all->knows(1));
   EXPECT_FALSE(half->knows(0));
   EXPECT_EQ(half->area(1, std::vector<double>{0.5, 1.0, 0.5}), 2.5 + 0.5 * 0.5 * 0.125 + 0.125);
+  EXPECT_EQ(half->error(1), 0.25);
   ASSERT_TRUE(half->interior.contains(99));
   auto const interior = half->sunlit(half->interior.at(99));
   ASSERT_EQ(interior.size(), 2U);
   EXPECT_EQ(interior[0].projected_area, 0.75);
+  EXPECT_EQ(interior[0].error, std::nullopt);
   ASSERT_EQ(interior[1].scheduled.size(), 2U);
   EXPECT_EQ(interior[1].scheduled[0].powers, parts[0].powers);
   EXPECT_EQ(interior[1].scheduled[1].projected_area, 0.125);
@@ -149,10 +155,12 @@ TEST(DiskCache, RecallsWhatARunHasStoredWhateverItsNumbers) {
   auto& direction = run.answers.at(noon, half);
   cache.recall(run, direction);
   EXPECT_EQ(direction.area(0, std::vector<double>{1.0, 1.0, 1.0}), 2.5 + 0.5 + 0.125);
+  EXPECT_EQ(direction.error(0), 0.25);
   EXPECT_FALSE(direction.knows(1));
   auto const* const interior = cache.recall_interior(run, direction, 99);
   ASSERT_TRUE(interior != nullptr);
   EXPECT_EQ(direction.interior_area[interior->first], 0.75F);
+  EXPECT_EQ(direction.sunlit(*interior).front().error, std::nullopt);
   EXPECT_EQ(cache.recall_interior(run, direction, 98), nullptr);
   EXPECT_EQ(cache.directions_recalled(), 1U);
 
@@ -224,6 +232,7 @@ TEST(DiskCache, ImpossibleAnswersAreNotBelieved) {
   sets.push_back(with(lit(29.0, {{{{0, 1}}, 2.0}})));
   sets.push_back(inside(lit(31.0)));
   sets.push_back(inside(lit(std::numeric_limits<double>::quiet_NaN())));
+  sets.push_back(with(lit(1.0, {}, -0.5)));
   sets.push_back(foreign());
   for (std::size_t i = 0; i < sets.size(); ++i) {
     TemporaryFolder const folder;

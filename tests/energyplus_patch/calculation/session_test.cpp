@@ -1,5 +1,6 @@
 #include "calculation/session.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -13,6 +14,7 @@
 #include <memory>
 #include <numbers>
 #include <regex>
+#include <sstream>
 
 #include "gpu_shading/error.h"
 #include "gpu_shading/sun_position.h"
@@ -477,11 +479,113 @@ TEST(Session, ReportTellsStatesOfDeploymentApart) {
   std::ifstream table(folder / "sunlit.csv");
   std::string line;
   std::getline(table, line);
-  EXPECT_TRUE(line.ends_with(",sunlit fraction,\"share by SAILS\"")) << line;
+  EXPECT_TRUE(line.ends_with(",sunlit fraction,error,\"share by SAILS\"")) << line;
   std::vector<std::string> shares;
   while (std::getline(table, line)) shares.push_back(line.substr(line.rfind(',') + 1));
   EXPECT_EQ(shares, (std::vector<std::string>{"1", "0.25"}));
   EXPECT_TRUE(std::filesystem::exists(folder / "FLOOR_028.6_57.3_100.png"));
+}
+
+// A yard behind leaves, its edge of 1 mm, and a yard behind a plate, which is exact.
+struct WithLeaves {
+  explicit WithLeaves(double error, std::filesystem::path const& cache = {},
+                      std::optional<int> resolution = {})
+      : session(model(error, cache, resolution)) {
+    yard = session.add(surface_of("YARD", rectangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0})));
+    Polygon const corner{
+        {{0, 0, 0}, {4, 0, 0}, {4, 1e-3, 0}, {1e-3, 1e-3, 0}, {1e-3, 4, 0}, {0, 4, 0}}, {}};
+    edge = session.add(surface_of("EDGE", corner));
+    open = session.add(surface_of("OPEN", rectangle({50, 0, 0}, {4, 0, 0}, {0, 4, 0})));
+    constexpr int leaves = 1500;
+    for (int i = 0; i < leaves; ++i) {
+      glm::dvec3 const corner_of_leaf(std::fmod(0.618034 * i, 4.0), std::fmod(0.7548777 * i, 4.0),
+                                      0.5);
+      glm::dvec3 const along(0.1 * std::cos(0.5 * i), 0.1 * std::sin(0.5 * i), 0.0);
+      session.add(surface_of("LEAF", rectangle(corner_of_leaf, along, {-along.y, along.x, 0.05})));
+    }
+    session.add(surface_of("PLATE", rectangle({51, 0, 1}, {1, 0, 0}, {0, 1, 0})));
+    session.start({said.messages(), {}});
+  }
+
+  static Model model(double error, std::filesystem::path const& cache,
+                     std::optional<int> resolution) {
+    auto made = model_of("");
+    made.options.error = error;
+    made.options.resolution = resolution;
+    made.options.device.device = DeviceId{};
+    if (!cache.empty()) made.options.cache = CacheFolder{cache};
+    return made;
+  }
+
+  // The fields of the .eio's line, after suns of which the last is behind the receivers.
+  std::vector<std::string> errors(std::vector<SurfaceId> const& receivers) {
+    for (double const altitude : {0.5, 0.8, 1.1, -0.1}) {
+      session.set_sun({0.3, altitude});
+      session.projected_sunlit_areas(receivers);
+    }
+    session.finish();
+    std::smatch line;
+    EXPECT_TRUE(std::regex_search(said.eio, line, std::regex("\nGPU Shading Error,(.*)\n")));
+    std::vector<std::string> fields;
+    std::istringstream text(line[1]);
+    for (std::string field; std::getline(text, field, ',');) fields.push_back(field);
+    return fields;
+  }
+
+  Said said;
+  Session session;
+  SurfaceId yard = 0;
+  SurfaceId edge = 0;
+  SurfaceId open = 0;
+};
+
+TEST(Session, StatesTheErrorsOfItsAnswers) {
+  WithLeaves run(1e-3);
+  std::vector<SurfaceId> const asked{run.yard, run.open};
+  auto const fields = run.errors(asked);
+  Scene scene;
+  for (SurfaceId id = 0; id < run.session.size(); ++id) scene.add(run.session.surface(id));
+  RendererOptions options;
+  options.device = parse_device_choice("cpu");
+  Renderer renderer(scene, options);
+  double largest = 0.0;
+  for (double const altitude : {0.5, 0.8, 1.1}) {
+    auto const answers = renderer.projected_sunlit_areas(SunDirection{0.3, altitude}, asked);
+    largest = std::max(largest, answers[0].error.value());
+    EXPECT_EQ(answers[1].error, 0.0);
+  }
+  EXPECT_GT(largest, 1e-5);
+  auto const stated = fmt::format("{:.2g}", largest);
+  EXPECT_EQ(fields, (std::vector<std::string>{"0.001", "3", stated, stated, "3", "0"}));
+  EXPECT_THAT(run.said.warnings,
+              testing::Not(testing::Contains(testing::HasSubstr("target error"))));
+}
+
+// What is answered from the cache is no more exact than it was.
+TEST(Session, StatesTheErrorsOfCachedAnswersToo) {
+  TemporaryFolder const folder;
+  WithLeaves first(1e-3, folder.path());
+  auto const stated = first.errors({first.yard, first.open});
+  WithLeaves again(1e-3, folder.path());
+  EXPECT_EQ(again.errors({again.yard, again.open}), stated);
+  EXPECT_THAT(again.said.remarks.back(), testing::HasSubstr(" 0 views drawn"));
+}
+
+TEST(Session, StatesNoErrorAtAFixedResolution) {
+  WithLeaves run(1e-3, {}, 256);
+  EXPECT_EQ(run.errors({run.yard, run.open}),
+            (std::vector<std::string>{"", "0", "1e-07", "1e-07", "3", "3"}));
+}
+
+TEST(Session, NamesReceiversThatMissTheTargetError) {
+  WithLeaves run(1e-5);
+  auto const fields = run.errors({run.yard, run.edge, run.open});
+  EXPECT_EQ(fields[1], "6");
+  EXPECT_THAT(
+      run.said.warnings,
+      testing::Contains("sunlit fractions of 1 receiver cannot be brought within the target "
+                        "error of 1e-05: EDGE (within " +
+                        fields[3] + "); see docs/explanation/accuracy.md"));
 }
 
 // A skylight over two halves of a floor, half under a plate that a schedule makes transparent.

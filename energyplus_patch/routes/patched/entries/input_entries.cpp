@@ -55,6 +55,7 @@ using Path = std::filesystem::path;
 PointerTo<symbol::process_input> original_process_input = nullptr;
 PointerTo<symbol::read_file> original_read_file = nullptr;
 PointerTo<symbol::read_json> original_read_json = nullptr;
+PointerTo<symbol::close_output_files> original_close = nullptr;
 PointerTo<symbol::end_energyplus> original_end = nullptr;
 PointerTo<symbol::abort_energyplus> original_abort = nullptr;
 
@@ -161,6 +162,12 @@ void finish_run() {
   run.session = nullptr;
 }
 
+// The last moment for lines in the .eio file.
+void close_output_files(State& state) {
+  finish_run();
+  original_close(state);
+}
+
 void end_energyplus(State& state) {
   finish_run();
   original_end(state);
@@ -181,6 +188,7 @@ std::vector<Entry> input_entries() {
       watch(symbol::process_input, &process_input, &original_process_input),
       watch(symbol::read_file, &read_file, &original_read_file),
       watch(symbol::read_json, &read_json, &original_read_json),
+      watch(symbol::close_output_files, &close_output_files, &original_close),
       watch(symbol::end_energyplus, &end_energyplus, &original_end),
       watch(symbol::abort_energyplus, &abort_energyplus, &original_abort),
       {symbol::print_shading_line.need, print},
