@@ -125,6 +125,7 @@ def test_numbers_are_those_of_runs(gs, place, reference, weather, tmp_path):
         "".join(f"Output:Variable,*,{name},RunPeriod;\n" for name in (SOLAR, cooling)))
     run = gs.run(tmp_path / "model.idf", weather, tmp_path / "out", error=0.01, update="timestep")
     row = found["b2/in/cool"]
+    assert float(row["largest error"]) == run.summary().shading.largest
     assert float(row["Transmitted Solar [kWh]"]) == pytest.approx(run.values(SOLAR)["BOX"][-1] / 3.6e6, rel=1e-6)
     (energy,) = run.values(cooling).values()
     assert energy[-1] > 1e6
@@ -139,6 +140,7 @@ def test_runs_of_one_scene_share_its_shading(reference):
         assert plain["scene"] == cool["scene"] != bare["scene"]
         assert int(plain["directions rendered"]) > 20
         assert (cool["directions rendered"], cool["directions from the cache"]) == ("0", plain["directions rendered"])
+        assert cool["largest error"] == plain["largest error"] != ""
         assert cool["Transmitted Solar [kWh]"] == plain["Transmitted Solar [kWh]"]
         assert float(bare["Transmitted Solar [kWh]"]) > float(plain["Transmitted Solar [kWh]"])
     assert len({row["scene"] for row in found.values()}) == 3  # without louvres, both are one box

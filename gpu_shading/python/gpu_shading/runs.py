@@ -176,7 +176,7 @@ class Run:
         hours, minutes, seconds = (float(part) for part in spent.groups()) if spent else (0.0, 0.0, float("nan"))
         return Summary(int(counts[1]) if counts else 0, int(counts[2]) if counts else 0,
                        3600 * hours + 60 * minutes + seconds, self.messages, self._variables(), self._site_energy(),
-                       self._light(), self._shading_errors())
+                       self._light(), shading_errors(self.folder))
 
     def _repr_html_(self) -> str:
         return self.summary()._repr_html_()
@@ -194,16 +194,6 @@ class Run:
                     kind = head.partition(" [")[0]
                     sums[kind] = (sums.get(kind) or 0.0) + float(text) if text else None
         return found
-
-    def _shading_errors(self) -> ShadingErrors | None:
-        path = self.folder / "eplusout.eio"
-        found = re.search(r"^GPU Shading Error,(.*)$", _text(path), re.MULTILINE)
-        if not found:
-            return None
-        with reading(path, "a file of EnergyPlus's"):
-            target, sampled, within, largest, exact, not_measured = found[1].split(",")
-            return ShadingErrors(float(target) if target else None, int(sampled), float(within), float(largest),
-                                 int(exact), int(not_measured))
 
     def _variables(self) -> tuple[str, ...]:
         found: dict[str, None] = {}
@@ -245,6 +235,18 @@ class Run:
             raise InvalidInput(f"{self.folder / 'eplusout.eio'}: has no Site:Location")
         with reading(self.folder / "eplusout.eio", "a file of EnergyPlus's"):
             return number(float(found[1]), "time zone", -12.0, 14.0)
+
+
+def shading_errors(folder: Path) -> ShadingErrors | None:
+    """As eplusout.eio in a run's output folder states them, if it does."""
+    path = folder / "eplusout.eio"
+    found = re.search(r"^GPU Shading Error,(.*)$", _text(path), re.MULTILINE)
+    if not found:
+        return None
+    with reading(path, "a file of EnergyPlus's"):
+        target, sampled, within, largest, exact, not_measured = found[1].split(",")
+        return ShadingErrors(float(target) if target else None, int(sampled), float(within), float(largest),
+                             int(exact), int(not_measured))
 
 
 def _needed(module: str, what: str) -> Any:

@@ -13,7 +13,7 @@ from gpu_shading._text import escaped
 from gpu_shading.study.folder import Tables
 
 FIRST = ("run", "model", "variant", "weather", "status", "message", "scene", "directions rendered",
-         "directions from the cache", "inputs", "gpu_shading", "energyplus")
+         "directions from the cache", "largest error", "inputs", "gpu_shading", "energyplus")
 LAST = ("messages",)
 _TEXTS = {"run", "model", "variant", "weather", "status", "message", "scene", "inputs", "gpu_shading", "energyplus",
           "messages", "host"}

@@ -26,6 +26,7 @@ from gpu_shading import _programs
 from gpu_shading._files import private_folder, write_whole
 from gpu_shading._text import of_error
 from gpu_shading.errors import InvalidInput, RunError
+from gpu_shading.runs import shading_errors
 from gpu_shading.study import inputs, models, results
 
 RECORD = "record.json"
@@ -245,7 +246,9 @@ def _run_in(job: Job, folder: Path, scene: str, shading: str | None, is_first: b
         told = errors if "gpu_shading: error: " in errors else report or errors
         return Outcome(_without(results.last_lines(told) or f"exit status {status}", folder))
     rendered, recalled, warnings = results.read_messages(report)
+    stated = shading_errors(out)
     values = {"scene": scene, "directions rendered": rendered, "directions from the cache": recalled,
+              "largest error": stated.largest if stated else None,
               "messages": _without(" | ".join(warnings), folder),
               **results.read_numbers(out / "eplusout.sql", job.outputs)}
     return Outcome(values=values)
