@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <mutex>
 #include <span>
 #include <vector>
@@ -44,6 +46,16 @@ void require_rows(FactorTable const& table, std::size_t directions) {
   throw Error(fmt::format("factors have {} rows, expected 1 or {}", table.rows, directions));
 }
 
+// Areas, and errors at least of rounding, not a number where they were not measured.
+void copy(std::span<Sunlit const> answers, std::span<double const> factors, double*& areas,
+          double*& errors) {
+  for (auto const& answer : answers) {
+    *areas++ = answer.at(factors);
+    *errors++ = answer.error ? std::max(*answer.error, Sunlit::rounding)
+                             : std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 }  // namespace
 
 // Device: as parse_device_choice() reads it. Resolution 0: by the error. The scene is copied.
@@ -79,18 +91,20 @@ GPU_SHADING_CALL int gpu_shading_renderer_set_deployments(RendererObject* render
   });
 }
 
-// Suns: azimuth and altitude of each; results: projected areas (m2), directions x receivers.
+// Suns: azimuth and altitude of each; areas: projected areas (m2), directions x receivers; errors:
+// of sunlit fractions, likewise.
 GPU_SHADING_CALL int gpu_shading_renderer_sunlit(RendererObject* renderer, double const* suns,
                                                  std::size_t directions,
                                                  std::uint32_t const* receivers, std::size_t count,
-                                                 FactorTable const* factors, double* results) {
+                                                 FactorTable const* factors, double* areas,
+                                                 double* errors) {
   return guarded([&] {
     require_rows(*factors, directions);
     std::scoped_lock const lock(renderer->mutex);
     auto const answers = renderer->renderer.projected_sunlit_areas(directions_of(suns, directions),
                                                                    std::span(receivers, count));
     for (std::size_t i = 0; i < directions; ++i) {
-      for (auto const& answer : answers[i]) *results++ = answer.at(row_of(*factors, i));
+      copy(answers[i], row_of(*factors, i), areas, errors);
     }
   });
 }
@@ -100,7 +114,7 @@ GPU_SHADING_CALL int gpu_shading_renderer_interior(RendererObject* renderer, dou
                                                    std::size_t directions, std::uint32_t window,
                                                    std::uint32_t const* interiors,
                                                    std::size_t count, FactorTable const* factors,
-                                                   double* results) {
+                                                   double* areas, double* errors) {
   return guarded([&] {
     require_rows(*factors, directions);
     std::vector<InteriorQuestion> const question{{window, {interiors, interiors + count}}};
@@ -108,7 +122,7 @@ GPU_SHADING_CALL int gpu_shading_renderer_interior(RendererObject* renderer, dou
     auto const answers =
         renderer->renderer.interior_sunlit_areas(directions_of(suns, directions), question);
     for (std::size_t i = 0; i < directions; ++i) {
-      for (auto const& answer : answers[i].front()) *results++ = answer.at(row_of(*factors, i));
+      copy(answers[i].front(), row_of(*factors, i), areas, errors);
     }
   });
 }

@@ -162,12 +162,27 @@ def test_answers_are_labelled(gs):
     assert list(told.receiver.values) == ["right", "left"]
     assert told.azimuth.values == pytest.approx([180, 180, 210]) and told.altitude.values == pytest.approx([20, 45, 45])
     assert told.sel(receiver="left").values == pytest.approx(plain[:, 0])
+    assert (told.error.values == 1e-7).all() and told.error.dims == told.dims
     grid = scene.sunlit([suns, suns], device="cpu", labelled=True)
     assert grid.dims == ("direction_0", "direction_1", "receiver")
     with pytest.raises(gs.InvalidInput, match="middle: no surface of that name"):
         scene.sunlit(suns, receivers=["middle"])
     with pytest.raises(gs.InvalidInput, match="'left', expected a list"):
         scene.sunlit(suns, receivers="left")
+
+
+def test_labelled_answers_have_their_errors(gs):
+    pytest.importorskip("xarray", reason="xarray is missing: run scripts/setup")
+    at = np.random.default_rng(3).uniform([-2, -1, 0], [4, -0.1, 4], (2000, 1, 3))
+    leaves = list(at + [[0, 0, 0], [0.1, 0, 0], [0.1, 0.05, 0.1], [0, 0.05, 0.1]])
+    scene = gs.Scene(receivers={"wall": SQUARE}, casters=leaves)
+    suns = np.column_stack([np.linspace(130, 230, 20), np.full(20, 35.0)])
+    rough, fine = (scene.renderer(device="cpu", error=error).sunlit(suns, labelled=True) for error in (1e-2, 1e-5))
+    assert 1e-4 < rough.error.values.max() <= 1e-2 and fine.error.values.max() <= 1e-5
+    true = np.abs(rough.values - fine.values)
+    assert true.max() > 1e-4 and np.count_nonzero(true > rough.error.values) <= 1
+    fixed = scene.renderer(device="cpu", resolution=64).sunlit(suns, labelled=True)
+    assert np.isnan(fixed.error.values).all()
 
 
 def test_progress_changes_no_answer(gs, capsys):
