@@ -1,5 +1,6 @@
 #include "geometry/convex_polygon.h"
 
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -113,6 +114,10 @@ Meeting intersect(ConvexPolygon const& polygon, ConvexPolygon const& other, Conv
   for (std::size_t k = 0; k < other.count; ++k) {
     glm::dvec2 const start = other.vertices[k];
     glm::dvec2 const edge = other.vertices[k + 1 < other.count ? k + 1 : 0] - start;
+    // Between a vertex and its repetition, an edge has the direction of rounding.
+    constexpr double rounding = 1e-14;
+    double const least = rounding * (1.0 + std::abs(start.x) + std::abs(start.y));
+    if (glm::dot(edge, edge) < least * least) continue;
     bool any_inside = false;
     bool any_outside = false;
     for (std::size_t i = 0; i < from->count; ++i) {

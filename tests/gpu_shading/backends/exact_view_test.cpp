@@ -268,6 +268,24 @@ TEST(ExactView, OfEdgesInOnePlaceIsExact) {
   EXPECT_NEAR(sums->front().unscheduled, 0.125, 1e-8);
 }
 
+// Where it is cut at the plane, the corner comes twice.
+TEST(ExactView, OfACornerOnTheReceiversPlaneIsExact) {
+  // Its shadow is the triangle of (0, 3), (0, 1) and (4, 1).
+  Polygon const shade{{{0, 0, 3}, {0, -2, 3}, {4, -2, 3}}, {}};
+  Polygon wall = south_facing(0, 0, 0, 4, 4);
+  wall.holes.push_back(south_facing(1, 0, 1, 1, 1).outline);  // all in shadow
+  Polygon const triangle{{{0, 0, 0}, {4, 0, 0}, {0, 0, 4}}, {}};
+  for (auto const& [receiver, lit] : {std::pair{wall, 12.0 / 15.0}, {triangle, 1.0 - 3.5 / 8.0}}) {
+    Scene scene;
+    scene.add({"receiver", receiver});
+    scene.add({"shade", shade});
+    ExactQuestions ask(scene);
+    auto const sums = ask(sun_at(180, 45), 0);
+    ASSERT_TRUE(sums);
+    EXPECT_NEAR(sums->front().unscheduled, lit, 1e-12);
+  }
+}
+
 // A ring whose parts overlap, by the odd-even rule as elsewhere.
 TEST(ExactView, OfAStarThatCrossesItselfLeavesItsMiddleOpen) {
   Scene scene;
