@@ -89,12 +89,15 @@ std::vector<SurfaceId> asked_receivers(SunQuestions const& answers) {
 constexpr double most_views = 0.99;
 
 void list_errors(AnswerErrors const& errors, Options const& options, Messages const& messages) {
+  bool const known = errors.sampled() > 0 || errors.not_measured() == 0;
+  auto const stated = [&](double error) { return known ? fmt::format("{:.2g}", error) : ""; };
   messages.eio(fmt::format(
       "! <GPU Shading Error>, Target Error, Sampled Views, Error of 99 % of Sampled Views, Largest "
       "Error, Exact Views, Views Without Measured Error\n"
-      "GPU Shading Error,{},{},{:.2g},{:.2g},{},{}\n",
+      "GPU Shading Error,{},{},{},{},{},{}\n",
       options.resolution ? "" : fmt::format("{}", options.error), errors.sampled(),
-      errors.within(most_views), errors.largest(), errors.exact(), errors.not_measured()));
+      stated(errors.within(most_views)), stated(errors.largest()), errors.exact(),
+      errors.not_measured()));
 }
 
 void warn_of_missed_targets(SunQuestions const& answers, AnswerErrors const& errors,

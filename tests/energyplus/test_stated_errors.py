@@ -112,6 +112,9 @@ def test_exact_views_state_rounding(patched, box, weather, tmp_path):
 
 
 def test_a_fixed_resolution_states_that_errors_are_not_measured(patched, box, weather, tmp_path):
-    line = stated(run_of(tmp_path / "run", weather, leafy(box), resolution=64))
-    assert (line["Target Error"], line["Sampled Views"]) == ("", "0")
+    run = run_of(tmp_path / "run", weather, leafy(box), resolution=64)
+    line = stated(run)
+    assert (line["Target Error"], line["Sampled Views"], line["Largest Error"]) == ("", "0", "")
     assert int(line["Views Without Measured Error"]) > 100
+    errors = run.summary().shading
+    assert (errors.target, errors.within, errors.largest) == (None, None, None)

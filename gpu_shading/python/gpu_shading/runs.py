@@ -37,9 +37,10 @@ class ShadingErrors:
     """None at a fixed resolution."""
     sampled: int
     """Views whose error was measured; 99 % of such fractions are within it."""
-    within: float
-    """What the errors of 99 % of the sampled views are within; 1e-7, which is rounding, if there are none."""
-    largest: float
+    within: float | None
+    """What the errors of 99 % of these are within: 1e-7, which is rounding, if all views are exact; None if none was
+    measured."""
+    largest: float | None
     exact: int
     """Views that were answered without samples, within rounding."""
     not_measured: int
@@ -245,8 +246,8 @@ def shading_errors(folder: Path) -> ShadingErrors | None:
         return None
     with reading(path, "a file of EnergyPlus's"):
         target, sampled, within, largest, exact, not_measured = found[1].split(",")
-        return ShadingErrors(float(target) if target else None, int(sampled), float(within), float(largest),
-                             int(exact), int(not_measured))
+        return ShadingErrors(float(target) if target else None, int(sampled), float(within) if within else None,
+                             float(largest) if largest else None, int(exact), int(not_measured))
 
 
 def _needed(module: str, what: str) -> Any:

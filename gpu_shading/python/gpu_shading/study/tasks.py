@@ -248,7 +248,7 @@ def _run_in(job: Job, folder: Path, scene: str, shading: str | None, is_first: b
     rendered, recalled, warnings = results.read_messages(report)
     stated = shading_errors(out)
     values = {"scene": scene, "directions rendered": rendered, "directions from the cache": recalled,
-              "largest error": stated.largest if stated else None,
+              "largest error": stated.largest if stated and not stated.not_measured else None,
               "messages": _without(" | ".join(warnings), folder),
               **results.read_numbers(out / "eplusout.sql", job.outputs)}
     return Outcome(values=values)
