@@ -3,35 +3,22 @@
 from __future__ import annotations
 
 import argparse
-import importlib.util
 import os
-import signal
 import sys
 from pathlib import Path
-from typing import NoReturn
+from typing import TYPE_CHECKING
 
-_PACKAGES = Path(__file__).resolve().parents[2]
-# Run by path, by a Python that need not know the package; its folder must not hide modules of others.
-sys.path = [str(_PACKAGES), *(path for path in sys.path if Path(path or ".").resolve() != Path(__file__).parent)]
+if TYPE_CHECKING:
+    from gpu_shading import _command
+else:
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+    import _command
 
-
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> NoReturn:
-        _fail(f"{message} (see gpu_shading study --help)")
-        sys.exit(1)
-
-
-def _fail(message: str, status: int = 1) -> int:
-    # By hand, because this must work where the package cannot be imported.
-    line = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in " ".join(message.split()))
-    if len(line) > 2200:
-        line = f"{line[:1200]} ... {line[-800:]}"
-    print(f"gpu_shading study: {line}", file=sys.stderr)
-    return status
+    del sys.path[0]
 
 
 def _parse() -> argparse.Namespace:
-    parser = _Parser(
+    parser = _command.Parser(
         prog="gpu_shading study", formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Runs the models, variants and weather files of a plan on the workers of Dask, and writes\n"
                     "DIR/runs.csv and DIR/runs.parquet, a row for each run. The same command resumes.")
@@ -53,33 +40,14 @@ def _parse() -> argparse.Namespace:
     return arguments
 
 
-def _use_python_of_sources() -> None:
-    """scripts/setup puts Dask into .venv."""
-    if importlib.util.find_spec("distributed") and importlib.util.find_spec("numpy"):
-        return
-    own = _PACKAGES.parents[1] / ".venv" / "bin" / "python"
-    if own.is_file() and Path(sys.prefix) != own.parents[1]:
-        os.execv(own, [str(own), __file__, *sys.argv[1:]])
-
-
-def _interrupt(number: int, _: object) -> NoReturn:
-    raise KeyboardInterrupt(number)
-
-
 def main() -> int:
     arguments = _parse()
-    _use_python_of_sources()
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) == signal.SIG_DFL:  # nohup ignores one
-            signal.signal(number, _interrupt)
     os.environ["PYTHONSAFEPATH"] = "1"  # no Python that this starts imports modules of the current folder
-    try:
-        from gpu_shading._text import escaped, of_error
-        from gpu_shading.errors import Error
+
+    def work() -> int:
+        from gpu_shading._text import escaped
         from gpu_shading.study.study import Study
-    except ImportError as error:
-        return _fail(str(error))
-    try:
+
         study = Study(arguments.plan, arguments.output, workers=arguments.workers, scheduler=arguments.scheduler,
                       jobqueue={"kind": arguments.jobqueue} if arguments.jobqueue else None,
                       keep=arguments.keep.split(",") if arguments.keep else None, limit=arguments.limit,
@@ -91,12 +59,9 @@ def main() -> int:
             failed = any(row["status"] == "failed" for row in study.run())
             print(escaped(str(Path(arguments.output) / "runs.csv")))
         return 1 if failed else 0
-    except (Error, ImportError, OSError) as error:
-        return _fail(of_error(error))
-    except KeyboardInterrupt as error:
-        return _fail("interrupted; the same command resumes", 128 + (error.args[0] if error.args else signal.SIGINT))
-    except Exception as error:  # a fault of ours: still one line
-        return _fail(f"{type(error).__name__}: {of_error(error)}; please report this")
+
+    return _command.run("gpu_shading study", __file__, ("distributed", "numpy"), work,
+                        "interrupted; the same command resumes")
 
 
 if __name__ == "__main__":
