@@ -32,8 +32,10 @@ foreach(subcommand devices check view map mask screen sample export city docs ex
   add_man_page(gpu_shading-${subcommand} "${program} ${subcommand}" DEPENDS gpu_shading_program)
 endforeach()
 # Its help is that of the Python package.
-set(study ${PROJECT_SOURCE_DIR}/gpu_shading/python/gpu_shading/study/__main__.py)
-add_man_page(gpu_shading-study "python3 ${study}" DEPENDS ${study})
+foreach(command study suite)
+  set(main ${PROJECT_SOURCE_DIR}/gpu_shading/python/gpu_shading/${command}/__main__.py)
+  add_man_page(gpu_shading-${command} "python3 ${main}" DEPENDS ${main})
+endforeach()
 foreach(command IN LISTS command_files)
   get_filename_component(name ${command} NAME)
   add_man_page(${name} ${command} DEPENDS ${command})

@@ -81,9 +81,12 @@ void add_sample(Program const& program);
 void sample_sky(ModelRun const& run, std::filesystem::path const& folder);
 void add_export(Program const& program);
 void add_city(Program const& program);
-void add_study(Program const& program);
+// Commands of the Python package.
+void add_python_commands(Program const& program);
+bool is_python_command(std::string const& name);
 // Becomes the command of the Python package. Throws Error where there is none.
-[[noreturn]] void run_study(std::vector<std::string> const& arguments);
+[[noreturn]] void run_python_command(std::string const& name,
+                                     std::vector<std::string> const& arguments);
 void add_docs(Program const& program);
 void add_example(Program const& program);
 

@@ -120,17 +120,18 @@ int run(std::vector<std::string> arguments) {
   add_sample(program);
   add_export(program);
   add_city(program);
-  add_study(program);
+  add_python_commands(program);
   add_docs(program);
   add_example(program);
   add_help(program);
   add_version(app);
   app.footer(help_all ? options_help(true) : "Options of shading: gpu_shading help options");
   translate_help(app, arguments);
-  if (!arguments.empty() && arguments.front() == "study") {
-    if (given.front() == "help") run_study({"--help"});
-    given.erase(std::ranges::find(given, "study"));
-    run_study(given);
+  if (!arguments.empty() && is_python_command(arguments.front())) {
+    auto const name = arguments.front();
+    if (given.front() == "help") run_python_command(name, {"--help"});
+    given.erase(std::ranges::find(given, name));
+    run_python_command(name, given);
   }
   refuse_mistyped_subcommand(app, arguments);
   // CLI11 expects them in reverse order.
