@@ -1,7 +1,6 @@
 #include "antialias/aliasing.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <glm/matrix.hpp>
 
 namespace gpu_shading {
@@ -14,12 +13,6 @@ void Aliasing::add(Screens::Entry const& screen, SheetInBeam const& sheet) {
     ++found->count;
   } else {
     screens_.push_back({&screen, HoleSpectrum(screen, sheet, view_, outline_), 1});
-  }
-}
-
-void Aliasing::add_rows(Screens::Entry const& screen, SheetInBeam const& sheet) {
-  for (BladeSpectrum const& side : HoleSpectrum(screen, sheet, view_, outline_).sides_in_line()) {
-    blades_.push_back(side);
   }
 }
 
@@ -40,22 +33,12 @@ Aliasing Aliasing::on_tile(TileMap const& from, TileMap const& to,
   other.outline_ = outline;
   for (BladeSpectrum& blades : other.blades_) blades.change(change);
   for (AlikeScreens& each : other.screens_) each.holes.change(change, outline);
-  for (HoleSpectrum::Frequency& frequency : other.first_) frequency.at = change * frequency.at;
   return other;
-}
-
-void Aliasing::overlap() {
-  if (!screens_.empty()) first_ = screens_.front().holes.lowest();
 }
 
 double Aliasing::squared_error(TileGrid const& grid, double enough) const {
   double squared = squared_error_of_each(grid, enough);
   for (BladeSpectrum const& blades : blades_) squared += blades.squared_error(grid, enough);
-  // Each with the first one.
-  for (std::size_t k = 0; !first_.empty() && k < screens_.size(); ++k) {
-    int const others = k == 0 ? screens_[k].count - 1 : screens_[k].count;
-    if (others > 0) squared += others * squared_error_of_pairs(grid, screens_[k].holes, enough);
-  }
   return squared;
 }
 
@@ -70,24 +53,6 @@ double Aliasing::squared_error_of_each(TileGrid const& grid, double enough) cons
   }
   for (AlikeScreens const& each : screens_) {
     sum += each.count * each.holes.squared_error_across_sides(grid, negligible);
-  }
-  return sum;
-}
-
-// Frequencies of two screens add up where a ray passes both.
-double Aliasing::squared_error_of_pairs(TileGrid const& grid, HoleSpectrum const& second,
-                                        double enough) const {
-  constexpr int order = 3;
-  double sum = 0.0;
-  for (HoleSpectrum::Frequency const& frequency : first_) {
-    for (int row = -order; row <= order && sum < enough; ++row) {
-      for (int column = -order; column <= order; ++column) {
-        if (column == 0 && row == 0) continue;
-        glm::dvec2 const vector = grid.reciprocal(column, row);
-        double const error = frequency.amplitude * second.error_at(vector - frequency.at);
-        sum += 0.5 * error * error;  // of two that are opposite, each counts
-      }
-    }
   }
   return sum;
 }

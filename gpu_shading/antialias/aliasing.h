@@ -21,11 +21,7 @@ class Aliasing {
 
   // A screen drawn by its holes.
   void add(Screens::Entry const& screen, SheetInBeam const& sheet);
-  // A screen drawn by rows of holes.
-  void add_rows(Screens::Entry const& screen, SheetInBeam const& sheet);
   void add(SampledRepeats const& repeats);
-  // Some rays pass more than one of the screens.
-  void overlap();
 
   // The same on another tile of the receiver. `from`, `to`: the maps of both tiles.
   Aliasing on_tile(TileMap const& from, TileMap const& to, OutlineSpectrum const& outline) const;
@@ -33,7 +29,6 @@ class Aliasing {
   // An error small enough to end the search for a grid of so many rows.
   static double small_enough(int rows) { return 0.015 / rows; }
 
-  std::size_t kinds_of_blades() const { return blades_.size(); }
   bool none() const { return screens_.empty() && blades_.empty(); }
   // Upper bound of the squared error of a grid, or any number above `enough`.
   double squared_error(TileGrid const& grid, double enough) const;
@@ -46,14 +41,11 @@ class Aliasing {
   };
 
   double squared_error_of_each(TileGrid const& grid, double enough) const;
-  double squared_error_of_pairs(TileGrid const& grid, HoleSpectrum const& second,
-                                double enough) const;
 
   View const& view_;
   OutlineSpectrum outline_;
   std::vector<AlikeScreens> screens_;
   std::vector<BladeSpectrum> blades_;
-  std::vector<HoleSpectrum::Frequency> first_;  // of the first screen, if they overlap
 };
 
 }  // namespace gpu_shading

@@ -5,17 +5,17 @@
 #include <span>
 #include <vector>
 
-#include "filters/perforation/screen_shading.h"
 #include "filters/transmission.h"
 #include "geometry/plane_frame.h"
+#include "scene/turns.h"
 #include "view/tile.h"
 #include "view/view.h"
 
 namespace gpu_shading {
 
-// Samples that do not alias with repeating geometry in front of a receiver: blades at equal
-// distances, such as louvres and fins, and the holes of perforated sheets. Below, `view` is that of
-// the casters in front, on the tile.
+// Samples that do not alias with repeating geometry in front of a receiver, where errors are not
+// measured: on a GPU. What repeats are blades at equal distances, such as louvres and fins, and the
+// holes of perforated sheets.
 
 // A surface that repeats another one, as louvres, fins and slats do.
 struct Repeat {
@@ -48,41 +48,20 @@ struct ViewOnPixels {
   bool transmits;  // some caster transmits part of the beam
 };
 
-// The slope of a turn (TileLay) at which each row of samples on a tile runs nearly along blades and
-// passes a few of them. Empty if they are few, if their edges are not parallel, or if they are in
-// layers at other distances.
-std::optional<double> slope_along(SampledRepeats const& blades, PlaneFrame const& frame,
-                                  glm::dvec3 const& towards_sun);
+// Slopes of rows that run nearly along blades. Each row passes a few of them, so that it meets
+// nearly their mean, even if only a part of the row is in the receiver. Empty unless all of a
+// sample repeat, at small distances.
+std::optional<ReplicateSlopes> slopes_along(SampledRepeats const& blades, PlaneFrame const& frame,
+                                            glm::dvec3 const& towards_sun);
 
 // The stretch of the receiver's tile at which its pixels alias least; 1 where nothing repeats.
 double stretch_without_aliasing(ViewOnPixels const& view, Scene const& scene,
                                 Transmission const& transmission);
 
-// How the CPU uses samples where no perforated sheet is in view.
-enum class SampleUse {
-  coverage,   // opaque casters cover them
-  counting,   // shades are counted over each, which takes longer
-  luminance,  // each has a luminance, which takes longest
-};
-
-// The grid on which the CPU samples a tile. A row's span costs the same however fine its columns
-// are, and its ends are nearly exact with many of them: only the number of rows matters.
-// - Coverage: TileSize::rows_on() rows, and 17 times as many columns; some 2,048 on a small tile.
-// - Counting: these rows, and 4 times as many columns.
-// - Luminance: the tile's pixels.
-// - Perforated sheets: nearly as many samples as the tile has pixels.
-// Of these, some more or fewer rows, or more columns and fewer rows, are used if they alias less.
-TileGrid sample_grid(Tile const& tile, View const& view, ScreensInView const& screens,
-                     SampledRepeats const& blades, SampleUse use);
-
-// A grid of about so many rows, however many the blades, on a tile turned by slope_along(). Empty
-// if it aliases with them by more than `max_error`, or if their distances are of many kinds.
-std::optional<TileGrid> grid_along(SampledRepeats const& blades, View const& view, double slope,
-                                   int rows, double max_error);
-
-// Whether the effective transmittance of sheets is too coarse for a tile, because the receiver's
-// edges cut rows of holes.
-bool edges_cut_rows(Tile const& tile, View const& view, ScreensInView const& screens);
+// The samples of a crowd of opaque casters on a tile: TileSize::rows_on() rows, and 17 times as
+// many columns; some 2,048 on a small tile. Some more or fewer rows, if they alias less. `view` is
+// that of the casters in front, on the tile.
+TileGrid sample_grid(Tile const& tile, View const& view, SampledRepeats const& blades);
 
 // Whether some ray to a tile passes two of these sheets.
 bool any_overlap(Screens const& screens, std::span<int const> numbers, View const& view);

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <limits>
 #include <numbers>
 
 #include "antialias/spectra.h"
@@ -119,74 +118,6 @@ double HoleSpectrum::squared_error_of(glm::dvec2 const& index, TileGrid const& g
   if (negligible_share * negligible_share * glm::dot(frequency, frequency) >= 1.0) return 0.0;
   double const error = amplitude(frequency) / decay;
   return error * error;
-}
-
-double HoleSpectrum::error_at(glm::dvec2 const& vector) const {
-  glm::dvec2 const index = to_index_ * vector;
-  glm::dvec2 const whole(nearest_whole(index.x), nearest_whole(index.y));
-  glm::dvec2 const frequency = lowest_ * whole;
-  if (frequency == glm::dvec2(0.0)) return 0.0;
-  return amplitude(frequency) * outline_.amplitude(basis_ * (index - whole));
-}
-
-std::vector<HoleSpectrum::Frequency> HoleSpectrum::lowest() const {
-  constexpr int max_index = 3;
-  constexpr double negligible = 0.02;
-  std::vector<Frequency> found;
-  for (int row = -max_index; row <= max_index; ++row) {
-    for (int column = -max_index; column <= max_index; ++column) {
-      if (column == 0 && row == 0) continue;
-      glm::dvec2 const index(column, row);
-      found.push_back({basis_ * index, amplitude(lowest_ * index)});
-    }
-  }
-  auto const louder = [](Frequency const& a, Frequency const& b) {
-    return a.amplitude < b.amplitude;
-  };
-  double const min_amplitude =
-      negligible * std::max_element(found.begin(), found.end(), louder)->amplitude;
-  std::erase_if(found, [&](Frequency const& one) { return one.amplitude < min_amplitude; });
-  return found;
-}
-
-double HoleSpectrum::squared_error_of_effect() const {
-  double sum = 0.0;
-  for (Frequency const& frequency : lowest()) {
-    double const error = frequency.amplitude * outline_.amplitude(frequency.at);
-    sum += error * error;
-  }
-  return sum;
-}
-
-std::vector<BladeSpectrum> HoleSpectrum::sides_in_line() const {
-  std::vector<BladeSpectrum> found;
-  for (glm::dvec2 const& side : sides_) {
-    glm::dvec2 const index = lowest_across(side);
-    if (index == glm::dvec2(0.0)) continue;
-    double const share = per_area_ * glm::length(side) / glm::length(lowest_ * index);
-    constexpr double open = 0.5;
-    found.emplace_back(basis_ * index, share, open, outline_);
-  }
-  return found;
-}
-
-glm::dvec2 HoleSpectrum::lowest_across(glm::dvec2 const& side) const {
-  constexpr int max_index = 4;
-  constexpr double along = 1e-6;
-  glm::dvec2 found(0.0);
-  double least = std::numeric_limits<double>::infinity();
-  for (int row = 0; row <= max_index; ++row) {
-    for (int column = row == 0 ? 1 : -max_index; column <= max_index; ++column) {
-      glm::dvec2 const index(column, row);
-      glm::dvec2 const frequency = lowest_ * index;
-      double const length = glm::length(frequency);
-      if (std::abs(glm::dot(side, frequency)) > along * glm::length(side) * length) continue;
-      if (length >= least) continue;
-      least = length;
-      found = index;
-    }
-  }
-  return found;
 }
 
 void HoleSpectrum::describe(PerforatedScreen const& screen, SheetInBeam const& sheet) {

@@ -50,20 +50,6 @@ glm::dvec3 mean_step(Scene const& scene, SurfaceId id, SurfaceId back, glm::dvec
   return step;
 }
 
-// Whether nearly all distances between blades are the same, but for pieces in line. The blades of
-// layers beat with one another at frequencies that are not among theirs.
-bool in_one_layer(std::vector<double> distances) {
-  double const in_line = 1e-2 * std::ranges::max(distances);
-  std::erase_if(distances, [&](double distance) { return distance < in_line; });
-  if (distances.empty()) return true;
-  auto const middle = distances.begin() + std::ssize(distances) / 2;
-  std::ranges::nth_element(distances, middle);
-  double const usual = *middle;
-  auto const others = std::ranges::count_if(
-      distances, [&](double distance) { return std::abs(distance - usual) > 1e-2 * usual; });
-  return 8 * others <= std::ssize(distances);
-}
-
 }  // namespace
 
 std::optional<Repeat> repeat_of(Scene const& scene, SurfaceId id) {
@@ -100,9 +86,10 @@ SampledRepeats repeats_among(Scene const& scene, std::span<SurfaceId const> cast
   return repeats;
 }
 
-std::optional<double> slope_along(SampledRepeats const& blades, PlaneFrame const& frame,
-                                  glm::dvec3 const& towards_sun) {
-  if (blades.found.empty()) return std::nullopt;
+std::optional<ReplicateSlopes> slopes_along(SampledRepeats const& blades, PlaneFrame const& frame,
+                                            glm::dvec3 const& towards_sun) {
+  constexpr double nearly_all = 0.99;
+  if (blades.share * static_cast<double>(blades.found.size()) < nearly_all) return std::nullopt;
   // In the square that is turned.
   auto const slid = [&](glm::dvec3 const& vector) {
     glm::dvec3 const in_plane = vector - towards_sun * (glm::dot(frame.normal, vector) /
@@ -112,29 +99,20 @@ std::optional<double> slope_along(SampledRepeats const& blades, PlaneFrame const
   };
   auto const longest = std::ranges::max_element(
       blades.found, {}, [](Repeat const& each) { return glm::dot(each.edge, each.edge); });
-  glm::dvec2 edge = glm::normalize(slid(longest->edge));
-  if (edge.x < 0.0) edge = -edge;
-  constexpr double parallel = 0.02;
-  bool const all_parallel = std::ranges::all_of(blades.found, [&](Repeat const& each) {
-    return std::abs(cross(glm::normalize(slid(each.edge)), edge)) <= parallel;
-  });
-  if (!all_parallel) return std::nullopt;
+  glm::dvec2 const edge = glm::normalize(slid(longest->edge));
   std::vector<double> distances;
   distances.reserve(blades.found.size());
   for (Repeat const& each : blades.found)
     distances.push_back(std::abs(cross(slid(each.step), edge)));
-  if (!in_one_layer(distances)) return std::nullopt;
   // Most: gaps between groups of blades are farther.
   auto const most = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() * 3 / 4);
   std::ranges::nth_element(distances, most);
-  // A row passes 1 to 2 blades, whose mean is nearly that of all. Powers of two, and whole
-  // fractions of them, so that a receiver has few tiles.
-  double const tilt = std::exp2(std::ceil(std::log2(*most)));
   constexpr double max_tilt = 0.125;
-  if (!(tilt > 0.0 && tilt <= max_tilt)) return std::nullopt;
-  double const step = tilt / 4.0;
-  double const angle = std::round(std::atan2(edge.y, edge.x) / step) * step;
-  return -std::tan(angle < 0.0 ? angle - tilt : angle + tilt);
+  if (!(*most > 0.0 && *most <= max_tilt)) return std::nullopt;
+  double const angle = std::atan(edge.y / edge.x);
+  // Of whole numbers of blades, rows have nearly their mean, but all of them the same error.
+  auto const slope = [&](double passed) { return -std::tan(angle + passed * *most); };
+  return ReplicateSlopes{slope(4.2), slope(-5.1), slope(7.3)};
 }
 
 }  // namespace gpu_shading

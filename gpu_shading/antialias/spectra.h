@@ -141,24 +141,6 @@ class HoleSpectrum {
   // sides, which fade slowly. 0 for a grid that is not large.
   double squared_error_across_sides(TileGrid const& grid, double negligible) const;
 
-  // The error that one vector causes, not squared.
-  double error_at(glm::dvec2 const& vector) const;
-
-  struct Frequency {
-    glm::dvec2 at;
-    double amplitude;
-  };
-  // The lowest of all holes, without those of small amplitude.
-  std::vector<Frequency> lowest() const;
-
-  // Upper limit of the squared error of the holes' effective transmittance, which takes no account
-  // of where the receiver's edges cut holes.
-  double squared_error_of_effect() const;
-
-  // Sides of holes that are in line with one another: edges at equal distances, as blades have
-  // them.
-  std::vector<BladeSpectrum> sides_in_line() const;
-
  private:
   static constexpr int max_rows = 49;
 
@@ -168,8 +150,6 @@ class HoleSpectrum {
   double squared_error_of(glm::dvec2 const& index, TileGrid const& grid, double negligible) const;
   // Of a frequency per m, in the sheet.
   double amplitude(glm::dvec2 const& frequency) const;
-  // Index of the lowest frequency across a side; 0 if it is high.
-  glm::dvec2 lowest_across(glm::dvec2 const& side) const;
 
   OutlineSpectrum outline_;
   double open_;

@@ -54,7 +54,7 @@ class SomeViewsOnCpu : public ViewBackend {
   std::unique_ptr<ViewBackend> cpu_;
   Transmission const& transmission_;
   bool is_for_cpu(ReceiverView const& view) const {
-    return view.transmits && passes_two_sheets(view, transmission_);
+    return view.transmits && view.tile != nullptr && passes_two_sheets(view, transmission_);
   }
 
   std::vector<char> on_cpu_;  // of each view of this batch

@@ -19,6 +19,8 @@ struct Shade {
 
   float transmittance = 0.0F;           // 0: opaque
   std::int32_t schedule = unscheduled;  // as Transmission numbers them
+
+  bool operator==(Shade const&) const = default;
 };
 
 // The filters of the casters of a scene. Schedules are numbered from 0 here, without gaps.

@@ -55,6 +55,10 @@ void QuestionBatch::start() {
   parts_.receivers.forget_many();
 }
 
+bool QuestionBatch::measured() const {
+  return !parts_.backend.samples_pixels() && !parts_.receivers.size().is_fixed();
+}
+
 void QuestionBatch::ask(Question const& question) {
   for (SurfaceId const id : question.interiors) parts_.receivers.surface(id);
   Receiver const& seen = question.through ? parts_.receivers.window(question.receiver)
@@ -85,39 +89,24 @@ void QuestionBatch::cull() {
   std::vector<ReceiverView> views;
   for (std::size_t i = 0; i < asked_.size(); ++i) enqueue(asked_[i], std::move(found_[i]), views);
   asked_.clear();
-  if (parts_.backend.samples_pixels()) stretch_tiles(views);
+  if (!measured()) stretch_tiles(views);
   parts_.backend.add(std::move(views));
 }
 
 std::optional<QuestionBatch::Blades> QuestionBatch::blades(Asked const& asked) const {
-  TileSize const& size = parts_.receivers.size();
-  if (size.is_fixed()) return std::nullopt;
   PlaneFrame const& frame = *asked.receiver->frame;
-  SurfaceId const receiver = asked.question.receiver;
   glm::dvec3 const& towards_sun = asked.question.towards_sun;
-  double const error = parts_.receivers.error_on_rectangle(*asked.receiver);
   // Within the error where an edge as long as the tile runs along them.
-  double const enough_rows = std::ceil(0.51 / error);
-  constexpr int most_rows = 8192;  // more take too much memory
-  if (enough_rows > most_rows) return std::nullopt;
-  auto const rows = static_cast<int>(enough_rows);
-  // Fewer are drawn as soon, or far more exactly in a few times as long.
-  auto const few = static_cast<std::size_t>(std::min(rows * rows / 16, 4000));
+  double const rows = 0.51 / parts_.receivers.error_on_rectangle(*asked.receiver);
+  // Fewer are drawn as soon.
+  auto const few = static_cast<std::size_t>(std::min(rows * rows / 16.0, 4000.0));
   constexpr std::size_t max_sample = 32;
-  auto crowd =
-      parts_.casters.crowd_in_view(parts_.scene, receiver, frame, towards_sun, few, max_sample);
+  auto crowd = parts_.casters.crowd_in_view(parts_.scene, asked.question.receiver, frame,
+                                            towards_sun, few, max_sample);
   if (!crowd) return std::nullopt;
-  SampledRepeats const repeats = repeats_among(parts_.scene, crowd->sample);
-  constexpr double nearly_all = 0.99;
-  if (repeats.share * static_cast<double>(repeats.found.size()) < nearly_all) return std::nullopt;
-  auto const slope = slope_along(repeats, frame, towards_sun);
-  if (!slope) return std::nullopt;
-  TileLay const lay{.slope = *slope, .for_grids = true};
-  Ring const& outline = parts_.scene[receiver].polygon.outline;
-  View const view = view_in_front(frame, fit_tile(frame, outline, size.most(), lay), towards_sun);
-  auto const grid = grid_along(repeats, view, *slope, rows, 0.7 * error);
-  if (!grid) return std::nullopt;
-  return Blades{std::move(*crowd), lay, *grid};
+  auto const slopes = slopes_along(repeats_among(parts_.scene, crowd->sample), frame, towards_sun);
+  if (!slopes) return std::nullopt;
+  return Blades{std::move(*crowd), *slopes};
 }
 
 QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
@@ -129,7 +118,7 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   auto const lay_out = [&](Detail& detail, bool screened) {
     detail.across += behind(question);
     found.side = parts_.receivers.side_for(seen, detail, screened);
-    found.lay.slope = turn_slopes.at(best_turn(detail));
+    if (!measured()) found.slope = turn_slopes.at(best_turn(detail));
   };
   bool const tried =
       asked.in_sector != nullptr && asked.in_sector->all_flat && !parts_.samples_only;
@@ -143,8 +132,7 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
   double const enough = parts_.receivers.size().enough();
   auto const few = may_be_crowd_ ? parts_.backend.few_casters(question.through) : std::nullopt;
   if (few) {
-    auto along = !parts_.backend.samples_pixels() && asked.in_sector == nullptr ? blades(asked)
-                                                                                : std::nullopt;
+    auto along = measured() && asked.in_sector == nullptr ? blades(asked) : std::nullopt;
     auto crowd = along ? std::move(along->crowd)
                        : casters.crowd_in_view(parts_.scene, question.receiver, *seen.frame,
                                                question.towards_sun, *few);
@@ -152,21 +140,17 @@ QuestionBatch::Found QuestionBatch::find(Asked const& asked) const {
       found.crowd_count = crowd->count();
       found.in_view.casters = std::move(crowd->sample);
       found.casters = found.in_view.casters.size();
-      if (along) {
-        found.side = parts_.receivers.size().most();
-        found.lay = along->lay;
-        found.grid = along->grid;
+      if (along) found.slopes = along->slopes;
+      if (measured()) {
+        found.side = parts_.receivers.side_for(
+            seen, casters.crowd_shadow(found.in_view.casters, *seen.frame, question.towards_sun),
+            behind(question));
         return found;
       }
       Detail detail = casters.detail(found.in_view.casters, *seen.frame, question.towards_sun,
                                      enough / crowd->each);
       detail *= crowd->each;
       lay_out(detail, false);
-      if (!parts_.receivers.size().is_fixed() && !parts_.backend.samples_pixels()) {
-        found.side = parts_.receivers.side_for(
-            seen, casters.crowd_shadow(found.in_view.casters, *seen.frame, question.towards_sun),
-            behind(question));
-      }
       return found;
     }
   }
@@ -269,17 +253,18 @@ void QuestionBatch::enqueue(Asked const& asked, Found found, std::vector<Receive
     view.crowd_count = found.crowd_count;
     view.is_window = seen.is_window;
   }
-  TileSize const& size = parts_.receivers.size();
-  view.grid = found.grid;
-  if (!size.is_fixed() && !parts_.backend.samples_pixels()) {
-    view.turned = parts_.receivers.turned(view.receiver);
-    view.max_error = size.error();
+  view.side = found.side;
+  view.slopes = found.slopes;
+  view.max_error = parts_.receivers.size().error();
+  Tile* tile = nullptr;
+  if (!measured()) {
+    tile = &parts_.receivers.tile(view.receiver, found.side, {.slope = found.slope});
   }
-  Tile& tile = parts_.receivers.tile(view.receiver, found.side, found.lay);
-  view.tile = &tile;
+  view.tile = tile;
+  view.at_pixels = parts_.receivers.size().is_fixed();
   std::size_t const casters_drawn =
       view.crowd != nullptr ? static_cast<std::size_t>(view.crowd_count) : view.casters.size();
-  viewed_.push_back({asked, found.side, &tile, casters_drawn, found.transmits});
+  viewed_.push_back({asked, found.side, tile, casters_drawn, found.transmits});
   views.push_back(std::move(view));
 }
 

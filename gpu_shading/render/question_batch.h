@@ -61,8 +61,8 @@ class QuestionBatch {
   // A question whose view is being rasterised.
   struct Viewed {
     Asked asked;
-    int side;  // pixels asked for
-    Tile* tile;
+    int side;    // pixels asked for
+    Tile* tile;  // if its pixels are sampled
     std::size_t casters;
     bool transmits;
   };
@@ -73,20 +73,20 @@ class QuestionBatch {
     std::size_t casters = 0;
     bool transmits = false;
     // If it is not answered:
-    InView in_view;            // of a crowd a sample
-    double crowd_count = 0.0;  // of casters; 0: in_view has all
-    int side = 0;              // of the tile, pixels
-    TileLay lay;
-    std::optional<TileGrid> grid;
+    InView in_view;                      // of a crowd a sample
+    double crowd_count = 0.0;            // of casters; 0: in_view has all
+    int side = 0;                        // of the tile, pixels
+    double slope = turn_slopes.front();  // of its turn
+    ReplicateSlopes slopes = replicate_slopes;
   };
-  // A sample of casters in view that repeat, and the few rows of samples that suffice on a tile
-  // turned along them.
+  // A sample of casters in view that repeat, and slopes along them.
   struct Blades {
     Crowd crowd;
-    TileLay lay;
-    TileGrid grid;
+    ReplicateSlopes slopes;
   };
 
+  // Whether the back end measures the errors of its samples.
+  bool measured() const;
   // Finds the casters in view for all questions since the last call, and has their views
   // rasterised.
   void cull();
@@ -101,7 +101,7 @@ class QuestionBatch {
                                             double most_steps) const;
   // Valid until the thread's next question.
   Polygons relative(std::span<SurfaceId const> casters, Receiver const& receiver) const;
-  // Empty unless all casters in view repeat, and far outnumber these rows.
+  // Empty unless all casters in view repeat, and far outnumber the rows that suffice along them.
   std::optional<Blades> blades(Asked const& asked) const;
   // Adds the view, or counts what was answered.
   void enqueue(Asked const& asked, Found found, std::vector<ReceiverView>& views);

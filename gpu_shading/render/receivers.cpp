@@ -148,16 +148,6 @@ Tile& Receivers::tile(SurfaceId id, int side, TileLay const& lay) {
   return receiver.tiles.emplace(kind, std::move(tile)).first->second;
 }
 
-std::span<Tile const> Receivers::turned(SurfaceId id) {
-  Receiver& receiver = find(id);
-  if (receiver.turned.empty()) {
-    for (double const slope : replicate_slopes) {
-      receiver.turned.push_back(turned_tile(surface(id).polygon, *receiver.frame, slope));
-    }
-  }
-  return receiver.turned;
-}
-
 void Receivers::forget_many() {
   constexpr std::size_t many = 10000;
   if (tiles_ < many && behind_ < many + receivers_.size()) return;

@@ -48,8 +48,6 @@ struct Receiver {
   std::list<std::vector<RelativePolygon>> seen_through;
   // Tiles created so far, by requested resolution, slope and stretch.
   std::map<std::tuple<int, double, double>, Tile> tiles;
-  // Its outline at the slopes of replicates, once asked for.
-  std::vector<Tile> turned;
 };
 
 // The surfaces of a scene as receivers; scene and casters must outlive it. Their tiles are created
@@ -80,18 +78,16 @@ class Receivers {
   TileSize const& size() const { return size_; }
   // Pixels per side for the detail in view. The receiver must have an area.
   int side_for(Receiver const& receiver, Detail const& detail, bool screened) const;
-  // Behind a crowd that lies at random, with edges of interior surfaces so long, in sides of the
-  // receiver's rectangle.
+  // Behind a crowd, as of one that lies at random, with edges of interior surfaces so long, in
+  // sides of the receiver's rectangle.
   int side_for(Receiver const& receiver, CrowdShadow const& crowd, double interior_edges) const;
-  // The target error of a sunlit fraction, as one of the receiver's rectangle. Unless the size of
+  // The target error of a sunlit fraction, as one of the receiver's rectangle; 0 if the size of
   // tiles is fixed.
   double error_on_rectangle(Receiver const& receiver) const;
   // The address is valid until forget_many().
   Tile& tile(SurfaceId id, int side, TileLay const& lay);
-  // Its outline at the slopes of replicates.
-  std::span<Tile const> turned(SurfaceId id);
-  // Tiles that are turned along blades may be as many as directions, and lists of interior surfaces
-  // as many as questions.
+  // Stretched tiles may be as many as directions, and lists of interior surfaces as many as
+  // questions.
   void forget_many();
   // The tile of the bounding rectangle, for a receiver that turned out to have no pixels.
   void bound(SurfaceId id, Tile& tile);

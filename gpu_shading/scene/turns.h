@@ -17,8 +17,8 @@ inline constexpr std::size_t turns = turn_slopes.size();
 
 // Slopes of several turns, along the rows of at most one of which an edge lies.
 inline constexpr std::size_t replicates_at_once = 3;
-inline constexpr std::array<double, replicates_at_once> replicate_slopes{golden, -golden,
-                                                                         1.0 / golden};
+using ReplicateSlopes = std::array<double, replicates_at_once>;
+inline constexpr ReplicateSlopes replicate_slopes{golden, -golden, 1.0 / golden};
 
 // How much an edge is in step with the samples, by turn: 1 along a row or a column, less along
 // samples that are further apart, (1, 1) to (2, 1), and 0 where it meets them evenly. `edge`: in

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -61,8 +62,8 @@ class LuminanceTile : public PixelRows<float> {
 
   void multiply(ConvexArea const& area, float by);
 
-  // Sums over the sunlit pixels of a mask of the same rows, one sum per row, each in a fixed order.
-  void sum_rows(PixelMask const& lit, std::span<double> sums) const;
+  // The sum over some pixels of a word of a mask of the same rows, in a fixed order.
+  double sum(std::size_t word, std::uint64_t pixels) const;
 };
 
 }  // namespace gpu_shading

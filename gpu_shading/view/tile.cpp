@@ -4,39 +4,35 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "geometry/r2_sequence.h"
 #include "geometry/triangulation.h"
+#include "view/pixel_mask.h"
 
 namespace gpu_shading {
 namespace {
 
 constexpr int largest_side = 4096;
 
-void add_triangles(Tile& tile, Mesh const& mesh, PlaneFrame const& frame) {
+void lay_out(Tile& tile, Mesh const& mesh, PlaneFrame const& frame) {
   tile.triangles.clear();
   tile.triangles.reserve(mesh.indices.size());
   for (std::uint32_t const index : mesh.indices) {
     tile.triangles.emplace_back(tile.map(frame, mesh.vertices[index]));
   }
-}
-
-void lay_out(Tile& tile, Mesh const& mesh, PlaneFrame const& frame) {
-  add_triangles(tile, mesh, frame);
   PixelMask mask;
   mask.start(tile.side, 0, tile.side);
-  light(mask, tile, pixels_of(tile));
+  for (ConvexArea const& area : outline_on(tile, pixels_of(tile))) mask.light(area);
   tile.counted_pixels = mask.lit();
 }
 
-// Shifts of less than half a pixel, for which the margin leaves room, by powers of the plastic
-// number, which spread evenly for any count (Roberts' R2 sequence).
+// Shifts of less than half a pixel, for which the margin leaves room, spread evenly for any count.
 void place_lattice(Tile& tile, Mesh const& mesh, PlaneFrame const& frame, double net, int places) {
-  constexpr double plastic = 1.32471795724474602596;
   glm::dvec2 const middle = tile.map.offset;
   double const wanted = net / tile.pixel_area;
   Tile trial = tile;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < places; ++i) {
-    glm::dvec2 const share = glm::fract(glm::dvec2(i / plastic, i / (plastic * plastic)));
+    glm::dvec2 const share = glm::fract(static_cast<double>(i) * r2_step);
     glm::dvec2 const shift = i == 0 ? glm::dvec2(0.0) : share - 0.5;
     trial.map.offset = middle + shift * (2.0 / tile.side);
     lay_out(trial, mesh, frame);
@@ -45,13 +41,6 @@ void place_lattice(Tile& tile, Mesh const& mesh, PlaneFrame const& frame, double
     least = off;
     tile = trial;
   }
-}
-
-Polygon bounding_rectangle(PlaneFrame const& frame) {
-  glm::dvec3 const u = 0.5 * frame.width * frame.u;
-  glm::dvec3 const v = 0.5 * frame.height * frame.v;
-  glm::dvec3 const& o = frame.origin;
-  return {{o - u - v, o + u - v, o + u + v, o - u + v}, {}};
 }
 
 }  // namespace
@@ -91,23 +80,21 @@ glm::dvec2 on_grid(glm::dvec2 const& place, TileGrid const& grid) {
   return pixels;
 }
 
-void light(PixelMask& mask, Tile const& tile, TileGrid const& grid) {
+std::vector<ConvexArea> outline_on(Tile const& tile, TileGrid const& grid) {
+  std::vector<ConvexArea> areas;
   for (std::size_t i = 0; i < tile.triangles.size(); i += 3) {
     std::array<glm::dvec2, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) corners.at(k) = on_grid(tile.triangles[i + k], grid);
-    mask.light(area_within(corners, grid.side()));
+    areas.push_back(area_within(corners, grid.side()));
   }
+  return areas;
 }
 
-Tile turned_tile(Polygon const& polygon, PlaneFrame const& frame, double slope) {
-  Tile tile;
-  tile.side = 1;
-  tile.lay = {.slope = slope, .for_grids = true};
-  tile.map = fit_tile(frame, polygon.outline, tile.side, tile.lay);
-  tile.pixel_area = area(polygon);
-  tile.counted_pixels = 1;
-  add_triangles(tile, triangulate(polygon), frame);
-  return tile;
+Polygon bounding_rectangle(PlaneFrame const& frame) {
+  glm::dvec3 const u = 0.5 * frame.width * frame.u;
+  glm::dvec3 const v = 0.5 * frame.height * frame.v;
+  glm::dvec3 const& o = frame.origin;
+  return {{o - u - v, o + u - v, o + u + v, o - u + v}, {}};
 }
 
 Tile bounding_tile(Polygon const& polygon, PlaneFrame const& frame, int side) {

@@ -6,9 +6,9 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "geometry/convex_area.h"
 #include "geometry/plane_frame.h"
 #include "gpu_shading/scene.h"
-#include "view/pixel_mask.h"
 #include "view/view.h"
 
 namespace gpu_shading {
@@ -31,8 +31,7 @@ struct Tile {
 Tile make_tile(Polygon const& polygon, PlaneFrame const& frame, int resolution, int most,
                TileLay const& lay = {});
 
-// The receiver's outline for rows of samples that are turned by a slope. It counts as one pixel.
-Tile turned_tile(Polygon const& polygon, PlaneFrame const& frame, double slope);
+Polygon bounding_rectangle(PlaneFrame const& frame);
 
 // For receivers that are still too thin: the whole bounding rectangle, which always has a pixel in
 // its centre.
@@ -71,8 +70,8 @@ View in_pixels(View view, TileGrid const& grid);
 // The same for a place on the tile, in clip coordinates.
 glm::dvec2 on_grid(glm::dvec2 const& place, TileGrid const& grid);
 
-// The receiver's own samples.
-void light(PixelMask& mask, Tile const& tile, TileGrid const& grid);
+// The receiver, in columns and rows.
+std::vector<ConvexArea> outline_on(Tile const& tile, TileGrid const& grid);
 
 // With fewer expected pixels than this, the sunlit fraction is left to chance.
 inline constexpr double fewest_pixels = 16.0;

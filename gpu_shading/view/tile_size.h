@@ -15,7 +15,7 @@ namespace gpu_shading {
 // louvres and overhangs lie, do better if there are many: within (6 sqrt(min(L, 25)) + 0.03 L) /
 // side^2 in 98 % of cases, over 2 to 400 louvres, slats and fins and 64 to 512 pixels, except for
 // one pair of count and side in 77, in which the distance of the louvres aliased with the pixel
-// grid. The CPU's fine grid (backends/cpu/coverage.h) is more accurate.
+// grid. Where the CPU measures errors, this is where it begins.
 class TileSize {
  public:
   // A fixed number of pixels, at least 1.
@@ -40,7 +40,7 @@ class TileSize {
   // random leaves, targets of 1e-2 and 1e-3 (tests/bench/embree_peer).
   int side_behind_crowd(double area, double thickness, double other_edges) const;
 
-  // The rows by which the CPU samples a tile of so many pixels.
+  // The rows of bits that are as accurate as a tile of so many pixels.
   static int rows_on(int side) {
     return std::max((side + 1) / 2, std::min(side, 96 + side * 3 / 8));
   }

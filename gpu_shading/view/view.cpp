@@ -40,16 +40,20 @@ OutlineBounds outline_bounds(PlaneFrame const& frame, Ring const& outline, glm::
   return bounds;
 }
 
-View slide(PlaneFrame const& frame, TileMap const& map, glm::dvec3 const& towards_sun) {
-  // p - s (n.p)/(n.s) is the point where the ray through p meets the plane.
-  double const cosine = glm::dot(frame.normal, towards_sun);
-  glm::dvec3 const u = frame.u - frame.normal * (glm::dot(frame.u, towards_sun) / cosine);
-  glm::dvec3 const v = frame.v - frame.normal * (glm::dot(frame.v, towards_sun) / cosine);
+View view_along(glm::dvec3 const& u, glm::dvec3 const& v, PlaneFrame const& frame,
+                TileMap const& map) {
   View view;
   view.origin = frame.origin;
   view.x = glm::dvec4(map.matrix[0][0] * u + map.matrix[1][0] * v, map.offset.x);
   view.y = glm::dvec4(map.matrix[0][1] * u + map.matrix[1][1] * v, map.offset.y);
   return view;
+}
+
+View slide(PlaneFrame const& frame, TileMap const& map, glm::dvec3 const& towards_sun) {
+  // p - s (n.p)/(n.s) is the point where the ray through p meets the plane.
+  double const cosine = glm::dot(frame.normal, towards_sun);
+  return view_along(frame.u - frame.normal * (glm::dot(frame.u, towards_sun) / cosine),
+                    frame.v - frame.normal * (glm::dot(frame.v, towards_sun) / cosine), frame, map);
 }
 
 }  // namespace
@@ -82,6 +86,10 @@ TileMap fit_tile(PlaneFrame const& frame, Ring const& outline, int resolution, T
   }
   map.offset = -outline_bounds(frame, outline, map.matrix).middle();
   return map;
+}
+
+View view_of_plane(PlaneFrame const& frame, TileMap const& map) {
+  return view_along(frame.u, frame.v, frame, map);
 }
 
 View view_in_front(PlaneFrame const& frame, TileMap const& map, glm::dvec3 const& towards_sun) {

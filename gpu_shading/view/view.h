@@ -53,6 +53,9 @@ inline double at(glm::dvec4 const& row, glm::dvec3 const& p) {
   return glm::dot(glm::dvec3(row), p) + row.w;
 }
 
+// The receiver's plane itself.
+View view_of_plane(PlaneFrame const& frame, TileMap const& map);
+
 // The part of the scene in front of the receiver's plane, projected along the sun's rays onto it,
 // at z 0.
 View view_in_front(PlaneFrame const& frame, TileMap const& map, glm::dvec3 const& towards_sun);

@@ -3,30 +3,186 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <limits>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <random>
+#include <utility>
 
 #include "backends/exact/exact_view.h"
 #include "filters/transmission.h"
 #include "geometry/plane_frame.h"
+#include "geometry/triangulation.h"
+#include "gpu_shading/rays.h"
 #include "gpu_shading/transmittance.h"
 #include "scene/relative_polygon.h"
+#include "support/crown_meshes.h"
+#include "support/regular_sheets.h"
 
 namespace gpu_shading {
 namespace {
 
+using std::numbers::pi;
 using Outline = std::vector<glm::dvec2>;
+
+// Numbers at random.
+class Numbers {
+ public:
+  explicit Numbers(std::uint32_t seed) : generator_(seed) {}
+
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(generator_()) / 4294967296.0;
+  }
+  double log_between(double low, double high) {
+    return std::exp(between(std::log(low), std::log(high)));
+  }
+  std::size_t below(std::size_t count) { return generator_() % count; }
+  int count(double low, double high) { return static_cast<int>(log_between(low, high)); }
+  std::mt19937& generator() { return generator_; }
+
+ private:
+  std::mt19937 generator_;
+};
+
+// In a square from 0 to 1.
+struct Shape {
+  Outline outline;
+  Outline hole = {};
+};
+
+Outline star(double inner) {
+  Outline outline;
+  constexpr int points = 9;
+  for (int i = 0; i < 2 * points; ++i) {
+    double const radius = 0.5 * (i % 2 == 0 ? 1.0 : inner);
+    double const angle = pi * i / points + 0.1;
+    outline.emplace_back(0.5 + radius * std::cos(angle), 0.5 + radius * std::sin(angle));
+  }
+  return outline;
+}
+
+// Teeth on a bar.
+Outline comb(double thin) {
+  constexpr int teeth = 7;
+  Outline outline{{0, 0}, {1, 0}, {1, thin}};
+  for (int i = teeth - 1; i >= 0; --i) {
+    double const left = static_cast<double>(i) / teeth;
+    outline.insert(outline.end(), {{left + thin, thin}, {left + thin, 1}, {left, 1}, {left, thin}});
+  }
+  outline.pop_back();
+  return outline;
+}
+
+Outline const whole{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+
+// A wall around a window.
+Shape frame(double thin) {
+  return {whole, {{thin, thin}, {1 - thin, thin}, {1 - thin, 1 - thin}, {thin, 1 - thin}}};
+}
+
+Shape angle_of(double thin) {
+  return {{{0, 0}, {1, 0}, {1, thin}, {thin, thin}, {thin, 1}, {0, 1}}};
+}
+
+Shape invent_shape(Numbers& numbers) {
+  double const thin = numbers.log_between(0.01, 0.1);
+  switch (numbers.below(12)) {
+    case 0:
+      return angle_of(thin);
+    case 1:
+      return frame(thin);
+    case 2:
+      return {star(numbers.between(0.05, 0.3))};
+    case 3:
+      return {comb(thin)};
+    case 4:
+      return {{{0, 0}, {1, 0}, {1, thin}, {0, thin}}};
+    case 5:
+      return {{{0, 0}, {1, 1 - thin}, {1, 1}}};
+    default:
+      return {whole};
+  }
+}
+
+// By a sweep of all edges. Casters must be flat, and may not be perforated. None if the sweep would
+// take more than some seconds.
+ReferenceFractions swept(Scene const& scene, std::span<SurfaceId const> interiors,
+                         SunDirection sun) {
+  constexpr double max_steps = 1e9;
+  PlaneFrame const frame = *plane_frame(scene[0].polygon);
+  Transmission const transmission(scene);
+  RelativePolygon const receiver(0, scene[0].polygon, frame, RelativePolygon::Side::within);
+  std::vector<RelativePolygon> casters(scene.size() - 1);
+  std::vector<RelativePolygon const*> pointers;
+  for (SurfaceId id = 1; id < scene.size(); ++id) {
+    casters[id - 1].set(id, scene[id].polygon, frame, RelativePolygon::Side::in_front);
+    if (scene[id].casting != Casting::never) pointers.push_back(&casters[id - 1]);
+  }
+  std::vector<RelativePolygon> behind;
+  for (SurfaceId const id : interiors) {
+    behind.emplace_back(id, scene[id].polygon, frame, RelativePolygon::Side::behind);
+  }
+  auto const found = exact_sums(
+      scene, transmission, {receiver, frame, to_vector(sun), pointers, !interiors.empty(), behind},
+      max_steps);
+  if (!found) return {};
+  std::vector<Sunlit> answers;
+  for (LuminanceSums const& sums : found->sums) {
+    Sunlit& answer = answers.emplace_back();
+    answer.projected_area = sums.unscheduled;
+    for (auto const& [powers, sum] : sums.scheduled) answer.scheduled.push_back({powers, sum});
+  }
+  return {fractions_of(answers, 1.0)};
+}
+
+// By rays through what lets pass a part of the beam.
+ReferenceFractions traced(Scene const& scene, SunDirection sun) {
+  constexpr std::size_t lattices = 4;
+  constexpr double rays_a_lattice = 131072.0;
+  Mesh const mesh = triangulate(scene[0].polygon);
+  double const all = area(scene[0].polygon);
+  RayScene const rays(scene);
+  std::array<double, lattices> means{};
+  for (std::size_t lattice = 0; lattice < lattices; ++lattice) {
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+      auto const corner = [&](std::size_t k) { return mesh.vertices[mesh.indices[i + k]]; };
+      glm::dvec3 const a = corner(1) - corner(0);
+      glm::dvec3 const b = corner(2) - corner(0);
+      double const share = 0.5 * glm::length(glm::cross(a, b)) / all;
+      auto const count = static_cast<std::size_t>(std::ceil(rays_a_lattice * share));
+      std::vector<Ray> of_triangle(count);
+      for (std::size_t k = 0; k < count; ++k) {
+        // The R2 sequence (Roberts 2018), folded so that it has no edges (Hickernell 2002), in two
+        // triangles that are one.
+        glm::dvec2 const even =
+            glm::fract(0.3 * glm::dvec2(lattice, lattice * lattice) +
+                       static_cast<double>(k) * glm::dvec2(0.7548776662466927, 0.5698402909980532));
+        glm::dvec2 at = 1.0 - glm::abs(2.0 * even - 1.0);
+        if (at.x + at.y > 1.0) at = 1.0 - at;
+        of_triangle[k] = {corner(0) + at.x * a + at.y * b, to_vector(sun)};
+      }
+      std::vector<double> passed(count);
+      rays.transmittances(of_triangle, {.receiver = 0}, passed);
+      means.at(lattice) += share * std::reduce(passed.begin(), passed.end()) / double(count);
+    }
+  }
+  double const mean = std::reduce(means.begin(), means.end()) / double{lattices};
+  double squares = 0.0;
+  for (double const each : means) squares += (each - mean) * (each - mean);
+  constexpr double student_t = 5.841;  // of both tails, 1 %
+  return {std::vector<double>(schedule_factors.size(), mean),
+          student_t * std::sqrt(squares / double{lattices * (lattices - 1)})};
+}
 
 // Casters are laid out in units of the receiver's width and height, at a distance in front of it in
 // units of the smaller of the two.
-class Maker {
+class Maker : public Numbers {
  public:
-  explicit Maker(std::uint32_t seed) : generator_(seed) {
+  explicit Maker(std::uint32_t seed) : Numbers(seed) {
     double const size = log_between(0.3, 500.0);
     double const ratio = log_between(0.5, 2.0);
     width_ = size * std::min(1.0, ratio);
@@ -39,47 +195,54 @@ class Maker {
     glm::dvec3 const up(0.0, 0.0, 1.0);
     v_ = std::cos(tilt) * up - std::sin(tilt) * out;
     normal_ = std::cos(tilt) * out + std::sin(tilt) * up;
-    scene_.add({"receiver", receiver()});
+    scene_.add({"receiver", placed(invent_shape(*this), 0.0)});
   }
 
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(generator_()) / 4294967296.0;
-  }
-  double log_between(double low, double high) {
-    return std::exp(between(std::log(low), std::log(high)));
-  }
-  std::size_t below(std::size_t count) { return generator_() % count; }
-  int count(double low, double high) { return static_cast<int>(log_between(low, high)); }
-
-  void add(Ring outline) { scene_.add({"caster", {std::move(outline), {}}}); }
+  void add(Surface surface) { scene_.add(std::move(surface)); }
+  void add(Ring outline) { add({"caster", {std::move(outline), {}}}); }
   void add(Outline const& outline, double distance) {
-    Ring ring;
-    for (glm::dvec2 const& at : outline) ring.push_back(place(at, distance));
-    add(std::move(ring));
+    add({"caster", placed({outline}, distance)});
   }
   void add_plate(Outline const& outline, Outline const& hole, double distance) {
-    Polygon polygon;
-    for (glm::dvec2 const& at : outline) polygon.outline.push_back(place(at, distance));
-    polygon.holes.emplace_back();
-    for (glm::dvec2 const& at : hole) polygon.holes.back().push_back(place(at, distance));
-    scene_.add({"caster", polygon});
+    add({"caster", placed({outline, hole}, distance)});
   }
   glm::dvec3 place(glm::dvec2 const& at, double distance) const {
     return (at.x - 0.5) * width_ * u_ + (at.y - 0.5) * height_ * v_ +
-           distance * std::min(width_, height_) * normal_;
+           distance * least_side() * normal_;
   }
+  double least_side() const { return std::min(width_, height_); }
 
-  // All casters transmit this much at normal incidence.
-  void make_transparent(double transmittance) {
+  // Surfaces from this one on transmit so much at normal incidence.
+  void make_transparent(double transmittance, SurfaceId from = 1) {
     auto const glass = std::make_shared<Transmittance const>(
         Transmittance::polynomial_in_cosine({0.0, 2.0 * transmittance, -transmittance}));
-    Scene transparent;
-    for (SurfaceId id = 0; id < scene_.size(); ++id) {
-      Surface surface = scene_[id];
-      if (id > 0) surface.filter.set(AngularTransmittance{glass});
-      transparent.add(surface);
-    }
-    scene_ = std::move(transparent);
+    filter(from, [&](BeamFilter& each) { each.set(AngularTransmittance{glass}); });
+  }
+  // Casters have schedules, one of so many.
+  void schedule(int schedules) {
+    filter(1, [&](BeamFilter& each) {
+      each.schedule = static_cast<int>(below(static_cast<std::size_t>(schedules)));
+    });
+  }
+
+  // The receiver is the window of a room.
+  void add_room() {
+    double const deep = -between(0.5, 3.0);
+    auto const add_wall = [&](Polygon polygon) {
+      Surface wall{"wall", std::move(polygon)};
+      wall.casting = Casting::never;
+      interiors_.push_back(scene_.add(std::move(wall)));
+    };
+    auto const add_side = [&](glm::dvec2 const& from, glm::dvec2 const& to) {
+      add_wall({{place(from, 0.0), place(to, 0.0), place(to, deep), place(from, deep)}, {}});
+    };
+    double const low = -between(0.0, 0.5);
+    double const high = 1.0 + between(0.0, 0.5);
+    add_side({low, low}, {high, low});
+    add_side({high, low}, {high, high});
+    add_side({high, high}, {low, high});
+    add_side({low, high}, {low, low});
+    add_wall(placed({{{low, low}, {high, low}, {high, high}, {low, high}}}, deep));
   }
 
   InventedScene finish(int suns) {
@@ -90,71 +253,43 @@ class Maker {
       if (glm::dot(to_vector(sun), normal_) > grazing) invented.suns.push_back(sun);
     }
     invented.scene = std::move(scene_);
+    invented.interiors = interiors_;
+    invented.reference = [interiors = std::move(interiors_)](Scene const& scene, SunDirection sun) {
+      return swept(scene, interiors, sun);
+    };
     return invented;
   }
 
-  static constexpr double pi = std::numbers::pi;
-
  private:
-  Polygon receiver() {
+  Polygon placed(Shape const& shape, double distance) const {
     auto const ring = [&](Outline const& outline) {
       Ring made;
-      for (glm::dvec2 const& at : outline) made.push_back(place(at, 0.0));
+      for (glm::dvec2 const& at : outline) made.push_back(place(at, distance));
       return made;
     };
-    Outline const whole{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    double const thin = log_between(0.01, 0.1);
-    switch (below(12)) {
-      case 0:
-        return {ring({{0, 0}, {1, 0}, {1, thin}, {thin, thin}, {thin, 1}, {0, 1}}), {}};
-      case 1:
-        return {ring(whole),
-                {ring({{thin, thin}, {1 - thin, thin}, {1 - thin, 1 - thin}, {thin, 1 - thin}})}};
-      case 2:
-        return {ring(star()), {}};
-      case 3:
-        return {ring(comb(thin)), {}};
-      case 4:
-        return {ring({{0, 0}, {1, 0}, {1, thin}, {0, thin}}), {}};
-      case 5:
-        return {ring({{0, 0}, {1, 1 - thin}, {1, 1}}), {}};
-      default:
-        return {ring(whole), {}};
-    }
+    Polygon polygon{ring(shape.outline), {}};
+    if (!shape.hole.empty()) polygon.holes.push_back(ring(shape.hole));
+    return polygon;
   }
 
-  Outline star() {
-    Outline outline;
-    constexpr int points = 9;
-    double const inner = between(0.05, 0.3);
-    for (int i = 0; i < 2 * points; ++i) {
-      double const radius = 0.5 * (i % 2 == 0 ? 1.0 : inner);
-      double const angle = pi * i / points + 0.1;
-      outline.emplace_back(0.5 + radius * std::cos(angle), 0.5 + radius * std::sin(angle));
+  template <typename Change>
+  void filter(SurfaceId from, Change change) {
+    Scene changed;
+    for (SurfaceId id = 0; id < scene_.size(); ++id) {
+      Surface surface = scene_[id];
+      if (id >= from && surface.casting != Casting::never) change(surface.filter);
+      changed.add(surface);
     }
-    return outline;
+    scene_ = std::move(changed);
   }
 
-  // Teeth on a bar.
-  Outline comb(double thin) {
-    constexpr int teeth = 7;
-    Outline outline{{0, 0}, {1, 0}, {1, thin}};
-    for (int i = teeth - 1; i >= 0; --i) {
-      double const left = static_cast<double>(i) / teeth;
-      outline.insert(outline.end(),
-                     {{left + thin, thin}, {left + thin, 1}, {left, 1}, {left, thin}});
-    }
-    outline.pop_back();
-    return outline;
-  }
-
-  std::mt19937 generator_;
   double width_ = 1.0;
   double height_ = 1.0;
   glm::dvec3 u_{0.0};
   glm::dvec3 v_{0.0};
   glm::dvec3 normal_{0.0};
   Scene scene_;
+  std::vector<SurfaceId> interiors_;
 };
 
 // Blades across the receiver and half of its size beyond, at any angle in its plane and tilted out
@@ -178,10 +313,8 @@ void add_blades(Maker& make, int blades, double angle) {
 }
 
 void louvres(Maker& make) { add_blades(make, make.count(20, 5000), 0.0); }
-void fins(Maker& make) { add_blades(make, make.count(20, 5000), Maker::pi / 2); }
-void sloped_blades(Maker& make) {
-  add_blades(make, make.count(20, 3000), make.between(0.0, Maker::pi));
-}
+void fins(Maker& make) { add_blades(make, make.count(20, 5000), pi / 2); }
+void sloped_blades(Maker& make) { add_blades(make, make.count(20, 3000), make.between(0.0, pi)); }
 void two_layers(Maker& make) {
   int const blades = make.count(20, 2500);
   add_blades(make, blades, 0.0);
@@ -194,17 +327,17 @@ void three_layers(Maker& make) {
 }
 void nearly_parallel_layers(Maker& make) {
   int const blades = make.count(20, 400);
-  double const angle = make.between(0.0, Maker::pi);
+  double const angle = make.between(0.0, pi);
   add_blades(make, blades, angle);
   add_blades(make, blades, angle + make.between(0.002, 0.05));
 }
 void crossed_layers(Maker& make) {
   add_blades(make, make.count(20, 300), 0.0);
-  add_blades(make, make.count(20, 300), Maker::pi / 2);
+  add_blades(make, make.count(20, 300), pi / 2);
 }
 void louvres_and_fins_beyond(Maker& make) {
   add_blades(make, make.count(50, 1500), 0.0);
-  add_blades(make, make.count(10, 40), Maker::pi / 2);
+  add_blades(make, make.count(10, 40), pi / 2);
 }
 
 void chevrons(Maker& make) {
@@ -256,7 +389,7 @@ void honeycomb(Maker& make) {
       glm::dvec2 const middle(-0.5 + (i + 0.5 * (row % 2)) * step.x, -0.5 + row * step.y);
       for (int edge = 0; edge < 3; ++edge) {
         auto const corner = [&](int number) {
-          double const angle = Maker::pi / 3 * number + Maker::pi / 6;
+          double const angle = pi / 3 * number + pi / 6;
           return middle + side * glm::dvec2(std::cos(angle), std::sin(angle));
         };
         glm::dvec2 const a = corner(edge);
@@ -276,7 +409,7 @@ void scatter(Maker& make, int count, double cover, double slender) {
   for (int i = 0; i < count; ++i) {
     glm::dvec2 const at = anywhere(make);
     double const distance = make.between(0.05, 0.8);
-    double const angle = make.between(0.0, Maker::pi);
+    double const angle = make.between(0.0, pi);
     double const out = length * make.between(-0.3, 0.3);
     glm::dvec2 const along = 0.5 * length * glm::dvec2(std::cos(angle), std::sin(angle));
     glm::dvec2 const across = slender * glm::dvec2(-along.y, along.x);
@@ -368,8 +501,8 @@ void mesh(Maker& make) {
   double const distance = make.between(0.1, 0.5);
   double const holes = make.between(0.0, 0.5);
   auto const at = [&](int ring, int segment) {
-    double const fall = 0.5 * Maker::pi * ring / rings;
-    double const turn = 2 * Maker::pi * segment / segments;
+    double const fall = 0.5 * pi * ring / rings;
+    double const turn = 2 * pi * segment / segments;
     double const out = radius * std::sin(fall);
     return make.place({0.5 + out * std::cos(turn), 0.5 + out * std::sin(turn)},
                       distance + radius * std::cos(fall));
@@ -407,7 +540,7 @@ void dots(Maker& make) {
   int const across = make.count(5, 60);
   double const pitch = 2.0 / across;
   double const size = pitch * make.between(0.3, 0.9);
-  double const turn = make.between(0.0, Maker::pi / 2);
+  double const turn = make.between(0.0, pi / 2);
   double const distance = make.log_between(0.02, 0.5);
   glm::dvec2 const right = pitch * glm::dvec2(std::cos(turn), std::sin(turn));
   glm::dvec2 const up(-right.y, right.x);
@@ -449,11 +582,11 @@ void fans(Maker& make) {
     glm::dvec2 const at = anywhere(make);
     double const radius = make.between(0.2, 0.8);
     double const distance = make.between(0.05, 0.6);
-    double const start = make.between(0.0, Maker::pi);
+    double const start = make.between(0.0, pi);
     double const open = make.between(0.2, 0.7);
     for (int i = 0; i < blades; ++i) {
       auto const end = [&](double part) {
-        double const angle = start + 2 * Maker::pi * (i + part) / blades;
+        double const angle = start + 2 * pi * (i + part) / blades;
         return at + radius * glm::dvec2(std::cos(angle), std::sin(angle));
       };
       make.add({at, end(0.0), end(open)}, distance);
@@ -481,6 +614,138 @@ void glass_layers(Maker& make) {
 void glass_leaves(Maker& make) {
   scatter(make, make.count(50, 1500), make.between(0.3, 1.0), 0.5);
   make.make_transparent(make.between(0.2, 0.8));
+}
+
+void slats_of_other_pitches(Maker& make) {
+  for (auto const& [slats, distance] : {std::pair(305, 0.05), std::pair(219, 0.105)}) {
+    double const pitch = 1.5 / slats;
+    for (int i = 0; i < slats; ++i) {
+      glm::dvec2 const at(0.0, i * pitch - 0.25);
+      make.add({at, at + glm::dvec2(1.0, 0.0), at + glm::dvec2(1.0, 0.5 * pitch),
+                at + glm::dvec2(0.0, 0.5 * pitch)},
+               distance);
+    }
+  }
+}
+
+void scheduled_louvres(Maker& make) {
+  add_blades(make, make.count(20, 1500), 0.0);
+  make.schedule(1);
+}
+void scheduled_leaves(Maker& make) {
+  scatter(make, make.count(50, 1500), make.between(0.3, 0.8), 0.5);
+  make.schedule(2);
+}
+void scheduled_glass(Maker& make) {
+  glass_layers(make);
+  make.schedule(1);
+}
+// Hardly two of them transmit as much.
+void scheduled_canopies(Maker& make) {
+  scatter(make, make.count(50, 600), make.between(0.3, 0.8), 0.5);
+  make.make_transparent(0.7);
+  make.schedule(2);
+}
+
+void rooms_behind_louvres(Maker& make) {
+  make.add_room();
+  add_blades(make, make.count(20, 1500), 0.0);
+}
+void rooms_behind_glass(Maker& make) {
+  make.add_room();
+  glass_louvres(make);
+}
+void rooms_behind_glass_leaves(Maker& make) {
+  make.add_room();
+  glass_leaves(make);
+}
+void rooms_behind_schedules(Maker& make) {
+  make.add_room();
+  scheduled_leaves(make);
+}
+
+void crowns(Maker& make) {
+  int const count = make.count(1, 40);
+  for (int i = 0; i < count; ++i) {
+    double const side = make.log_between(0.05, 0.6);
+    double const high = make.between(0.5, 2.0) * side * make.least_side();
+    glm::dvec2 const at = anywhere(make);
+    double const distance = make.between(0.1, 1.5);
+    Surface crown{"crown",
+                  {{make.place(at, distance), make.place(at + glm::dvec2(side, 0.0), distance),
+                    make.place(at + glm::dvec2(side), distance),
+                    make.place(at + glm::dvec2(0.0, side), distance)},
+                   {}}};
+    auto const shape = static_cast<CrownShape>(make.below(5));
+    double const density = make.log_between(0.3, 10.0) / high;
+    crown.filter.set(Crown{.shape = shape,
+                           .height = high,
+                           .leaf_density = density,
+                           .mesh = shape == CrownShape::mesh ? ball_mesh(12) : nullptr});
+    make.add(crown);
+  }
+}
+
+// Sheets of holes of 1/500 to 1/15 of the receiver's sides.
+InventedScene invent_sheets(Numbers& make, Shape const& shape, double size,
+                            std::vector<RegularSheets::Sheet> sheets, int suns) {
+  double const width = size * make.between(0.5, 1.0);
+  double const height = size * make.between(0.5, 1.0);
+  auto const ring = [&](Outline const& outline) {
+    Ring made;
+    for (glm::dvec2 const& at : outline) made.emplace_back(at.x * width, 0.0, at.y * height);
+    return made;
+  };
+  Polygon receiver{ring(shape.outline), {}};
+  if (!shape.hole.empty()) receiver.holes.push_back(ring(shape.hole));
+  auto const regular =
+      std::make_shared<RegularSheets const>(std::move(receiver), std::move(sheets));
+  InventedScene invented{regular->scene(), {}, {}, {}};
+  for (int tried = 0; tried < 20 * suns && static_cast<int>(invented.suns.size()) < suns; ++tried) {
+    SunDirection const sun{make.between(0.5 * pi, 1.5 * pi),
+                           make.log_between(0.1, 80.0) * pi / 180.0};
+    if (regular->sunlit_fraction(sun)) invented.suns.push_back(sun);
+  }
+  invented.reference = [regular](Scene const&, SunDirection sun) -> ReferenceFractions {
+    return {std::vector<double>(schedule_factors.size(), *regular->sunlit_fraction(sun)), 1e-6};
+  };
+  return invented;
+}
+
+InventedScene behind_one_sheet(Numbers& make, Shape const& shape, int suns) {
+  RegularSheets::Sheet const sheet = random_sheet(make.generator(), 2e-3, 0.1);
+  return invent_sheets(make, shape, sheet.holes.pitch * make.log_between(10.0, 400.0), {sheet},
+                       suns);
+}
+
+InventedScene sheets(std::uint32_t seed, int suns) {
+  Numbers make(seed);
+  Shape const shape = invent_shape(make);
+  return behind_one_sheet(make, shape, suns);
+}
+InventedScene two_sheets(std::uint32_t seed, int suns) {
+  Numbers make(seed);
+  Shape const shape = invent_shape(make);
+  auto const pair = random_pair(make.generator(), static_cast<int>(seed));
+  double const pitch = std::max(pair[0].holes.pitch, pair[1].holes.pitch);
+  return invent_sheets(make, shape, pitch * make.log_between(5.0, 80.0), pair, suns);
+}
+InventedScene sheets_before_angles(std::uint32_t seed, int suns) {
+  Numbers make(seed);
+  return behind_one_sheet(make, angle_of(make.log_between(0.01, 0.1)), suns);
+}
+// Windows leave 4 to 20 % of them.
+InventedScene sheets_before_walls(std::uint32_t seed, int suns) {
+  Numbers make(seed);
+  return behind_one_sheet(make, frame(make.log_between(0.01, 0.05)), suns);
+}
+
+InventedScene behind_crowns(std::uint32_t seed, int suns) {
+  Maker make(seed);
+  crowns(make);
+  InventedScene invented = make.finish(suns);
+  invented.reference = traced;
+  return invented;
 }
 
 template <auto add>
@@ -518,26 +783,37 @@ constexpr std::array families{
     SceneFamily{"glass louvres", invent<glass_louvres>},
     SceneFamily{"glass layers", invent<glass_layers>},
     SceneFamily{"glass leaves", invent<glass_leaves>},
+    SceneFamily{"slats of other pitches", invent<slats_of_other_pitches>},
+    SceneFamily{"scheduled louvres", invent<scheduled_louvres>},
+    SceneFamily{"scheduled leaves", invent<scheduled_leaves>},
+    SceneFamily{"scheduled glass", invent<scheduled_glass>},
+    SceneFamily{"scheduled canopies", invent<scheduled_canopies>},
+    SceneFamily{"rooms behind louvres", invent<rooms_behind_louvres>},
+    SceneFamily{"rooms behind glass", invent<rooms_behind_glass>},
+    SceneFamily{"rooms, glass leaves", invent<rooms_behind_glass_leaves>},
+    SceneFamily{"rooms, schedules", invent<rooms_behind_schedules>},
+    SceneFamily{"crowns", behind_crowns},
+    SceneFamily{"screens", sheets},
+    SceneFamily{"two screens", two_sheets},
+    SceneFamily{"screens before Ls", sheets_before_angles},
+    SceneFamily{"screens before walls", sheets_before_walls},
 };
 
 }  // namespace
 
 std::span<SceneFamily const> scene_families() { return families; }
 
-double swept_sunlit_fraction(Scene const& scene, SunDirection sun) {
-  constexpr double max_steps = 1e9;
-  PlaneFrame const frame = *plane_frame(scene[0].polygon);
-  Transmission const transmission(scene);
-  RelativePolygon const receiver(0, scene[0].polygon, frame, RelativePolygon::Side::within);
-  std::vector<RelativePolygon> casters(scene.size() - 1);
-  std::vector<RelativePolygon const*> pointers;
-  for (SurfaceId id = 1; id < scene.size(); ++id) {
-    casters[id - 1].set(id, scene[id].polygon, frame, RelativePolygon::Side::in_front);
-    pointers.push_back(&casters[id - 1]);
+std::vector<double> fractions_of(std::span<Sunlit const> answers, double projected_area) {
+  std::vector<double> fractions;
+  for (Sunlit const& answer : answers) {
+    for (double const factor : schedule_factors) {
+      constexpr std::size_t max_schedules = 8;
+      std::array<double, max_schedules> factors{};
+      factors.fill(factor);
+      fractions.push_back(answer.at(factors) / projected_area);
+    }
   }
-  auto const found = exact_sums(scene, transmission,
-                                {receiver, frame, to_vector(sun), pointers, false, {}}, max_steps);
-  return found ? found->sums.front().unscheduled : std::numeric_limits<double>::quiet_NaN();
+  return fractions;
 }
 
 }  // namespace gpu_shading

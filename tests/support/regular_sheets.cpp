@@ -11,6 +11,7 @@
 #include <numbers>
 #include <utility>
 
+#include "geometry/triangulation.h"
 #include "gpu_shading/error.h"
 #include "support/plane_ring.h"
 #include "support/processor_time.h"
@@ -118,22 +119,42 @@ Ring in_lattice(Ring const& ring, glm::dmat2 const& to_lattice, glm::dvec2 const
 
 }  // namespace
 
+RegularSheets::RegularSheets(Polygon receiver, std::vector<Sheet> sheets)
+    : receiver_(std::move(receiver)), sheets_(std::move(sheets)) {
+  Mesh const mesh = triangulate(receiver_);
+  for (glm::uvec4 const& corners : convex_pieces(mesh)) {
+    Ring& piece = pieces_.emplace_back();
+    for (int i = 0; i < (corners[2] == corners[3] ? 3 : 4); ++i) {
+      glm::dvec3 const& vertex = mesh.vertices[corners[i]];
+      piece.emplace_back(vertex.x, vertex.z);
+    }
+    if (signed_area(piece) < 0.0) std::reverse(piece.begin(), piece.end());
+  }
+  Ring outline;
+  for (glm::dvec3 const& vertex : receiver_.outline) outline.emplace_back(vertex.x, vertex.z);
+  Bounds const bounds(outline);
+  low_ = bounds.low;
+  high_ = bounds.high;
+}
+
 RegularSheets::RegularSheets(double width, double height, std::vector<Sheet> sheets)
-    : width_(width), height_(height), sheets_(std::move(sheets)) {}
+    : RegularSheets(south_facing(0, 0, 0, width, height), std::move(sheets)) {}
 
 Polygon RegularSheets::polygon(Sheet const& sheet) const {
-  double const half = 50.0 * (width_ + height_ + sheet.distance);
+  glm::dvec2 const size = high_ - low_;
+  glm::dvec2 const centre = 0.5 * (low_ + high_);
+  double const half = 50.0 * (size.x + size.y + sheet.distance);
   glm::dvec3 const out(-std::sin(sheet.turn) * std::cos(sheet.tilt),
                        -std::cos(sheet.turn) * std::cos(sheet.tilt), std::sin(sheet.tilt));
   glm::dvec3 const right = glm::normalize(glm::cross(glm::dvec3(0, 0, 1), out));
   glm::dvec3 const up = glm::cross(out, right);
-  glm::dvec3 const middle(width_ / 2.0, -sheet.distance, height_ / 2.0);
+  glm::dvec3 const middle(centre.x, -sheet.distance, centre.y);
   return parallelogram(middle - half * right - half * up, 2.0 * half * right, 2.0 * half * up);
 }
 
 Scene RegularSheets::scene(ScreenDetail detail) const {
   Scene scene;
-  scene.add({"receiver", south_facing(0, 0, 0, width_, height_)});
+  scene.add({"receiver", receiver_});
   for (Sheet const& sheet : sheets_) {
     Surface surface{"sheet", polygon(sheet)};
     surface.filter.set(
@@ -147,7 +168,7 @@ Scene RegularSheets::scene(ScreenDetail detail) const {
 }
 
 double RegularSheets::projected_area(SunDirection sun) const {
-  return -to_vector(sun).y * width_ * height_;
+  return -to_vector(sun).y * area(receiver_);
 }
 
 std::optional<RegularSheets::Passing> RegularSheets::project(Sheet const& sheet,
@@ -161,8 +182,8 @@ std::optional<RegularSheets::Passing> RegularSheets::project(Sheet const& sheet,
   constexpr double least = 0.05;
   if (cosine < least || -towards_sun.y < least) return std::nullopt;
   // The receiver must see the sheet between itself and the sun.
-  for (double const x : {0.0, width_}) {
-    for (double const z : {0.0, height_}) {
+  for (double const x : {low_.x, high_.x}) {
+    for (double const z : {low_.y, high_.y}) {
       if (glm::dot(ring[1] - glm::dvec3(x, 0, z), out) < 2.0 * sheet.thickness) return std::nullopt;
     }
   }
@@ -175,10 +196,10 @@ std::optional<RegularSheets::Passing> RegularSheets::project(Sheet const& sheet,
   auto const in_sheet = [&](glm::dvec2 const& p) { return on_receiver(p.x * u + p.y * v); };
 
   glm::dvec2 const tile = tile_of(sheet.holes);
-  bool const fine = tile.x * 300.0 < width_;
+  bool const fine = tile.x * 300.0 < high_.x - low_.x;
   glm::dvec2 const shift(sheet.thickness / cosine *
                          glm::dvec2(glm::dot(u, towards_sun), glm::dot(v, towards_sun)));
-  int const sides = sheets_.size() > 1 ? 48 : (fine ? 96 : 512);
+  int const sides = sheets_.size() > 1 ? 96 : (fine ? 96 : 512);
   auto const overlap = [&](int many) {
     Ring const outline = outline_of(sheet.holes, many);
     Ring passing = outline;
@@ -211,22 +232,27 @@ std::optional<double> RegularSheets::sunlit_fraction(SunDirection sun) const {
     if (one->outline.size() < 3) return 0.0;
     passing.push_back(*one);
   }
-  double const area =
-      passing.size() == 1 ? through_one(passing[0]) : through_both(passing[0], passing[1]);
-  return area / (width_ * height_);
+  double lit = 0.0;
+  for (Ring const& piece : pieces_) {
+    lit += passing.size() == 1 ? through_one(piece, passing[0])
+                               : through_both(piece, passing[0], passing[1]);
+  }
+  return lit / area(receiver_);
 }
 
-double RegularSheets::through_one(Passing const& passing) const {
-  Ring const receiver{{0, 0}, {width_, 0}, {width_, height_}, {0, height_}};
+double RegularSheets::through_one(Ring const& piece, Passing const& passing) {
   struct Side {
     glm::dvec2 outwards;
     double limit;
     double most;   // reach of the outline beyond its hole's centre, outwards
     double least;  // and inwards, negative
   };
-  std::array<Side, 4> sides{
-      {{{0, -1}, 0, 0, 0}, {{1, 0}, width_, 0, 0}, {{0, 1}, height_, 0, 0}, {{-1, 0}, 0, 0, 0}}};
-  for (Side& side : sides) {
+  std::vector<Side> sides(piece.size());
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    Side& side = sides[i];
+    glm::dvec2 const edge = glm::normalize(piece[(i + 1) % piece.size()] - piece[i]);
+    side.outwards = {edge.y, -edge.x};
+    side.limit = glm::dot(side.outwards, piece[i]);
     side.most = -std::numeric_limits<double>::infinity();
     side.least = -side.most;
     for (glm::dvec2 const& p : passing.outline) {
@@ -239,7 +265,7 @@ double RegularSheets::through_one(Passing const& passing) const {
   Ring clipped;
   Ring spare;
   for (glm::dvec2 const& origin : passing.origins) {
-    Bounds const holes(in_lattice(receiver, to_lattice, origin));
+    Bounds const holes(in_lattice(piece, to_lattice, origin));
     Bounds const reach(in_lattice(passing.outline, to_lattice, {0.0, 0.0}));
     double const last = std::ceil(holes.high.y - reach.low.y);
     for (double j = std::floor(holes.low.y - reach.high.y); j <= last; ++j) {
@@ -265,7 +291,7 @@ double RegularSheets::through_one(Passing const& passing) const {
           clipped.clear();
           glm::dvec2 const centre = origin + i * passing.a + j * passing.b;
           for (glm::dvec2 const& p : passing.outline) clipped.push_back(p + centre);
-          clip(clipped, spare, receiver, {0.0, 0.0});
+          clip(clipped, spare, piece, {0.0, 0.0});
           if (clipped.size() > 2) sum += signed_area(clipped);
         }
       };
@@ -285,8 +311,7 @@ double RegularSheets::through_one(Passing const& passing) const {
   return sum;
 }
 
-double RegularSheets::through_both(Passing const& near, Passing const& far) const {
-  Ring const receiver{{0, 0}, {width_, 0}, {width_, height_}, {0, height_}};
+double RegularSheets::through_both(Ring const& piece, Passing const& near, Passing const& far) {
   // Calls use(centre) for the holes whose outline may meet a ring.
   auto const each_hole = [](Passing const& passing, Ring const& ring, auto use) {
     glm::dmat2 const to_lattice = glm::inverse(glm::dmat2(passing.a, passing.b));
@@ -306,10 +331,10 @@ double RegularSheets::through_both(Passing const& near, Passing const& far) cons
   Ring first;
   Ring both;
   Ring spare;
-  each_hole(near, receiver, [&](glm::dvec2 const& centre) {
+  each_hole(near, piece, [&](glm::dvec2 const& centre) {
     first.clear();
     for (glm::dvec2 const& p : near.outline) first.push_back(p + centre);
-    clip(first, spare, receiver, {0.0, 0.0});
+    clip(first, spare, piece, {0.0, 0.0});
     if (first.size() < 3) return;
     each_hole(far, first, [&](glm::dvec2 const& other) {
       both = first;

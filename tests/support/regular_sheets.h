@@ -9,6 +9,7 @@
 
 #include "gpu_shading/hole_pattern.h"
 #include "gpu_shading/perforated_screen.h"
+#include "gpu_shading/polygon.h"
 #include "gpu_shading/renderer.h"
 #include "gpu_shading/scene.h"
 #include "gpu_shading/screen_placement.h"
@@ -16,7 +17,8 @@
 
 namespace gpu_shading {
 
-// A receiver that faces south, behind perforated sheets so large that their ends never shade it.
+// A receiver in the plane y = 0 that faces south, behind perforated sheets so large that their ends
+// never shade it.
 // Its exact sunlit fraction is found independently of the library: the outline of what passes a
 // hole is the overlap of the hole's outline at both faces, a convex polygon; along the rays on the
 // receiver's plane, these polygons are clipped to the receiver and, behind two sheets, to one
@@ -34,6 +36,8 @@ class RegularSheets {
   };
 
   // One sheet or two, the nearer first.
+  RegularSheets(Polygon receiver, std::vector<Sheet> sheets);
+  // Of a rectangle.
   RegularSheets(double width, double height, std::vector<Sheet> sheets);
 
   // The receiver, then the sheets.
@@ -56,11 +60,13 @@ class RegularSheets {
 
   Polygon polygon(Sheet const& sheet) const;
   std::optional<Passing> project(Sheet const& sheet, SunDirection sun) const;
-  double through_one(Passing const& passing) const;
-  double through_both(Passing const& near, Passing const& far) const;
+  static double through_one(Ring const& piece, Passing const& passing);
+  static double through_both(Ring const& piece, Passing const& near, Passing const& far);
 
-  double width_;
-  double height_;
+  Polygon receiver_;
+  std::vector<Ring> pieces_;  // of the receiver, convex: x and z
+  glm::dvec2 low_{0.0};       // its bounding rectangle
+  glm::dvec2 high_{0.0};
   std::vector<Sheet> sheets_;
 };
 

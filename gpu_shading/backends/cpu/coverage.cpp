@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
 #include <mutex>
-#include <numeric>
 #include <utility>
 
-#include "antialias/antialias.h"
 #include "backends/cpu/shade_counts.h"
 #include "platform/parallel.h"
 
@@ -27,41 +24,6 @@ bool any_scheduled(std::span<Shade const> shades) {
 bool any_transmits(std::span<Shade const> shades) {
   return std::any_of(shades.begin(), shades.end(),
                      [](Shade const& shade) { return shade.transmittance > 0.0F; });
-}
-
-// Whether shades are of few transmittances, which ShadeCounts takes, and nothing else is in view.
-bool can_be_counted(CastersInView const& casters) {
-  if (casters.opaque() || !casters.bodies.empty()) return false;
-  if (any_scheduled(casters.shades)) return false;
-  constexpr std::size_t most = 6;
-  std::array<float, most> kinds{};
-  std::size_t count = 0;
-  for (Shade const& shade : casters.shades) {
-    auto const end = kinds.begin() + static_cast<std::ptrdiff_t>(count);
-    if (shade.transmittance == 0.0F) continue;
-    if (std::find(kinds.begin(), end, shade.transmittance) != end) continue;
-    if (count == most) return false;
-    kinds.at(count++) = shade.transmittance;
-  }
-  return true;
-}
-
-// Places of casters in the order of their schedules.
-std::vector<std::size_t> by_schedule(std::span<Shade const> shades) {
-  std::vector<std::size_t> order(shades.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return shades[a].schedule < shades[b].schedule;
-  });
-  return order;
-}
-
-// Calls use(word, bit) for the set bits of some words, in order.
-template <typename Use>
-void each_bit(std::uint64_t word, std::size_t number, Use use) {
-  for (std::uint64_t rest = word; rest != 0; rest &= rest - 1) {
-    use(number * PixelMask::word_bits + static_cast<std::size_t>(std::countr_zero(rest)));
-  }
 }
 
 // The rows of each part, of which so many threads may take one at a time.
@@ -88,27 +50,169 @@ void in_rows(int rows, int threads, Use use) {
   });
 }
 
-// Where a view is sampled.
-TileGrid sampled(Tile const& tile, View const& view, CastersInView const& casters, Samples samples,
-                 SampleUse use) {
-  if (samples == Samples::pixels) return pixels_of(tile);
-  if (casters.grid) return *casters.grid;
-  return sample_grid(tile, view, casters.bodies.screens, casters.repeats, use);
-}
+// Some rows of samples behind casters.
+class ShadedRows {
+ public:
+  // All dark. `counted`: as for Coverage::rows(). `luminous`: unless they are, samples may keep a
+  // part of the beam.
+  void start(TileGrid const& grid, int first, int end, bool counted, bool luminous) {
+    lit_.start(grid.columns(), first, end);
+    counts_.start(grid.columns(), first, end);
+    counted_ = counted;
+    luminous_ = luminous;
+    if (counted) return;
+    if (luminous) {
+      luminance_.start(grid.columns(), first, end);
+    } else {
+      luminance_.lay_out(grid.columns(), first, end);
+    }
+  }
 
-// From samples to pixels of the tile, if so many samples are the receiver's.
-void scale(LuminanceSums& sums, Tile const& tile, double samples) {
-  // Multiplied first: exactly all pixels where all samples are sunlit.
-  auto const pixels = static_cast<double>(tile.counted_pixels);
-  sums.unscheduled = sums.unscheduled * pixels / samples;
-  for (LuminanceSums::Scheduled& part : sums.scheduled) part.sum = part.sum * pixels / samples;
-}
+  PixelMask& lit() { return lit_; }
+  LuminanceTile& luminance() { return luminance_; }
+
+  void dim(ConvexArea const& area, Shade shade) {
+    if (!counted_) {
+      luminance_.multiply(area, shade.transmittance);
+      if (shade.schedule == Shade::unscheduled) return;
+      shade.transmittance = 1.0F;
+    }
+    counts_.add(area, shade);
+  }
+  // To be called once all casters have been.
+  void finish() { counts_.finish(); }
+
+  // Calls use(combination, luminance) for the samples whose bits are set in some words, of which
+  // this is the first.
+  template <typename Use>
+  void sum(std::size_t first, std::span<std::uint64_t const> of, Use use) {
+    std::span<std::uint64_t const> const lit = lit_.words().subspan(first, of.size());
+    if (counts_.empty() && !luminous_) {
+      return use(ShadeCounts::unscheduled, static_cast<double>(count_common(lit, of)));
+    }
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      std::uint64_t const samples = lit[i] & of[i];
+      if (samples == 0) continue;
+      if (luminous_) {
+        auto const luminance = [&](std::uint64_t some) { return luminance_.sum(first + i, some); };
+        counts_.pass(first + i, samples, luminance, use);
+      } else {
+        counts_.pass(
+            first + i, samples, [](std::uint64_t some) { return count(some); }, use);
+      }
+    }
+  }
+
+  ShadeCounts const& counts() const { return counts_; }
+
+ private:
+  static double count(std::uint64_t samples) {
+    constexpr std::uint64_t all = ~std::uint64_t{0};
+    return samples == all ? double{PixelMask::word_bits} : std::popcount(samples);
+  }
+
+  PixelMask lit_;
+  ShadeCounts counts_;
+  LuminanceTile luminance_;
+  bool counted_ = true;
+  bool luminous_ = false;
+};
+
+// The sums of rows, of which threads add some at a time.
+class SumOfRows {
+ public:
+  SumOfRows(std::size_t rows, std::size_t parts, bool scheduled)
+      : parts_(parts), scheduled_(scheduled) {
+    sums_.own.resize(rows);
+    sums_.lit.assign(scheduled ? measured_factors * parts : parts, std::vector<double>(rows));
+  }
+
+  // Some rows that one thread adds.
+  struct Share {
+    struct Sum {
+      std::size_t part;
+      ShadeCounts::Combination combination;
+      double luminance;
+    };
+    std::vector<Sum> scheduled;
+    std::vector<ShadeCounts::Powers> powers;  // by combination
+  };
+
+  std::span<double> own() { return sums_.own; }
+
+  // What is lit of a part in a row, in some words of it.
+  void add(Share& share, ShadedRows& rows, std::size_t part, std::size_t row,
+           std::size_t first_word, std::span<std::uint64_t const> of) {
+    if (!scheduled_) {
+      double& lit = sums_.lit[part][row];
+      return rows.sum(first_word, of,
+                      [&](ShadeCounts::Combination, double luminance) { lit += luminance; });
+    }
+    static thread_local CombinationSums sums;
+    rows.sum(first_word, of, [](ShadeCounts::Combination combination, double luminance) {
+      sums.add(combination, luminance);
+    });
+    sums.take([&](ShadeCounts::Combination combination, double luminance) {
+      int const shades = rows.counts().shades(combination);
+      std::array<double, measured_factors> const passed{shades == 0 ? luminance : 0.0,
+                                                        std::ldexp(luminance, -shades), luminance};
+      for (std::size_t i = 0; i < passed.size(); ++i) {
+        sums_.lit[i * parts_ + part][row] += passed.at(i);
+      }
+      if (shades > 0) share.scheduled.push_back({part, combination, luminance});
+    });
+  }
+  void add(Share share, ShadedRows const& rows, int first_row) {
+    if (!scheduled_) return;
+    for (std::size_t i = 0; i < rows.counts().combinations(); ++i) {
+      share.powers.push_back(rows.counts().powers(static_cast<ShadeCounts::Combination>(i)));
+    }
+    std::lock_guard const lock(mutex_);
+    shares_.emplace(first_row, std::move(share));
+  }
+
+  // In the order of rows, so that they are the same on any number of threads.
+  RowSums take() {
+    if (!scheduled_) return std::move(sums_);
+    std::vector<std::map<ShadeCounts::Powers, double>> totals(parts_);
+    for (auto const& [first_row, share] : shares_) {
+      std::vector<double*> known(parts_ * share.powers.size());
+      for (auto const& [part, combination, luminance] : share.scheduled) {
+        double*& total = known[part * share.powers.size() + combination];
+        if (total == nullptr) total = &totals[part][share.powers[combination]];
+        *total += luminance;
+      }
+    }
+    for (auto const& of_part : totals) {
+      auto& scheduled = sums_.scheduled.emplace_back();
+      for (auto const& [powers, sum] : of_part) scheduled.push_back({powers, sum});
+    }
+    return std::move(sums_);
+  }
+
+ private:
+  std::size_t parts_;
+  bool scheduled_;
+  RowSums sums_;
+  std::mutex mutex_;
+  std::map<int, Share> shares_;  // by first row
+};
 
 }  // namespace
 
-SampleUse sample_use(CastersInView const& casters) {
-  if (casters.opaque()) return SampleUse::coverage;
-  return can_be_counted(casters) ? SampleUse::counting : SampleUse::luminance;
+bool can_be_counted(CastersInView const& casters) {
+  if (!casters.bodies.empty()) return false;
+  constexpr std::size_t most = 6;
+  std::array<float, most> kinds{};
+  std::size_t count = 0;
+  for (Shade const& shade : casters.shades) {
+    auto const end = kinds.begin() + static_cast<std::ptrdiff_t>(count);
+    if (shade.transmittance == 0.0F) continue;
+    if (std::find(kinds.begin(), end, shade.transmittance) != end) continue;
+    if (count == most) return false;
+    kinds.at(count++) = shade.transmittance;
+  }
+  return true;
 }
 
 struct Coverage::InteriorPiece {
@@ -117,7 +221,7 @@ struct Coverage::InteriorPiece {
   DepthPlane depth;
 };
 
-// Some rows of a tile, few enough that the masks of all pieces there stay in a processor's cache.
+// Some rows of a mask, few enough that the masks of all pieces there stay in a processor's cache.
 struct Coverage::Band {
   struct Part {
     InteriorPiece const* piece = nullptr;
@@ -130,50 +234,42 @@ struct Coverage::Band {
 
   std::span<Part> parts() { return std::span(kept).first(count); }
   std::span<Part const> parts() const { return std::span(kept).first(count); }
-  std::span<std::uint64_t const> rows_of(PixelMask const& mask) const {
-    return mask.words().subspan(first_word, words);
-  }
 
-  std::size_t first_word = 0;  // of the tile's words
+  std::size_t first_word = 0;  // of the mask's words
   std::size_t words = 0;
-  std::size_t rows = 0;
   std::vector<Part> kept;  // with their memory, from one band to the next
   std::size_t count = 0;
 };
 
 template <typename Use>
 void Coverage::each_area(int side, View const& pixels, CastersInView const& casters,
-                         std::span<std::size_t const> order, Range const& positions,
-                         Use use) const {
-  for (std::size_t i = positions.first; i < positions.first + positions.count; ++i) {
-    std::size_t const place = order.empty() ? i : order[i];
-    Shade const shade = casters.shades.empty() ? Shade{} : casters.shades[place];
-    pieces_.each(casters.surfaces[place], pixels,
+                         Range const& some, Use use) const {
+  for (std::size_t i = some.first; i < some.first + some.count; ++i) {
+    Shade const shade = casters.shades.empty() ? Shade{} : casters.shades[i];
+    pieces_.each(casters.surfaces[i], pixels,
                  [&](ProjectedPiece const& piece) { use(piece.area(side), shade); });
   }
 }
 
 std::vector<std::vector<ShadedArea>> Coverage::areas(int side, View const& pixels,
                                                      CastersInView const& casters,
-                                                     std::span<std::size_t const> order,
                                                      int threads) const {
   constexpr std::size_t at_once = 256;
   std::size_t const count = casters.surfaces.size();
   std::vector<std::vector<ShadedArea>> found((count + at_once - 1) / at_once);
   for_each_of(found.size(), threads, [&](std::size_t i) {
-    Range const positions{i * at_once, std::min(at_once, count - i * at_once)};
-    found[i].reserve(positions.count);
-    each_area(side, pixels, casters, order, positions,
-              [&](ConvexArea const& area, Shade const& shade) {
-                if (area.first_row < area.end_row) found[i].push_back({area, shade});
-              });
+    Range const some{i * at_once, std::min(at_once, count - i * at_once)};
+    found[i].reserve(some.count);
+    each_area(side, pixels, casters, some, [&](ConvexArea const& area, Shade const& shade) {
+      if (area.first_row < area.end_row) found[i].push_back({area, shade});
+    });
   });
   return found;
 }
 
 template <typename Dim>
 void Coverage::cover(PixelMask& mask, int side, View const& pixels, CastersInView const& casters,
-                     std::span<std::size_t const> order, Dim dim) const {
+                     Dim dim) const {
   auto const put = [&](ConvexArea const& area, Shade const& shade) {
     if (shade.transmittance > 0.0F) {
       dim(area, shade);
@@ -182,7 +278,7 @@ void Coverage::cover(PixelMask& mask, int side, View const& pixels, CastersInVie
     }
   };
   if (casters.areas.empty()) {
-    return each_area(side, pixels, casters, order, {0, casters.surfaces.size()}, put);
+    return each_area(side, pixels, casters, {0, casters.surfaces.size()}, put);
   }
   for (std::vector<ShadedArea> const& some : casters.areas) {
     for (auto const& [area, shade] : some) {
@@ -191,295 +287,103 @@ void Coverage::cover(PixelMask& mask, int side, View const& pixels, CastersInVie
   }
 }
 
-void Coverage::shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* passed,
-                     View const& pixels, CastersInView const& casters) const {
-  std::vector<std::size_t> order;
-  if (passed != nullptr && casters.areas.empty()) order = by_schedule(casters.shades);
-  cover(mask, std::max(shaded.columns(), mask.end_row()), pixels, casters, order,
+void Coverage::shade(PixelMask& mask, LuminanceTile& shaded, View const& pixels,
+                     CastersInView const& casters) const {
+  cover(mask, std::max(shaded.columns(), mask.end_row()), pixels, casters,
         [&](ConvexArea const& area, Shade const& shade) {
           shaded.multiply(area, shade.transmittance);
-          if (shade.schedule != Shade::unscheduled) passed->pass(area, shade.schedule);
         });
   casters.bodies.shade(shaded, mask, pixels);
 }
 
-void Coverage::darken(PixelMask& mask, Tile const& tile, TileGrid const& grid, View const& pixels,
-                      CastersInView const& casters, int threads) const {
-  if (casters.crowd == nullptr) {
-    return cover(mask, grid.side(), pixels, casters, {}, [](ConvexArea const&, Shade const&) {});
-  }
+void Coverage::darken(PixelMask& mask, SampledView const& view, CastersInView const& casters,
+                      int threads) const {
   auto const& [receiver, towards_sun] = casters.question;
-  LitCrowds::Key const key{receiver, towards_sun, tile.lay.slope, grid, mask.first_row()};
+  LitCrowds::Key const key{receiver, towards_sun, view.slope, view.grid, mask.first_row()};
   if (casters.known != nullptr && casters.known->take(key, mask)) return;
-  casters.crowd->darken(mask, grid.side(), pixels, casters.question, threads);
+  casters.crowd->darken(mask, view.grid.side(), view.in_front, casters.question, threads);
   if (casters.known != nullptr) casters.known->keep(key, mask);
 }
 
-// Sums over a grid's samples, row by row. `own` takes the number of those that are the receiver's.
-struct Coverage::Rows {
-  Coverage const& coverage;
-  Tile const& tile;
-  TileGrid const& grid;
-  View pixels;
-  CastersInView const& casters;
-  int threads;
-
-  // Calls use(mask, first, end) for parts of the rows, in any order and by any threads, with the
-  // receiver's samples lit. `own` takes the number of these by row.
-  template <typename Use>
-  void each(std::vector<double>& own, Use use) const {
-    own.resize(static_cast<std::size_t>(grid.mask_rows()));
-    // A crowd is shared by its casters.
-    int const shares = casters.crowd != nullptr ? 1 : threads;
-    in_rows(grid.mask_rows(), shares, [&](int first, int end) {
-      static thread_local PixelMask mask;
-      mask.start(grid.columns(), first, end);
-      light(mask, tile, grid);
-      mask.count_rows(std::span(own).subspan(static_cast<std::size_t>(first)));
-      use(mask, first, end);
-    });
+RowSums Coverage::rows(SampledView const& view, CastersInView const& given, bool counted,
+                       int threads) const {
+  int const rows = view.grid.mask_rows();
+  int const side = view.grid.side();
+  CastersInView casters = given;
+  // Projected once for several parts of the rows.
+  std::vector<std::vector<ShadedArea>> projected;
+  if (casters.crowd == nullptr && rows_a_part(rows, threads) < rows) {
+    projected = areas(side, view.in_front, casters, threads);
+    casters.areas = projected;
   }
-
-  // With sums of rows: calls use(mask, first, end, sums).
-  template <typename Use>
-  RowSums sum_rows(Use use) const {
-    RowSums sums;
-    std::vector<double>& lit = sums.lit.emplace_back(static_cast<std::size_t>(grid.mask_rows()));
-    each(sums.own, [&](PixelMask& mask, int first, int end) {
-      use(mask, first, end, std::span(lit).subspan(static_cast<std::size_t>(first)));
-    });
-    return sums;
-  }
-
-  RowSums lit() const {
-    return sum_rows([&](PixelMask& mask, int /*first*/, int /*end*/, std::span<double> sums) {
-      coverage.darken(mask, tile, grid, pixels, casters, threads);
-      mask.count_rows(sums);
-    });
-  }
-
-  RowSums counted() const {
-    return sum_rows([&](PixelMask& mask, int first, int end, std::span<double> sums) {
-      static thread_local ShadeCounts counts;
-      counts.start(grid.columns(), first, end);
-      coverage.cover(mask, grid.side(), pixels, casters, {},
-                     [&](ConvexArea const& area, Shade const& shade) {
-                       counts.add(area, shade.transmittance);
-                     });
-      counts.sum_rows(mask, sums);
-    });
-  }
-
-  RowSums luminance() const {
-    bool const darkening = !any_transmits(casters.shades) && casters.bodies.all_or_nothing(pixels);
-    return sum_rows([&](PixelMask& mask, int first, int end, std::span<double> sums) {
-      static thread_local LuminanceTile shaded;
-      if (darkening) {
-        shaded.lay_out(grid.columns(), first, end);
-      } else {
-        shaded.start(grid.columns(), first, end);
+  bool const luminous =
+      !counted && (any_transmits(casters.shades) || !casters.bodies.all_or_nothing(view.in_front));
+  std::vector<InteriorPiece> const pieces = interior_pieces(view);
+  SumOfRows sums(static_cast<std::size_t>(rows), view.through ? view.interiors.size() : 1,
+                 any_scheduled(casters.shades));
+  // A crowd is shared by its casters.
+  in_rows(rows, casters.crowd != nullptr ? 1 : threads, [&](int first, int end) {
+    static thread_local ShadedRows rows_behind;
+    ShadedRows& shaded = rows_behind;
+    shaded.start(view.grid, first, end, counted, luminous);
+    PixelMask& lit = shaded.lit();
+    for (ConvexArea const& area : view.outline) lit.light(area);
+    auto const first_row = static_cast<std::size_t>(first);
+    lit.count_rows(sums.own().subspan(first_row));
+    if (casters.crowd != nullptr) {
+      darken(lit, view, casters, threads);
+    } else {
+      cover(lit, side, view.in_front, casters,
+            [&](ConvexArea const& area, Shade const& shade) { shaded.dim(area, shade); });
+      casters.bodies.shade(shaded.luminance(), lit, view.in_front);
+    }
+    shaded.finish();
+    SumOfRows::Share share;
+    std::size_t const stride = lit.words().size() / static_cast<std::size_t>(end - first);
+    auto const add = [&](std::size_t part, std::size_t first_word,
+                         std::span<std::uint64_t const> of) {
+      for (std::size_t word = 0; word < of.size(); word += stride) {
+        sums.add(share, shaded, part, first_row + (first_word + word) / stride, first_word + word,
+                 of.subspan(word, stride));
       }
-      coverage.shade(mask, shaded, nullptr, pixels, casters);
-      if (darkening) {
-        mask.count_rows(sums);
-      } else {
-        shaded.sum_rows(mask, sums);
-      }
-    });
-  }
-
-  LuminanceSums scheduled(std::vector<double>& own) const {
-    struct Part {
-      PassedSchedules passed;
-      std::vector<CombinationSums::Sum> row_sums;
     };
-    std::mutex parts_mutex;
-    std::map<int, Part> parts;  // by first row
-    each(own, [&](PixelMask& mask, int first, int end) {
-      static thread_local LuminanceTile shaded;
-      Part part;
-      shaded.start(grid.columns(), first, end);
-      part.passed.start(grid.columns(), first, end);
-      coverage.shade(mask, shaded, &part.passed, pixels, casters);
-      CombinationSums sums(part.passed.combinations());
-      std::span<std::uint64_t const> const words = std::as_const(mask).words();
-      std::size_t const words_a_row = shaded.stride() / PixelMask::word_bits;
-      for (std::size_t word = 0; word < words.size(); ++word) {
-        each_bit(words[word], word, [&](std::size_t pixel) {
-          sums.add(part.passed.pixels()[pixel], std::as_const(shaded).pixels()[pixel]);
-        });
-        if ((word + 1) % words_a_row == 0) sums.take(part.row_sums);
-      }
-      std::lock_guard const lock(parts_mutex);
-      parts.emplace(first, std::move(part));
-    });
-    ScheduledTotals totals;
-    for (auto const& [first, part] : parts) totals.add(part.passed, part.row_sums);
-    return totals.result();
-  }
-
-  RowSums unscheduled(SampleUse use) const {
-    if (use == SampleUse::coverage) return lit();
-    return use == SampleUse::counting ? counted() : luminance();
-  }
-};
-
-// Casters in a view with its x and y in pixels, projected once for several parts of the rows.
-struct Coverage::Projected {
-  Projected(Coverage const& coverage, TileGrid const& grid, View const& in_pixels,
-            CastersInView const& in_view, int threads)
-      : pixels(in_pixels), casters(in_view) {
-    int const rows = grid.mask_rows();
-    if (casters.crowd != nullptr || rows_a_part(rows, threads) == rows) return;
-    std::vector<std::size_t> order;
-    if (any_scheduled(casters.shades)) order = by_schedule(casters.shades);
-    areas = coverage.areas(grid.side(), pixels, casters, order, threads);
-    casters.areas = areas;
-  }
-
-  View pixels;
-  CastersInView casters;
-  std::vector<std::vector<ShadedArea>> areas;
-};
-
-LuminanceSums Coverage::sums(Tile const& tile, View const& view, CastersInView const& casters,
-                             Samples samples, int threads) const {
-  // Pixels are too few to be worth counting.
-  SampleUse const use =
-      samples == Samples::pixels && !casters.opaque() ? SampleUse::luminance : sample_use(casters);
-  TileGrid const grid = sampled(tile, view, casters, samples, use);
-  Projected const projected(*this, grid, in_pixels(view, grid), casters, threads);
-  Rows const rows{*this, tile, grid, projected.pixels, projected.casters, threads};
-  LuminanceSums sums;
-  std::vector<double> own;
-  if (any_scheduled(casters.shades)) {
-    sums = rows.scheduled(own);
-  } else {
-    RowSums by_row = rows.unscheduled(use);
-    sums.unscheduled = total(by_row.lit.front());
-    own = std::move(by_row.own);
-  }
-  double const of_receiver = total(own);
-  // Rows may all miss a small receiver that pixels meet.
-  if (of_receiver == 0.0) return this->sums(tile, view, casters, Samples::pixels, threads);
-  scale(sums, tile, of_receiver);
-  return sums;
-}
-
-RowSums Coverage::rows(TileGrid const& grid, Tile const& tile, View const& view,
-                       CastersInView const& casters, SampleUse use, int threads) const {
-  Projected const projected(*this, grid, in_pixels(view, grid), casters, threads);
-  return Rows{*this, tile, grid, projected.pixels, projected.casters, threads}.unscheduled(use);
-}
-
-void Coverage::add_lit(PixelMask const& lit, Band const& band,
-                       std::span<std::vector<double>> sums) {
-  std::size_t const stride = band.words / band.rows;
-  std::span<std::uint64_t const> const lit_words = band.rows_of(lit);
-  for (Band::Part const& part : band.parts()) {
-    std::vector<double>& of_surface = sums[part.piece->surface];
-    for (std::size_t row = 0; row < band.rows; ++row) {
-      std::uint64_t const count = count_common(lit_words.subspan(row * stride, stride),
-                                               part.mask.words().subspan(row * stride, stride));
-      of_surface[band.first_word / stride + row] += static_cast<double>(count);
+    if (view.through) {
+      each_band(lit, pieces, [&](Band const& band) {
+        for (Band::Part const& part : band.parts()) {
+          add(part.piece->surface, band.first_word, part.mask.words());
+        }
+      });
+    } else {
+      add(0, 0, std::as_const(lit).words());
     }
-  }
+    sums.add(std::move(share), shaded, first);
+  });
+  return sums.take();
 }
 
-void Coverage::add_luminance(PixelMask const& lit, LuminanceTile const& shaded,
-                             PassedSchedules const& passed, Band const& band,
-                             std::span<ScheduledTotals> totals) {
-  CombinationSums by_combination(passed.combinations());
-  std::vector<CombinationSums::Sum> taken;
-  std::span<std::uint64_t const> const words = band.rows_of(lit);
-  for (Band::Part const& part : band.parts()) {
-    for (std::size_t word = 0; word < words.size(); ++word) {
-      each_bit(words[word] & part.mask.words()[word], band.first_word + word,
-               [&](std::size_t pixel) {
-                 by_combination.add(passed.pixels()[pixel], shaded.pixels()[pixel]);
-               });
-    }
-    taken.clear();
-    by_combination.take(taken);
-    totals[part.piece->surface].add(passed, taken);
-  }
-}
-
-std::vector<LuminanceSums> Coverage::sums_inside(Tile const& tile, View const& view,
-                                                 CastersInView const& casters, Samples samples,
-                                                 View const& behind,
-                                                 std::span<SurfaceId const> interiors) const {
-  TileGrid const grid = sampled(tile, view, casters, samples, sample_use(casters));
-  std::vector<LuminanceSums> sums(interiors.size());
-  double own = 0.0;
-  if (casters.opaque()) {
-    RowSums const by_row = rows_inside(grid, tile, view, casters, behind, interiors);
-    own = total(by_row.own);
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i].unscheduled = total(by_row.lit[i]);
-  } else {
-    static thread_local PixelMask lit;
-    static thread_local LuminanceTile shaded;
-    static thread_local PassedSchedules passed;
-    int const rows = grid.mask_rows();
-    lit.start(grid.columns(), 0, rows);
-    light(lit, tile, grid);
-    own = static_cast<double>(lit.lit());
-    shaded.start(grid.columns(), 0, rows);
-    passed.start(grid.columns(), 0, rows);
-    shade(lit, shaded, &passed, in_pixels(view, grid), casters);
-    std::vector<ScheduledTotals> totals(interiors.size());
-    each_band(grid, lit, interior_pieces(grid, in_pixels(behind, grid), interiors),
-              [&](Band const& band) { add_luminance(lit, shaded, passed, band, totals); });
-    std::transform(totals.begin(), totals.end(), sums.begin(),
-                   [](ScheduledTotals const& total) { return total.result(); });
-  }
-  if (own == 0.0) return sums_inside(tile, view, casters, Samples::pixels, behind, interiors);
-  for (LuminanceSums& part : sums) scale(part, tile, own);
-  return sums;
-}
-
-RowSums Coverage::rows_inside(TileGrid const& grid, Tile const& tile, View const& view,
-                              CastersInView const& casters, View const& behind,
-                              std::span<SurfaceId const> interiors) const {
-  static thread_local PixelMask lit;
-  auto const rows = static_cast<std::size_t>(grid.mask_rows());
-  RowSums sums;
-  sums.own.resize(rows);
-  sums.lit.assign(interiors.size(), std::vector<double>(rows));
-  lit.start(grid.columns(), 0, grid.mask_rows());
-  light(lit, tile, grid);
-  lit.count_rows(sums.own);
-  darken(lit, tile, grid, in_pixels(view, grid), casters, 1);
-  each_band(grid, lit, interior_pieces(grid, in_pixels(behind, grid), interiors),
-            [&](Band const& band) { add_lit(lit, band, sums.lit); });
-  return sums;
-}
-
-std::vector<Coverage::InteriorPiece> Coverage::interior_pieces(
-    TileGrid const& grid, View const& pixels, std::span<SurfaceId const> interiors) const {
+std::vector<Coverage::InteriorPiece> Coverage::interior_pieces(SampledView const& view) const {
   std::vector<InteriorPiece> found;
-  for (std::size_t i = 0; i < interiors.size(); ++i) {
-    pieces_.each(interiors[i], pixels, [&](ProjectedPiece const& piece) {
-      found.push_back({i, piece.area(grid.side()), piece.depth()});
+  for (std::size_t i = 0; i < view.interiors.size(); ++i) {
+    pieces_.each(view.interiors[i], view.behind, [&](ProjectedPiece const& piece) {
+      found.push_back({i, piece.area(view.grid.side()), piece.depth()});
     });
   }
   return found;
 }
 
 template <typename Use>
-void Coverage::each_band(TileGrid const& grid, PixelMask const& lit,
-                         std::span<InteriorPiece const> pieces, Use use) {
+void Coverage::each_band(PixelMask const& lit, std::span<InteriorPiece const> pieces, Use use) {
   constexpr std::size_t max_words = 4096;
   static thread_local Band band;
   static thread_local std::vector<std::uint64_t> covered;
   static thread_local std::vector<std::uint64_t> several;
-  std::size_t const words_a_row = lit.words().size() / static_cast<std::size_t>(grid.mask_rows());
+  std::size_t const words_a_row =
+      lit.words().size() / static_cast<std::size_t>(lit.end_row() - lit.first_row());
   int const rows = std::max(1, static_cast<int>(max_words / words_a_row));
-  for (int first = 0; first < grid.mask_rows(); first += rows) {
-    int const end = std::min(first + rows, grid.mask_rows());
-    band.first_word = static_cast<std::size_t>(first) * words_a_row;
-    band.rows = static_cast<std::size_t>(end - first);
-    band.words = band.rows * words_a_row;
+  band.first_word = 0;
+  for (int first = lit.first_row(); first < lit.end_row(); first += rows) {
+    int const end = std::min(first + rows, lit.end_row());
+    band.words = static_cast<std::size_t>(end - first) * words_a_row;
     band.count = 0;
     covered.assign(band.words, 0);
     several.assign(band.words, 0);
@@ -488,7 +392,7 @@ void Coverage::each_band(TileGrid const& grid, PixelMask const& lit,
       if (band.count == band.kept.size()) band.kept.emplace_back();
       Band::Part& added = band.kept[band.count++];
       added.piece = &piece;
-      added.mask.start(grid.columns(), first, end);
+      added.mask.start(lit.columns(), first, end);
       added.mask.light(piece.area);
       std::span<std::uint64_t const> const words = std::as_const(added.mask).words();
       for (std::size_t k = 0; k < words.size(); ++k) {
@@ -497,13 +401,15 @@ void Coverage::each_band(TileGrid const& grid, PixelMask const& lit,
       }
     }
     // In a closed room, two surfaces hardly ever cover the same pixel.
-    std::span<std::uint64_t const> const lit_words = band.rows_of(lit);
+    std::span<std::uint64_t const> const lit_words =
+        lit.words().subspan(band.first_word, band.words);
     for (std::size_t word = 0; word < several.size(); ++word) {
       for (std::uint64_t rest = several[word] & lit_words[word]; rest != 0; rest &= rest - 1) {
         keep_nearest(band, word, std::countr_zero(rest));
       }
     }
     use(std::as_const(band));
+    band.first_word += band.words;
   }
 }
 

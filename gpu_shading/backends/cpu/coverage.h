@@ -1,17 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "antialias/antialias.h"
 #include "backends/cpu/crowd_raster.h"
 #include "backends/cpu/lit_crowds.h"
-#include "backends/cpu/passed_schedules.h"
 #include "backends/cpu/replicates.h"
 #include "backends/cpu/surface_pieces.h"
-#include "backends/interface/view_backend.h"
 #include "filters/bodies.h"
 #include "filters/transmission.h"
 #include "geometry/triangulation.h"
@@ -34,24 +30,27 @@ struct CastersInView {
   std::span<SurfaceId const> surfaces;  // that are flat
   std::span<Shade const> shades;        // of each surface; none where all are opaque
   BodiesInView bodies;
-  SampledRepeats repeats = {};  // of surfaces at equal distances
   // Of `surfaces`, where they are needed several times.
   std::span<std::vector<ShadedArea> const> areas = {};
   // Where `surfaces` are only a sample: rasterises all of them, which are opaque.
   CrowdRaster const* crowd = nullptr;
   CrowdQuestion question = {};
-  LitCrowds* known = nullptr;         // of a window, about which there will be another question
-  std::optional<TileGrid> grid = {};  // the best samples, where they are known
-
-  bool opaque() const { return shades.empty() && bodies.empty(); }
+  LitCrowds* known = nullptr;  // of a window, about which there will be another question
 };
 
-// Where a tile is sampled: where it is most accurate, or at the centres of its pixels, as OpenGL
-// does.
-enum class Samples { fine, pixels };
+// Whether all are shades of few transmittances, which ShadeCounts takes.
+bool can_be_counted(CastersInView const& casters);
 
-// What takes least time to sample casters, if no perforated sheet is among them.
-SampleUse sample_use(CastersInView const& casters);
+// A view at the samples of a grid.
+struct SampledView {
+  TileGrid grid;
+  double slope = 0.0;               // of the tile's turn
+  std::vector<ConvexArea> outline;  // the receiver
+  View in_front;                    // x and y in columns and rows
+  bool through = false;             // the receiver is a window in front of these surfaces:
+  std::span<SurfaceId const> interiors;
+  View behind;  // of a window
+};
 
 // Rasterises views on the CPU: as a rasteriser of triangles does, but with a bit for each pixel and
 // by convex pieces, and in double precision up to the edges. In place of OpenGL without a GPU it
@@ -63,68 +62,45 @@ class Coverage {
 
   SurfacePieces const& pieces() const { return pieces_; }
 
-  // Luminance over a tile's pixels as `view`, in front of its receiver, has the casters, in
-  // pixels. On so many threads at most; the same on any number.
-  LuminanceSums sums(Tile const& tile, View const& view, CastersInView const& casters,
-                     Samples samples, int threads) const;
-  // Row by row at the samples of a grid, without schedules. `use`: sample_use() of the casters.
-  RowSums rows(TileGrid const& grid, Tile const& tile, View const& view,
-               CastersInView const& casters, SampleUse use, int threads) const;
-  // The same over those pixels where each of `interiors` is the nearest in the view `behind`; of
-  // surfaces in the same place the first has them.
-  std::vector<LuminanceSums> sums_inside(Tile const& tile, View const& view,
-                                         CastersInView const& casters, Samples samples,
-                                         View const& behind,
-                                         std::span<SurfaceId const> interiors) const;
-  // Row by row at the samples of a grid, with opaque casters.
-  RowSums rows_inside(TileGrid const& grid, Tile const& tile, View const& view,
-                      CastersInView const& casters, View const& behind,
-                      std::span<SurfaceId const> interiors) const;
+  // What reaches a receiver, or each of the interior surfaces, row by row: a sample behind a window
+  // belongs to the nearest of them, and of several in one place to the first. `counted`:
+  // can_be_counted(). On so many threads at most; the same on any number.
+  RowSums rows(SampledView const& view, CastersInView const& casters, bool counted,
+               int threads) const;
 
   // Some rows of pixels as `pixels`, a view whose x and y are in pixels, has the casters: takes
   // those that opaque casters cover from the mask, and multiplies the luminance by what the others
-  // let through. `passed` notes scheduled shades; it may be null where there are none.
-  void shade(PixelMask& mask, LuminanceTile& shaded, PassedSchedules* passed, View const& pixels,
+  // let through.
+  void shade(PixelMask& mask, LuminanceTile& shaded, View const& pixels,
              CastersInView const& casters) const;
 
  private:
   struct InteriorPiece;
   struct Band;
 
-  struct Rows;
-  struct Projected;
-
   // Covers the samples of a mask, in pixels, and calls dim(area, shade) for the pieces of casters
-  // that transmit. `order` of the casters: none, as they come.
+  // that transmit.
   template <typename Dim>
   void cover(PixelMask& mask, int side, View const& pixels, CastersInView const& casters,
-             std::span<std::size_t const> order, Dim dim) const;
-  // The areas of all casters, in that order, for cover(). On so many threads.
+             Dim dim) const;
+  // The areas of all casters for cover(). On so many threads.
   std::vector<std::vector<ShadedArea>> areas(int side, View const& pixels,
-                                             CastersInView const& casters,
-                                             std::span<std::size_t const> order, int threads) const;
-  // Calls use(area, shade) for the pieces of casters at some positions of the order.
+                                             CastersInView const& casters, int threads) const;
+  // Calls use(area, shade) for the pieces of some casters.
   template <typename Use>
-  void each_area(int side, View const& pixels, CastersInView const& casters,
-                 std::span<std::size_t const> order, Range const& positions, Use use) const;
-  // Of opaque casters. On so many threads, if they are a crowd.
-  void darken(PixelMask& mask, Tile const& tile, TileGrid const& grid, View const& pixels,
-              CastersInView const& casters, int threads) const;
+  void each_area(int side, View const& pixels, CastersInView const& casters, Range const& some,
+                 Use use) const;
+  // Of a crowd. On so many threads.
+  void darken(PixelMask& mask, SampledView const& view, CastersInView const& casters,
+              int threads) const;
 
   // Where each piece of the interior surfaces is.
-  std::vector<InteriorPiece> interior_pieces(TileGrid const& grid, View const& pixels,
-                                             std::span<SurfaceId const> interiors) const;
-  // Calls use(band) for all rows, in order, with each sample in one piece: where several are, in
-  // the nearest.
+  std::vector<InteriorPiece> interior_pieces(SampledView const& view) const;
+  // Calls use(band) for the rows of a mask, in order, with each sample in one piece: where several
+  // are, in the nearest.
   template <typename Use>
-  static void each_band(TileGrid const& grid, PixelMask const& lit,
-                        std::span<InteriorPiece const> pieces, Use use);
+  static void each_band(PixelMask const& lit, std::span<InteriorPiece const> pieces, Use use);
   static void keep_nearest(Band& band, std::size_t word, int bit);
-  // Add the lit samples of each piece to the sums of its surface, which are by row for the first.
-  static void add_lit(PixelMask const& lit, Band const& band, std::span<std::vector<double>> sums);
-  static void add_luminance(PixelMask const& lit, LuminanceTile const& shaded,
-                            PassedSchedules const& passed, Band const& band,
-                            std::span<ScheduledTotals> totals);
 
   SurfacePieces pieces_;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -25,26 +26,27 @@ constexpr std::size_t worth_a_thread = 2500;
 // transmittance, which takes no account of where the receiver's edges cut them, unless by rows.
 constexpr int largest_by_effect = 4096;
 
-// The rows of a replicate that may suffice.
-double rows_of(Tile const& tile, SampleUse use) {
-  if (use == SampleUse::luminance) return tile.side / std::sqrt(double{replicates_at_once});
-  return static_cast<double>(TileSize::rows_on(tile.side)) / replicates_at_once;
+// Replicates that may suffice, as of a tile of so many pixels per side.
+Replicates replicates_for(double max_error, int side, bool counted) {
+  if (!counted) return {max_error, side / std::sqrt(double{replicates_at_once}), 0};
+  int const rows = TileSize::rows_on(side) / static_cast<int>(replicates_at_once);
+  // A row's span costs nearly the same however fine its columns are. The lattice's shear makes the
+  // rounding of spans to them random.
+  constexpr int columns_a_row = 42;
+  return {max_error, static_cast<double>(rows), columns_a_row * rows};
 }
 
-// The columns of a replicate; 0: as many as rows. A row's span costs nearly the same however fine
-// its columns are. The lattice's shear makes the rounding of spans to them random.
-int columns_of(double max_error, SampleUse use) {
-  if (use == SampleUse::luminance) return 0;
-  return static_cast<int>(128.0 / std::sqrt(max_error));
-}
-
-// Schedules and interior surfaces behind shades that transmit have no sums by row.
-bool can_be_measured(CastersInView const& casters, ReceiverView const& view) {
-  if (view.turned.empty() || view.at_pixels || view.grid || !casters.bodies.empty()) return false;
-  if (casters.opaque()) return true;
-  return !view.through && std::ranges::none_of(casters.shades, [](Shade const& shade) {
-    return shade.schedule != Shade::unscheduled;
-  });
+// But for the outline.
+SampledView on_grid(ReceiverView const& view, TileMap const& map, TileGrid const& grid) {
+  SampledView sampled;
+  sampled.grid = grid;
+  sampled.in_front = in_pixels(view_in_front(*view.frame, map, view.towards_sun), grid);
+  sampled.through = view.through;
+  sampled.interiors = view.interiors;
+  if (view.through) {
+    sampled.behind = in_pixels(view_behind(*view.frame, map, view.towards_sun, 1.0), grid);
+  }
+  return sampled;
 }
 
 }  // namespace
@@ -75,10 +77,11 @@ CpuBackend::ViewScreens CpuBackend::note_screens(ReceiverView const& view,
     directions.push_back({view.towards_sun, {}, {}});
   }
   for (int const number : noted.numbers) {
-    directions.back().add(
-        number,
-        may_see_effect(transmission_.screens()[number], view.towards_sun, view.pixel_area()),
-        static_cast<double>(view.tile->counted_pixels) / static_cast<double>(noted.numbers.size()));
+    double const pixel = view.pixel_area();
+    directions.back().add(number,
+                          may_see_effect(transmission_.screens()[number], view.towards_sun, pixel),
+                          area(scene_[view.receiver].polygon) * view.cosine /
+                              (pixel * static_cast<double>(noted.numbers.size())));
   }
   noted.direction = directions.size() - 1;
   return noted;
@@ -120,17 +123,10 @@ void CpuBackend::add(std::vector<ReceiverView> views) {
 std::vector<ViewSums> CpuBackend::finish() { return std::exchange(sums_, {}); }
 
 ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& screens, int threads) {
-  Tile const& tile = *view.tile;
   std::vector<SurfaceId> flat;
   std::vector<Shade> shades;
   std::vector<CrownInBeam> crowns;
-  View const in_front = view_in_front(*view.frame, tile.map, view.towards_sun);
   CastersInView casters{view.casters, {}, {screens}};
-  ScreensInView& sheets = casters.bodies.screens;
-  sheets.overlap = !view.at_pixels && screens.numbers.size() > 1 &&
-                   any_overlap(*screens.screens, screens.numbers, in_front);
-  sheets.every_hole = sheets.overlap || (!view.at_pixels && tile.side > largest_by_effect);
-  sheets.by_rows = !view.at_pixels && !sheets.every_hole && edges_cut_rows(tile, in_front, sheets);
   if (view.transmits) {
     flat = transmission_.flat_among(view.casters);
     shades.reserve(flat.size());
@@ -145,48 +141,80 @@ ViewSums CpuBackend::sums_of(ReceiverView const& view, ScreensInView const& scre
     casters.question = {view.receiver, view.towards_sun};
     if (view.is_window) casters.known = &lit_crowds_;
   }
-  casters.grid = view.grid;
-  bool const measurable = can_be_measured(casters, view);
-  if (!view.at_pixels && !view.grid && !measurable)
-    casters.repeats = repeats_among(scene_, casters.surfaces);
-  Samples const samples = view.at_pixels ? Samples::pixels : Samples::fine;
-  ViewSums sums;
-  sums.receiver_pixels = tile.counted_pixels;
   try {
-    if (measurable) {
-      if (auto found = measured(view, casters, threads)) return *std::move(found);
-    }
-    if (view.through) {
-      View const behind = view_behind(*view.frame, tile.map, view.towards_sun, 1.0);
-      sums.parts = coverage_.sums_inside(tile, in_front, casters, samples, behind, view.interiors);
-    } else {
-      sums.parts.push_back(coverage_.sums(tile, in_front, casters, samples, threads));
-    }
+    return view.at_pixels ? sampled(view, casters, threads) : measured(view, casters, threads);
   } catch (Error const& error) {
     throw Error(fmt::format("surface '{}': {}", scene_[view.receiver].name, error.what()));
+  }
+}
+
+ViewSums CpuBackend::sampled(ReceiverView const& view, CastersInView const& casters,
+                             int threads) const {
+  Tile const& tile = *view.tile;
+  TileGrid grid = pixels_of(tile);
+  if (view.crowd != nullptr) {
+    grid = sample_grid(tile, view_in_front(*view.frame, tile.map, view.towards_sun),
+                       repeats_among(scene_, view.casters));
+  }
+  SampledView on_tile = on_grid(view, tile.map, grid);
+  on_tile.slope = tile.lay.slope;
+  on_tile.outline = outline_on(tile, grid);
+  RowSums const rows = coverage_.rows(on_tile, casters, can_be_counted(casters), threads);
+  // From samples to pixels of the tile: exactly all pixels where all samples are sunlit.
+  double const own = total(rows.own);
+  auto const pixels = static_cast<double>(tile.counted_pixels);
+  ViewSums sums{own > 0.0 ? tile.counted_pixels : 0, std::vector<LuminanceSums>(rows.parts())};
+  for (std::size_t part = 0; part < sums.parts.size(); ++part) {
+    sums.parts[part].unscheduled = total(rows.lit[part]) * pixels / own;
+    if (rows.scheduled.empty()) continue;
+    sums.parts[part].scheduled = rows.scheduled[part];
+    for (auto& [powers, sum] : sums.parts[part].scheduled) sum *= pixels / own;
   }
   return sums;
 }
 
-std::optional<ViewSums> CpuBackend::measured(ReceiverView const& view, CastersInView const& casters,
-                                             int threads) const {
-  SampleUse const use = sample_use(casters);
-  Replicates replicates(view.max_error, rows_of(*view.tile, use), columns_of(view.max_error, use));
+ViewSums CpuBackend::measured(ReceiverView const& view, CastersInView const& given,
+                              int threads) const {
+  CastersInView casters = given;
+  bool const counted = can_be_counted(casters);
+  std::array<TileMap, replicates_at_once> maps;
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    maps.at(i) = fit_tile(*view.frame, scene_[view.receiver].polygon.outline, 1,
+                          {.slope = view.slopes.at(i), .for_grids = true});
+  }
+  ScreensInView& sheets = casters.bodies.screens;
+  sheets.overlap = sheets.numbers.size() > 1 &&
+                   any_overlap(*sheets.screens, sheets.numbers,
+                               view_in_front(*view.frame, maps.front(), view.towards_sun));
+  sheets.every_hole = sheets.overlap || view.side > largest_by_effect;
+  sheets.by_rows = true;
+  sheets.lattices = replicates_at_once;
+  Replicates replicates = replicates_for(view.max_error, view.side, counted);
+  bool as_rectangle = false;
   do {
-    Tile const& tile = view.turned[replicates.turn()];
-    TileGrid const grid = replicates.grid();
-    View const in_front = view_in_front(*view.frame, tile.map, view.towards_sun);
-    RowSums const sums =
-        view.through
-            ? coverage_.rows_inside(grid, tile, in_front, casters,
-                                    view_behind(*view.frame, tile.map, view.towards_sun, 1.0),
-                                    view.interiors)
-            : coverage_.rows(grid, tile, in_front, casters, use, threads);
-    if (!replicates.add(sums)) return std::nullopt;
+    TileMap const& map = maps.at(replicates.turn());
+    SampledView lattice = on_grid(view, map, replicates.grid());
+    lattice.slope = view.slopes.at(replicates.turn());
+    lattice.outline = outline(view, map, lattice.grid, as_rectangle);
+    if (replicates.add(coverage_.rows(lattice, casters, counted, threads))) continue;
+    // The receiver is thinner than the nearest rows.
+    as_rectangle = true;
+    replicates = replicates_for(view.max_error, view.side, counted);
   } while (!replicates.done());
-  ViewSums sums{1, {}, replicates.uncertainty()};
-  for (double const fraction : replicates.means()) sums.parts.push_back({fraction, {}});
-  return sums;
+  return {1, replicates.means(), replicates.uncertainty()};
+}
+
+std::vector<ConvexArea> CpuBackend::outline(ReceiverView const& view, TileMap const& map,
+                                            TileGrid const& grid, bool as_rectangle) const {
+  View const pixels = in_pixels(view_of_plane(*view.frame, map), grid);
+  std::vector<ConvexArea> areas;
+  auto const add = [&](ProjectedPiece const& piece) { areas.push_back(piece.area(grid.side())); };
+  if (as_rectangle) {
+    add(ProjectedPiece(bounding_rectangle(*view.frame).outline, pixels));
+  } else {
+    coverage_.pieces().each(view.receiver, pixels, add);
+  }
+  return areas;
 }
 
 }  // namespace gpu_shading

@@ -35,9 +35,13 @@ class CpuBackend : public ViewBackend {
 
   ViewScreens note_screens(ReceiverView const& view, std::vector<ScreensAtDirection>& directions);
   ViewSums sums_of(ReceiverView const& view, ScreensInView const& screens, int threads);
-  // By samples whose error is measured. Empty if they miss the receiver.
-  std::optional<ViewSums> measured(ReceiverView const& view, CastersInView const& casters,
-                                   int threads) const;
+  // Once.
+  ViewSums sampled(ReceiverView const& view, CastersInView const& casters, int threads) const;
+  // By samples whose error is measured.
+  ViewSums measured(ReceiverView const& view, CastersInView const& casters, int threads) const;
+  // The receiver, in columns and rows, or its bounding rectangle.
+  std::vector<ConvexArea> outline(ReceiverView const& view, TileMap const& map,
+                                  TileGrid const& grid, bool as_rectangle) const;
 
   DeviceInfo device_;
   Scene const& scene_;

@@ -281,7 +281,7 @@ std::vector<float> CpuPictureRaster::luminance(PictureGrid const& grid,
     light_all(lit, side);
     LuminanceTile luminance;
     luminance.start(side, rows.first, rows.end);
-    coverage_.shade(lit, luminance, nullptr, pixels, casters);
+    coverage_.shade(lit, luminance, pixels, casters);
     for (int row = rows.first; row < rows.end; ++row) {
       std::span<float const> const from = luminance.row(row);
       std::span<float> const to = row_of(seen, grid, row);

@@ -5,8 +5,12 @@
 #include <cmath>
 #include <functional>
 #include <glm/common.hpp>
-#include <glm/vec2.hpp>
+#include <map>
 #include <numeric>
+#include <span>
+#include <utility>
+
+#include "geometry/r2_sequence.h"
 
 namespace gpu_shading {
 namespace {
@@ -63,19 +67,21 @@ int Replicates::rows() const {
 }
 
 TileGrid Replicates::grid() const {
-  constexpr double plastic = 0.7548776662466927;  // the plastic number's reciprocal
   auto const number = static_cast<double>(answers_.size() + 1);
   TileGrid grid;
   grid.rows = rows();
   grid.width = columns_ > 0 ? columns_ : grid.rows;
-  grid.shear = glm::fract(number * (plastic * plastic));
-  grid.shift = glm::fract(number * glm::dvec2(plastic, golden));
+  grid.shear = glm::fract(number * r2_step.y);
+  grid.shift = glm::fract(number * glm::dvec2(r2_step.x, golden));
   return grid;
 }
 
-bool Replicates::add(RowSums const& sums) {
+bool Replicates::add(RowSums sums) {
   double const own = total(sums.own);
-  if (own == 0.0) return false;
+  if (own == 0.0) {
+    rows_ *= 2.0;
+    return rows_ <= max_rows();
+  }
   Answer answer;
   answer.rows = static_cast<double>(rows());
   answer.turn = turn();
@@ -84,69 +90,89 @@ bool Replicates::add(RowSums const& sums) {
     double const fraction = total(lit) / own;
     std::transform(lit.begin(), lit.end(), sums.own.begin(), residual.begin(),
                    [&](double of_row, double all) { return (of_row - fraction * all) / own; });
-    answer.parts.push_back({fraction, variance_of_sum(residual)});
+    answer.fractions.push_back({fraction, variance_of_sum(residual)});
+  }
+  answer.scheduled = std::move(sums.scheduled);
+  for (auto& part : answer.scheduled) {
+    for (LuminanceSums::Scheduled& each : part) each.sum /= own;
   }
   answers_.push_back(std::move(answer));
   return true;
 }
 
-Replicates::ByTurn Replicates::variances(std::size_t part) const {
+Replicates::ByTurn Replicates::variances(std::size_t fraction) const {
   ByTurn sums{};
   ByTurn rows{};
   for (Answer const& answer : answers_) {
-    sums.at(answer.turn) += answer.rows * answer.parts[part].variance * cube(answer.rows);
+    sums.at(answer.turn) += answer.rows * answer.fractions[fraction].variance * cube(answer.rows);
     rows.at(answer.turn) += answer.rows;
   }
   std::ranges::transform(sums, rows, sums.begin(), std::divides());
   return sums;
 }
 
-Replicates::Spread Replicates::spread(std::size_t part) const {
-  ByTurn const variances = this->variances(part);
+Replicates::Spread Replicates::spread(std::size_t fraction,
+                                      std::span<double const> expected) const {
+  Spread found;
+  double weights = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < answers_.size(); ++i) {
+    double const weight = 1.0 / expected[i];
+    double const value = answers_[i].fractions[fraction].value;
+    double const off = value - found.mean;
+    found.weights.push_back(weight);
+    weights += weight;
+    found.mean += off * weight / weights;
+    squares += weight * off * (value - found.mean);
+  }
+  for (double& weight : found.weights) weight /= weights;
+  found.freedom = static_cast<double>(answers_.size()) - 1.0;
+  found.variance = squares / (found.freedom * weights);
+  found.expected = 1.0 / weights;
+  return found;
+}
+
+Replicates::Spread Replicates::spread(std::size_t fraction) const {
+  ByTurn const variances = this->variances(fraction);
   double const mean_variance =
       std::accumulate(variances.begin(), variances.end(), 0.0) / replicates_at_once;
   constexpr double share_of_mean = 0.2;
   constexpr double none = 1e-30;
-  double weights = 0.0;
-  double mean = 0.0;
-  double squares = 0.0;
+  std::vector<double> expected;
+  std::vector<double> by_rows;
   for (Answer const& answer : answers_) {
-    double const expected =
+    double const of_turn =
         share_of_mean * mean_variance + (1.0 - share_of_mean) * variances.at(answer.turn) + none;
-    double const weight = cube(answer.rows) / expected;
-    double const fraction = answer.parts[part].fraction;
-    double const off = fraction - mean;
-    weights += weight;
-    mean += off * weight / weights;
-    squares += weight * off * (fraction - mean);
+    expected.push_back(of_turn / cube(answer.rows));
+    by_rows.push_back(1.0 / cube(answer.rows));
   }
-  // As many times what is expected.
+  Spread found = spread(fraction, expected);
+  found.variances = variances;
+  // As many times what is expected: then rows tell nothing.
   constexpr double much = 4.0;
-  double const freedom = static_cast<double>(answers_.size()) - 1.0;
-  Spread const found{mean, squares / (freedom * weights), freedom, part};
+  if (found.variance > much * found.expected) {
+    found = spread(fraction, by_rows);
+    found.variances.fill(1.0);
+    return found;
+  }
   constexpr double freedom_of_expected = 6.0;
-  double const all = freedom + freedom_of_expected;
-  Spread const pooled{mean, (squares + freedom_of_expected) / (all * weights), all, part};
-  if (squares > much * freedom) return found;
+  Spread pooled = found;
+  pooled.freedom += freedom_of_expected;
+  pooled.variance =
+      (found.freedom * found.variance + freedom_of_expected * found.expected) / pooled.freedom;
   // Where the phases are even, the spread is much smaller. Three answers may agree by chance.
   bool const by_spread =
       answers_.size() > replicates_at_once && found.uncertainty() < pooled.uncertainty();
   return by_spread ? found : pooled;
 }
 
-Replicates::Spread Replicates::largest_spread() const {
-  Spread largest;
-  for (std::size_t part = 0; part < answers_.front().parts.size(); ++part) {
-    Spread const of_part = spread(part);
-    if (of_part.uncertainty() > largest.uncertainty()) largest = of_part;
-  }
-  return largest;
+Replicates::Spread const& Replicates::largest_spread() const {
+  return *std::ranges::max_element(spreads_, {}, &Spread::uncertainty);
 }
 
 double Replicates::Spread::uncertainty() const { return student_t(freedom) * std::sqrt(variance); }
 
-void Replicates::leave_poor_turns(std::size_t part) {
-  ByTurn const variances = this->variances(part);
+void Replicates::leave_poor_turns(ByTurn const& variances) {
   auto const best = std::ranges::min_element(variances);
   constexpr double poor = 5.0;
   for (std::size_t turn = 0; turn < replicates_at_once; ++turn) {
@@ -156,28 +182,50 @@ void Replicates::leave_poor_turns(std::size_t part) {
 }
 
 bool Replicates::done() {
-  if (answers_.size() % replicates_at_once != 0) return false;
-  Spread const spread = largest_spread();
-  double const excess = spread.uncertainty() / max_error_;
+  if (answers_.empty() || answers_.size() % replicates_at_once != 0) return false;
+  spreads_.clear();
+  for (std::size_t i = 0; i < answers_.front().fractions.size(); ++i) {
+    spreads_.push_back(spread(i));
+  }
+  Spread const& largest = largest_spread();
+  double const excess = largest.uncertainty() / max_error_;
   if (excess <= 1.0) return true;
-  constexpr double max_rows = 20000.0;
-  constexpr double max_rows_of_pixels = 5000.0;
   // With the weights of the next ones, a little less than the error that is wanted.
   constexpr double spare = 1.1;
-  double const freedom = spread.freedom + replicates_at_once;
-  double const wanted = spare * excess * student_t(freedom) / student_t(spread.freedom);
+  double const freedom = largest.freedom + replicates_at_once;
+  double const wanted = spare * excess * student_t(freedom) / student_t(largest.freedom);
   double cubes = 0.0;
   for (Answer const& answer : answers_) cubes += cube(answer.rows);
   double const more = cubes * (wanted * wanted - 1.0) / replicates_at_once;
-  rows_ = std::clamp(std::cbrt(more), 0.5 * rows_, 6.0 * rows_);
-  leave_poor_turns(spread.part);
-  return rows_ > (columns_ > 0 ? max_rows : max_rows_of_pixels);
+  bool const are_most = rows_ >= max_rows();
+  rows_ = std::min(std::clamp(std::cbrt(more), 0.5 * rows_, 6.0 * rows_), max_rows());
+  leave_poor_turns(largest.variances);
+  return are_most;
 }
 
-std::vector<double> Replicates::means() const {
-  std::vector<double> means;
-  for (std::size_t part = 0; part < answers_.front().parts.size(); ++part) {
-    means.push_back(spread(part).mean);
+std::vector<LuminanceSums> Replicates::means() const {
+  bool const scheduled = !answers_.front().scheduled.empty();
+  std::vector<LuminanceSums> means(scheduled ? spreads_.size() / measured_factors
+                                             : spreads_.size());
+  for (std::size_t part = 0; part < means.size(); ++part) {
+    if (!scheduled) {
+      means[part].unscheduled = spreads_[part].mean;
+      continue;
+    }
+    Spread const* largest = &spreads_[part];
+    for (std::size_t i = part; i < spreads_.size(); i += means.size()) {
+      if (spreads_[i].variance > largest->variance) largest = &spreads_[i];
+    }
+    // The same for all schedules, so that what they transmit adds up.
+    std::vector<double> const& weights = largest->weights;
+    std::map<std::vector<std::pair<int, int>>, double> totals;
+    for (std::size_t i = 0; i < answers_.size(); ++i) {
+      means[part].unscheduled += weights[i] * answers_[i].fractions[part].value;
+      for (auto const& [powers, sum] : answers_[i].scheduled[part]) {
+        totals[powers] += weights[i] * sum;
+      }
+    }
+    for (auto const& [powers, sum] : totals) means[part].scheduled.push_back({powers, sum});
   }
   return means;
 }

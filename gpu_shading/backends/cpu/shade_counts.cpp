@@ -1,7 +1,11 @@
 #include "backends/cpu/shade_counts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
+
+#include "gpu_shading/error.h"
 
 namespace gpu_shading {
 namespace {
@@ -9,27 +13,8 @@ namespace {
 constexpr unsigned word_bits = PixelMask::word_bits;
 constexpr std::uint64_t all = ~std::uint64_t{0};
 
-// A digit of a kind's number, with the transmittance of as many shades as it is worth.
-struct Digit {
-  std::uint64_t const* words;
-  double transmittance;
-};
-
-// The luminance of some samples of a word, from a digit on.
-double passed(std::span<Digit const> digits, std::size_t word, std::uint64_t samples) {
-  double factor = 1.0;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    std::uint64_t const covered = samples & digits[i].words[word];
-    if (covered == 0) continue;
-    if (covered != samples) {
-      std::span<Digit const> const rest = digits.subspan(i + 1);
-      return factor * (digits[i].transmittance * passed(rest, word, covered) +
-                       passed(rest, word, samples & ~covered));
-    }
-    factor *= digits[i].transmittance;
-  }
-  return factor * (samples == all ? double{word_bits} : std::popcount(samples));
-}
+// Each takes 12 bytes, and 4 for each digit.
+constexpr std::size_t max_combinations = std::size_t{1} << 22U;
 
 }  // namespace
 
@@ -40,14 +25,15 @@ void ShadeCounts::start(int columns, int first_row, int end_row) {
   stride_ = (static_cast<std::size_t>(columns) + word_bits - 1) / word_bits;
   words_ = static_cast<std::size_t>(end_row - first_row) * stride_;
   kinds_.clear();
+  digits_.clear();
+  combinations_.assign(1, {});
+  known_.clear();
 }
 
-ShadeCounts::Kind& ShadeCounts::kind_of(float transmittance) {
-  auto const found = std::find_if(kinds_.begin(), kinds_.end(), [&](Kind const& kind) {
-    return kind.transmittance == transmittance;
-  });
+ShadeCounts::Kind& ShadeCounts::kind_of(Shade const& shade) {
+  auto const found = std::ranges::find(kinds_, shade, &Kind::shade);
   if (found != kinds_.end()) return *found;
-  return kinds_.emplace_back(Kind{transmittance, {Words(words_)}});
+  return kinds_.emplace_back(Kind{shade, {Words(words_)}});
 }
 
 void ShadeCounts::carry_on(Kind& kind, std::size_t word, std::uint64_t carry) const {
@@ -60,8 +46,8 @@ void ShadeCounts::carry_on(Kind& kind, std::size_t word, std::uint64_t carry) co
   }
 }
 
-void ShadeCounts::add(ConvexArea const& area, float transmittance) {
-  Kind& kind = kind_of(transmittance);
+void ShadeCounts::add(ConvexArea const& area, Shade const& shade) {
+  Kind& kind = kind_of(shade);
   std::uint64_t* const lowest = kind.digits.front().data();
   auto const add_to = [&](std::size_t word, std::uint64_t samples) {
     std::uint64_t const carry = lowest[word] & samples;
@@ -82,19 +68,52 @@ void ShadeCounts::add(ConvexArea const& area, float transmittance) {
   });
 }
 
-void ShadeCounts::sum_rows(PixelMask const& lit, std::span<double> sums) const {
-  std::vector<Digit> digits;
+void ShadeCounts::finish() {
+  // By kind, so that sums do not depend on the order of casters. Schedules first: most samples have
+  // few combinations of them.
+  std::ranges::sort(kinds_, [](Kind const& a, Kind const& b) {
+    return std::pair(b.shade.schedule, a.shade.transmittance) <
+           std::pair(a.shade.schedule, b.shade.transmittance);
+  });
   for (Kind const& kind : kinds_) {
-    double transmittance = static_cast<double>(kind.transmittance);
+    double transmittance = static_cast<double>(kind.shade.transmittance);
+    int shades = 1;
     for (Words const& words : kind.digits) {
-      digits.push_back({words.data(), transmittance});
+      digits_.push_back({words.data(), transmittance, kind.shade.schedule, shades});
       transmittance *= transmittance;
+      shades *= 2;
     }
   }
-  std::span<std::uint64_t const> const words = lit.words();
-  for (std::size_t word = 0; word < words.size(); ++word) {
-    if (words[word] != 0) sums[word / stride_] += passed(digits, word, words[word]);
+  known_.assign(digits_.size(), unscheduled);
+}
+
+ShadeCounts::Combination ShadeCounts::with(Combination combination, std::size_t digit) {
+  std::size_t const place = combination * digits_.size() + digit;
+  if (known_[place] != unscheduled) return known_[place];
+  if (combinations_.size() >= max_combinations) {
+    throw Error(
+        fmt::format("sees the sun through more than {} combinations of transmittance schedules; "
+                    "let shades share schedules",
+                    max_combinations));
   }
+  auto const added = static_cast<Combination>(combinations_.size());
+  known_[place] = added;
+  combinations_.push_back({combination, static_cast<std::uint32_t>(digit),
+                           combinations_[combination].shades + digits_[digit].shades});
+  known_.resize(known_.size() + digits_.size(), unscheduled);
+  return added;
+}
+
+ShadeCounts::Powers ShadeCounts::powers(Combination combination) const {
+  Powers powers;
+  for (; combination != unscheduled; combination = combinations_[combination].before) {
+    Digit const& digit = digits_[combinations_[combination].digit];
+    if (powers.empty() || powers.back().first != digit.schedule) {
+      powers.emplace_back(digit.schedule, 0);
+    }
+    powers.back().second += digit.shades;
+  }
+  return powers;
 }
 
 }  // namespace gpu_shading

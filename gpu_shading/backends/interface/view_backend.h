@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -15,6 +16,7 @@
 #include "gpu_shading/renderer_statistics.h"
 #include "gpu_shading/scene.h"
 #include "scene/casters.h"
+#include "scene/turns.h"
 #include "view/tile.h"
 
 namespace gpu_shading {
@@ -24,7 +26,7 @@ namespace gpu_shading {
 struct ReceiverView {
   SurfaceId receiver = 0;
   PlaneFrame const* frame = nullptr;
-  Tile const* tile = nullptr;
+  Tile const* tile = nullptr;  // for a back end that samples its pixels
   glm::dvec3 towards_sun{0.0};
   double cosine = 0.0;  // cosine of the angle of incidence, above 0
   std::vector<SurfaceId> casters;
@@ -32,22 +34,27 @@ struct ReceiverView {
   bool through =
       false;  // the receiver is a window, and the sun may reach these surfaces behind it:
   std::span<SurfaceId const> interiors;
-  // Sampled at the centres of the tile's pixels, even by a back end that has better samples: for
-  // comparison with another.
+  // Sampled once, as a device would: for comparison with it, and where the number of pixels is
+  // fixed.
   bool at_pixels = false;
   // Where casters are many and the back end searches for them itself: all, and for the sample of
   // them in `casters` how many there are about.
   Casters const* crowd = nullptr;
   double crowd_count = 0.0;
   bool is_window = false;  // there are questions about the surfaces behind it
-  // Where the crowd repeats: the samples that suffice.
-  std::optional<TileGrid> grid = {};
-  // The receiver at several turns, for samples whose error is measured; otherwise none.
-  std::span<Tile const> turned = {};
+  // For a back end that measures its errors: to begin with, samples as of a tile of so many pixels
+  // per side, in rows at these slopes.
+  int side = 0;
+  ReplicateSlopes slopes = replicate_slopes;
   double max_error = 0.0;  // of the sunlit fraction
 
   // Area of a pixel normal to the beam, m2; on a bounding tile, of all that is seen through it.
-  double pixel_area() const { return tile->map.pixel_area(tile->side) * cosine; }
+  double pixel_area() const {
+    if (tile != nullptr) return tile->map.pixel_area(tile->side) * cosine;
+    double const slope = slopes.front();
+    double const around = (1.0 + std::abs(slope)) * (1.0 + std::abs(slope)) / (1.0 + slope * slope);
+    return frame->width * frame->height * around * cosine / (static_cast<double>(side) * side);
+  }
 };
 
 // Luminance summed over pixels: 1 for a sunlit pixel, less where casters transmit.

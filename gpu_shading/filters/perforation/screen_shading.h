@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <span>
 
 #include "filters/perforation/screens.h"
@@ -21,12 +22,14 @@ struct ScreensInView {
   bool every_hole = false;
   // What is drawn by its effect is drawn by rows of holes (RowProfile).
   bool by_rows = false;
+  // So many lattices of pixels together have pixels that are as many times as small.
+  int lattices = 1;
 };
 
 // The size of pixels in a screen's plane, m, or 0 where holes are drawn for any size.
 inline double drawn_pixel(ScreensInView const& in_view, Screens::Entry const& screen,
                           View const& pixels) {
-  return in_view.every_hole ? 0.0 : pixel_in_sheet(screen, pixels);
+  return in_view.every_hole ? 0.0 : pixel_in_sheet(screen, pixels) / std::sqrt(in_view.lattices);
 }
 
 // Whether screens let the beam pass or not, and nothing between.

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/r2_sequence.h"
 #include "gpu_shading/opacity_tile.h"
 
 namespace gpu_shading {
@@ -20,7 +21,7 @@ struct Extent {
   double height;
 };
 
-// Points n = 0, 1, .. spread evenly over an area (R2, Roberts 2018), from a start that differs
+// Points n = 0, 1, .. spread evenly over an area (r2_step), from a start that differs
 // between regions.
 class Places {
  public:
@@ -30,15 +31,13 @@ class Places {
         start_v_(static_cast<double>(region) * std::numbers::sqrt2) {}
 
   double u(std::size_t n) const {
-    return extent_.u + extent_.width * part(start_u_ + static_cast<double>(n) * first);
+    return extent_.u + extent_.width * part(start_u_ + static_cast<double>(n) * r2_step.x);
   }
   double v(std::size_t n) const {
-    return extent_.v + extent_.height * part(start_v_ + static_cast<double>(n) * second);
+    return extent_.v + extent_.height * part(start_v_ + static_cast<double>(n) * r2_step.y);
   }
 
  private:
-  static constexpr double first = 0.7548776662466927;   // the plastic number's reciprocal
-  static constexpr double second = 0.5698402909980532;  // and the square of that
   static double part(double value) { return value - std::floor(value); }
 
   Extent extent_;

@@ -69,12 +69,11 @@ struct InteriorQuestion {
 // opaque ones. The mean over the receiver's pixels replaces the fraction of sunlit pixels, and is
 // equal to it if all casters are opaque.
 //
-// The CPU rasterises by the same rule, on all cores: one bit per sample, and a luminance per pixel
-// where something transmits; convex pieces row by row, perforated sheets ray by ray. Where all
-// casters are opaque, it samples finer rows instead of the pixels of OpenGL, and the two differ by
-// the errors of both. Elsewhere the pixels are the same, but OpenGL first rounds vertices to
-// fractions of a pixel, so the two differ where shadow edges meet pixel centres: by 1e-5 in the
-// mean of random scenes at 512 pixels.
+// The CPU rasterises by the same rule, on all cores: convex pieces row by row, perforated sheets
+// ray by ray. It samples rows of its own, until the error that it measures is within the target. If
+// the number of pixels is fixed, it samples these, as OpenGL does, which first rounds vertices to
+// fractions of a pixel, so that the two differ where shadow edges meet pixel centres: by 1e-5 in
+// the mean of random scenes at 512 pixels.
 //
 // OpenGL draws many views at once, each to its own layer of an array texture, so answers do not
 // depend on other questions in the same call. Memory in addition to the scene and the answers:

@@ -197,42 +197,115 @@ TEST(ConvexPieces, AreFlat) {
   EXPECT_EQ(convex_pieces(flat).size(), 1U);
 }
 
-void expect_equal(LuminanceSums const& a, LuminanceSums const& b) {
-  EXPECT_EQ(a.unscheduled, b.unscheduled);
+void expect_equal(RowSums const& a, RowSums const& b) {
+  EXPECT_EQ(a.own, b.own);
+  EXPECT_EQ(a.lit, b.lit);
   ASSERT_EQ(a.scheduled.size(), b.scheduled.size());
-  for (std::size_t i = 0; i < a.scheduled.size(); ++i) {
-    EXPECT_EQ(a.scheduled[i].powers, b.scheduled[i].powers);
-    EXPECT_EQ(a.scheduled[i].sum, b.scheduled[i].sum);
+  for (std::size_t part = 0; part < a.scheduled.size(); ++part) {
+    ASSERT_EQ(a.scheduled[part].size(), b.scheduled[part].size());
+    for (std::size_t i = 0; i < a.scheduled[part].size(); ++i) {
+      EXPECT_EQ(a.scheduled[part][i].powers, b.scheduled[part][i].powers);
+      EXPECT_EQ(a.scheduled[part][i].sum, b.scheduled[part][i].sum);
+    }
   }
 }
 
-TEST(Coverage, IsTheSameOnAnyNumberOfThreads) {
-  Scene scene;
-  scene.add({"window", south_facing(0, 0, 0, 3, 2)});
-  std::vector<SurfaceId> casters;
-  std::vector<Shade> shades;
-  std::vector<Shade> scheduled;
-  for (int i = 0; i < 300; ++i) {
-    casters.push_back(
-        scene.add({"louvre", parallelogram({-0.2, -0.1, i / 150.0}, {3.4, 0, 0},
-                                           {0, -0.005, i % 10 == 0 ? 0.02 : 0.002})}));
-    shades.push_back({0.1F + 0.003F * static_cast<float>(i % 7), Shade::unscheduled});
-    scheduled.push_back({shades.back().transmittance, i % 5 - 1});
+// A window behind louvres, and a floor and a wall behind it.
+struct Louvres {
+  Louvres() {
+    scene.add({"window", south_facing(0, 0, 0, 3, 2)});
+    interiors.push_back(scene.add({"floor", level(-1, 0, -0.1, 5, 4)}));
+    interiors.push_back(scene.add({"wall", south_facing(-1, 2, -1, 5, 4)}));
+    for (int i = 0; i < 300; ++i) {
+      casters.push_back(
+          scene.add({"louvre", parallelogram({-0.2, -0.1, i / 150.0}, {3.4, 0, 0},
+                                             {0, -0.005, i % 10 == 0 ? 0.02 : 0.002})}));
+    }
   }
-  Coverage const coverage(triangulate_all(scene));
-  PlaneFrame const frame = *plane_frame(scene[0].polygon);
-  for (CastersInView const& in_view :
-       {CastersInView{casters, {}, {}}, {casters, shades, {}}, {casters, scheduled, {}}}) {
-    for (int const side : {96, 512}) {
-      Tile const tile = make_tile(scene[0].polygon, frame, side, 4096);
-      View const view = view_in_front(frame, tile.map, to_vector(sun_at(170, 30)));
-      LuminanceSums const alone = coverage.sums(tile, view, in_view, Samples::fine, 1);
-      EXPECT_LT(alone.unscheduled, static_cast<double>(tile.counted_pixels));
-      EXPECT_EQ(alone.scheduled.empty(), in_view.shades.data() != scheduled.data());
-      for (int const threads : {2, 3, 7, 64}) {
-        expect_equal(coverage.sums(tile, view, in_view, Samples::fine, threads), alone);
+
+  // By samples of so many columns and rows.
+  SampledView view(int side) const {
+    PlaneFrame const frame = *plane_frame(scene[0].polygon);
+    Tile const tile = make_tile(scene[0].polygon, frame, side, 4096);
+    glm::dvec3 const towards_sun = to_vector(sun_at(170, 30));
+    SampledView view;
+    view.grid = {4 * side, side, 0.3, {0.2, 0.6}};
+    view.outline = outline_on(tile, view.grid);
+    view.in_front = in_pixels(view_in_front(frame, tile.map, towards_sun), view.grid);
+    view.interiors = interiors;
+    view.behind = in_pixels(view_behind(frame, tile.map, towards_sun, 1.0), view.grid);
+    return view;
+  }
+
+  Scene scene;
+  std::vector<SurfaceId> casters;
+  std::vector<SurfaceId> interiors;
+};
+
+// Of so many transmittances, with schedules or without.
+std::vector<Shade> shades_of(std::size_t louvres, int transmittances, bool scheduled) {
+  std::vector<Shade> shades;
+  shades.reserve(louvres);
+  for (int i = 0; i < static_cast<int>(louvres); ++i) {
+    shades.push_back({0.1F + 0.003F * static_cast<float>(i % transmittances),
+                      scheduled ? i % 5 - 1 : Shade::unscheduled});
+  }
+  return shades;
+}
+
+TEST(Coverage, IsTheSameOnAnyNumberOfThreads) {
+  Louvres const louvres;
+  Coverage const coverage(triangulate_all(louvres.scene));
+  for (int const transmittances : {0, 2, 7}) {
+    for (bool const scheduled : {false, true}) {
+      std::vector<Shade> shades;
+      if (transmittances > 0) shades = shades_of(louvres.casters.size(), transmittances, scheduled);
+      CastersInView const in_view{louvres.casters, shades, {}};
+      bool const counted = can_be_counted(in_view);
+      EXPECT_EQ(counted, transmittances < 7);
+      for (int const side : {96, 512}) {
+        SampledView view = louvres.view(side);
+        for (bool const through : {false, true}) {
+          view.through = through;
+          RowSums const alone = coverage.rows(view, in_view, counted, 1);
+          EXPECT_EQ(alone.parts(), through ? 2U : 1U);
+          EXPECT_LT(total(alone.lit.front()), total(alone.own));
+          for (int const threads : {2, 3, 7, 64}) {
+            expect_equal(coverage.rows(view, in_view, counted, threads), alone);
+          }
+        }
       }
     }
+  }
+}
+
+// What the interior surfaces of a closed room receive is what the window does, and luminance by
+// counters is that of pixels.
+TEST(Coverage, AddsUp) {
+  Louvres const louvres;
+  Coverage const coverage(triangulate_all(louvres.scene));
+  for (bool const scheduled : {false, true}) {
+    std::vector<Shade> const shades = shades_of(louvres.casters.size(), 2, scheduled);
+    CastersInView const in_view{louvres.casters, shades, {}};
+    SampledView view = louvres.view(128);
+    RowSums const counted = coverage.rows(view, in_view, true, 1);
+    RowSums const by_pixel = coverage.rows(view, in_view, false, 1);
+    double const all = total(counted.own);
+    ASSERT_EQ(counted.lit.size(), by_pixel.lit.size());
+    for (std::size_t i = 0; i < counted.lit.size(); ++i) {
+      EXPECT_NEAR(total(counted.lit[i]), total(by_pixel.lit[i]), 1e-6 * all);
+    }
+    view.through = true;
+    RowSums const behind = coverage.rows(view, in_view, true, 1);
+    for (std::size_t i = 0; i < counted.lit.size(); ++i) {
+      EXPECT_NEAR(total(behind.lit[2 * i]) + total(behind.lit[2 * i + 1]), total(counted.lit[i]),
+                  1e-9 * all);
+    }
+    if (!scheduled) continue;
+    // The luminance with all schedules at 1 is that at 0 and the sum of all combinations.
+    double sum = total(counted.lit.front());
+    for (auto const& [powers, luminance] : counted.scheduled.front()) sum += luminance;
+    EXPECT_NEAR(sum, total(counted.lit.back()), 1e-9 * all);
   }
 }
 

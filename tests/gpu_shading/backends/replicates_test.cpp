@@ -33,7 +33,7 @@ Measured measured(double max_error, Lit const& lit) {
   do {
     EXPECT_TRUE(replicates.add(rows_of(replicates.grid(), lit)));
   } while (!replicates.done());
-  return {replicates.means().front(), replicates.uncertainty()};
+  return {replicates.means().front().unscheduled, replicates.uncertainty()};
 }
 
 TEST(Replicates, OfEqualRowsAreExact) {
@@ -78,9 +78,16 @@ TEST(Replicates, FindWhatIsInStepWithTheRows) {
   EXPECT_LE(beyond, views / 50);
 }
 
-TEST(Replicates, NeedSamplesOfTheReceiver) {
+TEST(Replicates, TakeMoreRowsUntilTheyMeetTheReceiver) {
   Replicates replicates(1e-3, 30.0, 100);
-  EXPECT_FALSE(replicates.add({{0.0, 0.0}, {{0.0, 0.0}}}));
+  int const rows = replicates.grid().rows;
+  RowSums const missed{{0.0, 0.0}, {{0.0, 0.0}}, {}};
+  EXPECT_TRUE(replicates.add(missed));
+  EXPECT_FALSE(replicates.done());
+  EXPECT_EQ(replicates.grid().rows, 2 * rows);
+  int tries = 1;
+  while (replicates.add(missed)) ++tries;
+  EXPECT_LT(tries, 12);
 }
 
 }  // namespace

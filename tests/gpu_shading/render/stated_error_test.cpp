@@ -36,13 +36,13 @@ std::vector<Answer> answers_by(RendererOptions const& options) {
       InventedScene const invented = family.invent(seed, suns);
       Renderer renderer(invented.scene, options);
       for (SunDirection const sun : invented.suns) {
-        double const exact = swept_sunlit_fraction(invented.scene, sun);
-        if (std::isnan(exact)) continue;
+        auto const exact = invented.reference(invented.scene, sun).fractions;
+        if (exact.empty()) continue;
         Sunlit const answer = sunlit(renderer, sun, 0);
         Polygon const& receiver = invented.scene[0].polygon;
         double const area =
             gpu_shading::area(receiver) * glm::dot(normal(receiver), to_vector(sun));
-        answers.push_back({std::abs(answer.projected_area / area - exact), answer.error});
+        answers.push_back({std::abs(answer.projected_area / area - exact.front()), answer.error});
       }
     }
   }

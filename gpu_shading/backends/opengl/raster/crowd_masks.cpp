@@ -70,8 +70,7 @@ void CrowdMasks::add_pieces(std::span<Mesh const> meshes) {
 std::size_t CrowdMasks::add(ReceiverView const& view) {
   Tile const& tile = *view.tile;
   View const in_front = view_in_front(*view.frame, tile.map, view.towards_sun);
-  TileGrid const grid =
-      sample_grid(tile, in_front, {}, repeats_among(scene_, view.casters), SampleUse::coverage);
+  TileGrid const grid = sample_grid(tile, in_front, repeats_among(scene_, view.casters));
   View const pixels = in_pixels(in_front, grid);
   Question question{};
   question.x = pixels.x;

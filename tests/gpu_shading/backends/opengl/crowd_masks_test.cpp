@@ -4,11 +4,13 @@
 
 #include <vector>
 
+#include "antialias/antialias.h"
 #include "backends/cpu/coverage.h"
 #include "backends/opengl/egl/device.h"
 #include "geometry/triangulation.h"
 #include "support/crowds.h"
 #include "support/gl_renderer.h"
+#include "support/lit_on_cpu.h"
 #include "support/random_scene.h"
 #include "support/shapes.h"
 
@@ -41,8 +43,8 @@ void expect_as_on_cpu(Scene const& scene, char const* name, int directions) {
     for (Tile const& tile : tiles) {
       View const view = view_in_front(frame, tile.map, towards_sun);
       CastersInView in_view{listed, {}, {}};
-      in_view.repeats = repeats_among(scene, listed);
-      expected.push_back(coverage.sums(tile, view, in_view, Samples::fine, 1).unscheduled);
+      TileGrid const grid = sample_grid(tile, view, repeats_among(scene, listed));
+      expected.push_back(lit_on_cpu(coverage, tile, grid, view, in_view, 1));
       double const share = expected.back() / static_cast<double>(tile.counted_pixels);
       partly_lit += share > 0.02 && share < 0.98 ? 1 : 0;
       ReceiverView question;
