@@ -70,6 +70,27 @@ std::optional<std::size_t> next_deleted(Ring const& ring) {
   return found;
 }
 
+// The first vertex between two edges of nearly the same direction; `straight` is the largest sine.
+std::optional<std::size_t> find_straight(Ring const& ring, double straight) {
+  std::size_t const count = ring.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    auto const before = ring[i] - ring[(i + count - 1) % count];
+    auto const after = ring[(i + 1) % count] - ring[i];
+    double const lengths = glm::length(before) * glm::length(after);
+    if (glm::length(glm::cross(before, after)) <= straight * lengths) return i;
+  }
+  return std::nullopt;
+}
+
+// Rounds to single precision where that is fine enough.
+glm::dvec3 rounded(glm::dvec3 vertex) {
+  for (int axis = 0; axis < 3; ++axis) {
+    auto& value = vertex[axis];
+    if (std::abs(value) < single_precision_reach) value = static_cast<float>(value);
+  }
+  return vertex;
+}
+
 void note_deletions(Outline& outline) {
   constexpr std::size_t fewest = 3;
   auto kept = outline.vertices;
@@ -156,8 +177,7 @@ std::optional<Ring> vertices_of(InputObject const& object) {
   return ring;
 }
 
-Outline to_world(GeometryRules const& rules, Ring vertices, Attachment attachment,
-                 GeometryRules::Zone const& zone) {
+Ring in_energyplus_order(GeometryRules const& rules, Ring vertices) {
   // The first vertex stays first.
   if (rules.clockwise && !vertices.empty()) std::reverse(vertices.begin() + 1, vertices.end());
   // A triangle has no upper right corner.
@@ -166,6 +186,23 @@ Outline to_world(GeometryRules const& rules, Ring vertices, Attachment attachmen
   if (!triangle && static_cast<std::size_t>(rules.first_corner) < vertices.size()) {
     std::rotate(vertices.begin(), vertices.end() - rules.first_corner, vertices.end());
   }
+  return vertices;
+}
+
+Ring without_deleted(Ring ring, double straight) {
+  constexpr std::size_t fewest = 3;
+  while (ring.size() > fewest) {
+    auto vertex = next_deleted(ring);
+    if (!vertex) vertex = find_straight(ring, straight);
+    if (!vertex) break;
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(*vertex));
+  }
+  return ring;
+}
+
+Outline to_world(GeometryRules const& rules, Ring vertices, Attachment attachment,
+                 GeometryRules::Zone const& zone) {
+  vertices = in_energyplus_order(rules, std::move(vertices));
   if (rules.relative && attachment != Attachment::site) {
     for (auto& vertex : vertices) {
       if (attachment == Attachment::zone) vertex = turned(vertex, zone.direction) + zone.origin;
@@ -174,7 +211,7 @@ Outline to_world(GeometryRules const& rules, Ring vertices, Attachment attachmen
   }
   Outline outline{std::move(vertices)};
   note_deletions(outline);
-  for (auto& vertex : outline.vertices) vertex = glm::dvec3(glm::vec3(vertex));
+  for (auto& vertex : outline.vertices) vertex = rounded(vertex);
   return outline;
 }
 

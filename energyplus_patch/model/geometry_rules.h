@@ -34,7 +34,18 @@ GeometryRules read_geometry_rules(std::vector<InputObject> const& objects);
 // invalid.
 std::optional<Ring> vertices_of(InputObject const& object);
 
-// What a shading surface is attached to, which determines its rotation and translation.
+// Coordinates, m, that single precision moves by 0.25 mm at most. Those beyond are taken from the
+// model (FarOutlines).
+inline constexpr double single_precision_reach = 8192.0;
+
+// Vertices counterclockwise from the upper left corner, as EnergyPlus orders them.
+Ring in_energyplus_order(GeometryRules const& rules, Ring vertices);
+
+// The vertices that EnergyPlus keeps: it deletes those within 1 cm of a neighbour, and those on the
+// straight line between their neighbours. `straight`: the largest sine of the angle there.
+Ring without_deleted(Ring ring, double straight);
+
+// What a surface is attached to, which determines its rotation and translation.
 enum class Attachment {
   site,      // nothing
   building,  // rotated by the building's north axis
@@ -44,8 +55,9 @@ enum class Attachment {
 // A surface's outline in world axes: counterclockwise from the upper left corner, as EnergyPlus
 // orders it.
 struct Outline {
-  // Every vertex that the model gives, rounded to the single precision of the vertices that
-  // EnergyPlus passes, so that surfaces that touch a wall still do.
+  // Every vertex that the model gives. Coordinates within single_precision_reach are rounded to the
+  // single precision of the vertices that EnergyPlus passes, so that surfaces that touch a wall
+  // still do.
   Ring vertices;
   // EnergyPlus deletes vertices that are within 1 cm of a neighbour while more than three are left.
   // (It also deletes vertices on the straight line between their neighbours, which changes no

@@ -16,6 +16,8 @@
 #include "model/idf/local_environment.h"
 #include "model/input/plausible_lengths.h"
 #include "model/reflected_light_plan.h"
+#include "model/reflex_corners.h"
+#include "model/site/farthest_coordinate.h"
 #include "model/site/site_clock.h"
 #include "model/site/texture_axes.h"
 #include "platform/files.h"
@@ -172,6 +174,32 @@ void plan_rays(std::vector<InputObject> const& objects, Reader const& reader, Mo
   model.ray_warnings = warn_of_rays(objects, model.shading, opaque_to_daylight);
 }
 
+// Makes EnergyPlus ask about all receivers where it would miss casters.
+void add_placeholders(std::vector<InputObject> const& objects, Model& model) {
+  auto const misjudged = find_reflex_corners(objects, model.shading, model.lean.left_out);
+  if (!misjudged.empty()) {
+    model.remarks.push_back(fmt::format(
+        "EnergyPlus may miss shadows of or on {} surface{} with a reflex corner at the second or "
+        "last but one vertex: {}; placeholders make it ask for all sunlit fractions",
+        misjudged.size(), misjudged.size() == 1 ? "" : "s", listed(misjudged, 3)));
+  }
+  if (!misjudged.empty() || !model.surroundings.empty()) {
+    ensure_placeholders(model.lean, model.shading);
+  }
+}
+
+// Placeholders stand farther from the origin than the model.
+void move_placeholders(Model& model) {
+  double largest = model.far_outlines.largest();
+  for (auto const& caster : model.lean.casters) {
+    largest = std::max(largest, largest_coordinate(caster.polygon));
+  }
+  largest = std::min(largest, farthest_coordinate);
+  for (auto& placeholder : model.lean.placeholders) {
+    placeholder.distance = std::max(placeholder.distance, 10.0 * largest);
+  }
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> find_side_file(std::filesystem::path const& model,
@@ -236,7 +264,8 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
     if (!model.simplified.warning.empty()) {
       model.early_warnings.push_back(model.simplified.warning);
     }
-    if (!model.surroundings.empty()) ensure_placeholders(model.lean, model.shading);
+    model.far_outlines = FarOutlines(objects, model.shading, model.lean.left_out);
+    add_placeholders(objects, model);
     prepare_for_moving_shades(model);
     for (auto const& modules : model.pv_modules) model.remarks.push_back(modules.describe());
     if (model.options.weighs_sky_patches()) model.options.update.every_timestep = true;
@@ -251,6 +280,7 @@ Model understand(std::vector<InputObject> objects, std::filesystem::path const& 
         (any_moves(model.screens) || !model.moving_shades.empty() || given_views)) {
       add_sky_placeholder(model.lean, model.shading);
     }
+    move_placeholders(model);
   }
   return model;
 }

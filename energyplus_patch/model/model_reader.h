@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "model/far_outlines.h"
 #include "model/idf/input_object.h"
 #include "model/idf/model_file.h"
 #include "model/input/moving_shades.h"
@@ -34,6 +35,7 @@ struct Model {
   Options options;
   LeanInput lean;
   SimplifiedSurfaces simplified;
+  FarOutlines far_outlines;
   Surroundings surroundings;
   std::vector<SurroundingGroup> surrounding_groups;
   std::optional<std::filesystem::path> surrounding_objects;  // to be added to EnergyPlus's input

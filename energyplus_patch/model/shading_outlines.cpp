@@ -14,10 +14,15 @@ namespace gpu_shading::energyplus {
 namespace {
 
 std::optional<Attachment> attachment_of(InputObject const& object) {
-  constexpr std::array<std::pair<std::string_view, Attachment>, 3> detailed_types{{
+  constexpr std::array<std::pair<std::string_view, Attachment>, 8> detailed_types{{
       {"Shading:Site:Detailed", Attachment::site},
       {"Shading:Building:Detailed", Attachment::building},
       {"Shading:Zone:Detailed", Attachment::zone},
+      {"BuildingSurface:Detailed", Attachment::zone},
+      {"Wall:Detailed", Attachment::zone},
+      {"RoofCeiling:Detailed", Attachment::zone},
+      {"Floor:Detailed", Attachment::zone},
+      {"FenestrationSurface:Detailed", Attachment::zone},
   }};
   for (auto const& [type, attachment] : detailed_types) {
     if (object.type == type) return attachment;
@@ -27,7 +32,8 @@ std::optional<Attachment> attachment_of(InputObject const& object) {
 
 std::optional<GeometryRules::Zone> zone_of(InputObject const& object, ShadingInput const& input,
                                            GeometryRules const& rules) {
-  auto const name = input.zone_of.find(input.base_surface(upper(object["base_surface_name"])));
+  auto const& surface = is_detailed_shading(object) ? object["base_surface_name"] : object.name;
+  auto const name = input.zone_of.find(input.base_surface(upper(surface)));
   if (name == input.zone_of.end()) return std::nullopt;
   auto const zone = rules.zones.find(name->second);
   return zone == rules.zones.end() ? std::nullopt : std::optional(zone->second);
@@ -57,7 +63,11 @@ std::string describe(std::vector<std::string> const& names, std::size_t degenera
 
 }  // namespace
 
-bool is_detailed_shading(InputObject const& object) { return attachment_of(object).has_value(); }
+bool is_detailed_shading(InputObject const& object) {
+  return object.type.starts_with("Shading:") && attachment_of(object);
+}
+
+bool is_detailed_surface(InputObject const& object) { return attachment_of(object).has_value(); }
 
 std::optional<Outline> outline_of(InputObject const& object, ShadingInput const& input,
                                   GeometryRules const& rules) {

@@ -16,7 +16,10 @@ namespace gpu_shading::energyplus {
 // Shading:Site:Detailed, Shading:Building:Detailed or Shading:Zone:Detailed.
 bool is_detailed_shading(InputObject const& object);
 
-// The outline of a detailed shading surface; nothing if one of its fields cannot be interpreted.
+// The same, or a wall, roof, floor, window or door with vertices.
+bool is_detailed_surface(InputObject const& object);
+
+// The outline of a detailed surface; nothing if one of its fields cannot be interpreted.
 std::optional<Outline> outline_of(InputObject const& object, ShadingInput const& input,
                                   GeometryRules const& rules);
 

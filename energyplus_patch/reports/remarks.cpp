@@ -190,6 +190,7 @@ std::vector<std::string> warnings_of(SceneAssembly const& scene) {
   add(model.screens.warnings());
   add(model.ray_warnings);
   if (!model.transform_warning.empty()) lines.push_back(model.transform_warning);
+  if (auto line = scene.warn_of_rounding(); !line.empty()) lines.push_back(std::move(line));
   add(model.warnings);
   add(model.surroundings.warnings);
   add(warn_of_own_buildings(model.surroundings.buildings, scene.surfaces(), model.shading));

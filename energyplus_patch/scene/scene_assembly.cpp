@@ -9,6 +9,7 @@
 
 #include "gpu_shading/error.h"
 #include "model/extensions/extension_fields.h"
+#include "model/geometry_rules.h"
 #include "model/site/farthest_coordinate.h"
 #include "platform/text.h"
 #include "scene/digest.h"
@@ -38,6 +39,11 @@ void check_coordinates(Surface const& surface, std::string const& model) {
 
 SurfaceId SceneAssembly::add(Surface surface) {
   if (surface.casting != Casting::never) surface.casting = model_.shading.casting(surface.name);
+  double const farthest = largest_coordinate(surface.polygon);
+  if (farthest >= single_precision_reach && !model_.far_outlines.restore(surface)) {
+    rounded_.push_back(surface.name);
+    farthest_rounded_ = std::max(farthest_rounded_, farthest);
+  }
   double ratio = 1.0;
   auto const written = model_.simplified.outlines.find(surface.name);
   if (written != model_.simplified.outlines.end()) {
@@ -49,6 +55,17 @@ SurfaceId SceneAssembly::add(Surface surface) {
   check_coordinates(surface, model_.file);
   area_ratios_.push_back(ratio);
   return surfaces_.add(std::move(surface));
+}
+
+std::string SceneAssembly::warn_of_rounding() const {
+  constexpr double negligible = 1e-3;
+  double const error = single_precision_error(farthest_rounded_);
+  if (error < negligible) return {};
+  return fmt::format(
+      "EnergyPlus passes vertices in single precision, which moves those of {} surface{} by up to "
+      "{:.1g} m, {:.0f} m from the origin: {}; move the model to the origin",
+      rounded_.size(), rounded_.size() == 1 ? "" : "s", error, farthest_rounded_,
+      listed(rounded_, 3));
 }
 
 SurfaceId SceneAssembly::add_mirrored(SurfaceId original) {

@@ -2,6 +2,7 @@
 
 #include <glm/vec3.hpp>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,9 @@ class SceneAssembly {
   // EnergyPlus's area of a surface over the area that is rendered: it deletes vertices that are
   // close to each other (SimplifiedSurfaces).
   double area_ratio(SurfaceId surface) const { return area_ratios_[surface]; }
+
+  // A warning where vertices that EnergyPlus passes are rounded by over 1 mm, or "".
+  std::string warn_of_rounding() const;
 
   // After complete(), by surface of EnergyPlus's:
   // unit normal x net area (m2);
@@ -112,6 +116,8 @@ class SceneAssembly {
   Model model_;
   Scene surfaces_;
   std::vector<double> area_ratios_;
+  std::vector<std::string> rounded_;  // far from the origin, and not in Model::far_outlines
+  double farthest_rounded_ = 0.0;     // their largest coordinate, m
   bool complete_ = false;
   std::vector<bool> receives_;
   std::vector<bool> unshaded_;

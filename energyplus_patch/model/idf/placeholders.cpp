@@ -39,7 +39,7 @@ using Corner = std::array<double, 3>;
 // Centred on the ground, which determines the air temperature that EnergyPlus uses for a surface.
 // It faces the model.
 std::array<Corner, 4> corners(Placeholder const& placeholder) {
-  constexpr double far = 1e6;  // metres; larger than any model's coordinates
+  double const far = placeholder.distance;
   constexpr double width = 0.1;
   double const east = placeholder.quarter == 0 || placeholder.quarter == 3 ? 1.0 : -1.0;
   double const north = placeholder.quarter < 2 ? 1.0 : -1.0;

@@ -11,8 +11,9 @@ namespace gpu_shading::energyplus {
 // Shading surfaces that EnergyPlus reads instead of casters that it does not know.
 struct Placeholder {
   std::string name;
-  std::string schedule;  // transmittance schedule, or ""
-  int quarter = 0;       // 0 .. 3: north-east of the model, and further counterclockwise
+  std::string schedule;   // transmittance schedule, or ""
+  int quarter = 0;        // 0 .. 3: north-east of the model, and further counterclockwise
+  double distance = 1e6;  // along x and y, m; several times the model's largest coordinate
 };
 
 // EnergyPlus asks for the sunlit area of a receiver if some caster has a vertex in front of its
