@@ -127,7 +127,7 @@ Replicates::Spread Replicates::spread(std::size_t fraction,
   }
   for (double& weight : found.weights) weight /= weights;
   found.freedom = static_cast<double>(answers_.size()) - 1.0;
-  found.variance = squares / (found.freedom * weights);
+  found.variance = std::max(0.0, squares) / (found.freedom * weights);  // rounding may be negative
   found.expected = 1.0 / weights;
   return found;
 }
@@ -189,7 +189,7 @@ bool Replicates::done() {
   }
   Spread const& largest = largest_spread();
   double const excess = largest.uncertainty() / max_error_;
-  if (excess <= 1.0) return true;
+  if (!(excess > 1.0)) return true;
   // With the weights of the next ones, a little less than the error that is wanted.
   constexpr double spare = 1.1;
   double const freedom = largest.freedom + replicates_at_once;
