@@ -9,7 +9,7 @@ TIMES = (
     re.compile(rb"YMD=\d{4}\.\d\d\.\d\d \d\d:\d\d"),
     re.compile(rb"(Elapsed Time=|Run Time=)\s*\d+hr\s+\d+min\s+[\d.]+sec"),
     re.compile(rb"\d{4}-\d\d-\d\d\s+\d\d:\d\d:\d\d"),
-    re.compile(rb"(?<=clear), [\d.]+ s$", re.MULTILINE),  # our own line on what was rendered
+    re.compile(rb"(?<=clear), [\d.]+ s(?=;|$)", re.MULTILINE),  # our own line on what was rendered
 )
 
 
