@@ -94,7 +94,7 @@ def test_the_table_names_each_test():
 
 
 def test_every_command_is_among_the_programs(patched):
-    """Those that neither read a model nor write what is named to them are left out, and suite, which tests/suite tests."""
+    """Those that neither read a model nor write what is named to them are left out, and suite (tests/suite)."""
     told = subprocess.run([patched.parent / "gpu_shading", "--help"], capture_output=True, text=True, check=True).stdout
     commands = set(re.findall(r"^  (\w+)  ", told.partition("ubcommands:")[2], re.M | re.I))
     assert commands - {"devices", "docs", "example", "help", "suite"} == {

@@ -19,7 +19,7 @@ _MARGIN = 0.15  # of the receiver's size
 _MOST_LINED = 60  # casters
 
 
-def draw(scene: Scene, scores: list[Score], path: Path) -> None:
+def draw(scene: Scene, scores: list[Score], temporary: Path) -> None:
     """A panel for each sun, of the receiver on which a tool is farthest off."""
     from matplotlib.figure import Figure
 
@@ -36,7 +36,7 @@ def draw(scene: Scene, scores: list[Score], path: Path) -> None:
             *((escaped(score.tool.name), score.outcome.answers[place][name])
               for score in scores if score.outcome.answers is not None)]]
         panel.set_xlabel("\n".join(lines), fontsize=8, loc="left")
-    figure.savefig(path, dpi=100, bbox_inches="tight")
+    figure.savefig(temporary, dpi=100, bbox_inches="tight")
 
 
 def _error(scores: list[Score], place: int, name: str) -> float:
