@@ -10,7 +10,8 @@ from shading_runs import energyplus, input_file, results
 from test_case_studies import load
 
 # Bounds of what counted and drawn sunlit fractions may differ by, mean and largest. Behind shades of many
-# transmittances, both sample the same pixels, and OpenGL rounds corners to 1/256 of a pixel. Other views have samples of their own on the CPU, so that each errs by itself.
+# transmittances, both sample the same pixels, and OpenGL rounds corners to 1/256 of a pixel. Other views have samples
+# of their own on the CPU, so that each errs by itself.
 SAME_PIXELS = (2e-5, 3e-4)
 OWN_SAMPLES = (6e-5, 1.5e-3)
 
