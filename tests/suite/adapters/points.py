@@ -1,10 +1,14 @@
-"""Triangles of a surface, and points on it, for adapters that trace rays."""
+"""What adapters of tools that trace rays share: sunlit fractions from points on each receiver."""
 
-import adapter  # noqa: F401  (finds packages)
+import argparse
+
+import adapter
 import numpy as np
 import shapely
-from exact import axes_of
+from exact import axes_of, towards
 from scipy.stats import qmc
+
+LIFT = 1e-4  # m: a point is this far before its receiver
 
 
 def triangles_of(surface):
@@ -25,3 +29,32 @@ def points_of(triangles, count):
     side = np.sqrt((u - up_to[place]) / (up_to[place + 1] - up_to[place]))[:, None]
     a, b, c = triangles[place].transpose(1, 0, 2)
     return a + side * ((1 - v[:, None]) * (b - a) + v[:, None] * (c - a))
+
+
+def answer(option, count, unsupported, make_tracer):
+    """The command line, `OPTION N SCENE`, and the answers of a tool without glass (`unsupported`: why).
+
+    make_tracer(triangles) of all casters returns a function of the direction to the sun, and that a function of points
+    and the normal of their receiver: which of them the beam reaches. Coordinates are those around the first receiver,
+    because such tools have single precision.
+    """
+    parser = argparse.ArgumentParser()
+    parser.add_argument(option, dest="points", type=int, default=count, help="for each receiver, a power of 2")
+    parser.add_argument("scene")
+    arguments = parser.parse_args()
+    surfaces, suns = adapter.read(arguments.scene)
+    if any(surface.transmittance > 0 for surface in surfaces):
+        adapter.not_supported(unsupported)
+    receivers = [surface for surface in surfaces if surface.receives]
+    centre = receivers[0].rings[0][0]
+    casters = [triangles_of(surface) - centre for surface in surfaces if surface.casts]
+    tracer = make_tracer(np.concatenate(casters) if casters else np.empty((0, 3, 3)))
+    points = [points_of(triangles_of(receiver), arguments.points) - centre + LIFT * receiver.normal
+              for receiver in receivers]
+    found = []
+    for sun in suns:
+        direction = towards(sun["azimuth"], sun["altitude"])
+        lit = tracer(direction)
+        found.append({receiver.name: np.mean(lit(of, receiver.normal)) if direction @ receiver.normal > 0 else 0.0
+                      for receiver, of in zip(receivers, points, strict=True)})
+    adapter.answer(found)
