@@ -20,7 +20,7 @@ FOLDER = Path(__file__).resolve().parent
 SUNS = json.loads((FOLDER / "suns.json").read_text())
 AGREE = 1e-10
 SEED = 20261130  # chosen before any tool was run
-WEST_SUN, SOUTH_SUN, LOW_SUN = "06-21 17:15", "12-21 11:15", "12-21 16:30"
+WEST_SUN, LOW_SUN = "06-21 17:15", "12-21 16:30"
 
 
 class Facade:
@@ -73,9 +73,9 @@ def copies(count, step):
     return {"copies": {"count": count, "step": step}}
 
 
-def plate(columns, rows, size, pitch, out, facade=SOUTH):
+def plate(columns, rows, size, pitch, out):
     """Holes of a square plate of 3 x 3 m that begin at 0.3 m from its corner."""
-    return [facade.rectangle(0.3 + pitch * i, 0.3 + pitch * j, size, size, out)
+    return [SOUTH.rectangle(0.3 + pitch * i, 0.3 + pitch * j, size, size, out)
             for i in range(columns) for j in range(rows)]
 
 
@@ -102,10 +102,6 @@ def box(x, y, width, depth, height):
     a, b, c, d = (x, y), (x + width, y), (x + width, y + depth), (x, y + depth)
     sides = [[[*p, height], [*p, 0.0], [*q, 0.0], [*q, height]] for p, q in ((a, b), (b, c), (c, d), (d, a))]
     return [*sides, [[*p, height] for p in (a, b, c, d)]]
-
-
-def stars(count, size):
-    return {"vertices": SOUTH.shape([(1.5 + size * x, 0.75 + size * y) for x, y in STAR], 1.0), "count": count}
 
 
 far = [500_000.0, 4_000_000.0, 250.0]
@@ -151,7 +147,8 @@ CLOSED = {
                   shade("U", SOUTH.shape([(0.3, 0.5), (2.7, 0.5), (2.7, 2.8), (2.2, 2.8), (2.2, 1.2), (0.8, 1.2),
                                           (0.8, 2.8), (0.3, 2.8)], 0.9))]),
     "caster-star": ("non-convex casters", "Two stars, one before the other.", ["03-21 11:15", "01-21 13:15"],
-                    [receiver(WINDOW), shade("Star 1", stars(1, 1.1)["vertices"]),
+                    [receiver(WINDOW),
+                     shade("Star 1", SOUTH.shape([(1.5 + 1.1 * x, 0.75 + 1.1 * y) for x, y in STAR], 1.0)),
                      shade("Star 2", SOUTH.shape([(1.7 + x, 1.6 + y) for x, y in STAR], 1.4))]),
     "ring": ("holes", "A shade with a hole.", ["03-21 11:15", "01-21 13:15"],
              [receiver(SOUTH.rectangle(0, 0, 3, 3)),

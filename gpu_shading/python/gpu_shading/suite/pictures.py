@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import itertools
-import math
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from gpu_shading._arrays import Floats
+from gpu_shading._arrays import Floats, unit_vectors
 from gpu_shading._text import escaped
 from gpu_shading.suite.scenes import Outline, Scene
 from gpu_shading.suite.scores import Score
@@ -45,9 +44,7 @@ def _error(scores: list[Score], place: int, name: str) -> float:
 
 
 def _draw_shadows(panel: Any, scene: Scene, receiver: Outline, sun: tuple[float, float]) -> None:
-    azimuth, altitude = (math.radians(angle) for angle in sun)
-    towards = np.array([math.cos(altitude) * math.sin(azimuth), math.cos(altitude) * math.cos(azimuth),
-                        math.sin(altitude)])
+    towards = unit_vectors(np.radians([sun]))[0]
     rings = [np.array(ring) for ring in receiver.rings]
     origin = rings[0][0]
     normal = _normal(rings[0])
