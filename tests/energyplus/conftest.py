@@ -36,6 +36,20 @@ def weather():
     return energyplus.find_weather(windows.WEATHER)
 
 
+@pytest.fixture
+def run(patched, weather, tmp_path):
+    """Runs the design days of a model, given as text, with the flag; `name`: of its file and its folder."""
+
+    def call(text, name, *options):
+        path = tmp_path / f"{name}.idf"
+        path.write_text(text)
+        done = energyplus.run(patched, path, weather, tmp_path / name, ["-D", "--gpu-shading", *options])
+        assert done.completed, done.why()
+        return done
+
+    return call
+
+
 @pytest.fixture(scope="session")
 def courtyard():
     return REPOSITORY / "idf_examples" / "courtyard" / "courtyard.idf"

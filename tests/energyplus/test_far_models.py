@@ -6,7 +6,6 @@ import subprocess
 import pytest
 import window_with_shades
 from output_files import values_of
-from shading_runs import energyplus
 
 GRID = (500_000, -4_000_000)
 LOUVRES = 15
@@ -33,21 +32,9 @@ def model(east=0, north=0):
     return VERTEX.sub(move, text)
 
 
-@pytest.fixture
-def run(patched, weather, tmp_path):
-    def call(name, text, *options):
-        path = tmp_path / f"{name}.idf"
-        path.write_text(text)
-        done = energyplus.run(patched, path, weather, tmp_path / name, ["--gpu-shading", "-D", *options])
-        assert done.completed, done.why()
-        return done
-
-    return call
-
-
 @pytest.mark.parametrize("lean", ["off", "on"])
 def test_far_models_are_shaded_alike(run, lean):
-    near, far = (run(name, text, f"--gpu-shading-lean={lean}")
+    near, far = (run(text, name, f"--gpu-shading-lean={lean}")
                  for name, text in (("near", model()), ("far", model(*GRID))))
     expected, found = values_of(near, SUNLIT, "Zone Timestep"), values_of(far, SUNLIT, "Zone Timestep")
     assert any(0.01 < value < 0.9 for value in expected["WINDOW"])
@@ -68,8 +55,8 @@ def test_check_shows_exact_vertices(patched, tmp_path):
 
 
 def test_other_surfaces_are_warned_of(run, patched):
-    assert not [line for line in run("near", model() + OVERHANG).our_lines if WARNING in line]
-    done = run("far", model(*GRID) + OVERHANG)
+    assert not [line for line in run(model() + OVERHANG, "near").our_lines if WARNING in line]
+    done = run(model(*GRID) + OVERHANG, "far")
     check = subprocess.run([patched.parent / "gpu_shading", "check", done.folder.parent / "far.idf"],
                            capture_output=True, text=True)
     assert check.returncode == 0, check.stderr

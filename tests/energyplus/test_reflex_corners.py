@@ -7,7 +7,6 @@ before it.
 import pytest
 import window_with_shades
 from output_files import values_of
-from shading_runs import energyplus
 
 SHAPE = [(0, 2), (0, 0), (3, 0), (3, 0.8), (1, 0.8), (1, 2)]  # x and z of an L
 REFLEX = 4
@@ -46,21 +45,18 @@ KINDS = {  # a model, and where EnergyPlus errs if the reflex corner is there
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_any_vertex_can_be_the_first(patched, weather, tmp_path, kind):
+def test_any_vertex_can_be_the_first(run, kind):
     write, wrong = KINDS[kind]
 
-    def run(reflex):
-        path = tmp_path / f"{reflex}.idf"
-        path.write_text(HEAD + FLOOR + write(reflex))
-        done = energyplus.run(patched, path, weather, tmp_path / f"{reflex}", ["--gpu-shading", "-D"])
-        assert done.completed, done.why()
+    def beginning_at(reflex):
+        done = run(HEAD + FLOOR + write(reflex), f"{reflex}")
         said = [line for line in done.our_lines if "reflex corner" in line]
         return values_of(done, "Surface Outside Face Sunlit Fraction")["RECEIVER"], said
 
-    convex, silent = run(2)
+    convex, silent = beginning_at(2)
     assert min(value for value in convex if value > 0) < 0.9
     assert silent == []
-    reflex, said = run(wrong)
+    reflex, said = beginning_at(wrong)
     assert reflex == pytest.approx(convex, abs=1e-5)
     assert len(said) == 1
     assert said[0].split(": ")[-1].split(";")[0] in ("SHADE", "RECEIVER", "CASTER")

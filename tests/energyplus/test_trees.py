@@ -50,12 +50,9 @@ def sunlit_fraction(trees, azimuth, altitude, share=1.0, hides=None):
 
 
 @pytest.fixture
-def run(patched, weather, tmp_path):
-    def call(text, name, *options):
-        path = tmp_path / f"{name}.idf"
-        path.write_text(text)
-        done = energyplus.run(patched, path, weather, tmp_path / name, ["-D", "--gpu-shading", *options])
-        assert done.completed, done.why()
+def run(run):
+    def call(*arguments):
+        done = run(*arguments)
         assert done.severe == []
         return done
 
