@@ -46,14 +46,13 @@ std::optional<Ring> aligned(Ring const& passed, Ring exact) {
 }
 
 bool replace(Ring& passed, Ring const& exact) {
-  // EnergyPlus may have deleted vertices; its limit of straight corners lies between these.
-  for (auto const& ring : {exact, without_deleted(exact, 1e-9), without_deleted(exact, 1e-3)}) {
-    if (auto found = aligned(passed, ring)) {
-      passed = std::move(*found);
-      return true;
-    }
+  auto found = aligned(passed, exact);
+  // EnergyPlus may have deleted vertices.
+  for (double const straight : straight_limits) {
+    if (!found) found = aligned(passed, without_deleted(exact, straight));
   }
-  return false;
+  if (found) passed = std::move(*found);
+  return found.has_value();
 }
 
 }  // namespace

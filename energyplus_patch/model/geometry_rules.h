@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -41,8 +42,12 @@ inline constexpr double single_precision_reach = 8192.0;
 // Vertices counterclockwise from the upper left corner, as EnergyPlus orders them.
 Ring in_energyplus_order(GeometryRules const& rules, Ring vertices);
 
-// The vertices that EnergyPlus keeps: it deletes those within 1 cm of a neighbour, and those on the
-// straight line between their neighbours. `straight`: the largest sine of the angle there.
+// EnergyPlus deletes vertices on the straight line between their neighbours: the limit of the sine
+// of the angle there lies between these.
+inline constexpr std::array straight_limits{1e-9, 1e-3};
+
+// The vertices that EnergyPlus keeps: it deletes those within 1 cm of a neighbour, and those on a
+// straight line. `straight`: the largest sine of the angle there.
 Ring without_deleted(Ring ring, double straight);
 
 // What a surface is attached to, which determines its rotation and translation.

@@ -22,12 +22,10 @@ bool is_reflex(Ring const& ring, std::size_t vertex) {
 }
 
 bool has_reflex_corner(Ring const& ring, bool shading) {
-  // EnergyPlus's limit lies between these.
-  for (double const straight : {1e-9, 1e-3}) {
+  return std::ranges::any_of(straight_limits, [&](double straight) {
     auto const kept = without_deleted(ring, straight);
-    if (is_reflex(kept, 1) || (shading && is_reflex(kept, kept.size() - 2))) return true;
-  }
-  return false;
+    return is_reflex(kept, 1) || (shading && is_reflex(kept, kept.size() - 2));
+  });
 }
 
 }  // namespace
