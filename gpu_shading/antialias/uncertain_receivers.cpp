@@ -175,6 +175,7 @@ bool any_beat(std::span<Layer const> layers) {
 
 UncertainReceivers find_uncertain_receivers(Scene const& scene,
                                             std::span<SurfaceId const> receivers) {
+  if (receivers.empty()) return {};
   auto layers = layers_of(scene);
   if (!any_beat(layers)) layers.clear();
   std::vector<SurfaceId> sheets;
